@@ -1,0 +1,1 @@
+"""The nouns: one file per stage of knowledge about a model."""

@@ -1,0 +1,12 @@
+"""A file to be written: where, and what."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Artifact(NamedTuple):
+    """Path below the output folder, and text."""
+
+    path: str
+    text: str

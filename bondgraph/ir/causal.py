@@ -1,0 +1,59 @@
+"""The bond graph with causality: where each stroke stands, and why."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+from bondgraph.ir.graph import BondGraph
+
+Preference = Literal["integral", "derivative"]
+Cause = Literal["source", "sensor", "law", "propagated", "preferred", "chosen"]
+
+
+class Reason(NamedTuple):
+    """Why a stroke stands where it stands.
+
+    `source`/`sensor`/`law` fixed by that node; `propagated` forced at `node` by the strokes of
+    the bonds `because`; `preferred` by a storage; `chosen` freely (an algebraic loop variable).
+    """
+
+    cause: Cause
+    node: int
+    because: tuple[int, ...] = ()
+
+
+class Stroke(NamedTuple):
+    """The stroke of one bond: at its "head" or at its "tail". The node there receives effort."""
+
+    at: Literal["head", "tail"]
+    reason: Reason
+
+
+class Storage(NamedTuple):
+    """The causality that a storage port got; `integral` False means a dependent storage."""
+
+    node: int
+    port: int
+    integral: bool
+
+
+class CausalGraph(NamedTuple):
+    """A causal assignment: `strokes[i]` belongs to `graph.bonds[i]`.
+
+    In preferred derivative causality the detectors are dualised (`dualised`: node indices; a
+    detector that could not be is in `not_dualised`). `loops` are the algebraic loops as tuples of
+    node indices; `dependent` are the storages in the other causality than preferred integral.
+    """
+
+    graph: BondGraph
+    preference: Preference
+    strokes: tuple[Stroke, ...]
+    storages: tuple[Storage, ...]
+    dualised: tuple[int, ...]
+    not_dualised: tuple[int, ...]
+    loops: tuple[tuple[int, ...], ...]
+
+    @property
+    def dependent(self) -> tuple[Storage, ...]:
+        """Storages in derivative causality."""
+        return tuple(s for s in self.storages if not s.integral)

@@ -1,0 +1,42 @@
+"""The acausal equations of a bond graph: one balance a junction, the laws, the states."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+from bondgraph.ir.expr import Expr
+from bondgraph.ir.graph import BondGraph
+from bondgraph.text.source import Span
+
+EquationKind = Literal["balance", "law", "state", "integral", "sensor"]
+
+
+class Equation(NamedTuple):
+    """`zero` = 0 in the unknown `variables`.
+
+    kind balance: a junction; law: an element; sensor: a measurement; state and integral:
+    `variables[0]`' = `rate` (zero is then der(state) - rate), `initial` the SYM of the initial
+    value or None where the model declares none. `node` is the index in the graph, -1 for none.
+    """
+
+    kind: EquationKind
+    name: str
+    zero: Expr
+    variables: tuple[Expr, ...]
+    node: int
+    origin: Span
+    state: Expr | None = None
+    rate: Expr | None = None
+    initial: Expr | None = None
+
+
+class EquationSystem(NamedTuple):
+    """All equations; variables aliased by junctions are already one.
+
+    `names` gives each unknown variable the name a person knows it by (`m[1].el.i.f`).
+    """
+
+    graph: BondGraph
+    equations: tuple[Equation, ...]
+    unknowns: tuple[Expr, ...]
+    names: dict[Expr, str]

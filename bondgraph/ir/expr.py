@@ -1,0 +1,352 @@
+"""Expressions as a hash-consed graph: equal expressions are one object, and nothing is expanded.
+
+A sum keeps its terms with rational coefficients, a product its factors with integer exponents;
+sums inside sums stay as they are, so that a chain of n cells costs n nodes and not 3.7**n.
+`der` is the time derivative, `int` the integral from an initial value; both are kept as nodes.
+The arguments of a node are always older than the node: ascending `id` is a topological order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from enum import Enum
+from fractions import Fraction
+from typing import NamedTuple
+
+
+class Op(Enum):
+    """What a node does with its arguments."""
+
+    NUM = "num"  # data: Fraction
+    SYM = "sym"  # data: Symbol
+    ADD = "add"  # data: coefficients, one per argument
+    MUL = "mul"  # data: integer exponents, one per argument
+    FN = "fn"  # data: name, one of FUNCTIONS
+    DER = "der"  # time derivative of the argument
+    INT = "int"  # integral of the argument; data: Symbol of the initial value
+    IF = "if"  # condition, value if true, value if false
+    CMP = "cmp"  # data: "<", "<=" or "=="
+    LOGIC = "logic"  # data: "and", "or" or "not"
+
+
+class Kind(Enum):
+    """What a symbol stands for."""
+
+    PARAM = "param"  # physics that may fail
+    CONST = "const"  # cannot fail
+    INPUT = "input"  # known input
+    UNKNOWN = "unknown"  # unknown input
+    MODE = "mode"  # known boolean input
+    SENSOR = "sensor"  # a measured signal
+    EFFORT = "effort"  # effort of a port or of a 0-junction
+    FLOW = "flow"  # flow of a port or of a 1-junction
+    STATE = "state"  # q of a C, p of an I
+    INTEGRAL = "integral"  # the value of an `int(...)` written in the model
+    INITIAL = "initial"  # a declared initial value
+    FREE = "free"  # an initial value that nobody declared
+    TEAR = "tear"  # a variable taken as known while a loop is solved
+
+
+KNOWN_SIGNALS = frozenset({Kind.INPUT, Kind.SENSOR, Kind.MODE})
+CONSTANTS = frozenset({Kind.PARAM, Kind.CONST, Kind.INITIAL, Kind.FREE})
+VARIABLES = frozenset(
+    {Kind.UNKNOWN, Kind.EFFORT, Kind.FLOW, Kind.STATE, Kind.INTEGRAL, Kind.TEAR}
+)
+
+#: Functions of one argument (`pow`, `min`, `max`, `atan2` take two; `table:<id>` takes one).
+#: `ssqrt(x) = sign(x) sqrt(|x|)` and `ssq(x) = x |x|` are inverse to each other.
+FUNCTIONS = frozenset(
+    "abs sign sqrt cbrt ssqrt ssq exp log sin cos tan asin acos atan "
+    "sinh cosh tanh asinh acosh atanh pow min max atan2".split()
+)
+
+
+class Symbol(NamedTuple):
+    """A name with its kind; unique by name within a pool."""
+
+    name: str
+    kind: Kind
+
+
+class Expr:
+    """A node of the graph; made by a `Pool`, compared by identity."""
+
+    __slots__ = ("args", "data", "id", "op")
+
+    def __init__(self, op: Op, args: tuple[Expr, ...], data: object, id: int) -> None:
+        self.op = op
+        self.args = args
+        self.data = data
+        self.id = id
+
+    @property
+    def symbol(self) -> Symbol:
+        """The symbol of a SYM node, or the initial value of an INT node."""
+        assert isinstance(self.data, Symbol)
+        return self.data
+
+    @property
+    def number(self) -> Fraction:
+        """The value of a NUM node."""
+        assert isinstance(self.data, Fraction)
+        return self.data
+
+    @property
+    def coefficients(self) -> tuple[Fraction, ...]:
+        """The rational coefficients of an ADD node."""
+        assert isinstance(self.data, tuple)
+        return self.data
+
+    @property
+    def exponents(self) -> tuple[int, ...]:
+        """The integer exponents of a MUL node."""
+        assert isinstance(self.data, tuple)
+        return self.data
+
+    @property
+    def name(self) -> str:
+        """The function of an FN node, the operator of a CMP or LOGIC node."""
+        assert isinstance(self.data, str)
+        return self.data
+
+    def __repr__(self) -> str:
+        from bondgraph.ir.show import show  # a debugging aid; `show` builds on this module
+
+        return show(self)
+
+
+_ZERO = Fraction(0)
+_ONE = Fraction(1)
+
+
+class Pool:
+    """Makes expressions and keeps one of each.
+
+    >>> p = Pool(); x = p.symbol("x", Kind.SENSOR); a = p.symbol("a", Kind.PARAM)
+    >>> p.add((1, p.mul(a, x)), (-1, p.mul(x, a))) is p.zero
+    True
+    """
+
+    def __init__(self) -> None:
+        self._table: dict[object, Expr] = {}
+        self._count = 0
+        self.zero = self._make(Op.NUM, (), _ZERO)
+        self.one = self._make(Op.NUM, (), _ONE)
+        #: piecewise linear tables by id: ((x, y), ...) ascending in x
+        self.tables: dict[str, tuple[tuple[Fraction, Fraction], ...]] = {}
+
+    def __len__(self) -> int:
+        return self._count
+
+    def _make(self, op: Op, args: tuple[Expr, ...], data: object) -> Expr:
+        key = (op, data, *[a.id for a in args])
+        found = self._table.get(key)
+        if found is None:
+            found = self._table[key] = Expr(op, args, data, self._count)
+            self._count += 1
+        return found
+
+    # ------------------------------------------------------------- leaves
+
+    def num(self, value: Fraction | int) -> Expr:
+        """An exact number."""
+        return self._make(Op.NUM, (), Fraction(value))
+
+    def symbol(self, name: str, kind: Kind) -> Expr:
+        """The symbol `name`; the same name always has the same kind."""
+        return self._make(Op.SYM, (), Symbol(name, kind))
+
+    # --------------------------------------------------------- arithmetic
+
+    def add(self, *terms: tuple[Fraction | int, Expr]) -> Expr:
+        """The sum of coefficient times node; equal nodes are collected, sums are not flattened."""
+        collected: dict[Expr, Fraction] = {}
+        constant = _ZERO
+        for factor, node in terms:
+            c = Fraction(factor)
+            if node.op is Op.ADD and len(node.args) == 1:
+                c *= node.coefficients[0]
+                node = node.args[0]
+            if node.op is Op.NUM:
+                constant += c * node.number
+            else:
+                collected[node] = collected.get(node, _ZERO) + c
+        items = sorted((n.id, n, c) for n, c in collected.items() if c)
+        if constant:
+            items.append((self.one.id, self.one, constant))
+        if not items:
+            return self.zero
+        if len(items) == 1:
+            _, node, c = items[0]
+            if node is self.one:
+                return self.num(c)
+            if c == 1:
+                return node
+        return self._make(Op.ADD, tuple(n for _, n, _ in items), tuple(c for _, _, c in items))
+
+    def scale(self, factor: Fraction | int, node: Expr) -> Expr:
+        """A number times a node."""
+        return self.add((factor, node))
+
+    def neg(self, node: Expr) -> Expr:
+        """Minus the node; of a sum, the sum with all signs changed."""
+        if node.op is Op.ADD:
+            return self.add(*[(-c, a) for c, a in zip(node.coefficients, node.args, strict=True)])
+        return self.add((-1, node))
+
+    def sub(self, left: Expr, right: Expr) -> Expr:
+        """The difference of two nodes."""
+        return self.add((1, left), (-1, right))
+
+    def power(self, base: Expr, exponent: int) -> Expr:
+        """An integer power; raises ZeroDivisionError for a negative power of the number zero."""
+        return self._product([(base, exponent)])
+
+    def mul(self, *factors: Expr) -> Expr:
+        """The product; numbers go to the front as a coefficient."""
+        return self._product([(f, 1) for f in factors])
+
+    def div(self, left: Expr, right: Expr) -> Expr:
+        """The quotient; raises ZeroDivisionError when the divisor is the number zero."""
+        return self._product([(left, 1), (right, -1)])
+
+    def _product(self, factors: Iterable[tuple[Expr, int]]) -> Expr:
+        coefficient = _ONE
+        collected: dict[Expr, int] = {}
+        for base, exponent in factors:
+            if exponent == 0:
+                continue
+            if base.op is Op.ADD and len(base.args) == 1:
+                coefficient *= base.coefficients[0] ** exponent
+                base = base.args[0]
+            if base.op is Op.NUM:
+                coefficient *= base.number**exponent
+            elif base.op is Op.MUL:
+                for b, e in zip(base.args, base.exponents, strict=True):
+                    collected[b] = collected.get(b, 0) + e * exponent
+            else:
+                collected[base] = collected.get(base, 0) + exponent
+        if not coefficient:
+            return self.zero
+        for base in [b for b in collected if b.op is Op.FN and b.data == "abs"]:
+            # x |x| is one odd monotone function: keep it recognisable, it has an inverse
+            inner = base.args[0]
+            if collected.get(inner, 0) >= 1 and collected[base] >= 1:
+                collected[inner] -= 1
+                collected[base] -= 1
+                signed = self.fn("ssq", inner)
+                collected[signed] = collected.get(signed, 0) + 1
+        items = sorted((n.id, n, e) for n, e in collected.items() if e)
+        if not items:
+            return self.num(coefficient)
+        if len(items) == 1 and items[0][2] == 1:
+            node = items[0][1]
+        else:
+            node = self._make(Op.MUL, tuple(n for _, n, _ in items), tuple(e for _, _, e in items))
+        return node if coefficient == 1 else self.add((coefficient, node))
+
+    # ---------------------------------------------------------- functions
+
+    def fn(self, name: str, *args: Expr) -> Expr:
+        """A function of `FUNCTIONS`, or `table:<id>`."""
+        if name == "pow" and args[1].op is Op.NUM and args[1].number.denominator == 1:
+            return self.power(args[0], int(args[1].number))
+        if name == "pow" and args[1].op is Op.NUM and args[1].number == Fraction(1, 2):
+            name, args = "sqrt", args[:1]
+        return self._make(Op.FN, args, name)
+
+    def der(self, node: Expr) -> Expr:
+        """The time derivative, kept as a node unless it is plainly zero or undoes an integral."""
+        if node.op is Op.NUM:
+            return self.zero
+        if node.op is Op.SYM and node.symbol.kind in (Kind.CONST, Kind.INITIAL, Kind.FREE):
+            return self.zero
+        if node.op is Op.INT:
+            return node.args[0]
+        if node.op is Op.ADD and len(node.args) == 1:
+            return self.add((node.coefficients[0], self.der(node.args[0])))
+        return self._make(Op.DER, (node,), None)
+
+    def integral(self, node: Expr, initial: Expr) -> Expr:
+        """The integral of `node` from the start, plus the symbol of its initial value."""
+        return self._make(Op.INT, (node,), initial.symbol)
+
+    def choose(self, condition: Expr, yes: Expr, no: Expr) -> Expr:
+        """`if(condition, yes, no)`."""
+        return yes if yes is no else self._make(Op.IF, (condition, yes, no), None)
+
+    def compare(self, op: str, left: Expr, right: Expr) -> Expr:
+        """A comparison; op is one of < <= > >= == !=."""
+        if op in (">", ">="):
+            return self.compare("<" + op[1:], right, left)
+        if op == "!=":
+            return self.logic("not", self.compare("==", left, right))
+        return self._make(Op.CMP, (left, right), op)
+
+    def logic(self, op: str, *args: Expr) -> Expr:
+        """`and`, `or`, `not` of conditions."""
+        return self._make(Op.LOGIC, args, op)
+
+    # ------------------------------------------------------------ rebuild
+
+    def rebuild(self, node: Expr, args: tuple[Expr, ...]) -> Expr:
+        """The node with other arguments, simplified as if it were made anew."""
+        if args == node.args:
+            return node
+        match node.op:
+            case Op.ADD:
+                return self.add(*zip(node.coefficients, args, strict=True))
+            case Op.MUL:
+                return self._product(zip(args, node.exponents, strict=True))
+            case Op.FN:
+                return self.fn(node.name, *args)
+            case Op.DER:
+                return self.der(args[0])
+            case Op.IF:
+                return self.choose(*args)
+            case Op.CMP:
+                return self.compare(node.name, *args)
+            case Op.LOGIC:
+                return self.logic(node.name, *args)
+            case Op.INT:
+                return self._make(Op.INT, args, node.data)
+            case _:
+                return node
+
+    def substitute(self, roots: Iterable[Expr], mapping: Mapping[Expr, Expr]) -> list[Expr]:
+        """The roots with every occurrence of a key replaced by its value (once, not repeatedly)."""
+        roots = list(roots)
+        if not mapping:
+            return roots
+        new: dict[Expr, Expr] = {}
+        for node in topological(roots, stop=mapping.__contains__):
+            known = mapping.get(node)
+            new[node] = (
+                known if known is not None else self.rebuild(node, tuple(new[a] for a in node.args))
+            )
+        return [new[r] for r in roots]
+
+
+def topological(
+    roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None
+) -> list[Expr]:
+    """All nodes that the roots are made of, arguments first; below a `stop` node it ends."""
+    seen: set[Expr] = set()
+    stack = list(roots)
+    while stack:
+        node = stack.pop()
+        if node not in seen:
+            seen.add(node)
+            if stop is None or not stop(node):
+                stack.extend(node.args)
+    return sorted(seen, key=lambda n: n.id)
+
+
+def symbols(*roots: Expr) -> list[Expr]:
+    """The SYM nodes that occur, oldest first."""
+    return [n for n in topological(roots) if n.op is Op.SYM]
+
+
+def variables(*roots: Expr) -> list[Expr]:
+    """The unknown variables that occur, oldest first."""
+    return [n for n in symbols(*roots) if n.symbol.kind in VARIABLES]

@@ -1,0 +1,201 @@
+"""The flat bond graph: every submodel opened, every array unrolled, every law an expression.
+
+Variables are symbols of the pool. A port of an element has an effort and a flow whose product is
+the power INTO the element (of a two-port: into port 1, out of port 2); a 1-junction has one
+common flow, a 0-junction one common effort. How a port's variables follow from those of its bond
+is said by the signs in `End`.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import NamedTuple
+
+from bondgraph.ir.expr import Expr, Pool
+from bondgraph.ir.units import Dimension
+from bondgraph.text.source import Source, Span
+
+
+class Port(NamedTuple):
+    """One port of an element.
+
+    `name` is "" for a one-port, "1"/"2" for a two-port, the declared name for a field. `state` is
+    q of a C port or p of an I port (with state' = f or e), `initial` the SYM of its declared
+    initial value and `initial_value` its expression.
+    """
+
+    name: str
+    effort: Expr
+    flow: Expr
+    state: Expr | None = None
+    initial: Expr | None = None
+    initial_value: Expr | None = None
+
+
+class Law(NamedTuple):
+    """One constitutive equation, `zero` = 0; `direction` is the port variable it was solved for
+    in the source (`e = R*f` gives e), None for an implicit one."""
+
+    zero: Expr
+    direction: Expr | None
+    origin: Span
+
+
+class Node(NamedTuple):
+    """A junction or an element.
+
+    `kind` is one of 0 1 R C I TF GY Se Sf De Df; `keyword` as written (MSe, MTF, ...). A junction
+    has no ports but `common`: its common effort (0) or flow (1). A source has a law `e - value`
+    (or f), a detector none: its `sensor` is what it reads. `when` is the mode of a switched
+    junction. `direct` marks the laws that are linear with constant coefficients.
+    """
+
+    path: str
+    kind: str
+    keyword: str
+    ports: tuple[Port, ...]
+    laws: tuple[Law, ...]
+    common: Expr | None
+    sensor: Expr | None
+    when: Expr | None
+    domain: str | None
+    doc: str
+    origin: Span
+
+
+class End(NamedTuple):
+    """Where a bond meets a node.
+
+    `port` indexes `Node.ports` (-1 at a junction). For an element, port.effort = effort * e of
+    the bond and port.flow = flow * f of the bond, with each sign +1 or -1.
+    """
+
+    node: int
+    port: int
+    effort: int
+    flow: int
+
+
+class Bond(NamedTuple):
+    """A power bond; the half arrow (positive e*f) points from `tail` to `head`."""
+
+    number: int
+    label: str | None
+    tail: End
+    head: End
+    origin: Span
+
+
+class Value(NamedTuple):
+    """A `param` or `const`: a symbol with an expression of other values (None: given at configure).
+
+    `fault` says that it is an unbound param that a law uses, and so a fault candidate.
+    `tolerance` is relative (1/20 for 5%).
+    """
+
+    name: str
+    symbol: Expr
+    value: Expr | None
+    tolerance: Fraction | None
+    dimension: Dimension | None
+    unit: str | None
+    fault: bool
+    doc: str
+    origin: Span
+
+
+class Input(NamedTuple):
+    """A known or unknown input; `mode` marks a boolean known at run time."""
+
+    name: str
+    symbol: Expr
+    known: bool
+    mode: bool
+    dimension: Dimension | None
+    unit: str | None
+    doc: str
+    origin: Span
+
+
+class Sensor(NamedTuple):
+    """A measured signal: `symbol` (known) reads `reads` (an unknown variable or an expression).
+
+    `kind` is De, Df or signal. `counts` is the number of counts a turn of an encoder; the known
+    signal is then in rad and the generated code takes integer counts. `same_as` names the sensor
+    whose physical instrument this one reads (then `symbol` is that sensor's symbol).
+    """
+
+    name: str
+    symbol: Expr
+    reads: Expr
+    kind: str
+    node: int | None
+    counts: Expr | None
+    same_as: str | None
+    dimension: Dimension | None
+    unit: str | None
+    doc: str
+    origin: Span
+
+
+class Integral(NamedTuple):
+    """An `int(x, x0)` of the model: `symbol` with symbol' = integrand, from `initial`."""
+
+    symbol: Expr
+    integrand: Expr
+    initial: Expr
+    initial_value: Expr
+    origin: Span
+
+
+class Let(NamedTuple):
+    """A named expression, for display; its uses are already replaced."""
+
+    name: str
+    value: Expr
+    dimension: Dimension | None
+    unit: str | None
+    origin: Span
+
+
+class Event(NamedTuple):
+    """A concrete fault for simulation and grouping: `target op value`."""
+
+    name: str
+    target: str
+    op: str
+    value: Expr
+    doc: str
+    origin: Span
+
+
+class BondGraph(NamedTuple):
+    """A model ready for physics."""
+
+    name: str
+    source: Source
+    doc: str
+    pool: Pool
+    nodes: tuple[Node, ...]
+    bonds: tuple[Bond, ...]
+    values: tuple[Value, ...]
+    inputs: tuple[Input, ...]
+    sensors: tuple[Sensor, ...]
+    integrals: tuple[Integral, ...]
+    lets: tuple[Let, ...]
+    events: tuple[Event, ...]
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """The fault candidates in the order of the model: params, known inputs, sensors."""
+        params = [v.name for v in self.values if v.fault]
+        inputs = [i.name for i in self.inputs if i.known and not i.mode]
+        return (*params, *inputs, *[s.name for s in self.sensors if s.same_as is None])
+
+    def fault_symbol(self, name: str) -> Expr:
+        """The symbol of a fault candidate; raises KeyError for another name."""
+        for group in (self.values, self.inputs, self.sensors):
+            for item in group:
+                if item.name == name:
+                    return item.symbol
+        raise KeyError(name)

@@ -1,0 +1,51 @@
+"""Analytical redundancy relations: expressions of known signals that vanish while all is well."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+from bondgraph.ir.equations import Equation, EquationSystem
+from bondgraph.ir.expr import Expr
+
+How = Literal["solved", "inverted", "differentiated", "integrated", "loop", "known"]
+
+
+class Step(NamedTuple):
+    """One step of the elimination: `variable` = `value`, from `equation`, by `how`.
+
+    `value` is written in earlier variables (as a person follows it), `closed` in known signals.
+    """
+
+    variable: Expr
+    value: Expr
+    closed: Expr
+    equation: Equation
+    how: How
+
+
+class Residual(NamedTuple):
+    """One ARR: `expr` is in known signals, parameters, D and Int only.
+
+    `closing` is the equation that was left over and became the relation, `steps` the elimination
+    steps that it rests on, in order: the causal path from the known signals to the closing
+    equation. `differentiated` counts how often the relation was differentiated because an initial
+    value is not declared.
+    """
+
+    name: str
+    expr: Expr
+    closing: Equation
+    steps: tuple[Step, ...]
+    differentiated: int
+
+
+class ResidualSet(NamedTuple):
+    """All ARRs in stable order; `unsolved` are the variables that no sensor reaches.
+
+    `unmonitored` are the equations of the part that has no redundancy.
+    """
+
+    system: EquationSystem
+    residuals: tuple[Residual, ...]
+    unsolved: tuple[Expr, ...]
+    unmonitored: tuple[Equation, ...]

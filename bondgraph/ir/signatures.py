@@ -1,0 +1,75 @@
+"""The fault signature matrix and what follows from it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+
+class SignatureMatrix(NamedTuple):
+    """Which residual reacts to which fault: `rows[fault][residual]`, exact.
+
+    `orders[residual]` gives the highest derivative of each known signal that the residual sees
+    (-1: only under an integral).
+    """
+
+    residuals: tuple[str, ...]
+    faults: tuple[str, ...]
+    rows: tuple[tuple[bool, ...], ...]
+    orders: tuple[dict[str, int], ...]
+
+    def row(self, fault: str) -> tuple[bool, ...]:
+        """The signature of a fault; raises KeyError for an unknown name."""
+        try:
+            return self.rows[self.faults.index(fault)]
+        except ValueError:
+            raise KeyError(fault) from None
+
+    def signature(self, residual: str) -> tuple[str, ...]:
+        """The faults that a residual sees."""
+        at = self.residuals.index(residual)
+        return tuple(f for f, row in zip(self.faults, self.rows, strict=True) if row[at])
+
+    @property
+    def undetectable(self) -> tuple[str, ...]:
+        """Faults that no residual sees (Mb = 0)."""
+        return tuple(f for f, row in zip(self.faults, self.rows, strict=True) if not any(row))
+
+    @property
+    def groups(self) -> tuple[tuple[str, ...], ...]:
+        """The detectable faults, those with equal signatures together (Ib = 1 alone in a group)."""
+        found: dict[tuple[bool, ...], list[str]] = {}
+        for fault, row in zip(self.faults, self.rows, strict=True):
+            if any(row):
+                found.setdefault(row, []).append(fault)
+        return tuple(tuple(g) for g in found.values())
+
+    def confused_with(self, fault: str) -> tuple[str, ...]:
+        """The other faults with the same signature."""
+        own = self.row(fault)
+        return tuple(
+            f for f, row in zip(self.faults, self.rows, strict=True) if row == own and f != fault
+        )
+
+    def to_numpy(self) -> npt.NDArray[np.bool_]:
+        """The matrix as an array of shape (faults, residuals)."""
+        import numpy as np
+
+        return np.array(self.rows, dtype=bool).reshape(len(self.faults), len(self.residuals))
+
+    def __str__(self) -> str:
+        width = max([5, *map(len, self.faults)])
+        head = " " * width + "  " + "  ".join(self.residuals) + "  Mb  Ib"
+        lines = [head]
+        alone = {g[0] for g in self.groups if len(g) == 1}
+        for fault, row in zip(self.faults, self.rows, strict=True):
+            cells = [
+                ("1" if hit else ".").rjust(len(r))
+                for hit, r in zip(row, self.residuals, strict=True)
+            ]
+            verdict = f"{int(any(row)):>4}{int(fault in alone):>4}"
+            lines.append(fault.ljust(width) + "  " + "  ".join(cells) + verdict)
+        return "\n".join(lines)

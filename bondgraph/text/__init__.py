@@ -1,0 +1,1 @@
+"""Source text, places in it, and diagnostics about it; imports nothing of the project."""
