@@ -1,0 +1,192 @@
+"""The order of the compiler, written once: from a source to the files, one stage a property."""
+
+from __future__ import annotations
+
+import os
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+from bondgraph.text.diagnostic import CompileError, Report
+from bondgraph.text.source import Source, Span
+
+if TYPE_CHECKING:
+    from bondgraph.exact.result import Verification
+    from bondgraph.ir.artifact import Artifact
+    from bondgraph.ir.causal import CausalGraph
+    from bondgraph.ir.equations import EquationSystem
+    from bondgraph.ir.graph import BondGraph
+    from bondgraph.ir.program import Program
+    from bondgraph.ir.residuals import ReducedSystem, ResidualSet
+    from bondgraph.ir.signatures import SignatureMatrix
+    from bondgraph.ir.syntax import File
+
+T = TypeVar("T")
+
+
+class Options(NamedTuple):
+    """What a compilation may be asked for beyond the model.
+
+    `rate` in samples a second, `bandwidth` of the residual filter in rad/s (None: chosen from the
+    rate), `resolution` the relative size below which a term cannot be seen (12 bits), `targets`
+    the languages to emit, `seed` of the random points that the exact verification uses.
+    """
+
+    rate: float = 1000.0
+    bandwidth: float | None = None
+    resolution: float = 2.0**-12
+    targets: tuple[str, ...] = ("c", "python")
+    seed: int = 1
+
+
+class Compilation:
+    """One model on its way through the compiler; each stage is computed when it is asked for.
+
+    Every stage raises `CompileError` with all diagnostics so far if the model is wrong there.
+
+    >>> import bondgraph
+    >>> c = bondgraph.compile("models/dc_motor.bg")
+    >>> len(c.residuals.residuals)
+    1
+    """
+
+    def __init__(self, source: Source, model: str | None = None, options: Options = Options()):
+        self.source = source
+        self.model = model
+        self.options = options
+        self.report = Report()
+        self.open_ports = False
+
+    # ------------------------------------------------------------ the stages, in order
+
+    @cached_property
+    def syntax(self) -> File:
+        """The syntax tree."""
+        from bondgraph.frontend.parser import parse
+
+        return self._stage(parse(self.source, self.report))
+
+    @cached_property
+    def graph(self) -> BondGraph:
+        """The flat bond graph."""
+        from bondgraph.passes.elaborate import elaborate
+
+        return self._stage(
+            elaborate(
+                self.syntax, self.source, self.model, self._load, self.report, self.open_ports
+            )
+        )
+
+    @cached_property
+    def integral(self) -> CausalGraph:
+        """Preferred integral causality."""
+        from bondgraph.passes.causality import assign
+
+        return self._stage(assign(self.graph, "integral", self.report))
+
+    @cached_property
+    def derivative(self) -> CausalGraph:
+        """Preferred derivative causality with the sensors dualised."""
+        from bondgraph.passes.causality import assign
+
+        return self._stage(assign(self.integral.graph, "derivative", self.report))
+
+    @cached_property
+    def equations(self) -> EquationSystem:
+        """The acausal equations."""
+        from bondgraph.passes.equations import equations
+
+        return self._stage(equations(self.integral.graph))
+
+    @cached_property
+    def reduced(self) -> ReducedSystem:
+        """The unknowns eliminated: a value for each, and the equations left over."""
+        from bondgraph.passes.eliminate import eliminate
+
+        return self._stage(eliminate(self.equations, self.report))
+
+    @cached_property
+    def residuals(self) -> ResidualSet:
+        """The analytical redundancy relations, without what cancels in them."""
+        return self._analysis[0]
+
+    @cached_property
+    def signatures(self) -> SignatureMatrix:
+        """The fault signature matrix."""
+        return self._analysis[1]
+
+    @cached_property
+    def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:
+        from bondgraph.passes.signatures import signatures
+
+        return self._stage(signatures(self.reduced, self.report, self.options.seed))
+
+    @cached_property
+    def verification(self) -> Verification:
+        """What the exact check of residuals and signatures did; raises if it failed."""
+        from bondgraph.passes.verify import verify
+
+        return self._stage(
+            verify(self.graph, self.residuals, self.signatures, self.report, self.options.seed)
+        )
+
+    @cached_property
+    def program(self) -> Program:
+        """The residual program, for a verified model only."""
+        from bondgraph.passes.lower import LowerOptions, lower
+
+        assert self.verification
+        rate, bandwidth, resolution = self.options[:3]
+        return self._stage(
+            lower(
+                self.graph,
+                self.residuals,
+                self.signatures,
+                LowerOptions(rate=rate, bandwidth=bandwidth, resolution=resolution),
+            )
+        )
+
+    @cached_property
+    def artifacts(self) -> tuple[Artifact, ...]:
+        """The files, as text."""
+        from bondgraph.backends.emit import emit
+
+        return emit(self.program, self.options.targets)
+
+    # ------------------------------------------------------------------------- helpers
+
+    def _stage(self, value: T | None) -> T:
+        self.report.stop_on_error()
+        if value is None:
+            raise CompileError(tuple(self.report.diagnostics))
+        return value
+
+    def _load(self, path: str, origin: Span) -> File | None:
+        """The syntax tree of an imported file; reports at `origin` what is wrong with it."""
+        from bondgraph.frontend.parser import parse
+        from bondgraph.frontend.read import read
+
+        beside = os.path.join(os.path.dirname(origin.source.path), path)
+        source = read(beside, self.report)
+        return parse(source, self.report) if source else None
+
+
+def compile(
+    path: str | os.PathLike[str], model: str | None = None, **options: object
+) -> Compilation:
+    """Open a model for compilation; `path` may name the model: `robot.bg:Drive`.
+
+    Options are those of `Options`. Nothing is computed before a stage is asked for. Raises
+    `CompileError` if the file cannot be read, TypeError for an unknown option.
+    """
+    from bondgraph.frontend.read import read
+
+    name = os.fspath(path)
+    if model is None and not os.path.exists(name) and ":" in os.path.basename(name):
+        name, _, model = name.rpartition(":")
+    report = Report()
+    source = read(name, report)
+    if source is None:
+        raise CompileError(tuple(report.diagnostics))
+    chosen = Options()._replace(**options) if options else Options()  # type: ignore[arg-type]
+    return Compilation(source, model, chosen)
+
