@@ -1,0 +1,67 @@
+# `make run` compiles the robot, `make test` runs the tests, `make check` runs all that CI runs.
+
+PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
+MODEL ?= models/khepera.bg
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+
+.DEFAULT_GOAL := help
+.PHONY: help run test check lint types imports docs wheel bench update fuzz clean
+
+help: ## this list
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
+
+$(BIN)/python:
+	@test -n "$(PYTHON)" || { echo "Python 3.11 or newer is needed: apt install python3 python3-venv"; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+
+# The locked versions of what the compiler needs, and the checkout itself.
+$(VENV)/run.stamp: requirements.lock pyproject.toml | $(BIN)/python
+	$(PIP) install -r requirements.lock
+	$(PIP) install --no-deps --no-build-isolation --editable .
+	@touch $@
+
+# The tools of the developers on top.
+$(VENV)/dev.stamp: requirements-dev.lock $(VENV)/run.stamp
+	$(PIP) install -r requirements-dev.lock
+	@touch $@
+
+run: $(VENV)/run.stamp ## compile MODEL (the robot) and print its residuals, signatures and files
+	@$(BIN)/bondgraph compile $(MODEL)
+
+test: $(VENV)/dev.stamp ## all tests
+	$(BIN)/python -m pytest $(TESTS)
+
+check: lint types imports test docs wheel ## all that CI runs
+
+lint: $(VENV)/dev.stamp ## style of the Python code, format of the models
+	$(BIN)/ruff check bondgraph tests
+	$(BIN)/bondgraph format --check models/*.bg
+
+types: $(VENV)/dev.stamp ## strict type check
+	$(BIN)/mypy
+
+imports: $(VENV)/dev.stamp ## the layers of the house
+	$(BIN)/lint-imports
+
+docs: $(VENV)/dev.stamp ## the examples and links of the documentation
+	$(BIN)/python -m pytest tests/docs
+
+wheel: $(VENV)/dev.stamp ## build the wheel, install it elsewhere, compile a model without the checkout
+	PYTHON=$(BIN)/python .ci/wheel
+
+bench: $(VENV)/dev.stamp ## medians of the times that matter, with their ratios
+	$(BIN)/python tests/bench/bench.py
+
+update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
+	$(BIN)/python -m pytest --update
+	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model > /dev/null || exit 1; done
+	git status --short generated tests
+
+fuzz: $(VENV)/dev.stamp ## 100 000 broken models through `check`
+	$(BIN)/python tests/fuzz.py 100000
+
+clean: ## remove what this file made
+	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

@@ -1,0 +1,49 @@
+"""What all tests share: `--update`, no skip where none is allowed, reproducible properties."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Generator
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+ROOT = Path(__file__).resolve().parent.parent
+NO_SKIP = os.environ.get("BONDGRAPH_NO_SKIP") == "1"
+
+# The same examples on every machine; no deadline, because a busy machine is not a wrong program.
+settings.register_profile(
+    "repeatable", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("repeatable")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """`--update` writes the expected files anew instead of comparing with them."""
+    parser.addoption("--update", action="store_true", help="write the expected files anew")
+
+
+@pytest.fixture(scope="session")
+def update(pytestconfig: pytest.Config) -> bool:
+    """Whether expected files are to be written anew."""
+    return bool(pytestconfig.getoption("--update"))
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """The top of the checkout."""
+    return ROOT
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    item: pytest.Item, call: pytest.CallInfo[None]
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Where everything is installed (BONDGRAPH_NO_SKIP=1), a skipped test is a failed one."""
+    report = yield
+    if NO_SKIP and report.skipped and not hasattr(report, "wasxfail"):
+        reason = call.excinfo.value if call.excinfo is not None else ""
+        report.outcome = "failed"
+        report.longrepr = f"{item.nodeid} was skipped, but no skip is allowed here: {reason}"
+    return report
