@@ -1,0 +1,1 @@
+"""The element kinds as data: ports, laws, causal preferences, units."""
