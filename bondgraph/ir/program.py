@@ -24,12 +24,35 @@ class Const(NamedTuple):
 class Ref(NamedTuple):
     """A value by name. Space says where it lives:
 
-    param: parameters; coef: coefficients of configure; known: sample or derivative `order` of a
-    known signal (-1: its integral); state: filter memory; local: a statement of the same
-    procedure; residual: the output.
+    param: parameters (only in configure); option: `sample_time` in s, `bandwidth` in rad/s or
+    `time_unit` in s (only in configure); coef: coefficients of configure, element `order` of an
+    array; state: filter memory; local: a statement of the same procedure; residual: the output.
+
+    known: in step the sample of a known signal (order 0); in exact its derivative `order`, times
+    time_unit**order (-1: its integral since the start, -2: the integral of that). start: its
+    value when the integrals began (only in exact). integral: a member of `Program.integrals`, the
+    integral of a nonlinear expression since the start (only in exact). time: seconds since the
+    start over time_unit (only in exact).
+
+    increment, total: of an encoder, only in step and first: counts since the previous sample
+    (the difference modulo 2**32, as a signed 32-bit number) and counts since the start (summed
+    as 64-bit integers), both converted to real. Both are 0 in first.
     """
 
-    space: Literal["param", "coef", "known", "state", "local", "residual"]
+    space: Literal[
+        "param",
+        "option",
+        "coef",
+        "known",
+        "start",
+        "integral",
+        "time",
+        "increment",
+        "total",
+        "state",
+        "local",
+        "residual",
+    ]
     name: str
     order: int = 0
 
@@ -98,31 +121,73 @@ class Assign(NamedTuple):
     origin: Span | None
 
 
+class TapeOp(NamedTuple):
+    """`row[target][i + shift] += scale * row[source][i]` for i < length; a `fresh` target is
+    set to zero first. `target` and `source` differ; `scale` is an index."""
+
+    target: int
+    source: int
+    shift: int
+    scale: int
+    length: int
+    fresh: bool
+
+
+class TapeOutput(NamedTuple):
+    """The first `length` coefficients of a row go to the array coefficient `array`."""
+
+    array: str
+    row: int
+    length: int
 
 
 class PolynomialTape(NamedTuple):
     """Coefficients of a residual too long to write out: a table that configure runs.
 
-    Rows are polynomials in p of at most `length` coefficients; `seeds` are unit rows of the known
-    signals, `outputs` the rows of each known signal in the residual, written to coefficients
-    `name[signal][k]`. Emitted as constant arrays and one loop, never as straight-line code.
+    `rows` polynomials in p with `length` coefficients each; before the first op row 0 is the
+    polynomial 1. Run `ops` in order, with factors `scales` (computed once, in the order given),
+    then copy `outputs`. Emitted as constant arrays and one loop, never as straight-line code.
     """
 
     residual: str
     length: int
     rows: int
     scales: tuple[Expression, ...]
-    ops: tuple[tuple[int, int, int, int], ...]  # target, source, shift, scale index; adds
-    outputs: tuple[tuple[str, int], ...]  # known signal, row
+    ops: tuple[TapeOp, ...]
+    outputs: tuple[TapeOutput, ...]
+    comment: str
+    origin: Span | None
+
+
+class DotTerm(NamedTuple):
+    """sum over k < length of coef `array`[k] times derivative k of the known `signal`."""
+
+    array: str
+    signal: str
+    length: int
+
+
+class Dot(NamedTuple):
+    """`target` = the sum of all terms, each one a loop."""
+
+    target: Ref
+    terms: tuple[DotTerm, ...]
+    comment: str
+    origin: Span | None
 
 
 Statement: TypeAlias = Assign | PolynomialTape
+ExactStatement: TypeAlias = Assign | Dot
 
 # --------------------------------------------------------------------- program
 
 
 class Field(NamedTuple):
-    """A member of one of the structs: identifier, name in the model, unit, meaning."""
+    """A member of one of the structs: identifier, name in the model, unit, meaning.
+
+    `size` is the length of an array, 0 for a plain number. `default` is the nominal value of a
+    parameter, None where the model gives none and the caller of configure has to.
+    """
 
     name: str
     path: str
@@ -130,11 +195,16 @@ class Field(NamedTuple):
     doc: str
     default: float | None = None
     origin: Span | None = None
+    size: int = 0
 
 
 class Known(NamedTuple):
     """A known signal: `highest` derivative that exact needs (-1: only its integral),
-    `integral` whether its integral is needed too, `counts` of an encoder a turn."""
+    `integral` whether its integral is needed too, `counts` of an encoder a turn.
+
+    `lowest` is -2 where exact needs the integral of the integral, -1 where it needs the integral;
+    `start` says that exact needs the value at the start; `sampled` that step reads it.
+    """
 
     name: str
     path: str
@@ -145,6 +215,9 @@ class Known(NamedTuple):
     integral: bool
     counts: float | None
     origin: Span | None
+    lowest: int = 0
+    start: bool = False
+    sampled: bool = True
 
 
 class Dropped(NamedTuple):
@@ -157,7 +230,14 @@ class Dropped(NamedTuple):
 
 
 class ResidualInfo(NamedTuple):
-    """What a residual is, for comments and for warm-up: text, order, stages, samples to wait."""
+    """What a residual is, for comments and for warm-up.
+
+    `order` is the highest derivative in exact, `stages` the number of first-order stages in step.
+    `faults` are the faults it sees, `invisible` those of them that step cannot see at the sample
+    rate. `settle` is how many time constants (1/bandwidth) step needs before it is valid.
+    `approximate` says why step puts filtered derivatives into a nonlinear term ("" where step is
+    the exact residual, filtered); `unavailable` why step has no value at all (never valid).
+    """
 
     name: str
     path: str
@@ -167,10 +247,17 @@ class ResidualInfo(NamedTuple):
     faults: tuple[str, ...]
     invisible: tuple[str, ...]
     origin: Span | None
+    settle: float = 0.0
+    approximate: str = ""
+    unavailable: str = ""
 
 
 class Program(NamedTuple):
-    """The residual program of one model. `digest` is a hash of the model and the options."""
+    """The residual program of one model. `digest` is a hash of the model and the options.
+
+    `first` runs in place of `step` at the first sample and after every restart. A sample or a
+    residual that is not finite restarts the program at the next sample that is.
+    """
 
     name: str
     title: str
@@ -182,7 +269,7 @@ class Program(NamedTuple):
     states: tuple[Field, ...]
     residuals: tuple[ResidualInfo, ...]
     configure: tuple[Statement, ...]
-    exact: tuple[Assign, ...]
+    exact: tuple[ExactStatement, ...]
     first: tuple[Assign, ...]  # step, when it starts: steady state of the first sample
     step: tuple[Assign, ...]
     dropped: tuple[Dropped, ...]
@@ -190,3 +277,5 @@ class Program(NamedTuple):
     bandwidth: float  # rad/s, default of configure
     warmup: float  # time constants to wait before a residual is valid
     tables: tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
+    integrals: tuple[Field, ...] = ()  # what exact takes besides the known signals
+    time_unit: float = 1.0  # s, default of configure
