@@ -49,10 +49,12 @@ class Compilation:
     1
     """
 
-    def __init__(self, source: Source, model: str | None = None, options: Options = Options()):
+    def __init__(
+        self, source: Source, model: str | None = None, options: Options | None = None
+    ) -> None:
         self.source = source
         self.model = model
-        self.options = options
+        self.options = options or Options()
         self.report = Report()
         self.open_ports = False
 
@@ -189,4 +191,3 @@ def compile(
         raise CompileError(tuple(report.diagnostics))
     chosen = Options()._replace(**options) if options else Options()  # type: ignore[arg-type]
     return Compilation(source, model, chosen)
-

@@ -49,9 +49,7 @@ class Kind(Enum):
 
 KNOWN_SIGNALS = frozenset({Kind.INPUT, Kind.SENSOR, Kind.MODE})
 CONSTANTS = frozenset({Kind.PARAM, Kind.CONST, Kind.INITIAL, Kind.FREE})
-VARIABLES = frozenset(
-    {Kind.UNKNOWN, Kind.EFFORT, Kind.FLOW, Kind.STATE, Kind.INTEGRAL, Kind.TEAR}
-)
+VARIABLES = frozenset({Kind.UNKNOWN, Kind.EFFORT, Kind.FLOW, Kind.STATE, Kind.INTEGRAL, Kind.TEAR})
 
 #: Functions of one argument (`pow`, `min`, `max`, `atan2` take two; `table:<id>` takes one).
 #: `ssqrt(x) = sign(x) sqrt(|x|)` and `ssq(x) = x |x|` are inverse to each other.
@@ -327,9 +325,7 @@ class Pool:
         return [new[r] for r in roots]
 
 
-def topological(
-    roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None
-) -> list[Expr]:
+def topological(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> list[Expr]:
     """All nodes that the roots are made of, arguments first; below a `stop` node it ends."""
     seen: set[Expr] = set()
     stack = list(roots)

@@ -49,3 +49,28 @@ class ResidualSet(NamedTuple):
     residuals: tuple[Residual, ...]
     unsolved: tuple[Expr, ...]
     unmonitored: tuple[Equation, ...]
+
+
+class Closing(NamedTuple):
+    """An equation that was left over when all its variables had been computed: `expr` = 0.
+
+    `steps` are what its variables rest on, in the order of the elimination.
+    """
+
+    equation: Equation
+    expr: Expr
+    steps: tuple[Step, ...]
+
+
+class ReducedSystem(NamedTuple):
+    """The equations after elimination, before what cancels is taken out.
+
+    `unsolved` are variables that no sensor reaches, `unmonitored` the equations that hold them.
+    `missing` counts relations that exist but could not be brought to known signals.
+    """
+
+    system: EquationSystem
+    closings: tuple[Closing, ...]
+    unsolved: tuple[Expr, ...]
+    unmonitored: tuple[Equation, ...]
+    missing: int

@@ -8,7 +8,7 @@ most, and only balances, laws, states and measurements remain as equations.
 from __future__ import annotations
 
 from bondgraph.ir.equations import Equation, EquationKind, EquationSystem
-from bondgraph.ir.expr import Expr, Kind, symbols, variables
+from bondgraph.ir.expr import Expr, Kind, variables
 from bondgraph.ir.graph import Bond, BondGraph, End, Node
 from bondgraph.text.source import Span
 
@@ -27,9 +27,12 @@ class _Builder:
 
     def find(self, variable: Expr) -> Expr:
         """The common variable that stands for a set of like junctions bonded together."""
-        while (parent := self.common.get(variable, variable)) is not variable:
-            self.common[variable] = variable = self.common.get(parent, parent)
-        return variable
+        root = variable
+        while root in self.common:
+            root = self.common[root]
+        while variable is not root:
+            self.common[variable], variable = root, self.common[variable]
+        return root
 
     def merge_junctions(self) -> None:
         nodes = self.graph.nodes
@@ -162,8 +165,3 @@ def equations(graph: BondGraph) -> EquationSystem:
     Linear in the size of the graph. A detector takes no power: its bond adds nothing to a balance.
     """
     return _Builder(graph).build()
-
-
-def known_part(expr: Expr) -> bool:
-    """Whether an expression holds no unknown variable."""
-    return not any(s.symbol.kind is Kind.TEAR for s in symbols(expr)) and not variables(expr)

@@ -1,0 +1,302 @@
+"""Eliminate the unknowns: forward from what is known, every variable once, cheapest way first.
+
+An ideal sensor makes a value known while it takes no power; with both facts the equations chain
+forward from sensors and sources, and each equation that is left when its variables are computed
+is an analytical redundancy relation. Cheapest means: no integration of a storage, then no
+division by a signal, then the lowest derivative, then the shortest path (Knuth's generalisation
+of Dijkstra's algorithm, 1977); ties go by the surroundings and never by names. What stalls is a
+loop (`loops`) or a storage whose only access is through its integral.
+"""
+
+from __future__ import annotations
+
+import heapq
+from typing import NamedTuple
+
+from bondgraph.ir.equations import Equation, EquationSystem
+from bondgraph.ir.expr import Expr, Kind, Op, topological
+from bondgraph.ir.residuals import Closing, How, ReducedSystem, Step
+from bondgraph.passes.colour import colours
+from bondgraph.passes.initial import without_free_integrals
+from bondgraph.passes.loops import Loops
+from bondgraph.passes.matching import decompose
+from bondgraph.passes.solve import Solution, solve
+from bondgraph.text.diagnostic import Report
+
+
+class Cost(NamedTuple):
+    """What it takes to compute a variable, in the order of what is to be avoided."""
+
+    integrations: int
+    hard: int
+    order: int
+    depth: int
+
+
+class _Offer(NamedTuple):
+    """An equation that could give a variable: the entries of the heap."""
+
+    cost: Cost
+    equation_colour: int
+    variable_colour: int
+    equation: int
+    variable: int
+    solution: Solution
+    how: How
+
+
+class Chain:
+    """The state of one elimination."""
+
+    def __init__(self, system: EquationSystem, report: Report) -> None:
+        self.system = system
+        self.pool = system.graph.pool
+        self.report = report
+        self.colour, self.variable_colour = colours(system)
+        self.position = {v: i for i, v in enumerate(system.unknowns)}
+        self.waiting = [len(e.variables) for e in system.equations]
+        self.used = [False] * len(system.equations)
+        self.holders: dict[Expr, list[int]] = {v: [] for v in system.unknowns}
+        for row, equation in enumerate(system.equations):
+            for variable in equation.variables:
+                self.holders[variable].append(row)
+        self.closed: dict[Expr, Expr] = {}
+        self.cost: dict[Expr, Cost] = {}
+        self.steps: dict[Expr, Step] = {}
+        self.sequence: dict[Expr, int] = {}
+        self.heap: list[_Offer] = []
+        self.integrable: list[_Offer] = []
+        self.closings: list[int] = []
+        self.loops = Loops(self.pool)
+
+    # ---------------------------------------------------------------- chaining
+
+    def start(self) -> None:
+        for row, count in enumerate(self.waiting):
+            self.look(row, count)
+
+    def look(self, row: int, count: int) -> None:
+        """An equation has lost an unknown: it may now give its last one, or be a relation."""
+        if count == 0:
+            self.used[row] = True
+            self.closings.append(row)
+            self.loops.row(row, self.substituted(self.system.equations[row].zero))
+        elif count == 1:
+            self.offer(row)
+
+    def offer(self, row: int) -> None:
+        equation = self.system.equations[row]
+        variable = next(v for v in equation.variables if v not in self.closed)
+        how: How
+        if variable is equation.state:
+            assert equation.rate is not None
+            free = equation.initial is None
+            start = equation.initial or self.pool.symbol(f"{variable.symbol.name}.0", Kind.FREE)
+            solution = Solution(self.pool.integral(equation.rate, start), False, False)
+            how = "integrated"
+        else:
+            free = False
+            found = solve(self.pool, equation.zero, variable)
+            if found is None:
+                return
+            solution = found
+            how = "inverted" if found.inverted else "solved"
+            if equation.state is not None:
+                how = "differentiated"
+        others = [self.cost[v] for v in equation.variables if v is not variable]
+        storage = equation.kind == "state" and how == "integrated"
+        cost = Cost(
+            max((c.integrations for c in others), default=0) + storage * (1000 if free else 1),
+            max((c.hard for c in others), default=0) + solution.hard,
+            max((c.order for c in others), default=0) + _differentiates(solution.value),
+            max((c.depth for c in others), default=0) + 1,
+        )
+        offer = _Offer(
+            cost, self.colour[row], self.variable_colour[variable], row,
+            self.position[variable], solution, how,
+        )  # fmt: skip
+        heapq.heappush(self.integrable if storage else self.heap, offer)
+
+    def run(self) -> None:
+        """Take the cheapest offers until nothing is offered any more."""
+        while self.heap:
+            offer = heapq.heappop(self.heap)
+            variable = self.system.unknowns[offer.variable]
+            if not self.used[offer.equation] and variable not in self.closed:
+                self.take(offer, variable)
+
+    def take(self, offer: _Offer, variable: Expr) -> None:
+        self.used[offer.equation] = True
+        equation = self.system.equations[offer.equation]
+        closed = self.substituted(offer.solution.value)
+        step = Step(variable, offer.solution.value, closed, equation, offer.how)
+        self.settle(variable, step, offer.cost)
+
+    def settle(self, variable: Expr, step: Step, cost: Cost) -> None:
+        self.closed[variable] = step.closed
+        self.cost[variable] = cost
+        self.steps[variable] = step
+        self.sequence[variable] = len(self.sequence)
+        for row in self.holders[variable]:
+            self.waiting[row] -= 1
+            if not self.used[row]:
+                self.look(row, self.waiting[row])
+
+    def substituted(self, expr: Expr) -> Expr:
+        return self.pool.substitute([expr], self.closed)[0]
+
+    # ------------------------------------------------------------------ stalls
+
+    def stalled(self) -> bool:
+        """Make progress where chaining has stopped; False when there is none to be made."""
+        self.loops.solve_algebraic()
+        if self.tear(states=False):
+            return True
+        while self.integrable:
+            offer = heapq.heappop(self.integrable)
+            variable = self.system.unknowns[offer.variable]
+            if self.used[offer.equation] or variable in self.closed:
+                continue
+            if self.loops.open_in(self.substituted(offer.solution.value)):
+                continue
+            self.take(offer, variable)
+            return True
+        return self.tear(states=True)
+
+    def tear(self, states: bool) -> bool:
+        """Take one variable of each remaining solvable block as if it were known."""
+        rows = [
+            r
+            for r, equation in enumerate(self.system.equations)
+            if not self.used[r] and self.waiting[r] > 1 and (states or equation.state is None)
+        ]
+        columns: dict[Expr, int] = {}
+        graph = []
+        for r in rows:
+            free = [v for v in self.system.equations[r].variables if v not in self.closed]
+            graph.append([columns.setdefault(v, len(columns)) for v in free])
+        parts = decompose(graph, len(columns))
+        solvable = {*parts.over_columns, *parts.square_columns}
+        names = list(columns)
+        chosen = []
+        for block in _components(graph, [*parts.over_rows, *parts.square_rows], solvable):
+            degree = {c: 0 for c in block}
+            for r in (*parts.over_rows, *parts.square_rows):
+                for c in graph[r]:
+                    if c in degree:
+                        degree[c] += 1
+            best = min(
+                block, key=lambda c: (-degree[c], self.variable_colour[names[c]], names[c].id)
+            )
+            chosen.append(names[best])
+        for variable in chosen:
+            column = columns[variable]
+            row = next(r for r, members in zip(rows, graph, strict=True) if column in members)
+            holder = self.system.equations[row]
+            tear = self.loops.tear(variable)
+            self.settle(variable, Step(variable, tear, tear, holder, "loop"), Cost(0, 1, 0, 1))
+        return bool(chosen)
+
+    # ------------------------------------------------------------------ result
+
+    def resting_on(self, rows: tuple[int, ...]) -> tuple[Step, ...]:
+        """The steps behind the variables of some equations, in the order they were taken."""
+        seen: set[Expr] = set()
+        stack = [v for r in rows for v in self.system.equations[r].variables]
+        while stack:
+            variable = stack.pop()
+            if variable in seen or variable not in self.steps:
+                continue
+            seen.add(variable)
+            step = self.steps[variable]
+            if step.how != "loop":
+                stack.extend(v for v in step.equation.variables if v is not variable)
+            else:
+                rows_of = self.loops.rows_for(variable)
+                stack.extend(v for r in rows_of for v in self.system.equations[r].variables)
+        return tuple(self.steps[v] for v in sorted(seen, key=self.sequence.__getitem__))
+
+    def result(self) -> ReducedSystem:
+        relations, lost = self.loops.relations()
+        final = self.loops.solutions()
+        closings = []
+        for rows, expr in sorted(relations, key=lambda r: r[0][-1]):
+            steps = tuple(
+                s._replace(closed=self.pool.substitute([s.closed], final)[0]) if final else s
+                for s in self.resting_on(rows)
+            )
+            found = without_free_integrals(self.pool, expr)
+            equation = self.system.equations[rows[-1]]
+            if found is None:
+                self.initial_missing(equation, steps)
+                lost += 1
+            elif found is not self.pool.zero:
+                closings.append(Closing(equation, found, steps))
+        unsolved = tuple(v for v in self.system.unknowns if v not in self.closed)
+        unmonitored = tuple(e for r, e in enumerate(self.system.equations) if not self.used[r])
+        self.report_loops()
+        return ReducedSystem(self.system, tuple(closings), unsolved, unmonitored, lost)
+
+    def initial_missing(self, equation: Equation, steps: tuple[Step, ...]) -> None:
+        for step in steps:
+            if step.how == "integrated" and step.equation.initial is None:
+                self.report.warning(
+                    "initial-value-needed",
+                    f"a relation at `{equation.name}` needs the initial value of"
+                    f" `{step.equation.name}`, which the model does not declare",
+                    step.equation.origin,
+                    help="the storage enters nonlinearly, so differentiating does not remove its"
+                    " initial value: declare it, for example"
+                    f" `({'q0' if step.variable.symbol.name.endswith('q') else 'p0'} = 0)`",
+                )
+                return
+
+    def report_loops(self) -> None:
+        for variables in self.loops.refused():
+            steps = [self.steps[v].equation for v in variables]
+            names = ", ".join(dict.fromkeys(f"`{e.name}`" for e in steps))
+            self.report.error(
+                "loop-unsolvable",
+                f"the loop through {names} has no solution in closed form",
+                *[e.origin for e in steps],
+                help="measure a variable inside the loop, or give one of its laws in the"
+                " direction in which it can be inverted",
+            )
+
+
+def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
+    """Compute every variable that sensors and sources reach, and keep what is left over.
+
+    Near-linear in the number of bonds. Reports `loop-unsolvable` for a nonlinear loop without a
+    closed solution, `initial-value-needed` where a relation needs an undeclared initial value.
+    """
+    chain = Chain(system, report)
+    chain.start()
+    chain.run()
+    while chain.stalled():
+        chain.run()
+    result = chain.result()
+    return None if report.failed else result
+
+
+def _differentiates(value: Expr) -> int:
+    return int(any(n.op is Op.DER for n in topological([value])))
+
+
+def _components(graph: list[list[int]], rows: list[int], columns: set[int]) -> list[list[int]]:
+    """Connected components of the given rows and columns, as sorted lists of columns."""
+    parent = {c: c for c in sorted(columns)}
+
+    def find(c: int) -> int:
+        while parent[c] != c:
+            parent[c] = c = parent[parent[c]]
+        return c
+
+    for r in rows:
+        inside = [c for c in graph[r] if c in parent]
+        for c in inside[1:]:
+            parent[find(c)] = find(inside[0])
+    groups: dict[int, list[int]] = {}
+    for c in parent:
+        groups.setdefault(find(c), []).append(c)
+    return [g for g in groups.values() if any(c in columns for c in g)]

@@ -1,0 +1,203 @@
+"""Solve one equation for one variable, in closed form, where the solution is unique.
+
+Linear equations and chains of one-to-one functions are turned around here; what holds the
+variable more than once in a nonlinear way goes to SymPy.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import NamedTuple
+
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
+
+#: Functions that are one to one on the reals (or where they are defined), with their inverses.
+INVERSE = {
+    "ssqrt": "ssq",
+    "ssq": "ssqrt",
+    "exp": "log",
+    "log": "exp",
+    "tanh": "atanh",
+    "atanh": "tanh",
+    "sinh": "asinh",
+    "asinh": "sinh",
+    "atan": "tan",
+    "asin": "sin",
+}
+
+
+class Solution(NamedTuple):
+    """`value` of the variable; `hard` if it divides by a signal or inverts a nonlinear law."""
+
+    value: Expr
+    hard: bool
+    inverted: bool
+
+
+def solve(pool: Pool, zero: Expr, variable: Expr) -> Solution | None:
+    """The unique value of `variable` that makes `zero` vanish, or None if there is none to give.
+
+    A coefficient that a mode or a parameterless constant may turn to zero is never divided by.
+
+    >>> p = Pool(); e, f = p.symbol("e", Kind.EFFORT), p.symbol("f", Kind.FLOW)
+    >>> R = p.symbol("R", Kind.PARAM)
+    >>> solve(p, p.sub(e, p.mul(R, f)), f).value
+    e/R
+    """
+    holders = _holders(zero, variable)
+    if zero not in holders:
+        return None
+    linear = affine(pool, zero, variable)
+    if linear is not None:
+        slope, rest = linear
+        if slope is pool.zero or not _dividable(slope):
+            return None
+        value = pool.neg(rest) if slope is pool.one else _quotient(pool, rest, slope)
+        return Solution(value, not constant(slope), False)
+    value_ = _peel(pool, zero, variable, holders)
+    if value_ is None:
+        from bondgraph.passes.solve_symbolic import solve_symbolic
+
+        value_ = solve_symbolic(pool, zero, variable)
+    return None if value_ is None else Solution(value_, True, True)
+
+
+def constant(expr: Expr) -> bool:
+    """Whether an expression is made of parameters and numbers only."""
+    return all(s.symbol.kind in CONSTANTS for s in symbols(expr))
+
+
+def affine(pool: Pool, node: Expr, variable: Expr) -> tuple[Expr, Expr] | None:
+    """`slope`, `rest` with node = slope * variable + rest, both free of it; None if not affine."""
+    holders = _holders(node, variable)
+    if node not in holders:
+        return pool.zero, node
+    parts: dict[Expr, tuple[Expr, Expr]] = {variable: (pool.one, pool.zero)}
+    for item in holders:
+        if item is variable:
+            continue
+        if item.op is Op.ADD:
+            slopes, rests = [], []
+            for c, arg in zip(item.coefficients, item.args, strict=True):
+                slope, rest = parts.get(arg, (pool.zero, arg))
+                slopes.append((c, slope))
+                rests.append((c, rest))
+            parts[item] = pool.add(*slopes), pool.add(*rests)
+        elif item.op is Op.MUL:
+            inside = [a for a in item.args if a in parts]
+            power = item.exponents[item.args.index(inside[0])]
+            if len(inside) != 1 or power != 1:
+                return None
+            slope, rest = parts[inside[0]]
+            others = [
+                pool.power(a, e)
+                for a, e in zip(item.args, item.exponents, strict=True)
+                if a is not inside[0]
+            ]
+            parts[item] = pool.mul(slope, *others), pool.mul(rest, *others)
+        elif item.op is Op.IF and item.args[0] not in parts:
+            yes, no = (parts.get(a, (pool.zero, a)) for a in item.args[1:])
+            slope = pool.choose(item.args[0], yes[0], no[0])
+            parts[item] = slope, pool.choose(item.args[0], yes[1], no[1])
+        else:
+            return None
+    return parts[node]
+
+
+def _holders(node: Expr, variable: Expr) -> dict[Expr, None]:
+    """The nodes below `node` that hold `variable`, itself included, arguments first."""
+    found: dict[Expr, None] = {}
+    for item in topological([node]):
+        if item is variable or any(a in found for a in item.args):
+            found[item] = None
+    return found
+
+
+def _dividable(slope: Expr) -> bool:
+    """Whether it is right to divide by a coefficient: not where it is zero in some mode."""
+    return not any(
+        n.op in (Op.IF, Op.CMP, Op.LOGIC)
+        or (n.op is Op.SYM and n.symbol.kind is Kind.MODE)
+        or (n.op is Op.FN and n.data in ("sign", "min", "max"))
+        for n in topological([slope])
+    )
+
+
+def _quotient(pool: Pool, rest: Expr, slope: Expr) -> Expr:
+    """-rest/slope, with the sign taken into a sum and single factors divided out of it."""
+    if slope.op is Op.NUM:
+        factor = -1 / slope.number
+        if rest.op is Op.ADD:
+            terms = zip(rest.coefficients, rest.args, strict=True)
+            return pool.add(*[(factor * c, a) for c, a in terms])
+        return pool.add((factor, rest))
+    if slope.op is Op.ADD and len(slope.args) == 1 and slope.coefficients[0] < 0:
+        return pool.div(rest, pool.neg(slope))
+    return pool.div(pool.neg(rest), slope)
+
+
+def _peel(pool: Pool, zero: Expr, variable: Expr, holders: dict[Expr, None]) -> Expr | None:
+    """Turn a chain of one-to-one functions around, from the outside to the variable."""
+    node, target = zero, pool.zero
+    while node is not variable:
+        inside = [a for a in node.args if a in holders]
+        if len(inside) != 1:
+            return None
+        inner = inside[0]
+        if node.op is Op.ADD:
+            c = node.coefficients[node.args.index(inner)]
+            terms = [(1 / c, target)]
+            for k, arg in zip(node.coefficients, node.args, strict=True):
+                if arg is not inner:
+                    terms.append((-k / c, arg))
+            target = pool.add(*terms)
+        elif node.op is Op.MUL:
+            power = node.exponents[node.args.index(inner)]
+            others = [
+                pool.power(a, -e)
+                for a, e in zip(node.args, node.exponents, strict=True)
+                if a is not inner
+            ]
+            if not all(_dividable(o) for o in others):
+                return None
+            root = _root(pool, pool.mul(target, *others), power)
+            if root is None:
+                return None
+            target = root
+        elif node.op is Op.FN and node.name in INVERSE:
+            target = pool.fn(INVERSE[node.name], target)
+        elif node.op is Op.FN and node.name == "sqrt":
+            target = pool.power(target, 2)
+        elif node.op is Op.FN and node.name == "cbrt":
+            target = pool.power(target, 3)
+        elif node.op is Op.FN and node.name.startswith("table:"):
+            inverse = _inverse_table(pool, node.name)
+            if inverse is None:
+                return None
+            target = pool.fn(inverse, target)
+        else:
+            return None
+        node = inner
+    return target
+
+
+def _root(pool: Pool, target: Expr, power: int) -> Expr | None:
+    """The only real x with x**power = target; even powers have two."""
+    if power < 0:
+        target, power = pool.power(target, -1), -power
+    if power == 1:
+        return target
+    return pool.fn("cbrt", target) if power == 3 else None
+
+
+def _inverse_table(pool: Pool, name: str) -> str | None:
+    """The table read the other way, where it is strictly monotone."""
+    points = pool.tables[name.removeprefix("table:")]
+    values = [y for _, y in points]
+    steps = [b - a for a, b in pairwise(values)]
+    if not steps or not (all(s > 0 for s in steps) or all(s < 0 for s in steps)):
+        return None
+    own = name.removeprefix("table:")
+    inverse = own[:-1] if own.endswith("'") else own + "'"
+    pool.tables.setdefault(inverse, tuple(sorted((y, x) for x, y in points)))
+    return "table:" + inverse

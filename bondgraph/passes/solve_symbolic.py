@@ -1,0 +1,63 @@
+"""The steps of algebra that need SymPy: equations that hold a variable more than once."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+
+from bondgraph.ir.expr import Expr, Pool, topological
+from bondgraph.passes.symbolic import from_sympy, to_sympy
+
+
+def solve_symbolic(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
+    """The value of `variable` where the equation is linear once fractions are cleared.
+
+    `e = k*f/(1 + f)` has one solution for f; an equation of higher degree has several, or none
+    that holds for every value of the parameters, and gives None.
+    """
+    holding = {variable}
+    leaves: dict[Expr, Any] = {variable: sp.Symbol("x", real=True)}
+    names: dict[Any, Expr] = {leaves[variable]: variable}
+    for node in topological([zero]):
+        if any(a in holding for a in node.args):
+            holding.add(node)
+    for node in sorted(holding, key=lambda n: n.id):
+        for arg in node.args:
+            if arg not in holding and arg not in leaves:
+                leaves[arg] = sp.Symbol(f"c{len(leaves)}", real=True)
+                names[leaves[arg]] = arg
+    x = leaves[variable]
+    numerator = sp.fraction(sp.together(to_sympy(zero, leaves)))[0]
+    if not numerator.is_polynomial(x) or numerator.has(sp.Function):
+        return None
+    polynomial = sp.Poly(numerator, x)
+    if polynomial.degree() != 1:
+        return None
+    slope, rest = polynomial.all_coeffs()
+    return from_sympy(pool, sp.factor_terms(-rest / slope), names)
+
+
+def without_common_factor(
+    pool: Pool, a: list[Expr], b: list[Expr]
+) -> tuple[list[Expr], list[Expr]]:
+    """Two polynomials in D (coefficients from D**0 up) divided by their greatest common divisor."""
+    d = sp.Symbol("D")
+    leaves = [n for n in topological([*a, *b]) if not n.args]
+    symbols = {n: sp.Symbol(f"a{n.id}") for n in leaves if n.op.value == "sym"}
+    names = {s: n for n, s in symbols.items()}
+    one, other = (
+        sp.Poly(sum(to_sympy(c, symbols) * d**k for k, c in enumerate(p)), d) for p in (a, b)
+    )
+    common = sp.gcd(one, other)
+    if common.degree() <= 0:
+        return a, b
+    result = []
+    for polynomial in (one, other):
+        quotient = sp.Poly(sp.cancel(polynomial.as_expr() / common.as_expr()), d)
+        parts = [from_sympy(pool, sp.factor_terms(c), names) for c in quotient.all_coeffs()[::-1]]
+        kept = [p for p in parts if p is not None]
+        if len(kept) != len(parts):
+            return a, b
+        result.append(kept)
+    return result[0], result[1]
