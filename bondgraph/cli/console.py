@@ -1,0 +1,88 @@
+"""How results and failures reach the terminal: colour, diagnostics, files written whole."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable
+from typing import IO
+
+from bondgraph.text.diagnostic import CompileError, Diagnostic
+
+
+def coloured(stream: IO[str]) -> bool:
+    """Whether colour is wanted on `stream`: a terminal, and NO_COLOR (no-color.org) not set."""
+    return stream.isatty() and not os.environ.get("NO_COLOR")
+
+
+def show(diagnostics: Iterable[Diagnostic]) -> None:
+    """Print diagnostics on the error stream."""
+    found = tuple(diagnostics)
+    if found:
+        from bondgraph.text.render import render
+
+        print(render(found, color=coloured(sys.stderr)), file=sys.stderr)
+
+
+def print_json(value: object) -> None:
+    """Print one JSON object on the output stream."""
+    import json
+
+    print(json.dumps(value, indent=2, ensure_ascii=False))
+
+
+def failure(error: CompileError) -> dict[str, object]:
+    """The machine-readable result of a model that is wrong or cannot be solved."""
+    from bondgraph.text.render import as_json
+
+    return {
+        "status": error.status,
+        "message": str(error),
+        "diagnostics": as_json(error.diagnostics),
+        "n_arr": 0,
+        "files": [],
+        "arrs": [],
+        "undetectable": [],
+        "groups": [],
+    }
+
+
+def failed(error: CompileError, json: bool) -> int:
+    """Report a model that is wrong or cannot be solved; the exit status is 1."""
+    if json:
+        print_json(failure(error))
+    elif error.diagnostics:
+        show(error.diagnostics)
+    else:
+        print(f"error: {error}", file=sys.stderr)
+    return 1
+
+
+def broken(message: str, json: bool) -> int:
+    """Report a failure that is not a finding about the model; the exit status is 1."""
+    if json:
+        print_json({**failure(CompileError(())), "message": message})
+    else:
+        print(f"error: {message}", file=sys.stderr)
+    return 1
+
+
+def write_whole(path: str, text: str) -> None:
+    """Write a file so that it is either the old one or the new one, never half of it."""
+    temporary = f"{path}.{os.getpid()}.tmp"
+    try:
+        with open(temporary, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        if os.path.exists(path):
+            os.chmod(temporary, os.stat(path).st_mode)
+        os.replace(temporary, path)
+    finally:
+        if os.path.exists(temporary):
+            os.unlink(temporary)
+
+
+def plural(number: int, noun: str) -> str:
+    """`1 bond`, `2 bonds`."""
+    if number == 1:
+        return f"1 {noun}"
+    return f"{number} {noun[:-1]}ies" if noun.endswith("y") else f"{number} {noun}s"

@@ -1,0 +1,100 @@
+"""The machine-readable result of a compilation: one JSON object, described in docs/json.md."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bondgraph.cli.console import plural
+from bondgraph.cli.parsable import Names, parsable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from bondgraph.ir.expr import Expr
+    from bondgraph.ir.graph import BondGraph
+    from bondgraph.ir.residuals import Residual
+    from bondgraph.ir.signatures import SignatureMatrix
+    from bondgraph.pipeline import Compilation
+
+
+def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
+    """The result of a compilation that went well; `files` are the paths that were written.
+
+    `status` is ok, or no_arr where the model has no redundancy. Raises `CompileError` as the
+    stages do.
+    """
+    from bondgraph.text.render import as_json
+
+    graph = compilation.graph
+    matrix = compilation.signatures
+    names = names_of(graph)
+    initial = initial_values(graph)
+    arrs = [
+        _arr(graph, residual, matrix, names, initial)
+        for residual in compilation.residuals.residuals
+    ]
+    used = {symbol for arr in arrs for symbol in arr["symbols"]}  # type: ignore[attr-defined]
+    return {
+        "status": "ok" if arrs else "no_arr",
+        "message": message(matrix),
+        "diagnostics": as_json(tuple(compilation.report.diagnostics)),
+        "model": graph.name,
+        "n_arr": len(arrs),
+        "files": list(files),
+        "arrs": arrs,
+        "symbols": [plain for plain in names.by_model.values() if plain in used],
+        "names": {plain: name for name, plain in names.by_model.items() if plain in used},
+        "undetectable": list(matrix.undetectable),
+        "groups": [list(group) for group in matrix.groups],
+    }
+
+
+def message(matrix: SignatureMatrix) -> str:
+    """One line on what the residuals can tell.
+
+    >>> from bondgraph.ir.signatures import SignatureMatrix
+    >>> message(SignatureMatrix(("r1",), ("R", "C"), ((True,), (False,)), ({},)))
+    '1 residual detects 1 of 2 faults, in 1 group'
+    """
+    if not matrix.residuals:
+        return "no residual: nothing is measured twice over, so no fault can be detected"
+    found = len(matrix.faults) - len(matrix.undetectable)
+    verb = "detects" if len(matrix.residuals) == 1 else "detect"
+    return (
+        f"{plural(len(matrix.residuals), 'residual')} {verb} {found} of"
+        f" {plural(len(matrix.faults), 'fault')}, in {plural(len(matrix.groups), 'group')}"
+    )
+
+
+def names_of(graph: BondGraph) -> Names:
+    """The identifier of every name of the model that can occur in a residual."""
+    items = (*graph.values, *graph.inputs, *graph.sensors)
+    return Names(dict.fromkeys(item.symbol.symbol.name for item in items))
+
+
+def initial_values(graph: BondGraph) -> dict[str, Expr]:
+    """The expression of every declared initial value, by the name of its symbol."""
+    ports = [port for node in graph.nodes for port in node.ports]
+    declared = [(p.initial, p.initial_value) for p in ports]
+    declared += [(i.initial, i.initial_value) for i in graph.integrals]
+    return {s.symbol.name: value for s, value in declared if s is not None and value is not None}
+
+
+def _arr(
+    graph: BondGraph,
+    residual: Residual,
+    matrix: SignatureMatrix,
+    names: Names,
+    initial: dict[str, Expr],
+) -> dict[str, object]:
+    written = parsable(graph.pool, residual.expr, names, initial)
+    arr: dict[str, object] = {
+        "name": residual.name,
+        "expr": written.expr,
+        "symbols": list(written.symbols),
+        "orders": dict(matrix.orders[matrix.residuals.index(residual.name)]),
+        "signature": list(matrix.signature(residual.name)),
+    }
+    if written.defs:
+        arr["defs"] = [list(definition) for definition in written.defs]
+    return arr
