@@ -1,0 +1,246 @@
+"""A place in the words of a file: looking, taking, complaining once, and going on after an error."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from bondgraph.frontend.lexer import split
+from bondgraph.frontend.words import KEYWORDS, RESERVED, is_arrow, say
+from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.source import Source, Span
+
+#: How deep brackets and braces may nest; far above any model written by hand.
+MAX_DEPTH: Final = 100
+#: How high the tree of one expression may be: later passes walk it recursively.
+MAX_HEIGHT: Final = 200
+#: After so many errors the rest of a file is not worth reading.
+MAX_ERRORS: Final = 40
+
+
+class SyntaxProblem(Exception):
+    """A statement that cannot be understood; `at` is the word where that became clear."""
+
+    def __init__(
+        self, code: str, message: str, labels: tuple[Label, ...], help: str, at: int
+    ) -> None:
+        super().__init__(message)
+        self.code = code
+        self.labels = labels
+        self.help = help
+        self.at = at
+
+
+class TooManyProblems(Exception):
+    """Raised to give up on a file."""
+
+
+class Cursor:
+    """The words of one source and the place of the reader in them."""
+
+    def __init__(self, source: Source, report: Report) -> None:
+        self.source = source
+        self.report = report
+        self.words, self.starts, self.fresh, self.gaps = split(source.text)
+        self.i = 0
+        self.brackets = 0  # open round and square brackets: line ends inside them mean nothing
+        self.depth = 0
+        self.errors = 0
+        text = source.text
+        # Only a text with such characters pays for a closer look at every name.
+        self.careful = "_" in text or not text.isascii()
+        self.complained: set[str] = set()
+        # What only the formatter wants to know, as word numbers.
+        self.units: list[tuple[int, int]] = []
+        self.less_minus: list[int] = []
+        self.wide_colons: list[int] = []
+
+    # ---------------------------------------------------------------- places
+
+    def span(self, first: int) -> Span:
+        """From word `first` to the last word taken."""
+        last = self.i - 1
+        return Span(self.source, self.starts[first], self.starts[last] + len(self.words[last]))
+
+    def word_span(self, at: int) -> Span:
+        """The place of one word; of the end of the file, the end of the last word."""
+        if not self.words[at] and at:
+            end = self.starts[at - 1] + len(self.words[at - 1])
+            return Span(self.source, end, end)
+        return Span(self.source, self.starts[at], self.starts[at] + len(self.words[at]))
+
+    # ------------------------------------------------------------- complaints
+
+    def complain(self, code: str, message: str, *labels: Label, help: str) -> None:
+        """Report an error and go on as if all were well."""
+        self.report.error(code, message, *labels, help=help)
+        self.errors += 1
+        if self.errors >= MAX_ERRORS:
+            raise TooManyProblems
+
+    def problem(
+        self, code: str, message: str, at: int, text: str = "", *more: Label, help: str
+    ) -> SyntaxProblem:
+        """An error at word `at`, to be raised; the statement it is in is given up."""
+        return SyntaxProblem(code, message, (Label(self.word_span(at), text), *more), help, at)
+
+    def unexpected(self, wanted: str, help: str, *more: Label) -> SyntaxProblem:
+        """The word at the cursor is not what the language allows here."""
+        at = self.i
+        word = self.words[at]
+        odd = self.odd_word(at)
+        if odd is not None:
+            return odd
+        found = "the file ends" if not word else f"I found {say(word)}"
+        if word and self.fresh[at] and at and not self.brackets:
+            found = "the line ends"
+            end = self.starts[at - 1] + len(self.words[at - 1])
+            label = Label(Span(self.source, end, end), f"{wanted} expected here")
+        else:
+            label = Label(self.word_span(at), f"{wanted} expected here")
+        return SyntaxProblem(
+            "syntax-unexpected", f"I expected {wanted}, but {found}.", (label, *more), help, at
+        )
+
+    def odd_word(self, at: int) -> SyntaxProblem | None:
+        """A complaint about a word that is wrong wherever it stands, or None."""
+        from bondgraph.frontend.odd import odd  # the slow path: only errors need it
+
+        found = odd(self.source.text, self.words, self.starts, at)
+        return None if found is None else self.problem(
+            found.code, found.message, found.at, found.label, help=found.help
+        )
+
+    def tell(self, problem: SyntaxProblem) -> None:
+        """Report a problem that was caught."""
+        self.complain(problem.code, str(problem), *problem.labels, help=problem.help)
+
+    # ----------------------------------------------------------------- taking
+
+    def take(self, word: str, wanted: str, help: str) -> int:
+        """Take exactly this word on the same line; its number."""
+        at = self.i
+        if self.words[at] != word or (self.fresh[at] and not self.brackets):
+            raise self.unexpected(wanted, help)
+        self.i = at + 1
+        return at
+
+    def name(self, wanted: str, help: str) -> str:
+        """Take a name that something is called by; it may stand in the next line."""
+        at = self.i
+        word = self.words[at]
+        if not word.isidentifier():
+            raise self.unexpected(wanted, help)
+        if word in RESERVED:
+            raise self.problem(
+                "name-reserved",
+                f"`{word}` has a fixed meaning in expressions and cannot be a name.",
+                at,
+                help=f"Choose another name, such as `{word}_`.",
+            )
+        if self.careful:
+            self.check_name(at)
+        self.i = at + 1
+        return word
+
+    def same_line(self, wanted: str, help: str) -> None:
+        """Insist that the next word stands on this line."""
+        if self.fresh[self.i] and not self.brackets:
+            raise self.unexpected(wanted, help)
+
+    def check_name(self, at: int) -> None:
+        """Complain once about a name that the generated code could not spell."""
+        word = self.words[at]
+        if word in self.complained or ("__" not in word and word.isascii() and word[0] != "_"):
+            return
+        self.complained.add(word)
+        from bondgraph.frontend.odd import odd_name
+
+        found = odd_name(word)
+        self.complain(
+            found.code, found.message, Label(self.word_span(at), found.label), help=found.help
+        )
+
+    def keyword(self, word: str) -> bool:
+        """Take `word` if it is the next word of this line."""
+        at = self.i
+        if self.words[at] != word or (self.fresh[at] and not self.brackets):
+            return False
+        self.i = at + 1
+        return True
+
+    def at_open(self) -> bool:
+        """Whether `{` comes next; one on the next line is complained about and accepted."""
+        if self.words[self.i] != "{":
+            return False
+        if self.fresh[self.i] and self.i:
+            end = self.starts[self.i - 1] + len(self.words[self.i - 1])
+            self.complain(
+                "brace-on-next-line",
+                "The opening brace stands on a line of its own, and the line above is already "
+                "a complete statement.",
+                Label(self.word_span(self.i), "this brace"),
+                Label(Span(self.source, end, end), "belongs here"),
+                help="Write `{` at the end of the line that it belongs to.",
+            )
+            self.fresh[self.i] = False  # said once
+        return True
+
+    # --------------------------------------------------------------- recovery
+
+    def begins_statement(self, at: int) -> bool:
+        """Whether word `at` plainly begins a statement of its own line."""
+        word = self.words[at]
+        if not self.fresh[at] or not word:
+            return False
+        after = self.words[at + 1]
+        if word in KEYWORDS:
+            return after.isidentifier() and not self.fresh[at + 1]
+        return is_arrow(word) or word == "}"
+
+    def skip_statement(self, begin: int) -> None:
+        """Go to the end of the statement that began at word `begin` and failed at the cursor."""
+        words, fresh = self.words, self.fresh
+        self.brackets = 0
+        open_brackets = braces = 0
+        for word in words[begin : self.i]:
+            if word in ("(", "["):
+                open_brackets += 1
+            elif word in (")", "]"):
+                open_brackets -= 1
+        at = self.i
+        while word := words[at]:
+            if braces == 0:
+                if word in ("}", ";"):
+                    break
+                if fresh[at] and at > begin and word != "{":
+                    goes_on = open_brackets > 0 and not self.looks_fresh(at)
+                    if not goes_on and not _continues(words[at - 1]):
+                        break
+                    if self.begins_statement(at):
+                        break
+            if word == "{":
+                braces += 1
+            elif word == "}":
+                braces -= 1
+            elif word in ("(", "["):
+                open_brackets += 1
+            elif word in (")", "]"):
+                open_brackets -= 1
+            at += 1
+        self.i = max(at, self.i)
+
+    def looks_fresh(self, at: int) -> bool:
+        """Whether the line that begins at word `at` looks like a new statement."""
+        return (
+            self.begins_statement(at)
+            or self.words[at + 1] == ":"
+            or (is_arrow(self.words[at + 1]) and self.words[at].isidentifier())
+        )
+
+
+_CONTINUES = frozenset(["+", "-", "*", "/", "^", ",", "=", "(", "[", "<", ">", "<=", ">=", "=="])
+
+
+def _continues(word: str) -> bool:
+    """Whether a statement goes on in the next line after this word."""
+    return word in _CONTINUES or word in ("!=", "and", "or", "not", "+-", "±") or is_arrow(word)

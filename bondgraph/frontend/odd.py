@@ -1,0 +1,136 @@
+"""Words that are wrong wherever they stand, and what their author probably meant."""
+
+from __future__ import annotations
+
+import re
+from typing import Final, NamedTuple
+
+from bondgraph.frontend.words import NOT_UNITS, say
+
+
+class Odd(NamedTuple):
+    """What is wrong with the word number `at`, and the remedy."""
+
+    code: str
+    message: str
+    at: int
+    label: str
+    help: str
+
+
+#: What to write instead of a character, or of two, that the language does not have.
+_INSTEAD: Final = {
+    "&": "`and`", "&&": "`and`", "|": "`or`", "||": "`or`", "!": "`not`", "**": "`^`",
+    "'": 'double quotes, `"file.bg"`', "−": "a plain minus, `-`", "–": "a plain minus, `-`",
+    "—": "a plain minus, `-`", "→": "`->`", "⇀": "`->`", "←": "`<-`", "↼": "`<-`", "×": "`*`",
+    "·": "`*` (`.` in a unit)", "⋅": "`*` (`.` in a unit)", "÷": "`/`", "≤": "`<=`", "≥": "`>=`",
+    "≠": "`!=`", "“": '`"`', "”": '`"`', "„": '`"`', "\u00a0": "a plain space",
+    "\u200b": "nothing: it is an invisible space", "\u2009": "a plain space",
+    "\u202f": "a plain space", "//": "`#` for a comment", "/*": "`#` for a comment",
+    "=>": "`->` for a bond, `>=` for a comparison", "-->": "`->`", "<--": "`<-`",
+    "\x0c": "a line end",
+}  # fmt: skip
+_PLAIN: Final = frozenset("+-*/^<>=(){}[],;:.%\"±")
+_GREEK: Final = dict(
+    zip(
+        "αβγδεζηθικλμνξοπρστυφχψωΓΔΘΛΞΠΣΦΨΩϕϑϵ",
+        "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi omicron pi rho "
+        "sigma tau upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega "
+        "phi theta epsilon".split(),
+        strict=True,
+    )
+)
+
+
+def odd(text: str, words: list[str], starts: list[int], at: int) -> Odd | None:
+    """What is wrong with word `at` in itself, or None if it is only in the wrong place."""
+    word = words[at]
+    if not word:
+        return None
+    if word[0] == '"' and (len(word) == 1 or word[-1] != '"'):
+        return Odd(
+            "syntax-unclosed", "This string is not closed on its line.", at, "opened here",
+            'Close it with `"`.',
+        )  # fmt: skip
+    return _odd_number(text, words, starts, at) or _odd_sign(text, words, starts, at)
+
+
+def _odd_number(text: str, words: list[str], starts: list[int], at: int) -> Odd | None:
+    word, before = words[at], words[at - 1] if at else ""
+    if word == "." and re.match(r"\.[0-9]", text[starts[at] :][:2]):
+        digits = words[at + 1]
+        return Odd(
+            "number-form", f"A number begins with a digit: I found `.{digits}`.", at,
+            "a digit is missing before this point", f"Write `0.{digits}`.",
+        )  # fmt: skip
+    if not before[:1].isdigit():
+        return None
+    gap = text[starts[at - 1] + len(before) : starts[at]]
+    if word == "." and not gap:
+        return Odd(
+            "number-form", f"A number ends with a digit: I found `{before}.`.", at,
+            "a digit is missing after this point", f"Write `{before}` or `{before}.0`.",
+        )  # fmt: skip
+    if (word[0].isalpha() or word[0] == "°") and gap != " " and "\n" not in gap:
+        if word in NOT_UNITS:
+            return None
+        return Odd(
+            "unit-space",
+            f"A unit follows its number after exactly one space: I found {say(before + gap + word)}"
+            ".", at, "is this the unit?",
+            f"Write `{before} {word}` for a unit, `{before}*{word}` for a product.",
+        )  # fmt: skip
+    return None
+
+
+def _odd_sign(text: str, words: list[str], starts: list[int], at: int) -> Odd | None:
+    word, start = words[at], starts[at]
+    if word[0].isalpha() and not word.isidentifier():
+        return odd_name(word)._replace(at=at)
+    for there in (start, start - 1):
+        for length in (3, 2):
+            found = text[there : there + length]
+            if there >= 0 and there + length > start and found in _INSTEAD:
+                return _character(found, at)
+    if word == "+-":
+        return Odd(
+            "tolerance-misplaced",
+            "`+-` is the sign of a tolerance, which follows the value of a `param`, `const` or "
+            "element.", at, "no tolerance can stand here",
+            "Write `a - b`, or `a + (-b)` with a space, if a sum is meant.",
+        )  # fmt: skip
+    if len(word) > 1 or word.isalnum() or word in _PLAIN or word == "_":
+        return None
+    return _character(word, at)
+
+
+def _character(found: str, at: int) -> Odd:
+    shown = say(found) if found.isprintable() and found.strip() else f"U+{ord(found[0]):04X}"
+    instead = _INSTEAD.get(found)
+    return Odd(
+        "syntax-character",
+        f"The language has no {shown}.",
+        at,
+        "here",
+        f"Write {instead}." if instead else "Remove it; in a comment, after `#`, it may stay.",
+    )
+
+
+def odd_name(word: str) -> Odd:
+    """Why the generated code could not spell this name."""
+    if "__" in word and word.isascii():
+        shorter = re.sub("_+", "_", word).strip("_") or "x"
+        return Odd(
+            "name-double-underscore",
+            f"The name {say(word)} contains two underscores in a row, which the generated code "
+            "uses for the points of a path (`m[1].el` becomes `m__1__el`).", 0, "this name",
+            f"Write `{shorter}`.",
+        )  # fmt: skip
+    plain = "".join(_GREEK.get(c, c if c.isascii() and c.isalnum() else "_") for c in word)
+    plain = re.sub("_+", "_", plain).strip("_") or "x"
+    return Odd(
+        "name-letters",
+        f"The name {say(word)} cannot be spelled in the generated code: a name begins with a "
+        "letter and has the letters a to z, digits and `_`.", 0, "this name",
+        f"Write, for instance, `{plain if plain[0].isalpha() else 'x' + plain}`.",
+    )  # fmt: skip

@@ -1,0 +1,90 @@
+"""Reads a model file from the disk; whatever stands in its place gets an answer."""
+
+from __future__ import annotations
+
+import os
+import stat
+
+from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.source import Source, Span
+
+#: A model of a million bonds has about 50 MB; more is surely no model.
+MAX_BYTES = 200_000_000
+
+
+def read(path: str, report: Report) -> Source | None:
+    """The text of the file at `path`, decoded from UTF-8, without mark and with plain line ends.
+
+    None, and one error in `report`, if there is no such file, it cannot be read, is larger than
+    `MAX_BYTES` bytes, or is not text.
+    """
+    try:
+        status = os.stat(path)
+        if stat.S_ISDIR(status.st_mode):
+            _refuse(path, report, "file-unreadable", "is a directory, not a model file",
+                    "Give a file, such as `models/khepera.bg`.")  # fmt: skip
+            return None
+        if status.st_size > MAX_BYTES:
+            _refuse(path, report, "file-too-large",
+                    f"has {status.st_size} bytes; a model has at most {MAX_BYTES}",
+                    "Is this a log or a packed file? Describe repeated parts as an array of "
+                    "submodels, `Cell:cell[n]`.")  # fmt: skip
+            return None
+        with open(path, "rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except FileNotFoundError:
+        _refuse(path, report, "file-not-found", "does not exist", _nearby(path))
+        return None
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        _refuse(path, report, "file-unreadable", f"cannot be read: {reason}",
+                "Check the name and the rights of the file.")  # fmt: skip
+        return None
+    return decode(path, data, report)
+
+
+def decode(path: str, data: bytes, report: Report) -> Source | None:
+    """The text in `data`; None, and one error in `report`, if it is not UTF-8 text."""
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        _refuse(path, report, "not-text", "is written in UTF-16, not in UTF-8",
+                "Save it as UTF-8 in the editor.")  # fmt: skip
+        return None
+    if b"\0" in data:
+        _refuse(path, report, "not-text", "is not text: it contains zero bytes",
+                "Give the command a model file; a compiled or packed file is none.")  # fmt: skip
+        return None
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        good = data[: error.start].decode("utf-8-sig", "replace")
+        good = good.replace("\r\n", "\n").replace("\r", "\n")
+        source = Source(path, good)
+        label = Label(Span(source, len(good), len(good)), f"byte {data[error.start]:#04x} here")
+        report.error(
+            "not-text",
+            f"The file `{path}` is not UTF-8 text: byte {error.start + 1} belongs to no character.",
+            label,
+            help="Save it as UTF-8 in the editor; if it is no text at all, give a model file.",
+        )
+        return None
+    if "\r" in text:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return Source(path, text)
+
+
+def _refuse(path: str, report: Report, code: str, what: str, help: str) -> None:
+    source = Source(path, "")
+    report.error(code, f"The file `{path}` {what}.", Span(source, 0, 0), help=help)
+
+
+def _nearby(path: str) -> str:
+    """A remedy for a file that is not there: the model files beside it."""
+    folder = os.path.dirname(path) or "."
+    try:
+        names = sorted(name for name in os.listdir(folder) if name.endswith(".bg"))
+    except (OSError, ValueError):
+        return "Check the name; the folder does not exist either."
+    if not names:
+        return "Check the name; there is no `.bg` file in that folder."
+    more = f" and {len(names) - 5} more" if len(names) > 5 else ""
+    return "Check the name; the folder has " + ", ".join(f"`{n}`" for n in names[:5]) + more + "."

@@ -1,0 +1,512 @@
+"""Reads the statements of a model: declarations, bonds, junction bodies, loops."""
+
+from __future__ import annotations
+
+from bondgraph.frontend.cursor import MAX_DEPTH, SyntaxProblem
+from bondgraph.frontend.expressions import Expressions
+from bondgraph.frontend.words import KEYWORDS, is_arrow, say
+from bondgraph.ir import syntax
+from bondgraph.text.diagnostic import Label
+
+_NAME_HELP = "A name begins with a letter and has letters, digits and `_`."
+_NODE_HELP = "Write a node: `R:name` declares one, `name` means one declared elsewhere."
+#: After one of these a keyword is an ordinary name: `port -> x`, `input { ... }`, `let:x`.
+_NAME_FOLLOWERS = frozenset([":", ".", "[", "{", ";", "}", ""])
+
+
+class Statements(Expressions):
+    """The part of the parser that reads what stands in the braces of a model."""
+
+    def body(self, opening: int, inside: bool) -> tuple[syntax.Statement, ...]:
+        """Statements up to the closing brace; `inside`: bonds may begin with an arrow.
+
+        The cursor stands after the brace opened at word `opening`. Errors are reported here, one
+        statement each, and reading goes on with the next statement.
+        """
+        statements: list[syntax.Statement] = []
+        words = self.words
+        self.depth += 1
+        depth = self.depth
+        if depth > MAX_DEPTH:
+            raise self.too_deep(opening)
+        while True:
+            while words[self.i] == ";":
+                self.i += 1
+            begin = self.i
+            word = words[begin]
+            if word == "}":
+                self.i = begin + 1
+                break
+            if not word or (word == "model" and self._model_begins(begin)):
+                self.unclosed(opening, begin)
+                break
+            try:
+                statements.append(self.statement(inside))
+                self._statement_end(inside)
+            except SyntaxProblem as problem:
+                self.depth = depth
+                self.tell(problem)
+                self.i = max(self.i, problem.at)
+                self.skip_statement(begin)
+        self.depth -= 1
+        return tuple(statements)
+
+    def _model_begins(self, at: int) -> bool:
+        return (
+            self.fresh[at]
+            and self.words[at + 1].isidentifier()
+            and self.words[at + 2] in ("{", "(")
+            and not self.fresh[at + 2]
+        )
+
+    def unclosed(self, opening: int, end: int) -> None:
+        """Complain, once for all braces still open, about the one that was not closed."""
+        if self.brace_reported:
+            return
+        self.brace_reported = True
+        from bondgraph.frontend.braces import suspect
+
+        likely = suspect(self.source, self.words, self.starts, self.fresh, opening, end)
+        labels = [Label(self.word_span(likely or opening), "opened here")]
+        if likely is not None:
+            labels.append(Label(self.word_span(opening), "this one then has no end"))
+        self.complain(
+            "syntax-unclosed",
+            "This brace is not closed.",
+            *labels,
+            help="Add the missing `}`.",
+        )
+
+    #: whether an unclosed brace was reported: the outer ones follow from it
+    brace_reported = False
+
+    def _statement_end(self, inside: bool) -> None:
+        at = self.i
+        word = self.words[at]
+        if self.fresh[at] or word == ";" or word == "}":
+            return
+        odd = self.odd_word(at)
+        if odd is not None:
+            raise odd
+        help = "End the statement with a line end or `;`."
+        if word == "," or word == "=":
+            help = "Equations and statements are separated by a line end or `;`."
+        elif self.after_quantity(at):
+            help = "End the statement with a line end or `;`; a product needs its sign `*`."
+        raise self.unexpected("the end of the statement", help)
+
+    def statement(self, inside: bool) -> syntax.Statement:
+        """One statement; `inside` a junction body it may be a bond that begins with an arrow."""
+        at = self.i
+        word = self.words[at]
+        if word in KEYWORDS and not self._is_name(at):
+            match word:
+                case "param" | "const":
+                    return self._param(word)
+                case "let":
+                    return self._let()
+                case "port":
+                    return self._port()
+                case "input":
+                    return self._input()
+                case "sensor":
+                    return self._sensor()
+                case "fault":
+                    return self._fault()
+                case "for":
+                    return self._for(inside)
+                case "if":
+                    return self._if(inside)
+                case _:
+                    raise self.unexpected(
+                        "a statement",
+                        f"`{word}` stands at the top of the file, outside all braces.",
+                    )
+        return self._chain_or_junction(inside)
+
+    def _is_name(self, at: int) -> bool:
+        """Whether the keyword at `at` is used as the name of a node."""
+        after = self.words[at + 1]
+        return self.fresh[at + 1] or after in _NAME_FOLLOWERS or is_arrow(after)
+
+    def doc(self, at: int) -> str:
+        """The `##` lines that stand directly before word `at`."""
+        gap = self.gaps.get(at)
+        if gap is None or "##" not in gap[1]:
+            return ""
+        lines = gap[1].split("\n")
+        # The first piece of a gap ends the line of the word before it: it documents nothing.
+        own = lines if at == 0 else lines[1:]
+        docs = [line.strip(" \t\r\ufeff")[2:] for line in own if _is_doc(line)]
+        return "\n".join(d[1:] if d.startswith(" ") else d for d in docs)
+
+    # ----------------------------------------------------------- declarations
+
+    def _colon(self, help: str) -> None:
+        self.wide_colons.append(self.take(":", "`:`", help))
+
+    def _param(self, keyword: str) -> syntax.Param:
+        at = self.i
+        doc = self.doc(at)
+        self.i = at + 1
+        name = self.part(f"the name of the {keyword}", _NAME_HELP)
+        if self.words[self.i] == "=" and not self.fresh[self.i]:
+            self.i += 1
+            value = self.expression()
+            tolerance = self.tolerance()
+            return syntax.Param(keyword, name, None, value, tolerance, doc, self.span(at))
+        help = f"Write `{keyword} {name.name} = 3 Ohm`, or `: Ohm` for a value given later."
+        self._colon(help)
+        unit = self.unit()
+        if self.words[self.i] == "=" and not self.fresh[self.i]:
+            raise self.problem(
+                "param-unit-and-value",
+                f"`{name.name}` has a unit after `:` and a value too.",
+                self.i,
+                "the value",
+                help=f"A value carries its own unit: `{keyword} {name.name} = 3 {unit}`. "
+                f"`: {unit}` alone declares one that is given where the submodel is used.",
+            )
+        return syntax.Param(keyword, name, unit, None, None, doc, self.span(at))
+
+    def _let(self) -> syntax.Let:
+        at = self.i
+        doc = self.doc(at)
+        self.i = at + 1
+        name = self.part("the name of the value", _NAME_HELP)
+        self.take("=", "`=`", f"Write `let {name.name} = ` and an expression.")
+        return syntax.Let(name, self.expression(), doc, self.span(at))
+
+    def _port(self) -> syntax.Port:
+        at = self.i
+        doc = self.doc(at)
+        self.i = at + 1
+        name = self.name("the name of the port", _NAME_HELP)
+        form = f"Write `port {name} : in electrical`, or `out` and another domain."
+        self._colon(form)
+        if self.words[self.i] not in ("in", "out") or self.fresh[self.i]:
+            raise self.unexpected("`in` or `out`", form)
+        direction = self.words[self.i]
+        self.i += 1
+        self.same_line("the domain of the port", form)
+        domain = self.name("the domain of the port", form)
+        return syntax.Port(name, direction, domain, doc, self.span(at))
+
+    def _input(self) -> syntax.Input:
+        at = self.i
+        doc = self.doc(at)
+        self.i = at + 1
+        name = self.part("the name of the input", _NAME_HELP)
+        unit = None
+        boolean = False
+        if self.words[self.i] == ":" and not self.fresh[self.i]:
+            self._colon("")
+            boolean = self.keyword("bool")
+            if not boolean:
+                unit = self.unit()
+        unknown = self.keyword("unknown")
+        return syntax.Input(name, unit, boolean, unknown, doc, self.span(at))
+
+    def _sensor(self) -> syntax.Sensor:
+        at = self.i
+        doc = self.doc(at)
+        self.i = at + 1
+        name = self.part("the name of the sensor", _NAME_HELP)
+        form = f"Write `sensor {name.name} : rad = ` and what it measures."
+        unit = None
+        if self.words[self.i] == ":" and not self.fresh[self.i]:
+            self._colon(form)
+            unit = self.unit()
+        self.take("=", "`=`", form)
+        value = self.expression()
+        counts = None
+        if self.keyword("counts"):
+            counts = self._counts()
+        return syntax.Sensor(name, unit, value, counts, doc, self.span(at))
+
+    def _counts(self) -> syntax.Expression:
+        """`24/turn`: an expression whose last division is by the word `turn`."""
+        at = self.i
+        whole = self.expression()
+        if (
+            isinstance(whole, syntax.Binary)
+            and whole.op == "/"
+            and isinstance(whole.right, syntax.Ref)
+            and len(whole.right.parts) == 1
+            and whole.right.parts[0].name == "turn"
+        ):
+            return whole.left
+        raise self.problem(
+            "counts-per-turn",
+            "The resolution of an encoder is a number of counts per turn.",
+            at,
+            "this resolution",
+            help="Write `counts 24/turn`; a sum needs brackets, `counts (n + 1)/turn`.",
+        )
+
+    def _fault(self) -> syntax.Fault:
+        at = self.i
+        doc = self.doc(at)
+        self.i = at + 1
+        name = self.part("the name of the fault", _NAME_HELP)
+        form = f"Write `fault {name.name} : line.R += 100 Ohm`, or `=` or `*=`."
+        self._colon(form)
+        target = self.ref()
+        op = self.words[self.i]
+        if op not in ("=", "+=", "*=") or self.fresh[self.i]:
+            raise self.unexpected("`=`, `+=` or `*=`", form)
+        self.i += 1
+        return syntax.Fault(name, target, op, self.expression(), doc, self.span(at))
+
+    # -------------------------------------------------------------- structure
+
+    def open(self, help: str) -> int:
+        """Take the `{` that must follow; its word number."""
+        if not self.at_open():
+            raise self.unexpected("`{`", help)
+        self.i += 1
+        return self.i - 1
+
+    def _for(self, inside: bool) -> syntax.For:
+        at = self.i
+        self.i = at + 1
+        form = "Write `for j in 1..n { ... }`."
+        variable = self.name("the name of the loop variable", form)
+        self.take("in", "`in`", form)
+        first = self.expression()
+        self.take("..", "`..`", form)
+        last = self.expression()
+        opening = self.open(form)
+        return syntax.For(variable, first, last, self.body(opening, inside), self.span(at))
+
+    def _if(self, inside: bool) -> syntax.If:
+        at = self.i
+        self.i = at + 1
+        condition = self.expression()
+        body = self.body(self.open("Write `if n > 1 { ... } else { ... }`."), inside)
+        otherwise: tuple[syntax.Statement, ...] = ()
+        if self.words[self.i] == "else" and self.words[self.i + 1] in ("{", "if"):
+            self.i += 1
+            if self.words[self.i] == "if":
+                self.depth += 1
+                if self.depth > MAX_DEPTH:
+                    raise self.too_deep(self.i)
+                otherwise = (self._if(inside),)
+                self.depth -= 1
+            else:
+                otherwise = self.body(self.open(""), inside)
+        return syntax.If(condition, body, otherwise, self.span(at))
+
+    def _chain_or_junction(self, inside: bool) -> syntax.Junction | syntax.Chain:
+        at = self.i
+        doc = self.doc(at)
+        nodes: list[syntax.Node | syntax.Ref | None] = []
+        arrows: list[syntax.Arrow] = []
+        words = self.words
+        if is_arrow(words[at]):
+            if not inside:
+                raise self._no_start(at)
+            nodes.append(None)
+            arrows.append(self._arrow())
+            nodes.append(self._node())
+        else:
+            node = self._node()
+            nodes.append(node)
+            word = words[self.i]
+            if word == "{" or (word == "when" and not self.fresh[self.i]):
+                junction = self._junction(at, node, doc)
+                if junction is not None:
+                    return junction
+        while is_arrow(words[self.i]) and not self.fresh[self.i]:
+            arrows.append(self._arrow())
+            nodes.append(self._node())
+        if not arrows and not isinstance(nodes[0], syntax.Node):
+            if not inside and is_arrow(words[self.i]):
+                raise self._no_start(self.i)
+            if not self.fresh[self.i] and words[self.i] not in (";", "}"):
+                raise self.unexpected("an arrow, `{` or the end of the statement", _alone(words[at]))
+            raise self.problem(
+                "name-alone",
+                f"{say(words[at])} alone says nothing.",
+                at,
+                "only a name",
+                help=_alone(words[at]),
+            )
+        if not inside and self.fresh[self.i] and is_arrow(words[self.i]):
+            raise self._no_start(self.i)
+        if words[self.i] == "{":
+            raise self.problem(
+                "junction-in-chain",
+                "A junction inside a chain takes no braces.",
+                self.i,
+                "these braces",
+                help="End the chain at the junction and open its braces in a statement of its "
+                "own: `name { ... }`.",
+            )
+        return syntax.Chain(tuple(nodes), tuple(arrows), doc, self.span(at))
+
+    def _no_start(self, at: int) -> SyntaxProblem:
+        return self.problem(
+            "bond-without-start",
+            "A bond that begins with an arrow needs a junction around it.",
+            at,
+            "nothing stands before this arrow",
+            help="Write the node before the arrow; a chain over several lines ends its lines "
+            "with the arrow. Only in the braces of a junction a bond may begin with an arrow.",
+        )
+
+    def _junction(
+        self, at: int, node: syntax.Node | syntax.Ref, doc: str
+    ) -> syntax.Junction | None:
+        """The rest of `1:name when c { ... }` or `name { ... }`; None if it is an element."""
+        if isinstance(node, syntax.Ref):
+            type, name = "", node
+        elif node.type in ("0", "1"):
+            type, name = node.type, syntax.Ref((node.name,), node.name.origin)
+        else:
+            return None
+        when = None
+        if self.words[self.i] == "when":
+            if not type:
+                raise self.unexpected(
+                    "`{`", "Only where a junction is declared, `when` makes it a switched one."
+                )
+            self.i += 1
+            when = self.expression()
+        opening = self.open("A switched junction has braces: `1:sw when on { ... }`.")
+        return syntax.Junction(type, name, when, self.body(opening, True), doc, self.span(at))
+
+    def _arrow(self) -> syntax.Arrow:
+        at = self.i
+        word = self.words[at]
+        self.i = at + 1
+        label = word[word.index("[") + 1 : word.index("]")].strip() if "[" in word else None
+        return syntax.Arrow(word[0] == "-", label, self.word_span(at))
+
+    # ------------------------------------------------------------------ nodes
+
+    def _node(self) -> syntax.Node | syntax.Ref:
+        at = self.i
+        word = self.words[at]
+        if self.words[at + 1] != ":" or self.fresh[at + 1]:
+            if not word.isidentifier() or self.begins_statement(at):
+                raise self.unexpected("a node", _NODE_HELP)
+            return self.ref()
+        plain = word in ("0", "1")
+        if not plain:
+            if not word.isidentifier():
+                raise self.unexpected(
+                    "the type of a node", "Junctions are `0:name` and `1:name`, elements `R:name`."
+                )
+            self.name("the type of a node", _NODE_HELP)
+        self.i = at + 2
+        self.same_line("the name of the node", _NAME_HELP)
+        name = self.part("the name of the node", _NAME_HELP)
+        arguments: tuple[syntax.Argument, ...] = ()
+        value = tolerance = law = None
+        if self.words[self.i] == "(" and not self.fresh[self.i]:
+            self._plain_junction(plain)
+            arguments = self._arguments()
+        if self.words[self.i] == "=" and not self.fresh[self.i]:
+            self._plain_junction(plain)
+            self.i += 1
+            value = self.node_value()
+            tolerance = self.tolerance()
+        if not plain and self.at_open():
+            law = self._law()
+        return syntax.Node(word, name, arguments, value, tolerance, law, self.span(at))
+
+    def _plain_junction(self, plain: bool) -> None:
+        if plain:
+            raise self.problem(
+                "junction-value",
+                "A junction has no value and no arguments: it only joins bonds.",
+                self.i,
+                "this does not belong to a junction",
+                help="Put the value on an element bonded to it: `-> R:name = 3 Ohm`.",
+            )
+
+    def _arguments(self) -> tuple[syntax.Argument, ...]:
+        opening = self.i
+        self.i += 1
+        self.brackets += 1
+        form = "Arguments have names: `(n = 3, q0 = 0 rad)`."
+        arguments: list[syntax.Argument] = []
+        while True:
+            at = self.i
+            if not self.words[at].isidentifier():
+                raise self.unexpected("the name of an argument", form)
+            target = self.ref()
+            if self.words[self.i] != "=":
+                raise self.unexpected("`=`", form, Label(self.word_span(opening), "opened here"))
+            self.i += 1
+            value = self.expression()
+            arguments.append(syntax.Argument(target, value, self.span(at)))
+            if self.words[self.i] != ",":
+                break
+            self.i += 1
+        self.close(")", opening, "`,` or `)`")
+        return tuple(arguments)
+
+    def _law(self) -> syntax.Law:
+        """The braces of an element; like a body, it reports its own errors."""
+        opening = self.i
+        self.i += 1
+        ports: list[syntax.Part] = []
+        equations: list[syntax.Equation] = []
+        depth, errors = self.depth, self.errors
+        words = self.words
+        while True:
+            while words[self.i] == ";":
+                self.i += 1
+            begin = self.i
+            if words[begin] == "}":
+                self.i = begin + 1
+                break
+            if not words[begin] or (words[begin] == "model" and self._model_begins(begin)):
+                self.unclosed(opening, begin)
+                break
+            try:
+                if words[begin] == "port" and words[begin + 1].isidentifier():
+                    self.i = begin + 1
+                    ports.append(self.part("the name of a port of the field", _NAME_HELP))
+                else:
+                    equations.append(self._equation())
+                self._statement_end(False)
+            except SyntaxProblem as problem:
+                self.depth = depth
+                self.tell(problem)
+                self.i = max(self.i, problem.at)
+                self.skip_statement(begin)
+        if not equations and self.errors == errors:
+            raise self.problem(
+                "law-empty",
+                "The braces of an element hold its law, and there is no equation in them.",
+                opening,
+                "these braces",
+                help="Write an equation in e, f, q, p: `{ e = R*f }`; or leave out the braces.",
+            )
+        return syntax.Law(tuple(ports), tuple(equations), self.span(opening))
+
+    def _equation(self) -> syntax.Equation:
+        at = self.i
+        if is_arrow(self.words[at]):
+            raise self.unexpected(
+                "an equation", "The braces of an element hold its law; bonds stand in the braces "
+                "of a junction, `0:name { ... }` or `1:name { ... }`."
+            )
+        left = self.expression()
+        self.take("=", "`=`", "A law is an equation: `e = R*f`, or `0 = e - R*f`.")
+        return syntax.Equation(left, self.expression(), self.span(at))
+
+
+def _is_doc(line: str) -> bool:
+    text = line.lstrip(" \t\ufeff")
+    return text.startswith("##") and not text.startswith("###")
+
+
+def _alone(word: str) -> str:
+    return (
+        f"Declare a node with its type, `R:{word}`, bond it, `{word} -> x`, or open its braces, "
+        f"`{word} {{ ... }}`."
+    )
