@@ -6,9 +6,10 @@ import keyword
 import unicodedata
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from itertools import pairwise
 from typing import NamedTuple
 
-from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.expr import Expr, Op, Pool
 
 #: Names that mean something in the text and so cannot be names of the model as well.
 FUNCTIONS = frozenset(
@@ -225,7 +226,7 @@ class _Writer:
         """A table as straight pieces; beyond its ends it keeps the last value."""
         points = self.pool.tables[key]
         pieces = [f"({_number(points[0][1])[0]}, ({x}) < ({_number(points[0][0])[0]}))"]
-        for (x0, y0), (x1, y1) in zip(points, points[1:], strict=False):
+        for (x0, y0), (x1, y1) in pairwise(points):
             slope = _number((y1 - y0) / (x1 - x0))[0]
             line = f"{_number(y0)[0]} + ({slope})*(({x}) - ({_number(x0)[0]}))"
             pieces.append(f"({line}, ({x}) < ({_number(x1)[0]}))")

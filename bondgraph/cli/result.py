@@ -33,7 +33,7 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
         _arr(graph, residual, matrix, names, initial)
         for residual in compilation.residuals.residuals
     ]
-    used = {symbol for arr in arrs for symbol in arr["symbols"]}  # type: ignore[attr-defined]
+    used = {symbol for _, symbols in arrs for symbol in symbols}
     return {
         "status": "ok" if arrs else "no_arr",
         "message": message(matrix),
@@ -41,7 +41,7 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
         "model": graph.name,
         "n_arr": len(arrs),
         "files": list(files),
-        "arrs": arrs,
+        "arrs": [arr for arr, _ in arrs],
         "symbols": [plain for plain in names.by_model.values() if plain in used],
         "names": {plain: name for name, plain in names.by_model.items() if plain in used},
         "undetectable": list(matrix.undetectable),
@@ -68,8 +68,10 @@ def message(matrix: SignatureMatrix) -> str:
 
 def names_of(graph: BondGraph) -> Names:
     """The identifier of every name of the model that can occur in a residual."""
-    items = (*graph.values, *graph.inputs, *graph.sensors)
-    return Names(dict.fromkeys(item.symbol.symbol.name for item in items))
+    symbols = [v.symbol for v in graph.values]
+    symbols += [i.symbol for i in graph.inputs]
+    symbols += [s.symbol for s in graph.sensors]
+    return Names(dict.fromkeys(s.symbol.name for s in symbols))
 
 
 def initial_values(graph: BondGraph) -> dict[str, Expr]:
@@ -86,7 +88,7 @@ def _arr(
     matrix: SignatureMatrix,
     names: Names,
     initial: dict[str, Expr],
-) -> dict[str, object]:
+) -> tuple[dict[str, object], tuple[str, ...]]:
     written = parsable(graph.pool, residual.expr, names, initial)
     arr: dict[str, object] = {
         "name": residual.name,
@@ -97,4 +99,4 @@ def _arr(
     }
     if written.defs:
         arr["defs"] = [list(definition) for definition in written.defs]
-    return arr
+    return arr, written.symbols

@@ -1,0 +1,51 @@
+"""`bondgraph draw`: the bond graph as a figure, with half arrows and causal strokes."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from bondgraph import compile
+from bondgraph.cli import console
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `draw`."""
+    parser.add_argument("model", metavar="MODEL", help="file.bg or file.bg:Name")
+    parser.add_argument(
+        "--derivative",
+        action="store_true",
+        help="preferred derivative causality with the sensors dualised, not integral",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE.svg",
+        help="where to write the figure, - for stdout (default: beside you, named like the file)",
+    )
+
+
+def run(args: Namespace) -> int:
+    """Write the figure."""
+    compilation = compile(args.model)
+    compilation.open_ports = True
+    causal = compilation.derivative if args.derivative else compilation.integral
+    from bondgraph.backends.draw import draw
+
+    svg = draw(causal, causal.graph.name)
+    stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
+    output = args.output or f"{stem}.svg"
+    console.show(compilation.report.diagnostics)
+    if output == "-":
+        sys.stdout.write(svg)
+        return 0
+    folder = os.path.dirname(output)
+    if folder:
+        os.makedirs(folder, exist_ok=True)
+    console.write_whole(output, svg)
+    print(f"{output}: {causal.graph.name} in preferred {causal.preference} causality")
+    return 0

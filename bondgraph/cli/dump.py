@@ -1,0 +1,67 @@
+"""`bondgraph dump`: what the compiler knows about a model at one of its stages."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bondgraph import Compilation, compile
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+STAGES = (
+    "syntax",
+    "graph",
+    "integral",
+    "derivative",
+    "causal",
+    "equations",
+    "residuals",
+    "signatures",
+    "program",
+)
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `dump`."""
+    parser.add_argument("model", metavar="MODEL", help="file.bg or file.bg:Name")
+    parser.add_argument(
+        "--stage",
+        choices=STAGES,
+        required=True,
+        metavar="STAGE",
+        help=f"{', '.join(STAGES)}; causal is integral and derivative",
+    )
+
+
+def run(args: Namespace) -> int:
+    """Print one stage."""
+    print(text_of(compile(args.model), args.stage))
+    return 0
+
+
+def text_of(compilation: Compilation, stage: str) -> str:
+    """A stage as text; raises `CompileError` where the model does not get that far."""
+    from bondgraph.ir import dump
+
+    match stage:
+        case "syntax":
+            return dump.dump_syntax(compilation.syntax)
+        case "graph":
+            return dump.dump_graph(compilation.graph)
+        case "integral":
+            return dump.dump_causal(compilation.integral)
+        case "derivative":
+            return dump.dump_causal(compilation.derivative)
+        case "causal":
+            return f"{text_of(compilation, 'integral')}\n\n{text_of(compilation, 'derivative')}"
+        case "equations":
+            return dump.dump_equations(compilation.equations)
+        case "residuals":
+            return dump.dump_residuals(compilation.residuals)
+        case "signatures":
+            return dump.dump_signatures(compilation.signatures)
+        case _:
+            from bondgraph.ir.dump_program import dump_program
+
+            return dump_program(compilation.program)
