@@ -1,0 +1,180 @@
+"""The causal rules of a bond graph as numbers: which stroke is strong at which node.
+
+Every junction, transformer and gyrator obeys one rule, "exactly one of my bonds is strong": the
+strong bond of a 0-junction brings the effort in, that of a 1-junction the flow. A transformer is
+a 0-junction with two bonds; a gyrator is the same with the sense of its second bond reversed.
+The stroke of bond `b` is the number 0 (at the tail) or 1 (at the head); the ends of the bond are
+2b and 2b + 1. Assigning causality is choosing these numbers: a matching of nodes by bonds.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from bondgraph.ir.causal import Cause, Preference
+from bondgraph.ir.expr import Expr, Op
+from bondgraph.ir.graph import BondGraph, Node
+
+
+class Wish(NamedTuple):
+    """What an element wants of its bond: the stroke at `value` (0 tail, 1 head), and why."""
+
+    bond: int
+    value: int
+    node: int
+    port: int
+    cause: Cause
+
+
+class Network:
+    """The rules alone, without the bond graph: `ends[n]` are the bond ends at rule `n`.
+
+    `rule[end]` is the rule at that end (-1 at an element) and `strong[end]` the stroke that makes
+    the bond strong there. `name[n]` is the node of the bond graph that rule `n` came from.
+    """
+
+    __slots__ = ("bonds", "ends", "name", "rule", "strong")
+
+    def __init__(self, bonds: int) -> None:
+        self.bonds = bonds
+        self.rule = [-1] * (2 * bonds)
+        self.strong = [-1] * (2 * bonds)
+        self.ends: list[list[int]] = []
+        self.name: list[int] = []
+
+    def add(self, name: int, ends: list[int], senses: list[bool]) -> None:
+        """Add the rule of node `name`; a sense is True where a stroke at the node is strong."""
+        rule = len(self.ends)
+        self.ends.append(ends)
+        self.name.append(name)
+        for end, sense in zip(ends, senses, strict=True):
+            self.rule[end] = rule
+            self.strong[end] = end & 1 if sense else 1 - (end & 1)
+
+    def part(self, rules: list[int], bonds: list[int]) -> tuple[Network, dict[int, int]]:
+        """The network of these rules and bonds only, and where each bond went."""
+        place: dict[int, int] = {}
+        for bond in bonds:
+            place.setdefault(bond, len(place))
+        for rule in rules:
+            for end in self.ends[rule]:
+                place.setdefault(end >> 1, len(place))
+        small = Network(len(place))
+        for rule in rules:
+            ends = [2 * place[end >> 1] + (end & 1) for end in self.ends[rule]]
+            small.add(
+                self.name[rule],
+                ends,
+                [self.strong[old] == (old & 1) for old in self.ends[rule]],
+            )
+        return small, place
+
+
+def network(graph: BondGraph) -> tuple[Network, list[list[int]]]:
+    """The rules of the graph, and for every node the bond ends that stand at it."""
+    at: list[list[int]] = [[] for _ in graph.nodes]
+    for b, bond in enumerate(graph.bonds):
+        at[bond.tail.node].append(2 * b)
+        at[bond.head.node].append(2 * b + 1)
+    net = Network(len(graph.bonds))
+    for n, node in enumerate(graph.nodes):
+        ends = at[n]
+        if node.kind in ("0", "1"):
+            net.add(n, ends, [node.kind == "0"] * len(ends))
+        elif node.kind == "TF" and len(ends) == 2:
+            net.add(n, ends, [True, True])
+        elif node.kind == "GY" and len(ends) == 2:
+            net.add(n, ends, [True, False])
+    return net, at
+
+
+def demands(
+    graph: BondGraph, at: list[list[int]], preference: Preference
+) -> tuple[list[Wish], list[Wish]]:
+    """What must be (sources, sensors) and what is wanted, in order of importance.
+
+    In derivative preference a detector is wanted dualised (SSe, SSf) before any storage is
+    considered, and is a plain detector only where that is impossible.
+    """
+    must: list[Wish] = []
+    detectors: list[Wish] = []
+    storages: list[Wish] = []
+    laws: list[Wish] = []
+    integral = preference == "integral"
+    for n, node in enumerate(graph.nodes):
+        if node.kind in ("0", "1", "TF", "GY"):
+            continue
+        for end in at[n]:
+            bond = graph.bonds[end >> 1]
+            port = (bond.head if end & 1 else bond.tail).port
+            takes = end & 1  # the stroke with which the element receives effort
+            gives = 1 - takes
+            match node.kind:
+                case "Se" | "Sf":
+                    value = gives if node.kind == "Se" else takes
+                    must.append(Wish(end >> 1, value, n, port, "source"))
+                case "De" | "Df":
+                    value = takes if (node.kind == "De") == integral else gives
+                    group = must if integral else detectors
+                    group.append(Wish(end >> 1, value, n, port, "sensor"))
+                case "C" | "I":
+                    value = gives if (node.kind == "C") == integral else takes
+                    storages.append(Wish(end >> 1, value, n, port, "preferred"))
+                case _:
+                    gives_effort = one_way(node, port)
+                    if gives_effort is not None:
+                        value = gives if gives_effort else takes
+                        laws.append(Wish(end >> 1, value, n, port, "law"))
+    return must, detectors + storages + laws
+
+
+def one_way(node: Node, port: int) -> bool | None:
+    """Whether the law of this port is better evaluated to give effort (True) or flow (False).
+
+    A law that is linear in the port variables can be turned round at no cost: None. So can an
+    implicit one as well as it can be evaluated at all.
+    """
+    own = node.ports[port]
+    variables = [v for p in node.ports for v in (p.effort, p.flow)]
+    for law in node.laws:
+        if law.direction is own.effort or law.direction is own.flow:
+            others = [v for v in variables if v is not law.direction]
+            if not _affine(law.zero, others):
+                return law.direction is own.effort
+    return None
+
+
+def _affine(zero: Expr, variables: list[Expr]) -> bool:
+    """Whether `zero` is of the first degree in the variables taken together."""
+    youngest = min(v.id for v in variables)
+    wanted = {v.id for v in variables}
+    degree: dict[int, int] = {}  # 0 free of the variables, 1 affine, 2 anything else
+    stack = [zero]
+    while stack:
+        node = stack[-1]
+        if node.id in degree:
+            stack.pop()
+        elif node.id < youngest:  # arguments are older than what is made of them
+            degree[node.id] = 0
+        elif node.id in wanted:
+            degree[node.id] = 1
+        else:
+            missing = [a for a in node.args if a.id not in degree]
+            if missing:
+                stack.extend(missing)
+            else:
+                degree[node.id] = _degree(node, [degree[a.id] for a in node.args])
+    return degree[zero.id] < 2
+
+
+def _degree(node: Expr, degrees: list[int]) -> int:
+    if not any(degrees):
+        return 0
+    if node.op is Op.ADD:
+        return max(degrees)
+    if node.op is Op.MUL:
+        powers = zip(degrees, node.exponents, strict=True)
+        return min(2, sum(d if e == 1 else 2 for d, e in powers if d))
+    if node.op is Op.IF and not degrees[0]:
+        return max(degrees)
+    return 2
