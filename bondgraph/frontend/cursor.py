@@ -1,7 +1,8 @@
-"""A place in the words of a file: looking, taking, complaining once, and going on after an error."""
+"""A place in the words of a file: looking, taking, complaining, going on after an error."""
 
 from __future__ import annotations
 
+import re
 from typing import Final
 
 from bondgraph.frontend.lexer import split
@@ -15,6 +16,8 @@ MAX_DEPTH: Final = 100
 MAX_HEIGHT: Final = 200
 #: After so many errors the rest of a file is not worth reading.
 MAX_ERRORS: Final = 40
+
+_ODD_NAME = re.compile(r"__|(?<!\w)_")
 
 
 class SyntaxProblem(Exception):
@@ -47,7 +50,7 @@ class Cursor:
         self.errors = 0
         text = source.text
         # Only a text with such characters pays for a closer look at every name.
-        self.careful = "_" in text or not text.isascii()
+        self.careful = _ODD_NAME.search(text) is not None or not text.isascii()
         self.complained: set[str] = set()
         # What only the formatter wants to know, as word numbers.
         self.units: list[tuple[int, int]] = []

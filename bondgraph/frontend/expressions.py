@@ -145,9 +145,9 @@ class Expressions(Cursor):
             if self.fresh[at] and word in KEYWORDS and self.begins_statement(at):
                 raise self.unexpected("a value", _OPERAND_HELP)
             self.height = 0
-            if self.words[at + 1] == "(" and not (self.fresh[at + 1] and not self.brackets):
-                if word not in RESERVED:
-                    return self._call()
+            called = self.words[at + 1] == "(" and (self.brackets or not self.fresh[at + 1])
+            if called and word not in RESERVED:
+                return self._call()
             if word == "true" or word == "false":
                 self.i = at + 1
                 return syntax.Truth(word == "true", self.span(at))
@@ -220,7 +220,8 @@ class Expressions(Cursor):
                 f"Close it with `{bracket}`.",
                 at,
             )
-        help = f"Close the bracket with `{bracket}`, or check what stands before {say(self.words[at])}."
+        here = say(self.words[at])
+        help = f"Close the bracket with `{bracket}`, or check what stands before {here}."
         if self.after_quantity(at):
             help = "A product needs its sign: write `*` between the factors."
         raise self.unexpected(wanted, help, Label(self.word_span(opening), "opened here"))
@@ -276,9 +277,11 @@ class Expressions(Cursor):
         unit = None
         if self.starts[at + 1] == end + 1 and self.source.text[end] == " ":
             after = self.words[at + 1]
-            if (after not in NOT_UNITS) if after.isidentifier() else (
-                after == "1" and self.words[at + 2] in (".", "/") or not after.isascii()
-            ):
+            if after.isidentifier():
+                may_be = after not in NOT_UNITS
+            else:
+                may_be = not after.isascii() or (after == "1" and self.words[at + 2] in (".", "/"))
+            if may_be:
                 unit = self._unit()
         elif self.words[at + 1].isidentifier() and not self.fresh[at + 1]:
             glued = self.odd_word(at + 1)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+
 from bondgraph.frontend.cursor import SyntaxProblem, TooManyProblems
 from bondgraph.frontend.statements import Statements
 from bondgraph.ir import syntax
@@ -24,7 +26,13 @@ def parse(source: Source, report: Report) -> syntax.File | None:
     >>> parse(Source("a.bg", "bg 1; model M { Se:U -> R:r = 2 Ohm }"), Report()).models[0].name
     'M'
     """
-    return Parser(source, report).file()
+    collecting = gc.isenabled()
+    gc.disable()  # a tree has no cycles: looking for them would take longer than reading
+    try:
+        return Parser(source, report).file()
+    finally:
+        if collecting:
+            gc.enable()
 
 
 class Parser(Statements):

@@ -1,20 +1,19 @@
-"""Reads the statements of a model: declarations, bonds, junction bodies, loops."""
+"""Reads what stands in the braces of a model: junctions, nodes, bonds, laws, loops."""
 
 from __future__ import annotations
 
 from bondgraph.frontend.cursor import MAX_DEPTH, SyntaxProblem
-from bondgraph.frontend.expressions import Expressions
+from bondgraph.frontend.declarations import NAME_HELP, Declarations
 from bondgraph.frontend.words import KEYWORDS, is_arrow, say
 from bondgraph.ir import syntax
 from bondgraph.text.diagnostic import Label
 
-_NAME_HELP = "A name begins with a letter and has letters, digits and `_`."
 _NODE_HELP = "Write a node: `R:name` declares one, `name` means one declared elsewhere."
 #: After one of these a keyword is an ordinary name: `port -> x`, `input { ... }`, `let:x`.
 _NAME_FOLLOWERS = frozenset([":", ".", "[", "{", ";", "}", ""])
 
 
-class Statements(Expressions):
+class Statements(Declarations):
     """The part of the parser that reads what stands in the braces of a model."""
 
     def body(self, opening: int, inside: bool) -> tuple[syntax.Statement, ...]:
@@ -129,135 +128,6 @@ class Statements(Expressions):
         after = self.words[at + 1]
         return self.fresh[at + 1] or after in _NAME_FOLLOWERS or is_arrow(after)
 
-    def doc(self, at: int) -> str:
-        """The `##` lines that stand directly before word `at`."""
-        gap = self.gaps.get(at)
-        if gap is None or "##" not in gap[1]:
-            return ""
-        lines = gap[1].split("\n")
-        # The first piece of a gap ends the line of the word before it: it documents nothing.
-        own = lines if at == 0 else lines[1:]
-        docs = [line.strip(" \t\r\ufeff")[2:] for line in own if _is_doc(line)]
-        return "\n".join(d[1:] if d.startswith(" ") else d for d in docs)
-
-    # ----------------------------------------------------------- declarations
-
-    def _colon(self, help: str) -> None:
-        self.wide_colons.append(self.take(":", "`:`", help))
-
-    def _param(self, keyword: str) -> syntax.Param:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
-        name = self.part(f"the name of the {keyword}", _NAME_HELP)
-        if self.words[self.i] == "=" and not self.fresh[self.i]:
-            self.i += 1
-            value = self.expression()
-            tolerance = self.tolerance()
-            return syntax.Param(keyword, name, None, value, tolerance, doc, self.span(at))
-        help = f"Write `{keyword} {name.name} = 3 Ohm`, or `: Ohm` for a value given later."
-        self._colon(help)
-        unit = self.unit()
-        if self.words[self.i] == "=" and not self.fresh[self.i]:
-            raise self.problem(
-                "param-unit-and-value",
-                f"`{name.name}` has a unit after `:` and a value too.",
-                self.i,
-                "the value",
-                help=f"A value carries its own unit: `{keyword} {name.name} = 3 {unit}`. "
-                f"`: {unit}` alone declares one that is given where the submodel is used.",
-            )
-        return syntax.Param(keyword, name, unit, None, None, doc, self.span(at))
-
-    def _let(self) -> syntax.Let:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
-        name = self.part("the name of the value", _NAME_HELP)
-        self.take("=", "`=`", f"Write `let {name.name} = ` and an expression.")
-        return syntax.Let(name, self.expression(), doc, self.span(at))
-
-    def _port(self) -> syntax.Port:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
-        name = self.name("the name of the port", _NAME_HELP)
-        form = f"Write `port {name} : in electrical`, or `out` and another domain."
-        self._colon(form)
-        if self.words[self.i] not in ("in", "out") or self.fresh[self.i]:
-            raise self.unexpected("`in` or `out`", form)
-        direction = self.words[self.i]
-        self.i += 1
-        self.same_line("the domain of the port", form)
-        domain = self.name("the domain of the port", form)
-        return syntax.Port(name, direction, domain, doc, self.span(at))
-
-    def _input(self) -> syntax.Input:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
-        name = self.part("the name of the input", _NAME_HELP)
-        unit = None
-        boolean = False
-        if self.words[self.i] == ":" and not self.fresh[self.i]:
-            self._colon("")
-            boolean = self.keyword("bool")
-            if not boolean:
-                unit = self.unit()
-        unknown = self.keyword("unknown")
-        return syntax.Input(name, unit, boolean, unknown, doc, self.span(at))
-
-    def _sensor(self) -> syntax.Sensor:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
-        name = self.part("the name of the sensor", _NAME_HELP)
-        form = f"Write `sensor {name.name} : rad = ` and what it measures."
-        unit = None
-        if self.words[self.i] == ":" and not self.fresh[self.i]:
-            self._colon(form)
-            unit = self.unit()
-        self.take("=", "`=`", form)
-        value = self.expression()
-        counts = None
-        if self.keyword("counts"):
-            counts = self._counts()
-        return syntax.Sensor(name, unit, value, counts, doc, self.span(at))
-
-    def _counts(self) -> syntax.Expression:
-        """`24/turn`: an expression whose last division is by the word `turn`."""
-        at = self.i
-        whole = self.expression()
-        if (
-            isinstance(whole, syntax.Binary)
-            and whole.op == "/"
-            and isinstance(whole.right, syntax.Ref)
-            and len(whole.right.parts) == 1
-            and whole.right.parts[0].name == "turn"
-        ):
-            return whole.left
-        raise self.problem(
-            "counts-per-turn",
-            "The resolution of an encoder is a number of counts per turn.",
-            at,
-            "this resolution",
-            help="Write `counts 24/turn`; a sum needs brackets, `counts (n + 1)/turn`.",
-        )
-
-    def _fault(self) -> syntax.Fault:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
-        name = self.part("the name of the fault", _NAME_HELP)
-        form = f"Write `fault {name.name} : line.R += 100 Ohm`, or `=` or `*=`."
-        self._colon(form)
-        target = self.ref()
-        op = self.words[self.i]
-        if op not in ("=", "+=", "*=") or self.fresh[self.i]:
-            raise self.unexpected("`=`, `+=` or `*=`", form)
-        self.i += 1
-        return syntax.Fault(name, target, op, self.expression(), doc, self.span(at))
-
     # -------------------------------------------------------------- structure
 
     def open(self, help: str) -> int:
@@ -324,7 +194,7 @@ class Statements(Expressions):
             if not inside and is_arrow(words[self.i]):
                 raise self._no_start(self.i)
             if not self.fresh[self.i] and words[self.i] not in (";", "}"):
-                raise self.unexpected("an arrow, `{` or the end of the statement", _alone(words[at]))
+                raise self.unexpected("an arrow or `{`", _alone(words[at]))
             raise self.problem(
                 "name-alone",
                 f"{say(words[at])} alone says nothing.",
@@ -400,8 +270,8 @@ class Statements(Expressions):
                 )
             self.name("the type of a node", _NODE_HELP)
         self.i = at + 2
-        self.same_line("the name of the node", _NAME_HELP)
-        name = self.part("the name of the node", _NAME_HELP)
+        self.same_line("the name of the node", NAME_HELP)
+        name = self.part("the name of the node", NAME_HELP)
         arguments: tuple[syntax.Argument, ...] = ()
         value = tolerance = law = None
         if self.words[self.i] == "(" and not self.fresh[self.i]:
@@ -469,7 +339,7 @@ class Statements(Expressions):
             try:
                 if words[begin] == "port" and words[begin + 1].isidentifier():
                     self.i = begin + 1
-                    ports.append(self.part("the name of a port of the field", _NAME_HELP))
+                    ports.append(self.part("the name of a port of the field", NAME_HELP))
                 else:
                     equations.append(self._equation())
                 self._statement_end(False)
@@ -498,11 +368,6 @@ class Statements(Expressions):
         left = self.expression()
         self.take("=", "`=`", "A law is an equation: `e = R*f`, or `0 = e - R*f`.")
         return syntax.Equation(left, self.expression(), self.span(at))
-
-
-def _is_doc(line: str) -> bool:
-    text = line.lstrip(" \t\ufeff")
-    return text.startswith("##") and not text.startswith("###")
 
 
 def _alone(word: str) -> str:
