@@ -106,7 +106,7 @@ class _Painter:
         """One diagnostic: headline, places, remedy."""
         severity = diagnostic.severity
         head = {"info": "note"}.get(severity, severity) + f"[{diagnostic.code}]"
-        message = _wrapped(diagnostic.message, len(head) + 2)
+        message = _wrapped(diagnostic.message, 4, len(head) + 2)
         out = [self.paint(head, severity) + self.paint(f": {message[0]}", "bold")]
         out += [self.paint(line, "bold") for line in message[1:]]
         labels = [Label(_clamped(s), text) for s, text in diagnostic.labels]
@@ -124,7 +124,7 @@ class _Painter:
                 out.append(self.row())
             sign = f"{self.gutter} {self.paint('=', 'frame')} " if labels else "  = "
             indent = len(self.gutter) + 9
-            for line in _wrapped(diagnostic.help, indent):
+            for line in _wrapped(diagnostic.help, indent, indent):
                 out.append(sign + self.paint("help", "bold") + ": " + line if sign else line)
                 sign = ""
         return "\n".join(line.rstrip() for line in out) + "\n"
@@ -311,24 +311,27 @@ def _clean(text: str) -> str:
     return "".join([c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text])
 
 
-def _wrapped(text: str, indent: int) -> list[str]:
-    """Running text in lines of `_WIDTH`; lines after the first are indented.
+def _wrapped(text: str, indent: int, first: int) -> list[str]:
+    """Running text in lines of `_WIDTH`; the first begins at column `first`, others at `indent`.
 
     A line that begins with a space is code and stays as it is.
     """
     pad = " " * indent
     out: list[str] = []
+    used = first
     for line in map(_clean, text.split("\n")):
         if line[:1] == " ":
             out.append(pad + line)
+            used = indent
             continue
         current = ""
         for word in line.split(" "):
-            if current and indent + len(current) + 1 + len(word) > _WIDTH:
+            if current and used + len(current) + 1 + len(word) > _WIDTH:
                 out.append(pad + current)
-                current = word
+                current, used = word, indent
             else:
                 current = f"{current} {word}" if current else word
         out.append(pad + current)
+        used = indent
     out[0] = out[0].removeprefix(pad)
     return out

@@ -1,0 +1,241 @@
+"""Makes broken models: seeded, from the models at hand, from the grammar, and from noise."""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+#: How a text stands for the bytes of a file, even where they are no UTF-8.
+ENCODING, BYTES = "utf-8", "surrogateescape"
+
+_TOKEN = re.compile(r"\s+|#[^\n]*|\"[^\"\n]*\"|\d+(?:\.\d+)?(?:[eE][+-]?\d+)?|\w+|->|<-|\.\.|\+-|.")
+
+#: Words that the language knows, and some that it must not know.
+_WORDS = (
+    "bg model port in out param const input sensor let fault for if else when unknown bool int "
+    "true false and or not counts turn import from 0 1 R C I TF GY Se Sf De Df MSe MTF MGY MR "
+    "electrical rotation translation hydraulic thermal thermofluid chemical any e f q p e1 f1 e2 "
+    "f2 tanh sqrt ssqrt abs der int if min max pow table atan2 -> <- -[7]-> <-[a]- = += *= +- ± "
+    "+ - * / ^ < <= > >= == != ( ) { } [ ] , ; : . .. % Ohm N.m/A m^3/s.Pa^-0.5 kg.m^2 1/s V rad "
+    '"file.csv" "a.bg" 1e999 1e-999 1e308 99999999999999999999 0.1 .5 5. 2 3 -1 __ a__b é Ω '
+    "∫ \t \r \x00 \x0c \ufeff \u202e 'x' ! ? @ & | \\ ~ $ // /* */ ** :: -- => <-> x.e m[1] "
+    "m[1..3] n+1"
+).split(" ")
+
+_NAMES = "a b i j k m n r x y u w R1 C1 left right shaft".split()
+_KINDS = "0 1 R C I TF GY Se Sf De Df MSe MSf MTF MGY MR Part Gear Chain".split()
+_DOMAINS = "electrical rotation translation hydraulic thermal any".split()
+
+
+def corpus() -> list[str]:
+    """The models of the checkout that make good starting points, the same ones in every run."""
+    files = sorted(ROOT.glob("models/*.bg")) + sorted(ROOT.glob("tests/broken/*.bg"))
+    return [f.read_text(encoding="utf-8") for f in files]
+
+
+class Mutator:
+    """A stream of texts that depends on the seed alone."""
+
+    def __init__(self, seed: int, texts: Sequence[str]) -> None:
+        self.random = random.Random(seed)
+        # Small models show the same errors as large ones, in less time.
+        self.texts = sorted(texts, key=len)
+        self.weights = [1 / (200 + len(t)) for t in self.texts]
+
+    def text(self) -> str:
+        """The next broken model (some are sound)."""
+        kind = self.random.random()
+        if kind < 0.03:
+            return self._noise()
+        text = self._grown() if kind < 0.35 else self._picked()
+        for _ in range(self.random.choice((0, 1, 1, 1, 2, 2, 3, 5, 8)) if kind < 0.99 else 60):
+            text = self.random.choice(_MUTATIONS)(self, text)
+        return text[:20_000]
+
+    def _picked(self) -> str:
+        return self.random.choices(self.texts, self.weights)[0]
+
+    def _noise(self) -> str:
+        size = self.random.randrange(200)
+        if self.random.random() < 0.5:
+            return "".join(self.random.choices(_WORDS, k=size))
+        raw = bytes(self.random.randrange(256) for _ in range(size))
+        return (self.random.choice((b"", b"\xff\xfe", b"bg 1\n")) + raw).decode(ENCODING, BYTES)
+
+    # ----------------------------------------------------- changes to a text
+
+    def swap_word(self, text: str) -> str:
+        """Another word of the language, or of the same text, in place of one."""
+        words = _TOKEN.findall(text) or [""]
+        at = self._solid(words)
+        words[at] = self.random.choice(_WORDS if self.random.random() < 0.5 else words)
+        return "".join(words)
+
+    def rename(self, text: str) -> str:
+        """Another name where a name stood: the mistakes that only elaboration can see."""
+        names = [m for m in re.finditer(r"\b[A-Za-z_]\w*\b", text)]
+        if not names:
+            return text
+        one, other = self.random.choice(names), self.random.choice(names)
+        return text[: one.start()] + other[0] + text[one.end() :]
+
+    def drop_words(self, text: str) -> str:
+        """A run of words left out."""
+        words = _TOKEN.findall(text) or [""]
+        at = self._solid(words)
+        del words[at : at + self.random.choice((1, 1, 1, 2, 5, 20))]
+        return "".join(words)
+
+    def add_word(self, text: str) -> str:
+        """A word too many, sometimes very often."""
+        words = _TOKEN.findall(text) or [""]
+        times = self.random.choice((1,) * 20 + (3, 300))
+        words.insert(self._solid(words), self.random.choice(_WORDS) * times)
+        return "".join(words)
+
+    def number(self, text: str) -> str:
+        """Another number: zero, negative, broken, huge."""
+        numbers = [m for m in re.finditer(r"\d+(\.\d+)?", text)]
+        if not numbers:
+            return text
+        one = self.random.choice(numbers)
+        new = self.random.choice(("0", "-1", "2.5", "1e400", "1e-400", "3000000", "1/0", "7", "1"))
+        return text[: one.start()] + new + text[one.end() :]
+
+    def drop_line(self, text: str) -> str:
+        """A line left out."""
+        lines = text.split("\n")
+        del lines[self.random.randrange(len(lines))]
+        return "\n".join(lines)
+
+    def repeat_line(self, text: str) -> str:
+        """A line said twice, or moved elsewhere."""
+        lines = text.split("\n")
+        line = self.random.choice(lines)
+        lines.insert(self.random.randrange(len(lines) + 1), line)
+        return "\n".join(lines)
+
+    def join(self, text: str) -> str:
+        """Some lines of another model."""
+        lines, others = text.split("\n"), self._picked().split("\n")
+        start = self.random.randrange(len(others))
+        at = self.random.randrange(len(lines) + 1)
+        lines[at:at] = others[start : start + self.random.randrange(1, 6)]
+        return "\n".join(lines)
+
+    def cut(self, text: str) -> str:
+        """The text up to somewhere, or from somewhere."""
+        at = self.random.randrange(len(text) + 1)
+        return text[:at] if self.random.random() < 0.8 else text[at:]
+
+    def character(self, text: str) -> str:
+        """One character changed."""
+        at = self.random.randrange(len(text) + 1)
+        new = chr(self.random.choice((self.random.randrange(128), self.random.randrange(0x3000))))
+        return text[:at] + new + text[at + self.random.randrange(2) :]
+
+    def statement(self, text: str) -> str:
+        """A random statement in a random line."""
+        lines = text.split("\n")
+        lines.insert(self.random.randrange(len(lines) + 1), self._statement())
+        return "\n".join(lines)
+
+    def _solid(self, words: list[str]) -> int:
+        for _ in range(5):
+            at = self.random.randrange(len(words))
+            if words[at].strip():
+                return at
+        return at
+
+    # ------------------------------------------------- texts from the grammar
+
+    def _grown(self) -> str:
+        """A file of random statements that mostly parses."""
+        statements = "\n    ".join(self._statement() for _ in range(self.random.randrange(1, 9)))
+        part = f"""model Part {{
+    port a : in {self.random.choice(_DOMAINS)}
+    port b : out {self.random.choice(_DOMAINS)}
+    param r = 2
+    a -> 1:i
+    i -> {self._node(2)}
+    i -> b
+}}
+model Chain(n : int = {self._expression(2)}) {{
+    port a : in any
+    port b : out any
+    Part:p[n]
+    a -> p[1..n] -> b
+}}
+"""
+        part = part if self.random.random() < 0.5 else ""
+        return f"bg 1\n{part}model M {{\n    {statements}\n}}\n"
+
+    def _statement(self) -> str:
+        choose, name = self.random.choice, self._name()
+        value = self._expression(3)
+        return choose((
+            f"param {name} = {value}",
+            f"const {name} = {value} +- 5%",
+            f"param {name} : {choose(('V', 'Ohm', 'N.m/A', 'bool', '1'))}",
+            f"input {name} : {choose(('V', 'A', 'bool', 'V unknown'))}",
+            f"let {name} = {value}",
+            f"sensor {name} : {choose(('V', 'A', 'rad', 'm/s'))} = {value}",
+            f"sensor {name} = int({self._ref()}) counts 24/turn",
+            f"fault {name} : {self._ref()} {choose(('=', '+=', '*='))} {value}",
+            f"port {name} : {choose(('in', 'out'))} {choose(_DOMAINS)}",
+            f"for {name} in 1..{self._expression(1)} {{ {self._chain()} }}",
+            f"if {value} {{ {self._chain()} }} else {{ {self._chain()} }}",
+            f"{choose('01')}:{name} {{ -> {self._node(2)}; <- {self._node(2)} }}",
+            f"{choose('01')}:{name} when {value} {{ -> {self._node(2)} }}",
+            f"{name} {{ -> {self._node(2)} }}",
+            *[self._chain() for _ in range(10)],
+        ))  # fmt: skip
+
+    def _chain(self) -> str:
+        out = self._node(2)
+        for _ in range(self.random.choice((1, 1, 1, 2, 3))):
+            arrow = self.random.choice(("->", "->", "->", "<-", "-[3]->"))
+            out += f" {arrow} {self._node(2)}"
+        return out
+
+    def _node(self, depth: int) -> str:
+        choose = self.random.choice
+        if self.random.random() < 0.45:
+            return self._ref()
+        kind = choose(_KINDS)
+        value = self._expression(depth)
+        law = choose(("", "", f" = {value}", f" {{ e = {value} }}", f" {{ f = {value} }}",
+                      f" {{ f1 = {value}*f2 }}", f"(q0 = {self._expression(1)})",
+                      f"[{self._expression(1)}]", " { 0 = e - 2*f*abs(f) }",
+                      " { port x; port y; x.e = x.q; y.e = y.q }"))  # fmt: skip
+        return f"{kind}:{self._name()}{law}"
+
+    def _ref(self) -> str:
+        tail = ("", "", "", "", ".e", ".f", ".q", ".p", ".e1", ".a", ".b", "[1]", "[1..2]", "[n]")
+        return self._name() + self.random.choice(tail)
+
+    def _name(self) -> str:
+        return self.random.choice(_NAMES)
+
+    def _expression(self, depth: int) -> str:
+        choose = self.random.choice
+        if depth <= 0 or self.random.random() < 0.3:
+            return choose((self._ref(), choose("e f q p".split()), "0", "1", "2", "3 V", "2 Ohm",
+                           "1e-3", "2.5 A", "true", "5 %", '"x.csv"'))  # fmt: skip
+        left, right = self._expression(depth - 1), self._expression(depth - 1)
+        operator = choose("+ - * / ^ < <= == != and or".split())
+        function = choose("tanh sqrt ssqrt abs der int sin exp log min max pow sign".split())
+        return choose((f"{left} {operator} {right}", f"{left} {operator} {right}", f"-{left}",
+                       f"({left})", f"{function}({left})", f"{function}({left}, {right})",
+                       f"if({left} < {right}, {right}, {left})", f"not {left}"))  # fmt: skip
+
+
+_MUTATIONS = (
+    Mutator.swap_word, Mutator.swap_word, Mutator.rename, Mutator.rename, Mutator.rename,
+    Mutator.drop_words, Mutator.add_word, Mutator.number, Mutator.drop_line, Mutator.repeat_line,
+    Mutator.join, Mutator.cut, Mutator.character, Mutator.statement,
+)  # fmt: skip
