@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from typing import IO
 
 from bondgraph.text.diagnostic import CompileError, Diagnostic
@@ -21,7 +22,7 @@ def show(diagnostics: Iterable[Diagnostic]) -> None:
     if found:
         from bondgraph.text.render import render
 
-        print(render(found, color=coloured(sys.stderr)), file=sys.stderr)
+        print(render(found, color=coloured(sys.stderr)), file=sys.stderr, end="")
 
 
 def print_json(value: object) -> None:
@@ -86,3 +87,42 @@ def plural(number: int, noun: str) -> str:
     if number == 1:
         return f"1 {noun}"
     return f"{number} {noun[:-1]}ies" if noun.endswith("y") else f"{number} {noun}s"
+
+
+@contextmanager
+def progress(steps: int, patience: float = 1.0) -> Iterator[Callable[[str], None]]:
+    """Gives a function that says what is being done now.
+
+    On a terminal a bar appears once that has taken longer than `patience` seconds.
+    """
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from threading import Event, Thread
+
+    done = 0
+    word = ""
+    finished = Event()
+
+    def draw() -> None:
+        if finished.wait(patience):
+            return
+        while True:
+            filled = 24 * (done - 1) // steps
+            bar = "=" * filled + " " * (24 - filled)
+            print(f"\r[{bar}] {word:<16}", end="", file=sys.stderr, flush=True)
+            if finished.wait(0.1):
+                print("\r" + " " * 44 + "\r", end="", file=sys.stderr, flush=True)
+                return
+
+    def advance(now: str) -> None:
+        nonlocal done, word
+        done, word = done + 1, now
+
+    thread = Thread(target=draw, daemon=True)
+    thread.start()
+    try:
+        yield advance
+    finally:
+        finished.set()
+        thread.join()

@@ -1,0 +1,127 @@
+"""`bondgraph compile`: residuals, fault signatures and code from a model."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from bondgraph import Compilation, Options
+from bondgraph import compile as open_model
+from bondgraph.cli import console
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `compile`."""
+    parser.add_argument("model", metavar="MODEL", help="file.bg or file.bg:Name")
+    parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", help="where to write (default: generated/<name of file>)"
+    )
+    defaults = Options()
+    parser.add_argument(
+        "--rate",
+        metavar="HZ",
+        type=_positive,
+        default=defaults.rate,
+        help=f"samples a second that step is made for (default: {defaults.rate:g})",
+    )
+    parser.add_argument(
+        "--bandwidth",
+        metavar="RAD/S",
+        type=_positive,
+        default=None,
+        help="bandwidth of the residual filter (default: chosen from the rate)",
+    )
+    parser.add_argument(
+        "--bits",
+        metavar="N",
+        type=_bits,
+        default=12,
+        help="resolution of the samples: step leaves out what is smaller (default: 12)",
+    )
+    parser.add_argument(
+        "--target",
+        metavar="LANGUAGE",
+        action="append",
+        help=f"emit this language; may be repeated (default: {', '.join(defaults.targets)})",
+    )
+
+
+def _positive(text: str) -> float:
+    value = float(text)
+    if not 0 < value < float("inf"):
+        raise ValueError
+    return value
+
+
+_positive.__name__ = "positive number"
+
+
+def _bits(text: str) -> int:
+    value = int(text)
+    if not 1 <= value <= 52:
+        raise ValueError
+    return value
+
+
+_bits.__name__ = "number of bits from 1 to 52"
+
+
+def run(args: Namespace) -> int:
+    """Compile, write the files, print the result."""
+    options: dict[str, Any] = {
+        "rate": args.rate,
+        "bandwidth": args.bandwidth,
+        "resolution": 2.0**-args.bits,
+    }
+    if args.target:
+        options["targets"] = tuple(dict.fromkeys(args.target))
+    compilation = open_model(args.model, **options)
+    _compute(compilation)
+    files = _write(compilation, args.output)
+    if args.json:
+        from bondgraph.cli.result import result
+
+        console.print_json(result(compilation, files))
+        return 0
+    from bondgraph.cli.report import report
+
+    console.show(compilation.report.diagnostics)
+    print("\n".join(report(compilation, files)))
+    return 0
+
+
+#: What takes time, in order; each is a stage of the compilation.
+_STAGES = (
+    ("reading", "graph"),
+    ("causality", "integral"),
+    ("eliminating", "reduced"),
+    ("signatures", "signatures"),
+    ("verifying", "verification"),
+    ("lowering", "program"),
+    ("writing code", "artifacts"),
+)
+
+
+def _compute(compilation: Compilation) -> None:
+    """Run all stages, with a bar on a terminal if that takes more than a second."""
+    with console.progress(len(_STAGES)) as advance:
+        for word, stage in _STAGES:
+            advance(word)
+            if stage == "program" and not compilation.residuals.residuals:
+                return  # no redundancy: a right answer, but nothing to run
+            getattr(compilation, stage)
+
+
+def _write(compilation: Compilation, output: str | None) -> list[str]:
+    """Write all files or none; the paths that were written."""
+    if not compilation.residuals.residuals:
+        return []
+    from bondgraph.backends.write import write
+
+    stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
+    folder = output or os.path.join("generated", stem)
+    return [str(path) for path in write(compilation.artifacts, folder)]

@@ -1,0 +1,225 @@
+"""`bondgraph explain`: an error code, or one bond, element, residual or fault of a model."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from typing import TYPE_CHECKING
+
+from bondgraph import Compilation, compile
+from bondgraph.cli import console
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterable, Sequence
+
+    from bondgraph.ir.causal import CausalGraph
+    from bondgraph.ir.graph import Bond, BondGraph
+    from bondgraph.ir.residuals import Residual
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `explain`."""
+    parser.usage = "bondgraph explain [-h] [--latex] (CODE | MODEL NAME)"
+    parser.add_argument(
+        "subject", metavar="CODE or MODEL", help="the code of a diagnostic, or a model"
+    )
+    parser.add_argument(
+        "name", metavar="NAME", nargs="?", help="a bond (number), element, residual or fault"
+    )
+    parser.add_argument(
+        "--latex", action="store_true", help="of a residual: its closed form in LaTeX"
+    )
+
+
+def run(args: Namespace) -> int:
+    """Print the explanation; the exit status is 2 where there is nothing of that name."""
+    if args.name is None:
+        return _code(args.subject)
+    compilation = compile(args.subject)
+    if args.latex:
+        return _latex(compilation, args.name)
+    lines = about(compilation, args.name)
+    if not lines:
+        return _unknown(args.name, "nothing in the model", _all_names(compilation))
+    print("\n".join(lines))
+    return 0
+
+
+def _code(code: str) -> int:
+    from bondgraph.errors import codes, page
+
+    text = page(code)
+    if text is None:
+        if os.path.exists(code) or code.endswith(".bg"):
+            print(f"say what of {code} to explain: explain MODEL NAME", file=sys.stderr)
+            return 2
+        return _unknown(code, "no error code", codes())
+    print(text.rstrip())
+    return 0
+
+
+def _unknown(name: str, what: str, names: Iterable[str]) -> int:
+    from difflib import get_close_matches
+
+    close = get_close_matches(name, list(names), 3, 0.5)
+    hint = f"; did you mean {' or '.join(f'`{c}`' for c in close)}?" if close else ""
+    print(f"error: {what} is called `{name}`{hint}", file=sys.stderr)
+    return 2
+
+
+def _all_names(compilation: Compilation) -> list[str]:
+    graph = compilation.graph
+    found = [n.path for n in graph.nodes] + list(graph.faults)
+    found += [b.label for b in graph.bonds if b.label]
+    return list(dict.fromkeys([*found, *compilation.signatures.residuals]))
+
+
+def _latex(compilation: Compilation, name: str) -> int:
+    from bondgraph.ir.latex import latex
+    from bondgraph.passes.present import tidy
+
+    for residual in compilation.residuals.residuals:
+        if residual.name == name:
+            print(latex(tidy(compilation.graph.pool, residual.expr)[0]))
+            return 0
+    return _unknown(name, "no residual", compilation.signatures.residuals)
+
+
+def about(compilation: Compilation, name: str) -> list[str]:
+    """Everything that the model has under a name: a residual, a bond, a node, a fault."""
+    graph = compilation.graph
+    parts: list[list[str]] = []
+    for node_number, node in enumerate(graph.nodes):
+        if node.path == name:
+            parts.append(_node(compilation, node_number))
+    parts += [_bond(compilation, bond) for bond in _bonds(graph, name)]
+    if name in graph.faults:
+        parts.append(_fault(compilation, name))
+    # A residual needs all of the analysis, so it is looked for last; `r1` may name a node as well.
+    if not parts or re.fullmatch(r"r\d+", name):
+        for residual in compilation.residuals.residuals:
+            if residual.name == name:
+                parts.append(_residual(compilation, residual))
+    lines: list[str] = []
+    for part in parts:
+        lines += ["", *part] if lines else part
+    return lines
+
+
+def _bonds(graph: BondGraph, name: str) -> list[Bond]:
+    """The bonds with a label; where no bond has it, the bond of that number in `dump`."""
+    labelled = [b for b in graph.bonds if b.label == name]
+    if labelled:
+        return labelled
+    return [b for b in graph.bonds if str(b.number) == name.removeprefix("bond ").strip()]
+
+
+def _node(compilation: Compilation, number: int) -> list[str]:
+    from bondgraph.ir.dump import node_name, place
+    from bondgraph.ir.show import show
+
+    graph = compilation.graph
+    node = graph.nodes[number]
+    noun = {"0": "0-junction", "1": "1-junction"}.get(node.kind, f"{node.keyword} element")
+    lines = [f"{node_name(node)}  {noun}, {place(node.origin, compilation.source)}"]
+    if node.doc:
+        lines.append(f"  {node.doc}")
+    if node.domain:
+        lines.append(f"  domain {node.domain}")
+    if node.kind == "0":
+        lines.append("  one effort, and the flows balance")
+    if node.kind == "1":
+        lines.append("  one flow, and the efforts balance")
+    lines += [f"  law 0 = {show(law.zero)}" for law in node.laws]
+    if node.sensor is not None:
+        lines.append(f"  reads {show(node.sensor)}")
+    for causal in (compilation.integral, compilation.derivative):
+        lines.append(f"  bonds in preferred {causal.preference} causality")
+        for bond in graph.bonds:
+            if number in (bond.tail.node, bond.head.node):
+                lines.append(f"    {_stroke(causal, bond)}")
+    return lines
+
+
+def _bond(compilation: Compilation, bond: Bond) -> list[str]:
+    from bondgraph.ir.dump import bond_name, place
+
+    graph = compilation.graph
+    lines = [f"{bond_name(graph, bond)}  bond, {place(bond.origin, compilation.source)}"]
+    tail, head = graph.nodes[bond.tail.node].path, graph.nodes[bond.head.node].path
+    lines.append(f"  power counts positive from {tail} to {head}")
+    for causal in (compilation.integral, compilation.derivative):
+        lines.append(f"  preferred {causal.preference} causality")
+        lines.append(f"    {_stroke(causal, bond)}")
+    return lines
+
+
+def _stroke(causal: CausalGraph, bond: Bond) -> str:
+    from bondgraph.ir.dump import bond_name, reason
+
+    graph = causal.graph
+    stroke = causal.strokes[bond.number]
+    end = bond.tail if stroke.at == "tail" else bond.head
+    return (
+        f"{bond_name(graph, bond)}: stroke at {graph.nodes[end.node].path},"
+        f" {reason(graph, stroke.reason)}"
+    )
+
+
+def _residual(compilation: Compilation, residual: Residual) -> list[str]:
+    from bondgraph.cli.layout import formula, width
+    from bondgraph.cli.report import closed_form
+    from bondgraph.ir.dump import place
+    from bondgraph.ir.show import show
+    from bondgraph.passes.path import path
+
+    columns = width()
+    lines = closed_form(compilation, residual, columns, longest=None)
+    lines += ["", "Computed from the known signals, in this order"]
+    steps = path(residual, compilation.equations, compilation.derivative)
+    for step in steps:
+        mark = "  <" if step.leaves else ""
+        lines += formula(step.value, columns, f"  {step.variable} = ", "    ")
+        lines.append(f"      {step.why}, {place(step.origin, compilation.source)}{mark}")
+    lines += formula(show(residual.closing.zero), columns, "  0 = ", "    ")
+    if any(step.leaves for step in steps):
+        lines += [
+            "",
+            "  < here the computation runs against the strokes of the drawing in derivative",
+            "    causality: it needs both variables of a bond from one end (bicausal)",
+        ]
+    if residual.differentiated:
+        lines += ["", "  The relation is differentiated: an initial value is not declared."]
+    matrix = compilation.signatures
+    orders = matrix.orders[matrix.residuals.index(residual.name)]
+    shown = [f"{s} {'only integrated' if n < 0 else n}" for s, n in orders.items()]
+    lines += ["", "Highest derivatives", *_listed(shown, columns)]
+    lines += ["", "Faults that it sees", *_listed(matrix.signature(residual.name), columns)]
+    return lines
+
+
+def _listed(names: Sequence[str], columns: int) -> list[str]:
+    from bondgraph.cli.layout import names as laid_out
+
+    return laid_out(names, columns, "  ")
+
+
+def _fault(compilation: Compilation, name: str) -> list[str]:
+    from bondgraph.cli.report import reason
+
+    matrix = compilation.signatures
+    lines = [f"{name}  fault candidate"]
+    seen = [r for r, hit in zip(matrix.residuals, matrix.row(name), strict=True) if hit]
+    if not seen:
+        return [*lines, f"  undetectable: {reason(compilation, name)}"]
+    lines.append(f"  moves {', '.join(seen)}")
+    others = matrix.confused_with(name)
+    if others:
+        lines += ["  cannot be told apart from", *_listed(others, 100)]
+    else:
+        lines.append("  is told apart from all other faults")
+    events = [e for e in compilation.graph.events if e.target == name]
+    lines += [f"  event {e.name}: {e.doc}".rstrip(": ") for e in events]
+    return lines
