@@ -265,14 +265,12 @@ def _tell_junction(
     node = graph.nodes[where]
     message, physics, remedy = (_TWICE if over else _NOBODY)[node.kind]
     parties = [_party(graph, side) for side in sides if side.elements or side.way]
-    who = listing(parties) if parties else "it has no other bond"
+    who = listing(parties) if parties else "it has no bond"
     if not over and node.kind in ("0", "1") and parties:
         common = "effort" if node.kind == "0" else "flow"
-        who = f"{who} {'takes' if len(parties) == 1 else 'all take'} the {common} from it"
-        if len(parties) == 2:
-            who = who.replace(" all take ", " both take ")
-    elif not over and node.kind in ("0", "1"):
-        remedy = remedy.replace(", or let one source", "; or let a source")
+        heads = sum(len(side.elements or side.way[:1]) for side in sides)
+        takes = {1: "takes", 2: "both take"}.get(heads, "all take")
+        who = f"{who} {takes} the {common} from it"
     labels = [Label(node.origin, "here they meet" if parties else "nothing is connected here")]
     seen: set[Span] = {node.origin}
     for side in sides:
@@ -292,11 +290,10 @@ def _label(graph: BondGraph, at: int, text: str, labels: list[Label], seen: set[
 
 
 def _party(graph: BondGraph, side: Side) -> str:
-    way = listing([name(graph.nodes[n]) for n in side.way], 4) if side.way else ""
-    if not side.elements:
-        return f"{way} (which can do nothing else)"
-    who = listing([name(graph.nodes[n]) for n in side.elements], 4)
-    return f"{who} (through {way})" if way else who
+    # without a source or sensor the first junction of the way has no choice of its own
+    heads, way = (side.elements, side.way) if side.elements else (side.way[:1], side.way[1:])
+    who = listing([name(graph.nodes[n]) for n in heads], 4)
+    return f"{who} (through {listing([name(graph.nodes[n]) for n in way], 4)})" if way else who
 
 
 def _role(node: Node) -> str:

@@ -57,11 +57,14 @@ class Strokes:
             return None if self.value[bond] == value else Clash(-1, (bond,))
         self._set(bond, value, reason)
         at = len(self.trail) - 1
+        rules = self.net.rule
         while at < len(self.trail):
             now = self.trail[at]
             at += 1
-            for end in (2 * now, 2 * now + 1):
-                rule = self.net.rule[end]
+            tail, head = 2 * now, 2 * now + 1
+            forward = rules[tail] < rules[head]  # the way a bond is drawn must not matter
+            for end in (tail, head) if forward else (head, tail):
+                rule = rules[end]
                 if rule >= 0:
                     clash = self._follow(rule, end)
                     if clash is not None:

@@ -100,8 +100,7 @@ def assemble(
 def turned(graph: BondGraph, which: set[int]) -> BondGraph:
     """The same graph with some bonds drawn the other way round."""
     bonds = tuple(
-        b._replace(tail=b.head, head=b.tail) if i in which else b
-        for i, b in enumerate(graph.bonds)
+        b._replace(tail=b.head, head=b.tail) if i in which else b for i, b in enumerate(graph.bonds)
     )
     return graph._replace(bonds=bonds)
 

@@ -1,0 +1,281 @@
+"""Causality of single graphs: strokes, reasons, dualised detectors, loops and messages."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+
+import pytest
+
+from bondgraph.ir.causal import CausalGraph
+from bondgraph.ir.expr import Pool
+from bondgraph.passes.causal.matching import Matching
+from bondgraph.passes.causal.network import demands, network
+from bondgraph.passes.causal.strokes import Strokes
+from bondgraph.passes.causality import assign
+from bondgraph.text.diagnostic import Report
+from bondgraph.text.source import Source, Span
+from tests.unit.passes.causality_graphs import assemble, broken_rules, build, receivers
+
+MOTOR = "Se:U -> 1:i -> I:L; i -> R:Re; i -> GY:k -> 1:w -> I:J; w -> R:f; w -> Df:speed"
+
+
+def causal(text: str, preference: str = "integral") -> CausalGraph:
+    result = assign(build(text), preference, Report())  # type: ignore[arg-type]
+    assert result is not None
+    return result
+
+
+def names(graph: CausalGraph, nodes: tuple[int, ...]) -> list[str]:
+    return [graph.graph.nodes[n].path for n in nodes]
+
+
+def refusal(text: str) -> tuple[str, list[str]]:
+    report = Report()
+    assert assign(build(text), "integral", report) is None
+    (error,) = report.diagnostics
+    assert error.code == "causality-conflict"
+    assert error.help
+    return error.message, [label.span.text for label in error.labels]
+
+
+def test_a_dc_motor_has_all_storages_integral() -> None:
+    motor = causal(MOTOR)
+    at = names(motor, tuple(receivers(motor)))
+    # Se and the gyrator bring efforts to 1:i, L answers with the current, and so on
+    assert at == ["i", "L", "i", "i", "w", "J", "w", "w"]
+    assert [s.integral for s in motor.storages] == [True, True]
+    assert motor.loops == ()
+    assert [s.reason.cause for s in motor.strokes] == [
+        "source", "preferred", "propagated", "propagated",
+        "propagated", "preferred", "propagated", "sensor",
+    ]  # fmt: skip
+
+
+def test_the_dualised_tachometer_imposes_the_speed() -> None:
+    motor = causal(MOTOR, "derivative")
+    assert names(motor, motor.dualised) == ["speed"]
+    assert not any(s.integral for s in motor.storages)
+    assert names(motor, (receivers(motor)[7],)) == ["speed"]
+
+
+@pytest.mark.parametrize(
+    ("text", "dualised", "plain"),
+    [
+        ("Se:u -> 0:n -> R:r; n -> De:y", [], ["y"]),  # the source fixes what De reads
+        ("1:v -> I:m; v -> R:b; v -> Df:y1; v -> Df:y2", ["y1"], ["y2"]),
+        ("1:v -> I:m; v -> TF:g -> 1:w -> R:b; v -> Df:y1; w -> Df:y2", ["y1"], ["y2"]),
+        ("Sf:q -> 0:a -> R:r; a -> De:y1; a -> 1:b -> R:s; b -> Df:y2", ["y1", "y2"], []),
+    ],
+)
+def test_a_detector_that_would_conflict_stays(
+    text: str, dualised: list[str], plain: list[str]
+) -> None:
+    graph = causal(text, "derivative")
+    assert names(graph, graph.dualised) == dualised
+    assert names(graph, graph.not_dualised) == plain
+
+
+@pytest.mark.parametrize(
+    ("text", "at"),
+    [
+        ("Se:u -> R:r", ["r"]),
+        ("R:r -> Se:u", ["r"]),
+        ("Sf:q -> R:r", ["q"]),
+        ("C:c -> I:l", ["l"]),
+        ("Se:u -> C:c", ["c"]),
+        ("R:r! -> R:s", ["r"]),
+        ("Se:u -> TF:t -> R:r", ["t", "r"]),
+        ("Se:u -> GY:t -> R:r", ["t", "t"]),
+        ("Se:u -> TF:t -> TF:s -> C:c", ["t", "s", "c"]),
+        ("Se:u -> 0:a -> 0:b -> R:r", ["a", "b", "r"]),
+        ("Se:u -> 1:a -> 1:b -> I:r", ["a", "b", "r"]),
+    ],
+)
+def test_bonds_without_junctions_and_chains_of_equals(text: str, at: list[str]) -> None:
+    graph = causal(text)
+    assert names(graph, tuple(receivers(graph))) == at
+
+
+def test_fields_are_assigned_port_by_port() -> None:
+    # an I-field on two meshes, one of which has a current source: mixed causality
+    graph = causal("Se:u -> 1:a -> I:m; Sf:q -> 1:b -> m; a -> R:r; b -> R:s")
+    assert [(s.port, s.integral) for s in graph.storages] == [(0, True), (1, False)]
+
+
+def test_a_law_that_gives_flow_is_used_that_way() -> None:
+    text = "Sf:q -> 0:a -> R:orifice!; a -> R:linear"
+    graph = causal(text)
+    assert names(graph, tuple(receivers(graph)))[1] == "orifice"
+    assert graph.strokes[1].reason.cause == "law"
+    assert names(graph, graph.loops[0]) == ["orifice", "linear"]
+
+
+def test_resistances_in_series_form_a_loop_and_a_storage_between_them_opens_it() -> None:
+    assert [len(loop) for loop in causal("Se:u -> 1:a -> R:r; a -> R:s").loops] == [2]
+    assert causal("Se:u -> 1:a -> R:r; a -> 0:b -> R:s; b -> C:c").loops == ()
+
+
+def test_two_effort_sources_meet_at_a_junction() -> None:
+    message, places = refusal("Se:a -> 0:n <- Se:b; n -> R:r")
+    assert message == "the effort of 0:n is imposed twice, by Se:a and Se:b"
+    assert places == ["0:n", "Se:a", "Se:b"]
+
+
+def test_the_way_to_the_conflict_is_told() -> None:
+    message, places = refusal(
+        "Se:a -> 1:x -> R:r; x -> 0:y -> C:c; Se:b -> 0:n -> TF:t -> 0:m <- Se:d; m -> R:s"
+    )
+    assert message == "the effort of 0:m is imposed twice, by Se:b (through 0:n and TF:t) and Se:d"
+    assert places == ["0:m", "Se:b", "0:n", "TF:t", "Se:d"]
+
+
+def test_nobody_imposes_the_effort() -> None:
+    message, _ = refusal("Sf:a -> 0:n <- Sf:b; n -> De:y")
+    assert message == (
+        "nothing imposes the effort of 0:n: Sf:a, Sf:b and De:y all take the effort from it"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "start"),
+    [
+        ("Sf:a -> 1:n <- Sf:b", "the flow of 1:n is imposed twice, by Sf:a and Sf:b"),
+        ("Se:a -> 1:n <- Se:b", "nothing imposes the flow of 1:n: Se:a and Se:b both take"),
+        ("Se:a -> TF:t <- Se:b", "TF:t receives effort from both sides, by Se:a and Se:b"),
+        ("Sf:a -> TF:t <- Sf:b", "TF:t receives a flow from both sides, by Sf:a and Sf:b"),
+        ("Se:a -> GY:t <- Sf:b", "GY:t receives"),
+        ("Se:a -> Se:b", "the effort of one bond is imposed at both ends, by Se:a and Se:b"),
+        ("Sf:a -> Sf:b", "the flow of one bond is imposed at both ends, by Sf:a and Sf:b"),
+        ("Sf:a -> De:b", "the flow of one bond is imposed at both ends, by Sf:a and De:b"),
+        ("0:alone", "nothing imposes the effort of 0:alone: it has no bond"),
+        (
+            "1:c -> 0:x; c -> 0:y",
+            "nothing imposes the effort of 0:y: 0:x (through 1:c) takes the effort from it",
+        ),
+        (
+            "1:a -> GY:x -> 1:b -> GY:y -> 1:c -> GY:z -> a",
+            "1:a, GY:x, 1:b, GY:y, 1:c and GY:z cannot all get",
+        ),
+    ],
+)
+def test_each_kind_of_conflict_has_its_words(text: str, start: str) -> None:
+    message, _ = refusal(text)
+    assert message.startswith(start), message
+
+
+def test_independent_conflicts_are_independent_errors() -> None:
+    report = Report()
+    assign(build("Se:a -> 0:n <- Se:b; Sf:c -> 1:m <- Sf:d"), "integral", report)
+    assert [d.message.split(" is ")[0] for d in report.diagnostics] == [
+        "the effort of 0:n",
+        "the flow of 1:m",
+    ]
+
+
+def test_dependent_storages_name_their_partner() -> None:
+    report = Report()
+    text = "Se:u -> 1:a -> I:j1; a -> TF:g -> 1:b -> I:j2; b -> R:r"
+    assert assign(build(text), "integral", report) is not None
+    (note,) = report.diagnostics
+    assert (note.severity, note.code) == ("info", "dependent-storage")
+    assert note.message == (
+        "I:j2 is in derivative causality: its flow is fixed by I:j1, which has the state"
+    )
+
+
+def test_a_capacitor_across_a_source_is_told_as_such() -> None:
+    report = Report()
+    assert assign(build("Se:u -> 0:a -> C:c; a -> R:r"), "integral", report) is not None
+    assert report.diagnostics[0].message == (
+        "C:c is in derivative causality: its effort is imposed by Se:u"
+    )
+
+
+def test_chained_cells_are_counted_in_one_message() -> None:
+    source = Source("cells.bg", "I:L1 I:L2 and the rest")
+    first, second, rest = Span(source, 0, 4), Span(source, 5, 9), Span(source, 10, 22)
+    kinds = [("Se", "U", False, rest)]
+    bonds: list[tuple[int, int, Span]] = []
+    last, n = 0, 6
+    for i in range(n):
+        for kind, span in (("1", rest), ("I", first), ("0", rest), ("C", rest), ("1", rest),
+                           ("I", second)):  # fmt: skip
+            kinds.append((kind, f"cell[{i + 1}].x{len(kinds)}", False, span))
+        one = 1 + 6 * i
+        pairs = [(last, one), (one, one + 1), (one, one + 2), (one + 2, one + 3),
+                 (one + 2, one + 4), (one + 4, one + 5)]  # fmt: skip
+        bonds += [(a, b, rest) for a, b in pairs]
+        last = one + 4
+    kinds.append(("R", "load", False, rest))
+    bonds.append((last, len(kinds) - 1, rest))
+    report = Report()
+    graph = assign(assemble(source, Pool(), kinds, bonds), "integral", report)
+    assert graph is not None
+    assert len(graph.dependent) == n - 1
+    (note,) = report.diagnostics
+    assert note.message.endswith("which has the state; so are 4 more like it")
+    assert [label.span.text for label in note.labels] == ["I:L1", "I:L2"]
+
+
+def test_derivative_preference_reports_no_findings() -> None:
+    report = Report()
+    assert assign(build("Se:u -> 0:a -> C:c; a -> R:r"), "derivative", report) is not None
+    assert report.diagnostics == []
+
+
+def _ladder(cells: int) -> tuple[list[tuple[str, str, bool, Span]], list[tuple[int, int, Span]]]:
+    span = Span(Source("ladder.bg", " "), 0, 1)
+    kinds = [("Se", "U", False, span)]
+    bonds = []
+    last = 0
+    for i in range(cells):
+        one = len(kinds)
+        kinds += [(kind, f"{kind}{i}", False, span) for kind in ("1", "I", "R", "0", "C")]
+        for pair in ((last, one), (one, one + 1), (one, one + 2), (one, one + 3),
+                     (one + 3, one + 4)):  # fmt: skip
+            bonds.append((*pair, span))
+        last = one + 3
+    kinds.append(("De", "y", False, span))
+    bonds.append((last, len(kinds) - 1, span))
+    return kinds, bonds
+
+
+def test_a_long_ladder_takes_linear_time() -> None:
+    times = []
+    for cells in (500, 4000):
+        kinds, bonds = _ladder(cells)
+        graph = assemble(bonds[0][2].source, Pool(), kinds, bonds)
+        start = time.perf_counter()
+        result = assign(graph, "derivative", Report())
+        times.append(time.perf_counter() - start)
+        assert result is not None
+        assert len(result.dependent) == len(result.storages) == 2 * cells
+    assert times[1] < 40 * times[0] + 0.5
+
+
+def test_the_exact_search_alone_agrees_with_the_rules() -> None:
+    # the witness starts empty: every rule is covered by alternating paths
+    graph = build(
+        "1:a -> GY:x -> 1:b -> GY:y -> 1:c -> GY:z -> a; a -> 0:d -> 1:e -> 0:f -> b; "
+        "d -> C:p; e -> I:q; f -> C:r; c -> I:s; Se:u -> a"
+    )
+    net, at = network(graph)
+    strokes = Strokes(net)
+    for wish in demands(graph, at, "integral")[0]:
+        assert strokes.wish(wish) is None
+    witness = Matching(strokes, [-1] * net.bonds)
+    assert witness.complete()
+    found = tuple(v if v >= 0 else witness.value(b) for b, v in enumerate(strokes.value))
+    assert broken_rules(graph, found, set()) == []
+
+
+def test_nothing_heavy_is_imported() -> None:
+    code = (
+        "import sys, bondgraph.passes.causality\n"
+        "print([m for m in ('dataclasses', 'inspect', 'sympy', 'networkx', 'numpy', 'jinja2')"
+        " if m in sys.modules])"
+    )
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert out.stdout.strip() == "[]"
