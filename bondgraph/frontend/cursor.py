@@ -37,6 +37,21 @@ class TooManyProblems(Exception):
     """Raised to give up on a file."""
 
 
+class Notes:
+    """What the words turned out to be, as word numbers; only the formatter wants to know it."""
+
+    __slots__ = ("begins", "groups", "laws", "less_minus", "signs", "units", "wide_colons")
+
+    def __init__(self) -> None:
+        self.begins: list[int] = []  # first words of statements, equations, imports, models
+        self.groups: list[int] = []  # brackets that are not those of a call or of arguments
+        self.laws: list[int] = []  # braces around the law of an element
+        self.less_minus: list[int] = []  # `<-` that is less-than, minus
+        self.signs: list[int] = []  # minus signs with one operand
+        self.units: list[tuple[int, int]] = []  # from a word to before another one
+        self.wide_colons: list[int] = []  # colons of declarations
+
+
 class Cursor:
     """The words of one source and the place of the reader in them."""
 
@@ -52,10 +67,8 @@ class Cursor:
         # Only a text with such characters pays for a closer look at every name.
         self.careful = _ODD_NAME.search(text) is not None or not text.isascii()
         self.complained: set[str] = set()
-        # What only the formatter wants to know, as word numbers.
-        self.units: list[tuple[int, int]] = []
-        self.less_minus: list[int] = []
-        self.wide_colons: list[int] = []
+        self.has_docs = "##" in text
+        self.notes = Notes()
 
     # ---------------------------------------------------------------- places
 

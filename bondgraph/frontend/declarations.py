@@ -13,17 +13,22 @@ class Declarations(Expressions):
 
     def doc(self, at: int) -> str:
         """The `##` lines that stand directly before word `at`."""
-        gap = self.gaps.get(at)
-        if gap is None or "##" not in gap[1]:
+        if not self.has_docs:
             return ""
-        lines = gap[1].split("\n")
-        # The first piece of a gap ends the line of the word before it: it documents nothing.
-        own = lines if at == 0 else lines[1:]
-        docs = [line.strip(" \t\r\ufeff")[2:] for line in own if _is_doc(line)]
-        return "\n".join(d[1:] if d.startswith(" ") else d for d in docs)
+        docs: list[str] = []
+        while True:
+            gap = self.gaps.get(at)
+            if gap is not None and "##" in gap[1]:
+                lines = gap[1].split("\n")
+                # The first piece ends the line of the word before: it documents nothing.
+                own = lines if at == 0 else lines[1:]
+                docs[:0] = [_doc_text(line) for line in own if _is_doc(line)]
+            if at == 0 or self.words[at - 1] != ";":
+                return "\n".join(docs)
+            at -= 1
 
     def _colon(self, help: str) -> None:
-        self.wide_colons.append(self.take(":", "`:`", help))
+        self.notes.wide_colons.append(self.take(":", "`:`", help))
 
     def _param(self, keyword: str) -> syntax.Param:
         at = self.i
@@ -142,3 +147,8 @@ class Declarations(Expressions):
 def _is_doc(line: str) -> bool:
     text = line.lstrip(" \t\ufeff")
     return text.startswith("##") and not text.startswith("###")
+
+
+def _doc_text(line: str) -> str:
+    text = line.strip(" \t\r\ufeff")[2:]
+    return text[1:] if text.startswith(" ") else text

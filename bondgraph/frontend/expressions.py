@@ -64,6 +64,7 @@ class Expressions(Cursor):
             raise self.too_deep(first)
         if minus or words[first] == "-":
             if not minus:
+                self.notes.signs.append(first)
                 self.i = first + 1
             operand = self._binary(_SIGN_LEVEL)
             left: syntax.Expression = syntax.Unary(
@@ -86,7 +87,7 @@ class Expressions(Cursor):
             if op == "<-":
                 if self.arrow_ends and not self.brackets:
                     break
-                self.less_minus.append(at)
+                self.notes.less_minus.append(at)
                 op = "<"
                 self.i = at + 1
                 right = self._binary(_SUM, minus=True)
@@ -173,6 +174,7 @@ class Expressions(Cursor):
 
     def _bracketed(self) -> syntax.Expression:
         opening = self.i
+        self.notes.groups.append(opening)
         self.i += 1
         self.brackets += 1
         inner = self._binary(1)
@@ -318,7 +320,7 @@ class Expressions(Cursor):
         while self.words[at] and self.starts[at] < end:
             at += 1
         self.i = at
-        self.units.append((first, at))
+        self.notes.units.append((first, at))
         return found.group()
 
     def unit(self) -> str:

@@ -94,6 +94,7 @@ class Parser(Statements):
             word = self.words[at]
             if not word:
                 return
+            self.notes.begins.append(at)
             try:
                 if word == "model":
                     models.append(self._model())

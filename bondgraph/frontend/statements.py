@@ -39,6 +39,7 @@ class Statements(Declarations):
             if not word or (word == "model" and self._model_begins(begin)):
                 self.unclosed(opening, begin)
                 break
+            self.notes.begins.append(begin)
             try:
                 statements.append(self.statement(inside))
                 self._statement_end(inside)
@@ -321,6 +322,7 @@ class Statements(Declarations):
     def _law(self) -> syntax.Law:
         """The braces of an element; like a body, it reports its own errors."""
         opening = self.i
+        self.notes.laws.append(opening)
         self.i += 1
         ports: list[syntax.Part] = []
         equations: list[syntax.Equation] = []
@@ -336,6 +338,7 @@ class Statements(Declarations):
             if not words[begin] or (words[begin] == "model" and self._model_begins(begin)):
                 self.unclosed(opening, begin)
                 break
+            self.notes.begins.append(begin)
             try:
                 if words[begin] == "port" and words[begin + 1].isidentifier():
                     self.i = begin + 1
