@@ -61,7 +61,7 @@ update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
 	git status --short generated tests
 
 fuzz: $(VENV)/dev.stamp ## 100 000 broken models through `check`
-	$(BIN)/python tests/fuzz.py 100000
+	$(BIN)/python -m tests.fuzz.run --count 100000 --jobs 2
 
 clean: ## remove what this file made
 	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache
