@@ -2,31 +2,23 @@
 
 from __future__ import annotations
 
-from bondgraph.text.source import Source
+from bondgraph.frontend.cursor import Cursor
 
 
-def suspect(
-    source: Source, words: list[str], starts: list[int], fresh: list[bool], opening: int, end: int
-) -> int | None:
+def suspect(cursor: Cursor, opening: int, end: int) -> int | None:
     """The brace between `opening` and `end` whose `}` stands further left than its line begins.
 
     The author closed an outer brace there: the inner one was forgotten. None if no brace looks so.
     """
     pending: list[int] = []
     for at in range(opening + 1, end):
-        if words[at] == "{":
+        word = cursor.words[at]
+        if word == "{":
             pending.append(at)
-        elif words[at] == "}":
+        elif word == "}":
             if not pending:
                 return None
             opened = pending.pop()
-            outer = fresh[at] and _indent(source, starts[at]) < _indent(source, starts[opened])
-            if outer:
+            if cursor.fresh[at] and cursor.indent(at) < cursor.indent(opened):
                 return opened
     return None
-
-
-def _indent(source: Source, offset: int) -> int:
-    begin = source.text.rfind("\n", 0, offset) + 1
-    line = source.text[begin:offset]
-    return len(line) - len(line.lstrip(" \t"))

@@ -107,7 +107,9 @@ class Cursor:
         if odd is not None:
             return odd
         found = "the file ends" if not word else f"I found {say(word)}"
-        if word and self.fresh[at] and at and not self.brackets:
+        begins = self.notes.begins
+        first = not begins or begins[-1] == at
+        if word and self.fresh[at] and not first and not self.brackets:
             found = "the line ends"
             end = self.starts[at - 1] + len(self.words[at - 1])
             label = Label(Span(self.source, end, end), f"{wanted} expected here")
@@ -210,7 +212,8 @@ class Cursor:
             return False
         after = self.words[at + 1]
         if word in KEYWORDS:
-            return after.isidentifier() and not self.fresh[at + 1]
+            name = after.isidentifier() and after not in RESERVED
+            return name and not self.fresh[at + 1]
         return is_arrow(word) or word == "}"
 
     def skip_statement(self, begin: int) -> None:
@@ -244,6 +247,13 @@ class Cursor:
                 open_brackets -= 1
             at += 1
         self.i = max(at, self.i)
+
+    def indent(self, at: int) -> int:
+        """How far the line of word `at` is indented."""
+        text = self.source.text
+        begin = text.rfind("\n", 0, self.starts[at]) + 1
+        line = text[begin : self.starts[at]]
+        return len(line) - len(line.lstrip(" \t"))
 
     def looks_fresh(self, at: int) -> bool:
         """Whether the line that begins at word `at` looks like a new statement."""

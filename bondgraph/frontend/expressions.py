@@ -224,14 +224,15 @@ class Expressions(Cursor):
             )
         here = say(self.words[at])
         help = f"Close the bracket with `{bracket}`, or check what stands before {here}."
-        if self.after_quantity(at):
+        if self.after_number(at):
             help = "A product needs its sign: write `*` between the factors."
         raise self.unexpected(wanted, help, Label(self.word_span(opening), "opened here"))
 
-    def after_quantity(self, at: int) -> bool:
-        """Whether a factor follows a number or a name without an operator."""
-        before, word = self.words[at - 1], self.words[at]
-        return bool(word) and (word[0].isalnum() or word == "(") and before[:1].isalnum()
+    def after_number(self, at: int) -> bool:
+        """Whether a factor follows a number without an operator."""
+        units = self.notes.units
+        after = self.words[at - 1][:1].isdigit() or (bool(units) and units[-1][1] == at)
+        return after and (self.words[at][:1].isalnum() or self.words[at] == "(")
 
     def ref(self) -> syntax.Ref:
         """A dotted reference, `m[1].el.Re`."""

@@ -110,6 +110,14 @@ class Parser(Statements):
                         "no `{` belongs to it",
                         help="Remove it, or look for a `}` too many above it.",
                     )
+                elif self.fresh[at] and models:
+                    raise self.problem(
+                        "statement-outside-model",
+                        "A statement stands outside the braces of a model.",
+                        at,
+                        "outside all braces",
+                        help="Move it into a model; perhaps a `}` above it is one too many.",
+                    )
                 else:
                     raise self.unexpected("`model` or `import`", _TOP_HELP)
             except SyntaxProblem as problem:

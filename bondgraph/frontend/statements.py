@@ -27,6 +27,7 @@ class Statements(Declarations):
         self.depth += 1
         depth = self.depth
         if depth > MAX_DEPTH:
+            self.i = opening
             raise self.too_deep(opening)
         while True:
             while words[self.i] == ";":
@@ -36,7 +37,7 @@ class Statements(Declarations):
             if word == "}":
                 self.i = begin + 1
                 break
-            if not word or (word == "model" and self._model_begins(begin)):
+            if not word or self._model_begins(begin, opening):
                 self.unclosed(opening, begin)
                 break
             self.notes.begins.append(begin)
@@ -51,12 +52,15 @@ class Statements(Declarations):
         self.depth -= 1
         return tuple(statements)
 
-    def _model_begins(self, at: int) -> bool:
+    def _model_begins(self, at: int, opening: int) -> bool:
+        """Whether the next model begins here: the brace before it was left open."""
         return (
-            self.fresh[at]
+            self.words[at] == "model"
+            and self.fresh[at]
             and self.words[at + 1].isidentifier()
             and self.words[at + 2] in ("{", "(")
             and not self.fresh[at + 2]
+            and (not self.indent(at) or self.indent(at) < self.indent(opening))
         )
 
     def unclosed(self, opening: int, end: int) -> None:
@@ -66,7 +70,7 @@ class Statements(Declarations):
         self.brace_reported = True
         from bondgraph.frontend.braces import suspect
 
-        likely = suspect(self.source, self.words, self.starts, self.fresh, opening, end)
+        likely = suspect(self, opening, end)
         labels = [Label(self.word_span(likely or opening), "opened here")]
         if likely is not None:
             labels.append(Label(self.word_span(opening), "this one then has no end"))
@@ -91,7 +95,7 @@ class Statements(Declarations):
         help = "End the statement with a line end or `;`."
         if word == "," or word == "=":
             help = "Equations and statements are separated by a line end or `;`."
-        elif self.after_quantity(at):
+        elif word == "(" or self.after_number(at):
             help = "End the statement with a line end or `;`; a product needs its sign `*`."
         raise self.unexpected("the end of the statement", help)
 
@@ -117,6 +121,14 @@ class Statements(Declarations):
                     return self._for(inside)
                 case "if":
                     return self._if(inside)
+                case "model":
+                    raise self.problem(
+                        "model-in-model",
+                        "A model stands inside another one.",
+                        at,
+                        "this model",
+                        help="Move it out of the braces, and use it here: `Name:part`.",
+                    )
                 case _:
                     raise self.unexpected(
                         "a statement",
@@ -134,7 +146,14 @@ class Statements(Declarations):
     def open(self, help: str) -> int:
         """Take the `{` that must follow; its word number."""
         if not self.at_open():
-            raise self.unexpected("`{`", help)
+            at = self.i
+            problem = self.unexpected("`{`", help)
+            if not (self.words[at] and self.fresh[at] and self.indent(at) > self.indent(at - 1)):
+                raise problem
+            # What follows is indented like a body: only the brace was forgotten.
+            self.tell(problem)
+            self.brace_reported = True
+            return at - 1
         self.i += 1
         return self.i - 1
 
@@ -156,7 +175,9 @@ class Statements(Declarations):
         condition = self.expression()
         body = self.body(self.open("Write `if n > 1 { ... } else { ... }`."), inside)
         otherwise: tuple[syntax.Statement, ...] = ()
-        if self.words[self.i] == "else" and self.words[self.i + 1] in ("{", "if"):
+        if self.words[self.i] == "else" and (
+            self.words[self.i + 1] in ("{", "if") or not self.fresh[self.i]
+        ):
             self.i += 1
             if self.words[self.i] == "if":
                 self.depth += 1
@@ -165,7 +186,7 @@ class Statements(Declarations):
                 otherwise = (self._if(inside),)
                 self.depth -= 1
             else:
-                otherwise = self.body(self.open(""), inside)
+                otherwise = self.body(self.open("Write `else { ... }`."), inside)
         return syntax.If(condition, body, otherwise, self.span(at))
 
     def _chain_or_junction(self, inside: bool) -> syntax.Junction | syntax.Chain:
@@ -335,7 +356,7 @@ class Statements(Declarations):
             if words[begin] == "}":
                 self.i = begin + 1
                 break
-            if not words[begin] or (words[begin] == "model" and self._model_begins(begin)):
+            if not words[begin] or self._model_begins(begin, opening):
                 self.unclosed(opening, begin)
                 break
             self.notes.begins.append(begin)

@@ -11,7 +11,10 @@ KEYWORDS: Final = frozenset(
 #: Words of expressions: no value, node or port can be called so.
 RESERVED: Final = frozenset(["and", "or", "not", "true", "false"])
 #: Words that follow a number without being its unit.
-NOT_UNITS: Final = frozenset("and or not unknown counts when else if for".split())
+NOT_UNITS: Final = frozenset(
+    "and or not unknown counts when else if for "
+    "param const input sensor let fault port model import".split()
+)
 
 
 def is_arrow(word: str) -> bool:
