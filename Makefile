@@ -53,7 +53,7 @@ wheel: $(VENV)/dev.stamp ## build the wheel, install it elsewhere, compile a mod
 	PYTHON=$(BIN)/python .ci/wheel
 
 bench: $(VENV)/dev.stamp ## medians of the times that matter, with their ratios
-	$(BIN)/python tests/bench/bench.py
+	$(BIN)/python -m tests.bench $(if $(SHORT),--short)
 
 update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
 	$(BIN)/python -m pytest --update

@@ -8,7 +8,6 @@ import sys
 from typing import TYPE_CHECKING
 
 from bondgraph import Compilation, compile
-from bondgraph.cli import console
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

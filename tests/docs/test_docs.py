@@ -1,0 +1,95 @@
+"""Links lead somewhere, models in the documentation are sound, its examples run."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from bondgraph.pipeline import Compilation
+from bondgraph.text.source import Source
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "codegen").rglob("*.md")])
+_FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def anchors(page: Path) -> set[str]:
+    """The anchors that the headings of a page give."""
+    text = _FENCE.sub("", page.read_text(encoding="utf-8"))
+    headings = re.findall(r"^#+ (.+)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", h.lower()).replace(" ", "-") for h in headings}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
+def test_links_lead_somewhere(page: Path) -> None:
+    text = _FENCE.sub("", page.read_text(encoding="utf-8"))
+    for target in re.findall(r"\]\(([^)\s]+)\)", text):
+        if re.match(r"\w+:", target):
+            continue
+        path, _, anchor = target.partition("#")
+        file = (page.parent / path).resolve() if path else page
+        assert file.exists(), f"{page.name}: {target}"
+        if anchor and file.suffix == ".md":
+            assert anchor in anchors(file), f"{page.name}: {target}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
+def test_paths_that_are_named_exist(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    for path in re.findall(r"`((?:models|docs|bondgraph|codegen|tests)/[\w/.]*)`", text):
+        assert (ROOT / path).exists(), f"{page.name}: {path}"
+
+
+def complete_models() -> list[tuple[str, str]]:
+    """Every block of a page that is a whole .bg file."""
+    found = []
+    for page in PAGES:
+        for language, text in _FENCE.findall(page.read_text(encoding="utf-8")):
+            if language == "bg" and text.startswith("bg 1\n") and "..." not in text:
+                found.append((str(page.relative_to(ROOT)), text))
+    return found
+
+
+@pytest.mark.parametrize(("page", "text"), complete_models())
+def test_whole_models_in_the_documentation_compile(page: str, text: str) -> None:
+    compilation = Compilation(Source(page, text))
+    assert compilation.verification
+    assert compilation.signatures.residuals
+
+
+def test_the_tour_keeps_its_promise() -> None:
+    page = (ROOT / "docs" / "language.md").read_text(encoding="utf-8")
+    text = next(t for language, t in _FENCE.findall(page) if language == "bg")
+    compilation = Compilation(Source("tour.bg", text))
+    assert len(compilation.signatures.residuals) == 1
+
+
+def test_the_grammar_in_the_manual_has_all_statements() -> None:
+    from bondgraph.frontend.words import KEYWORDS
+
+    page = (ROOT / "docs" / "language.md").read_text(encoding="utf-8")
+    grammar = next(t for language, t in _FENCE.findall(page) if language == "ebnf")
+    for word in KEYWORDS:
+        assert f'"{word}"' in grammar
+
+
+def test_the_manual_lists_the_domains_with_their_units() -> None:
+    from bondgraph.library.units import DOMAINS
+
+    page = (ROOT / "docs" / "language.md").read_text(encoding="utf-8")
+    listed = re.findall(r"^  \| `(\w+)` \|", page, re.MULTILINE)
+    assert sorted(listed) == sorted(DOMAINS)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
+def test_nothing_of_one_machine_is_written_down(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert not re.search(r"/(?:tmp|root|home|work)/", text)
+
+
+def test_the_readme_shows_both_commands_and_the_code_at_once() -> None:
+    head = "\n".join((ROOT / "README.md").read_text(encoding="utf-8").splitlines()[:20])
+    for part in ("make run", "make test", "bg 1", "bondgraph compile", "```c"):
+        assert part in head, part

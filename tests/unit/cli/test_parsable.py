@@ -1,0 +1,156 @@
+"""Expressions as text for SymPy: parsed back, they are the same function."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+import sympy
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bondgraph.cli.parsable import DEEP, Names, Parsable, parsable
+from bondgraph.ir.expr import Expr, Kind, Pool
+
+
+def read(text: Parsable) -> sympy.Expr:
+    """What SymPy makes of the text, with the shared parts put in."""
+    names: dict[str, object] = {s: sympy.Symbol(s) for s in text.symbols}
+    for name, part in text.defs:
+        names[name] = sympy.parse_expr(part, local_dict=names)
+    return sympy.parse_expr(text.expr, local_dict=names)
+
+
+def test_names_of_the_model_become_identifiers() -> None:
+    names = Names(["m[1].wh.ws", "U0[2]", "lambda", "lambda_", "D", "x", "µ"]).by_model
+    assert names["m[1].wh.ws"] == "m__1__wh__ws"
+    assert names["U0[2]"] == "U0__2"
+    assert names["lambda"] == "lambda_" and names["lambda_"] == "lambda__"
+    assert names["D"] == "D_" and names["x"] == "x"
+    assert all(n.isidentifier() for n in names.values())
+    assert len(set(names.values())) == len(names)
+
+
+def symbols() -> tuple[Pool, Expr, Expr, Names]:
+    pool = Pool()
+    x, a = pool.symbol("x", Kind.SENSOR), pool.symbol("w.a", Kind.PARAM)
+    return pool, x, a, Names(["x", "w.a"])
+
+
+def test_numbers_are_exact() -> None:
+    pool, x, a, names = symbols()
+    text = parsable(pool, pool.add((Fraction(1, 3), x), (Fraction(-7, 10), a)), names)
+    assert read(text) == sympy.Symbol("x") / 3 - sympy.Rational(7, 10) * sympy.Symbol("w__a")
+
+
+def test_derivatives_of_any_order_are_one_call() -> None:
+    pool, x, a, names = symbols()
+    text = parsable(pool, pool.div(pool.der(pool.der(x)), a), names)
+    assert text.expr == "D(x, 2)/w__a"
+
+
+def test_derivative_of_a_derivative_of_a_sum_keeps_its_parts() -> None:
+    pool, x, a, names = symbols()
+    inner = pool.add((1, pool.mul(x, a)), (1, pool.fn("atan2", x, a)))
+    assert parsable(pool, pool.der(pool.der(inner)), names).expr == "D(x*w__a + atan2(x, w__a), 2)"
+
+
+def test_an_integral_has_the_expression_of_its_initial_value() -> None:
+    pool, x, a, names = symbols()
+    start = pool.symbol("spring.q0", Kind.INITIAL)
+    node = pool.integral(x, start)
+    assert parsable(pool, node, names, {"spring.q0": pool.mul(a, a)}).expr == "Int(x, w__a**2)"
+    assert parsable(pool, node, names, {"spring.q0": pool.num(Fraction(1, 2))}).expr == "Int(x, 1/2)"
+
+
+@pytest.mark.parametrize("value", [-2.5, -1.0, 0.25, 3.0])
+def test_functions_mean_what_they_mean(value: float) -> None:
+    pool, x, _, names = symbols()
+    pool.tables["t"] = ((Fraction(-1), Fraction(2)), (Fraction(1), Fraction(4)))
+    root = abs(value) ** (1 / 3) * (1 if value > 0 else -1)
+    below = pool.compare("<", x, pool.num(0))
+    cases = {
+        pool.fn("ssq", x): value * abs(value),
+        pool.fn("cbrt", x): root,
+        pool.fn("max", x, pool.num(1)): max(value, 1),
+        pool.fn("table:t", x): min(max(3 + value, 2), 4),
+        pool.choose(pool.logic("not", below), x, pool.zero): max(value, 0),
+    }
+    for expr, expected in cases.items():
+        found = read(parsable(pool, expr, names)).subs(sympy.Symbol("x"), sympy.Rational(value))
+        assert float(found) == pytest.approx(expected)
+
+
+def test_a_long_chain_is_linear_and_can_be_parsed() -> None:
+    pool, x, a, names = symbols()
+    node, expected = x, 2.0
+    for _ in range(3000):
+        # Each level uses the one before twice: written out it would have 2**3000 terms.
+        node = pool.add((Fraction(1, 2), node), (Fraction(1, 4), pool.fn("tanh", node)))
+        expected = expected / 2 + sympy.tanh(expected).evalf() / 4
+    text = parsable(pool, pool.mul(node, a), names)
+    assert sum(len(part) for _, part in text.defs) < 300_000
+    assert max(part.count("(") for _, part in text.defs) < 2 * DEEP
+    values: dict[str, object] = {"x": 2.0, "w__a": 1.0, "tanh": sympy.tanh}
+    for name, part in text.defs:
+        values[name] = eval(part, {}, values)
+    assert eval(text.expr, {}, values) == pytest.approx(expected, rel=1e-9)
+
+
+@st.composite
+def expressions(draw: st.DrawFn) -> tuple[Pool, Expr]:
+    pool = Pool()
+    nodes = [pool.symbol(n, Kind.PARAM) for n in ("a", "b", "c")]
+    for _ in range(draw(st.integers(1, 12))):
+        one, two = draw(st.sampled_from(nodes)), draw(st.sampled_from(nodes))
+        c = Fraction(draw(st.integers(-9, 9)), draw(st.integers(1, 9)))
+        match draw(st.sampled_from(["add", "mul", "power", "fn"])):
+            case "add":
+                nodes.append(pool.add((c, one), (1, two), (2, pool.one)))
+            case "mul":
+                nodes.append(pool.mul(one, two, pool.num(c)))
+            case "power":
+                exponent = draw(st.sampled_from([-2, -1, 2, 3]))
+                if one is not pool.zero:
+                    nodes.append(pool.power(one, exponent))
+            case _:
+                nodes.append(pool.fn(draw(st.sampled_from(["abs", "ssq", "atan"])), one))
+    return pool, nodes[-1]
+
+
+@given(expressions())
+def test_the_text_evaluates_like_the_expression(drawn: tuple[Pool, Expr]) -> None:
+    import math
+
+    from bondgraph.ir.expr import Op, topological
+
+    pool, expr = drawn
+    values = {"a": 0.7, "b": -1.3, "c": 2.1}
+    known: dict[Expr, float] = {}
+    try:
+        for node in topological([expr]):
+            args = [known[a] for a in node.args]
+            match node.op:
+                case Op.NUM:
+                    known[node] = float(node.number)
+                case Op.SYM:
+                    known[node] = values[node.symbol.name]
+                case Op.ADD:
+                    known[node] = math.fsum(
+                        float(c) * v for c, v in zip(node.coefficients, args, strict=True)
+                    )
+                case Op.MUL:
+                    known[node] = math.prod(
+                        v**e for v, e in zip(args, node.exponents, strict=True)
+                    )
+                case _:
+                    functions = {"abs": abs, "ssq": lambda v: v * abs(v), "atan": math.atan}
+                    known[node] = functions[node.name](args[0])
+    except (ZeroDivisionError, OverflowError):
+        return
+    text = parsable(pool, expr, Names(values))
+    scope: dict[str, object] = {"Abs": abs, "atan": math.atan, **values}
+    for name, part in text.defs:
+        scope[name] = eval(part, {}, scope)
+    size = max([1.0, *map(abs, known.values())])
+    assert eval(text.expr, {}, scope) == pytest.approx(known[expr], abs=1e-9 * size, rel=1e-9)
