@@ -111,14 +111,14 @@ def _compute(compilation: Compilation) -> None:
     with console.progress(len(_STAGES)) as advance:
         for word, stage in _STAGES:
             advance(word)
-            if stage == "program" and not compilation.residuals.residuals:
+            if stage == "program" and not compilation.residuals:
                 return  # no redundancy: a right answer, but nothing to run
             getattr(compilation, stage)
 
 
 def _write(compilation: Compilation, output: str | None) -> list[str]:
     """Write all files or none; the paths that were written."""
-    if not compilation.residuals.residuals:
+    if not compilation.residuals:
         return []
     from bondgraph.backends.write import write
 

@@ -58,7 +58,7 @@ def text_of(compilation: Compilation, stage: str) -> str:
         case "equations":
             return dump.dump_equations(compilation.equations)
         case "residuals":
-            return dump.dump_residuals(compilation.residuals)
+            return dump.dump_residuals(compilation.residuals.stage)
         case "signatures":
             return dump.dump_signatures(compilation.signatures)
         case _:

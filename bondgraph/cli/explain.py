@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from bondgraph.ir.causal import CausalGraph
     from bondgraph.ir.graph import Bond, BondGraph
-    from bondgraph.ir.residuals import Residual
+    from bondgraph.views import Relation
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -76,12 +76,9 @@ def _all_names(compilation: Compilation) -> list[str]:
 
 
 def _latex(compilation: Compilation, name: str) -> int:
-    from bondgraph.ir.latex import latex
-    from bondgraph.passes.present import tidy
-
-    for residual in compilation.residuals.residuals:
-        if residual.name == name:
-            print(latex(tidy(compilation.graph.pool, residual.expr)[0]))
+    for relation in compilation.residuals:
+        if relation.name == name:
+            print(relation.latex)
             return 0
     return _unknown(name, "no residual", compilation.signatures.residuals)
 
@@ -98,9 +95,9 @@ def about(compilation: Compilation, name: str) -> list[str]:
         parts.append(_fault(compilation, name))
     # A residual needs all of the analysis, so it is looked for last; `r1` may name a node as well.
     if not parts or re.fullmatch(r"r\d+", name):
-        for residual in compilation.residuals.residuals:
-            if residual.name == name:
-                parts.append(_residual(compilation, residual))
+        for relation in compilation.residuals:
+            if relation.name == name:
+                parts.append(_residual(compilation, relation))
     lines: list[str] = []
     for part in parts:
         lines += ["", *part] if lines else part
@@ -167,7 +164,7 @@ def _stroke(causal: CausalGraph, bond: Bond) -> str:
     )
 
 
-def _residual(compilation: Compilation, residual: Residual) -> list[str]:
+def _residual(compilation: Compilation, relation: Relation) -> list[str]:
     from bondgraph.cli.layout import formula, width
     from bondgraph.cli.report import closed_form
     from bondgraph.ir.dump import place
@@ -175,7 +172,8 @@ def _residual(compilation: Compilation, residual: Residual) -> list[str]:
     from bondgraph.passes.path import path
 
     columns = width()
-    lines = closed_form(compilation, residual, columns, longest=None)
+    residual = relation.residual
+    lines = closed_form(compilation, relation, columns, longest=None)
     lines += ["", "Computed from the known signals, in this order"]
     steps = path(residual, compilation.equations, compilation.derivative)
     for step in steps:
@@ -191,11 +189,9 @@ def _residual(compilation: Compilation, residual: Residual) -> list[str]:
         ]
     if residual.differentiated:
         lines += ["", "  The relation is differentiated: an initial value is not declared."]
-    matrix = compilation.signatures
-    orders = matrix.orders[matrix.residuals.index(residual.name)]
-    shown = [f"{s} {'only integrated' if n < 0 else n}" for s, n in orders.items()]
+    shown = [f"{s} {'only integrated' if n < 0 else n}" for s, n in relation.orders.items()]
     lines += ["", "Highest derivatives", *_listed(shown, columns)]
-    lines += ["", "Faults that it sees", *_listed(matrix.signature(residual.name), columns)]
+    lines += ["", "Faults that it sees", *_listed(relation.faults, columns)]
     return lines
 
 

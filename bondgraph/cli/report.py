@@ -13,8 +13,8 @@ from bondgraph.ir.expr import Expr, symbols
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from bondgraph.ir.residuals import Residual
     from bondgraph.pipeline import Compilation
+    from bondgraph.views import Relation
 
 _LONGEST = 24  # lines of one residual in a report; more than that nobody reads
 
@@ -24,8 +24,8 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
     matrix = compilation.signatures
     columns = width()
     lines = [f"{compilation.graph.name}: {message(matrix)}"]
-    for residual in compilation.residuals.residuals:
-        lines += ["", *closed_form(compilation, residual, columns)]
+    for relation in compilation.residuals:
+        lines += ["", *closed_form(compilation, relation, columns)]
     if matrix.faults and matrix.residuals:
         lines += ["", "Fault signatures", *signature_table(matrix)]
     if matrix.undetectable:
@@ -33,7 +33,7 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
         for reason, faults in reasons(compilation).items():
             lines += names(faults, columns, "  ")
             lines.append(f"    {reason}")
-    if compilation.residuals.residuals:
+    if matrix.residuals:
         lines += _numerics(compilation, columns)
     if files:
         lines += ["", f"Written ({plural(len(files), 'file')})", *[f"  {path}" for path in files]]
@@ -41,18 +41,16 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
 
 
 def closed_form(
-    compilation: Compilation, residual: Residual, columns: int, longest: int | None = _LONGEST
+    compilation: Compilation, relation: Relation, columns: int, longest: int | None = _LONGEST
 ) -> list[str]:
     """One residual as nested formulas under a line that says where it comes from.
 
     At most `longest` lines (None: all).
     """
-    from bondgraph.passes.present import closed_form as present
-
-    form = present(compilation.graph.pool, residual)
+    form = relation.closed_form
     source = compilation.source
-    lines = [f"{residual.name}  {equation_name(residual.closing, source)}"]
-    indent = " " * (len(residual.name) + 2)
+    lines = [f"{relation.name}  {equation_name(relation.residual.closing, source)}"]
+    indent = " " * (len(relation.name) + 2)
     lines += formula(form.text, columns, f"{indent}0 = ", f"{indent}    ")
     for name, text in form.where:
         lines += formula(text, columns, f"{indent}{name} = ", f"{indent}    ")
@@ -61,7 +59,7 @@ def closed_form(
         lines = [
             *lines[:longest],
             f"{indent}... {plural(rest, 'line')} more: bondgraph explain"
-            f" {compilation.source.path} {residual.name}",
+            f" {compilation.source.path} {relation.name}",
         ]
     return lines
 
@@ -80,7 +78,7 @@ def reason(compilation: Compilation, fault: str) -> str:
     symbol = graph.fault_symbol(fault)
     system = compilation.equations
     holding = [e for e in system.equations if symbol in symbols(e.zero)]
-    blind = {id(e) for e in compilation.residuals.unmonitored}
+    blind = {id(e) for e in compilation.residuals.stage.unmonitored}
     if not holding:
         return "no law uses it"
     if all(id(e) in blind for e in holding):
@@ -92,7 +90,7 @@ def reason(compilation: Compilation, fault: str) -> str:
 
 def _junctions(compilation: Compilation, variables: Iterable[Expr]) -> list[str]:
     """The junctions of the unmonitored part that some variables belong to, at most three."""
-    unmonitored = compilation.residuals.unmonitored
+    unmonitored = compilation.residuals.stage.unmonitored
     reached = dict.fromkeys(variables)
     grown = True
     while grown:

@@ -31,7 +31,7 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
     initial = initial_values(graph)
     arrs = [
         _arr(graph, residual, matrix, names, initial)
-        for residual in compilation.residuals.residuals
+        for residual in compilation.residuals.stage.residuals
     ]
     used = {symbol for _, symbols in arrs for symbol in symbols}
     return {
