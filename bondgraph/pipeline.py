@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.residuals import ReducedSystem, ResidualSet
     from bondgraph.ir.signatures import SignatureMatrix
     from bondgraph.ir.syntax import File
+    from bondgraph.views import Relations
 
 T = TypeVar("T")
 
@@ -107,9 +108,11 @@ class Compilation:
         return self._stage(eliminate(self.equations, self.report))
 
     @cached_property
-    def residuals(self) -> ResidualSet:
+    def residuals(self) -> Relations:
         """The analytical redundancy relations, without what cancels in them."""
-        return self._analysis[0]
+        from bondgraph.views import Relations
+
+        return Relations(*self._analysis)
 
     @cached_property
     def signatures(self) -> SignatureMatrix:
@@ -128,7 +131,7 @@ class Compilation:
         from bondgraph.passes.verify import verify
 
         return self._stage(
-            verify(self.graph, self.residuals, self.signatures, self.report, self.options.seed)
+            verify(self.graph, *self._analysis, self.report, self.options.seed)
         )
 
     @cached_property
@@ -141,8 +144,7 @@ class Compilation:
         return self._stage(
             lower(
                 self.graph,
-                self.residuals,
-                self.signatures,
+                *self._analysis,
                 LowerOptions(rate=rate, bandwidth=bandwidth, resolution=resolution),
             )
         )

@@ -33,10 +33,12 @@ class Equation(NamedTuple):
 class EquationSystem(NamedTuple):
     """All equations; variables aliased by junctions are already one.
 
-    `names` gives each unknown variable the name a person knows it by (`m[1].el.i.f`).
+    `efforts` and `flows` give the two variables of each bond, with a sign where a port's variable
+    stands for it. A variable's name is the one a person knows it by (`m[1].el.i.f`).
     """
 
     graph: BondGraph
     equations: tuple[Equation, ...]
     unknowns: tuple[Expr, ...]
-    names: dict[Expr, str]
+    efforts: tuple[Expr, ...]
+    flows: tuple[Expr, ...]

@@ -54,12 +54,14 @@ class ResidualSet(NamedTuple):
 class Closing(NamedTuple):
     """An equation that was left over when all its variables had been computed: `expr` = 0.
 
-    `steps` are what its variables rest on, in the order of the elimination.
+    `steps` are what its variables rest on, in the order of the elimination; `differentiated` as
+    in `Residual`.
     """
 
     equation: Equation
     expr: Expr
     steps: tuple[Step, ...]
+    differentiated: int
 
 
 class ReducedSystem(NamedTuple):

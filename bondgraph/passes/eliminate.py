@@ -230,8 +230,8 @@ class Chain:
             if found is None:
                 self.initial_missing(equation, steps)
                 lost += 1
-            elif found is not self.pool.zero:
-                closings.append(Closing(equation, found, steps))
+            elif found[0] is not self.pool.zero:
+                closings.append(Closing(equation, found[0], steps, found[1]))
         unsolved = tuple(v for v in self.system.unknowns if v not in self.closed)
         unmonitored = tuple(e for r, e in enumerate(self.system.equations) if not self.used[r])
         self.report_loops()

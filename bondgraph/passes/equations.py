@@ -155,8 +155,13 @@ class _Builder:
                 at = -1 if sensor.node is None else sensor.node
                 self.write("sensor", sensor.name, zero, at, sensor.origin)
         unknowns = variables(*[e.zero for e in self.equations])
-        names = {v: v.symbol.name for v in unknowns}
-        return EquationSystem(graph, tuple(self.equations), tuple(unknowns), names)
+        return EquationSystem(
+            graph,
+            tuple(self.equations),
+            tuple(unknowns),
+            tuple(self.effort),
+            tuple(self.flow),
+        )
 
 
 def equations(graph: BondGraph) -> EquationSystem:

@@ -11,8 +11,8 @@ _Value = Callable[[Expr, int], Expr]
 _MOST = 12  # no relation worth having rests on more nested integrals
 
 
-def without_free_integrals(pool: Pool, expr: Expr) -> Expr | None:
-    """The relation, differentiated as often as its integrals of unknown start require.
+def without_free_integrals(pool: Pool, expr: Expr) -> tuple[Expr, int] | None:
+    """The relation, differentiated as often as its integrals of unknown start require; how often.
 
     None where such an integral stands inside a nonlinear function, so that no derivative of the
     relation is free of it. Parameters are constant in time here.
@@ -22,7 +22,7 @@ def without_free_integrals(pool: Pool, expr: Expr) -> Expr | None:
         if pushed is None:
             return None
         if not _holding(pushed):
-            return pushed
+            return pushed, order
     return None
 
 

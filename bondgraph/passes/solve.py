@@ -9,7 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import NamedTuple
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, topological
 
 #: Functions that are one to one on the reals (or where they are defined), with their inverses.
 INVERSE = {
@@ -62,9 +62,19 @@ def solve(pool: Pool, zero: Expr, variable: Expr) -> Solution | None:
     return None if value_ is None else Solution(value_, True, True)
 
 
-def constant(expr: Expr) -> bool:
-    """Whether an expression is made of parameters and numbers only."""
-    return all(s.symbol.kind in CONSTANTS for s in symbols(expr))
+def constant(expr: Expr, memo: dict[Expr, bool] | None = None) -> bool:
+    """Whether an expression is made of parameters and numbers only.
+
+    With a `memo` kept between calls, questions about parts of one large expression stay linear.
+    """
+    known = {} if memo is None else memo
+    for node in topological([expr], stop=known.__contains__):
+        if node not in known:
+            if node.op is Op.SYM:
+                known[node] = node.symbol.kind in CONSTANTS
+            else:
+                known[node] = node.op is not Op.INT and all(known[a] for a in node.args)
+    return known[expr]
 
 
 def affine(pool: Pool, node: Expr, variable: Expr) -> tuple[Expr, Expr] | None:

@@ -1,0 +1,89 @@
+"""A point at which every signal is independent of the others: expressions as such, no plant."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+from bondgraph.exact.algebra import Algebra, Taylor, Wave, Waves
+from bondgraph.exact.evaluate import highest_order
+from bondgraph.exact.field import Functions, P
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, Symbol, topological
+
+
+class FreeSample:
+    """Random values for all symbols of an expression, each drawn when it is asked for."""
+
+    def __init__(
+        self, algebra: Algebra[Any, Any], order: int, seed: int, constants: int | None = None
+    ) -> None:
+        self._algebra = algebra
+        self._order = order
+        self._seed = seed
+        self._constants = seed if constants is None else constants
+
+    @classmethod
+    def of(cls, expr: Expr, seed: int) -> FreeSample:
+        """Exponentials where the expression is linear in its signals, else power series."""
+        functions = Functions(seed)
+        if linear(expr):
+            draw = random.Random(seed)
+            return cls(Waves(functions, draw.randrange(1, P), draw.randrange(1, P)), 0, seed)
+        return cls(Taylor(functions), highest_order([expr]), seed)
+
+    @property
+    def algebra(self) -> Algebra[Any, Any]:
+        """The algebra that the values belong to."""
+        return self._algebra
+
+    def value(self, symbol: Expr) -> Any:
+        """A random signal, or a random constant for a parameter; the same at every call."""
+        signal = symbol.symbol.kind in KNOWN_SIGNALS
+        source = self._seed if signal else self._constants
+        draw = random.Random(f"{source}:{symbol.symbol.name}")
+        if isinstance(self._algebra, Waves):
+            return Wave(draw.randrange(1, P), int(signal))
+        if symbol.symbol.kind is Kind.MODE:
+            return [draw.randrange(2)]
+        if not signal:
+            return [draw.randrange(1, P)]
+        return [draw.randrange(1, P) for _ in range(self._order + 1)]
+
+    def start(self, initial: Symbol) -> int:
+        """A random value for integrals to begin with."""
+        return random.Random(f"{self._seed}:{initial.name}").randrange(1, P)
+
+    def earlier(self, steps: int) -> FreeSample:
+        """Other signals with the same constants."""
+        later = self._seed + 1_000_003 * steps
+        return FreeSample(self._algebra, self._order, later, self._constants)
+
+
+def linear(expr: Expr) -> bool:
+    """Whether an expression is a sum of constants times derivatives of signals."""
+    degree: dict[Expr, int] = {}
+    for node in topological([expr]):
+        below = [degree[a] for a in node.args]
+        if node.op is Op.SYM:
+            if node.symbol.kind is Kind.MODE:
+                return False
+            degree[node] = int(node.symbol.kind in KNOWN_SIGNALS)
+        elif node.op is Op.ADD:
+            if len(set(below)) > 1:
+                return False
+            degree[node] = below[0]
+        elif node.op is Op.MUL:
+            if any(d and e != 1 for d, e in zip(below, node.exponents, strict=True)):
+                return False
+            degree[node] = sum(below)
+            if degree[node] > 1:
+                return False
+        elif node.op is Op.NUM:
+            degree[node] = 0
+        elif node.op is Op.DER:
+            degree[node] = below[0]
+        elif any(below) or node.op in (Op.INT, Op.IF, Op.CMP, Op.LOGIC):
+            return False
+        else:
+            degree[node] = 0
+    return True

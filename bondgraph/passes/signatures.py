@@ -1,0 +1,184 @@
+"""Find which fault moves which relation, exactly, and take out of the relations what cancels.
+
+A relation is differentiated with respect to every parameter and signal by reverse mode, over a
+prime field, at a random point: once at free signals, which shows what cancels for every signal
+(the backlash torque in the drives' first relation), and once on a healthy trajectory of the
+plant, which decides the signature. Parameters are functions of time here, so that a fault is
+found whatever its course. Presence of a symbol proves nothing; a derivative that vanishes does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from bondgraph.exact.evaluate import Sample, Sensitivity, highest_order, sensitivities
+from bondgraph.exact.field import Undefined
+from bondgraph.exact.free import FreeSample
+from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
+from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.text.diagnostic import Report
+
+T = TypeVar("T")
+
+#: Points at which a relation is tried: a branch not taken at one is taken at another.
+_POINTS, _POINTS_WITH_BRANCHES = 2, 12
+_TRIES = 40  # a point where a square root has no value is drawn again
+
+
+def signatures(
+    reduced: ReducedSystem, report: Report, seed: int = 1
+) -> tuple[ResidualSet, SignatureMatrix]:
+    """The relations, named in the order of the model, and their fault signature matrix.
+
+    Exact up to a probability below 1e-12 (Schwartz and Zippel). Where no trajectory of the plant
+    can be had, the signatures are those at free signals and the verification says so.
+    """
+    return _Analysis(reduced, report, seed).run()
+
+
+class _Analysis:
+    def __init__(self, reduced: ReducedSystem, report: Report, seed: int) -> None:
+        self.reduced = reduced
+        self.graph = reduced.system.graph
+        self.pool = self.graph.pool
+        self.report = report
+        self.seed = seed
+        self.plant = Plant(self.graph)
+
+    def run(self) -> tuple[ResidualSet, SignatureMatrix]:
+        relations: list[tuple[Closing, Expr, dict[Expr, int]]] = []
+        for closing in self.reduced.closings:
+            free = self.at_free_signals(closing.expr)
+            if any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items()):
+                expr = pruned(self.pool, closing.expr, free)
+                relations.append((closing, expr, free.orders))
+        reacts = self.on_trajectories([expr for _, expr, _ in relations])
+        names = [f"r{i + 1}" for i in range(len(relations))]
+        residuals = tuple(
+            Residual(name, expr, c.equation, c.steps, c.differentiated)
+            for name, (c, expr, _) in zip(names, relations, strict=True)
+        )
+        faults = self.graph.faults
+        rows = []
+        for fault in faults:
+            symbol = self.graph.fault_symbol(fault)
+            rows.append(tuple(symbol in seen for seen in reacts))
+        orders = tuple({s.symbol.name: k for s, k in own.items()} for _, _, own in relations)
+        reduced = self.reduced
+        return (
+            ResidualSet(reduced.system, residuals, reduced.unsolved, reduced.unmonitored),
+            SignatureMatrix(tuple(names), faults, tuple(rows), orders),
+        )
+
+    # ------------------------------------------------------------------ points
+
+    def at_free_signals(self, expr: Expr) -> Sensitivity:
+        """What the relation depends on when its signals are independent of each other."""
+        found: Sensitivity | None = None
+        for point in range(_points([expr])):
+            here = self.draw(
+                lambda n: sensitivities(expr, FreeSample.of(expr, n)), 1000 * self.seed + point
+            )
+            found = here if found is None else _union(found, here)
+        assert found is not None
+        return _with_decisions(expr, found)
+
+    def on_trajectories(self, exprs: list[Expr]) -> list[set[Expr]]:
+        """The symbols that each relation reacts to in the healthy plant."""
+        reacts: list[set[Expr]] = [set() for _ in exprs]
+        if not exprs:
+            return reacts
+        order = highest_order(exprs) + 1
+        try:
+            for point in range(_points(exprs)):
+                parts = self.draw(
+                    lambda n: self.sensed(exprs, n, order), 2000 * self.seed + point
+                )
+                for seen, part in zip(reacts, parts, strict=True):
+                    seen.update(part)
+        except ExactUnavailable:
+            for seen, expr in zip(reacts, exprs, strict=True):
+                free = self.at_free_signals(expr)
+                seen.update(s for s, hit in free.depends.items() if hit)
+        return reacts
+
+    def sensed(self, exprs: list[Expr], number: int, order: int) -> list[set[Expr]]:
+        sample: Sample = self.plant.trajectory(number, order)
+        found = []
+        for expr in exprs:
+            here = _with_decisions(expr, sensitivities(expr, sample))
+            found.append({s for s, hit in here.depends.items() if hit})
+        return found
+
+    def draw(self, attempt: Callable[[int], T], number: int) -> T:
+        """The result at a random point; points where something has no value are drawn again."""
+        for turn in range(_TRIES):
+            try:
+                return attempt(number + 100_000 * turn)
+            except Undefined:
+                continue
+        raise ExactUnavailable("no point was found at which every law has a value")
+
+
+def _points(exprs: list[Expr]) -> int:
+    branches = any(
+        n.op is Op.IF
+        or (n.op is Op.FN and n.name in ("sign", "min", "max", "abs"))
+        or (n.op is Op.SYM and n.symbol.kind is Kind.MODE)
+        for n in topological(exprs)
+    )
+    return _POINTS_WITH_BRANCHES if branches else _POINTS
+
+
+def _union(a: Sensitivity, b: Sensitivity) -> Sensitivity:
+    return Sensitivity(
+        {s: hit or b.depends[s] for s, hit in a.depends.items()},
+        {s: max(a.orders.get(s, -2), b.orders.get(s, -2)) for s in {**a.orders, **b.orders}},
+        a.dead & b.dead,
+        tuple(dict.fromkeys((*a.starts, *b.starts))),
+    )
+
+
+def _decisions(expr: Expr, dead: frozenset[Expr]) -> list[Expr]:
+    """The conditions on which a relation depends by jumps, where no derivative shows it."""
+    return [
+        n.args[0]
+        for n in topological([expr])
+        if n not in dead and (n.op is Op.IF or (n.op is Op.FN and n.name == "sign"))
+    ]
+
+
+def _with_decisions(expr: Expr, found: Sensitivity) -> Sensitivity:
+    conditions = _decisions(expr, found.dead)
+    if not conditions:
+        return found
+    through = symbols(*conditions)
+    orders = dict(found.orders)
+    depth = highest_order(conditions)
+    for s in through:
+        if s.symbol.kind in (Kind.INPUT, Kind.SENSOR):
+            orders[s] = max(orders.get(s, 0), depth if s not in orders else 0)
+    return found._replace(depends={**found.depends, **dict.fromkeys(through, True)}, orders=orders)
+
+
+def pruned(pool: Pool, expr: Expr, free: Sensitivity) -> Expr:
+    """The relation without the parts that cancel whatever the signals are.
+
+    A part cancels when the relation's derivative with respect to it vanishes; the relation keeps
+    its value when the part is put to zero. What decides between branches is never such a part.
+    """
+    kept: set[Expr] = set()
+    for node in topological([expr]):
+        if node.op in (Op.CMP, Op.LOGIC) or (node.op is Op.FN and node.name == "sign"):
+            kept.update(node.args)
+        elif node.op is Op.IF:
+            kept.add(node.args[0])
+    dead = {n: pool.zero for n in topological([expr]) if n in free.dead and n not in kept}
+    dead = {n: z for n, z in dead.items() if n.op is not Op.NUM}
+    try:
+        return pool.substitute([expr], dead)[0]
+    except ZeroDivisionError:
+        return expr

@@ -1,0 +1,123 @@
+"""What a person works with in Python: relations as SymPy expressions, tables that print well."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, overload
+
+from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.residuals import Residual, ResidualSet
+from bondgraph.ir.signatures import SignatureMatrix
+
+if TYPE_CHECKING:
+    from bondgraph.passes.present import ClosedForm
+
+
+class Relation:
+    """One analytical redundancy relation, in the user's own names.
+
+    >>> import bondgraph
+    >>> r = bondgraph.compile("models/dc_motor.bg").residuals["r1"]
+    >>> sorted(r.orders)
+    ['U', 'w']
+    """
+
+    def __init__(self, pool: Pool, residual: Residual, matrix: SignatureMatrix) -> None:
+        self._pool = pool
+        self._matrix = matrix
+        self.residual = residual
+        self.name = residual.name
+
+    @cached_property
+    def expr(self) -> Any:
+        """The relation as a SymPy expression: signals are functions of t, parameters symbols."""
+        from bondgraph.passes.present import tidy
+        from bondgraph.passes.symbolic import to_sympy
+
+        return to_sympy(tidy(self._pool, self.residual.expr)[0])
+
+    @cached_property
+    def closed_form(self) -> ClosedForm:
+        """The relation as text, its shared parts named and written once."""
+        from bondgraph.passes.present import closed_form
+
+        return closed_form(self._pool, self.residual)
+
+    @property
+    def text(self) -> str:
+        """The closed form as lines of text."""
+        return str(self.closed_form)
+
+    @cached_property
+    def latex(self) -> str:
+        """The relation in LaTeX; a dotted path becomes a subscript, a derivative its dots."""
+        from bondgraph.ir.latex import latex
+        from bondgraph.passes.present import tidy
+
+        return latex(tidy(self._pool, self.residual.expr)[0])
+
+    @property
+    def orders(self) -> dict[str, int]:
+        """Highest derivative of each known signal; -1 where only its integral occurs."""
+        return dict(self._matrix.orders[self._matrix.residuals.index(self.name)])
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """The faults that this relation reacts to."""
+        return self._matrix.signature(self.name)
+
+    @property
+    def operations(self) -> int:
+        """How many nodes the shared expression has: what evaluating it once costs."""
+        return sum(bool(n.args) and n.op is not Op.DER for n in topological([self._root]))
+
+    @property
+    def _root(self) -> Expr:
+        return self.residual.expr
+
+    def __repr__(self) -> str:
+        return f"<{self.name}: {self.closed_form.text}>"
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex}$"
+
+
+class Relations(Sequence[Relation]):
+    """All relations of a model in stable order; by position or by name."""
+
+    def __init__(self, residuals: ResidualSet, matrix: SignatureMatrix) -> None:
+        pool = residuals.system.graph.pool
+        self.stage = residuals
+        self._all = tuple(Relation(pool, r, matrix) for r in residuals.residuals)
+
+    @overload
+    def __getitem__(self, key: int | str) -> Relation: ...
+    @overload
+    def __getitem__(self, key: slice) -> tuple[Relation, ...]: ...
+    def __getitem__(self, key: int | str | slice) -> Relation | tuple[Relation, ...]:
+        """The relation at a position or of a name; raises IndexError or KeyError."""
+        if isinstance(key, str):
+            for relation in self._all:
+                if relation.name == key:
+                    return relation
+            raise KeyError(key)
+        return self._all[key]
+
+    @property
+    def residuals(self) -> tuple[Residual, ...]:
+        """The residuals as the passes know them."""
+        return self.stage.residuals
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __iter__(self) -> Iterator[Relation]:
+        return iter(self._all)
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{r.name} = {r.text}" for r in self._all) or "no relation"
+
+    def _repr_html_(self) -> str:
+        rows = (f"<p>$${r.name} = {r.latex}$$</p>" for r in self._all)
+        return "\n".join(rows)

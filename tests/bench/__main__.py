@@ -1,0 +1,57 @@
+"""`make bench`: medians of the times that matter, each against a yardstick of the same run."""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from pathlib import Path
+
+from tests.bench import growth, instructions
+from tests.bench.clock import in_turn, python
+
+ROOT = Path(__file__).parents[2]
+ROBOT = str(ROOT / "models" / "khepera.bg")
+LONG = str(ROOT / "tests" / "bench" / "cable1000.bg")
+
+
+def row(what: str, own: float, yardstick: str, other: float, limit: str) -> None:
+    """One line of the table: both medians, their ratio, and what is promised."""
+    ratio = own / other
+    print(f"{what:38} {own * 1e3:8.0f} ms {yardstick:22} {other * 1e3:7.0f} ms {ratio:6.2f}x  {limit}")
+
+
+def commands(runs: int) -> None:
+    """Whole commands, from the start of the interpreter to its end."""
+    with tempfile.TemporaryDirectory() as folder:
+        bare, algebra, check, robot, long = in_turn(
+            [
+                python("-c", "pass"),
+                python("-c", "import sympy"),
+                python("-m", "bondgraph", "check", ROBOT),
+                python("-m", "bondgraph", "compile", ROBOT, "-o", f"{folder}/robot"),
+                python("-m", "bondgraph", "compile", LONG, "-o", f"{folder}/long"),
+            ],
+            runs,
+        )
+    start, sympy = bare.median, algebra.median
+    budget = f"<= {(3 * start + 0.060) * 1e3:.0f} ms (3x + 60 ms)"
+    row("check models/khepera.bg", check.median, "python -c pass", start, budget)
+    row("compile models/khepera.bg", robot.median, "import sympy", sympy, "<= 2.5x")
+    row("compile Cable(n = 1000)", long.median, "import sympy", sympy, "<= 10x")
+
+
+def main() -> None:
+    """Run all benchmarks; `--short` takes fewer runs and smaller models."""
+    parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
+    parser.add_argument("--short", action="store_true", help="fewer runs, smaller models")
+    short = parser.parse_args().short
+    print("Medians of runs taken in turn on this machine, in this run.\n")
+    commands(3 if short else 11)
+    print()
+    instructions.report()
+    print()
+    growth.report((100, 1000) if short else (100, 1000, 10_000))
+
+
+if __name__ == "__main__":
+    main()
