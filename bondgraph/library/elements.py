@@ -1,0 +1,67 @@
+"""The element kinds as data: keywords, ports, law variables, states and causal preferences."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+
+class ElementKind(NamedTuple):
+    """What the compiler knows of one keyword.
+
+    `kind` is the keyword without its M (modulated). `ports` are the names of the fixed ports, ""
+    for the only one; a kind with `fields` may declare named ports instead. `variables` may stand
+    in a law. `state` is the stored quantity of a C (q' = f) or an I (p' = e). `output` is what
+    the element would rather give: "e" for a C in integral causality and for an Se, None where
+    either is as good. `coefficient` says what a value after `=` is, "" where none is allowed, and
+    `law` is an example of a law in braces.
+    """
+
+    keyword: str
+    kind: str
+    ports: tuple[str, ...]
+    variables: tuple[str, ...]
+    state: Literal["q", "p"] | None
+    output: Literal["e", "f"] | None
+    fields: bool
+    coefficient: str
+    law: str
+
+    @property
+    def modulated(self) -> bool:
+        """Whether the keyword says that a signal drives the element."""
+        return self.keyword != self.kind
+
+    @property
+    def passive(self) -> bool:
+        """Whether the one-port rule for signs holds: R, C, I and their fields."""
+        return self.kind in ("R", "C", "I")
+
+
+_ONE = ("",)
+_TWO = ("1", "2")
+_PAIRS = ("e1", "f1", "e2", "f2")
+
+_ALL = (
+    ElementKind("R", "R", _ONE, ("e", "f"), None, None, True, "resistance", "e = R*f"),
+    ElementKind("MR", "R", _ONE, ("e", "f"), None, None, True, "resistance", "e = R*f"),
+    ElementKind("C", "C", _ONE, ("e", "f", "q"), "q", "e", True, "capacitance", "e = q/C"),
+    ElementKind("I", "I", _ONE, ("e", "f", "p"), "p", "f", True, "inertia", "f = p/I"),
+    ElementKind("TF", "TF", _TWO, _PAIRS, None, None, False, "", "f1 = m*f2"),
+    ElementKind("MTF", "TF", _TWO, _PAIRS, None, None, False, "", "f1 = m*f2"),
+    ElementKind("GY", "GY", _TWO, _PAIRS, None, None, False, "ratio", "e1 = k*f2"),
+    ElementKind("MGY", "GY", _TWO, _PAIRS, None, None, False, "ratio", "e1 = k*f2"),
+    ElementKind("Se", "Se", _ONE, ("e",), None, "e", False, "effort", "e = U"),
+    ElementKind("MSe", "Se", _ONE, ("e",), None, "e", False, "effort", "e = U"),
+    ElementKind("Sf", "Sf", _ONE, ("f",), None, "f", False, "flow", "f = Q"),
+    ElementKind("MSf", "Sf", _ONE, ("f",), None, "f", False, "flow", "f = Q"),
+    ElementKind("De", "De", _ONE, (), None, None, False, "detector", ""),
+    ElementKind("Df", "Df", _ONE, (), None, None, False, "detector", ""),
+)
+
+#: Every keyword that may stand before `:` beside `0`, `1` and the names of models.
+KINDS: dict[str, ElementKind] = {k.keyword: k for k in _ALL}
+
+JUNCTIONS = ("0", "1")
+
+#: Suffixes that make a signal of a node: `x.e`, `gear.f1`.
+SIGNALS = frozenset({"e", "f", "p", "q", "e1", "f1", "e2", "f2"})

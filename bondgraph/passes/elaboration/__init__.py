@@ -1,0 +1,1 @@
+"""The parts of elaboration: instances, connections, expressions and units, one file each."""

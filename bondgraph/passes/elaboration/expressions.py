@@ -1,0 +1,309 @@
+"""From written expressions to nodes of the pool, each with its dimension."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import NamedTuple, assert_never
+
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, topological
+from bondgraph.ir.syntax import Binary, Call, Expression, Number, Ref, Text, Truth, Unary
+from bondgraph.library.dimensions import Term
+from bondgraph.passes.elaboration.functions import Functions
+from bondgraph.passes.elaboration.problems import Skip, fail
+from bondgraph.passes.elaboration.quantities import PURE, Quantities
+from bondgraph.passes.elaboration.scope import Env, Scope, Typed
+from bondgraph.text.diagnostic import Report
+from bondgraph.text.source import Span
+
+_MOST_DEEP = 80
+_MOST_POWER = 1000
+_MOST_BITS = 4096
+_LARGEST = Fraction(10) ** 300
+_COUNTS = frozenset({1, 2, 4})
+_MOST_COUNT = 16
+
+
+class Place(NamedTuple):
+    """Where an expression stands: its names are looked up in `scope`, law variables in `local`.
+
+    `owner` is the path that integrals written in it are named after.
+    """
+
+    scope: Scope
+    env: Env
+    owner: str
+    local: dict[str, Typed] | None = None
+
+
+class Expressions:
+    """Converts expressions; what a name means is asked of `names` (see `values`)."""
+
+    def __init__(self, pool: Pool, report: Report, quantities: Quantities) -> None:
+        self.pool = pool
+        self.report = report
+        self.quantities = quantities
+        self.functions = Functions(self)
+        self._constant: dict[Expr, bool] = {}
+        self._depth = 0
+
+    def reference(self, ref: Ref, place: Place) -> Typed:
+        """The value of a reference."""
+        raise NotImplementedError
+
+    def convert(self, expr: Expression, place: Place) -> Typed:
+        """The expression and its dimension; what is wrong is reported and raises Skip."""
+        self._depth += 1
+        try:
+            if self._depth > _MOST_DEEP:
+                fail(self.report, "expression-too-deep", "This expression is nested too deeply.",
+                     expr.origin, help="Split it into several `let`s.")  # fmt: skip
+            match expr:
+                case Number():
+                    return self.number(expr)
+                case Ref():
+                    return self.reference(expr, place)
+                case Binary():
+                    return self.binary(expr, place)
+                case Unary():
+                    return self.unary(expr, place)
+                case Call():
+                    return self.functions.call(expr, place)
+                case Truth():
+                    return self.truth_value(expr.value), None
+                case Text():
+                    fail(self.report, "wrong-type", "A text is no value.", expr.origin,
+                         help='A text is the file name of a table: `table("file.csv", x)`.'
+                         )  # fmt: skip
+                case _:
+                    assert_never(expr)
+        finally:
+            self._depth -= 1
+
+    def quantity(self, expr: Expression, place: Place) -> tuple[Expr, Term]:
+        """An expression that must be a number."""
+        node, term = self.convert(expr, place)
+        if term is None:
+            fail(self.report, "wrong-type", f"`{expr.origin.text}` is true or false: a number is "
+                 "needed here.", expr.origin, help="Choose one with `if(condition, a, b)`."
+                 )  # fmt: skip
+        return node, term
+
+    def condition(self, expr: Expression, place: Place) -> Expr:
+        """An expression that must be true or false."""
+        node, term = self.convert(expr, place)
+        if term is not None:
+            fail(self.report, "not-a-condition", f"`{expr.origin.text}` is a number: a condition "
+                 "is needed here.", expr.origin, help="Compare it with something, as in `x > 0`, "
+                 "or use an `input ... : bool`.")  # fmt: skip
+        return node
+
+    def constant(self, expr: Expr) -> bool:
+        """Whether no signal occurs: only numbers, params and initial values."""
+        memo = self._constant
+        known = memo.get(expr)
+        if known is not None:
+            return known
+        for node in topological([expr], stop=memo.__contains__):
+            if node not in memo:
+                if node.op is Op.SYM:
+                    memo[node] = node.symbol.kind in CONSTANTS
+                else:
+                    memo[node] = all(memo[a] for a in node.args)
+        return memo[expr]
+
+    # ------------------------------------------------------------------ leaves
+
+    def truth_value(self, value: bool) -> Expr:
+        """A truth value known when the model is built."""
+        return self.pool.one if value else self.pool.zero
+
+    def number(self, number: Number) -> tuple[Expr, Term]:
+        """A literal in SI; without a unit it takes the one that its use requires."""
+        if number.unit is None:
+            return self.pool.num(number.value), self.quantities.dimensions.fresh(
+                number.origin, number.text
+            )
+        dimension, factor = self.quantities.unit(number.unit, number.origin)
+        term = self.quantities.dimensions.known(dimension, number.origin, number.text)
+        return self.pool.num(number.value * factor), term
+
+    # ------------------------------------------------------------------ operators
+
+    def unary(self, expr: Unary, place: Place) -> Typed:
+        """`-x` and `not x`."""
+        if expr.op == "not":
+            node = self.condition(expr.operand, place)
+            if node.op is Op.NUM:
+                return self.truth_value(node is self.pool.zero), None
+            return self.pool.logic("not", node), None
+        node, term = self.quantity(expr.operand, place)
+        return self.pool.neg(node), term
+
+    def binary(self, expr: Binary, place: Place) -> Typed:
+        """All operators of two operands; a long sum or product is not a deep one."""
+        spine = [expr]
+        while isinstance(spine[-1].left, Binary):
+            spine.append(spine[-1].left)
+        first = spine[-1]
+        result = self.convert(first.left, place)
+        left: Expression = first.left
+        while spine:
+            step = spine.pop()
+            result = self.step(step, left, result, place)
+            left = step
+        return result
+
+    def step(self, expr: Binary, left: Expression, so_far: Typed, place: Place) -> Typed:
+        """One operator, its left operand already converted."""
+        op = expr.op
+        if op in ("and", "or"):
+            return self.connective(expr, left, so_far, place)
+        a, s = so_far
+        if s is None:
+            if op in ("==", "!="):
+                return self.equivalence(expr, a, place)
+            self.quantity_needed(left)
+        b, t = self.quantity(expr.right, place)
+        match op:
+            case "+":
+                self.alike(s, t, expr.origin, "the terms of a sum have one unit")
+                return self.pool.add((1, a), (1, b)), _firmer(s, t)
+            case "-":
+                self.alike(s, t, expr.origin, "the terms of a sum have one unit")
+                return self.pool.add((1, a), (-1, b)), _firmer(s, t)
+            case "*":
+                s, t = self.counted(left, b, s), self.counted(expr.right, a, t)
+                return self.checked(self.pool.mul(a, b), expr), self.product(s, t)
+            case "/":
+                s, t = self.counted(left, b, s), self.counted(expr.right, a, t)
+                if b is self.pool.zero:
+                    self.divides_by_zero(expr.right)
+                return self.checked(self.pool.div(a, b), expr), self.quotient(s, t)
+            case "^":
+                return self.power((a, s), (b, t), expr)
+        self.alike(s, t, expr.origin, "both sides of a comparison have one unit")
+        if a.op is Op.NUM and b.op is Op.NUM:
+            return self.truth_value(_compared(op, a.number, b.number)), None
+        return self.pool.compare(op, a, b), None
+
+    def quantity_needed(self, expr: Expression) -> None:
+        """Report a truth value where a number belongs."""
+        fail(self.report, "wrong-type", f"`{expr.origin.text}` is true or false: a number is "
+             "needed here.", expr.origin, help="Choose one with `if(condition, a, b)`."
+             )  # fmt: skip
+
+    def alike(self, left: Term, right: Term, origin: Span, what: str) -> None:
+        """One dimension on both sides, or an error."""
+        if not self.quantities.same(left, right, origin, what):
+            raise Skip
+
+    def product(self, left: Term, right: Term) -> Term:
+        """The dimension of a product."""
+        if left is PURE:
+            return right
+        return left if right is PURE else self.quantities.dimensions.product(left, right)
+
+    def quotient(self, left: Term, right: Term) -> Term:
+        """The dimension of a quotient."""
+        return left if right is PURE else self.quantities.dimensions.quotient(left, right)
+
+    def counted(self, expr: Expression, other: Expr, term: Term) -> Term:
+        """A small whole number (or half of one) beside a constant is a count: it has no unit.
+
+        The 2 of `L/2` and of `2*R` is one; so `R:R1 = L/2` is found. Beside a signal, as in
+        `e = 10*f`, a plain number may stand for a coefficient with a unit, and so may 9.81.
+        """
+        if not isinstance(expr, Number) or expr.unit is not None:
+            return term
+        value = expr.value
+        if value.denominator not in _COUNTS or abs(value.numerator) > _MOST_COUNT:
+            return term
+        return PURE if other.op is not Op.NUM and self.constant(other) else term
+
+    def checked(self, node: Expr, expr: Expression) -> Expr:
+        """Refuse numbers that no double can hold."""
+        if node.op is Op.NUM and abs(node.number) > _LARGEST:
+            fail(self.report, "number-too-large", "This number is too large.", expr.origin,
+                 help="A double holds numbers up to 1e308.")  # fmt: skip
+        return node
+
+    def divides_by_zero(self, expr: Expression) -> None:
+        """Report a division by the number zero."""
+        fail(self.report, "division-by-zero", f"`{expr.origin.text}` is zero and divides.",
+             expr.origin, help="Change the divisor; a coefficient that may be zero belongs on the "
+             "other side of the law.")  # fmt: skip
+
+    def connective(self, expr: Binary, left: Expression, so_far: Typed, place: Place) -> Typed:
+        """`and`, `or`."""
+        a, s = so_far
+        if s is not None:
+            fail(self.report, "not-a-condition", f"`{left.origin.text}` is a number: a condition "
+                 "is needed here.", left.origin, help="Compare it with something, as in `x > 0`."
+                 )  # fmt: skip
+        b = self.condition(expr.right, place)
+        absorbing = self.truth_value(expr.op == "or")
+        for one, other in ((a, b), (b, a)):
+            if one.op is Op.NUM:
+                return (absorbing if one is absorbing else other), None
+        return self.pool.logic(expr.op, a, b), None
+
+    def equivalence(self, expr: Binary, a: Expr, place: Place) -> Typed:
+        """`==` and `!=` of two conditions."""
+        b = self.condition(expr.right, place)
+        pool = self.pool
+        if a.op is Op.NUM and b.op is Op.NUM:
+            return self.truth_value((a is b) == (expr.op == "==")), None
+        if b.op is Op.NUM:
+            a, b = b, a
+        if a.op is Op.NUM:
+            same = (a is pool.one) == (expr.op == "==")
+            return (b if same else pool.logic("not", b)), None
+        both = pool.logic("and", a, b)
+        neither = pool.logic("and", pool.logic("not", a), pool.logic("not", b))
+        same_truth = pool.logic("or", both, neither)
+        return (same_truth if expr.op == "==" else pool.logic("not", same_truth)), None
+
+    def power(self, base: tuple[Expr, Term], exponent: tuple[Expr, Term], expr: Expression
+              ) -> tuple[Expr, Term]:  # fmt: skip
+        """`a^b`: a whole power stays a product, a half is a root."""
+        (a, s), (b, t) = base, exponent
+        self.pure_exponent(t, expr)
+        if b.op is not Op.NUM:
+            if not self.quantities.pure(s, expr.origin, "the base of a variable power has no unit"):
+                raise Skip
+            return self.pool.fn("pow", a, b), PURE
+        n = b.number
+        if a.op is Op.NUM:
+            self.number_power(a.number, n, expr)
+        if abs(n) > _MOST_POWER:
+            fail(self.report, "number-too-large", f"A power of {float(n):g} is beyond any use.",
+                 expr.origin, help="Use `exp`, or a smaller exponent.")  # fmt: skip
+        term = PURE if s is PURE else self.quantities.dimensions.power(s, n)
+        return self.checked(self.pool.fn("pow", a, b), expr), term
+
+    def pure_exponent(self, term: Term, expr: Expression) -> None:
+        """An exponent has no unit."""
+        if not self.quantities.pure(term, expr.origin, "an exponent has no unit"):
+            raise Skip
+
+    def number_power(self, base: Fraction, exponent: Fraction, expr: Expression) -> None:
+        """Refuse powers of numbers that are no real number, or an absurdly long one."""
+        if base == 0 and exponent < 0:
+            self.divides_by_zero(expr)
+        if base < 0 and exponent.denominator != 1:
+            fail(self.report, "undefined-value", "A root of a negative number is not real.",
+                 expr.origin, help="Change the base; `ssqrt` and `cbrt` take negative numbers."
+                 )  # fmt: skip
+        bits = max(base.numerator.bit_length(), base.denominator.bit_length())
+        if bits * abs(exponent) > _MOST_BITS:
+            fail(self.report, "number-too-large", "This number is too large.", expr.origin,
+                 help="A double holds numbers up to 1e308.")  # fmt: skip
+
+
+def _firmer(left: Term, right: Term) -> Term:
+    """Of two equal dimensions the one that is less of an unknown."""
+    return right if left.unknown and not right.unknown else left
+
+
+def _compared(op: str, a: Fraction, b: Fraction) -> bool:
+    return {"<": a < b, "<=": a <= b, ">": a > b, ">=": a >= b, "==": a == b, "!=": a != b}[op]

@@ -1,0 +1,201 @@
+"""Which models a file can name: its own, the imported ones; which of them is compiled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from bondgraph.ir.syntax import (
+    Chain,
+    File,
+    For,
+    If,
+    Junction,
+    Model,
+    Node,
+    Statement,
+)
+from bondgraph.library.elements import KINDS
+from bondgraph.passes.elaboration.problems import Skip, closest, fail, listed, meant
+from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.source import Source, Span
+
+Load = Callable[[str, Span], File | None]
+
+
+class Definition:
+    """A model together with the names that hold in its file."""
+
+    __slots__ = ("known", "model", "source")
+
+    def __init__(self, model: Model, known: dict[str, Definition], source: Source) -> None:
+        self.model = model
+        self.known = known
+        self.source = source
+
+
+class Files:
+    """Loads imports once each and refuses cycles of them."""
+
+    def __init__(self, load: Load, report: Report) -> None:
+        self.load = load
+        self.report = report
+        self.loaded: dict[str, dict[str, Definition]] = {}
+        self.own: dict[str, set[str]] = {}
+        self.loading: list[str] = []
+
+    def definitions(self, file: File, source: Source) -> dict[str, Definition]:
+        """Every model that `file` declares or imports, by name."""
+        known: dict[str, Definition] = {}
+        self.loaded[source.path] = known
+        self.loading.append(source.path)
+        for model in file.models:
+            self.declare(model, known, source)
+        self.own[source.path] = set(known)
+        for item in file.imports:
+            try:
+                self.import_from(item.path, item.names, item.origin, known)
+            except Skip:
+                # the names are taken as declared, or every use of them would be reported too
+                for name in item.names:
+                    known.setdefault(name, _missing(name, item.origin, source))
+        self.loading.pop()
+        return known
+
+    def declare(self, model: Model, known: dict[str, Definition], source: Source) -> None:
+        """Enter one model of the file."""
+        if model.name in KINDS:
+            self.report.error(
+                "reserved-name", f"`{model.name}` is an element kind and cannot name a model.",
+                model.name_origin, help="Give the model another name.",
+            )  # fmt: skip
+        elif model.name in known:
+            first = known[model.name].model.name_origin
+            self.report.error(
+                "duplicate-name", f"There are two models `{model.name}`.",
+                Label(model.name_origin, "declared again"), Label(first, "first declared here"),
+                help="Rename one of them.",
+            )  # fmt: skip
+        else:
+            known[model.name] = Definition(model, known, source)
+
+    def import_from(
+        self, path: str, names: tuple[str, ...], origin: Span, known: dict[str, Definition]
+    ) -> None:
+        """Enter the models that one `import` names."""
+        file = self.load(path, origin)
+        if file is None:
+            if not self.report.failed:
+                fail(self.report, "import-failed", f'"{path}" cannot be imported.', origin,
+                     help="Check the path: it is taken from the folder of this file.")  # fmt: skip
+            raise Skip
+        source = file.origin.source
+        if source.path in self.loading:
+            fail(self.report, "import-cycle", f'"{path}" imports this file, directly or through '
+                 "others.", origin, help="Move what both need into a third file.")  # fmt: skip
+        theirs = self.loaded.get(source.path)
+        if theirs is None:
+            theirs = self.definitions(file, source)
+        own = self.own[source.path]
+        for name in names:
+            if name not in own:
+                help = meant(name, own, f"It declares {listed(sorted(own)) or 'no model'}.")
+                self.report.error(
+                    "unknown-model", f'"{path}" declares no model `{name}`.', origin, help=help
+                )
+                known.setdefault(name, _missing(name, origin, source))
+            elif name in known:
+                self.report.error(
+                    "duplicate-name", f"`{name}` is imported, but the name is taken.",
+                    Label(origin, "imported here"),
+                    Label(known[name].model.name_origin, "declared here"),
+                    help="Rename the one of this file.",
+                )  # fmt: skip
+            else:
+                known[name] = theirs[name]
+
+
+#: Stands for a model whose import failed: using it is no second error.
+class Missing(Definition):
+    """A model that could not be imported."""
+
+    __slots__ = ()
+
+
+def _missing(name: str, origin: Span, source: Source) -> Missing:
+    return Missing(Model(name, (), (), "", origin, origin), {}, source)
+
+
+def nodes_of(body: tuple[Statement, ...]) -> Iterator[Node]:
+    """Every node declared in a body, also inside `for`, `if` and junctions."""
+    stack = [iter(body)]
+    while stack:
+        statement = next(stack[-1], None)
+        if statement is None:
+            stack.pop()
+        elif isinstance(statement, Chain):
+            for item in statement.nodes:
+                if isinstance(item, Node):
+                    yield item
+        elif isinstance(statement, (For, Junction)):
+            stack.append(iter(statement.body))
+        elif isinstance(statement, If):
+            stack.append(iter(statement.body + statement.otherwise))
+
+
+def pick(
+    file: File, known: dict[str, Definition], name: str | None, report: Report, source: Source
+) -> Definition:
+    """The model to compile: the one named, else the one that no other in the file uses."""
+    own = [known[m.name] for m in file.models if m.name in known and known[m.name].model is m]
+    if name is not None:
+        if name not in known:
+            names = [d.model.name for d in own]
+            other = closest(name, names)
+            fail(report, "unknown-model", f"The file has no model `{name}`.",
+                 Span(source, 0, 0), help=f"Did you mean `{other}`?" if other
+                 else f"It declares {listed(names) or 'none'}.")  # fmt: skip
+        return known[name]
+    if not own:
+        fail(report, "no-model", "The file declares no model.", Span(source, 0, 0),
+             help="Write `model Name { ... }` after the line `bg 1`.")  # fmt: skip
+    used = {n.type for d in own for n in nodes_of(d.model.body) if n.type != d.model.name}
+    free = [d for d in own if d.model.name not in used]
+    if not free:
+        recursion(own[0], report)  # all are used by another: that is a cycle
+        raise Skip
+    if len(free) > 1:
+        fail(report, "several-models", f"No other model uses {listed(d.model.name for d in free)}: "
+             "which one is meant?", *[d.model.name_origin for d in free[:4]],
+             help=f"Name it after the file: `{source.path}:{free[-1].model.name}`.")  # fmt: skip
+    return free[0]
+
+
+def recursion(top: Definition, report: Report) -> None:
+    """Report a model that contains itself; raises Skip if there is one."""
+    state: dict[int, bool] = {}  # id of a definition: open or done
+    path: list[tuple[Definition, Iterator[Node]]] = []
+
+    def enter(definition: Definition) -> None:
+        state[id(definition)] = True
+        path.append((definition, nodes_of(definition.model.body)))
+
+    enter(top)
+    while path:
+        definition, uses = path[-1]
+        node = next(uses, None)
+        if node is None:
+            state[id(definition)] = False
+            path.pop()
+            continue
+        inner = definition.known.get(node.type)
+        if inner is None or node.type in KINDS:
+            continue
+        if id(inner) not in state:
+            enter(inner)
+        elif state[id(inner)]:
+            names = [d.model.name for d, _ in path]
+            names = [*names[[id(d) for d, _ in path].index(id(inner)) :], inner.model.name]
+            fail(report, "recursive-model", "A model cannot contain itself: "
+                 f"{' contains '.join(names)}.", Label(node.origin, f"contains `{node.type}`"),
+                 Label(inner.model.name_origin, "declared here"),
+                 help="Use an array, `Cell:cell[n]`, for something that repeats.")  # fmt: skip

@@ -1,0 +1,229 @@
+"""The functions that an expression may call, with their units."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from bondgraph.ir.expr import Expr, Kind, Op
+from bondgraph.ir.syntax import Call, Text
+from bondgraph.library.dimensions import Term
+from bondgraph.passes.elaboration.problems import Skip, fail, meant
+from bondgraph.passes.elaboration.quantities import PURE
+from bondgraph.passes.elaboration.scope import Typed
+from bondgraph.passes.elaboration.tables import read_table
+
+if TYPE_CHECKING:
+    from bondgraph.passes.elaboration.expressions import Expressions, Place
+
+#: Functions whose result has this power of the unit of the argument.
+_POWERS = {
+    "abs": Fraction(1), "sqrt": Fraction(1, 2), "ssqrt": Fraction(1, 2), "cbrt": Fraction(1, 3),
+    "ssq": Fraction(2),
+}  # fmt: skip
+
+#: Functions of a pure number.
+_PURE = frozenset(
+    "exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh".split()
+)
+
+_ALIASES = {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "sgn": "sign"}
+
+_OTHERS = ("if", "int", "der", "table", "sign", "min", "max", "atan2", "pow", "hypot", "log10",
+           "if")  # fmt: skip
+
+_ARITY = {
+    "int": (1, 2), "der": (1, 1), "table": (2, 2), "if": (3, 3), "atan2": (2, 2), "pow": (2, 2),
+    "hypot": (2, 2), "min": (2, 64), "max": (2, 64),
+}  # fmt: skip
+
+
+def names() -> tuple[str, ...]:
+    """Every function that can be called."""
+    return tuple(sorted({*_POWERS, *_PURE, *_ALIASES, *_OTHERS}))
+
+
+class Functions:
+    """Converts calls."""
+
+    def __init__(self, expressions: Expressions) -> None:
+        self.of = expressions
+        self.pool = expressions.pool
+        self.report = expressions.report
+        #: integrals by integrand and initial value: the same integral is one state
+        self.integrals: dict[tuple[Expr, Expr], tuple[Expr, Expr]] = {}
+        self.integrands: dict[Expr, Expr] = {}
+        self.origins: dict[Expr, Call] = {}
+        self._names: dict[str, int] = {}
+        self._tables: dict[tuple[str, str], str] = {}
+
+    def call(self, call: Call, place: Place) -> Typed:
+        """A call of any function."""
+        name = _ALIASES.get(call.name, call.name)
+        if name not in _POWERS and name not in _PURE and name not in _OTHERS:
+            fail(self.report, "unknown-function", f"There is no function `{call.name}`.",
+                 call.origin, help=meant(call.name, names(), "Write a product with `*`; a nonlinear "
+                 'characteristic may come from a table: `table("file.csv", x)`.'))  # fmt: skip
+        low, high = _ARITY.get(name, (1, 1))
+        if not low <= len(call.arguments) <= high:
+            needs = f"{low}" if low == high else f"{low} to {high}" if high < 64 else f"{low} or more"
+            fail(self.report, "wrong-arguments", f"`{call.name}` takes {needs} "
+                 f"argument{'' if needs == '1' else 's'}, not {len(call.arguments)}.", call.origin,
+                 help="Give as many arguments as it takes.")  # fmt: skip
+        match name:
+            case "if":
+                return self.choice(call, place)
+            case "int":
+                return self.integral(call, place)
+            case "der":
+                return self.derivative(call, place)
+            case "table":
+                return self.table(call, place)
+            case "min" | "max":
+                return self.extreme(name, call, place)
+            case "atan2" | "hypot" | "pow":
+                return self.pair(name, call, place)
+        node, term = self.of.quantity(call.arguments[0], place)
+        if name == "sign":
+            return self.pool.fn("sign", node), PURE
+        if name in _POWERS:
+            self.defined(name, node, call)
+            return self.pool.fn(name, node), self.of.quantities.dimensions.power(term, _POWERS[name])
+        what = f"`{call.name}` takes a pure number"
+        if not self.of.quantities.pure(term, call.arguments[0].origin, what):
+            raise Skip
+        self.defined(name, node, call)
+        if name == "log10":
+            ten = self.pool.num(10)
+            return self.pool.div(self.pool.fn("log", node), self.pool.fn("log", ten)), PURE
+        return self.pool.fn(name, node), PURE
+
+    def defined(self, name: str, node: Expr, call: Call) -> None:
+        """Refuse a number where the function has no real value."""
+        if node.op is not Op.NUM:
+            return
+        value = node.number
+        wrong = (
+            (name == "sqrt" and value < 0)
+            or (name in ("log", "log10") and value <= 0)
+            or (name in ("asin", "acos") and abs(value) > 1)
+            or (name == "acosh" and value < 1)
+            or (name == "atanh" and abs(value) >= 1)
+        )
+        if wrong:
+            fail(self.report, "undefined-value", f"`{call.origin.text}` has no real value.",
+                 call.origin, help="Change the argument; `ssqrt` and `cbrt` take negative numbers."
+                 )  # fmt: skip
+
+    def choice(self, call: Call, place: Place) -> Typed:
+        """`if(condition, a, b)`."""
+        condition = self.of.condition(call.arguments[0], place)
+        a, s = self.of.convert(call.arguments[1], place)
+        b, t = self.of.convert(call.arguments[2], place)
+        if (s is None) != (t is None):
+            fail(self.report, "wrong-type", "One value of this `if` is a number, the other true or "
+                 "false.", call.origin, help="Both must be of one type.")  # fmt: skip
+        if s is not None and t is not None:
+            self.of.alike(s, t, call.origin, "both values of an `if` have one unit")
+        if condition.op is Op.NUM:
+            return (b, t) if condition is self.pool.zero else (a, s)
+        if s is None:
+            pool = self.pool
+            yes, no = self.both(condition, a), self.both(pool.logic("not", condition), b)
+            return self.either(yes, no), None
+        assert t is not None
+        return self.pool.choose(condition, a, b), t if s.unknown else s
+
+    def both(self, a: Expr, b: Expr) -> Expr:
+        """`a and b` where b may be known."""
+        if b.op is Op.NUM:
+            return a if b is self.pool.one else b
+        return self.pool.logic("and", a, b)
+
+    def either(self, a: Expr, b: Expr) -> Expr:
+        """`a or b` where either may be known."""
+        for one, other in ((a, b), (b, a)):
+            if one.op is Op.NUM:
+                return one if one is self.pool.one else other
+        return self.pool.logic("or", a, b)
+
+    def extreme(self, name: str, call: Call, place: Place) -> Typed:
+        """`min` and `max` of two or more."""
+        node, term = self.of.quantity(call.arguments[0], place)
+        for argument in call.arguments[1:]:
+            other, t = self.of.quantity(argument, place)
+            self.of.alike(term, t, call.origin, f"the arguments of `{name}` have one unit")
+            term = t if term.unknown else term
+            node = self.pool.fn(name, node, other)
+        return node, term
+
+    def pair(self, name: str, call: Call, place: Place) -> Typed:
+        """Functions of two arguments."""
+        a, s = self.of.quantity(call.arguments[0], place)
+        b, t = self.of.quantity(call.arguments[1], place)
+        if name == "pow":
+            return self.of.power((a, s), (b, t), call)
+        self.of.alike(s, t, call.origin, f"the arguments of `{name}` have one unit")
+        if name == "atan2":
+            return self.pool.fn("atan2", a, b), PURE
+        square = self.pool.add((1, self.pool.power(a, 2)), (1, self.pool.power(b, 2)))
+        return self.pool.fn("sqrt", square), s
+
+    def derivative(self, call: Call, place: Place) -> Typed:
+        """`der(x)`."""
+        node, term = self.of.quantity(call.arguments[0], place)
+        result = self.of.quantities.differentiated(term)
+        if node.op is Op.SYM and node.symbol.kind is Kind.INTEGRAL:
+            return self.integrands[node], result
+        return self.pool.der(node), result
+
+    def integral(self, call: Call, place: Place) -> Typed:
+        """`int(x, x0)`: a state of its own; written twice it is the same one."""
+        node, term = self.of.quantity(call.arguments[0], place)
+        result: Term = self.of.quantities.integrated(term)
+        start = self.pool.zero
+        if len(call.arguments) == 2:
+            start, t = self.of.quantity(call.arguments[1], place)
+            self.of.alike(result, t, call.arguments[1].origin,
+                          "an initial value has the unit of the integral")  # fmt: skip
+            if not self.of.constant(start):
+                fail(self.report, "not-constant", "An initial value cannot depend on signals.",
+                     call.arguments[1].origin, help="Use numbers and params.")  # fmt: skip
+        if node is self.pool.zero:
+            return start, result
+        known = self.integrals.get((node, start))
+        if known is None:
+            name = self.unique(f"{place.owner}.int")
+            known = (
+                self.pool.symbol(name, Kind.INTEGRAL),
+                self.pool.symbol(f"{name}0", Kind.INITIAL),
+            )
+            self.integrals[node, start] = known
+            self.integrands[known[0]] = node
+            self.origins[known[0]] = call
+        return known[0], result
+
+    def unique(self, name: str) -> str:
+        """The name, with a number from its second use on."""
+        number = self._names[name] = self._names.get(name, 0) + 1
+        return name if number == 1 else f"{name}_{number}"
+
+    def table(self, call: Call, place: Place) -> Typed:
+        """`table("file.csv", x)`: piecewise linear; nothing is known of its units."""
+        file = call.arguments[0]
+        if not isinstance(file, Text):
+            fail(self.report, "wrong-type", "The first argument of `table` is a file name in "
+                 "quotes.", file.origin, help='Write `table("file.csv", x)`.')  # fmt: skip
+        node, _ = self.of.quantity(call.arguments[1], place)
+        source = place.scope.definition.source
+        key = (source.path, file.value)
+        name = self._tables.get(key)
+        if name is None:
+            points = read_table(file, source, self.report)
+            name = file.value
+            while name in self.pool.tables and self.pool.tables[name] != points:
+                name = self.unique(file.value)
+            self.pool.tables[name] = points
+            self._tables[key] = name
+        term = self.of.quantities.dimensions.fresh(call.origin, f'table("{file.value}")')
+        return self.pool.fn(f"table:{name}", node), term

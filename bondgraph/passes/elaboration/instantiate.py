@@ -1,0 +1,474 @@
+"""Open every model instance: unroll `for`, decide `if`, declare nodes and values, keep chains."""
+
+from __future__ import annotations
+
+from typing import assert_never
+
+from bondgraph.ir.syntax import (
+    Argument,
+    Chain,
+    Fault,
+    For,
+    If,
+    Input,
+    Junction,
+    Let,
+    Node,
+    Param,
+    Part,
+    Port,
+    Ref,
+    Sensor,
+    Statement,
+)
+from bondgraph.library.elements import JUNCTIONS, KINDS
+from bondgraph.passes.elaboration.files import Definition, Missing
+from bondgraph.passes.elaboration.problems import Abort, Skip, fail, listed, meant
+from bondgraph.passes.elaboration.scope import (
+    Array,
+    Bound,
+    Env,
+    Given,
+    Link,
+    Named,
+    NodeEntry,
+    PortEntry,
+    Scope,
+    ValueEntry,
+    ValueKind,
+)
+from bondgraph.passes.elaboration.structure import index, mentions, structural, truth, whole_number
+from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.source import Span
+
+#: Names and unrolled statements of one model; a typing error must not fill the memory.
+MOST = 5_000_000
+
+_KEYWORDS: dict[str, ValueKind] = {"param": "param", "const": "const"}
+
+
+class Event:
+    """A `fault` statement of one instance."""
+
+    __slots__ = ("declaration", "env", "local", "scope")
+
+    def __init__(self, declaration: Fault, local: str, scope: Scope, env: Env) -> None:
+        self.declaration = declaration
+        self.local = local
+        self.scope = scope
+        self.env = env
+
+
+class Opener:
+    """Opens the top model and, one after the other, all that it contains."""
+
+    def __init__(self, report: Report) -> None:
+        self.report = report
+        self.waiting: list[Scope] = []
+        self.events: list[Event] = []
+        self.givens: list[tuple[Given, Scope | NodeEntry]] = []
+        self.made = 0
+
+    def open(self, definition: Definition) -> Scope:
+        """The top instance with everything inside it."""
+        origin = definition.model.name_origin
+        top = Scope(definition, None, definition.model.name, None, origin)
+        self.structure(top)
+        self.waiting.append(top)
+        while self.waiting:
+            self.fill(self.waiting.pop())
+        return top
+
+    def count(self, number: int, origin: Span) -> None:
+        """Keep the size of the model within bounds."""
+        self.made += number
+        if self.made > MOST:
+            self.report.error(
+                "model-too-large", f"The model has more than {MOST:,} parts.", origin,
+                help="Check the sizes of arrays and `for` loops.",
+            )  # fmt: skip
+            raise Abort
+
+    def fill(self, scope: Scope) -> None:
+        """Everything that the body of the model says."""
+        self.body(scope.model.body, scope, {}, None)
+        for item in tuple(scope.items):
+            # a source without a value is a known input, declared or not
+            if isinstance(item, NodeEntry) and item.element is not None:
+                node = item.declaration
+                bare = node is not None and node.value is None and node.law is None
+                if item.element.kind in ("Se", "Sf") and bare and item.name not in scope.values:
+                    self.implied(item, scope)
+
+    def implied(self, first: NodeEntry, scope: Scope) -> None:
+        """Inputs for the source (or sources, of an array) that nothing declares."""
+        same = scope.nodes[first.name]
+        group = list(same.entries.values()) if isinstance(same, Array) else [same]
+        for entry in group:
+            if isinstance(entry, NodeEntry) and entry.declaration is not None:
+                value = ValueEntry("input", entry.name, entry.place, scope, entry.env,
+                                   entry.declaration, entry.origin)  # fmt: skip
+                self.enter(scope.values, entry.name, entry.place, value, entry.origin)
+                scope.items.append(value)
+                self.bind(value, entry.name, entry.place)
+
+    # ------------------------------------------------------------------ statements
+
+    def body(
+        self, body: tuple[Statement, ...], scope: Scope, env: Env, at: NodeEntry | Ref | None
+    ) -> None:
+        """Statements, inside the junction `at` if there is one."""
+        self.count(len(body), scope.origin)
+        for statement in body:
+            try:
+                self.statement(statement, scope, env, at)
+            except Skip:
+                # what it would have declared is not known: do not report its uses as well
+                if isinstance(statement, (For, If)):
+                    scope.incomplete = True
+                elif isinstance(statement, Junction):
+                    scope.wrong.add(statement.name.parts[0].name)
+                    scope.unlinked = True
+                elif not isinstance(statement, Chain):
+                    name = statement.name
+                    scope.wrong.add(name if isinstance(name, str) else name.name)
+
+    def statement(
+        self, statement: Statement, scope: Scope, env: Env, at: NodeEntry | Ref | None
+    ) -> None:
+        """One statement of a body."""
+        match statement:
+            case Chain():
+                self.chain(statement, scope, env, at)
+            case Junction():
+                self.junction(statement, scope, env)
+            case Param():
+                self.value(_KEYWORDS[statement.keyword], statement, scope, env)
+            case Input():
+                self.value("input", statement, scope, env)
+            case Let():
+                self.value("let", statement, scope, env)
+            case Sensor():
+                self.value("sensor", statement, scope, env)
+            case Port():
+                self.port(statement, scope)
+            case Fault():
+                place = index(statement.name, scope, env, self.report)
+                name = statement.name.name
+                local = name if place is None else f"{name}[{place}]"
+                self.events.append(Event(statement, local, scope, env))
+            case For():
+                self.loop(statement, scope, env, at)
+            case If():
+                holds = truth(statement.condition, scope, env, self.report)
+                self.body(statement.body if holds else statement.otherwise, scope, env, at)
+            case _:
+                assert_never(statement)
+
+    def loop(self, loop: For, scope: Scope, env: Env, at: NodeEntry | Ref | None) -> None:
+        """`for`: the body once for each value of the variable."""
+        first = whole_number(loop.first, scope, env, self.report)
+        last = whole_number(loop.last, scope, env, self.report)
+        self.count(max(0, last - first + 1), loop.origin)
+        for i in range(first, last + 1):
+            self.body(loop.body, scope, {**env, loop.variable: i}, at)
+
+    def port(self, port: Port, scope: Scope) -> None:
+        """A port of the model."""
+        entry = PortEntry(port, scope)
+        self.enter(scope.nodes, port.name, None, entry, port.origin)
+        scope.ports[port.name] = entry
+
+    def junction(self, statement: Junction, scope: Scope, env: Env) -> None:
+        """A junction with its bonds, declared here or opened again."""
+        if not statement.type:
+            self.body(statement.body, scope, env, statement.name)
+            return
+        parts = statement.name.parts
+        if len(parts) != 1:
+            fail(self.report, "wrong-name", f"`{statement.name.origin.text}` cannot be declared "
+                 "here.", statement.name.origin,
+                 help="Declare the junction inside its own model.")  # fmt: skip
+        for place in self.places(parts[0], scope, env, scope.nodes):
+            entry = NodeEntry(statement.type, None, parts[0].name, place, scope, env,
+                              statement.name.origin, statement.doc)  # fmt: skip
+            if statement.when is not None:
+                entry.when = Bound(statement.when, scope, env, statement.when.origin)
+            self.enter(scope.nodes, parts[0].name, place, entry, entry.origin)
+            scope.items.append(entry)
+            self.refuse_givens(entry, self.matching(scope.givens, entry.name, place))
+            self.body(statement.body, scope, env, entry)
+
+    def chain(self, chain: Chain, scope: Scope, env: Env, at: NodeEntry | Ref | None) -> None:
+        """Nodes and the bonds between them; a node with a type is declared."""
+        items: list[tuple[NodeEntry | Scope, ...] | Ref | None] = []
+        wrong = False
+        doc = chain.doc
+        for item in chain.nodes:
+            if isinstance(item, Node):
+                try:
+                    items.append(self.node(item, scope, env, doc))
+                    doc = ""
+                except Skip:
+                    wrong = scope.unlinked = True
+                    scope.wrong.add(item.name.name)
+            else:
+                items.append(item)
+        origins = tuple(chain.origin if n is None else n.origin for n in chain.nodes)
+        if not wrong:
+            link = Link(tuple(items), chain.arrows, env, at, chain.origin, origins)
+            scope.links.append(link)
+
+    def value(
+        self, kind: ValueKind, statement: Param | Input | Let | Sensor, scope: Scope, env: Env
+    ) -> None:
+        """A param, const, input, let or sensor, or an array of them."""
+        name = statement.name.name
+        for generic in scope.model.generics:
+            if generic.name == name:
+                fail(self.report, "duplicate-name", f"The value `{name}` is declared twice.",
+                     Label(statement.name.origin, "declared again"),
+                     Label(generic.origin, "a structural argument"),
+                     help="Give one of them another name.")  # fmt: skip
+        for place in self.places(statement.name, scope, env, scope.values):
+            entry = ValueEntry(kind, name, place, scope, env, statement, statement.name.origin)
+            self.enter(scope.values, name, place, entry, entry.origin)
+            scope.items.append(entry)
+            if kind in ("param", "const", "input"):
+                self.bind(entry, name, place)
+
+    def bind(self, entry: ValueEntry, name: str, place: int | None) -> None:
+        """Take the value that the instance was given, if any."""
+        for given in self.matching(entry.scope.givens, name, place):
+            if len(given.parts) == 1:
+                given.root.used = True
+                self.once(entry.given, given)
+                entry.given = given.bound
+
+    def once(self, before: Bound | None, given: Given) -> None:
+        """Refuse a second argument for one thing."""
+        if before is not None:
+            fail(self.report, "duplicate-argument",
+                 f"`{given.argument.target.origin.text}` is given twice.",
+                 Label(given.argument.origin, "given again"), Label(before.origin, "given here"),
+                 help="Keep one of them.")  # fmt: skip
+
+    # ------------------------------------------------------------------ nodes
+
+    def node(
+        self, node: Node, scope: Scope, env: Env, doc: str
+    ) -> tuple[NodeEntry | Scope, ...]:
+        """Declare `TYPE:name`: a junction, an element or an instance, or an array of them."""
+        if node.type in JUNCTIONS or node.type in KINDS:
+            return self.element(node, scope, env, doc)
+        definition = scope.definition.known.get(node.type)
+        if definition is None:
+            names = (*KINDS, *scope.definition.known)
+            fail(self.report, "unknown-type", f"There is no element kind or model `{node.type}`.",
+                 node.origin, help=meant(node.type, names, "Element kinds are R C I TF GY Se Sf De "
+                 "Df; a model must be declared in this file or imported."))  # fmt: skip
+        if isinstance(definition, Missing):
+            raise Skip
+        return self.instances(definition, node, scope, env)
+
+    def element(
+        self, node: Node, scope: Scope, env: Env, doc: str
+    ) -> tuple[NodeEntry, ...]:
+        """A junction or element of the library."""
+        made: list[NodeEntry] = []
+        name = node.name.name
+        kind = KINDS.get(node.type)
+        own = self.arguments(node, scope, env)
+        for place in self.places(node.name, scope, env, scope.nodes):
+            entry = NodeEntry(node.type, kind, name, place, scope, env, node.origin, doc)
+            entry.declaration = node
+            self.enter(scope.nodes, name, place, entry, node.origin)
+            scope.items.append(entry)
+            made.append(entry)
+            givens = own
+            if scope.givens:
+                givens = own + [
+                    g.inner() for g in self.matching(scope.givens, name, place) if len(g.parts) > 1
+                ]
+            if kind is None or kind.state is None:
+                self.refuse_givens(entry, givens)
+            else:
+                entry.givens = givens
+            if kind is not None and kind.kind in ("De", "Df"):
+                value = ValueEntry("detector", name, place, scope, env, node, node.origin)
+                value.node = entry
+                self.enter(scope.values, name, place, value, node.origin)
+                scope.items.append(value)
+        if own and made:
+            self.givens += [(g, made[0]) for g in own]
+        return tuple(made)
+
+    def refuse_givens(self, entry: NodeEntry, givens: list[Given]) -> None:
+        """Only a storage takes arguments (its initial state)."""
+        for given in givens:
+            given.root.used = True
+            self.report.error(
+                "unknown-argument",
+                f"`{entry.type}:{entry.name}` takes no argument "
+                f"`{given.argument.target.origin.text}`.", given.argument.origin,
+                help="Round brackets give the initial state of a C (q0) or an I (p0), or bind the "
+                "params of a submodel; a coefficient is written after `=`.",
+            )  # fmt: skip
+
+    def instances(
+        self, definition: Definition, node: Node, scope: Scope, env: Env
+    ) -> tuple[Scope, ...]:
+        """One instance of a model, or an array of them."""
+        for what, extra in (("value", node.value), ("law", node.law)):
+            if extra is not None:
+                self.report.error(
+                    "not-an-element", f"`{node.type}` is a model and takes no {what}.",
+                    extra.origin, help=f"Bind its params: `{node.type}:{node.name.name}(param = "
+                    "...)`.",
+                )  # fmt: skip
+        name = node.name.name
+        own = self.arguments(node, scope, env)
+        made: list[Scope] = []
+        for place in self.places(node.name, scope, env, scope.nodes):
+            inner = Scope(definition, scope, name, place, node.origin)
+            inner.givens = own
+            if scope.givens:
+                inner.givens = own + [
+                    g.inner() for g in self.matching(scope.givens, name, place) if len(g.parts) > 1
+                ]
+            self.enter(scope.nodes, name, place, inner, node.origin)
+            self.structure(inner)
+            scope.items.append(inner)
+            made.append(inner)
+        if made:
+            self.givens += [(g, made[0]) for g in own]
+        self.waiting += reversed(made)
+        return tuple(made)
+
+    def structure(self, scope: Scope) -> None:
+        """The structural arguments of an instance."""
+        for generic in scope.model.generics:
+            if generic.name in scope.generics:
+                self.report.error(
+                    "duplicate-name", f"There are two structural arguments `{generic.name}`.",
+                    generic.origin, help="Rename one of them.",
+                )  # fmt: skip
+            bound: Bound | None = None
+            for given in self.matching(scope.givens, generic.name, None):
+                if len(given.parts) == 1:
+                    given.root.used = True
+                    self.once(bound, given)
+                    bound = given.bound
+            if bound is None:
+                if generic.default is None:
+                    where = scope.origin if scope.parent else generic.origin
+                    fail(self.report, "missing-argument", f"`{scope.model.name}` needs a value of "
+                         f"`{generic.name}`.", Label(where, "used here" if scope.parent else ""),
+                         Label(generic.origin, "declared without a default"),
+                         help=f"Give it where the model is used, `({generic.name} = ...)`, or "
+                         f"declare a default: `{generic.name} : {generic.type} = ...`."
+                         )  # fmt: skip
+                bound = Bound(generic.default, scope, {}, generic.origin)
+            value = structural(bound.value, bound.scope, bound.env, self.report)
+            if isinstance(value, bool) != (generic.type == "bool"):
+                fail(self.report, "wrong-type", f"`{generic.name}` is declared {generic.type}.",
+                     Label(bound.origin, "this is not"), Label(generic.origin, "declared here"),
+                     help="Give an int or a bool, as declared.")  # fmt: skip
+            if not isinstance(value, bool):
+                if value.denominator != 1:
+                    fail(self.report, "not-an-integer", f"`{generic.name}` is declared int, but "
+                         f"given {float(value):g}.", bound.origin,
+                         help="Use a whole number.")  # fmt: skip
+                scope.generics[generic.name] = value.numerator
+            else:
+                scope.generics[generic.name] = value
+
+    def arguments(self, node: Node, scope: Scope, env: Env) -> list[Given]:
+        """The arguments in round brackets, each with where its value is to be read."""
+        return [self.argument(a, scope, env) for a in node.arguments]
+
+    def argument(self, argument: Argument, scope: Scope, env: Env) -> Given:
+        """One argument, its target split into names with their indices."""
+        parts = tuple(
+            [(p.name, index(p, scope, env, self.report)) for p in argument.target.parts]
+        )
+        return Given(parts, Bound(argument.value, scope, env, argument.origin), argument)
+
+    @staticmethod
+    def matching(givens: list[Given], name: str, place: int | None) -> list[Given]:
+        """The arguments whose target begins with `name` (of that index, or of none)."""
+        return [
+            g for g in givens if g.parts[0][0] == name and g.parts[0][1] in (None, place)
+        ]
+
+    def places(
+        self, part: Part, scope: Scope, env: Env, table: dict[str, Named]
+    ) -> list[int | None]:
+        """The indices that a declaration stands for; a `for` variable in it means one element."""
+        if part.first is None:
+            return [None]
+        if part.last is not None:
+            low = whole_number(part.first, scope, env, self.report)
+            high = whole_number(part.last, scope, env, self.report)
+        else:
+            high = whole_number(part.first, scope, env, self.report)
+            low = high if mentions(part.first, env) else 1
+            if high < 0 and low == 1:
+                fail(self.report, "index-out-of-range", f"`{part.origin.text}` declares a negative "
+                     "number of elements.", part.origin, help="Give a size from 0 up."
+                     )  # fmt: skip
+        self.count(max(0, high - low + 1), part.origin)
+        if high < low:
+            table.setdefault(part.name, Array(part.origin))
+        return list(range(low, high + 1))
+
+    def enter(
+        self, table: dict[str, Named], name: str, place: int | None,
+        entry: NodeEntry | Scope | PortEntry | ValueEntry, origin: Span,
+    ) -> None:  # fmt: skip
+        """Declare a name once."""
+        before = table.get(name)
+        if before is None and place is None:
+            table[name] = entry
+            return
+        if place is not None and not isinstance(entry, PortEntry):
+            if before is None:
+                before = table[name] = Array(origin)
+            if isinstance(before, Array):
+                if place not in before.entries:
+                    before.entries[place] = entry
+                    return
+                before = before.entries[place]
+        assert before is not None
+        local = name if place is None else f"{name}[{place}]"
+        what = "value" if isinstance(entry, ValueEntry) else "node"
+        fail(self.report, "duplicate-name", f"The {what} `{local}` is declared twice.",
+             Label(origin, "declared again"), Label(before.origin, "declared here"),
+             help="Give one of them another name; to add bonds to a junction write its bare "
+             "name.")  # fmt: skip
+
+    # ------------------------------------------------------------------ arguments
+
+    def check_arguments(self) -> None:
+        """Report arguments that bind nothing."""
+        for given, entry in self.givens:
+            if given.used:
+                continue
+            text = given.argument.target.origin.text
+            if isinstance(entry, Scope):
+                names = [n for n, v in entry.values.items() if _bindable(v)]
+                names += entry.generics
+                help = meant(given.parts[0][0], names, f"It takes {listed(names) or 'none'}.")
+                message = f"`{entry.model.name}` has no param, input or structural argument `{text}`."
+            else:
+                state = entry.element.state if entry.element is not None else None
+                help = f"An element of this kind takes `{state}0`, its initial state."
+                message = f"`{entry.type}:{entry.name}` takes no argument `{text}`."
+            self.report.error("unknown-argument", message, given.argument.origin, help=help)
+
+
+def _bindable(value: Named) -> bool:
+    if isinstance(value, Array):
+        return any(_bindable(v) for v in value.entries.values())
+    return isinstance(value, ValueEntry) and value.kind in ("param", "const", "input")
+

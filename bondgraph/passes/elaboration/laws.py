@@ -1,0 +1,329 @@
+"""The laws of the elements: linear defaults, coefficients, equations in braces, power balance."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.graph import Law
+from bondgraph.ir.syntax import Equation, Node, Number, Part, Ref
+from bondgraph.library.dimensions import Term
+from bondgraph.library.elements import ElementKind
+from bondgraph.passes.elaboration.expressions import Place
+from bondgraph.passes.elaboration.problems import Skip, fail, listed
+from bondgraph.passes.elaboration.quantities import PURE
+from bondgraph.passes.elaboration.scope import Array, NodeEntry, PortVariables, Typed, ValueEntry
+from bondgraph.passes.elaboration.values import Values
+from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.source import Span
+
+
+class Coefficient(NamedTuple):
+    """A written coefficient with a tolerance: a constant of its own."""
+
+    node: NodeEntry
+    symbol: Expr
+    value: Expr
+    term: Term
+
+
+class Laws:
+    """Converts what is written of an element into its laws."""
+
+    def __init__(self, values: Values) -> None:
+        self.values = values
+        self.pool: Pool = values.pool
+        self.report: Report = values.report
+        self.coefficients: list[Coefficient] = []
+
+    def laws(self, node: NodeEntry) -> tuple[Law, ...]:
+        """All laws of an element; raises Skip when they are wrong."""
+        element, written = node.element, node.declaration
+        assert element is not None and written is not None
+        if element.kind in ("De", "Df"):
+            if written.law is not None:
+                fail(self.report, "law-not-allowed", f"A detector has no law: `{written.type}:"
+                     f"{node.name}` reads its junction.", written.law.origin,
+                     help="Measure an expression with `sensor name = ...`.")  # fmt: skip
+            return ()
+        if written.law is not None:
+            if written.value is not None:
+                fail(self.report, "law-twice", f"`{written.type}:{node.name}` has a coefficient and "
+                     "a law.", Label(written.value.origin, "the coefficient"),
+                     Label(written.law.origin, "the law"), help="Keep one of them.")  # fmt: skip
+            return self.written(node, element, written)
+        if not element.coefficient:
+            self.no_relation(node, written)
+        return self.linear(node, element, written)
+
+    def no_relation(self, node: NodeEntry, written: Node) -> None:
+        """A transformer must say in which direction its modulus goes."""
+        name = node.name
+        fail(self.report, "missing-relation", f"`{written.type}:{name}` states no relation.",
+             written.origin, help="Books differ on what the modulus of a transformer is, so write "
+             f"it: `{written.type}:{name} {{ f1 = {name}*f2 }}` or `{{ f2 = {name}*f1 }}`; port 1 "
+             "is where a bond enters.")  # fmt: skip
+
+    # ------------------------------------------------------------------ coefficients
+
+    def coefficient(self, node: NodeEntry, element: ElementKind, written: Node
+                    ) -> tuple[Expr, Term]:  # fmt: skip
+        """The value after `=`, or the one that has the name of the element."""
+        values = self.values
+        place = Place(node.scope, node.env, node.path)
+        if written.value is not None:
+            value = values.quantity(written.value, place)
+            return value if written.tolerance is None else self.uncertain(node, written, value)
+        named = node.scope.values.get(node.name)
+        entry = named.entries.get(node.place or 0) if isinstance(named, Array) else named
+        if not isinstance(entry, ValueEntry) or entry.kind == "detector":
+            scope = node.scope
+            if node.name in scope.wrong or scope.incomplete:
+                raise Skip
+            if isinstance(named, Array):
+                part = Part(node.name, None, None, written.name.origin)
+                if node.place is None:
+                    values.lookup.indexed(part, named, scope, node.env)
+                values.lookup.out_of_range(part, named, node.place or 0)
+            fail(self.report, "missing-value", f"`{written.type}:{node.name}` has no {element.coefficient}: "
+                 f"there is no value `{node.name}`.", written.origin,
+                 help=f"Declare `param {node.name} = ...`, or write `{written.type}:{node.name} = "
+                 f"...`, or a law in braces, `{{ {element.law} }}`.")  # fmt: skip
+        node_, term = values.value(entry)
+        if term is None:
+            fail(self.report, "wrong-type", f"`{node.name}` is true or false: a number is needed "
+                 "here.", written.origin, help="Use a number.")  # fmt: skip
+        return node_, term
+
+    def uncertain(self, node: NodeEntry, written: Node, value: tuple[Expr, Term]
+                  ) -> tuple[Expr, Term]:  # fmt: skip
+        """A coefficient with a tolerance becomes a constant with a name."""
+        expr, term = value
+        assert written.tolerance is not None
+        if not self.values.constant(expr):
+            fail(self.report, "not-constant", "A value that depends on signals has no tolerance.",
+                 written.tolerance.origin, help="Give the tolerance to a `param`.")  # fmt: skip
+        if expr.op is Op.NUM:
+            symbol = self.pool.symbol(f"{node.path}.value", Kind.CONST)
+            self.coefficients.append(Coefficient(node, symbol, expr, term))
+            return symbol, term
+        # the params in it stay as they are: what is uncertain is a factor of one
+        symbol = self.pool.symbol(f"{node.path}.factor", Kind.CONST)
+        self.coefficients.append(Coefficient(node, symbol, self.pool.one, PURE))
+        return self.pool.mul(symbol, expr), term
+
+    def linear(self, node: NodeEntry, element: ElementKind, written: Node) -> tuple[Law, ...]:
+        """R e = R f, C q = C e, I p = I f, GY, sources."""
+        pool, values = self.pool, self.values
+        k, term = self.coefficient(node, element, written)
+        origin = written.origin
+        port = node.ports[0]
+        e, f = self.pair(port)
+        if element.kind in ("Se", "Sf"):
+            return (self.source(node, element, k, term, origin),)
+        if element.kind == "GY":
+            other = node.ports[1]
+            e2, f2 = self.pair(other)
+            what = f"the ratio of `{node.local}` is effort over flow"
+            self.agree(e, values.product(term, f2), origin, what)
+            self.agree(e2, values.product(term, f), origin, what)
+            return (
+                Law(pool.sub(port.effort, pool.mul(k, other.flow)), None, origin),
+                Law(pool.sub(other.effort, pool.mul(k, port.flow)), None, origin),
+            )
+        if element.kind == "R":
+            self.agree(e, values.product(term, f), origin,
+                       f"the resistance of `{node.local}` is effort over flow")  # fmt: skip
+            return (Law(pool.sub(port.effort, pool.mul(k, port.flow)), None, origin),)
+        assert port.state is not None
+        cause, effect = (port.effort, e) if element.kind == "C" else (port.flow, f)
+        stored = values.quantities.integrated(f if element.kind == "C" else e)
+        what = "q over e" if element.kind == "C" else "p over f"
+        self.agree(stored, values.product(term, effect), origin,
+                   f"the {element.coefficient} of `{node.local}` is {what}")  # fmt: skip
+        return (Law(pool.sub(port.state, pool.mul(k, cause)), None, origin),)
+
+    def source(self, node: NodeEntry, element: ElementKind, value: Expr, term: Term, origin: Span
+               ) -> Law:  # fmt: skip
+        """A source: `e - value` or `f - value`."""
+        port = node.ports[0]
+        e, f = self.pair(port)
+        fixed, own = (port.effort, e) if element.kind == "Se" else (port.flow, f)
+        self.agree(own, term, origin, f"source `{node.local}` gives an {element.coefficient}"
+                   if element.kind == "Se" else f"source `{node.local}` gives a flow")  # fmt: skip
+        if element.modulated and self.values.constant(value):
+            self.report.info(
+                "not-modulated", f"`{node.type}:{node.name}` is driven by no signal.", origin,
+                help=f"`{element.kind}` says the same of a constant.",
+            )  # fmt: skip
+        return Law(self.pool.sub(fixed, value), fixed, origin)
+
+    def pair(self, port: PortVariables) -> tuple[Term, Term]:
+        """The dimensions of a port; raises Skip when it is not connected."""
+        if port.slot < 0:
+            raise Skip
+        return self.values.quantities.pair(port.slot)
+
+    def agree(self, left: Term, right: Term, origin: Span, what: str) -> None:
+        """One dimension on both sides, or an error."""
+        if not self.values.quantities.same(left, right, origin, what):
+            raise Skip
+
+    # ------------------------------------------------------------------ laws in braces
+
+    def local(self, node: NodeEntry) -> dict[str, Typed]:
+        """The names that the law may use of its own ports."""
+        names: dict[str, Typed] = {}
+        quantities = self.values.quantities
+        fixed = node.element is not None and [p.name for p in node.ports] == list(
+            node.element.ports
+        )
+        for port in node.ports:
+            e, f = self.pair(port)
+            own: list[tuple[str, Expr, Term]] = [("e", port.effort, e), ("f", port.flow, f)]
+            if port.state is not None:
+                assert node.element is not None
+                if node.element.state == "q":
+                    own.append(("q", port.state, quantities.integrated(f)))
+                else:
+                    own.append(("p", port.state, quantities.integrated(e)))
+            for name, variable, term in own:
+                key = f"{name}{port.name}" if fixed else f"{port.name}.{name}"
+                names[key] = (variable, term)
+        return names
+
+    def written(self, node: NodeEntry, element: ElementKind, written: Node) -> tuple[Law, ...]:
+        """The equations in the braces of an element."""
+        law = written.law
+        assert law is not None
+        if law.ports and not element.fields:
+            fail(self.report, "ports-not-allowed", f"A {written.type} has fixed ports.",
+                 law.ports[0].origin, help="Only R, C and I can be fields with named ports."
+                 )  # fmt: skip
+        local = self.local(node)
+        place = Place(node.scope, node.env, node.path, local)
+        found = [self.equation(q, place, local, node, element) for q in law.equations]
+        if element.kind in ("TF", "GY"):
+            return self.two_port(node, element, found, written)
+        if len(found) != len(node.ports):
+            ports = len(node.ports)
+            need = "one equation" if ports == 1 else f"{ports} equations, one a port"
+            fail(self.report, "wrong-law-count", f"`{written.type}:{node.name}` needs {need}, not "
+                 f"{len(found)}.", law.origin, help="Each port has two variables, of which one "
+                 "follows from the other." if ports == 1 else "Write one equation for each port."
+                 )  # fmt: skip
+        return tuple(found)
+
+    def equation(
+        self, equation: Equation, place: Place, local: dict[str, Typed], node: NodeEntry,
+        element: ElementKind,
+    ) -> Law:  # fmt: skip
+        """`left = right`; solved for a port variable where the left side is just that."""
+        values = self.values
+        left, s = values.quantity(equation.left, place)
+        right, t = values.quantity(equation.right, place)
+        zero = _is_zero(equation.left) or _is_zero(equation.right)
+        if not zero:
+            self.agree(s, t, equation.origin, f"both sides of the law of `{node.local}` have one "
+                       "unit")  # fmt: skip
+        expr = self.pool.sub(left, right)
+        own = [v for v, _ in local.values()]
+        present = symbols(expr)
+        if not any(v in present for v in own):
+            names = [*local]
+            fail(self.report, "law-without-variable", "This law contains none of the element's own "
+                 "variables.", equation.origin, help=f"The law of `{node.type}:{node.name}` "
+                 f"relates {listed(names)}.")  # fmt: skip
+        solved = isinstance(equation.left, Ref) and any(left is v for v in own)
+        if element.kind in ("Se", "Sf"):
+            port = node.ports[0]
+            fixed, other = (port.effort, port.flow) if element.kind == "Se" else (
+                port.flow, port.effort)  # fmt: skip
+            if left is not fixed or fixed in symbols(right) or other in symbols(right):
+                letter = element.variables[0]
+                fail(self.report, "wrong-variable", f"`{node.type}:{node.name}` fixes its "
+                     f"{element.coefficient}: its law is `{letter} = ...`.", equation.origin,
+                     help=f"Write `{node.type}:{node.name} {{ {letter} = ... }}`; a relation "
+                     "between effort and flow is an `R`.")  # fmt: skip
+        direction = left if solved and left not in symbols(right) else None
+        return Law(expr, direction, equation.origin)
+
+    def two_port(
+        self, node: NodeEntry, element: ElementKind, found: list[Law], written: Node
+    ) -> tuple[Law, ...]:
+        """One stated relation; the other follows from e1*f1 = e2*f2."""
+        assert written.law is not None
+        if len(found) not in (1, 2):
+            fail(self.report, "wrong-law-count", f"`{written.type}:{node.name}` needs one relation "
+                 f"(the other follows from power conservation), not {len(found)}.",
+                 written.law.origin, help=f"Write `{{ {element.law} }}`.")  # fmt: skip
+        if len(found) == 2:
+            return tuple(found)
+        one, two = node.ports
+        if element.kind == "TF":
+            pairs = ((one.flow, two.flow), (one.effort, two.effort))
+        else:
+            pairs = ((one.effort, two.flow), (one.flow, two.effort))
+        law = found[0]
+        present = [v for v in symbols(law.zero) if v in (*pairs[0], *pairs[1])]
+        for (a, b), (c, d) in (pairs, pairs[::-1]):
+            if all(v in (a, b) for v in present) and len(present) == 2:
+                parts = linear(self.pool, law.zero, (a, b))
+                if parts is None:
+                    break
+                # A a + B b = 0 with power a c' = b d' gives A d + B c = 0 (roles exchanged)
+                self.conserve(node, law)
+                zero = self.pool.add(
+                    (1, self.pool.mul(parts[0], d)), (1, self.pool.mul(parts[1], c))
+                )
+                direction = d if law.direction is a else c if law.direction is b else None
+                return law, Law(zero, direction, law.origin)
+        names = ("f1 = m*f2", "e1 = m*e2") if element.kind == "TF" else ("e1 = k*f2", "e2 = k*f1")
+        fail(self.report, "not-a-relation", f"This does not relate the two sides of `{written.type}"
+             f":{node.name}` by a factor.", law.origin, help=f"Write `{{ {names[0]} }}` or "
+             f"`{{ {names[1]} }}`, with any expression for the factor; a general two-port is an "
+             "`R` field with two named ports.")  # fmt: skip
+
+    def conserve(self, node: NodeEntry, law: Law) -> None:
+        """The units of the relation that follows: e1*f1 = e2*f2 in power."""
+        one, two = (self.pair(p) for p in node.ports)
+        values = self.values
+        self.agree(
+            values.product(one[0], one[1]), values.product(two[0], two[1]), law.origin,
+            f"`{node.local}` conserves power, effort times flow",
+        )  # fmt: skip
+
+
+def linear(pool: Pool, expr: Expr, pair: tuple[Expr, Expr]) -> tuple[Expr, Expr] | None:
+    """The factors (A, B) of `expr` = A a + B b, None where it is no such sum."""
+    nothing = {pair[0]: pool.zero, pair[1]: pool.zero}
+    if pool.substitute([expr], nothing)[0] is not pool.zero:
+        return None
+    first = pool.substitute([expr], {pair[0]: pool.one, pair[1]: pool.zero})[0]
+    second = pool.substitute([expr], {pair[0]: pool.zero, pair[1]: pool.one})[0]
+    if first is pool.zero or second is pool.zero or not _degree_one(expr, pair):
+        return None
+    return first, second
+
+
+def _degree_one(expr: Expr, pair: tuple[Expr, Expr]) -> bool:
+    """Whether the two variables stand only in sums and once in products above the line."""
+    holds: dict[Expr, bool] = {}
+    for node in topological([expr]):
+        if node.op is Op.SYM:
+            holds[node] = node in pair
+            continue
+        inside = [a for a in node.args if holds[a]]
+        holds[node] = bool(inside)
+        if not inside or node.op is Op.ADD:
+            continue
+        if node.op is not Op.MUL or len(inside) > 1:
+            return False
+        if node.exponents[node.args.index(inside[0])] != 1:
+            return False
+    return True
+
+
+def _is_zero(expr: object) -> bool:
+    return isinstance(expr, Number) and expr.value == 0 and expr.unit is None
+

@@ -1,0 +1,133 @@
+"""Find what a dotted reference means: a node, a port or a value, here or in a submodel."""
+
+from __future__ import annotations
+
+from typing import NoReturn
+
+from bondgraph.ir.syntax import Part, Ref
+from bondgraph.passes.elaboration.problems import Skip, fail, meant
+from bondgraph.passes.elaboration.scope import (
+    Array,
+    Env,
+    Named,
+    NodeEntry,
+    PortEntry,
+    Scope,
+    ValueEntry,
+)
+from bondgraph.passes.elaboration.structure import index
+from bondgraph.text.diagnostic import Label, Report
+
+
+class Lookup:
+    """Names to entries; every way to be wrong is reported and raises Skip."""
+
+    def __init__(self, report: Report) -> None:
+        self.report = report
+
+    def node(self, ref: Ref, scope: Scope, env: Env) -> tuple[Named, tuple[Part, ...]]:
+        """The node that a reference begins with and the parts that are left of it.
+
+        Submodels are entered as far as the reference goes: `m[1].wh.hub.f` is the junction `hub`
+        with `f` left; a name that is no node of the last submodel is left too.
+        """
+        parts = ref.parts
+        entry = self.entry(parts[0], scope, scope, env)
+        at = 1
+        while isinstance(entry, Scope) and at < len(parts) and self.has(parts[at], entry):
+            entry = self.entry(parts[at], entry, scope, env)
+            at += 1
+        return entry, parts[at:]
+
+    @staticmethod
+    def has(part: Part, scope: Scope) -> bool:
+        """Whether the instance has a node of that name."""
+        return part.name in scope.nodes
+
+    def entry(self, part: Part, inside: Scope, scope: Scope, env: Env) -> Named:
+        """One node of the instance `inside`; its index is read in `scope`."""
+        named = inside.nodes.get(part.name)
+        if named is None:
+            self.no_node(part, inside)
+        return self.indexed(part, named, scope, env)
+
+    def no_node(self, part: Part, inside: Scope) -> NoReturn:
+        """Report that there is no such node."""
+        if part.name in inside.wrong or inside.incomplete:
+            raise Skip
+        places = [part.origin]
+        value = inside.values.get(part.name)
+        if value is not None:
+            fail(self.report, "not-a-node", f"`{part.name}` is a value, not a node.",
+                 Label(part.origin, "used as a node"), Label(value.origin, "declared here"),
+                 help="Bonds go between junctions, elements, submodels and ports; declare a node "
+                 f"with its type, as in `R:{part.name}`.")  # fmt: skip
+        fail(self.report, "unknown-name", f"`{inside.model.name}` has no node `{part.name}`.",
+             *places, help=meant(part.name, inside.nodes, "Declare it with its type, as in "
+             f"`1:{part.name}` or `R:{part.name}`."))  # fmt: skip
+
+    def indexed(self, part: Part, named: Named, scope: Scope, env: Env) -> Named:
+        """The entry itself, or the one of an array that the index of the part names."""
+        place = index(part, scope, env, self.report)
+        if isinstance(named, Array):
+            if place is None:
+                fail(self.report, "index-missing", f"`{part.name}` is an array: which one is meant?",
+                     Label(part.origin), Label(named.origin, "declared here"),
+                     help=f"Give an index, `{part.name}[1]`; in a chain of bonds a range, "
+                     f"`{part.name}[1..{max(named.entries, default=1)}]`.")  # fmt: skip
+            found = named.entries.get(place)
+            if found is None:
+                self.out_of_range(part, named, place)
+            return found
+        if place is not None:
+            fail(self.report, "index-not-allowed", f"`{part.name}` is not an array.",
+                 Label(part.origin), Label(named.origin, "declared here"),
+                 help=f"Write `{part.name}` without an index.")  # fmt: skip
+        return named
+
+    def out_of_range(self, part: Part, array: Array, place: int) -> NoReturn:
+        """Report an index that the array has not."""
+        low, high = min(array.entries, default=1), max(array.entries, default=0)
+        has = f"from {low} to {high}" if high >= low else "at all (it is empty)"
+        fail(self.report, "index-out-of-range", f"There is no `{part.name}[{place}]`.",
+             Label(part.origin, f"index {place}"), Label(array.origin, f"has elements {has}"),
+             help="Indices count from 1 up to the declared size.")  # fmt: skip
+
+    def value(self, part: Part, inside: Scope, scope: Scope, env: Env) -> ValueEntry | None:
+        """The value of that name in an instance, or None if it has none."""
+        named = inside.values.get(part.name)
+        if named is None:
+            return None
+        entry = self.indexed(part, named, scope, env)
+        assert isinstance(entry, ValueEntry)
+        return entry
+
+    def no_value(self, ref: Ref, part: Part, inside: Scope, known: tuple[str, ...]) -> NoReturn:
+        """Report that there is no such value."""
+        if part.name in inside.wrong or inside.incomplete:
+            raise Skip
+        node = inside.nodes.get(part.name)
+        if node is not None:
+            fail(self.report, "not-a-value", f"`{ref.origin.text}` is a node, not a value.",
+                 Label(ref.origin, "used as a value"), Label(node.origin, "declared here"),
+                 help=self.signals(node, ref.origin.text))  # fmt: skip
+        fail(self.report, "unknown-name", f"`{inside.model.name}` has no value `{part.name}`.",
+             part.origin, help=meant(part.name, (*known, *inside.values), "Declare it, as in "
+             f"`param {part.name} = 1` or `let {part.name} = ...`."))  # fmt: skip
+
+    @staticmethod
+    def signals(node: Named, text: str) -> str:
+        """What can be written to get at the signals of a node."""
+        if isinstance(node, Array):
+            node = next(iter(node.entries.values()), node)
+            text += "[1]"
+        if isinstance(node, NodeEntry):
+            if node.element is None:
+                what = "f` is its common flow" if node.type == "1" else "e` is its common effort"
+                return f"`{text}.{what}."
+            if len(node.element.ports) == 2:
+                return f"Its signals are `{text}.e1`, `{text}.f1`, `{text}.e2` and `{text}.f2`."
+            return f"`{text}.e` is its effort, `{text}.f` its flow."
+        if isinstance(node, PortEntry):
+            return f"`{text}.e` is its effort, `{text}.f` its flow."
+        return f"Name one of its values after a point: `{text}.name`."
