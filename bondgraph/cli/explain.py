@@ -160,7 +160,7 @@ def _stroke(causal: CausalGraph, bond: Bond) -> str:
     end = bond.tail if stroke.at == "tail" else bond.head
     return (
         f"{bond_name(graph, bond)}: stroke at {graph.nodes[end.node].path},"
-        f" {reason(graph, stroke.reason)}"
+        f" {reason(causal, stroke.reason)}"
     )
 
 

@@ -188,7 +188,7 @@ def dump_causal(causal: CausalGraph) -> str:
                 _end(graph, bond, "tail"),
                 drawn,
                 _end(graph, bond, "head"),
-                reason(graph, stroke.reason),
+                reason(causal, stroke.reason),
             )
         )
     lines += table(rows)
@@ -211,14 +211,15 @@ def dump_causal(causal: CausalGraph) -> str:
     return "\n".join(lines)
 
 
-def reason(graph: BondGraph, why: Reason) -> str:
-    """Why a stroke stands where it stands, in a few words."""
-    node = graph.nodes[why.node]
+def reason(causal: CausalGraph, why: Reason) -> str:
+    """Why a stroke of a causal assignment stands where it stands, in a few words."""
+    node = causal.graph.nodes[why.node]
     match why.cause:
         case "source":
             return f"fixed by source {node.path}"
         case "sensor":
-            return f"fixed by sensor {node.path}, dualised"
+            dualised = ", dualised" if why.node in causal.dualised else ""
+            return f"fixed by sensor {node.path}{dualised}"
         case "law":
             return f"fixed by the law of {node.path}"
         case "preferred":

@@ -1,0 +1,1 @@
+"""Tests over models/: each model against equations that were written by hand."""

@@ -1,0 +1,133 @@
+"""Each model of models/ against its machine by hand: what vanishes, what sees which fault."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+import sympy as sp
+
+import bondgraph
+from bondgraph.cli.result import result
+from tests.models import plants
+from tests.models.plants import Signals, Values, t
+
+MODELS = Path(__file__).resolve().parents[2] / "models"
+_DIGITS = 60
+
+
+class Case(NamedTuple):
+    """A model, its machine by hand, how many relations it must give, and when to look at it."""
+
+    model: str
+    plant: Callable[[Values], Signals]
+    relations: int
+    at: sp.Rational = sp.Rational(1, 7)
+
+
+CASES = [
+    Case("dc_motor", plants.dc_motor, 2),
+    Case("chassis", plants.chassis, 2),
+    Case("cable", partial(plants.ladder, cells=4, capacitor=True), 1),
+    Case("cable_open", partial(plants.ladder, cells=1, capacitor=False), 1),
+    Case("two_tanks", plants.two_tanks, 2),
+    Case("quarter_car", plants.quarter_car, 2),
+    Case("hydraulic_actuator", plants.hydraulic_actuator, 2),
+    Case("rigid_gear", plants.rigid_gear, 2),
+    Case("rc_loop", plants.rc_loop, 2, sp.Integer(0)),
+    Case("microphone", plants.microphone, 2),
+    Case("slider_crank", plants.slider_crank, 1),
+    Case("oven", plants.oven, 2),
+]
+
+
+def compiled(model: str) -> tuple[bondgraph.Compilation, dict[str, Any]]:
+    compilation = bondgraph.compile(MODELS / f"{model}.bg")
+    return compilation, result(compilation, [])
+
+
+def nice(number: int) -> sp.Rational:
+    """Values of ordinary size that have nothing to do with each other."""
+    return sp.Rational(sp.prime(number + 5), sp.prime(number + 3) + 1)
+
+
+def relation(arr: dict[str, Any], known: dict[str, sp.Expr]) -> sp.Expr:
+    """The text of a relation with everything known put in, as a function of t."""
+
+    def derivative(x: sp.Expr, order: sp.Expr) -> sp.Expr:
+        return sp.diff(x, t, int(order))
+
+    scope: dict[str, Any] = {
+        "D": derivative,
+        "Int": plants.since_start,
+        "ssqrt": plants.ssqrt,
+        **known,
+    }
+    for name, part in arr.get("defs", []):
+        scope[name] = sp.parse_expr(part, local_dict=scope)
+    return sp.parse_expr(arr["expr"], local_dict=scope)
+
+
+def size(expr: sp.Expr, at: sp.Rational) -> float:
+    return float(abs(sp.N(expr.subs(t, at), _DIGITS, strict=False)))
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda c: c.model)
+def test_relations_vanish_and_faults_move_exactly_what_the_matrix_says(case: Case) -> None:
+    compilation, found = compiled(case.model)
+    names: dict[str, str] = found["names"]
+    faults = compilation.graph.faults
+    params = [v.name for v in compilation.graph.values]
+    numbers = {name: nice(i) for i, name in enumerate(params)}
+    for value in compilation.graph.values:
+        if value.name not in faults and value.value is not None and not value.value.args:
+            numbers[value.name] = sp.Rational(value.value.number)
+    numbers |= {"l": sp.Integer(3), "r": sp.Integer(1)} if case.model == "slider_crank" else {}
+    change = sp.Rational(1, 3) + t / 5 + t**2 / 7
+
+    def residuals(fault: str | None) -> list[float]:
+        signals = case.plant(
+            lambda name: numbers[name] * (1 + change) if name == fault else numbers[name]
+        )
+        if fault in signals:
+            signals[fault] += change
+        known = {plain: {**numbers, **signals}[name] for plain, name in names.items()}
+        return [size(relation(arr, known), case.at) for arr in found["arrs"]]
+
+    assert found["n_arr"] == len(found["arrs"]) == case.relations
+    healthy = residuals(None)
+    for fault in faults:
+        moved = residuals(fault)
+        row = compilation.signatures.row(fault)
+        for k, (still, now) in enumerate(zip(healthy, moved, strict=True)):
+            if row[k]:
+                assert now > 1e-12 and now > 1e20 * still, (fault, found["arrs"][k]["name"])
+            else:
+                assert now < 1e-20, (fault, found["arrs"][k]["name"])
+    assert max(healthy) < 1e-20
+
+
+ALL = sorted(path.stem for path in MODELS.glob("*.bg"))
+
+
+@pytest.mark.parametrize("model", ALL)
+def test_every_model_compiles_verified(model: str) -> None:
+    compilation = bondgraph.compile(MODELS / f"{model}.bg")
+    assert compilation.verification
+    assert not [d for d in compilation.report.diagnostics if d.severity != "info"]
+
+
+@pytest.mark.parametrize("model", ALL)
+def test_every_model_says_what_it_teaches(model: str) -> None:
+    text = (MODELS / f"{model}.bg").read_text(encoding="utf-8")
+    comment = re.match(r"(?:#.*\n)+", text)
+    assert comment and "teaches" in comment.group()
+
+
+def test_every_model_has_a_case_or_is_tested_with_the_paper() -> None:
+    with_the_paper = {"drive", "drive_fig6", "khepera", "khepera_plausible"}
+    assert {c.model for c in CASES} | with_the_paper == set(ALL)
