@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Final
 
 from bondgraph.frontend.cursor import MAX_DEPTH, MAX_HEIGHT, Cursor, SyntaxProblem
-from bondgraph.frontend.words import KEYWORDS, NOT_UNITS, RESERVED, say
+from bondgraph.frontend.words import NOT_UNITS, RESERVED, say
 from bondgraph.ir import syntax
 from bondgraph.text.diagnostic import Label
 from bondgraph.text.source import Span
@@ -142,9 +142,9 @@ class Expressions(Cursor):
     def _primary(self) -> syntax.Expression:
         at = self.i
         word = self.words[at]
+        if self.fresh[at] and word and (self.words[at + 1] == ":" or self.begins_statement(at)):
+            raise self.unexpected("a value", _OPERAND_HELP)  # the next line is another statement
         if word.isidentifier():
-            if self.fresh[at] and word in KEYWORDS and self.begins_statement(at):
-                raise self.unexpected("a value", _OPERAND_HELP)
             self.height = 0
             called = self.words[at + 1] == "(" and (self.brackets or not self.fresh[at + 1])
             if called and word not in RESERVED:

@@ -73,7 +73,9 @@ def _odd_number(text: str, words: list[str], starts: list[int], at: int) -> Odd 
         )  # fmt: skip
     if (word[0].isalpha() or word[0] == "°") and gap != " " and "\n" not in gap:
         if word in NOT_UNITS:
-            return None
+            what = f"A space is missing in {say(before + word)}."
+            help = f"Write `{before} {word}`."
+            return None if gap else Odd("unit-space", what, at, "before this word", help)
         return Odd(
             "unit-space",
             f"A unit follows its number after exactly one space: I found {say(before + gap + word)}"

@@ -6,6 +6,7 @@ import gc
 
 from bondgraph.frontend.cursor import SyntaxProblem, TooManyProblems
 from bondgraph.frontend.statements import Statements
+from bondgraph.frontend.words import is_arrow
 from bondgraph.ir import syntax
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Source, Span
@@ -110,7 +111,7 @@ class Parser(Statements):
                         "no `{` belongs to it",
                         help="Remove it, or look for a `}` too many above it.",
                     )
-                elif self.fresh[at] and models:
+                elif self.fresh[at] and (models or self._like_statement(at)):
                     raise self.problem(
                         "statement-outside-model",
                         "A statement stands outside the braces of a model.",
@@ -125,6 +126,10 @@ class Parser(Statements):
                 self.brackets = self.depth = 0
                 self.i = max(self.i, problem.at)
                 self._next_item(at)
+
+    def _like_statement(self, at: int) -> bool:
+        after = self.words[at + 1]
+        return self.begins_statement(at) or after == ":" or is_arrow(after)
 
     def _next_item(self, begin: int) -> None:
         """Go to the next line that begins with `model` or `import`: what is between follows."""

@@ -53,16 +53,19 @@ def decode(path: str, data: bytes, report: Report) -> Source | None:
         _refuse(path, report, "not-text", "is not text: it contains zero bytes",
                 "Give the command a model file; a compiled or packed file is none.")  # fmt: skip
         return None
+    mark = 3 if data.startswith(b"\xef\xbb\xbf") else 0
+    data = data[mark:]
     try:
-        text = data.decode("utf-8-sig")
+        text = data.decode("utf-8")
     except UnicodeDecodeError as error:
-        good = data[: error.start].decode("utf-8-sig", "replace")
+        good = data[: error.start].decode("utf-8")
         good = good.replace("\r\n", "\n").replace("\r", "\n")
         source = Source(path, good)
         label = Label(Span(source, len(good), len(good)), f"byte {data[error.start]:#04x} here")
         report.error(
             "not-text",
-            f"The file `{path}` is not UTF-8 text: byte {error.start + 1} belongs to no character.",
+            f"The file `{path}` is not UTF-8 text: its byte {mark + error.start + 1} belongs to no "
+            "character.",
             label,
             help="Save it as UTF-8 in the editor; if it is no text at all, give a model file.",
         )
