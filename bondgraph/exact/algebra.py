@@ -1,0 +1,360 @@
+"""The two kinds of signal that residuals are evaluated on: power series, and exponentials.
+
+Both are differential algebras: they add, multiply, differentiate, and say how a small change of
+an argument changes a result, forwards and transposed. `n` is the number of Taylor coefficients
+wanted; exponentials ignore it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import NamedTuple, Protocol, TypeVar
+
+from bondgraph.exact import series
+from bondgraph.exact.field import Functions, P, inverse, root, sign
+from bondgraph.exact.series import Series, reciprocal_of
+
+V = TypeVar("V")
+A = TypeVar("A")
+
+
+class Mixed(Exception):
+    """An operation leads out of the algebra, such as a function of a linear form."""
+
+
+class Values(Protocol[V]):
+    """A differential algebra; operations raise `Undefined` where there is no value."""
+
+    functions: Functions
+
+    def number(self, x: int) -> V:
+        """A constant."""
+        ...
+
+    def lead(self, a: V) -> int:
+        """The value at the point; its sign decides comparisons."""
+        ...
+
+    def combine(self, terms: Sequence[tuple[int, V]], n: int) -> V:
+        """The sum of number times value."""
+        ...
+
+    def product(self, factors: Sequence[tuple[V, int]], n: int) -> V:
+        """The product of integer powers."""
+        ...
+
+    def rational(self, a: V, exponent: Fraction, n: int) -> V:
+        """A rational power."""
+        ...
+
+    def function(self, name: str, args: Sequence[V], n: int) -> V:
+        """A function of one or two arguments."""
+        ...
+
+    def der(self, a: V) -> V:
+        """The time derivative."""
+        ...
+
+    def integral(self, a: V, start: int) -> V:
+        """The integral that begins at `start`."""
+        ...
+
+
+class Algebra(Values[V], Protocol[V, A]):
+    """Values V with adjoints A for reverse differentiation."""
+
+    def slopes(self, name: str, args: Sequence[V], value: V, n: int) -> Sequence[V]:
+        """The partial derivatives of a function whose value is known."""
+        ...
+
+    def seed(self, x: int) -> A:
+        """The adjoint of the result itself, times a number."""
+        ...
+
+    def join(self, a: A, b: A) -> A:
+        """The sum of two adjoints."""
+        ...
+
+    def vanishes(self, a: A) -> bool:
+        """Whether an adjoint is zero."""
+        ...
+
+    def back(self, adjoint: A, slope: V, n: int) -> A:
+        """The adjoint of an argument with this partial derivative; n its coefficients."""
+        ...
+
+    def back_der(self, adjoint: A, argument: V) -> A:
+        """The adjoint of what was differentiated."""
+        ...
+
+    def back_integral(self, adjoint: A) -> A:
+        """The adjoint of what was integrated, as far as the present reaches it."""
+        ...
+
+    def start_of(self, adjoint: A) -> int:
+        """The part of an adjoint that belongs to the value itself, not to its derivatives."""
+        ...
+
+    def order(self, adjoint: A) -> int:
+        """The highest derivative that an adjoint which is not zero belongs to."""
+        ...
+
+
+class Taylor:
+    """Power series around the point; an adjoint has one number a coefficient."""
+
+    def __init__(self, functions: Functions) -> None:
+        self.functions = functions
+
+    def number(self, x: int) -> Series:
+        """A constant."""
+        return [x % P]
+
+    def lead(self, a: Series) -> int:
+        """The value at the point."""
+        return a[0]
+
+    def combine(self, terms: Sequence[tuple[int, Series]], n: int) -> Series:
+        """The sum of number times value."""
+        out = [0] * max(min(n, len(a)) for _, a in terms)
+        for c, a in terms:
+            for i, x in enumerate(a[:n]):
+                out[i] += c * x
+        return [x % P for x in out]
+
+    def product(self, factors: Sequence[tuple[Series, int]], n: int) -> Series:
+        """The product of integer powers."""
+        out: Series | None = None
+        for a, exponent in factors:
+            if exponent:
+                value = series.power(a, exponent, n)
+                out = value if out is None else series.mul(out, value, n)
+        return [1] if out is None else out[:n]
+
+    def rational(self, a: Series, exponent: Fraction, n: int) -> Series:
+        """A rational power."""
+        return series.rational_power(a, exponent, n)
+
+    def function(self, name: str, args: Sequence[Series], n: int) -> Series:
+        """A function of one or two arguments."""
+        if len(args) == 1:
+            return series.function(self.functions, name, args[0][:n], n)
+        return series.function_of_two(self.functions, name, args[0][:n], args[1][:n], n)
+
+    def slopes(self, name: str, args: Sequence[Series], value: Series, n: int) -> Sequence[Series]:
+        """The partial derivatives of a function."""
+        if len(args) == 1:
+            return [series.slope_of(self.functions, name, args[0][:n], value, n)]
+        return series.slopes_of_two(self.functions, name, args[0][:n], args[1][:n], value, n)
+
+    def der(self, a: Series) -> Series:
+        """The time derivative."""
+        return series.derivative(a)
+
+    def integral(self, a: Series, start: int) -> Series:
+        """The integral that begins at `start`."""
+        return series.integral(a, start)
+
+    def seed(self, x: int) -> Series:
+        """The adjoint of the result, times a number."""
+        return [x]
+
+    def join(self, a: Series, b: Series) -> Series:
+        """The sum of two adjoints."""
+        return series.add(a, b)
+
+    def vanishes(self, a: Series) -> bool:
+        """Whether an adjoint is zero."""
+        return not any(a)
+
+    def back(self, adjoint: Series, slope: Series, n: int) -> Series:
+        """The adjoint of an argument."""
+        if len(slope) == 1:
+            c = slope[0]
+            return [c * x % P for x in adjoint]
+        size = len(adjoint)
+        return [sum(map(int.__mul__, adjoint[m:], slope)) % P for m in range(size)]
+
+    def back_der(self, adjoint: Series, argument: Series) -> Series:
+        """The adjoint of what was differentiated."""
+        return [0, *[k * x % P for k, x in enumerate(adjoint, 1)]]
+
+    def back_integral(self, adjoint: Series) -> Series:
+        """The adjoint of what was integrated."""
+        return [x * reciprocal_of(k) % P for k, x in enumerate(adjoint[1:], 1)]
+
+    def start_of(self, adjoint: Series) -> int:
+        """The part that belongs to the value itself."""
+        return adjoint[0]
+
+    def order(self, adjoint: Series) -> int:
+        """The highest derivative with an influence."""
+        return max(k for k, x in enumerate(adjoint) if x)
+
+
+class Wave(NamedTuple):
+    """amplitude * e^(degree s t); a constant has degree 0."""
+
+    amplitude: int
+    degree: int
+
+
+class Impulse(NamedTuple):
+    """An adjoint of a wave: its number `value` for changes that grow like e^(sigma t).
+
+    As a polynomial in sigma its coefficients from `degree` down to `floor` are `leading`; those
+    below `floor` are not kept.
+    """
+
+    value: int
+    degree: int
+    floor: int
+    leading: Series
+
+
+class Waves:
+    """Exponentials e^(d s t) with one random s: the derivative is a multiplication by d s.
+
+    For plants and residuals linear in their signals, in time independent of the order. Changes
+    are taken as e^(sigma t) with a second random number, so that a parameter is a function of
+    time for the adjoints. `terms` leading coefficients are carried to find the order.
+    """
+
+    def __init__(self, functions: Functions, s: int, sigma: int, terms: int = 3) -> None:
+        self.functions = functions
+        self.s = s
+        self.sigma = sigma
+        self.terms = terms
+
+    def number(self, x: int) -> Wave:
+        """A constant."""
+        return Wave(x % P, 0)
+
+    def lead(self, a: Wave) -> int:
+        """The value at the point."""
+        if a.degree and a.amplitude:
+            raise Mixed("a decision on a signal")
+        return a.amplitude
+
+    def combine(self, terms: Sequence[tuple[int, Wave]], n: int) -> Wave:
+        """The sum of number times value."""
+        degree = None
+        total = 0
+        for c, (x, d) in terms:
+            if x:
+                if degree is not None and d != degree:
+                    raise Mixed("a sum of a signal and a constant")
+                degree = d
+                total += c * x
+        return Wave(total % P, degree or 0)
+
+    def product(self, factors: Sequence[tuple[Wave, int]], n: int) -> Wave:
+        """The product of integer powers."""
+        value, degree = 1, 0
+        for (x, d), exponent in factors:
+            if exponent == 1:
+                value = value * x % P
+            elif exponent:
+                value = value * (pow(x, exponent, P) if x else root(0, Fraction(exponent))) % P
+            degree += d * exponent
+        return Wave(value, degree)
+
+    def _constants(self, args: Sequence[Wave]) -> list[Series]:
+        if any(a.degree and a.amplitude for a in args):
+            raise Mixed("a function of a signal")
+        return [[a.amplitude] for a in args]
+
+    def rational(self, a: Wave, exponent: Fraction, n: int) -> Wave:
+        """A rational power."""
+        return Wave(root(self._constants([a])[0][0], exponent), 0)
+
+    def function(self, name: str, args: Sequence[Wave], n: int) -> Wave:
+        """A function of one or two arguments."""
+        if name in ("sign", "abs") and args[0].degree:
+            raise Mixed("a function of a signal")
+        constants = self._constants(args)
+        if len(args) == 1:
+            return Wave(series.function(self.functions, name, constants[0], 1)[0], 0)
+        a, b = constants
+        return Wave(series.function_of_two(self.functions, name, a, b, 1)[0], 0)
+
+    def slopes(self, name: str, args: Sequence[Wave], value: Wave, n: int) -> Sequence[Wave]:
+        """The partial derivatives of a function."""
+        constants = self._constants(args)
+        f, of = self.functions, [value.amplitude]
+        if len(args) == 1:
+            return [Wave(series.slope_of(f, name, constants[0], of, 1)[0], 0)]
+        both = series.slopes_of_two(f, name, constants[0], constants[1], of, 1)
+        return [Wave(x[0], 0) for x in both]
+
+    def der(self, a: Wave) -> Wave:
+        """The time derivative."""
+        return Wave(a.amplitude * a.degree * self.s % P, a.degree)
+
+    def integral(self, a: Wave, start: int) -> Wave:
+        """The integral that begins at `start`."""
+        raise Mixed("an integral from an initial value")
+
+    def seed(self, x: int) -> Impulse:
+        """The adjoint of the result, times a number."""
+        return Impulse(x % P, 0, 0, [x % P])
+
+    def join(self, a: Impulse, b: Impulse) -> Impulse:
+        """The sum of two adjoints."""
+        if a.degree < b.degree:
+            a, b = b, a
+        leading = series.add(a.leading, [0] * (a.degree - b.degree) + b.leading)
+        degree, floor = a.degree, max(a.floor, b.floor)
+        while leading and not leading[0]:
+            leading = leading[1:]
+            degree -= 1
+        floor = max(floor, degree - self.terms + 1)
+        leading = leading[: max(0, degree - floor + 1)]
+        return Impulse((a.value + b.value) % P, degree, floor, leading)
+
+    def vanishes(self, a: Impulse) -> bool:
+        """Whether an adjoint is zero."""
+        return not a.value
+
+    def back(self, adjoint: Impulse, slope: Wave, n: int) -> Impulse:
+        """The adjoint of an argument."""
+        c = slope.amplitude
+        value, degree, floor, leading = adjoint
+        return Impulse(value * c % P, degree, floor, series.scale(c, leading))
+
+    def back_der(self, adjoint: Impulse, argument: Wave) -> Impulse:
+        """The adjoint of what was differentiated."""
+        own = argument.degree * self.s % P
+        value, degree, floor, leading = adjoint
+        # times (sigma + own); the lowest coefficient is complete only if nothing was cut off
+        leading = series.add([*leading, 0], [0, *series.scale(own, leading)])
+        floor = max(floor + 1 if floor else 0, degree + 2 - self.terms)
+        leading = leading[: max(0, degree + 2 - floor)]
+        return Impulse(value * (self.sigma + own) % P, degree + 1, floor, leading)
+
+    def back_integral(self, adjoint: Impulse) -> Impulse:
+        """The adjoint of what was integrated."""
+        raise Mixed("an integral from an initial value")
+
+    def start_of(self, adjoint: Impulse) -> int:
+        """The part that belongs to the value itself."""
+        return adjoint.value
+
+    def order(self, adjoint: Impulse) -> int:
+        """Raises `Mixed` when more leading coefficients cancel than are carried."""
+        for k, x in enumerate(adjoint.leading):
+            if x:
+                return adjoint.degree - k
+        raise Mixed("leading coefficients cancel")
+
+
+def compare(op: str, left: int, right: int) -> bool:
+    """`<`, `<=` or `==` of two field elements by the sign of their difference."""
+    if op == "==":
+        return left == right
+    s = sign(right - left)
+    return s == 1 or (op == "<=" and s == 0)
+
+
+__all__ = ["Algebra", "Impulse", "Mixed", "Series", "Taylor", "Wave", "Waves", "compare", "inverse"]

@@ -1,0 +1,188 @@
+"""The equations of a bond graph as this oracle reads them, straight from its bonds.
+
+Each bond has its own effort and flow. A junction makes one of them common to all its bonds and
+balances the other (Karnopp, Margolis, Rosenberg, 1990); a port sees them with the signs of its
+bond end. Nothing here is shared with the elimination that this oracle checks.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from bondgraph.ir.expr import Expr, Kind, Op, topological
+from bondgraph.ir.graph import BondGraph, Node
+
+
+class Balance(NamedTuple):
+    """The sum of sign * variable over `terms` is zero; of a switched junction only while `when`
+    holds, otherwise its `common` variable is zero."""
+
+    node: int
+    terms: tuple[tuple[int, int], ...]
+    when: Expr | None
+    common: int
+
+
+class Rate(NamedTuple):
+    """variable' = `value`."""
+
+    node: int
+    variable: int
+    value: Expr
+
+
+class Assembly(NamedTuple):
+    """All equations of a plant in numbered variables.
+
+    `place[symbol]` is (variable, sign) for every symbol that is not constant. `free` are the
+    variables that the plant leaves open: known inputs first, then unknown ones. `silent` are
+    variables that are zero because an ideal detector takes no power. `readings` are sensors
+    whose reading a law uses: a variable with the expression that it reads.
+    """
+
+    count_of: int
+    place: dict[Expr, tuple[int, int]]
+    free: tuple[int, ...]
+    unknown: tuple[int, ...]
+    silent: tuple[int, ...]
+    balances: tuple[Balance, ...]
+    laws: tuple[tuple[int, Expr], ...]
+    rates: tuple[Rate, ...]
+    readings: tuple[tuple[str, int, Expr], ...]
+
+
+class _Numbers:
+    """Numbers for variables; those that a junction makes common get the same number."""
+
+    def __init__(self, size: int) -> None:
+        self.parent = list(range(size))
+
+    def find(self, at: int) -> int:
+        parent = self.parent
+        while parent[at] != at:
+            parent[at] = parent[parent[at]]
+            at = parent[at]
+        return at
+
+    def join(self, a: int, b: int) -> None:
+        a, b = self.find(a), self.find(b)
+        if a != b:
+            self.parent[max(a, b)] = min(a, b)
+
+
+class _Builder:
+    def __init__(self, graph: BondGraph) -> None:
+        self.graph = graph
+        self.ends: list[list[tuple[int, int]]] = [[] for _ in graph.nodes]  # bond, +1 head -1 tail
+        for number, bond in enumerate(graph.bonds):
+            self.ends[bond.tail.node].append((number, -1))
+            self.ends[bond.head.node].append((number, 1))
+        self.numbers = _Numbers(2 * len(graph.bonds))  # effort 2b, flow 2b + 1
+        self.place: dict[Expr, tuple[int, int]] = {}
+        self.size = 0
+
+    def share(self) -> list[int]:
+        """The final number of each bond variable."""
+        for node, ends in zip(self.graph.nodes, self.ends, strict=True):
+            if node.kind in ("0", "1") and ends:
+                shift = int(node.kind == "1")
+                for bond, _ in ends[1:]:
+                    self.numbers.join(2 * ends[0][0] + shift, 2 * bond + shift)
+        final: dict[int, int] = {}
+        out = []
+        for at in range(len(self.numbers.parent)):
+            out.append(final.setdefault(self.numbers.find(at), len(final)))
+        self.size = len(final)
+        return out
+
+    def fresh(self, symbol: Expr) -> int:
+        """The variable of a symbol that no bond carries."""
+        found = self.place.get(symbol)
+        if found is None:
+            found = self.place[symbol] = (self.size, 1)
+            self.size += 1
+        return found[0]
+
+    def connect(self, final: list[int]) -> None:
+        """Say where the symbols of ports and junctions are."""
+        for number, bond in enumerate(self.graph.bonds):
+            for end in (bond.tail, bond.head):
+                node = self.graph.nodes[end.node]
+                if end.port >= 0 and node.ports:
+                    port = node.ports[end.port]
+                    self.place[port.effort] = (final[2 * number], end.effort)
+                    self.place[port.flow] = (final[2 * number + 1], end.flow)
+        for node, ends in zip(self.graph.nodes, self.ends, strict=True):
+            if node.common is not None and ends:
+                self.place[node.common] = (final[2 * ends[0][0] + (node.kind == "1")], 1)
+
+    def balance(self, number: int, node: Node, final: list[int]) -> Balance:
+        shift = int(node.kind == "0")  # a 0-junction balances flows
+        terms: dict[int, int] = {}
+        for bond, sign in self.ends[number]:
+            at = final[2 * bond + shift]
+            terms[at] = terms.get(at, 0) + sign
+        assert node.common is not None
+        common = self.fresh(node.common)
+        return Balance(number, tuple((v, c) for v, c in terms.items() if c), node.when, common)
+
+    def build(self) -> Assembly:
+        graph = self.graph
+        final = self.share()
+        self.connect(final)
+        balances, laws, rates, silent = [], [], [], []
+        for number, node in enumerate(graph.nodes):
+            if node.kind in ("0", "1"):
+                balances.append(self.balance(number, node, final))
+            elif node.kind in ("De", "Df"):
+                shift = int(node.kind == "De")
+                silent += [final[2 * bond + shift] for bond, _ in self.ends[number]]
+            laws += [(number, law.zero) for law in node.laws]
+            for port in node.ports:
+                if port.state is not None:
+                    value = port.flow if node.kind == "C" else port.effort
+                    rates.append(Rate(number, self.fresh(port.state), value))
+        for item in graph.integrals:
+            rates.append(Rate(-1, self.fresh(item.symbol), item.integrand))
+        readings = self.readings([law for _, law in laws] + [r.value for r in rates])
+        free: list[int] = []
+        unknown: list[int] = []
+        for source in graph.inputs:
+            if not source.mode:
+                (free if source.known else unknown).append(self.fresh(source.symbol))
+        self.rest([law for _, law in laws] + [r.value for r in rates])
+        return Assembly(
+            self.size,
+            self.place,
+            tuple(free),
+            tuple(unknown),
+            tuple(silent),
+            tuple(balances),
+            tuple(laws),
+            tuple(rates),
+            readings,
+        )
+
+    def readings(self, expressions: list[Expr]) -> tuple[tuple[str, int, Expr], ...]:
+        """The sensors whose readings occur in the expressions, with those that these read."""
+        own = {s.symbol: s for s in self.graph.sensors if s.same_as is None}
+        used: dict[Expr, None] = {}
+        while expressions:
+            found = [n for n in topological(expressions) if n in own and n not in used]
+            used.update(dict.fromkeys(found))
+            expressions = [own[n].reads for n in found]
+        ordered = sorted(used, key=lambda s: s.id)
+        return tuple((own[s].name, self.fresh(s), own[s].reads) for s in ordered)
+
+    def rest(self, expressions: list[Expr]) -> None:
+        """Give every other symbol that may vary a variable of its own."""
+        varying = (Kind.EFFORT, Kind.FLOW, Kind.STATE, Kind.INTEGRAL, Kind.UNKNOWN, Kind.INPUT)
+        reads = [s.reads for s in self.graph.sensors]
+        for node in topological([*expressions, *reads]):
+            if node.op is Op.SYM and node.symbol.kind in varying:
+                self.fresh(node)
+
+
+def assemble(graph: BondGraph) -> Assembly:
+    """The equations of the plant, one variable for whatever a junction makes common."""
+    return _Builder(graph).build()

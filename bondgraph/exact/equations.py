@@ -1,0 +1,143 @@
+"""The plant's equations at one choice of modes and parameters, with their linear parts as numbers.
+
+An equation is linear form + rest = 0, where the rest is an expression only if it is nonlinear.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from bondgraph.exact.algebra import Mixed
+from bondgraph.exact.assembly import Assembly
+from bondgraph.exact.evaluate import demands, evaluate
+from bondgraph.exact.field import Functions, P
+from bondgraph.exact.forms import ORDERS, Form, Forms
+from bondgraph.exact.linear import CONSTANT
+from bondgraph.exact.series import Series
+from bondgraph.ir.expr import Expr, Op, Symbol, topological
+
+
+class Equation(NamedTuple):
+    """form + rest = 0. `node` is the index of the bond graph's node, -1 for none.
+
+    `signature[j]` is the highest derivative of variable j, free variables left out.
+    """
+
+    node: int
+    form: Form
+    rest: Expr | None
+    signature: dict[int, int]
+
+
+class Setting(NamedTuple):
+    """Constants of one trajectory: params, consts and modes as series, `n` coefficients."""
+
+    values: Mapping[Expr, Series]
+    functions: Functions
+    n: int
+
+
+class FormSample:
+    """Every variable is an unknown of its own; constants are what the setting says."""
+
+    def __init__(self, place: Mapping[Expr, tuple[int, int]], setting: Setting) -> None:
+        self.algebra = Forms(setting.functions)
+        self._place = place
+        self._values = setting.values
+
+    def value(self, symbol: Expr) -> Form:
+        """A constant or an unknown."""
+        where = self._place.get(symbol)
+        if where is None:
+            return {CONSTANT: self._values[symbol]}
+        return {where[0] * ORDERS: [where[1]]}
+
+    def start(self, initial: Symbol) -> int:
+        """Laws have their integrals as variables."""
+        raise Mixed("an integral in a law")
+
+
+class Writer:
+    """Writes the equations; raises `Undefined` if a constant has no value here."""
+
+    def __init__(self, assembly: Assembly, setting: Setting) -> None:
+        self.assembly = assembly
+        self.setting = setting
+        self.sample = FormSample(assembly.place, setting)
+        self.free = frozenset((*assembly.free, *assembly.unknown))
+
+    def all(self, readings: Mapping[str, Series]) -> list[Equation]:
+        """The equations; `readings` are errors that faulty sensors add to what they read."""
+        plant = self.assembly
+        out = [self.linear(-1, {v * ORDERS: [1]}) for v in plant.silent]
+        for node, terms, when, common in plant.balances:
+            if when is not None and not self.holds(when):
+                out.append(self.linear(node, {common * ORDERS: [1]}))
+            elif terms:
+                out.append(self.linear(node, {v * ORDERS: [c] for v, c in terms}))
+        out += [self.equation(node, {}, zero) for node, zero in plant.laws]
+        for node, variable, value in plant.rates:
+            out.append(self.equation(node, {variable * ORDERS + 1: [-1]}, value))
+        for name, variable, reads in plant.readings:
+            form: Form = {variable * ORDERS: [-1]}
+            if name in readings:
+                form[CONSTANT] = readings[name]
+            out.append(self.equation(-1, form, reads))
+        return out
+
+    def holds(self, when: Expr) -> bool:
+        """Whether a switched junction is on."""
+        return self.sample.algebra.lead(evaluate([when], self.sample)[0]) != 0
+
+    def linear(self, node: int, form: Form) -> Equation:
+        """An equation without nonlinear rest."""
+        signature: dict[int, int] = {}
+        for key in form:
+            variable, order = divmod(key, ORDERS)
+            if key != CONSTANT and variable not in self.free:
+                signature[variable] = max(signature.get(variable, 0), order)
+        return Equation(node, form, None, signature)
+
+    def equation(self, node: int, form: Form, rest: Expr) -> Equation:
+        """form + rest = 0, the rest taken into the form where it is linear."""
+        algebra = self.sample.algebra
+        try:
+            value = evaluate([rest], self.sample, self.setting.n)[0]
+        except Mixed:
+            signature = self.linear(node, form).signature
+            for variable, order in self.reach(rest).items():
+                if variable not in self.free:
+                    signature[variable] = max(signature.get(variable, 0), order)
+            return Equation(node, form, rest, signature)
+        return self.linear(node, algebra.combine([(1, value), (1, form)], self.setting.n))
+
+    def reach(self, rest: Expr) -> dict[int, int]:
+        """The highest derivative of each variable in an expression."""
+        nodes = topological([rest])
+        need = demands(nodes, [rest], 1)
+        out: dict[int, int] = {}
+        for v in nodes:
+            if v.op is Op.SYM and v in self.assembly.place:
+                variable = self.assembly.place[v][0]
+                out[variable] = max(out.get(variable, 0), need[v] - 1)
+        return out
+
+
+def coefficient_row(form: Form, order: int, stride: int) -> dict[int, int]:
+    """The Taylor coefficient `order` of a form, in columns variable * stride + coefficient."""
+    row: dict[int, int] = {}
+    for key, weights in form.items():
+        if key == CONSTANT:
+            if order < len(weights):
+                row[CONSTANT] = weights[order]
+            continue
+        variable, derivative = divmod(key, ORDERS)
+        for m, weight in enumerate(weights[: order + 1]):
+            if weight:
+                low = order - m
+                for k in range(low + 1, low + derivative + 1):
+                    weight *= k
+                column = variable * stride + low + derivative
+                row[column] = row.get(column, 0) + weight
+    return {c: x % P for c, x in row.items() if x % P}

@@ -1,0 +1,354 @@
+"""Evaluate expressions on a sample of all signals, and differentiate them there, exactly.
+
+Evaluation is linear in nodes times orders: one pass from the roots says how many coefficients
+each node has to deliver, one pass from the leaves delivers them. Sensitivities are one reverse
+pass more (Griewank and Walther, 2008, ch. 3).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple, Protocol
+
+from bondgraph.exact.algebra import Algebra, Mixed, Values, Waves, compare
+from bondgraph.exact.field import P, Undefined, of_fraction
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Symbol, topological
+
+
+class Assignment(Protocol):
+    """What every symbol is at a point, in one of the algebras."""
+
+    @property
+    def algebra(self) -> Values[Any]:
+        """The algebra that the values belong to."""
+        ...
+
+    def value(self, symbol: Expr) -> Any:
+        """The value of a SYM node; raises KeyError for one that the sample does not know."""
+        ...
+
+    def start(self, initial: Symbol) -> int:
+        """The value with which integrals from this initial value begin."""
+        ...
+
+
+class Sample(Assignment, Protocol):
+    """A point with a past, at which expressions can be differentiated."""
+
+    @property
+    def algebra(self) -> Algebra[Any, Any]:
+        """The algebra that the values belong to."""
+        ...
+
+    def earlier(self, steps: int) -> Sample:
+        """The same plant with the same constants at an earlier time, all signals different."""
+        ...
+
+
+class Sensitivity(NamedTuple):
+    """What a residual depends on at a point.
+
+    `depends[symbol]` for every SYM node below the root: whether the derivative with respect to it
+    (as a function of time, the past included) is not zero. `orders[signal]` for the known signals
+    with dependence: the highest derivative, -1 where only the past of the signal matters. `dead`
+    are the nodes below the root that do not influence it. `starts` are the initial values of the
+    integrals that influence it.
+    """
+
+    depends: dict[Expr, bool]
+    orders: dict[Expr, int]
+    dead: frozenset[Expr]
+    starts: tuple[Symbol, ...]
+
+
+def demands(nodes: Sequence[Expr], roots: Sequence[Expr], n: int) -> dict[Expr, int]:
+    """How many Taylor coefficients each node must deliver so that each root has `n`."""
+    need = dict.fromkeys(nodes, 0)
+    for node in roots:
+        need[node] = max(need[node], n)
+    for node in reversed(nodes):
+        wanted = need[node]
+        if node.op is Op.DER:
+            wanted += 1
+        elif node.op is Op.INT:
+            wanted = max(wanted - 1, 1)
+        for a in node.args:
+            if need[a] < wanted:
+                need[a] = wanted
+    return need
+
+
+def highest_order(roots: Sequence[Expr], n: int = 1) -> int:
+    """The highest derivative of any symbol that `n` coefficients of the roots ask for."""
+    nodes = topological(roots)
+    need = demands(nodes, roots, n)
+    return max((need[v] for v in nodes if v.op is Op.SYM), default=1) - 1
+
+
+def integral_depth(roots: Sequence[Expr]) -> int:
+    """How deep integrals are nested below the roots."""
+    depth: dict[Expr, int] = {}
+    for node in topological(roots):
+        below = max([depth[a] for a in node.args], default=0)
+        depth[node] = below + (node.op is Op.INT)
+    return max([depth[r] for r in roots], default=0)
+
+
+def evaluate(roots: Sequence[Expr], sample: Assignment, n: int = 1) -> list[Any]:
+    """The values of the roots, `n` Taylor coefficients each (one number for exponentials).
+
+    Raises `Undefined` if a value that a root rests on does not exist at this point, `Mixed` if
+    an operation leads out of the sample's algebra.
+    """
+    nodes = topological(roots)
+    values, failures = values_of(nodes, demands(nodes, roots, n), sample)
+    for root in roots:
+        if root in failures:
+            raise failures[root]
+    return [values[root] for root in roots]
+
+
+def values_of(
+    nodes: Sequence[Expr], need: dict[Expr, int], sample: Assignment
+) -> tuple[dict[Expr, Any], dict[Expr, Exception]]:
+    """The values of the nodes (arguments first), and why others have none.
+
+    A branch that is not taken may lack a value; what is built on a missing one is missing.
+    """
+    values: dict[Expr, Any] = {}
+    failures: dict[Expr, Exception] = {}
+    algebra = sample.algebra
+    for node in nodes:
+        try:
+            if failures:
+                _check(node, values, failures, algebra)
+            values[node] = node_value(node, values, sample, algebra, need[node])
+        except (Undefined, Mixed) as failure:
+            failures[node] = failure
+    return values, failures
+
+
+def _check(
+    node: Expr, values: dict[Expr, Any], failures: dict[Expr, Exception], algebra: Any
+) -> None:
+    """Raise the failure of an argument that the node needs."""
+    needed: tuple[Expr, ...] = node.args
+    if node.op is Op.IF:
+        needed = node.args[:1]
+        if needed[0] not in failures:
+            needed = (chosen(node, values, algebra),)
+    for a in needed:
+        if a in failures:
+            raise failures[a]
+
+
+def node_value(
+    node: Expr, values: dict[Expr, Any], sample: Assignment, algebra: Values[Any], n: int
+) -> Any:
+    """The value of one node from those of its arguments."""
+    op = node.op
+    if op is Op.ADD:
+        terms = [
+            (c.numerator if c.denominator == 1 else of_fraction(c), values[a])
+            for c, a in zip(node.coefficients, node.args, strict=True)
+        ]
+        return algebra.combine(terms, n)
+    if op is Op.MUL:
+        factors = [(values[a], e) for a, e in zip(node.args, node.exponents, strict=True)]
+        return algebra.product(factors, n)
+    if op is Op.SYM:
+        return sample.value(node)
+    if op is Op.NUM:
+        return algebra.number(of_fraction(node.number))
+    if op is Op.DER:
+        return algebra.der(values[node.args[0]])
+    if op is Op.INT:
+        return algebra.integral(values[node.args[0]], sample.start(node.symbol))
+    if op is Op.FN:
+        if node.name == "pow" and node.args[1].op is Op.NUM:
+            return algebra.rational(values[node.args[0]], node.args[1].number, n)
+        return algebra.function(node.name, [values[a] for a in node.args], n)
+    if op is Op.IF:
+        return values[chosen(node, values, algebra)]
+    return algebra.number(int(holds(node, values, algebra)))
+
+
+def chosen(node: Expr, values: dict[Expr, Any], algebra: Values[Any]) -> Expr:
+    """The branch that an IF node takes."""
+    condition, yes, no = node.args
+    return yes if algebra.lead(values[condition]) else no
+
+
+def holds(node: Expr, values: dict[Expr, Any], algebra: Values[Any]) -> bool:
+    """Whether a comparison or a logical node is true."""
+    if node.op is Op.CMP:
+        left, right = (algebra.lead(values[a]) for a in node.args)
+        return compare(node.name, left, right)
+    truths = [algebra.lead(values[a]) != 0 for a in node.args]
+    if node.name == "not":
+        return not truths[0]
+    return all(truths) if node.name == "and" else any(truths)
+
+
+# ------------------------------------------------------------------------------- reverse mode
+
+
+def _slopes(
+    node: Expr, values: dict[Expr, Any], algebra: Algebra[Any, Any], n: int, jumps: bool
+) -> list[tuple[Expr, Any]]:
+    """The arguments of a static node with its partial derivatives."""
+    args = node.args
+    if node.op is Op.IF:
+        return _slopes_of_choice(node, values, algebra, n, jumps)
+    if jumps and node.op is Op.FN and node.name == "sign":
+        return [(args[0], algebra.number(_JUMP))]
+    if node.op is Op.ADD:
+        numbers = [algebra.number(of_fraction(c)) for c in node.coefficients]
+        return list(zip(args, numbers, strict=True))
+    if node.op is Op.MUL:
+        out = []
+        for at, (a, e) in enumerate(zip(args, node.exponents, strict=True)):
+            factors = [
+                (values[b], f - (k == at))
+                for k, (b, f) in enumerate(zip(args, node.exponents, strict=True))
+            ]
+            slope = algebra.product(factors, n)
+            out.append((a, slope if e == 1 else algebra.combine([(e, slope)], n)))
+        return out
+    if node.op is Op.FN:
+        if node.name == "pow" and args[1].op is Op.NUM:
+            exponent = args[1].number
+            slope = algebra.rational(values[args[0]], exponent - 1, n)
+            return [(args[0], algebra.combine([(of_fraction(exponent), slope)], n))]
+        inner = [values[a] for a in args]
+        return list(zip(args, algebra.slopes(node.name, inner, values[node], n), strict=True))
+    if node.op is Op.CMP and jumps:
+        return [(args[0], algebra.number(_JUMP)), (args[1], algebra.number(-_JUMP))]
+    return [(a, algebra.number(_JUMP)) for a in args] if jumps else []
+
+
+#: A decision has no derivative; its argument counts as seen, with this weight.
+_JUMP = 0x5DEECE66D
+
+
+def _slopes_of_choice(
+    node: Expr, values: dict[Expr, Any], algebra: Algebra[Any, Any], n: int, jumps: bool
+) -> list[tuple[Expr, Any]]:
+    """The branch that is taken counts fully, the condition by what it changes."""
+    taken = chosen(node, values, algebra)
+    out = [(taken, algebra.number(1))]
+    if not jumps:
+        return out
+    condition, yes, no = node.args
+    other = no if taken is yes else yes
+    if other not in values:
+        out.append((condition, algebra.number(1)))
+    elif not isinstance(algebra, Waves):
+        out.append((condition, algebra.combine([(1, values[yes]), (-1, values[no])], n)))
+    elif values[yes] != values[no]:
+        out.append((condition, algebra.number(1)))
+    return out
+
+
+def pull(
+    nodes: Sequence[Expr],
+    need: dict[Expr, int],
+    values: dict[Expr, Any],
+    algebra: Algebra[Any, Any],
+    adjoints: dict[Expr, Any],
+    jumps: bool = True,
+) -> None:
+    """Carry adjoints from the roots, where `adjoints` holds some, down to every node below.
+
+    With `jumps` what a decision rests on counts as having an influence.
+    """
+
+    def give(node: Expr, part: Any) -> None:
+        if not algebra.vanishes(part):
+            known = adjoints.get(node)
+            adjoints[node] = part if known is None else algebra.join(known, part)
+
+    for node in reversed(nodes):
+        adjoint = adjoints.get(node)
+        if adjoint is None or not node.args or algebra.vanishes(adjoint):
+            continue
+        if node.op is Op.DER:
+            give(node.args[0], algebra.back_der(adjoint, values[node.args[0]]))
+        elif node.op is Op.INT:
+            give(node.args[0], algebra.back_integral(adjoint))
+        else:
+            for argument, slope in _slopes(node, values, algebra, need[node], jumps):
+                give(argument, algebra.back(adjoint, slope, need[argument]))
+
+
+def sensitivities(root: Expr, sample: Sample) -> Sensitivity:
+    """What the value of `root` depends on at a point, by reverse mode.
+
+    Signals and parameters are functions of time. An integral carries dependence on the past: it
+    is followed at earlier points of the same plant, one more for each nested integral, with
+    random weights. Raises like `evaluate`.
+    """
+    if isinstance(sample.algebra, Waves):
+        while True:
+            try:
+                return _sensitivities(root, sample)
+            except Mixed as failure:
+                if "cancel" not in str(failure) or sample.algebra.terms > 1 << 14:
+                    raise
+                sample.algebra.terms *= 4
+    return _sensitivities(root, sample)
+
+
+def _decides(node: Expr) -> bool:
+    """Whether the node's value rests on arguments that have no derivative here."""
+    return node.op is Op.IF or (node.op is Op.FN and node.name in ("sign", "min", "max"))
+
+
+def _sensitivities(root: Expr, sample: Sample) -> Sensitivity:
+    nodes = topological([root])
+    integrals = [v for v in nodes if v.op is Op.INT]
+    depth = integral_depth([root]) if integrals else 0
+    algebra = sample.algebra
+    alive: dict[Expr, None] = {}
+    seen: dict[Expr, None] = {}
+    orders: dict[Expr, int] = {}
+    memory: dict[Expr, int] = {}  # weight with which the past of an integral enters
+    starts: dict[Symbol, None] = {}
+    for back in range(depth + 1):
+        point = sample.earlier(back) if back else sample
+        top = [root] if back == 0 else [v.args[0] for v in integrals if memory.get(v)]
+        if not top:
+            break
+        below = topological(top) if back else nodes
+        need = demands(below, top, 1)
+        values, failures = values_of(below, need, point)
+        for node in top:
+            if node in failures:
+                raise failures[node]
+        adjoints: dict[Expr, Any] = {}
+        if back == 0:
+            adjoints[root] = algebra.seed(1)
+        for node in integrals:
+            weight = memory.get(node)
+            if back and weight:
+                part = algebra.seed(weight)
+                known = adjoints.get(node.args[0])
+                adjoints[node.args[0]] = part if known is None else algebra.join(known, part)
+        pull(below, need, values, algebra, adjoints)
+        for node, adjoint in adjoints.items():
+            if algebra.vanishes(adjoint):
+                continue
+            alive[node] = seen[node] = None
+            if node.op is Op.INT and algebra.start_of(adjoint):
+                share = algebra.start_of(adjoint) * (7919 + 2 * back) % P
+                memory[node] = (memory.get(node, 0) + share) % P
+                starts[node.symbol] = None
+            elif node.op is Op.SYM and node.symbol.kind in KNOWN_SIGNALS:
+                orders[node] = max(orders.get(node, -1), -1 if back else algebra.order(adjoint))
+            elif _decides(node):
+                alive.update(dict.fromkeys(topological(node.args)))
+    depends = {v: v in seen for v in nodes if v.op is Op.SYM}
+    orders = {v: orders[v] for v in nodes if v in orders}
+    return Sensitivity(
+        depends, orders, frozenset(v for v in nodes if v not in alive), tuple(starts)
+    )

@@ -1,0 +1,101 @@
+"""Linear forms in unknowns as an algebra, so that evaluating a law shows whether it is linear."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TypeAlias
+
+from bondgraph.exact import series
+from bondgraph.exact.algebra import Mixed, Taylor
+from bondgraph.exact.field import Functions
+from bondgraph.exact.linear import CONSTANT
+from bondgraph.exact.series import Series
+
+#: Coefficients (series in time) of the unknowns; a key is variable * ORDERS + derivative.
+Form: TypeAlias = dict[int, Series]
+
+ORDERS = 16
+
+
+class NotLinear(Mixed):
+    """A form is needed as a number: `form` says which."""
+
+    def __init__(self, form: Form) -> None:
+        super().__init__("not linear")
+        self.form = form
+
+
+class Forms:
+    """The algebra of linear forms whose coefficients are functions of time."""
+
+    def __init__(self, functions: Functions) -> None:
+        self.functions = functions
+        self._taylor = Taylor(functions)
+
+    def known(self, form: Form) -> Series:
+        """A form without unknowns as a series; raises `NotLinear` for another."""
+        if not form:
+            return [0]
+        if len(form) == 1 and CONSTANT in form:
+            return form[CONSTANT]
+        raise NotLinear(form)
+
+    def number(self, x: int) -> Form:
+        """A constant."""
+        return {CONSTANT: self._taylor.number(x)}
+
+    def lead(self, a: Form) -> int:
+        """The value at the point."""
+        return self.known(a)[0]
+
+    def combine(self, terms: Sequence[tuple[int, Form]], n: int) -> Form:
+        """The sum of number times value."""
+        out: Form = {}
+        for c, form in terms:
+            for key, a in form.items():
+                scaled = series.scale(c, a)
+                old = out.get(key)
+                out[key] = scaled if old is None else series.add(old, scaled)
+        return {key: a for key, a in out.items() if any(a)}
+
+    def product(self, factors: Sequence[tuple[Form, int]], n: int) -> Form:
+        """The product of integer powers."""
+        constants: list[tuple[Series, int]] = []
+        linear: Form | None = None
+        for form, exponent in factors:
+            if not form or (len(form) == 1 and CONSTANT in form):
+                constants.append((self.known(form), exponent))
+            elif linear is None and exponent == 1:
+                linear = form
+            elif exponent:
+                raise NotLinear(form)
+        coefficient = self._taylor.product(constants, n)
+        if linear is None:
+            return {CONSTANT: coefficient}
+        out = {key: series.mul(coefficient, a, n) for key, a in linear.items()}
+        return {key: a for key, a in out.items() if any(a)}
+
+    def rational(self, a: Form, exponent: Fraction, n: int) -> Form:
+        """A rational power."""
+        return {CONSTANT: self._taylor.rational(self.known(a), exponent, n)}
+
+    def function(self, name: str, args: Sequence[Form], n: int) -> Form:
+        """A function of one or two arguments."""
+        return {CONSTANT: self._taylor.function(name, [self.known(a) for a in args], n)}
+
+    def der(self, a: Form) -> Form:
+        """The time derivative."""
+        out: Form = {}
+        for key, x in a.items():
+            parts = [(key, series.derivative(x))]
+            if key != CONSTANT:
+                parts.append((key + 1, x))
+            for at, part in parts:
+                if any(part):
+                    out[at] = series.add(out[at], part) if at in out else part
+        return out
+
+    def integral(self, a: Form, start: int) -> Form:
+        """The integral that begins at `start`."""
+        raise NotLinear(a)

@@ -1,0 +1,183 @@
+"""Sparse linear equations over the field, eliminated with the fewest new entries first.
+
+The pivot is taken in a shortest row, in its column with the fewest entries (Markowitz, 1957), so
+that chains and grids keep their sparsity. Rows are dicts column -> coefficient; the column
+`CONSTANT` holds what is known: the row says that the sum over columns and the constant is zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from heapq import heapify, heappop, heappush
+from typing import NamedTuple, TypeAlias
+
+from bondgraph.exact.field import P
+
+Row: TypeAlias = dict[int, int]
+
+CONSTANT = -1
+
+
+class Contradiction(ArithmeticError):
+    """The equations cannot all hold; `row` is the number of one that does not."""
+
+    def __init__(self, row: int) -> None:
+        super().__init__(f"equation {row} contradicts the others")
+        self.row = row
+
+
+class Singular(ArithmeticError):
+    """A square system without a unique solution."""
+
+
+class Pivot(NamedTuple):
+    """column = -(sum of row): `row` has no columns that were eliminated before, coefficient 1."""
+
+    column: int
+    row: Row
+
+
+def add_multiple(target: Row, factor: int, source: Row) -> None:
+    """target += factor * source, entries that vanish taken out."""
+    for column, x in source.items():
+        value = (target.get(column, 0) + factor * x) % P
+        if value:
+            target[column] = value
+        else:
+            target.pop(column, None)
+
+
+def eliminate(rows: list[Row]) -> list[Pivot]:
+    """The pivots in the order of elimination; the rows are used up.
+
+    Dependent rows vanish; columns without a pivot are free. Raises `Contradiction`.
+    """
+    where: dict[int, set[int]] = {}
+    for number, row in enumerate(rows):
+        for column in row:
+            if column != CONSTANT:
+                where.setdefault(column, set()).add(number)
+    queue = [(len(row), number) for number, row in enumerate(rows)]
+    heapify(queue)
+    done = [False] * len(rows)
+    pivots = []
+    while queue:
+        size, number = heappop(queue)
+        row = rows[number]
+        if done[number] or size != len(row):
+            continue
+        done[number] = True
+        columns = [c for c in row if c != CONSTANT]
+        if not columns:
+            if row:
+                raise Contradiction(number)
+            continue
+        column = min(columns, key=lambda c: (len(where[c]), c))
+        scale = pow(row.pop(column), -1, P)
+        row = {c: x * scale % P for c, x in row.items()}
+        pivots.append(Pivot(column, row))
+        for c in columns:
+            where[c].discard(number)
+        for other in sorted(where.pop(column)):
+            target = rows[other]
+            factor = -target.pop(column)
+            for c, x in row.items():
+                known = target.get(c)
+                if known is None:
+                    target[c] = factor * x % P
+                    if c != CONSTANT:
+                        where[c].add(other)
+                else:
+                    value = (known + factor * x) % P
+                    if value:
+                        target[c] = value
+                    else:
+                        del target[c]
+                        if c != CONSTANT:
+                            where[c].discard(other)
+            heappush(queue, (len(target), other))
+    return pivots
+
+
+def back_substitute(pivots: Iterable[Pivot], values: dict[int, int]) -> None:
+    """Complete `values`, which holds the free columns, with all pivots."""
+    for column, row in reversed(list(pivots)):
+        total = 0
+        for c, x in row.items():
+            total += x if c == CONSTANT else x * values[c]
+        values[column] = -total % P
+
+
+class Factors:
+    """A square matrix factored once, for many right-hand sides."""
+
+    def __init__(self, rows: list[Row]) -> None:
+        """Columns are 0 ... n-1; raises `Singular`."""
+        self._columns: list[int] = []
+        self._source: list[int] = []
+        self._scale: list[int] = []
+        self._down: list[list[tuple[int, int]]] = []
+        self._up: list[list[tuple[int, int]]] = []
+        self._factor(rows, len(rows))
+
+    def _factor(self, rows: list[Row], size: int) -> None:
+        work = [dict(r) for r in rows]
+        where: dict[int, set[int]] = {}
+        for number, row in enumerate(work):
+            for column in row:
+                where.setdefault(column, set()).add(number)
+        queue = [(len(row), number) for number, row in enumerate(work)]
+        heapify(queue)
+        done = [False] * size
+        while queue:
+            length, number = heappop(queue)
+            row = work[number]
+            if done[number] or length != len(row):
+                continue
+            if not row:
+                raise Singular
+            done[number] = True
+            column = min(row, key=lambda c: (len(where[c]), c))
+            for c in row:
+                where[c].discard(number)
+            scale = pow(row.pop(column), -1, P)
+            down = []
+            for other in sorted(where.pop(column)):
+                target = work[other]
+                factor = -target.pop(column) * scale % P
+                down.append((other, factor))
+                for c, x in row.items():
+                    known = target.get(c, 0)
+                    value = (known + factor * x) % P
+                    if value:
+                        target[c] = value
+                        if not known:
+                            where[c].add(other)
+                    elif known:
+                        del target[c]
+                        where[c].discard(other)
+                heappush(queue, (len(target), other))
+            self._columns.append(column)
+            self._source.append(number)
+            self._scale.append(scale)
+            self._down.append(down)
+            self._up.append(list(row.items()))
+        if len(self._columns) != size:
+            raise Singular
+
+    def solve(self, right: list[int]) -> list[int]:
+        """x with matrix * x = right."""
+        b = right.copy()
+        for number, down in zip(self._source, self._down, strict=True):
+            value = b[number] % P
+            b[number] = value
+            if value:
+                for other, factor in down:
+                    b[other] += factor * value
+        x = [0] * len(b)
+        for at in range(len(b) - 1, -1, -1):
+            total = b[self._source[at]]
+            for c, coefficient in self._up[at]:
+                total -= coefficient * x[c]
+            x[self._columns[at]] = total * self._scale[at] % P
+        return x

@@ -1,0 +1,324 @@
+"""Truncated power series over the field: a list of Taylor coefficients, missing ones are zero.
+
+Functions follow the recurrences of automatic differentiation (Griewank and Walther, 2008, ch. 13),
+quadratic in the number of coefficients. `n` is the number of coefficients wanted throughout.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from operator import mul as _times
+from typing import TypeAlias
+
+from bondgraph.exact.field import (
+    Functions,
+    P,
+    Undefined,
+    inverse,
+    of_fraction,
+    root,
+    sign,
+    square_root,
+)
+
+Series: TypeAlias = list[int]
+
+_inverses: list[int] = [0, 1]
+
+
+def reciprocal_of(k: int) -> int:
+    """1/k in the field for a small positive integer."""
+    while len(_inverses) <= k:
+        _inverses.append(pow(len(_inverses), -1, P))
+    return _inverses[k]
+
+
+def scale(c: int, a: Series) -> Series:
+    """A number times a series."""
+    return [c * x % P for x in a]
+
+
+def add(a: Series, b: Series) -> Series:
+    """The sum."""
+    if len(a) < len(b):
+        a, b = b, a
+    out = a.copy()
+    for i, x in enumerate(b):
+        out[i] = (out[i] + x) % P
+    return out
+
+
+def mul(a: Series, b: Series, n: int) -> Series:
+    """The product."""
+    if len(a) > len(b):
+        a, b = b, a
+    size = len(a)
+    if size == 1:
+        c = a[0]
+        return [c * x % P for x in b[:n]] if c else [0]
+    length = len(b)
+    backwards = b[::-1]
+    out = []
+    for k in range(min(n, size + length - 1)):
+        low = k - length + 1 if k >= length else 0
+        high = k + 1 if k < size else size
+        shift = length - 1 - k
+        out.append(sum(map(_times, a[low:high], backwards[shift + low : shift + high])) % P)
+    return out
+
+
+def reciprocal(a: Series, n: int) -> Series:
+    """1/a; raises `Undefined` if a(0) = 0."""
+    first = inverse(a[0])
+    if len(a) == 1:
+        return [first]
+    out = [first]
+    for k in range(1, n):
+        top = min(k, len(a) - 1)
+        total = sum(map(_times, a[1 : top + 1], out[k - top : k][::-1]))
+        out.append(-total * first % P)
+    return out
+
+
+def power(a: Series, exponent: int, n: int) -> Series:
+    """An integer power; raises `Undefined` for a negative one where a(0) = 0."""
+    if exponent == 1:
+        return a
+    base = a if exponent > 0 else reciprocal(a, n)
+    out = base
+    for bit in bin(abs(exponent))[3:]:
+        out = mul(out, out, n)
+        if bit == "1":
+            out = mul(out, base, n)
+    return out if exponent else [1]
+
+
+def derivative(a: Series) -> Series:
+    """The time derivative; one coefficient shorter."""
+    return [k * x % P for k, x in enumerate(a[1:], 1)] or [0]
+
+
+def integral(a: Series, start: int) -> Series:
+    """The integral that begins at `start`."""
+    return [start, *[x * reciprocal_of(k) % P for k, x in enumerate(a, 1)]]
+
+
+def _power_from(a: Series, exponent: int, start: int, n: int) -> Series:
+    """The series y with y(0) = start and a y' = exponent a' y."""
+    out = [start]
+    if len(a) == 1:
+        return out
+    first = inverse(a[0])
+    for k in range(1, n):
+        total = 0
+        for j in range(1, min(k, len(a) - 1) + 1):
+            total += (exponent * j - k + j) * a[j] % P * out[k - j]
+        out.append(total % P * first % P * reciprocal_of(k) % P)
+    return out
+
+
+def rational_power(a: Series, exponent: Fraction, n: int) -> Series:
+    """a**exponent, positive for positive a; raises `Undefined` where it does not exist."""
+    if exponent.denominator == 1:
+        return power(a, exponent.numerator, n)
+    if not any(a) and exponent > 0:
+        return [0]
+    return _power_from(a, of_fraction(exponent), root(a[0], exponent), n)
+
+
+_HALF = Fraction(1, 2)
+_HALF_INVERSE = pow(2, -1, P)
+
+
+def _two(first: int, second: int, a: Series, sigma: int, n: int) -> tuple[Series, Series]:
+    """(c, s) with c' = sigma s a', s' = c a': cos and sin for sigma = -1, cosh and sinh for 1."""
+    c, s = [first], [second]
+    weighted = [k * x % P for k, x in enumerate(a)]
+    for k in range(1, n if len(a) > 1 else 1):
+        top = min(k, len(a) - 1)
+        part = weighted[1 : top + 1]
+        inv = reciprocal_of(k)
+        next_c = sigma * sum(map(_times, part, s[k - top : k][::-1])) * inv % P
+        s.append(sum(map(_times, part, c[k - top : k][::-1])) * inv % P)
+        c.append(next_c)
+    return c, s
+
+
+def exponential(a: Series, start: int, n: int) -> Series:
+    """The series y with y(0) = start and y' = a' y."""
+    out = [start]
+    weighted = [k * x % P for k, x in enumerate(a)]
+    for k in range(1, n if len(a) > 1 else 1):
+        top = min(k, len(a) - 1)
+        total = sum(map(_times, weighted[1 : top + 1], out[k - top : k][::-1]))
+        out.append(total * reciprocal_of(k) % P)
+    return out
+
+
+def _circle(f: Functions, a: Series, n: int) -> tuple[Series, Series]:
+    return _two(*f.circle(a[0]), a, -1, n)
+
+
+def _hyperbola(f: Functions, a: Series, n: int) -> tuple[Series, Series]:
+    return _two(*f.hyperbola(a[0]), a, 1, n)
+
+
+def _sign_of(a: Series) -> int:
+    """The sign at the point and around it; raises `Undefined` where the series passes zero."""
+    s = sign(a[0])
+    if s == 0 and any(a):
+        raise Undefined("the sign of a signal that passes zero")
+    return s
+
+
+def function(f: Functions, name: str, a: Series, n: int) -> Series:
+    """A function of one argument; raises `Undefined` where it has no value."""
+    match name:
+        case "abs":
+            return scale(_sign_of(a), a)
+        case "sign":
+            return [_sign_of(a) % P]
+        case "ssq":
+            return scale(_sign_of(a), mul(a, a, n))
+        case "sqrt":
+            return rational_power(a, _HALF, n)
+        case "ssqrt" | "cbrt":
+            s = _sign_of(a)
+            exponent = _HALF if name == "ssqrt" else Fraction(1, 3)
+            return scale(s, rational_power(scale(s, a), exponent, n)) if s else [0]
+        case "exp":
+            return exponential(a, f.exp(a[0]), n)
+        case "cos" | "sin":
+            return _circle(f, a, n)[name == "sin"]
+        case "cosh" | "sinh":
+            return _hyperbola(f, a, n)[name == "sinh"]
+        case "tan" | "tanh":
+            below, above = _circle(f, a, n) if name == "tan" else _hyperbola(f, a, n)
+            return mul(above, reciprocal(below, n), n)
+    if name.startswith("table:"):
+        value, slope = f.table(name, a[0])
+        return [value, *[slope * x % P for x in a[1:n]]]
+    start = f.value(name, a[0])
+    if len(a) == 1:
+        return [start]
+    return integral(mul(slope_of(f, name, a, [start], n), derivative(a), n), start)[:n]
+
+
+def slope_of(f: Functions, name: str, a: Series, value: Series, n: int) -> Series:
+    """The derivative of a function at the series a, where the function is `value`."""
+    match name:
+        case "abs":
+            return [sign(a[0]) % P]
+        case "sign":
+            return [0]
+        case "ssq":
+            return scale(2 * sign(a[0]), a)
+        case "sqrt":
+            return reciprocal(scale(2, value), n)
+        case "ssqrt":
+            return reciprocal(scale(2 * sign(value[0]), value), n)
+        case "cbrt":
+            return reciprocal(scale(3, mul(value, value, n)), n)
+        case "exp":
+            return value
+        case "log":
+            return reciprocal(a, n)
+        case "sin":
+            return _circle(f, a, n)[0]
+        case "cos":
+            return scale(-1, _circle(f, a, n)[1])
+        case "sinh" | "cosh":
+            return _hyperbola(f, a, n)[name == "cosh"]
+        case "tan":
+            return add([1], mul(value, value, n))
+        case "tanh":
+            return add([1], scale(-1, mul(value, value, n)))
+    if name.startswith("table:"):
+        return [f.table(name, a[0])[1]]
+    return _slope_of_inverse(f, name, a, value[0], n)
+
+
+def _slope_of_inverse(f: Functions, name: str, a: Series, value: int, n: int) -> Series:
+    square = mul(a, a, n)
+    minus = scale(-1, square)
+    match name:
+        case "atan":
+            return reciprocal(add([1], square), n)
+        case "atanh":
+            return reciprocal(add([1], minus), n)
+        case "asin":
+            return _power_from(add([1], minus), -_HALF_INVERSE, inverse(f.circle(value)[0]), n)
+        case "acos":
+            return scale(
+                -1, _power_from(add([1], minus), -_HALF_INVERSE, inverse(f.circle(value)[1]), n)
+            )
+        case "asinh":
+            return _power_from(add([1], square), -_HALF_INVERSE, inverse(f.hyperbola(value)[0]), n)
+        case "acosh":
+            start = inverse(f.hyperbola(value)[1])
+            return _power_from(add([P - 1], square), -_HALF_INVERSE, start, n)
+    raise KeyError(name)
+
+
+# ------------------------------------------------------------ functions of two arguments
+
+
+def function_of_two(f: Functions, name: str, a: Series, b: Series, n: int) -> Series:
+    """`pow`, `min`, `max` or `atan2`; raises `Undefined` where it has no value."""
+    match name:
+        case "pow":
+            exponent = mul(b, function(f, "log", a, n), n)
+            return exponential(exponent, f.exp(exponent[0]), n)
+        case "min" | "max":
+            return a if takes_first(name, a, b) else b
+        case "atan2":
+            square = add(mul(a, a, n), mul(b, b, n))
+            radius = inverse(square_root(square[0]))
+            start = f.angle(b[0] * radius % P, a[0] * radius % P)
+            if len(a) == len(b) == 1:
+                return [start]
+            turn = add(mul(b, derivative(a), n), scale(-1, mul(a, derivative(b), n)))
+            return integral(mul(turn, reciprocal(square, n), n), start)[:n]
+    raise KeyError(name)
+
+
+def takes_first(name: str, a: Series, b: Series) -> bool:
+    """Whether `min` or `max` of two series is the first of them."""
+    return (sign(b[0] - a[0]) >= 0) == (name == "min")
+
+
+def slopes_of_two(
+    f: Functions, name: str, a: Series, b: Series, value: Series, n: int
+) -> tuple[Series, Series]:
+    """The two partial derivatives of a function of two arguments."""
+    match name:
+        case "pow":
+            inner = mul(b, mul(value, reciprocal(a, n), n), n)
+            return inner, mul(value, function(f, "log", a, n), n)
+        case "min" | "max":
+            return ([1], [0]) if takes_first(name, a, b) else ([0], [1])
+        case "atan2":
+            square = reciprocal(add(mul(a, a, n), mul(b, b, n)), n)
+            return mul(b, square, n), scale(-1, mul(a, square, n))
+    raise KeyError(name)
+
+
+__all__ = [
+    "Series",
+    "Undefined",
+    "add",
+    "derivative",
+    "exponential",
+    "function",
+    "function_of_two",
+    "integral",
+    "mul",
+    "power",
+    "rational_power",
+    "reciprocal",
+    "reciprocal_of",
+    "scale",
+    "slope_of",
+    "slopes_of_two",
+    "takes_first",
+]

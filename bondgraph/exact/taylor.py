@@ -1,0 +1,164 @@
+"""The Taylor series of all variables of a plant around a random consistent point.
+
+Beyond the point every order is one linear system with the same matrix, the Jacobian of Pryce's
+Sigma-method (2001); it is factored once. A linear plant whose Jacobian is singular because its
+entries cancel is solved as one large system of all coefficients instead.
+"""
+
+from __future__ import annotations
+
+from random import Random
+from typing import NamedTuple
+
+from bondgraph.exact.assembly import Assembly
+from bondgraph.exact.equations import Equation, Setting
+from bondgraph.exact.evaluate import evaluate
+from bondgraph.exact.field import P, inverse
+from bondgraph.exact.forms import ORDERS
+from bondgraph.exact.linear import CONSTANT, Factors, Singular
+from bondgraph.exact.point import STRIDE, KnownSample, Point, gradient
+from bondgraph.exact.series import Series
+from bondgraph.exact.structure import Offsets, offsets
+
+
+class OverDetermined(Exception):
+    """An equation that no variable is left for; `node` is the index in the graph."""
+
+    def __init__(self, node: int) -> None:
+        super().__init__("over-determined")
+        self.node = node
+
+
+class _System(NamedTuple):
+    """Equations with offsets; `given` are variables that are free functions of time."""
+
+    equations: list[Equation]
+    offsets: Offsets
+    given: list[int]
+
+
+def _structure(plant: Assembly, equations: list[Equation]) -> _System:
+    found = offsets([e.signature for e in equations], plant.count_of)
+    if found.unmatched:
+        raise OverDetermined(equations[found.unmatched[0]].node)
+    return _System(equations, found, found.free)
+
+
+def solve(
+    plant: Assembly, equations: list[Equation], setting: Setting, random: Random, order: int
+) -> list[Series]:
+    """The series of every variable to the given order, one list of coefficients a variable.
+
+    Raises `OverDetermined`, `Contradiction` or `Undefined` (another random point may do),
+    `Singular` if the equations do not determine the variables.
+    """
+    system = _structure(plant, equations)
+    c, d = system.offsets.equations, system.offsets.variables
+    point = Point(plant.place, setting, random)
+    point.linear(equations, c)
+    point.nonlinear(equations, c)
+    given = set(system.given)
+    found = point.complete(
+        [
+            j * STRIDE + k
+            for j in range(plant.count_of)
+            for k in range(order + 1 if j in given else d[j] + 1)
+        ]
+    )
+    length = [d[j] + 1 for j in range(plant.count_of)]
+    for column in found:
+        j, k = divmod(column, STRIDE)
+        if j in given:  # a free function: what nothing asks for is zero
+            length[j] = max(length[j], k + 1)
+    values = [[found.get(j * STRIDE + k, 0) for k in range(size)] for j, size in enumerate(length)]
+    try:
+        _continue(system, plant, setting, values, order)
+    except Singular:
+        if any(e.rest is not None for e in equations):
+            raise
+        return _all_at_once(plant, equations, system, setting, random, order)
+    return values
+
+
+def _continue(
+    system: _System, plant: Assembly, setting: Setting, values: list[Series], order: int
+) -> None:
+    """Extend the series of every variable that is not given to the order."""
+    c, d = system.offsets.equations, system.offsets.variables
+    given = set(system.given)
+    inner = [j for j in range(plant.count_of) if j not in given]
+    position = {j: at for at, j in enumerate(inner)}
+    slack = min((d[j] for j in inner), default=0)
+    if not inner or order - slack < 1:
+        return
+    sample = KnownSample(plant.place, setting, values)
+    matrix = []
+    for i, equation in enumerate(system.equations):
+        row: dict[int, int] = {}
+        for key, weights in equation.form.items():
+            variable, derivative = divmod(key, ORDERS)
+            if key != CONSTANT and variable in position and derivative + c[i] == d[variable]:
+                row[position[variable]] = weights[0] % P
+        if equation.rest is not None:
+            for (variable, derivative), x in gradient(equation.rest, sample, plant.place).items():
+                if variable in position and derivative + c[i] == d[variable]:
+                    at = position[variable]
+                    row[at] = (row.get(at, 0) + x) % P
+        matrix.append({at: x for at, x in row.items() if x})
+    factors = Factors(matrix)
+    factorial = [1]
+    for k in range(1, order + max(d, default=0) + max(c, default=0) + 2):
+        factorial.append(factorial[-1] * k % P)
+    below = [inverse(x) for x in factorial]
+    for stage in range(1, order - slack + 1):
+        right = []
+        for i, equation in enumerate(system.equations):
+            at = stage + c[i]
+            right.append(-_residue(equation, at, values, sample) * factorial[at] % P)
+        for j, x in zip(inner, factors.solve(right), strict=True):
+            values[j].append(x * below[stage + d[j]] % P)
+
+
+def _residue(equation: Equation, order: int, values: list[Series], sample: KnownSample) -> int:
+    """A Taylor coefficient of an equation, coefficients not known yet taken as zero."""
+    total = 0
+    for key, weights in equation.form.items():
+        if key == CONSTANT:
+            total += weights[order] if order < len(weights) else 0
+            continue
+        variable, derivative = divmod(key, ORDERS)
+        known = values[variable]
+        for m, weight in enumerate(weights[: order + 1]):
+            at = order - m + derivative
+            if at < len(known):
+                for k in range(order - m + 1, at + 1):
+                    weight *= k
+                total += weight * known[at]
+    if equation.rest is not None:
+        rest: Series = evaluate([equation.rest], sample, order + 1)[0]
+        total += rest[order] if order < len(rest) else 0
+    return total % P
+
+
+_MARGIN = 4
+
+
+def _all_at_once(
+    plant: Assembly,
+    equations: list[Equation],
+    system: _System,
+    setting: Setting,
+    random: Random,
+    order: int,
+) -> list[Series]:
+    """All coefficients of a linear plant as one system, with some orders to spare.
+
+    The orders to spare hold what follows from the equations by differentiation.
+    """
+    top = order + max(system.offsets.equations, default=0) + _MARGIN
+    point = Point(plant.place, setting, random)
+    point.linear(equations, [top] * len(equations))
+    found = point.complete(
+        [j * STRIDE + k for j in range(plant.count_of) for k in range(order + 1)]
+    )
+    return [[found[j * STRIDE + k] for k in range(order + 1)] for j in range(plant.count_of)]
