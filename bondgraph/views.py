@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, overload
 
-from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
 
@@ -23,8 +23,8 @@ class Relation:
     ['U', 'w']
     """
 
-    def __init__(self, pool: Pool, residual: Residual, matrix: SignatureMatrix) -> None:
-        self._pool = pool
+    def __init__(self, graph: BondGraph, residual: Residual, matrix: SignatureMatrix) -> None:
+        self._graph = graph
         self._matrix = matrix
         self.residual = residual
         self.name = residual.name
@@ -35,14 +35,15 @@ class Relation:
         from bondgraph.passes.present import tidy
         from bondgraph.passes.symbolic import to_sympy
 
-        return to_sympy(tidy(self._pool, self.residual.expr)[0])
+        root = tidy(self._graph.pool, self.residual.expr)[0]
+        return to_sympy(root, starts=self._graph.initial_values())
 
     @cached_property
     def closed_form(self) -> ClosedForm:
         """The relation as text, its shared parts named and written once."""
         from bondgraph.passes.present import closed_form
 
-        return closed_form(self._pool, self.residual)
+        return closed_form(self._graph, self.residual)
 
     @property
     def text(self) -> str:
@@ -55,7 +56,8 @@ class Relation:
         from bondgraph.ir.latex import latex
         from bondgraph.passes.present import tidy
 
-        return latex(tidy(self._pool, self.residual.expr)[0])
+        root = tidy(self._graph.pool, self.residual.expr)[0]
+        return latex(root, self._graph.initial_values())
 
     @property
     def orders(self) -> dict[str, int]:
@@ -66,15 +68,6 @@ class Relation:
     def faults(self) -> tuple[str, ...]:
         """The faults that this relation reacts to."""
         return self._matrix.signature(self.name)
-
-    @property
-    def operations(self) -> int:
-        """How many nodes the shared expression has: what evaluating it once costs."""
-        return sum(bool(n.args) and n.op is not Op.DER for n in topological([self._root]))
-
-    @property
-    def _root(self) -> Expr:
-        return self.residual.expr
 
     def __repr__(self) -> str:
         return f"<{self.name}: {self.closed_form.text}>"
@@ -87,9 +80,9 @@ class Relations(Sequence[Relation]):
     """All relations of a model in stable order; by position or by name."""
 
     def __init__(self, residuals: ResidualSet, matrix: SignatureMatrix) -> None:
-        pool = residuals.system.graph.pool
+        graph = residuals.system.graph
         self.stage = residuals
-        self._all = tuple(Relation(pool, r, matrix) for r in residuals.residuals)
+        self._all = tuple(Relation(graph, r, matrix) for r in residuals.residuals)
 
     @overload
     def __getitem__(self, key: int | str) -> Relation: ...

@@ -11,7 +11,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from bondgraph.ir.expr import Expr, Pool
+from bondgraph.ir.expr import Expr, Pool, Symbol
 from bondgraph.ir.units import Dimension
 from bondgraph.text.source import Source, Span
 
@@ -191,6 +191,12 @@ class BondGraph(NamedTuple):
         params = [v.name for v in self.values if v.fault]
         inputs = [i.name for i in self.inputs if i.known and not i.mode]
         return (*params, *inputs, *[s.name for s in self.sensors if s.same_as is None])
+
+    def initial_values(self) -> dict[Symbol, Expr]:
+        """The declared value of each symbol that an integral starts from."""
+        ports = [(p.initial, p.initial_value) for node in self.nodes for p in node.ports]
+        written = [(i.initial, i.initial_value) for i in self.integrals]
+        return {s.symbol: v for s, v in [*ports, *written] if s is not None and v is not None}
 
     def fault_symbol(self, name: str) -> Expr:
         """The symbol of a fault candidate; raises KeyError for another name."""

@@ -3,9 +3,10 @@ r"""Expressions in LaTeX: fractions, dots for derivatives, a dotted path as a su
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from fractions import Fraction
 
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.expr import Expr, Op, Symbol, topological
 
 _SUM, _PRODUCT, _ATOM = range(3)
 _Power = tuple[tuple[str, int], int]  # a text with its level, and the exponent it gets
@@ -43,18 +44,28 @@ def _base(name: str) -> str:
     return f"{head}_{{{below}}}" if below else head
 
 
-def latex(expr: Expr) -> str:
-    r"""The expression in LaTeX, nested as it is.
+def latex(expr: Expr, starts: Mapping[Symbol, Expr] | None = None) -> str:
+    r"""The expression in LaTeX, nested as it is; `starts` as for `show`.
 
     >>> from bondgraph.ir.expr import Pool, Kind
     >>> p = Pool(); y = p.symbol("y", Kind.SENSOR); R = p.symbol("R", Kind.PARAM)
     >>> latex(p.add((1, y), (-2, p.div(p.der(y), R))))
     'y - 2 \\frac{\\dot{y}}{R}'
     """
+    begins = starts or {}
     done: dict[Expr, tuple[str, int]] = {}
-    for node in topological([expr]):
-        done[node] = _tex(node, done)
+    for node in topological([expr, *begins.values()]):
+        done[node] = _integral(node, done, begins) if node.op is Op.INT else _tex(node, done)
     return done[expr][0]
+
+
+def _integral(
+    node: Expr, done: dict[Expr, tuple[str, int]], starts: Mapping[Symbol, Expr]
+) -> tuple[str, int]:
+    area = rf"\int_0^t {_wrap(done[node.args[0]], _PRODUCT)}\,dt"
+    start = starts.get(node.symbol)
+    begins = letter(node.symbol.name) if start is None else done[start][0]
+    return (area if begins == "0" else rf"\left({begins} + {area}\right)"), _PRODUCT
 
 
 def _wrap(item: tuple[str, int], level: int) -> str:
@@ -83,10 +94,7 @@ def _tex(node: Expr, done: dict[Expr, tuple[str, int]]) -> tuple[str, int]:
             return _product(node, args), _PRODUCT
         case Op.DER:
             return _derivative(node, done), _ATOM
-        case Op.INT:
-            start = letter(node.symbol.name)
-            return rf"\left({start} + \int_0^t {_wrap(args[0], _PRODUCT)}\,dt\right)", _ATOM
-        case Op.FN:
+        case Op.FN | Op.INT:
             inside = ", ".join(a[0] for a in args)
             if node.name in _NAMED:
                 return _NAMED[node.name] % inside, _ATOM

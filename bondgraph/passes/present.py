@@ -3,13 +3,18 @@ shared parts named by the variable of the model that they are."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Callable
+from fractions import Fraction
 from typing import NamedTuple
 
-from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual
 from bondgraph.ir.show import show
 from bondgraph.passes.solve import constant
 
+_MANY = 60  # a sum of more terms stays nested
 _SHORT = 3  # a shared part of fewer nodes than this reads better in full
 
 
@@ -62,8 +67,46 @@ def _derivative(pool: Pool, node: Expr, memo: dict[Expr, bool]) -> Expr:
     return pool.der(node)
 
 
-def closed_form(pool: Pool, residual: Residual) -> ClosedForm:
+def upright(pool: Pool, expr: Expr) -> Expr:
+    """The relation as one sum, with the sign that makes its first source positive.
+
+    A source is what a person starts from: U - R*i - ..., not R*i - (U - ...).
+
+    >>> from bondgraph.ir.expr import Kind
+    >>> p = Pool(); U = p.symbol("U", Kind.INPUT); y = p.symbol("y", Kind.SENSOR)
+    >>> upright(p, p.sub(p.mul(y, y), p.sub(U, y)))
+    U - y - y^2
+    """
+    uses = Counter(a for n in topological([expr]) for a in n.args)
+    terms = [(Fraction(1), expr)]
+    while any(_opens(a, uses) for _, a in terms) and len(terms) < _MANY:
+        opened: list[tuple[Fraction, Expr]] = []
+        for c, a in terms:
+            if _opens(a, uses):
+                opened += [(c * k, b) for k, b in zip(a.coefficients, a.args, strict=True)]
+            else:
+                opened.append((c, a))
+        terms = opened
+    flat = pool.add(*terms)
+    if flat.op is not Op.ADD:
+        return flat
+    kinds = (Kind.INPUT, Kind.SENSOR)
+    plain = [
+        (kinds.index(a.symbol.kind), a.id, c)
+        for c, a in zip(flat.coefficients, flat.args, strict=True)
+        if a.op is Op.SYM and a.symbol.kind in kinds
+    ]
+    return pool.neg(flat) if plain and min(plain)[2] < 0 else flat
+
+
+def _opens(node: Expr, uses: Counter[Expr]) -> bool:
+    """Whether a sum may be opened into the one around it: not if it stands elsewhere as well."""
+    return node.op is Op.ADD and (uses[node] <= 1 or len(node.args) == 1)
+
+
+def closed_form(graph: BondGraph, residual: Residual) -> ClosedForm:
     """The relation as nested text; what occurs more than once is named and written once."""
+    pool, starts = graph.pool, graph.initial_values()
     known = [s for s in residual.steps if s.closed.args]
     root, *values = tidy(pool, residual.expr, *[s.closed for s in known])
     names: dict[Expr, str] = {}
@@ -82,8 +125,12 @@ def closed_form(pool: Pool, residual: Residual) -> ClosedForm:
         if uses[node] > 1 and size[node] > _SHORT and node.op is not Op.NUM:
             chosen[node] = names.get(node) or f"x{len(chosen) + 1}"
     where = [
-        (chosen[node], show(node, lambda n, own=node: None if n is own else chosen.get(n)))
+        (chosen[node], show(node, _others(chosen, node), starts))
         for node in reversed(order)
         if node in chosen
     ]
-    return ClosedForm(show(root, chosen.get), tuple(where))
+    return ClosedForm(show(root, chosen.get, starts), tuple(where))
+
+
+def _others(chosen: dict[Expr, str], own: Expr) -> Callable[[Expr], str | None]:
+    return lambda node: None if node is own else chosen.get(node)

@@ -19,6 +19,7 @@ from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.passes.present import upright
 from bondgraph.text.diagnostic import Report
 
 T = TypeVar("T")
@@ -53,8 +54,8 @@ class _Analysis:
         for closing in self.reduced.closings:
             free = self.at_free_signals(closing.expr)
             if any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items()):
-                expr = pruned(self.pool, closing.expr, free)
-                relations.append((closing, expr, free.orders))
+                own = pruned(self.pool, closing, free)
+                relations.append((own, upright(self.pool, own.expr), free.orders))
         reacts = self.on_trajectories([expr for _, expr, _ in relations])
         names = [f"r{i + 1}" for i in range(len(relations))]
         residuals = tuple(
@@ -94,9 +95,7 @@ class _Analysis:
         order = highest_order(exprs) + 1
         try:
             for point in range(_points(exprs)):
-                parts = self.draw(
-                    lambda n: self.sensed(exprs, n, order), 2000 * self.seed + point
-                )
+                parts = self.draw(lambda n: self.sensed(exprs, n, order), 2000 * self.seed + point)
                 for seen, part in zip(reacts, parts, strict=True):
                     seen.update(part)
         except ExactUnavailable:
@@ -164,21 +163,27 @@ def _with_decisions(expr: Expr, found: Sensitivity) -> Sensitivity:
     return found._replace(depends={**found.depends, **dict.fromkeys(through, True)}, orders=orders)
 
 
-def pruned(pool: Pool, expr: Expr, free: Sensitivity) -> Expr:
+def pruned(pool: Pool, closing: Closing, free: Sensitivity) -> Closing:
     """The relation without the parts that cancel whatever the signals are.
 
     A part cancels when the relation's derivative with respect to it vanishes; the relation keeps
     its value when the part is put to zero. What decides between branches is never such a part.
     """
+    nodes = topological([closing.expr])
     kept: set[Expr] = set()
-    for node in topological([expr]):
+    for node in nodes:
         if node.op in (Op.CMP, Op.LOGIC) or (node.op is Op.FN and node.name == "sign"):
             kept.update(node.args)
         elif node.op is Op.IF:
             kept.add(node.args[0])
-    dead = {n: pool.zero for n in topological([expr]) if n in free.dead and n not in kept}
-    dead = {n: z for n, z in dead.items() if n.op is not Op.NUM}
+    dead = {
+        n: pool.zero for n in nodes if n in free.dead and n not in kept and n.op is not Op.NUM
+    }
+    if not dead:
+        return closing
     try:
-        return pool.substitute([expr], dead)[0]
+        expr, *values = pool.substitute([closing.expr, *[s.closed for s in closing.steps]], dead)
     except ZeroDivisionError:
-        return expr
+        return closing
+    steps = [s._replace(closed=v) for s, v in zip(closing.steps, values, strict=True)]
+    return closing._replace(expr=expr, steps=tuple(steps))

@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, Symbol, topological
 
 #: Time, on which every known signal depends in the SymPy form of a relation.
 t = sp.Symbol("t", real=True)
@@ -45,16 +45,26 @@ _COMPARE: dict[str, Callable[..., Any]] = {"<": sp.Lt, "<=": sp.Le, "==": sp.Eq}
 _LOGIC: dict[str, Callable[..., Any]] = {"and": sp.And, "or": sp.Or, "not": sp.Not}
 
 
-def to_sympy(expr: Expr, leaves: Mapping[Expr, Any] | None = None) -> Any:
+def to_sympy(
+    expr: Expr,
+    leaves: Mapping[Expr, Any] | None = None,
+    starts: Mapping[Symbol, Expr] | None = None,
+) -> Any:
     """The expression as a SymPy one, nested as it is.
 
     Parameters become real symbols, known signals functions of `t`, D a `Derivative`, and an
-    integral from the start `Integral(x, (t, 0, t)) + x0`. `leaves` overrides single nodes.
+    integral from the start `Integral(x, (t, 0, t)) + x0`. `leaves` overrides single nodes,
+    `starts` gives the values from which integrals begin.
     """
     done: dict[Expr, Any] = dict(leaves or {})
-    for node in topological([expr], stop=done.__contains__):
+    begins = starts or {}
+    for node in topological([expr, *begins.values()], stop=done.__contains__):
         if node not in done:
             done[node] = _convert(node, [done[a] for a in node.args])
+            if node.op is Op.INT:
+                start = begins.get(node.symbol)
+                own = sp.Symbol(node.symbol.name, real=True) if start is None else done[start]
+                done[node] += own
     return done[expr]
 
 
@@ -78,8 +88,7 @@ def _convert(node: Expr, args: list[Any]) -> Any:
             inner, order = args[0], 1
             return sp.Derivative(inner, (t, order)) if inner.has(t) else sp.Integer(0)
         case Op.INT:
-            start = sp.Symbol(node.symbol.name, real=True)
-            return sp.Integral(args[0], (t, 0, t)) + start
+            return sp.Integral(args[0], (t, 0, t))
         case Op.IF:
             return sp.Piecewise((args[1], _truth(args[0])), (args[2], True))
         case Op.CMP:

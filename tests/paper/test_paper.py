@@ -34,11 +34,8 @@ def ours(relation: Relation, signals: dict[str, sp.Expr], params: dict[str, sp.S
     """Our relation on given signals; names are the model's, the parameters those of the paper."""
     expr = relation.expr
     known = {f: signals[f.func.__name__] for f in expr.atoms(sp.core.function.AppliedUndef)}
-    starts = {s: 0 for s in expr.free_symbols if s.name.endswith(".0") or ".x0" in s.name}
-    named = {
-        s: params[s.name] for s in expr.free_symbols if s is not t and s not in starts
-    }
-    return number(expr.subs(starts).subs(named).subs(known).doit())
+    named = {s: params[s.name] for s in expr.free_symbols if s != t}
+    return number(expr.subs(named).subs(known).doit())
 
 
 def drive_names(j: int) -> dict[str, sp.Symbol]:
