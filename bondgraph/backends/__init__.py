@@ -1,0 +1,1 @@
+"""From the residual program to text and to files; knows templates, knows no algebra."""

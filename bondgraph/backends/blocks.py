@@ -1,0 +1,104 @@
+"""Which residuals run together: those that share memory or intermediate values.
+
+A bad sample restarts the filter of the blocks that see its signal, and no other.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from bondgraph.backends.walk import references
+from bondgraph.ir.program import Assign, Program, Ref
+
+
+class Block(NamedTuple):
+    """Residuals that are computed by one function, with the signals and the memory they need."""
+
+    name: str
+    residuals: tuple[str, ...]
+    knowns: tuple[str, ...]
+    states: tuple[str, ...]
+    first: tuple[Assign, ...]
+    step: tuple[Assign, ...]
+
+
+_Key = tuple[str, str]
+_SIGNALS = frozenset({"known", "increment", "total"})
+
+
+def blocks(program: Program) -> tuple[Block, ...]:
+    """The blocks of `step`, in the order of their first residual.
+
+    A residual that step never assigns is in none.
+    """
+    groups = _Groups()
+    for info in program.residuals:
+        groups.find(("residual", info.name))
+    first = [(_key(s.target, "first"), s) for s in program.first]
+    step = [(_key(s.target, "step"), s) for s in program.step]
+    for procedure, statements in (("first", first), ("step", step)):
+        for key, statement in statements:
+            groups.find(key)
+            for ref in references(statement.value):
+                if ref.space in ("state", "local", "residual"):
+                    groups.join(key, _key(ref, procedure))
+    members: dict[_Key, list[str]] = {}
+    for info in program.residuals:
+        members.setdefault(groups.find(("residual", info.name)), []).append(info.name)
+    found: list[Block] = []
+    for root, residuals in members.items():
+        begin = tuple(s for key, s in first if groups.find(key) == root)
+        go_on = tuple(s for key, s in step if groups.find(key) == root)
+        if begin or go_on:
+            found.append(_block(program, residuals, begin, go_on))
+    return tuple(found)
+
+
+def _block(
+    program: Program,
+    residuals: list[str],
+    first: tuple[Assign, ...],
+    step: tuple[Assign, ...],
+) -> Block:
+    refs = [ref for s in (*first, *step) for ref in (s.target, *references(s.value))]
+    signals = {ref.name for ref in refs if ref.space in _SIGNALS}
+    memory = {ref.name for ref in refs if ref.space == "state"}
+    few = len(residuals) <= 3
+    return Block(
+        "_".join(residuals) if few else f"{residuals[0]}_to_{residuals[-1]}",
+        tuple(residuals),
+        tuple(k.name for k in program.knowns if k.name in signals),
+        tuple(s.name for s in program.states if s.name in memory),
+        first,
+        step,
+    )
+
+
+def _key(ref: Ref, procedure: str) -> _Key:
+    """A local variable belongs to its procedure, everything else to the program."""
+    return (f"local of {procedure}" if ref.space == "local" else ref.space), ref.name
+
+
+class _Groups:
+    """Union-find; the root of a group is the member that was met first."""
+
+    def __init__(self) -> None:
+        self._parent: dict[_Key, _Key] = {}
+        self._age: dict[_Key, int] = {}
+
+    def find(self, key: _Key) -> _Key:
+        if key not in self._parent:
+            self._parent[key] = key
+            self._age[key] = len(self._age)
+        root = key
+        while self._parent[root] != root:
+            root = self._parent[root]
+        while self._parent[key] != root:
+            self._parent[key], key = root, self._parent[key]
+        return root
+
+    def join(self, one: _Key, other: _Key) -> None:
+        a, b = self.find(one), self.find(other)
+        if self._age[a] > self._age[b]:
+            a, b = b, a
+        self._parent[b] = a

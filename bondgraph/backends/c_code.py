@@ -1,0 +1,230 @@
+"""The procedures of the residual program as lines of C."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from bondgraph.backends import listing
+from bondgraph.backends.blocks import Block
+from bondgraph.backends.procedure import lines
+from bondgraph.backends.spell import Speller
+from bondgraph.backends.spelling import Spelling
+from bondgraph.backends.walk import reads
+from bondgraph.ir.program import Assign, Const, PolynomialTape, Program, Ref
+
+_OPTIONS = ("sample_time", "bandwidth", "time_unit")
+
+
+class Code:
+    """Writes configure, exact and step of one program; `stem` begins every name."""
+
+    def __init__(self, program: Program, spelling: Spelling, stem: str) -> None:
+        self.program = program
+        self.spelling = spelling
+        self.target = spelling.target
+        self.stem = stem
+        self._configure = Speller(self.target.configure, spelling.value, spelling.tables)
+
+    def real(self, value: float) -> str:
+        """A number as a constant of the type `real`."""
+        return self._configure.expression(Const(value))
+
+    # -------------------------------------------------------------------- configure
+
+    def configure(self) -> dict[str, object]:
+        """The holes of configure.c.j2."""
+        program, spelling = self.program, self.spelling
+        params = [f"p->{spelling.params[f.name]}" for f in program.params]
+        coefs = [
+            f"monitor->c.{spelling.coefs[f.name]}{'[0]' if f.size else ''}" for f in program.coefs
+        ]
+        body = lines(program.configure, spelling, self._configure, 4, self._tape)
+        return {
+            "nominal": self._nominal(),
+            "tapes": [self._tape_table(t) for t in self.tapes],
+            **self._coefficient_arguments(),
+            "configure": [*self._pointers(program.configure, "c"), *body],
+            "parameters_are_finite": self._finite(params, "p"),
+            "coefficients_are_finite": self._finite(coefs, "monitor"),
+            "settle": [
+                f"    monitor->settle[{self._number(r.name)}] = "
+                f"samples({self.real(r.settle)}, sample_time, bandwidth);"
+                for r in program.residuals
+                if not r.unavailable
+            ],
+        }
+
+    def _coefficient_arguments(self) -> dict[str, object]:
+        read = reads(self.program.configure)
+        pairs = [(f"{self.stem}_monitor *monitor", "monitor")]
+        if any(ref.space == "param" for ref in read):
+            pairs.append((f"const {self.stem}_parameters *p", "parameters"))
+        used = {ref.name for ref in read if ref.space == "option"}
+        pairs += [(f"real {name}", name) for name in _OPTIONS if name in used]
+        head = "static void compute_coefficients({0})"
+        return {
+            "coefficient_head": listing.statement(
+                head, ", ".join(a for a, _ in pairs), self.target, 0
+            ),
+            "coefficient_values": ", ".join(v for _, v in pairs),
+        }
+
+    def _nominal(self) -> list[str]:
+        pairs: list[tuple[str, str]] = []
+        for field in self.program.params:
+            value = "(real)NAN" if field.default is None else self.real(field.default)
+            unit = field.unit if field.default is not None else f"{field.unit} yours to set"
+            name = self.spelling.params[field.name]
+            pairs.append((f"parameters->{name} = {value};", unit.strip()))
+        return listing.members(pairs, self.target, 4) if pairs else ["    (void)parameters;"]
+
+    def _finite(self, names: list[str], unused: str) -> list[str]:
+        if not names:
+            return [f"    (void){unused};", "    return true;"]
+        total = " + ".join(names)
+        return listing.statement("return finite_number({0});", total, self.target, 4)
+
+    # ------------------------------------------------------------------------- tapes
+
+    @property
+    def tapes(self) -> list[PolynomialTape]:
+        """The polynomial tapes of configure."""
+        return [s for s in self.program.configure if isinstance(s, PolynomialTape)]
+
+    def _tape_table(self, tape: PolynomialTape) -> dict[str, object]:
+        rows = [
+            f"{{{o.target}, {o.source}, {o.shift}, {o.scale}, {o.length}, {str(o.fresh).lower()}}}"
+            for o in tape.ops
+        ]
+        why = listing.words(listing.place(tape.origin), tape.comment or tape.residual)
+        return {
+            "comment": listing.harmless(why, self.target),
+            "name": f"{tape.residual}_tape",
+            "length": len(rows),
+            "lines": listing.table(rows, self.target, 4),
+        }
+
+    def _tape(self, tape: PolynomialTape, speller: Speller) -> list[str]:
+        scales = [speller.expression(s) for s in tape.scales]
+        coef = self.target.reference["coef"]
+        body = [
+            "const real scales[] = {",
+            *listing.table(scales, self.target, 4),
+            "};",
+            f"real rows[{tape.rows * tape.length}]; /* on the stack, only here */",
+            "",
+            f"run_tape({tape.residual}_tape, {len(tape.ops)}, scales, rows, {tape.rows},"
+            f" {tape.length});",
+        ]
+        for output in tape.outputs:
+            array = coef.format(self.spelling.coefs[output.array])
+            body.append(f"keep({array}, &rows[{output.row * tape.length}], {output.length});")
+        return ["    {", *[f"        {line}" if line else "" for line in body], "    }"]
+
+    # ---------------------------------------------------------------- exact and step
+
+    def exact(self) -> list[str]:
+        """The body of exact."""
+        speller = Speller(self.target.dialect, self.spelling.exact, self.spelling.tables)
+        spaces = {ref.space for ref in reads(self.program.exact)}
+        head: list[str] = []
+        if "coef" in spaces:
+            head.append(f"    const {self.stem}_coefficients *c = &monitor->c;")
+        if spaces & {"known", "start", "integral", "time"}:
+            head.append(f"    const {self.stem}_derivatives *d = derivatives;")
+        head.append("    real *r = residuals;")
+        if "coef" not in spaces:
+            head += ["", "    (void)monitor;"]
+        return [*head, "", *lines(self.program.exact, self.spelling, speller, 4)]
+
+    def block(self, number: int, block: Block) -> dict[str, object]:
+        """The holes of block.c.j2."""
+        known = {k.name: k for k in self.program.knowns}
+        samples = [
+            f"s->{self.spelling.knowns[name]}"
+            for name in block.knowns
+            if known[name].kind != "mode" and known[name].counts is None
+        ]
+        results = [f"r[{self._number(r)}]" for r in block.residuals]
+        return {
+            "name": block.name,
+            "number": number,
+            "title": together(block.residuals),
+            "first": self._run(block, block.first, "count_from"),
+            "step": self._run(block, block.step, "count_on"),
+            "samples": self._unless_finite(samples) if samples else [],
+            "results": self._unless_finite(results),
+        }
+
+    def _unless_finite(self, names: list[str]) -> list[str]:
+        test = "if (!finite_number({0})) \1"
+        rows = listing.statement(test, " + ".join(names), self.target, 4)
+        return [row.replace("\1", "{") for row in rows]
+
+    def _run(self, block: Block, statements: tuple[Assign, ...], count: str) -> list[str]:
+        spelling = self.spelling
+        speller = Speller(
+            self.target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
+        )
+        counts = [
+            f"    {count}(&monitor->e.{name}, s->{spelling.knowns[signal]});"
+            for (owner, signal), name in spelling.encoders.items()
+            if owner == block.name
+        ]
+        head = self._pointers(statements, "cxe", bool(counts))
+        if counts:
+            counts.append("")
+        return [*head, *counts, *lines(statements, spelling, speller, 4)]
+
+    def _pointers(
+        self, statements: Iterable[Assign | PolynomialTape], members: str, counts: bool = False
+    ) -> list[str]:
+        """Short names for the parts of the monitor that the statements use."""
+        found = reads(statements)
+        spaces = {ref.space for ref in found}
+        head: list[str] = []
+        if "coef" in spaces:
+            fixed = "" if members == "c" else "const "
+            head.append(f"    {fixed}{self.stem}_coefficients *c = &monitor->c;")
+        if "state" in spaces and "x" in members:
+            head.append(f"    {self.stem}_memory *x = &monitor->x;")
+        if spaces & {"increment", "total"}:
+            head.append(f"    const {self.stem}_encoders *e = &monitor->e;")
+        unused: list[str] = []
+        if not head and not counts:
+            unused.append("    (void)monitor;")
+        if "x" in members and not counts and not _samples(found):
+            unused.append("    (void)s;")
+        if head and unused:
+            head.append("")
+        head += unused
+        return [*head, ""] if head else []
+
+    def report(self) -> list[str]:
+        """What step says of every residual at its end."""
+        found: list[str] = []
+        owner = {r: at for at, block in enumerate(self.spelling.blocks) for r in block.residuals}
+        for info in self.program.residuals:
+            number = self._number(info.name)
+            age, settle = "0u", "0u"
+            if info.name in owner:
+                age, settle = f"monitor->age[{owner[info.name]}]", f"monitor->settle[{number}]"
+            found.append(f"    report(residuals, {number}, {age}, {settle});")
+        return found
+
+    def _number(self, residual: str) -> str:
+        return self.spelling.prefix + self.spelling.numbers[residual]
+
+
+def _samples(refs: Iterable[Ref]) -> bool:
+    return any(ref.space == "known" for ref in refs)
+
+
+def together(names: Iterable[str]) -> str:
+    """`r1`, `r1 and r2`, `r1, r2 and r3`.
+
+    >>> together(["r1", "r2", "r3"])
+    'r1, r2 and r3'
+    """
+    *most, last = names
+    return f"{', '.join(most)} and {last}" if most else last

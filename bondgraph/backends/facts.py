@@ -1,0 +1,105 @@
+"""What every target says about a program, whatever its language: limits, comments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from bondgraph.backends import listing
+from bondgraph.backends.names import snake
+from bondgraph.backends.walk import functions, nodes, reads
+from bondgraph.ir.program import (
+    Assign,
+    Const,
+    Dot,
+    Expression,
+    Field,
+    Known,
+    PolynomialTape,
+    Program,
+    ResidualInfo,
+)
+
+#: Changes when a struct or a function of the generated code changes.
+ABI = 1
+
+#: The least bandwidth * sample_time at which a filter still moves, for double and for float.
+SLOWEST, SLOWEST_FLOAT = 1e-9, 1e-4
+
+_FLOAT_MIN, _FLOAT_MAX = 1.2e-38, 3.4e38
+
+
+class Facts(NamedTuple):
+    """Numbers and texts about a program, ready to be written.
+
+    `fastest` is the largest bandwidth * sample_time; `least_sample_time` is 0.0 where no term was
+    left out, and so any rate will do.
+    """
+
+    stem: str
+    fastest: float
+    least_sample_time: float
+    laws: frozenset[str]
+    beyond_float: tuple[float, ...]
+
+
+def facts(program: Program) -> Facts:
+    """The facts of a program."""
+    default = program.bandwidth / program.rate
+    run = [*_values(program.exact), *_values(program.first), *_values(program.step)]
+    every = [*_values(program.configure), *run]
+    numbers = [node.value for node in nodes(every) if isinstance(node, Const)]
+    numbers += [z for _, points in program.tables for point in points for z in point]
+    numbers += [f.default for f in program.params if f.default is not None]
+    beyond = [n for n in numbers if n and not _FLOAT_MIN <= abs(n) <= _FLOAT_MAX]
+    laws = functions(run) | (functions(_values(program.configure)) - {"exp"})
+    return Facts(
+        snake(program.name),
+        max(3.0, 1.01 * default),
+        0.999999 / program.rate if program.dropped else 0.0,
+        frozenset(laws),
+        tuple(dict.fromkeys(beyond)),
+    )
+
+
+def _values(
+    statements: tuple[Assign | Dot | PolynomialTape, ...] | tuple[Assign | Dot, ...],
+) -> Iterator[Expression]:
+    for statement in statements:
+        if isinstance(statement, Assign):
+            yield statement.value
+        elif isinstance(statement, PolynomialTape):
+            yield from statement.scales
+
+
+def exponential(program: Program) -> bool:
+    """Whether configure needs the exponential function."""
+    return "exp" in functions(_values(program.configure))
+
+
+def reads_time(program: Program) -> bool:
+    """Whether exact needs the time since the start."""
+    return any(ref.space == "time" for ref in reads(program.exact))
+
+
+def about_field(field: Field) -> str:
+    """`H: armature inductance, el.L, motor.bg:9`: unit, meaning, path and line."""
+    where = listing.place(field.origin)
+    return _about(field.unit, field.doc, field.path, field.name, where)
+
+
+def about_known(known: Known) -> str:
+    """The same for a known signal."""
+    return _about(known.unit, known.doc, known.path, known.name, listing.place(known.origin))
+
+
+def _about(unit: str, doc: str, path: str, name: str, where: str) -> str:
+    meaning = ", ".join(part for part in (doc.rstrip("."), path if path != name else "") if part)
+    text = f"{unit or '-'}: {meaning}" if meaning else (unit or "-")
+    return f"{text} ({where})" if where else text
+
+
+def about_residual(info: ResidualInfo) -> str:
+    """`0 = ...; sees a, b`: the relation and the faults that it reacts to."""
+    sees = ", ".join(info.faults) or "no fault"
+    return f"0 = {info.text}; sees {sees}" if info.text else f"sees {sees}"

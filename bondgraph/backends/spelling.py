@@ -1,0 +1,173 @@
+"""What every value of a residual program is called in one target language."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from bondgraph.backends.blocks import blocks
+from bondgraph.backends.names import identifier, snake, spellings
+from bondgraph.backends.target import Target
+from bondgraph.ir.program import Assign, Dot, Known, Mode, Program, Ref, Statement
+
+#: Suffixes of the further members that exact takes for one signal.
+INTEGRAL, DOUBLE_INTEGRAL, START = "integral", "double_integral", "start"
+
+#: Names that the code uses with the prefix of the model; a residual's number may not be one.
+CONSTANTS = frozenset(
+    "ABI BAD_BANDWIDTH BAD_COEFFICIENT BAD_PARAMETER BAD_SAMPLE_TIME BAD_TIME_UNIT BANDWIDTH "
+    "CONSTANT DIGEST FLOAT GOLDEN_H OK REAL RESIDUALS RESIDUALS_H SAMPLE_TIME TIME_UNIT".split()
+)
+
+
+class Spelling:
+    """The names of one program in one language.
+
+    `params`, `coefs`, `knowns`, `states`, `locals`, `tables` map names of the program to
+    identifiers; `inputs` maps (signal, suffix or "") to members of the struct of derivatives.
+    """
+
+    def __init__(self, program: Program, target: Target) -> None:
+        self.target = target
+        self.prefix = f"{snake(program.name).upper()}_"
+        self._known = {k.name: k for k in program.knowns}
+        self._arrays = {f.name for f in program.coefs if f.size}
+        words = target.words
+        self.params = spellings((f.name for f in program.params), words)
+        self.coefs = spellings((f.name for f in program.coefs), words)
+        self.knowns = spellings((k.name for k in program.knowns), words)
+        self.states = spellings((f.name for f in program.states), words)
+        self.residuals = spellings((r.name for r in program.residuals), words | {"valid"})
+        #: the names of the numbers of the residuals: `R1`
+        self.numbers = self._numbers(program)
+        self.tables = spellings((name for name, _ in program.tables), target.reserved)
+        self.locals = spellings(_locals(program), target.reserved)
+        self.inputs = self._inputs(program)
+        self.blocks = blocks(program)
+        self.encoders = self._encoders()
+
+    def _numbers(self, program: Program) -> dict[str, str]:
+        upper = {r.name: identifier(r.name).upper() for r in program.residuals}
+        free: dict[str, str] = {}
+        for name, own in upper.items():
+            while own in CONSTANTS or own in free.values():
+                own += "_"
+            free[name] = own
+        return free
+
+    def _encoders(self) -> dict[tuple[str, str], str]:
+        """The memory of an encoder by (block, signal): each block starts anew on its own."""
+        pairs = [
+            (block.name, name)
+            for block in self.blocks
+            for name in block.knowns
+            if self._known[name].counts is not None
+        ]
+        signals = [name for _, name in pairs]
+        wanted = {
+            (block, name): name if signals.count(name) == 1 else f"{name}_{block}"
+            for block, name in pairs
+        }
+        free = spellings(wanted.values(), self.target.words)
+        return {key: free[name] for key, name in wanted.items()}
+
+    def _inputs(self, program: Program) -> dict[tuple[str, str], str]:
+        wanted: dict[tuple[str, str], str] = {(k.name, ""): k.name for k in program.knowns}
+        wanted |= {("", f.name): f.name for f in program.integrals}
+        for known in program.knowns:
+            for suffix in suffixes(known):
+                wanted[known.name, suffix] = f"{known.name}_{suffix}"
+        taken = set(self.target.words) | {"time"}
+        found: dict[tuple[str, str], str] = {}
+        for key, name in wanted.items():
+            own = identifier(name)
+            while own in taken:
+                own += "_"
+            taken.add(own)
+            found[key] = own
+        return found
+
+    def has_derivatives(self, known: str) -> bool:
+        """Whether exact takes the signal as an array: itself and its derivatives."""
+        return self._known[known].highest >= 1
+
+    def derivative(self, known: str, order: int) -> str:
+        """How exact reads a derivative (0 and up) or an integral (-1, -2) of a signal."""
+        pattern = self.target.reference
+        if order < 0:
+            suffix = INTEGRAL if order == -1 else DOUBLE_INTEGRAL
+            return pattern["derivative"].format(self.inputs[known, suffix])
+        member = pattern["derivative"].format(self.inputs[known, ""])
+        if not self.has_derivatives(known):
+            return member
+        return pattern["element"].format(member, order)
+
+    def exact(self, ref: Ref | Mode) -> str:
+        """The name of a value in exact."""
+        pattern = self.target.reference["derivative"]
+        if isinstance(ref, Mode):
+            return pattern.format(self.inputs[ref.name, ""])
+        if ref.space == "known":
+            return self.derivative(ref.name, ref.order)
+        if ref.space == "start":
+            return pattern.format(self.inputs[ref.name, START])
+        if ref.space == "integral":
+            return pattern.format(self.inputs["", ref.name])
+        if ref.space == "time":
+            return pattern.format("time")
+        return self.value(ref)
+
+    def value(self, ref: Ref | Mode, block: str = "") -> str:
+        """The name of a value in configure, and in first and step of a block."""
+        pattern = self.target.reference
+        if isinstance(ref, Mode):
+            return pattern["known"].format(self.knowns[ref.name])
+        match ref.space:
+            case "param":
+                return pattern["param"].format(self.params[ref.name])
+            case "option":
+                return pattern["option"].format(ref.name)
+            case "coef":
+                name = pattern["coef"].format(self.coefs[ref.name])
+                array = ref.name in self._arrays
+                return pattern["element"].format(name, ref.order) if array else name
+            case "known":
+                return pattern["known"].format(self.knowns[ref.name])
+            case "increment" | "total":
+                return pattern[ref.space].format(self.encoders[block, ref.name])
+            case "state":
+                return pattern["state"].format(self.states[ref.name])
+            case "local":
+                return self.locals[ref.name]
+            case "residual":
+                return pattern["residual"].format(
+                    self.residuals[ref.name], self.prefix + self.numbers[ref.name]
+                )
+            case _:
+                raise ValueError(f"{ref.space} of {ref.name} outside exact")
+
+
+def suffixes(known: Known) -> tuple[str, ...]:
+    """The further members of a signal in the struct of derivatives."""
+    found: list[str] = []
+    if known.lowest <= -1 or known.integral:
+        found.append(INTEGRAL)
+    if known.lowest <= -2:
+        found.append(DOUBLE_INTEGRAL)
+    if known.start:
+        found.append(START)
+    return tuple(found)
+
+
+def _locals(program: Program) -> Iterable[str]:
+    statements: list[Statement | Dot] = [
+        *program.configure,
+        *program.exact,
+        *program.first,
+        *program.step,
+    ]
+    names = [
+        s.target.name
+        for s in statements
+        if isinstance(s, Assign | Dot) and s.target.space == "local"
+    ]
+    return dict.fromkeys(names)

@@ -1,0 +1,84 @@
+"""A target language as its `target.toml` describes it."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from functools import cache
+from typing import NamedTuple
+
+from bondgraph.backends.spell import Dialect
+from bondgraph.backends.templates import codegen
+
+
+class Statements(NamedTuple):
+    """How statements and comments are written.
+
+    `brackets` stand around a value that needs several lines, `unforeseen` may not occur in a
+    comment: each with what replaces it.
+    """
+
+    comment: str
+    brackets: tuple[str, str]
+    local: str
+    assign: str
+    dot: str
+    unforeseen: tuple[tuple[str, str], ...]
+
+
+class Target(NamedTuple):
+    """One folder of codegen/: which template makes which file, and how values are written.
+
+    `configure` is the dialect of `configure`, which brings its own exponential function. A member
+    of a struct may not be one of `words`, a local variable not one of `reserved`.
+    """
+
+    folder: str
+    name: str
+    width: int
+    tab: int
+    files: tuple[tuple[str, str], ...]
+    statements: Statements
+    reference: Mapping[str, str]
+    dialect: Dialect
+    configure: Dialect
+    words: frozenset[str]
+    reserved: frozenset[str]
+
+
+def targets() -> tuple[str, ...]:
+    """The languages there are: the folders of codegen/ with a target.toml, in order."""
+    return tuple(sorted(p.parent.name for p in codegen().glob("*/target.toml")))
+
+
+@cache
+def load(folder: str) -> Target:
+    """The target `folder`; raises ValueError for a language that is not there."""
+    if folder not in targets():
+        raise ValueError(f"no target {folder!r}; there are {', '.join(targets())}")
+    with (codegen() / folder / "target.toml").open("rb") as file:
+        data = tomllib.load(file)
+    functions = dict(data["functions"])
+    own_exp = {"exp": functions.pop("configure_exp")}
+    statement = data["statement"]
+    opening, closing = statement["brackets"]
+    return Target(
+        folder,
+        data["name"],
+        data["width"],
+        data["tab"],
+        tuple((f"{folder}/{template}", path) for template, path in data["files"].items()),
+        Statements(
+            statement["comment"],
+            (opening, closing),
+            statement["local"],
+            statement["assign"],
+            statement["dot"],
+            tuple((bad, good) for bad, good in statement["unforeseen"]),
+        ),
+        data["reference"],
+        Dialect(functions=functions, **data["expression"]),
+        Dialect(functions=functions | own_exp, **data["expression"]),
+        frozenset(data["names"]["words"].split()),
+        frozenset((data["names"]["templates"] + data["names"]["words"]).split()),
+    )

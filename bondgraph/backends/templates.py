@@ -1,0 +1,43 @@
+"""Where the templates are, and how they are filled."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+
+@cache
+def codegen() -> Path:
+    """The folder of the target languages: inside the package when installed, else beside it.
+
+    Raises FileNotFoundError when the installation is incomplete.
+    """
+    package = Path(__file__).resolve().parent.parent
+    for place in (package / "codegen", package.parent / "codegen"):
+        if (place / "README.md").is_file():
+            return place
+    raise FileNotFoundError(f"the templates of the target languages are missing beside {package}")
+
+
+@cache
+def environment() -> Environment:
+    """The Jinja environment: a hole that nobody fills is an error, lines are kept as they are."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    return Environment(
+        loader=FileSystemLoader(codegen()),
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        undefined=StrictUndefined,
+        autoescape=False,  # the output is C, Python and Markdown, never HTML
+    )
+
+
+def fill(template: str, holes: dict[str, object]) -> str:
+    """The text of `template` (`c/residuals.h.j2`); raises UndefinedError for an unfilled hole."""
+    return environment().get_template(template).render(holes)

@@ -1,0 +1,111 @@
+"""What occurs in expressions and statements of the residual program: names and functions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import assert_never
+
+from bondgraph.ir.program import (
+    Assign,
+    Choice,
+    Compare,
+    Condition,
+    Const,
+    Dot,
+    Expression,
+    Function,
+    Logic,
+    Mode,
+    PolynomialTape,
+    Product,
+    Ref,
+    Sum,
+)
+
+#: Up to this exponent an integer power of a name is written as a product.
+WRITTEN_POWER = 4
+
+
+def operands(value: Expression | Condition) -> tuple[Expression | Condition, ...]:
+    """What a node is directly made of."""
+    match value:
+        case Const() | Ref() | Mode():
+            return ()
+        case Sum():
+            return tuple(term for _, term in value.terms)
+        case Product():
+            return value.factors + value.divisors
+        case Function() | Logic():
+            return value.args
+        case Choice():
+            return (value.condition, value.yes, value.no)
+        case Compare():
+            return (value.left, value.right)
+        case _:
+            assert_never(value)
+
+
+def nodes(values: Iterable[Expression | Condition]) -> Iterator[Expression | Condition]:
+    """All nodes of all expressions; a parent comes before what it is made of."""
+    stack = list(values)[::-1]
+    while stack:
+        node = stack.pop()
+        yield node
+        stack.extend(operands(node)[::-1])
+
+
+def references(value: Expression | Condition) -> list[Ref]:
+    """The names that an expression reads; a mode is read as a known signal."""
+    found: list[Ref] = []
+    for node in nodes([value]):
+        if isinstance(node, Ref):
+            found.append(node)
+        elif isinstance(node, Mode):
+            found.append(Ref("known", node.name))
+    return found
+
+
+def reads(statements: Iterable[Assign | Dot | PolynomialTape]) -> list[Ref]:
+    """Everything that statements read, and what they write."""
+    found: list[Ref] = []
+    for statement in statements:
+        match statement:
+            case Assign():
+                found += [statement.target, *references(statement.value)]
+            case Dot():
+                found.append(statement.target)
+                for term in statement.terms:
+                    found += [Ref("coef", term.array), Ref("known", term.signal)]
+            case PolynomialTape():
+                found += [Ref("coef", output.array) for output in statement.outputs]
+                for scale in statement.scales:
+                    found += references(scale)
+            case _:
+                assert_never(statement)
+    return found
+
+
+def integer_power(value: Function) -> int | None:
+    """The exponent of a `pow` whose exponent is a whole number, else None."""
+    if value.name != "pow" or not isinstance(value.args[1], Const):
+        return None
+    exponent = value.args[1].value
+    return int(exponent) if abs(exponent) < 1000 and exponent == int(exponent) else None
+
+
+def is_written_out(value: Function) -> bool:
+    """Whether a power becomes a product: a small one, of a name."""
+    power = integer_power(value)
+    return power is not None and 0 < power <= WRITTEN_POWER and isinstance(value.args[0], Ref)
+
+
+def functions(values: Iterable[Expression | Condition]) -> set[str]:
+    """The functions that occur; `power` for integer powers, `table` for tables, `equal` for ==."""
+    found: set[str] = set()
+    for node in nodes(values):
+        if isinstance(node, Compare) and node.op == "==":
+            found.add("equal")
+        elif isinstance(node, Function) and not is_written_out(node):
+            name = "power" if integer_power(node) is not None else node.name
+            found.add(name.partition(":")[0])
+    return found
