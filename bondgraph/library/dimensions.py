@@ -14,10 +14,11 @@ _MOST_PLACES = 3  # more would bury the two that matter
 
 
 class Place(NamedTuple):
-    """Where a dimension was fixed, and by what (`the port is electrical`)."""
+    """Where `dimension` was fixed, and by what (`the port is electrical`)."""
 
     origin: Span
     what: str
+    dimension: Dimension = NONE
 
 
 class Term:
@@ -53,11 +54,10 @@ class Conflict(NamedTuple):
         """The place of the disagreement first, then what fixed either side, each place once."""
         labels = [Label(self.origin, self.what or f"{self.left} against {self.right}")]
         seen = {_key(self.origin)}
-        for unit, places in ((self.left, self.left_places), (self.right, self.right_places)):
-            for place in places:
-                if _key(place.origin) not in seen:
-                    seen.add(_key(place.origin))
-                    labels.append(Label(place.origin, place.what or unit))
+        for place in (*self.left_places, *self.right_places):
+            if _key(place.origin) not in seen:
+                seen.add(_key(place.origin))
+                labels.append(Label(place.origin, place.what or f"in {describe(place.dimension)}"))
         return tuple(labels)
 
 
@@ -74,6 +74,7 @@ class Dimensions:
         self._rank: list[int] = []
         self._value: list[Term | None] = []
         self._births: list[Place] = []
+        self._doubted: set[tuple[str, int, int]] = set()
 
     # ------------------------------------------------------------------ terms
 
@@ -87,8 +88,8 @@ class Dimensions:
         return Term(NONE, {number: 1}, ())
 
     def known(self, dimension: Dimension, origin: Span, what: str) -> Term:
-        """A dimension that the model states; `what` says how (`R is declared in Ohm`)."""
-        return Term(dimension, {}, (Place(origin, what),))
+        """A dimension that the model states; `what` says how (empty: `in` and the unit)."""
+        return Term(dimension, {}, (Place(origin, what, dimension),))
 
     def product(self, left: Term, right: Term) -> Term:
         """The dimension of left times right."""
@@ -111,7 +112,8 @@ class Dimensions:
         """State that two terms have one dimension; a Conflict if that cannot be.
 
         `origin` and `what` say where and why (`the terms of a sum have one unit`). A conflict
-        leaves everything as it was.
+        leaves everything as it was. A declaration that was in a conflict may be the wrong one:
+        it is not held against anything else, so that one wrong unit is one error.
         """
         left, right = self._normal(left), self._normal(right)
         if len(left.unknown) == 1 == len(right.unknown) and self._united(left, right):
@@ -120,6 +122,10 @@ class Dimensions:
         if not rest.unknown:
             if rest.known == NONE:
                 return None
+            keys = {_key(p.origin) for p in (*left.places, *right.places)}
+            if keys & self._doubted:
+                return None
+            self._doubted |= keys
             sides = self._say(left), self._say(right)
             return Conflict(*sides, left.places, right.places, origin, what)
         # the simplest exponent keeps fractions out, the newest unknown has fewest followers
@@ -129,7 +135,7 @@ class Dimensions:
         value = self.power(Term(rest.known, others, rest.places), exponent)
         places = value.places
         if value.known != NONE and not places:
-            places = (Place(origin, what),)
+            places = (Place(origin, what, value.known),)
         self._value[chosen] = Term(value.known, value.unknown, places)
         return None
 

@@ -178,14 +178,17 @@ def _respelt(name: str) -> str | None:
     for known in _entries:
         if known.lower() == lower:
             return known
+    from difflib import get_close_matches  # only for a message
+
+    typo = get_close_matches(name, list(_entries), 1, 0.85)
+    if typo:
+        return typo[0]
     for length in range(len(name) - 1, 0, -1):  # Nm, As, kgm: two names without the dot
         if _atom(name[:length]):
             rest = name[length:]
             second = rest if _atom(rest) else _respelt(rest) if len(rest) > 1 else None
             if second:
                 return f"{name[:length]}.{second}"
-    from difflib import get_close_matches  # only for a message
-
     close = get_close_matches(name, list(_entries), 1, 0.75)
     return close[0] if close and len(name) > 2 else None
 
@@ -193,10 +196,10 @@ def _respelt(name: str) -> str | None:
 def _compose(dimension: Dimension) -> str:
     """As few factors as possible: one derived unit, the rest in base units."""
     best: tuple[float, str] | None = None
-    for name in ("1", "N", "V", "W", "J", "Pa", "A", "K", "Ohm", "mol"):
+    for name in ("1", "N", "V", "W", "Pa", "A", "K", "Ohm", "mol", "N.m"):
         unit = parse_unit(name)
-        for power in (1, -1, 2, -2, 3, -3) if unit is not None else ():
-            assert unit is not None
+        assert unit is not None
+        for power in (1,) if "." in name else (1, -1, 2, -2, 3, -3):
             rest = times(dimension, raised(unit.dimension, -power))
             factors = [(name, Fraction(power))] if name != "1" else []
             factors += [(b, Fraction(e)) for b, e in zip(_BASE, rest, strict=True) if e]

@@ -56,6 +56,17 @@ def test_conflict_shows_both_halves() -> None:
     assert d.resolve(x) == unit("V")
 
 
+def test_one_wrong_declaration_is_one_conflict() -> None:
+    d = Dimensions()
+    wrong = d.known(unit("H"), at(0), "")
+    volts, amperes = d.known(unit("V"), at(1), "a"), d.known(unit("A"), at(2), "b")
+    first = d.equate(volts, d.product(wrong, amperes), at(3), "e = R*f")
+    assert first is not None
+    assert [label.text for label in first.labels()] == ["e = R*f", "a", "in H", "b"]
+    assert d.equate(wrong, d.known(unit("Ohm"), at(4), "c"), at(5), "") is None
+    assert d.equate(d.known(unit("m"), at(6), ""), d.known(NONE, at(7), ""), at(8), "")
+
+
 def test_law_of_ohm_in_any_order() -> None:
     for known in (("V", "A", None), ("V", None, "Ohm"), (None, "A", "Ohm")):
         d = Dimensions()
@@ -149,6 +160,7 @@ def test_agrees_with_linear_algebra(system: list[tuple[_Side, _Side]]) -> None:
         row.append(sympy.Integer(right[0] - left[0]))
         matrix = sympy.Matrix([*rows, row])
         solvable = matrix.rank() == matrix[:, :6].rank()
+        d._doubted.clear()  # every conflict is of interest here
         conflict = d.equate(term(left), term(right), at(8), "")
         assert (conflict is None) == solvable
         if solvable:

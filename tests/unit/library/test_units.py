@@ -143,6 +143,8 @@ def test_no_unit(text: str) -> None:
         ("N·m", "N.m"),
         ("turns", "turn"),
         ("barr", "bar"),
+        ("Ohmm", "Ohm"),
+        ("Nmm", "N.mm"),
         ("qqqq", None),
         ("", None),
         ("(((", None),
@@ -181,7 +183,8 @@ def test_any_text_is_a_unit_or_none(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [("V/A", "Ohm"), ("Wb", "N.m/A"), ("kg.m^2", "kg.m^2"), ("N.s/m", "kg/s"), ("m/m", "1"),
-     ("W.s", "N.m"), ("m^3/s", "m^3/s"), ("1/s", "rad/s"), ("Pa.s/m^3", "Pa.s/m^3")],
+     ("W.s", "N.m"), ("m^3/s", "m^3/s"), ("1/s", "rad/s"), ("Pa.s/m^3", "Pa.s/m^3"),
+     ("V.s.A^2/rad", "N.m.A"), ("N.m.s.A", "N.m.s.A")],
 )  # fmt: skip
 def test_description(text: str, said: str) -> None:
     assert describe(_dimension(text)) == said
