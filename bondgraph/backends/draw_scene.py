@@ -1,0 +1,121 @@
+"""What there is to draw: which nodes carry the figure, which hang on them, names and submodels."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from bondgraph.backends.draw_style import BIG, FONT, HEIGHT, KINDS, width
+from bondgraph.ir.causal import CausalGraph
+from bondgraph.ir.graph import BondGraph, Node
+from bondgraph.ir.show import show
+
+Path = tuple[str, ...]
+
+
+class Item(NamedTuple):
+    """A node as drawn: `kind` in bold, then `name`; `tag` is the small name of a junction."""
+
+    kind: str
+    name: str
+    tag: str
+    colour: str
+    w: float
+    h: float
+    path: Path
+    derived: bool
+
+
+class Leaf(NamedTuple):
+    """A one-port and the bond on which it hangs at `host`."""
+
+    node: int
+    host: int
+    bond: int
+
+
+class Scene(NamedTuple):
+    """Items by node, the skeleton in order, the leaves, and the submodels that get a frame."""
+
+    graph: BondGraph
+    items: tuple[Item, ...]
+    skeleton: tuple[int, ...]
+    links: tuple[tuple[int, int, int], ...]  # bonds of the skeleton: tail, head, bond
+    leaves: dict[int, tuple[Leaf, ...]]
+    frames: tuple[Path, ...]
+
+    def frames_of(self, node: int) -> tuple[Path, ...]:
+        """The frames around a node, the outermost first."""
+        path = self.items[node].path
+        return tuple(path[:k] for k in range(1, len(path)) if path[:k] in set(self.frames))
+
+    def walls(self, a: int, b: int) -> int:
+        """How many frames a bond from a to b crosses."""
+        one, two = self.frames_of(a), self.frames_of(b)
+        shared = sum(x == y for x, y in zip(one, two, strict=False))
+        return len(one) + len(two) - 2 * shared
+
+
+def scene(causal: CausalGraph, unframed: frozenset[Path]) -> Scene:
+    """Sort the nodes of a graph into skeleton and leaves; `unframed` submodels get no frame."""
+    graph = causal.graph
+    paths = [tuple(node.path.split(".")) for node in graph.nodes]
+    frames = _frames(paths, unframed)
+    framed = set(frames)
+    derived = {s.node for s in causal.storages if not s.integral}
+    dualised = set(causal.dualised)
+    items = []
+    for n, node in enumerate(graph.nodes):
+        path = paths[n]
+        depth = max([k for k in range(1, len(path)) if path[:k] in framed], default=0)
+        items.append(_item(node, ".".join(path[depth:]), path, n in derived, n in dualised))
+    host = _hosts(graph)
+    leaves: dict[int, list[Leaf]] = {}
+    links = []
+    for b, bond in enumerate(graph.bonds):
+        tail, head = bond.tail.node, bond.head.node
+        leaf = tail if tail in host else head
+        if leaf in host:
+            leaves.setdefault(host[leaf], []).append(Leaf(leaf, host[leaf], b))
+        else:
+            links.append((tail, head, b))
+    skeleton = tuple(n for n in range(len(graph.nodes)) if n not in host)
+    hanging = {n: tuple(group) for n, group in leaves.items()}
+    return Scene(graph, tuple(items), skeleton, tuple(links), hanging, frames)
+
+
+def _frames(paths: list[Path], unframed: frozenset[Path]) -> tuple[Path, ...]:
+    """Submodel instances of at least two nodes; of equal ones inside each other the innermost."""
+    size: dict[Path, int] = {}
+    for path in paths:
+        for k in range(1, len(path)):
+            size[path[:k]] = size.get(path[:k], 0) + 1
+    whole = {p[:-1] for p, count in size.items() if len(p) > 1 and size[p[:-1]] == count}
+    return tuple(p for p, n in size.items() if n > 1 and p not in whole and p not in unframed)
+
+
+def _item(node: Node, name: str, path: Path, derived: bool, dualised: bool) -> Item:
+    kind, colour = node.keyword or node.kind, KINDS[node.kind]
+    if node.kind in ("0", "1"):
+        tag = name if node.when is None else f"{name} when {show(node.when)}"
+        return Item(kind, "", tag, colour, width(kind, BIG, True) + 8, 24.0, path, False)
+    if dualised:
+        kind, colour = f"SS{node.kind[1]}", "source"
+    w = width(kind, FONT, True) + width(f":{name}") + 2
+    room = 5.0 if derived else 0.0  # for the outline
+    return Item(kind, name, "", colour, w + room, HEIGHT + room, path, derived)
+
+
+def _hosts(graph: BondGraph) -> dict[int, int]:
+    """The node on which each one-port hangs; of two joined one-ports the first carries."""
+    bonds_at: dict[int, list[int]] = {}
+    for bond in graph.bonds:
+        bonds_at.setdefault(bond.tail.node, []).append(bond.head.node)
+        bonds_at.setdefault(bond.head.node, []).append(bond.tail.node)
+    host: dict[int, int] = {}
+    for n, node in enumerate(graph.nodes):
+        others = bonds_at.get(n, [])
+        if node.kind not in ("0", "1", "TF", "GY") and len(others) == 1 and others[0] != n:
+            alone = graph.nodes[others[0]].kind not in ("0", "1", "TF", "GY")
+            if not (alone and len(bonds_at[others[0]]) == 1 and n < others[0]):
+                host[n] = others[0]
+    return host
