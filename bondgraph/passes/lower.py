@@ -1,0 +1,236 @@
+"""From residuals to a residual program: what configure, exact and step have to do."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import NamedTuple
+
+from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.normal import NormalForm, Term
+from bondgraph.ir.program import (
+    Assign,
+    Dropped,
+    Field,
+    Program,
+    Ref,
+    ResidualInfo,
+    Statement,
+)
+from bondgraph.ir.residuals import Residual, ResidualSet
+from bondgraph.ir.show import show
+from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.passes.lowering.builder import Builder
+from bondgraph.passes.lowering.chain import Chain
+from bondgraph.passes.lowering.exactly import Exactly
+from bondgraph.passes.lowering.filter import Filter, settle
+from bondgraph.passes.lowering.names import brief, identifier, short
+from bondgraph.passes.lowering.procedure import ZERO
+from bondgraph.passes.lowering.tape import Large, large
+from bondgraph.passes.lowering.visible import Seen, seen, unseen_faults
+from bondgraph.passes.normalise import LIMIT, normalise
+
+#: Stages a chain may have; a residual of higher order has no step.
+HIGHEST = 12
+
+_TEXT_NODES = 150
+_TEXT_LENGTH = 600
+
+
+class LowerOptions(NamedTuple):
+    """How the realisable residual is made.
+
+    `rate` in samples a second. `bandwidth` of the filter in rad/s, by default rate/50: at 1 kHz
+    20 rad/s, where a residual of order 2 to 3 is 0.15 to 0.2 s late. That is the delay at which
+    METHOD 4.3 finds a state-variable filter best against noise, 50 samples a time constant leave
+    no trace of the sampling, and the highest visible frequency (rate/10 in Hz) is well above.
+    `extra_order` stages more than the highest derivative; `resolution` is the relative size below
+    which a term cannot be seen (12 bits). `time_unit` in s is what exact counts derivatives in,
+    by default 1 s, or what keeps the coefficients of very long residuals near one.
+    """
+
+    rate: float = 1000.0
+    bandwidth: float | None = None
+    extra_order: int = 1
+    resolution: float = 2.0**-12
+    time_unit: float | None = None
+
+
+DEFAULT = LowerOptions()
+
+
+class _Lowered(NamedTuple):
+    info: ResidualInfo
+    first: list[Assign]
+    step: list[Assign]
+    states: list[Field]
+    dropped: list[Dropped]
+
+
+def lower(
+    graph: BondGraph,
+    residuals: ResidualSet,
+    signatures: SignatureMatrix,
+    options: LowerOptions = DEFAULT,
+) -> Program:
+    """The residual program of a model: coefficients, exact residuals, realisable residuals.
+
+    A residual whose visible order exceeds `HIGHEST` stages, or that has no numbers to tell what
+    is visible, gets no step (`ResidualInfo.unavailable`). See METHOD 4.1, 4.2, 4.5 for the theory.
+    """
+    builder = Builder(graph)
+    forms = [normalise(graph.pool, r.expr, LIMIT, builder.initials) for r in residuals.residuals]
+    builder.scaled = any(f.tape is not None for f in forms)
+    exactly = Exactly(builder)
+    filter = Filter(builder)
+    tapes: list[Large | None] = []
+    time_unit = options.time_unit
+    for residual, form in zip(residuals.residuals, forms, strict=True):
+        tapes.append(
+            None if form.tape is None else large(builder, residual, form.tape, options.rate)
+        )
+    if time_unit is None:
+        time_unit = max([t.time_unit for t in tapes if t is not None], default=1.0)
+    lowered: list[_Lowered] = []
+    for residual, form, tape in zip(residuals.residuals, forms, tapes, strict=True):
+        text = _text(residual)
+        builder.origin = residual.closing.origin
+        arrays = {} if tape is None else tape.arrays
+        order = exactly.residual(residual, form, arrays, text)
+        found = _visible(builder, form, tape, options)
+        lowered.append(_realise(builder, filter, residual, signatures, found, options, text, order))
+    configure: list[Statement] = [t.statement for t in tapes if t is not None]
+    own = builder.configure()
+    wanted = builder.used
+    for tape in tapes:
+        wanted += [] if tape is None else tape.scales
+    program = Program(
+        name=graph.name,
+        title=graph.doc.split("\n\n")[0].replace("\n", " ").strip(),
+        source=graph.source.path.replace("\\", "/").rpartition("/")[2],
+        digest="",
+        params=builder.param_fields(wanted),
+        knowns=builder.known_fields([r.expr for r in residuals.residuals]),
+        coefs=tuple(builder.fields),
+        states=tuple(s for low in lowered for s in low.states),
+        residuals=tuple(low.info for low in lowered),
+        configure=(*configure, *own),
+        exact=tuple(exactly.statements),
+        first=tuple(s for low in lowered for s in low.first),
+        step=tuple(s for low in lowered for s in low.step),
+        dropped=tuple(d for low in lowered for d in low.dropped),
+        rate=options.rate,
+        bandwidth=options.bandwidth or options.rate / 50,
+        warmup=max([low.info.settle for low in lowered], default=0.0),
+        tables=_tables(graph, residuals),
+        integrals=tuple(builder.integrals.values()),
+        time_unit=time_unit,
+    )
+    return program._replace(digest=digest(program, graph.source.text))
+
+
+def _realise(
+    builder: Builder,
+    filter: Filter,
+    residual: Residual,
+    signatures: SignatureMatrix,
+    found: Seen | str,
+    options: LowerOptions,
+    text: str,
+    order: int,
+) -> _Lowered:
+    """One residual of `step`, or the reason why it has none."""
+    faults = signatures.signature(residual.name)
+    name = identifier(residual.name)
+    origin = residual.closing.origin
+    info = ResidualInfo(name, residual.name, text, order, 0, faults, (), origin)
+    if not isinstance(found, str):
+        stages = max([_order(t) for t in found.kept], default=0) + options.extra_order
+        if stages > HIGHEST + options.extra_order:
+            found = f"its order {stages - options.extra_order} is above {HIGHEST}"
+    if isinstance(found, str):
+        nothing = Assign(Ref("residual", name), ZERO, f"{residual.name}: {found}", origin)
+        info = info._replace(invisible=faults, unavailable=found)
+        return _Lowered(info, [nothing], [nothing], [], [])
+    stages = max(stages, 1)
+    chain = Chain(builder, filter, residual, stages)
+    chain.run(found.kept, text)
+    moving = [t for t in found.kept if not t.static]
+    info = info._replace(
+        stages=stages,
+        invisible=unseen_faults(builder, faults, found, options.rate, options.resolution),
+        settle=settle(stages),
+        approximate=_reason(moving),
+    )
+    dropped = [Dropped(name, brief(t.atom), t.order, share) for t, share in found.dropped]
+    return _Lowered(info, chain.first, chain.step, chain.states, dropped)
+
+
+def _visible(
+    builder: Builder, form: NormalForm, tape: Large | None, options: LowerOptions
+) -> Seen | str:
+    if tape is not None:
+        return tape.seen(builder, options.rate, options.resolution, HIGHEST)
+    return seen(builder, form.terms, options.rate, options.resolution)
+
+
+def _order(term: Term) -> int:
+    """The highest derivative that a term needs, those inside its atom counted."""
+    inside: dict[Expr, int] = {}
+    deepest = 0
+    for node in reversed(topological([term.atom])):
+        own = inside.get(node, 0)
+        deepest = max(deepest, own)
+        below = own + 1 if node.op is Op.DER else own
+        if node.op is Op.INT:
+            below = max(own - 1, 0)
+        for arg in node.args:
+            inside[arg] = max(inside.get(arg, 0), below)
+    return max(term.order, 0) + deepest
+
+
+def _reason(moving: list[Term]) -> str:
+    if not moving:
+        return ""
+    return f"a nonlinear term holds a derivative: {short(moving[0].atom)}"
+
+
+def _text(residual: Residual) -> str:
+    """The residual as a person writes it, where that is short enough to be read."""
+    if len(topological([residual.expr])) <= _TEXT_NODES:
+        text = show(residual.expr)
+        if len(text) <= _TEXT_LENGTH:
+            return f"{residual.name} = {text}"
+    return f"{residual.name}: {residual.closing.name} with everything else inserted"
+
+
+def _tables(
+    graph: BondGraph, residuals: ResidualSet
+) -> tuple[tuple[str, tuple[tuple[float, float], ...]], ...]:
+    used: dict[str, None] = {}
+    for node in topological([r.expr for r in residuals.residuals]):
+        if node.op is Op.FN and node.name.startswith("table:"):
+            used[node.name.removeprefix("table:")] = None
+    return tuple(
+        (name, tuple((float(x), float(y)) for x, y in graph.pool.tables[name])) for name in used
+    )
+
+
+def digest(program: Program, text: str) -> str:
+    """A hash of the model and of everything that the program computes, in hexadecimal."""
+    lines = [text.replace("\r\n", "\n")]
+    for name in program._fields:
+        if name not in ("source", "digest"):
+            lines.append(f"{name}: {_plain(getattr(program, name))!r}")
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]
+
+
+def _plain(value: object) -> object:
+    """The value without places, which name files of the machine."""
+    if isinstance(value, tuple):
+        fields = getattr(value, "_fields", None)
+        if fields is None:
+            return tuple(map(_plain, value))
+        pairs = zip(fields, value, strict=True)
+        return (type(value).__name__, *[_plain(v) for f, v in pairs if f != "origin"])
+    return value

@@ -1,0 +1,1 @@
+"""Helpers of the pass `lower`: from normal forms to the statements of a residual program."""

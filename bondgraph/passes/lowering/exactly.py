@@ -1,0 +1,203 @@
+"""The entry point that takes exact derivatives: every residual as it stands in the theory."""
+
+from __future__ import annotations
+
+from bondgraph.ir.expr import Expr, Kind, Op
+from bondgraph.ir.normal import NormalForm, Term
+from bondgraph.ir.program import (
+    Assign,
+    Dot,
+    DotTerm,
+    ExactStatement,
+    Expression,
+    Field,
+    Product,
+    Ref,
+    Sum,
+)
+from bondgraph.ir.residuals import Residual
+from bondgraph.passes.lowering.builder import Builder
+from bondgraph.passes.lowering.derivative import differentiate
+from bondgraph.passes.lowering.names import Names, brief, identifier, short
+from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure, positive_part
+from bondgraph.passes.normalise import LIMIT, rewritten
+
+
+class Exactly:
+    """Writes the statements of `exact`, residual by residual."""
+
+    def __init__(self, builder: Builder) -> None:
+        self.builder = builder
+        self.statements: list[ExactStatement] = []
+        self.highest = 0
+        self._procedure = Procedure(
+            builder.pool,
+            self.leaf,
+            self.statements.append,
+            Names(),
+            "t",
+            builder.hoist,
+            builder.is_constant,
+        )
+
+    def residual(
+        self, residual: Residual, form: NormalForm, arrays: dict[Expr, tuple[str, int]], text: str
+    ) -> int:
+        """Append the statements of one residual; the highest derivative that it reads.
+
+        `arrays` has the coefficient array and its length of every atom of a large residual.
+        """
+        self.highest = 0
+        name = identifier(residual.name)
+        origin = residual.closing.origin
+        terms = [self._term(residual, t) for t in form.terms]
+        dots: list[DotTerm] = []
+        for atom, (array, length) in arrays.items():
+            if atom.op is Op.SYM and atom in self.builder.signals:
+                self._need(atom, length - 1)
+                dots.append(DotTerm(array, self.builder.signals[atom].name, length))
+            else:
+                terms += self._large(array, length, atom, origin)
+        target = Ref("residual", name)
+        if dots and terms:
+            linear = Ref("local", f"{name}_linear")
+            self.statements.append(Dot(linear, tuple(dots), f"{name}, its linear part", origin))
+            terms.insert(0, (True, linear))
+        elif dots:
+            self.statements.append(Dot(target, tuple(dots), text, origin))
+            return self.highest
+        self.statements.append(Assign(target, total(terms), text, origin))
+        return self.highest
+
+    def _term(self, residual: Residual, term: Term) -> tuple[bool, Expression]:
+        builder = self.builder
+        value = term.coefficient
+        if builder.scaled and term.atom in builder.signals and term.order:
+            unit = builder.option("time_unit")
+            value = builder.pool.mul(value, builder.pool.power(unit, -term.order))
+        sign, size = positive_part(builder.pool, value)
+        name = identifier(residual.name)
+        words = short(term.atom, term.order)
+        doc = f"{residual.name}: factor of {words}: {brief(size)}"
+        wish = f"{name}_{label(builder, term.atom)}" + suffix(term.order)
+        factor = builder.coef(size, wish, doc, residual.closing.origin)
+        if term.atom is builder.pool.one and term.order == 0:
+            return sign, factor
+        operand = self._operand(term, residual)
+        return sign, operand if factor == ONE else Product((factor, operand))
+
+    def _operand(self, term: Term, residual: Residual) -> Expression:
+        builder, pool = self.builder, self.builder.pool
+        if term.atom in builder.signals:
+            return self._need(term.atom, term.order)
+        expr = term.atom
+        if term.order > 0:
+            expr = differentiate(pool, expr, term.order)
+        for _ in range(-term.order):
+            expr = pool.integral(expr, builder.zero_start)
+        return self._procedure.value(expr, residual.closing.origin)
+
+    def _large(
+        self, array: str, length: int, atom: Expr, origin: object
+    ) -> list[tuple[bool, Expression]]:
+        pool = self.builder.pool
+        expr = rewritten(pool, atom, LIMIT, self.builder.initials)
+        out: list[tuple[bool, Expression]] = []
+        for k in range(length):
+            value = self._procedure.value(expr, None)
+            factor: Expression = Ref("coef", array, k)
+            for _ in range(k):
+                unit = self.builder.hoist(self.builder.option("time_unit"))
+                factor = Product((factor, unit))
+            out.append((True, factor if value == ONE else Product((factor, value))))
+            if k + 1 < length:
+                expr = differentiate(pool, expr)
+                if expr is pool.zero:
+                    break
+        return out
+
+    # -------------------------------------------------------------- leaves
+
+    def _need(self, symbol: Expr, order: int) -> Ref:
+        self.highest = max(self.highest, order)
+        return self.builder.need(symbol, order)
+
+    def leaf(self, node: Expr) -> Expression | None:
+        """What exact is given: derivatives and integrals of known signals."""
+        builder = self.builder
+        if node.op is Op.SYM and node in builder.signals:
+            if node.symbol.kind is Kind.MODE:
+                return builder.mode(node)
+            return self._need(node, 0)
+        order, inner = 0, node
+        while inner.op is Op.DER:
+            order, inner = order + 1, inner.args[0]
+        if order and inner in builder.signals:
+            return self._scaled(self._need(inner, order), order)
+        return self._integral(node) if node.op is Op.INT else None
+
+    def _scaled(self, value: Expression, order: int) -> Expression:
+        builder = self.builder
+        if not builder.scaled:
+            return value
+        unit = builder.pool.power(builder.option("time_unit"), -order)
+        return Product((builder.coef(unit, f"per_time_{order}", "time unit"), value))
+
+    def _integral(self, node: Expr) -> Expression:
+        builder = self.builder
+        inner = node.args[0]
+        depth = 1
+        while inner.op is Op.INT and inner.symbol == builder.zero_start.symbol:
+            depth, inner = depth + 1, inner.args[0]
+        value: Expression
+        if inner in builder.signals and inner.symbol.kind is not Kind.MODE:
+            value = self._scaled(self._need(inner, -depth), -depth)
+        elif inner is builder.pool.one and depth == 1:
+            value = self._scaled(Ref("time", "time"), -1)
+        elif inner.op is Op.DER and inner.args[0] in builder.signals:
+            symbol = inner.args[0]
+            name = builder.signals[symbol].name
+            builder.starts[name] = None
+            value = Sum(((True, self._need(symbol, 0)), (False, Ref("start", name))))
+        else:
+            value = self._given(node)
+        if node.symbol == builder.zero_start.symbol:
+            return value
+        start = builder.pool.symbol(node.symbol.name, node.symbol.kind)
+        return Sum(((True, builder.hoist(start)), (True, value)))
+
+    def _given(self, node: Expr) -> Ref:
+        """An integral that does not follow from integrals of signals: it has to be given."""
+        builder = self.builder
+        plain = builder.pool.integral(node.args[0], builder.zero_start)
+        field = builder.integrals.get(plain)
+        if field is None:
+            name = f"integral_{len(builder.integrals) + 1}"
+            doc = f"integral of {brief(node.args[0])} since the start"
+            field = Field(name, brief(plain), "", doc)
+            builder.integrals[plain] = field
+        return Ref("integral", field.name)
+
+
+def total(terms: list[tuple[bool, Expression]]) -> Expression:
+    """The sum of signed terms, the positive ones first."""
+    if not terms:
+        return ZERO
+    terms = sorted(terms, key=lambda t: not t[0])
+    return terms[0][1] if len(terms) == 1 and terms[0][0] else Sum(tuple(terms))
+
+
+def label(builder: Builder, atom: Expr) -> str:
+    """A name for an atom inside the name of a coefficient."""
+    if atom in builder.signals:
+        return builder.signals[atom].name
+    if atom.op is Op.NUM:
+        return "constant"
+    if atom.op is Op.FN:
+        return identifier(atom.name.partition(":")[0])
+    return {Op.MUL: "product", Op.IF: "choice", Op.INT: "integral"}.get(atom.op, "term")
+
+
+def suffix(order: int) -> str:
+    """The order of a derivative inside the name of a coefficient."""
+    return f"_{order}" if order > 0 else "_int" * -order

@@ -1,0 +1,171 @@
+"""Large residuals: the coefficients of hundreds of derivatives from one small table.
+
+A `Tape` says how the polynomial of each signal is computed; here it becomes a table with a few
+reused rows for configure, and its low orders are evaluated to see what a step can show.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from bondgraph.ir.expr import Expr
+from bondgraph.ir.normal import Tape, Term
+from bondgraph.ir.program import PolynomialTape, TapeOp, TapeOutput
+from bondgraph.ir.residuals import Residual
+from bondgraph.passes.lowering.builder import Builder
+from bondgraph.passes.lowering.exactly import label
+from bondgraph.passes.lowering.names import identifier, short
+from bondgraph.passes.lowering.numeric import evaluate
+from bondgraph.passes.lowering.procedure import Procedure
+from bondgraph.passes.lowering.visible import Seen, frequency
+
+_ENOUGH = 64  # orders that the time unit is judged by
+
+
+class Large(NamedTuple):
+    """A large residual: the statement for configure and the coefficient arrays by atom."""
+
+    tape: Tape
+    statement: PolynomialTape
+    arrays: dict[Expr, tuple[str, int]]
+    scales: list[Expr]
+    time_unit: float
+
+    def seen(self, builder: Builder, rate: float, resolution: float, highest: int) -> Seen | str:
+        """The visible terms; their coefficients are elements of the arrays."""
+        sizes = low_orders(builder, self.tape, 1 / frequency(rate), highest + 2)
+        if sizes is None:
+            return f"it has derivatives up to order {self.statement.length - 1} and no numbers"
+        pool, unit = builder.pool, builder.option("time_unit")
+        kept: list[Term] = []
+        dropped: list[tuple[Term, float]] = []
+        largest: dict[Expr, float] = {}
+        for leaf in self.tape.leaves:
+            row = sizes[leaf.node]
+            top = largest[leaf.atom] = max(map(abs, row), default=0.0)
+            array, length = self.arrays[leaf.atom]
+            for k in range(min(length, len(row))):
+                value = pool.mul(builder.element(array, k), pool.power(unit, k))
+                term = Term(leaf.atom, k, value, leaf.static)
+                if top and abs(row[k]) >= resolution * top:
+                    kept.append(term)
+                else:
+                    dropped.append((term, abs(row[k]) / top if top else 0.0))
+            for k in range(len(row), length):
+                dropped.append((Term(leaf.atom, k, pool.one, leaf.static), 0.0))
+        return Seen(tuple(kept), tuple(dropped), largest)
+
+
+def large(builder: Builder, residual: Residual, tape: Tape, rate: float) -> Large:
+    """The table of a large residual, and the arrays for its coefficients."""
+    name, origin = identifier(residual.name), residual.closing.origin
+    length = max(leaf.degree for leaf in tape.leaves) + 1
+    arrays: dict[Expr, tuple[str, int]] = {}
+    for leaf in tape.leaves:
+        doc = f"{residual.name}: factors of the derivatives of {short(leaf.atom)}"
+        array = builder.array(f"{name}_{label(builder, leaf.atom)}", leaf.degree + 1, doc, origin)
+        arrays[leaf.atom] = array, leaf.degree + 1
+    ops, rows, where = _allocate(tape)
+    unit = builder.option("time_unit")
+    scales: dict[Expr, int] = {}
+    table: list[TapeOp] = []
+    for (target, source, length_, fresh), edge in zip(ops, tape.edges, strict=True):
+        value = builder.pool.mul(edge.scale, builder.pool.power(unit, -edge.shift))
+        at = scales.setdefault(value, len(scales))
+        table.append(TapeOp(target, source, edge.shift, at, length_, fresh))
+    resolved = builder.resolve(list(scales))
+    # every factor stands alone: the table has no temporaries of its own
+    values = [
+        Procedure(
+            builder.pool, builder.leaf, _no_statement, builder.names, "t", name_shared=False
+        ).value(root, origin)
+        for root in resolved
+    ]
+    outputs = [TapeOutput(arrays[f.atom][0], where[f.node], f.degree + 1) for f in tape.leaves]
+    statement = PolynomialTape(
+        name,
+        length,
+        rows,
+        tuple(values),
+        tuple(table),
+        tuple(outputs),
+        f"{residual.name}: factors of all derivatives",
+        origin,
+    )
+    return Large(tape, statement, arrays, list(scales), _time_unit(builder, tape, rate))
+
+
+def _no_statement(statement: object) -> None:
+    raise AssertionError("a factor of a tape needs no statement of its own")
+
+
+def _allocate(
+    tape: Tape,
+) -> tuple[list[tuple[int, int, int, bool]], int, dict[int, int]]:
+    """Rows for the nodes, each given back after the last edge out of its node.
+
+    Per edge: target row, source row, length of the source, whether the target is new.
+    """
+    last: dict[int, int] = {}
+    for at, edge in enumerate(tape.edges):
+        last[edge.source] = at
+    kept = {leaf.node for leaf in tape.leaves}
+    length = {0: 1}
+    where = {0: 0}
+    free: list[int] = []
+    rows = 1
+    out: list[tuple[int, int, int, bool]] = []
+    for at, edge in enumerate(tape.edges):
+        fresh = edge.target not in where
+        if fresh:
+            if free:
+                where[edge.target] = free.pop()
+            else:
+                where[edge.target] = rows
+                rows += 1
+            length[edge.target] = 0
+        size = length[edge.source]
+        length[edge.target] = max(length[edge.target], size + edge.shift)
+        out.append((where[edge.target], where[edge.source], size, fresh))
+        if last[edge.source] == at and edge.source not in kept:
+            free.append(where[edge.source])
+    return out, rows, where
+
+
+def low_orders(
+    builder: Builder, tape: Tape, unit: float, highest: int
+) -> dict[int, list[float]] | None:
+    """The first coefficients of every leaf times unit**-k, by node; None without numbers."""
+    values: dict[Expr, float] = {}
+    scales = list(dict.fromkeys(e.scale for e in tape.edges))
+    for scale, resolved in zip(scales, builder.resolve(scales), strict=True):
+        value = evaluate(resolved, builder.floats)
+        if value is None:
+            return None
+        values[scale] = float(value)
+    rows: dict[int, list[float]] = {0: [1.0]}
+    for edge in tape.edges:
+        factor = values[edge.scale] * (1 / unit) ** edge.shift
+        source = rows[edge.source]
+        target = rows.setdefault(edge.target, [])
+        size = min(len(source) + edge.shift, highest)
+        target += [0.0] * (size - len(target))
+        for i in range(min(len(source), size - edge.shift)):
+            target[i + edge.shift] += factor * source[i]
+    return {leaf.node: rows[leaf.node] for leaf in tape.leaves}
+
+
+def _time_unit(builder: Builder, tape: Tape, rate: float) -> float:
+    """A power of two seconds in which no coefficient is larger than the first by far."""
+    start = 1 / frequency(rate)
+    sizes = low_orders(builder, tape, start, _ENOUGH)
+    if sizes is None:
+        return 1.0
+    unit = 0.0
+    for row in sizes.values():
+        scale = abs(row[0]) if row and row[0] else max(map(abs, row), default=0.0)
+        for k, value in enumerate(row):
+            if k and value and scale:
+                unit = max(unit, start * (abs(value) / scale) ** (1 / k))
+    return 2.0 ** math.ceil(math.log2(unit)) if unit else 1.0
