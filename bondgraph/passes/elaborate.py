@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import Bond, BondGraph, Integral, Law, Node, Port
 from bondgraph.ir.syntax import File
@@ -40,6 +42,8 @@ def elaborate(
     All values are in SI. Errors go to `report`, and the result is None. Linear in the size of
     the flat model.
     """
+    collecting = gc.isenabled()
+    gc.disable()  # what is made here is kept: looking for garbage would take as long again
     try:
         files = Files(load, report)
         definition = pick(file, files.definitions(file, source), model, report, source)
@@ -51,6 +55,9 @@ def elaborate(
         report.error("expression-too-deep", "The model is nested too deeply.", file.origin,
                      help="Split long expressions into several `let`s.")  # fmt: skip
         return None
+    finally:
+        if collecting:
+            gc.enable()
 
 
 class _Elaboration:

@@ -116,8 +116,9 @@ class Flattener:
         """Report a port that is used twice."""
         node.scope.unlinked = True
         self.report.error(
-            "too-many-bonds", f"`{node.type}:{node.name}` {what}.", Label(node.origin, "declared"),
-            *[Label(e.bond.origin, "a bond here") for e in ends], help=help,
+            "too-many-bonds", f"`{node.type}:{node.name}` {what}.",
+            *[Label(e.bond.origin, "a bond here") for e in reversed(ends)],
+            Label(node.origin, "declared here"), help=help,
         )  # fmt: skip
 
     def unconnected(self, node: NodeEntry, what: str, help: str) -> None:
@@ -137,7 +138,7 @@ class Flattener:
                 where = f"{side} `{scope.model.name}`"
                 self.report.error(
                     "too-many-bonds", f"Port `{port.name}` has two bonds {where}.",
-                    *[Label(e.bond.origin, "a bond here") for e in ends[:2]],
+                    *[Label(e.bond.origin, "a bond here") for e in ends[1::-1]],
                     Label(port.origin, "the port"),
                     help="A port carries one bond: let the bonds meet at a 0- or 1-junction.",
                 )  # fmt: skip
@@ -162,7 +163,7 @@ class Flattener:
                 )  # fmt: skip
         else:
             self.report.error(
-                "unconnected", f"Port `{port.name}` of `{scope.local}` has no bond.",
+                "open-port", f"Port `{port.name}` of `{scope.local}` has no bond.",
                 Label(scope.origin, f"`{scope.local}`"), Label(port.origin, "the port"),
                 help=f"Connect it: `{scope.local}.{port.name}`.",
             )  # fmt: skip

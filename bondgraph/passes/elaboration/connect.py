@@ -44,12 +44,9 @@ class Wiring:
 
     def chain(self, link: Link, scope: Scope) -> None:
         """One chain: a bond for every arrow, and inside a range of submodels."""
-        groups = [self.stops(link, at, scope) for at in range(len(link.items))]
         if not link.arrows:
-            if isinstance(link.items[0], Ref):
-                fail(self.report, "no-effect", f"`{link.origin.text}` alone says nothing.",
-                     link.origin, help="Draw a bond to it with `->`, or remove it.")  # fmt: skip
             return
+        groups = [self.stops(link, at, scope) for at in range(len(link.items))]
         previous: Stop | None = None
         for at, group in enumerate(groups):
             for position, stop in enumerate(group):
@@ -68,6 +65,11 @@ class Wiring:
         raw = RawBond(label, origin)
         raw.tail = self.end(raw, tail, "out")
         raw.head = self.end(raw, head, "in")
+        node = raw.tail.at
+        if node is raw.head.at and raw.tail.key == raw.head.key and isinstance(node, NodeEntry):
+            fail(self.report, "self-bond", f"This bond joins `{node.local}` to itself.",
+                 Label(origin), Label(node.origin, "declared here"),
+                 help="Draw it to another node, or remove it.")  # fmt: skip
         for end in (raw.tail, raw.head):
             if isinstance(end.at, NodeEntry):
                 end.at.bonds.append(end)
@@ -88,20 +90,22 @@ class Wiring:
         fitting = [p for p in ports if p.declaration.direction == direction]
         if len(fitting) == 1:
             return fitting[0]
-        if not fitting and len(ports) == 1:
-            return ports[0]
         if scope.incomplete or scope.wrong:
             raise Skip
-        names = listed(p.name for p in ports)
         if not ports:
             fail(self.report, "missing-port", f"`{scope.model.name}` has no port.", origin,
                  Label(scope.model.name_origin, "declared here"),
                  help="Declare one in it: `port name : in electrical`.")  # fmt: skip
+        names = listed(f"{scope.local}.{p.name}" for p in fitting or ports)
+        if not fitting:
+            fail(self.report, "missing-port", f"`{scope.local}` has no `{direction}` port for this "
+                 "arrow.", Label(origin), *[Label(p.origin) for p in ports[:3]],
+                 help=f"Name the port that is meant, {names}, or turn the arrow."
+                 )  # fmt: skip
+        places = [Label(p.origin) for p in fitting[:3]]
         fail(self.report, "ambiguous-port", f"Which port of `{scope.local}` is meant? It has "
-             f"{'several' if fitting else 'no'} `{direction}` ports.", origin,
-             *[Label(p.origin) for p in ports[:3]],
-             help=f"Name the port: `{scope.local}.{(fitting or ports)[0].name}`; it has {names}."
-             )  # fmt: skip
+             f"several `{direction}` ports.", Label(origin), *places,
+             help=f"Name the port: {names}.")  # fmt: skip
 
     # ------------------------------------------------------------------ stops
 
@@ -109,22 +113,26 @@ class Wiring:
         """What one item of a chain stands for: one node, or several in series."""
         item, origin = link.items[at], link.origins[at]
         if item is None:
-            item = link.junction
-            if isinstance(item, NodeEntry):
-                return [(item, "", item.origin)]
-            assert item is not None
-            stop = self.single(item, scope, link)
-            if not isinstance(stop[0], NodeEntry) or stop[0].element is not None:
-                fail(self.report, "not-a-junction", f"`{item.origin.text}` is no junction.",
-                     item.origin, help="Only the bonds of a junction can be written in braces "
-                     "after its name.")  # fmt: skip
-            return [stop]
+            return [self.junction(link, scope)]
         if isinstance(item, Ref):
             last = item.parts[-1]
             if last.first is not None and last.last is not None:
                 return self.series(item, last, scope, link)
             return [self.single(item, scope, link)]
-        return [(node, "", origin) for node in item]
+        return [self.whole(node, origin, node.local) for node in item]
+
+    def junction(self, link: Link, scope: Scope) -> Stop:
+        """The junction in whose body the chain stands."""
+        at = link.junction
+        assert at is not None
+        if isinstance(at, NodeEntry):
+            return at, "", at.origin
+        stop = self.single(at, scope, link)
+        if not isinstance(stop[0], NodeEntry) or stop[0].element is not None:
+            fail(self.report, "not-a-junction", f"`{at.origin.text}` is no junction.", at.origin,
+                 help="Only the bonds of a junction can be written in braces after its name."
+                 )  # fmt: skip
+        return stop
 
     def single(self, ref: Ref, scope: Scope, link: Link) -> Stop:
         """The node or port that a reference names."""
@@ -140,22 +148,29 @@ class Wiring:
         assert isinstance(entry, NodeEntry)
         law = entry.declaration.law if entry.declaration is not None else None
         names = tuple([p.name for p in law.ports]) if law is not None else ()
-        if not rest:
-            if len(names) > 1:
-                fail(self.report, "ambiguous-port", f"Which port of `{entry.name}` is meant?",
-                     ref.origin, Label(entry.origin, f"has {listed(names)}"),
-                     help=f"Name the port: `{ref.origin.text}.{names[0]}`.")  # fmt: skip
-            if entry.scope is not scope and entry.element is not None:
-                self.hidden(ref, entry)
-            return entry, names[0] if names else "", ref.origin
-        if len(rest) > 1 or rest[0].name not in names:
+        if rest and (len(rest) > 1 or rest[0].name not in names):
             self.no_port(ref, rest[0], entry.name, names)
         if entry.scope is not scope:
             self.hidden(ref, entry)
-        return entry, rest[0].name, ref.origin
+        if rest:
+            return entry, rest[0].name, ref.origin
+        return self.whole(entry, ref.origin, ref.origin.text)
+
+    def whole(self, entry: NodeEntry | Scope, origin: Span, text: str) -> Stop:
+        """A node without the name of a port; a field must have one only."""
+        if isinstance(entry, Scope):
+            return entry, "", origin
+        law = entry.declaration.law if entry.declaration is not None else None
+        names = [p.name for p in law.ports] if law is not None else []
+        if len(names) > 1:
+            fail(self.report, "ambiguous-port", f"Which port of `{entry.name}` is meant?",
+                 Label(origin), Label(entry.origin, f"has {listed(names)}"),
+                 help=f"Name the port, `{text}.{names[0]}`; declare the element on a line of its "
+                 "own.")  # fmt: skip
+        return entry, names[0] if names else "", origin
 
     def hidden(self, ref: Ref, entry: NodeEntry) -> None:
-        """An element inside a submodel has no free port for others."""
+        """The nodes of a submodel belong to it; only its ports are there for others."""
         fail(self.report, "hidden-node", f"`{ref.origin.text}` is inside a submodel.",
              Label(ref.origin), Label(entry.origin, "declared here"),
              help="Give the submodel a `port` for this bond.")  # fmt: skip
@@ -173,7 +188,7 @@ class Wiring:
              help=meant(part.name, ports, otherwise))  # fmt: skip
 
     def series(self, ref: Ref, last: Part, scope: Scope, link: Link) -> list[Stop]:
-        """`cell[1..n]`: the elements of an array one after the other; none if the range is empty."""
+        """`cell[1..n]`: the elements of an array one after the other; an empty range is none."""
         assert last.first is not None and last.last is not None
         inside: Named = scope
         if len(ref.parts) > 1:
@@ -199,8 +214,8 @@ class Wiring:
             entry = array.entries.get(place)
             if entry is None:
                 self.lookup.out_of_range(last, array, place)
-            if isinstance(entry, NodeEntry) and inside is not scope and entry.element is not None:
+            if isinstance(entry, NodeEntry) and inside is not scope:
                 self.hidden(ref, entry)
             assert isinstance(entry, (NodeEntry, Scope))
-            stops.append((entry, "", ref.origin))
+            stops.append(self.whole(entry, ref.origin, entry.local))
         return stops

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple, assert_never
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, topological
+from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, topological
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Ref, Text, Truth, Unary
 from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration.functions import Functions
@@ -44,6 +44,7 @@ class Expressions:
         self.quantities = quantities
         self.functions = Functions(self)
         self._constant: dict[Expr, bool] = {}
+        self._made: dict[tuple[str, Expr, Expr], Expr] = {}
         self._depth = 0
 
     def reference(self, ref: Ref, place: Place) -> Typed:
@@ -121,10 +122,10 @@ class Expressions:
         """A literal in SI; without a unit it takes the one that its use requires."""
         if number.unit is None:
             return self.pool.num(number.value), self.quantities.dimensions.fresh(
-                number.origin, number.text
+                number.origin, f"`{number.text}`"
             )
         dimension, factor = self.quantities.unit(number.unit, number.origin)
-        term = self.quantities.dimensions.known(dimension, number.origin, number.text)
+        term = self.quantities.dimensions.known(dimension, number.origin, "")
         return self.pool.num(number.value * factor), term
 
     # ------------------------------------------------------------------ operators
@@ -162,23 +163,22 @@ class Expressions:
         if s is None:
             if op in ("==", "!="):
                 return self.equivalence(expr, a, place)
-            self.quantity_needed(left)
+            fail(self.report, "wrong-type", f"`{left.origin.text}` is true or false: a number is "
+                 "needed here.", left.origin, help="Choose one with `if(condition, a, b)`."
+                 )  # fmt: skip
         b, t = self.quantity(expr.right, place)
         match op:
-            case "+":
+            case "+" | "-":
                 self.alike(s, t, expr.origin, "the terms of a sum have one unit")
-                return self.pool.add((1, a), (1, b)), _firmer(s, t)
-            case "-":
-                self.alike(s, t, expr.origin, "the terms of a sum have one unit")
-                return self.pool.add((1, a), (-1, b)), _firmer(s, t)
+                return self.combined(op, a, b, expr), _firmer(s, t)
             case "*":
                 s, t = self.counted(left, b, s), self.counted(expr.right, a, t)
-                return self.checked(self.pool.mul(a, b), expr), self.product(s, t)
+                return self.combined(op, a, b, expr), self.product(s, t)
             case "/":
                 s, t = self.counted(left, b, s), self.counted(expr.right, a, t)
                 if b is self.pool.zero:
                     self.divides_by_zero(expr.right)
-                return self.checked(self.pool.div(a, b), expr), self.quotient(s, t)
+                return self.combined(op, a, b, expr), self.quotient(s, t)
             case "^":
                 return self.power((a, s), (b, t), expr)
         self.alike(s, t, expr.origin, "both sides of a comparison have one unit")
@@ -186,11 +186,23 @@ class Expressions:
             return self.truth_value(_compared(op, a.number, b.number)), None
         return self.pool.compare(op, a, b), None
 
-    def quantity_needed(self, expr: Expression) -> None:
-        """Report a truth value where a number belongs."""
-        fail(self.report, "wrong-type", f"`{expr.origin.text}` is true or false: a number is "
-             "needed here.", expr.origin, help="Choose one with `if(condition, a, b)`."
-             )  # fmt: skip
+    def combined(self, op: str, a: Expr, b: Expr, expr: Binary) -> Expr:
+        """Sum, difference, product or quotient; instances of a model often repeat the same."""
+        key = (op, a, b)
+        made = self._made.get(key)
+        if made is None:
+            pool = self.pool
+            match op:
+                case "+":
+                    made = pool.add((1, a), (1, b))
+                case "-":
+                    made = pool.sub(a, b)
+                case "*":
+                    made = pool.mul(a, b)
+                case _:
+                    made = pool.div(a, b)
+            self._made[key] = self.checked(made, expr)
+        return made
 
     def alike(self, left: Term, right: Term, origin: Span, what: str) -> None:
         """One dimension on both sides, or an error."""

@@ -15,7 +15,7 @@ from bondgraph.ir.syntax import (
     Statement,
 )
 from bondgraph.library.elements import KINDS
-from bondgraph.passes.elaboration.problems import Skip, closest, fail, listed, meant
+from bondgraph.passes.elaboration.problems import Skip, fail, listed, meant
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Source, Span
 
@@ -41,13 +41,13 @@ class Files:
         self.report = report
         self.loaded: dict[str, dict[str, Definition]] = {}
         self.own: dict[str, set[str]] = {}
-        self.loading: list[str] = []
+        self.loading: dict[str, Span | None] = {}  # with the import that is being followed
 
     def definitions(self, file: File, source: Source) -> dict[str, Definition]:
         """Every model that `file` declares or imports, by name."""
         known: dict[str, Definition] = {}
         self.loaded[source.path] = known
-        self.loading.append(source.path)
+        self.loading[source.path] = None
         for model in file.models:
             self.declare(model, known, source)
         self.own[source.path] = set(known)
@@ -58,7 +58,7 @@ class Files:
                 # the names are taken as declared, or every use of them would be reported too
                 for name in item.names:
                     known.setdefault(name, _missing(name, item.origin, source))
-        self.loading.pop()
+        del self.loading[source.path]
         return known
 
     def declare(self, model: Model, known: dict[str, Definition], source: Source) -> None:
@@ -89,9 +89,13 @@ class Files:
                      help="Check the path: it is taken from the folder of this file.")  # fmt: skip
             raise Skip
         source = file.origin.source
+        self.loading[origin.source.path] = origin
         if source.path in self.loading:
-            fail(self.report, "import-cycle", f'"{path}" imports this file, directly or through '
-                 "others.", origin, help="Move what both need into a third file.")  # fmt: skip
+            files = list(self.loading)
+            steps = [self.loading[f] for f in files[files.index(source.path) :]]
+            fail(self.report, "import-cycle", "These imports go round in a circle.",
+                 *[Label(s, "imports the next file") for s in steps if s is not None],
+                 help="Move what both files need into a third one.")  # fmt: skip
         theirs = self.loaded.get(source.path)
         if theirs is None:
             theirs = self.definitions(file, source)
@@ -150,19 +154,21 @@ def pick(
     if name is not None:
         if name not in known:
             names = [d.model.name for d in own]
-            other = closest(name, names)
-            fail(report, "unknown-model", f"The file has no model `{name}`.",
-                 Span(source, 0, 0), help=f"Did you mean `{other}`?" if other
-                 else f"It declares {listed(names) or 'none'}.")  # fmt: skip
+            fail(report, "unknown-model", f"The file has no model `{name}`.", _edition(source),
+                 help=meant(name, names, f"It declares {listed(names) or 'none'}."))  # fmt: skip
         return known[name]
+    if not own and report.failed:
+        raise Skip
     if not own:
-        fail(report, "no-model", "The file declares no model.", Span(source, 0, 0),
+        fail(report, "no-model", "The file declares no model.", _edition(source),
              help="Write `model Name { ... }` after the line `bg 1`.")  # fmt: skip
     used = {n.type for d in own for n in nodes_of(d.model.body) if n.type != d.model.name}
     free = [d for d in own if d.model.name not in used]
     if not free:
         recursion(own[0], report)  # all are used by another: that is a cycle
         raise Skip
+    if len(free) > 1 and report.failed:
+        raise Skip  # an import failed: what it uses is not known
     if len(free) > 1:
         fail(report, "several-models", f"No other model uses {listed(d.model.name for d in free)}: "
              "which one is meant?", *[d.model.name_origin for d in free[:4]],
@@ -170,10 +176,21 @@ def pick(
     return free[0]
 
 
+def _edition(source: Source) -> Span:
+    """The line `bg 1`, below which models belong."""
+    start = 0
+    for line in source.text.splitlines(keepends=True):
+        if line.lstrip("\ufeff ").startswith("bg"):
+            return Span(source, start, start + len(line.rstrip()))
+        start += len(line)
+    return Span(source, 0, 0)
+
+
 def recursion(top: Definition, report: Report) -> None:
     """Report a model that contains itself; raises Skip if there is one."""
     state: dict[int, bool] = {}  # id of a definition: open or done
     path: list[tuple[Definition, Iterator[Node]]] = []
+    entered: list[Node] = []  # how each definition of the path but the first was reached
 
     def enter(definition: Definition) -> None:
         state[id(definition)] = True
@@ -182,6 +199,7 @@ def recursion(top: Definition, report: Report) -> None:
     enter(top)
     while path:
         definition, uses = path[-1]
+        del entered[len(path) - 1 :]
         node = next(uses, None)
         if node is None:
             state[id(definition)] = False
@@ -191,11 +209,13 @@ def recursion(top: Definition, report: Report) -> None:
         if inner is None or node.type in KINDS:
             continue
         if id(inner) not in state:
+            entered.append(node)
             enter(inner)
         elif state[id(inner)]:
-            names = [d.model.name for d, _ in path]
-            names = [*names[[id(d) for d, _ in path].index(id(inner)) :], inner.model.name]
+            first = [id(d) for d, _ in path].index(id(inner))
+            names = [*[d.model.name for d, _ in path[first:]], inner.model.name]
+            steps = [*entered[first:], node]
             fail(report, "recursive-model", "A model cannot contain itself: "
-                 f"{' contains '.join(names)}.", Label(node.origin, f"contains `{node.type}`"),
-                 Label(inner.model.name_origin, "declared here"),
+                 f"{' contains '.join(names)}.",
+                 *[Label(n.origin, f"contains `{n.type}`") for n in steps[:4]],
                  help="Use an array, `Cell:cell[n]`, for something that repeats.")  # fmt: skip

@@ -29,8 +29,7 @@ _PURE = frozenset(
 
 _ALIASES = {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "sgn": "sign"}
 
-_OTHERS = ("if", "int", "der", "table", "sign", "min", "max", "atan2", "pow", "hypot", "log10",
-           "if")  # fmt: skip
+_OTHERS = ("if", "int", "der", "table", "sign", "min", "max", "atan2", "pow", "hypot", "log10")
 
 _ARITY = {
     "int": (1, 2), "der": (1, 1), "table": (2, 2), "if": (3, 3), "atan2": (2, 2), "pow": (2, 2),
@@ -62,14 +61,14 @@ class Functions:
         name = _ALIASES.get(call.name, call.name)
         if name not in _POWERS and name not in _PURE and name not in _OTHERS:
             fail(self.report, "unknown-function", f"There is no function `{call.name}`.",
-                 call.origin, help=meant(call.name, names(), "Write a product with `*`; a nonlinear "
+                 call.origin, help=meant(call.name, names(), "Write a product with `*`; a "
                  'characteristic may come from a table: `table("file.csv", x)`.'))  # fmt: skip
         low, high = _ARITY.get(name, (1, 1))
         if not low <= len(call.arguments) <= high:
-            needs = f"{low}" if low == high else f"{low} to {high}" if high < 64 else f"{low} or more"
-            fail(self.report, "wrong-arguments", f"`{call.name}` takes {needs} "
-                 f"argument{'' if needs == '1' else 's'}, not {len(call.arguments)}.", call.origin,
-                 help="Give as many arguments as it takes.")  # fmt: skip
+            needs = f"{low}" if low == high else f"{low} to {high}"
+            what = f"{needs} argument{'' if needs == '1' else 's'}"
+            fail(self.report, "wrong-arguments", f"`{call.name}` takes {what}, not "
+                 f"{len(call.arguments)}.", call.origin, help=f"Give it {what}.")  # fmt: skip
         match name:
             case "if":
                 return self.choice(call, place)
@@ -88,7 +87,8 @@ class Functions:
             return self.pool.fn("sign", node), PURE
         if name in _POWERS:
             self.defined(name, node, call)
-            return self.pool.fn(name, node), self.of.quantities.dimensions.power(term, _POWERS[name])
+            unit = self.of.quantities.dimensions.power(term, _POWERS[name])
+            return self.pool.fn(name, node), unit
         what = f"`{call.name}` takes a pure number"
         if not self.of.quantities.pure(term, call.arguments[0].origin, what):
             raise Skip

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import assert_never
 
 from bondgraph.ir.syntax import (
-    Argument,
     Chain,
     Fault,
     For,
@@ -22,13 +21,14 @@ from bondgraph.ir.syntax import (
     Statement,
 )
 from bondgraph.library.elements import JUNCTIONS, KINDS
+from bondgraph.library.units import DOMAINS
+from bondgraph.passes.elaboration.arguments import Arguments
 from bondgraph.passes.elaboration.files import Definition, Missing
 from bondgraph.passes.elaboration.problems import Abort, Skip, fail, listed, meant
 from bondgraph.passes.elaboration.scope import (
     Array,
     Bound,
     Env,
-    Given,
     Link,
     Named,
     NodeEntry,
@@ -37,7 +37,7 @@ from bondgraph.passes.elaboration.scope import (
     ValueEntry,
     ValueKind,
 )
-from bondgraph.passes.elaboration.structure import index, mentions, structural, truth, whole_number
+from bondgraph.passes.elaboration.structure import index, mentions, truth, whole_number
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
 
@@ -59,14 +59,13 @@ class Event:
         self.env = env
 
 
-class Opener:
+class Opener(Arguments):
     """Opens the top model and, one after the other, all that it contains."""
 
     def __init__(self, report: Report) -> None:
-        self.report = report
+        super().__init__(report)
         self.waiting: list[Scope] = []
         self.events: list[Event] = []
-        self.givens: list[tuple[Given, Scope | NodeEntry]] = []
         self.made = 0
 
     def open(self, definition: Definition) -> Scope:
@@ -175,6 +174,11 @@ class Opener:
 
     def port(self, port: Port, scope: Scope) -> None:
         """A port of the model."""
+        if port.domain not in DOMAINS:
+            self.report.error(
+                "unknown-domain", f"There is no domain `{port.domain}`.", port.origin,
+                help=meant(port.domain, DOMAINS, f"The domains are {listed(DOMAINS)}."),
+            )  # fmt: skip
         entry = PortEntry(port, scope)
         self.enter(scope.nodes, port.name, None, entry, port.origin)
         scope.ports[port.name] = entry
@@ -185,10 +189,6 @@ class Opener:
             self.body(statement.body, scope, env, statement.name)
             return
         parts = statement.name.parts
-        if len(parts) != 1:
-            fail(self.report, "wrong-name", f"`{statement.name.origin.text}` cannot be declared "
-                 "here.", statement.name.origin,
-                 help="Declare the junction inside its own model.")  # fmt: skip
         for place in self.places(parts[0], scope, env, scope.nodes):
             entry = NodeEntry(statement.type, None, parts[0].name, place, scope, env,
                               statement.name.origin, statement.doc)  # fmt: skip
@@ -245,14 +245,6 @@ class Opener:
                 self.once(entry.given, given)
                 entry.given = given.bound
 
-    def once(self, before: Bound | None, given: Given) -> None:
-        """Refuse a second argument for one thing."""
-        if before is not None:
-            fail(self.report, "duplicate-argument",
-                 f"`{given.argument.target.origin.text}` is given twice.",
-                 Label(given.argument.origin, "given again"), Label(before.origin, "given here"),
-                 help="Keep one of them.")  # fmt: skip
-
     # ------------------------------------------------------------------ nodes
 
     def node(
@@ -303,18 +295,6 @@ class Opener:
             self.givens += [(g, made[0]) for g in own]
         return tuple(made)
 
-    def refuse_givens(self, entry: NodeEntry, givens: list[Given]) -> None:
-        """Only a storage takes arguments (its initial state)."""
-        for given in givens:
-            given.root.used = True
-            self.report.error(
-                "unknown-argument",
-                f"`{entry.type}:{entry.name}` takes no argument "
-                f"`{given.argument.target.origin.text}`.", given.argument.origin,
-                help="Round brackets give the initial state of a C (q0) or an I (p0), or bind the "
-                "params of a submodel; a coefficient is written after `=`.",
-            )  # fmt: skip
-
     def instances(
         self, definition: Definition, node: Node, scope: Scope, env: Env
     ) -> tuple[Scope, ...]:
@@ -344,62 +324,6 @@ class Opener:
             self.givens += [(g, made[0]) for g in own]
         self.waiting += reversed(made)
         return tuple(made)
-
-    def structure(self, scope: Scope) -> None:
-        """The structural arguments of an instance."""
-        for generic in scope.model.generics:
-            if generic.name in scope.generics:
-                self.report.error(
-                    "duplicate-name", f"There are two structural arguments `{generic.name}`.",
-                    generic.origin, help="Rename one of them.",
-                )  # fmt: skip
-            bound: Bound | None = None
-            for given in self.matching(scope.givens, generic.name, None):
-                if len(given.parts) == 1:
-                    given.root.used = True
-                    self.once(bound, given)
-                    bound = given.bound
-            if bound is None:
-                if generic.default is None:
-                    where = scope.origin if scope.parent else generic.origin
-                    fail(self.report, "missing-argument", f"`{scope.model.name}` needs a value of "
-                         f"`{generic.name}`.", Label(where, "used here" if scope.parent else ""),
-                         Label(generic.origin, "declared without a default"),
-                         help=f"Give it where the model is used, `({generic.name} = ...)`, or "
-                         f"declare a default: `{generic.name} : {generic.type} = ...`."
-                         )  # fmt: skip
-                bound = Bound(generic.default, scope, {}, generic.origin)
-            value = structural(bound.value, bound.scope, bound.env, self.report)
-            if isinstance(value, bool) != (generic.type == "bool"):
-                fail(self.report, "wrong-type", f"`{generic.name}` is declared {generic.type}.",
-                     Label(bound.origin, "this is not"), Label(generic.origin, "declared here"),
-                     help="Give an int or a bool, as declared.")  # fmt: skip
-            if not isinstance(value, bool):
-                if value.denominator != 1:
-                    fail(self.report, "not-an-integer", f"`{generic.name}` is declared int, but "
-                         f"given {float(value):g}.", bound.origin,
-                         help="Use a whole number.")  # fmt: skip
-                scope.generics[generic.name] = value.numerator
-            else:
-                scope.generics[generic.name] = value
-
-    def arguments(self, node: Node, scope: Scope, env: Env) -> list[Given]:
-        """The arguments in round brackets, each with where its value is to be read."""
-        return [self.argument(a, scope, env) for a in node.arguments]
-
-    def argument(self, argument: Argument, scope: Scope, env: Env) -> Given:
-        """One argument, its target split into names with their indices."""
-        parts = tuple(
-            [(p.name, index(p, scope, env, self.report)) for p in argument.target.parts]
-        )
-        return Given(parts, Bound(argument.value, scope, env, argument.origin), argument)
-
-    @staticmethod
-    def matching(givens: list[Given], name: str, place: int | None) -> list[Given]:
-        """The arguments whose target begins with `name` (of that index, or of none)."""
-        return [
-            g for g in givens if g.parts[0][0] == name and g.parts[0][1] in (None, place)
-        ]
 
     def places(
         self, part: Part, scope: Scope, env: Env, table: dict[str, Named]
@@ -446,29 +370,3 @@ class Opener:
              Label(origin, "declared again"), Label(before.origin, "declared here"),
              help="Give one of them another name; to add bonds to a junction write its bare "
              "name.")  # fmt: skip
-
-    # ------------------------------------------------------------------ arguments
-
-    def check_arguments(self) -> None:
-        """Report arguments that bind nothing."""
-        for given, entry in self.givens:
-            if given.used:
-                continue
-            text = given.argument.target.origin.text
-            if isinstance(entry, Scope):
-                names = [n for n, v in entry.values.items() if _bindable(v)]
-                names += entry.generics
-                help = meant(given.parts[0][0], names, f"It takes {listed(names) or 'none'}.")
-                message = f"`{entry.model.name}` has no param, input or structural argument `{text}`."
-            else:
-                state = entry.element.state if entry.element is not None else None
-                help = f"An element of this kind takes `{state}0`, its initial state."
-                message = f"`{entry.type}:{entry.name}` takes no argument `{text}`."
-            self.report.error("unknown-argument", message, given.argument.origin, help=help)
-
-
-def _bindable(value: Named) -> bool:
-    if isinstance(value, Array):
-        return any(_bindable(v) for v in value.entries.values())
-    return isinstance(value, ValueEntry) and value.kind in ("param", "const", "input")
-

@@ -48,8 +48,8 @@ class Laws:
             return ()
         if written.law is not None:
             if written.value is not None:
-                fail(self.report, "law-twice", f"`{written.type}:{node.name}` has a coefficient and "
-                     "a law.", Label(written.value.origin, "the coefficient"),
+                fail(self.report, "law-twice", f"`{written.type}:{node.name}` has a coefficient "
+                     "and a law.", Label(written.value.origin, "the coefficient"),
                      Label(written.law.origin, "the law"), help="Keep one of them.")  # fmt: skip
             return self.written(node, element, written)
         if not element.coefficient:
@@ -85,8 +85,8 @@ class Laws:
                 if node.place is None:
                     values.lookup.indexed(part, named, scope, node.env)
                 values.lookup.out_of_range(part, named, node.place or 0)
-            fail(self.report, "missing-value", f"`{written.type}:{node.name}` has no {element.coefficient}: "
-                 f"there is no value `{node.name}`.", written.origin,
+            fail(self.report, "missing-value", f"`{written.type}:{node.name}` has no "
+                 f"{element.coefficient}: there is no value `{node.name}`.", written.origin,
                  help=f"Declare `param {node.name} = ...`, or write `{written.type}:{node.name} = "
                  f"...`, or a law in braces, `{{ {element.law} }}`.")  # fmt: skip
         node_, term = values.value(entry)

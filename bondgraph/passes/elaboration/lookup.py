@@ -71,7 +71,7 @@ class Lookup:
         place = index(part, scope, env, self.report)
         if isinstance(named, Array):
             if place is None:
-                fail(self.report, "index-missing", f"`{part.name}` is an array: which one is meant?",
+                fail(self.report, "index-missing", f"`{part.name}` is an array: which is meant?",
                      Label(part.origin), Label(named.origin, "declared here"),
                      help=f"Give an index, `{part.name}[1]`; in a chain of bonds a range, "
                      f"`{part.name}[1..{max(named.entries, default=1)}]`.")  # fmt: skip

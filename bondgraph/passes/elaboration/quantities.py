@@ -85,15 +85,16 @@ class Quantities:
         self._seeds[root, name] = None
         effort, flow = self.pair(root)
         said = f"port `{port.name}` is {name}"
+        meets = (port.outside or port.inside)[0].bond.origin
         for term, dimension, what in (
             (effort, domain.effort, domain.effort_name),
             (flow, domain.flow, domain.flow_name),
         ):
             if dimension is not None:
                 known = self.dimensions.known(dimension, port.origin, said)
-                conflict = self.dimensions.equate(term, known, port.origin, f"{said}: its {what}")
+                conflict = self.dimensions.equate(term, known, meets, f"{said}: its {what}")
                 if conflict is not None:
-                    self.tell(conflict, f"This port is {name}, its bond is not",
+                    self.tell(conflict, f"Port `{port.name}` is {name}, its bond is not",
                               "Both sides of a bond are of one domain: connect another port, or "
                               "put a transducer (GY or TF) between them.")  # fmt: skip
                     return

@@ -211,7 +211,7 @@ class Records:
         """A `fault` statement."""
         declaration, scope, env = event.declaration, event.scope, event.env
         try:
-            symbol, term, target = self.target(declaration.target, scope, event)
+            _, term, target = self.target(declaration.target, scope, event)
             place = Place(scope, env, scope.path + event.local)
             value, own = self.values.quantity(declaration.value, place)
             if not self.values.constant(value):

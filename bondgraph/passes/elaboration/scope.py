@@ -102,7 +102,7 @@ class NodeEntry:
         self.element = element
         self.name = name
         self.place = place
-        self.path = scope.path + (name if place is None else f"{name}[{place}]")
+        self.path: str = scope.path + (name if place is None else f"{name}[{place}]")
         self.scope = scope
         self.env = env
         self.origin = origin
@@ -136,7 +136,7 @@ class ValueEntry:
     ) -> None:  # fmt: skip
         self.kind = kind
         self.local = name if place is None else f"{name}[{place}]"
-        self.path = scope.path + self.local
+        self.path: str = scope.path + self.local
         self.scope = scope
         self.env = env
         self.declaration = declaration
@@ -160,7 +160,7 @@ class PortEntry:
         self.declaration = declaration
         self.name = declaration.name
         self.scope = scope
-        self.path = scope.path + declaration.name
+        self.path: str = scope.path + declaration.name
         self.inside: list[RawEnd] = []
         self.outside: list[RawEnd] = []
         self.bond = -1
@@ -254,10 +254,8 @@ class Scope:
         self.parent = parent
         self.name = name
         self.place = place
-        if parent is None:
-            self.path = ""
-        else:
-            self.path = f"{parent.path}{name}." if place is None else f"{parent.path}{name}[{place}]."
+        local = name if place is None else f"{name}[{place}]"
+        self.path: str = "" if parent is None else f"{parent.path}{local}."
         self.origin = origin
         self.generics: dict[str, int | bool] = {}
         self.givens: list[Given] = []

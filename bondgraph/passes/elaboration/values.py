@@ -20,11 +20,12 @@ from bondgraph.ir.syntax import (
     Unary,
 )
 from bondgraph.library.dimensions import Term
+from bondgraph.library.elements import SIGNALS
 from bondgraph.library.units import PI
 from bondgraph.passes.elaboration.bonds import FlatBond, sign
 from bondgraph.passes.elaboration.expressions import Expressions, Place
 from bondgraph.passes.elaboration.lookup import Lookup
-from bondgraph.passes.elaboration.problems import Skip, fail
+from bondgraph.passes.elaboration.problems import Skip, fail, listed
 from bondgraph.passes.elaboration.quantities import PURE, Quantities
 from bondgraph.passes.elaboration.scope import (
     Bound,
@@ -53,6 +54,8 @@ class Values(Expressions):
         self.quiet = Lookup(Report())
         self.bonds = bonds
         self.pi = pool.num(PI)
+        # by identity: arguments and declarations outlive this object
+        self._aliases: dict[tuple[int, int], Typed] = {}
 
     # ------------------------------------------------------------------ references
 
@@ -92,6 +95,10 @@ class Values(Expressions):
                 return self.pool.num(generic), PURE
             if part.name == "pi" and len(ref.parts) == 1:
                 return self.pi, PURE
+        own = place.local is not None and part.name in SIGNALS and len(ref.parts) == 1
+        if own and place.local is not None and part.name not in inside.nodes:
+            fail(self.report, "wrong-variable", f"This element has no variable `{part.name}`.",
+                 ref.origin, help=f"Its law relates {listed(place.local)}.")  # fmt: skip
         known = tuple(place.env) + tuple(inside.generics)
         self.lookup.no_value(ref, part, inside, known)
 
@@ -313,7 +320,15 @@ class Values(Expressions):
         return symbol, self.declared(entry, declaration)
 
     def bound(self, entry: ValueEntry, given: Bound) -> Typed:
-        """A name that an argument binds: an alias."""
+        """A name that an argument binds: an alias; the same for all instances of an array."""
+        key = (id(given), id(entry.declaration))
+        found = self._aliases.get(key)
+        if found is None:
+            found = self._aliases[key] = self.alias(entry, given)
+        return found
+
+    def alias(self, entry: ValueEntry, given: Bound) -> Typed:
+        """What an argument gives to a name, checked against how the name is declared."""
         place = Place(given.scope, given.env, entry.path)
         node, term = self.convert(given.value, place)
         declaration = entry.declaration
