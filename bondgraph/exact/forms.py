@@ -33,13 +33,18 @@ class Forms:
         self.functions = functions
         self._taylor = Taylor(functions)
 
-    def known(self, form: Form) -> Series:
-        """A form without unknowns as a series; raises `NotLinear` for another."""
+    def try_known(self, form: Form) -> Series | None:
+        """A form without unknowns as a series, None for another."""
         if not form:
             return [0]
-        if len(form) == 1 and CONSTANT in form:
-            return form[CONSTANT]
-        raise NotLinear(form)
+        return form[CONSTANT] if len(form) == 1 and CONSTANT in form else None
+
+    def known(self, form: Form) -> Series:
+        """A form without unknowns as a series; raises `NotLinear` for another."""
+        value = self.try_known(form)
+        if value is None:
+            raise NotLinear(form)
+        return value
 
     def number(self, x: int) -> Form:
         """A constant."""
@@ -64,8 +69,9 @@ class Forms:
         constants: list[tuple[Series, int]] = []
         linear: Form | None = None
         for form, exponent in factors:
-            if not form or (len(form) == 1 and CONSTANT in form):
-                constants.append((self.known(form), exponent))
+            value = self.try_known(form)
+            if value is not None:
+                constants.append((value, exponent))
             elif linear is None and exponent == 1:
                 linear = form
             elif exponent:

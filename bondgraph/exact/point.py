@@ -41,13 +41,13 @@ class _PointForms(Forms):
         super().__init__(point.setting.functions)
         self._point = point
 
-    def known(self, form: Form) -> Series:
-        if not form or (len(form) == 1 and CONSTANT in form):
-            return super().known(form)[:1]
+    def try_known(self, form: Form) -> Series | None:
+        """The value of a form that the point determines."""
+        known = super().try_known(form)
+        if known is not None:
+            return known[:1]
         row = self._point.reduce(coefficient_row(form, 0, STRIDE))
-        if any(c != CONSTANT for c in row):
-            raise NotLinear(form)
-        return [row.get(CONSTANT, 0)]
+        return None if any(c != CONSTANT for c in row) else [row.get(CONSTANT, 0)]
 
 
 class _PointSample(FormSample):
