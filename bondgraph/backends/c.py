@@ -16,22 +16,20 @@ from bondgraph.backends.facts import (
     about_residual,
     exponential,
 )
+from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples
 from bondgraph.backends.spell import digits
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
+from bondgraph.backends.vectors import Vectors
 from bondgraph.ir.program import Dot, Program
 
 _PURE = ("sign", "ssqrt", "ssq", "equal", "min", "max", "power", "table")
-_LIBRARY = frozenset(
-    "abs sqrt cbrt ssqrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh pow "
-    "atan2".split()
-)
 
 _SCALED = ";\n * derivative k times time_unit to the power k"
 
 
-def holes(program: Program, target: Target, facts: Facts) -> dict[str, object]:
+def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dict[str, object]:
     """Everything that the templates of C leave open."""
     spelling = Spelling(program, target)
     code = Code(program, spelling, facts.stem)
@@ -41,6 +39,7 @@ def holes(program: Program, target: Target, facts: Facts) -> dict[str, object]:
         **_limits(program, facts, code),
         **_Declarations(program, spelling, stem).all(),
         **code.configure(),
+        **Vectors(program, spelling, golden).c(),
         "stem": stem,
         "PREFIX": stem.upper(),
         "guard": f"{stem.upper()}_RESIDUALS_H",
@@ -51,8 +50,9 @@ def holes(program: Program, target: Target, facts: Facts) -> dict[str, object]:
         "unset": " (NaN where the model has none)" if unset else "",
         "helpers": _helpers(program, facts, spelling, has_dot, code),
         "tables": _tables(program, spelling, code),
-        "needs_functions": bool(facts.laws & _LIBRARY),
-        "needs_math": bool(facts.laws & _LIBRARY) or unset,
+        "needs_functions": facts.library,
+        "libm": " -lm" if facts.library else "",
+        "needs_math": facts.library or unset,
         "needs_stddef": "table" in facts.laws or has_dot or bool(code.tapes),
         "beyond_float": ", ".join(f"{n:g}" for n in facts.beyond_float[:8]),
         "exact": code.exact(),
@@ -60,9 +60,6 @@ def holes(program: Program, target: Target, facts: Facts) -> dict[str, object]:
         "block_count": max(1, len(spelling.blocks)),
         "block_names": "; ".join(together(b.residuals) for b in spelling.blocks) or "nothing",
         "report": code.report(),
-        "configure_pad": " " * (len(stem) * 2 + len("_status _configure(")),
-        "step_pad": " " * (len(stem) + len("void _step(")),
-        "exact_pad": " " * (len(stem) + len("void _exact(")),
     }
 
 

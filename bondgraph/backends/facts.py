@@ -26,6 +26,11 @@ ABI = 1
 #: The least bandwidth * sample_time at which a filter still moves, for double and for float.
 SLOWEST, SLOWEST_FLOAT = 1e-9, 1e-4
 
+_LIBRARY = frozenset(
+    "abs sqrt cbrt ssqrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh pow "
+    "atan2".split()
+)
+
 _FLOAT_MIN, _FLOAT_MAX = 1.2e-38, 3.4e38
 
 
@@ -33,13 +38,15 @@ class Facts(NamedTuple):
     """Numbers and texts about a program, ready to be written.
 
     `fastest` is the largest bandwidth * sample_time; `least_sample_time` is 0.0 where no term was
-    left out, and so any rate will do.
+    left out, and so any rate will do. `laws` are the functions that the code needs, `library` says
+    that the mathematical library of C has some of them.
     """
 
     stem: str
     fastest: float
     least_sample_time: float
     laws: frozenset[str]
+    library: bool
     beyond_float: tuple[float, ...]
 
 
@@ -58,6 +65,7 @@ def facts(program: Program) -> Facts:
         max(3.0, 1.01 * default),
         0.999999 / program.rate if program.dropped else 0.0,
         frozenset(laws),
+        bool(laws & _LIBRARY),
         tuple(dict.fromkeys(beyond)),
     )
 
@@ -100,6 +108,9 @@ def _about(unit: str, doc: str, path: str, name: str, where: str) -> str:
 
 
 def about_residual(info: ResidualInfo) -> str:
-    """`0 = ...; sees a, b`: the relation and the faults that it reacts to."""
-    sees = ", ".join(info.faults) or "no fault"
-    return f"0 = {info.text}; sees {sees}" if info.text else f"sees {sees}"
+    """Two paragraphs: `r1 = ...`, what it is, and the faults that it reacts to."""
+    sees = "sees " + (", ".join(info.faults) or "no fault")
+    if not info.text:
+        return sees
+    named = info.text.startswith(f"{info.name} = ")
+    return f"{info.text if named else f'{info.name} = {info.text}'}\n{sees}"

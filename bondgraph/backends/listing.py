@@ -10,7 +10,7 @@ from pathlib import PurePosixPath
 from bondgraph.backends.target import Target
 from bondgraph.text.source import Span
 
-_BREAK = re.compile(r" (?=[+\-*/?:&|<=]|and |or |if |else )|(?<=,) ")
+_BREAK = re.compile(r" (?=[+\-*/?:&|<]|and |or |if |else )|(?<=,) ")
 _COMMENT_LINES = 8
 
 
@@ -36,14 +36,27 @@ def harmless(text: str, target: Target) -> str:
 
 
 def comment(text: str, target: Target, indent: int) -> list[str]:
-    """The lines of a comment; one that goes on for ever is cut short."""
+    """The lines of a comment, paragraph by paragraph; one that goes on for ever is cut short."""
+    opening, middle, closing = target.statements.comment
     space = " " * indent
-    frame = target.statements.comment
-    width = target.width - indent - len(frame) + 3
-    lines = textwrap.wrap(harmless(text, target), width, break_on_hyphens=False) or [""]
-    if len(lines) > _COMMENT_LINES:
-        lines[_COMMENT_LINES:] = ["..."]
-    return [space + frame.format(line) for line in lines]
+    width = target.width - indent - max(len(opening), len(middle)) - len(closing) - 2
+    found: list[str] = []
+    for paragraph in text.split("\n"):
+        lines = textwrap.wrap(harmless(paragraph, target), width, break_on_hyphens=False)
+        if len(lines) > _COMMENT_LINES:
+            lines[_COMMENT_LINES:] = ["..."]
+        found += lines
+    marks = [opening, *[middle] * (len(found) - 1)]
+    lines = [f"{space}{mark} {line}" for mark, line in zip(marks, found, strict=True)]
+    if closing and lines:
+        lines[-1] += f" {closing}"
+    return lines
+
+
+def beside(text: str, target: Target) -> str:
+    """A comment on the line of what it is about."""
+    opening, _, closing = target.statements.comment
+    return f"{opening} {harmless(text, target)} {closing}".rstrip()
 
 
 def statement(prefix: str, value: str, target: Target, indent: int) -> list[str]:
@@ -56,47 +69,61 @@ def statement(prefix: str, value: str, target: Target, indent: int) -> list[str]
     deeper = space + " " * target.tab
     before, after = prefix.format("\0").split("\0")
     if opening:
-        inner = _fill(value, deeper, deeper, target.width)
+        inner = _fill(value, deeper, deeper, target)
         return [space + before + opening, *inner, space + closing + after]
-    return _fill(whole, space, deeper, target.width)
+    return _fill(whole, space, deeper, target)
 
 
-def _fill(text: str, first: str, rest: str, width: int) -> list[str]:
-    """Lines of at most `width` where that is possible, broken as far out in the text as can be."""
+def _fill(text: str, first: str, rest: str, target: Target) -> list[str]:
+    """Lines that fit where that is possible, each broken as far out in the text as can be.
+
+    A line that begins deeper in brackets, or in the middle of a product, stands further right.
+    """
+    places = _places(text)
     lines: list[str] = []
-    lead = first
-    while len(lead + text) > width:
-        room = width - len(lead)
-        best, depth_of_best = -1, 10**9
-        for at, depth in _places(text):
-            if at > room and best >= 0:
-                break
-            if depth < depth_of_best or (depth == depth_of_best and at <= room):
-                best, depth_of_best = at, depth
-        if best < 0:
+    lead, start, began = first, 0, -2
+    while True:
+        room = start + target.width - len(lead)
+        ahead = [p for p in places if p[0] > start]
+        # a line that began deep in brackets ends where they do
+        outer = next((p for p in ahead if p[1] < began and p[0] <= room), None)
+        if outer is None and len(text) <= room:
             break
-        lines.append(lead + text[:best].rstrip())
-        text, lead = text[best:].lstrip(), rest
-    return [*lines, lead + text]
+        fitting = [p for p in ahead if p[0] <= room] or ahead[:1]
+        if not fitting:
+            break
+        least = min(cost for _, cost, _ in fitting)
+        at, began, depth = outer or max(p for p in fitting if p[1] == least)
+        lines.append(lead + text[start:at].rstrip())
+        lead, start = rest + " " * target.tab * min(depth, 5), at + 1
+    return [*lines, lead + text[start:]]
 
 
-def _places(text: str) -> Iterable[tuple[int, int]]:
-    """Where a line may end, and how deep in brackets that is; a product counts as deeper."""
+def _places(text: str) -> list[tuple[int, int, int]]:
+    """Where a line may end, what it costs the reader, and how deep the next line is."""
     starts = {m.start() for m in _BREAK.finditer(text)}
+    found: list[tuple[int, int, int]] = []
     depth = 0
     for at, letter in enumerate(text):
         if letter in "([{":
             depth += 1
         elif letter in ")]}":
             depth -= 1
-        elif letter == " " and at in starts and at > 0:
-            yield at, 2 * depth + (text[at + 1] in "*/")
+        elif at in starts and at > 0:
+            product, choice = text[at + 1] in "*/", text[at + 1] in "?:"
+            found.append((at, 2 * depth + 3 * product - choice, depth + product))
+    return found
 
 
 def table(items: Iterable[str], target: Target, indent: int) -> list[str]:
     """Short items separated by commas, as many a line as fit."""
+    return table_lines([", ".join(items)], target, indent)
+
+
+def table_lines(items: Iterable[str], target: Target, indent: int) -> list[str]:
+    """The same for items that bring their comma."""
     return textwrap.wrap(
-        ", ".join(items),
+        " ".join(items),
         target.width,
         initial_indent=" " * indent,
         subsequent_indent=" " * indent,
@@ -105,19 +132,22 @@ def table(items: Iterable[str], target: Target, indent: int) -> list[str]:
     )
 
 
-def members(
-    declarations: Iterable[tuple[str, str]], target: Target, indent: int
-) -> list[str]:
+def members(declarations: Iterable[tuple[str, str]], target: Target, indent: int) -> list[str]:
     """Declarations with their comments beside them, or above where that is too long."""
-    pairs = [(d, harmless(c, target)) for d, c in declarations]
-    column = max([len(d) for d, _ in pairs if len(d) <= 40], default=0) + 2
+    pairs = list(declarations)
+    short = [d for d, text in pairs if _fits(d, text, target, indent)]
+    column = max(map(len, short), default=0) + 2
     lines: list[str] = []
     for declaration, text in pairs:
-        beside = " " * indent + declaration.ljust(column - 2) + "  "
-        beside += target.statements.comment.format(text)
-        if text and len(beside) <= target.width:
-            lines.append(beside)
+        line = " " * indent + declaration.ljust(column) + beside(text, target)
+        if text and "\n" not in text and len(line) <= target.width:
+            lines.append(line)
         else:
             lines += comment(text, target, indent) if text else []
             lines.append(" " * indent + declaration)
     return lines
+
+
+def _fits(declaration: str, text: str, target: Target, indent: int) -> bool:
+    line = f"{declaration}  {beside(text, target)}"
+    return "\n" not in text and len(line) + indent <= target.width

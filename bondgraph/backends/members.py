@@ -7,22 +7,26 @@ from typing import Literal, NamedTuple
 
 from bondgraph.backends.facts import about_field, about_known, reads_time
 from bondgraph.backends.spelling import DOUBLE_INTEGRAL, INTEGRAL, START, Spelling, suffixes
-from bondgraph.ir.program import Known, Program
+from bondgraph.ir.program import Known, Program, Ref
 
 _SUFFIXES = {
-    INTEGRAL: "its integral since the start, by time_unit",
-    DOUBLE_INTEGRAL: "the integral of that, by time_unit again",
-    START: "its value at the start",
+    INTEGRAL: ("its integral since the start, by time_unit", -1),
+    DOUBLE_INTEGRAL: ("the integral of that, by time_unit again", -2),
+    START: ("its value at the start", None),
 }
 
 
 class Member(NamedTuple):
-    """A member of a struct: `size` is the length of an array, 0 for a plain value."""
+    """A member of a struct: `size` is the length of an array, 0 for a plain value.
+
+    `refs` are the values of the program that it holds, one for each element.
+    """
 
     name: str
     type: Literal["real", "bool", "count"]
     size: int
     text: str
+    refs: tuple[Ref, ...]
 
 
 def samples(program: Program, spelling: Spelling) -> list[Member]:
@@ -31,15 +35,15 @@ def samples(program: Program, spelling: Spelling) -> list[Member]:
 
 
 def _sample(known: Known, name: str) -> Member:
-    text = about_known(known)
+    text, refs = about_known(known), (Ref("known", known.name),)
     if known.kind == "mode":
-        return Member(name, "bool", 0, text)
+        return Member(name, "bool", 0, text, refs)
     if not known.sampled:
         text += "; step does not read it"
     if known.counts is None:
-        return Member(name, "real", 0, text)
+        return Member(name, "real", 0, text, refs)
     what = f"{known.counts:g} counts a turn" if known.counts else "counts"
-    return Member(name, "count", 0, f"{what}; {text}")
+    return Member(name, "count", 0, f"{what}; {text}", refs)
 
 
 def derivatives(program: Program, spelling: Spelling) -> Iterator[Member]:
@@ -48,15 +52,20 @@ def derivatives(program: Program, spelling: Spelling) -> Iterator[Member]:
     for known in program.knowns:
         name, text = inputs[known.name, ""], about_known(known)
         if known.kind == "mode":
-            yield Member(name, "bool", 0, text)
+            yield Member(name, "bool", 0, text, (Ref("known", known.name),))
         elif known.highest >= 1:
-            yield Member(name, "real", known.highest + 1, f"{text}; [k]: its derivative k")
+            size = known.highest + 1
+            refs = tuple(Ref("known", known.name, k) for k in range(size))
+            yield Member(name, "real", size, f"{text}; [k]: its derivative k", refs)
         elif known.highest == 0 or not suffixes(known):
-            yield Member(name, "real", 0, text)
+            yield Member(name, "real", 0, text, (Ref("known", known.name),))
         for suffix in suffixes(known):
-            more = f"{known.path}: {_SUFFIXES[suffix]}"
-            yield Member(inputs[known.name, suffix], "real", 0, more)
+            more, order = _SUFFIXES[suffix]
+            ref = Ref("start", known.name) if order is None else Ref("known", known.name, order)
+            member = inputs[known.name, suffix]
+            yield Member(member, "real", 0, f"{known.path}: {more}", (ref,))
     for field in program.integrals:
-        yield Member(inputs["", field.name], "real", 0, about_field(field))
+        ref = Ref("integral", field.name)
+        yield Member(inputs["", field.name], "real", 0, about_field(field), (ref,))
     if reads_time(program):
-        yield Member("time", "real", 0, "since the start, by time_unit")
+        yield Member("time", "real", 0, "since the start, by time_unit", (Ref("time", "time"),))

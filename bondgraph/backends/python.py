@@ -16,11 +16,13 @@ from bondgraph.backends.facts import (
     about_residual,
     exponential,
 )
+from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples
 from bondgraph.backends.procedure import lines
 from bondgraph.backends.spell import Speller, digits
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
+from bondgraph.backends.vectors import Vectors
 from bondgraph.backends.walk import reads
 from bondgraph.ir.program import Assign, Dot, PolynomialTape, Program
 
@@ -29,9 +31,10 @@ _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 _TYPES = {"real": "float", "bool": "bool", "count": "int"}
 
 
-def holes(program: Program, target: Target, facts: Facts) -> dict[str, object]:
+def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dict[str, object]:
     """Everything that the templates of Python leave open."""
-    return _Module(program, target, facts).all()
+    module = _Module(program, target, facts)
+    return module.all() | Vectors(program, module.spelling, golden).python()
 
 
 class _Module:
@@ -160,11 +163,10 @@ class _Module:
         return {
             "attributes": self._attributes(),
             "checks": self._checks(),
-            "configure_arguments": ", ".join(arguments),
+            "configure_head": _head("_configure", arguments, self.target),
             "configure_values": ", ".join(values),
             "configure": [*head, *body] or ["        # the model needs no coefficients"],
             "parameters_default": "" if self.unset else " | None = None",
-            "parameters_given": "parameters" if self.unset else "parameters or Parameters()",
             "coefficients_are_finite": self._coefficients_are_finite(),
             "settle": self._settle(),
         }
@@ -185,6 +187,8 @@ class _Module:
         limit = f">= {digits(least)}" if least else "> 0.0"
         found = []
         if params:
+            given = "parameters" if self.unset else "parameters or Parameters()"
+            found.append(f"        p = {given}")
             found += self._if("not math.isfinite({0})", params, 8)
             found.append('            raise ValueError("a parameter is not a finite number")')
         found += [
@@ -351,6 +355,14 @@ class _Module:
 
 
 _SCALED = ";\n\n    derivative k times time_unit to the power k."
+
+
+def _head(name: str, arguments: list[str], target: Target) -> list[str]:
+    """The first line of a method, or its first lines where one is too short."""
+    whole = f"    def {name}({', '.join(arguments)}) -> None:"
+    if len(whole) <= target.width:
+        return [whole]
+    return [f"    def {name}(", *[f"        {a}," for a in arguments], "    ) -> None:"]
 
 
 def _tape_name(tape: PolynomialTape) -> str:

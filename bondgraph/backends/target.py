@@ -14,11 +14,12 @@ from bondgraph.backends.templates import codegen
 class Statements(NamedTuple):
     """How statements and comments are written.
 
-    `brackets` stand around a value that needs several lines, `unforeseen` may not occur in a
-    comment: each with what replaces it.
+    `comment` is what opens it, begins its further lines and closes it, `brackets` stand around a
+    value that needs several lines, `unforeseen` may not occur in a comment: each with what
+    replaces it.
     """
 
-    comment: str
+    comment: tuple[str, str, str]
     brackets: tuple[str, str]
     local: str
     assign: str
@@ -62,6 +63,7 @@ def load(folder: str) -> Target:
     own_exp = {"exp": functions.pop("configure_exp")}
     statement = data["statement"]
     opening, closing = statement["brackets"]
+    begin, go_on, end = statement["comment"]
     return Target(
         folder,
         data["name"],
@@ -69,7 +71,7 @@ def load(folder: str) -> Target:
         data["tab"],
         tuple((f"{folder}/{template}", path) for template, path in data["files"].items()),
         Statements(
-            statement["comment"],
+            (begin, go_on, end),
             (opening, closing),
             statement["local"],
             statement["assign"],

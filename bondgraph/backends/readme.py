@@ -1,0 +1,174 @@
+"""The README beside the generated code: what it computes and how to embed it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from bondgraph.backends import listing
+from bondgraph.backends.facts import Facts
+from bondgraph.backends.names import snake
+from bondgraph.ir.program import Field, Known, Program, ResidualInfo
+
+_ROW_FAULTS = 200  # a longer matrix is left to the list of each residual
+
+
+def readme(program: Program, facts: Facts, programs: Mapping[str, str]) -> dict[str, object]:
+    """The holes of README.md.j2; `programs` has the text of the example by target."""
+    stem = facts.stem
+    return {
+        "model": _plain(program.name),
+        "title": _plain(program.title) if program.title else "",
+        "source": _plain(program.source),
+        "digest": program.digest,
+        "rate": f"{program.rate:g}",
+        "residuals": [_residual(r) for r in program.residuals],
+        "matrix": _matrix(program.residuals),
+        "signals": _table(("signal", "unit", "in `step`", "meaning"), map(_signal, program.knowns)),
+        "parameters": _parameters(program.params),
+        "examples": [_EXAMPLES[name](stem, text, facts) for name, text in programs.items()],
+        "usage": _usage(program, facts, tuple(programs)),
+        "dropped": _table(
+            ("residual", "signal", "derivative", "share of the largest term"),
+            [
+                (f"`{d.residual}`", f"`{d.signal}`", str(d.order), f"{d.share:.1e}")
+                for d in program.dropped
+            ],
+        )
+        if program.dropped
+        else [],
+    }
+
+
+def _plain(text: str) -> str:
+    return " ".join(text.split())
+
+
+def _cell(text: str) -> str:
+    return _plain(text).replace("|", "\\|")
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    found = [f"| {' | '.join(head)} |", f"|{'---|' * len(head)}"]
+    return found + [f"| {' | '.join(_cell(c) for c in row)} |" for row in rows]
+
+
+def _residual(info: ResidualInfo) -> dict[str, object]:
+    text = info.text or "(too long to be written here)"
+    if info.text and not info.text.startswith(f"{info.name} = "):
+        text = f"{info.name} = {info.text}"
+    facts = []
+    if info.order >= 0:
+        facts.append(f"highest derivative: {info.order}")
+    where = listing.place(info.origin)
+    if where:
+        facts.append(f"closed by {where}")
+    facts.append("sees " + (", ".join(f"`{f}`" for f in info.faults) or "no fault"))
+    if info.invisible:
+        hidden = ", ".join(f"`{f}`" for f in info.invisible)
+        facts.append(f"`step` cannot see at this sample rate: {hidden}")
+    if info.approximate:
+        facts.append(f"`step` is an approximation: {_plain(info.approximate)}")
+    if info.unavailable:
+        facts.append(f"`step` never has it: {_plain(info.unavailable)}")
+    return {"name": info.name, "text": text.replace("```", "'''"), "facts": facts}
+
+
+def _matrix(residuals: Sequence[ResidualInfo]) -> list[str]:
+    faults = list(dict.fromkeys(f for r in residuals for f in r.faults))
+    if len(faults) > _ROW_FAULTS:
+        return ["The matrix is long; each residual above names the faults that it sees."]
+    rows: dict[tuple[bool, ...], list[str]] = {}
+    for fault in faults:
+        rows.setdefault(tuple(fault in r.faults for r in residuals), []).append(fault)
+    head = (*[f"`{r.name}`" for r in residuals], "faults, not told apart within a row")
+    return _table(
+        head,
+        (
+            (*["x" if hit else "" for hit in row], ", ".join(f"`{f}`" for f in group))
+            for row, group in rows.items()
+        ),
+    )
+
+
+def _signal(known: Known) -> tuple[str, str, str, str]:
+    use = "a number"
+    if known.kind == "mode":
+        use = "a truth value"
+    elif known.counts is not None:
+        per_turn = f", {known.counts:g} a turn" if known.counts else ""
+        use = f"32-bit counts{per_turn}, may run over"
+    if not known.sampled:
+        use = "not read"
+    return f"`{known.path}`", known.unit or "-", use, known.doc or known.kind
+
+
+def _parameters(params: Sequence[Field]) -> list[str]:
+    if not params:
+        return ["The residuals have no parameters."]
+    rows = (
+        (f"`{f.path}`", f.unit or "-", "yours" if f.default is None else f"{f.default:g}", f.doc)
+        for f in params
+    )
+    return _table(("parameter", "unit", "value in the model", "meaning"), rows)
+
+
+def _c_example(stem: str, text: str, facts: Facts) -> dict[str, object]:
+    libm = " -lm" if facts.library else ""
+    return {
+        "title": "A complete program in C",
+        "language": "c",
+        "code": text,
+        "text": (
+            f"This is `example.c`. Compile it with\n"
+            f"`cc -std=c99 -O2 example.c {stem}_residuals.c -o example{libm}`, or everything, the\n"
+            "library, this program and the self-test, with `cmake -B build && cmake --build build "
+            "&&\nctest --test-dir build`."
+        ),
+    }
+
+
+def _python_example(stem: str, text: str, facts: Facts) -> dict[str, object]:
+    return {
+        "title": "A complete program in Python",
+        "language": "python",
+        "code": text,
+        "text": (
+            f"This is `example.py`; `{stem}_residuals.py` needs nothing but Python 3.11. "
+            "`python selftest.py`\nchecks it."
+        ),
+    }
+
+
+_EXAMPLES = {"c": _c_example, "python": _python_example}
+
+
+def _usage(program: Program, facts: Facts, targets: Sequence[str]) -> list[str]:
+    settle = max((r.settle for r in program.residuals), default=0.0)
+    wait = settle / program.bandwidth
+    stem, prefix = facts.stem, snake(program.name).upper()
+    found = [
+        f"- **`configure`** computes all coefficients, once. It was made for a sample time of "
+        f"{1 / program.rate:g} s and a filter of {program.bandwidth:g} rad/s; a slower filter is "
+        "later and quieter.",
+        "- **`step`** takes samples. All signals pass one and the same filter, so that the result "
+        "is the residual itself, filtered, without forming a derivative.",
+        f"- **Warm-up**: a residual is flagged valid {wait:.2g} s after the first sample ({settle:g} "
+        "time constants of the filter). Until then, do not judge it.",
+        "- **Bad samples**: NaN or infinity in a signal, or a law outside its domain, makes the "
+        "residuals that see it 0 and invalid, and starts their filter anew at the next good "
+        "sample; integrals begin again at their initial values. Other residuals go on. After a "
+        "gap in the samples call `reset`.",
+        "- **Threshold**: a healthy residual is near zero, not zero. Take a log of the healthy "
+        "machine, and set the threshold above what you see.",
+        "- **`exact`** takes exact derivatives of the signals, for tests and simulators; it "
+        "filters nothing.",
+    ]
+    if "c" in targets:
+        found += [
+            f"- **C**: C99 or C++, no heap, no globals; one monitor is one `{stem}_monitor`, and "
+            f"several may run side by side. `-D{prefix}_FLOAT` computes in `float`, without any "
+            f"`double`. `{stem}_abi()` and `{stem}_digest()` tell what a compiled library is. "
+            "`-ffp-contract=off` gives the same digits as Python; `-ffast-math` is refused, "
+            "because it cannot tell NaN.",
+        ]
+    return found
