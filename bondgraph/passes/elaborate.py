@@ -29,7 +29,7 @@ from bondgraph.passes.elaboration.variables import create, initial_values
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source
 
-_MODAL = (Kind.MODE, Kind.PARAM, Kind.CONST, Kind.INPUT, Kind.SENSOR)
+_MODAL = (Kind.MODE, Kind.PARAM, Kind.CONST, Kind.INPUT)
 
 
 def elaborate(
@@ -188,9 +188,9 @@ class _Elaboration:
             node = values.condition(entry.when.value, place)
             for symbol in topological([node]):
                 if symbol.op is Op.SYM and symbol.symbol.kind not in _MODAL:
-                    fail(self.report, "not-a-mode", f"`{symbol.symbol.name}` is not known while "
-                         "the model runs, so it cannot switch a junction.", entry.when.origin,
-                         help="Use an `input ... : bool`, or a condition of inputs and sensors."
+                    fail(self.report, "not-a-mode", f"`{symbol.symbol.name}` is no input, so it "
+                         "cannot switch a junction.", entry.when.origin,
+                         help="Declare the mode, `input on : bool`, and write `when on`."
                          )  # fmt: skip
         except Skip:
             return None

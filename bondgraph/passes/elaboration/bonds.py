@@ -58,9 +58,8 @@ class Flattener:
             if not node.bonds and not node.scope.unlinked:
                 self.unconnected(node, "has no bond", "Connect it with `->`, or remove it.")
             return
-        law = node.declaration.law if node.declaration is not None else None
-        named = [p.name for p in law.ports] if law is not None and element.fields else []
-        names = named or list(element.ports)
+        named = node.named_ports
+        names = named or element.ports
         node.ports = [PortVariables(n) for n in names]
         if named:
             self.named_ports(node, named)
@@ -89,7 +88,7 @@ class Flattener:
                     self.unconnected(node, "has no bond", "Connect it with `->`, or remove it.")
                     return
 
-    def named_ports(self, node: NodeEntry, names: list[str]) -> None:
+    def named_ports(self, node: NodeEntry, names: tuple[str, ...]) -> None:
         """The ports of a field."""
         first: dict[str, RawEnd] = {}
         for end in node.bonds:
@@ -213,7 +212,7 @@ class Flattener:
         while isinstance(end.at, PortEntry):
             port = end.at
             beyond = port.ends("outside" if end.key == "inside" else "inside")
-            if len(beyond) != 1:
+            if len(beyond) != 1 or len(port.ends(end.key)) != 1:
                 if not beyond and port.scope.parent is None and end.key == "inside":
                     return passed, self.open_end(port)
                 return passed, None

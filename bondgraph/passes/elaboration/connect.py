@@ -146,8 +146,7 @@ class Wiring:
                 self.no_port(ref, rest[0], entry.local, tuple(entry.ports), entry)
             return entry, "", ref.origin
         assert isinstance(entry, NodeEntry)
-        law = entry.declaration.law if entry.declaration is not None else None
-        names = tuple([p.name for p in law.ports]) if law is not None else ()
+        names = entry.named_ports
         if rest and (len(rest) > 1 or rest[0].name not in names):
             self.no_port(ref, rest[0], entry.name, names)
         if entry.scope is not scope:
@@ -160,8 +159,7 @@ class Wiring:
         """A node without the name of a port; a field must have one only."""
         if isinstance(entry, Scope):
             return entry, "", origin
-        law = entry.declaration.law if entry.declaration is not None else None
-        names = [p.name for p in law.ports] if law is not None else []
+        names = entry.named_ports
         if len(names) > 1:
             fail(self.report, "ambiguous-port", f"Which port of `{entry.name}` is meant?",
                  Label(origin), Label(entry.origin, f"has {listed(names)}"),

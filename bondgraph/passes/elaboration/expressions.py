@@ -172,10 +172,10 @@ class Expressions:
                 self.alike(s, t, expr.origin, "the terms of a sum have one unit")
                 return self.combined(op, a, b, expr), _firmer(s, t)
             case "*":
-                s, t = self.counted(left, b, s), self.counted(expr.right, a, t)
+                s, t = self.counted(left, a, b, s), self.counted(expr.right, b, a, t)
                 return self.combined(op, a, b, expr), self.product(s, t)
             case "/":
-                s, t = self.counted(left, b, s), self.counted(expr.right, a, t)
+                s, t = self.counted(left, a, b, s), self.counted(expr.right, b, a, t)
                 if b is self.pool.zero:
                     self.divides_by_zero(expr.right)
                 return self.combined(op, a, b, expr), self.quotient(s, t)
@@ -219,15 +219,15 @@ class Expressions:
         """The dimension of a quotient."""
         return left if right is PURE else self.quantities.dimensions.quotient(left, right)
 
-    def counted(self, expr: Expression, other: Expr, term: Term) -> Term:
+    def counted(self, expr: Expression, node: Expr, other: Expr, term: Term) -> Term:
         """A small whole number (or half of one) beside a constant is a count: it has no unit.
 
         The 2 of `L/2` and of `2*R` is one; so `R:R1 = L/2` is found. Beside a signal, as in
         `e = 10*f`, a plain number may stand for a coefficient with a unit, and so may 9.81.
         """
-        if not isinstance(expr, Number) or expr.unit is not None:
+        if node.op is not Op.NUM or not _plain(expr):
             return term
-        value = expr.value
+        value = node.number
         if value.denominator not in _COUNTS or abs(value.numerator) > _MOST_COUNT:
             return term
         return PURE if other.op is not Op.NUM and self.constant(other) else term
@@ -310,6 +310,19 @@ class Expressions:
         if bits * abs(exponent) > _MOST_BITS:
             fail(self.report, "number-too-large", "This number is too large.", expr.origin,
                  help="A double holds numbers up to 1e308.")  # fmt: skip
+
+
+def _plain(expr: Expression) -> bool:
+    """Whether only numbers without a unit are written, as in `1/2`."""
+    match expr:
+        case Number():
+            return expr.unit is None
+        case Unary():
+            return _plain(expr.operand)
+        case Binary():
+            return _plain(expr.left) and _plain(expr.right)
+        case _:
+            return False
 
 
 def _firmer(left: Term, right: Term) -> Term:

@@ -226,7 +226,7 @@ class Laws:
         if not zero:
             self.agree(s, t, equation.origin, f"both sides of the law of `{node.local}` have one "
                        "unit")  # fmt: skip
-        expr = self.pool.sub(left, right)
+        expr = right if left is self.pool.zero else self.pool.sub(left, right)
         own = [v for v, _ in local.values()]
         present = symbols(expr)
         if not any(v in present for v in own):

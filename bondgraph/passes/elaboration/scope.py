@@ -117,6 +117,14 @@ class NodeEntry:
         self.slot = -1
 
     @property
+    def named_ports(self) -> tuple[str, ...]:
+        """The ports that the law of a field declares."""
+        law = self.declaration.law if self.declaration is not None else None
+        if law is None or self.element is None or not self.element.fields:
+            return ()
+        return tuple([p.name for p in law.ports])
+
+    @property
     def local(self) -> str:
         """The name as its own model writes it."""
         return self.name if self.place is None else f"{self.name}[{self.place}]"

@@ -1,0 +1,201 @@
+"""What elaboration refuses: one error a cause, with place and remedy, and no traceback."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.unit.passes.elaborating import body_errors, errors, run
+
+BASE = "Se:U -> 1:j; j -> R:r = 2; j -> Df:y\n"
+
+ONE = [
+    ("j -> R:x = k", "unknown-name"),
+    ("j -> R:x = r", "not-a-value"),
+    ("j -> R:x", "missing-value"),
+    ("j -> y2", "unknown-name"),
+    ("j -> X:x", "unknown-type"),
+    ("j -> C:x(p0 = 1) = 1", "unknown-argument"),
+    ("j -> R:x(q0 = 1) = 1", "unknown-argument"),
+    ("j -> C:x(q0 = y) = 1", "not-constant"),
+    ("j -> TF:x = 2 -> R:z = 1", "missing-relation"),
+    ("j -> TF:x { f1 = 2*f2 }", "unconnected"),
+    ("j -> R:x { e = 2*q }", "wrong-variable"),
+    ("j -> R:x { y = 2 }", "law-without-variable"),
+    ("j -> R:x { e = 2*f; e = 3*f }", "wrong-law-count"),
+    ("j -> R:x = 1 { e = 2*f }", "law-twice"),
+    ("j -> De:x", "misplaced-detector"),
+    ("j -> Df:x { e = f }", "law-not-allowed"),
+    ("C:x = 1", "unconnected"),
+    ("0:k", "unconnected"),
+    ("j -> R:r = 1", "duplicate-name"),
+    ("param a = 1; param a = 2", "duplicate-name"),
+    ("param y = 1", "duplicate-name"),
+    ("r -> 0:k; k -> R:z = 1", "too-many-bonds"),
+    ("let a = b; let b = a", "circular-definition"),
+    ("let a = a", "circular-definition"),
+    ("param a = b + 1; param b = 2*a; j -> R:x = a", "circular-definition"),
+    ("sensor s = s + j.f", "circular-definition"),
+    ("sensor s = 2", "constant-sensor"),
+    ("param a = y", "not-constant"),
+    ("let a = j.e", "no-such-signal"),
+    ("let a = r.q", "no-such-signal"),
+    ("let a = y > 1; j -> R:x = a", "wrong-type"),
+    ("let a = y + (y > 1)", "wrong-type"),
+    ("let a = if(y, 1, 2)", "not-a-condition"),
+    ('let a = "text"', "wrong-type"),
+    ("let a = 1/0", "division-by-zero"),
+    ("let a = 0^(-1)", "division-by-zero"),
+    ("let a = sqrt(-1)", "undefined-value"),
+    ("let a = log(0)*y", "undefined-value"),
+    ("let a = (-8)^0.5", "undefined-value"),
+    ("let a = 10^100000", "number-too-large"),
+    ("let a = y^100000", "number-too-large"),
+    ("let a = tan(1, 2)", "wrong-arguments"),
+    ("let a = sine(y)", "unknown-function"),
+    ('let a = table("none.csv", y)', "unreadable-table"),
+    ("param a = 2 furlong", "unknown-unit"),
+    ("let a = 2 m + 3 s", "unit-mismatch"),
+    ("let a = sin(2 m)", "unit-mismatch"),
+    ("let a = 2^(1 m)", "unit-mismatch"),
+    ("let a = 1 m > 2 s", "unit-mismatch"),
+    ("input road : N; j <- Se:road; j -> R:z = 2 V/A; j -> C:c = 1 m", "unit-mismatch"),
+    ("sensor s : V = j.f; j -> I:m = 1 V.s/A; j -> C:c = 1 V; let w = j.f*1 Ohm", "unit-mismatch"),
+    ("for i in 1..1.5 { }", "not-an-integer"),
+    ("for i in 1..y { }", "not-structural"),
+    ("if 3 { }", "not-a-condition"),
+    ("param a[2] = 1; let b = a[3]", "index-out-of-range"),
+    ("param a[2] = 1; let b = a", "index-missing"),
+    ("param a = 1; let b = a[1]", "index-not-allowed"),
+    ("param a[2] = 1; let b = a[1..2]", "range-not-allowed"),
+    ("fault f : nothing += 1", "unknown-name"),
+    ("const c = 1; fault f : c += 1", "not-a-fault"),
+    ("fault f : y *= 2 V", "unit-mismatch"),
+    ("fault f : y *= y", "not-constant"),
+    ("param a = 2 A +- 1 V; j -> R:x = a", "unit-mismatch"),
+    ("param a = 0 V +- 1 V; let b = a", "wrong-tolerance"),
+    ("1:k when y > 1 { <- j }", "not-a-mode"),
+    ("1:k when 3 { <- j }", "not-a-condition"),
+    ("j -> j", "self-bond"),
+    ("r { -> R:x = 1 }", "not-a-junction"),
+    ("j -> TF:x { port a; port b; a.e = b.e; a.f = b.f } -> R:z = 1", "ports-not-allowed"),
+    ("Se:V { f = 2 } -> j", "wrong-variable"),
+    ("j -> TF:x { f1 = f2^2 } -> R:z = 1", "not-a-relation"),
+    ("Df:z = j.f; j -> z", "not-a-sensor"),
+    ("param R : Ohm; j -> C:c = 1 F; let a = R + c.q/c.e", "unit-mismatch"),
+]
+
+
+@pytest.mark.parametrize(("line", "code"), ONE)
+def test_one_error_a_cause(line: str, code: str) -> None:
+    said = run(f"model M {{\n{BASE}{line}\n}}")[1]
+    assert [d.code for d in said if d.severity == "error"] == [code]
+    assert all(d.message and d.help and d.labels for d in said)
+
+
+PART = "model Part { port a : in electrical; port b : out electrical; param R = 1; a -> R:R -> b }\n"
+LOAD = "model Load(n : int = 1) { port a : in electrical; param R : Ohm; input w; a -> R:R }\n"
+
+SUBMODELS = [
+    (PART + "model M { Part:p; Se:U -> p.a }", ["open-port", "too-many-bonds"]),
+    (LOAD + "model M { Load:p(R = 1) }", ["open-port"]),
+    (LOAD + "model M { Se:U -> Load:p }", ["missing-argument"]),
+    (LOAD + "model M { Se:U -> Load:p(R = 1, S = 2) }", ["unknown-argument"]),
+    (LOAD + "model M { Se:U -> Load:p(R = 1, R = 2) }", ["duplicate-argument"]),
+    (LOAD + "model M { Se:U -> Load:p(R = 1, n = 1.5) }", ["not-an-integer"]),
+    (LOAD + "model M { Se:U -> Load:p(R = 1, n = true) }", ["wrong-type"]),
+    (LOAD + "model M { Se:U -> Load:p(R = 3 V) }", ["unit-mismatch"]),
+    (LOAD + "model M { Se:U -> 1:j; Load:p(R = j.f); j -> p }", ["not-constant"]),
+    (LOAD + "model M { Se:U -> Load:p(R = 1) = 3 }", ["not-an-element"]),
+    (LOAD + "model M { Se:U -> Load:p(R = 1); Se:V -> p.b }", ["unknown-port"]),
+    (LOAD + "model M { Se:U -> Load:p(R = 1); Se:V -> p }", ["too-many-bonds"]),
+    (LOAD + "model M { Se:U -> Load:p(R = 1); Se:V -> p.R }", ["hidden-node"]),
+    (LOAD + "model M { Load:p[2](R = 1); Se:U -> p[3]; }", ["index-out-of-range"]),
+    ("model A { A:a }", ["recursive-model"]),
+    ("model A { B:b }\nmodel B { A:a }", ["recursive-model"]),
+    ("model A { port p : in any; Se:U -> R:r = 1 }\nmodel M { A:a; Se:V -> a }", ["unconnected"]),
+    ("model A { port p : in rotation; p -> R:r = 1 }\n"
+     "model B { port p : out hydraulic; Se:U -> p }\nmodel M { B:b -> A:a }", ["unit-mismatch"]),
+    ("model M { param a = 1 }", ["empty-model"]),
+    ("model R { Se:U -> C:c = 1 }", ["reserved-name"]),
+    ("model A { port p : in any; port q : out any; p -> q }\nmodel M { A:a -> a }", ["port-loop"]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "codes"), SUBMODELS)
+def test_submodels(text: str, codes: list[str]) -> None:
+    assert errors(text) == codes
+
+
+def test_an_error_inside_a_thousand_instances_is_one() -> None:
+    text = (
+        "model Cell { port a : in any; port b : out any; 1:j { <- a; -> R:r = k; -> b } }\n"
+        "model M { Cell:c[1000]; Se:U -> c[1..1000] -> R:r = 1 }"
+    )
+    assert errors(text) == ["unknown-name"]
+
+
+def test_several_errors_in_one_run() -> None:
+    found = body_errors(BASE + "j -> R:x = a\nlet b = 1/0\nparam c = 2 Ohmm\nj -> X:z\nlet d = z.f")
+    assert sorted(found) == ["division-by-zero", "unknown-name", "unknown-type", "unknown-unit"]
+
+
+def test_the_remedy_names_what_was_meant() -> None:
+    said = run(f"model M {{ {BASE} param stiffness = 2; j -> C:c = 1/stifness }}")[1]
+    assert "`stiffness`" in said[0].help
+    assert said[0].labels[0].span.text == "stifness"
+
+
+def test_a_mismatch_names_both_units_and_places() -> None:
+    said = run(
+        "model Load { port a : in electrical; param R = 3 V; a -> R:R }\nmodel M { Se:U -> Load:x }"
+    )[1]
+    assert "V" in said[0].message
+    assert len(said[0].labels) > 1
+
+
+def test_plain_numbers_take_the_unit_their_use_requires() -> None:
+    assert body_errors("Se:U = 3 V -> 1:j; j -> R:r = 10; j -> Df:y; j -> C:c = 1 uF; "
+                       "j -> R:z { e = 10*f + 3*tanh(f/0.1) }") == []  # fmt: skip
+    assert body_errors("Se:U = 2 V + 3 -> 1:j; j -> R:r = 2 kOhm; let h = 9.81*2 kg") == []
+
+
+def test_counts_beside_a_constant_have_no_unit() -> None:
+    text = "param L = 1 mH; Se:U = 3 V -> 1:j; j -> I:m = L; j -> R:r = {}*L; j -> Df:y"
+    assert body_errors(text.replace("{}", "1/2")) == ["unit-mismatch"]
+
+
+def test_units_go_through_junctions_and_two_ports() -> None:
+    text = (
+        "param k = 0.1 N.m/A; input T : {}\n"
+        "Se:U = 3 V -> 1:i; i -> R:r = 2 Ohm; i -> GY:k -> 1:w; w -> R:b = 1 N.m.s; w <- Se:T"
+    )
+    assert body_errors(text.replace("{}", "N.m")) == []
+    assert body_errors(text.replace("{}", "N")) == ["unit-mismatch"]
+
+
+def test_huge_sizes_are_refused_at_once() -> None:
+    assert body_errors(BASE + "for i in 1..1000000000 { let a[i] = 1 }") == ["model-too-large"]
+    assert body_errors(BASE + "param a[999999999] = 1") == ["model-too-large"]
+
+
+WORDS = st.sampled_from(
+    "Se:U R:r C:c 1:j 0:k TF:t GY:g De:y Df:z j k r t = 2 3 * ( ) { } -> <- ; param let sensor fault "
+    "input a b e f a[1] for i in 1..2 if true cell model M port p : in any out when int der Ohm"
+    .split()
+)  # fmt: skip
+
+
+@given(st.lists(WORDS, max_size=40))
+def test_any_words_give_a_model_or_a_diagnostic(words: list[str]) -> None:
+    from bondgraph.frontend.parser import parse
+    from bondgraph.passes.elaborate import elaborate
+    from bondgraph.text.diagnostic import Report
+    from bondgraph.text.source import Source
+
+    source, report = Source("m.bg", "bg 1\nmodel T {\n" + " ".join(words) + "\n}"), Report()
+    file = parse(source, report)
+    if file is not None:
+        found = elaborate(file, source, None, lambda _, __: None, report, False)
+        assert (found is None) == report.failed
