@@ -72,7 +72,7 @@ class Procedure:
         self._users: dict[Expr, int] = {}
 
     def values(
-        self, roots: Iterable[Expr], origin: Span | None | Mapping[Expr, Span | None]
+        self, roots: Iterable[Expr], origin: Span | Mapping[Expr, Span | None] | None
     ) -> list[Expression]:
         """The values of the roots, after the statements that they need were appended.
 
@@ -126,7 +126,9 @@ class Procedure:
                 continue
             if node.op in (Op.ADD, Op.MUL):
                 piece = pieces[node] = self._piece(node)
-                stack += [a for _, _, factors in piece.terms for a, _ in factors]
+                stack += [
+                    a for _, _, fs in piece.terms for a, e in fs for _ in range(min(abs(e), 2))
+                ]
             elif node.op in (Op.CMP, Op.LOGIC, Op.IF, Op.FN):
                 stack += _operands(node)
             else:

@@ -16,9 +16,9 @@ from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import label
 from bondgraph.passes.lowering.names import identifier, short
-from bondgraph.passes.lowering.numeric import evaluate
+from bondgraph.passes.lowering.polynomials import Effects, low_orders
 from bondgraph.passes.lowering.procedure import Procedure
-from bondgraph.passes.lowering.visible import Seen, frequency
+from bondgraph.passes.lowering.visible import Seen, frequency, split
 
 _ENOUGH = 64  # orders that the time unit is judged by
 
@@ -34,27 +34,26 @@ class Large(NamedTuple):
 
     def seen(self, builder: Builder, rate: float, resolution: float, highest: int) -> Seen | str:
         """The visible terms; their coefficients are elements of the arrays."""
-        sizes = low_orders(builder, self.tape, 1 / frequency(rate), highest + 2)
-        if sizes is None:
+        low = low_orders(builder, self.tape, 1 / frequency(rate), highest + 2)
+        if low is None:
             return f"it has derivatives up to order {self.statement.length - 1} and no numbers"
         pool, unit = builder.pool, builder.option("time_unit")
-        kept: list[Term] = []
-        dropped: list[tuple[Term, float]] = []
-        largest: dict[Expr, float] = {}
+        terms: list[Term] = []
+        sizes: list[float] = []
+        far: list[tuple[Term, float]] = []
         for leaf in self.tape.leaves:
-            row = sizes[leaf.node]
-            top = largest[leaf.atom] = max(map(abs, row), default=0.0)
             array, length = self.arrays[leaf.atom]
-            for k in range(min(length, len(row))):
-                value = pool.mul(builder.element(array, k), pool.power(unit, k))
-                term = Term(leaf.atom, k, value, leaf.static)
-                if top and abs(row[k]) >= resolution * top:
-                    kept.append(term)
+            row = low[leaf.node]
+            for k in range(length):
+                if k < len(row):
+                    value = pool.mul(builder.element(array, k), pool.power(unit, k))
+                    terms.append(Term(leaf.atom, k, value, leaf.static))
+                    sizes.append(abs(row[k]))
                 else:
-                    dropped.append((term, abs(row[k]) / top if top else 0.0))
-            for k in range(len(row), length):
-                dropped.append((Term(leaf.atom, k, pool.one, leaf.static), 0.0))
-        return Seen(tuple(kept), tuple(dropped), largest)
+                    far.append((Term(leaf.atom, k, pool.one, leaf.static), 0.0))
+        effect = Effects(builder, self.tape, rate, highest)
+        found = split(tuple(terms), sizes, resolution, effect)
+        return found._replace(dropped=(*found.dropped, *far))
 
 
 def large(builder: Builder, residual: Residual, tape: Tape, rate: float) -> Large:
@@ -69,9 +68,15 @@ def large(builder: Builder, residual: Residual, tape: Tape, rate: float) -> Larg
     ops, rows, where = _allocate(tape)
     unit = builder.option("time_unit")
     scales: dict[Expr, int] = {}
+    shifted: dict[tuple[Expr, int], Expr] = {}
     table: list[TapeOp] = []
     for (target, source, length_, fresh), edge in zip(ops, tape.edges, strict=True):
-        value = builder.pool.mul(edge.scale, builder.pool.power(unit, -edge.shift))
+        value = edge.scale
+        if edge.shift:
+            value = shifted.get((edge.scale, edge.shift), value)
+            if value is edge.scale:
+                value = builder.pool.mul(value, builder.pool.power(unit, -edge.shift))
+                shifted[edge.scale, edge.shift] = value
         at = scales.setdefault(value, len(scales))
         table.append(TapeOp(target, source, edge.shift, at, length_, fresh))
     resolved = builder.resolve(list(scales))
@@ -131,29 +136,6 @@ def _allocate(
         if last[edge.source] == at and edge.source not in kept:
             free.append(where[edge.source])
     return out, rows, where
-
-
-def low_orders(
-    builder: Builder, tape: Tape, unit: float, highest: int
-) -> dict[int, list[float]] | None:
-    """The first coefficients of every leaf times unit**-k, by node; None without numbers."""
-    values: dict[Expr, float] = {}
-    scales = list(dict.fromkeys(e.scale for e in tape.edges))
-    for scale, resolved in zip(scales, builder.resolve(scales), strict=True):
-        value = evaluate(resolved, builder.floats)
-        if value is None:
-            return None
-        values[scale] = float(value)
-    rows: dict[int, list[float]] = {0: [1.0]}
-    for edge in tape.edges:
-        factor = values[edge.scale] * (1 / unit) ** edge.shift
-        source = rows[edge.source]
-        target = rows.setdefault(edge.target, [])
-        size = min(len(source) + edge.shift, highest)
-        target += [0.0] * (size - len(target))
-        for i in range(min(len(source), size - edge.shift)):
-            target[i + edge.shift] += factor * source[i]
-    return {leaf.node: rows[leaf.node] for leaf in tape.leaves}
 
 
 def _time_unit(builder: Builder, tape: Tape, rate: float) -> float:

@@ -1,13 +1,15 @@
 """Which terms of a residual can be seen at a sample rate, and which faults that leaves.
 
-METHOD: a term c p**k y is small when |c| w**k is far below the largest term of the same signal at
-the highest frequency that samples show usefully, w = pi rate / 5 (a tenth of the rate in Hz).
+A term c p**k y is seen if at some frequency up to w = pi rate / 5 (a tenth of the rate in Hz) its
+size |c| w**k reaches a given part of the largest term of the same signal there (METHOD 4.5). To
+look at the highest frequency alone would be wrong: there a small friction hides behind a large
+inertia, but at constant speed it is all there is.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, symbols
@@ -15,16 +17,54 @@ from bondgraph.ir.normal import Term
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.numeric import evaluate, sensitivity
 
+#: theta dc/dtheta of a term for a parameter, None where that has no number
+Effect = Callable[[Term, str], float | None]
+
+
+class Spectrum(NamedTuple):
+    """The terms of one signal: log of |c| w**k at the highest frequency w, by order k."""
+
+    logs: Mapping[int, float]
+
+    def share(self, order: int, size: float) -> float:
+        """The largest ratio, over all frequencies up to w, of a term to the largest term.
+
+        `size` is |c| w**order of the term at the highest frequency.
+        """
+        if not size:
+            return 0.0
+        own = math.log(size)
+        if not self.logs:
+            return math.inf
+        best = -math.inf
+        for x in self._corners(order):
+            top = max(level + k * x for k, level in self.logs.items())
+            best = max(best, own + order * x - top)
+        return math.exp(min(best, 700.0))
+
+    def _corners(self, order: int) -> list[float]:
+        """Where a term of this order can stand out: logs of frequency over the highest."""
+        corners = [0.0]
+        if order <= min(self.logs):
+            corners.append(-1e3)  # towards zero frequency the lowest order is all there is
+        for low, a in self.logs.items():
+            for high, b in self.logs.items():
+                if low <= order <= high and low < high:
+                    corners.append(min((a - b) / (high - low), 0.0))
+        return corners
+
 
 class Seen(NamedTuple):
-    """The terms that `step` keeps, and of the others the share of the largest one.
+    """The terms that `step` keeps, and the others with their share of the largest term.
 
-    `largest` is that term's size by atom; None where the model has no numbers.
+    `spectra` has the sizes by atom, None where the model has no numbers; `effect` tells how much
+    a term depends on a parameter.
     """
 
     kept: tuple[Term, ...]
     dropped: tuple[tuple[Term, float], ...]
-    largest: dict[Expr, float] | None
+    spectra: dict[Expr, Spectrum] | None
+    effect: Effect
 
 
 def frequency(rate: float) -> float:
@@ -38,61 +78,62 @@ def seen(builder: Builder, terms: tuple[Term, ...], rate: float, resolution: flo
     Without nominal values nothing is left out.
     """
     w = frequency(rate)
+    resolved = builder.resolve([t.coefficient for t in terms])
+    coefficients = {(t.atom, t.order): c for t, c in zip(terms, resolved, strict=True)}
+
+    def effect(term: Term, name: str) -> float | None:
+        coefficient = coefficients[term.atom, term.order]
+        if not any(s.symbol.name == name for s in symbols(coefficient)):
+            return 0.0
+        return sensitivity(coefficient, name, builder.floats)
+
     sizes: list[float] = []
     for term in terms:
-        value = evaluate(builder.resolve([term.coefficient])[0], builder.floats)
+        value = evaluate(coefficients[term.atom, term.order], builder.floats)
         if value is None or not math.isfinite(value):
-            return Seen(terms, (), None)
+            return Seen(terms, (), None, effect)
         sizes.append(abs(float(value)) * w**term.order)
-    largest: dict[Expr, float] = {}
+    return split(terms, sizes, resolution, effect)
+
+
+def split(terms: tuple[Term, ...], sizes: list[float], resolution: float, effect: Effect) -> Seen:
+    """The visible terms, given the size of every term at the highest frequency."""
+    logs: dict[Expr, dict[int, float]] = {}
     for term, size in zip(terms, sizes, strict=True):
-        largest[term.atom] = max(largest.get(term.atom, 0.0), size)
+        own = logs.setdefault(term.atom, {})
+        if size:
+            own[term.order] = math.log(size)
+    spectra = {atom: Spectrum(own) for atom, own in logs.items()}
     kept: list[Term] = []
     dropped: list[tuple[Term, float]] = []
     for term, size in zip(terms, sizes, strict=True):
-        top = largest[term.atom]
-        if size < resolution * top and len(terms) > 1:
-            dropped.append((term, size / top))
+        share = spectra[term.atom].share(term.order, size)
+        # a coefficient that happens to be zero now may be set to another value later
+        if share < resolution and (size or len(logs[term.atom])):
+            dropped.append((term, share))
         else:
             kept.append(term)
-    return Seen(tuple(kept), tuple(dropped), largest)
+    return Seen(tuple(kept), tuple(dropped), spectra, effect)
 
 
 def unseen_faults(
-    builder: Builder,
-    faults: tuple[str, ...],
-    result: Seen,
-    rate: float,
-    resolution: float,
+    builder: Builder, faults: tuple[str, ...], result: Seen, rate: float, resolution: float
 ) -> tuple[str, ...]:
-    """The faults of a residual that do not act on any visible term, or too little to be seen."""
-    if result.largest is None:
+    """The faults of a residual that act on no visible term, or too little to be seen."""
+    if result.spectra is None:
         return ()
-    inside = {s for t in result.kept for s in symbols(t.atom)}
-    resolved = builder.resolve([t.coefficient for t in result.kept])
-    w = frequency(rate)
+    spectra, w = result.spectra, frequency(rate)
+    inside = {s for t in result.kept for s in symbols(*builder.resolve([t.atom]))}
 
     def acts(name: str) -> bool:
-        symbol = builder.graph.fault_symbol(name)
-        if symbol in inside:
+        if builder.graph.fault_symbol(name) in inside:
             return True
-        for term, coefficient in zip(result.kept, resolved, strict=True):
-            if symbol in symbols(coefficient):
-                effect = sensitivity(coefficient, name, builder.floats)
-                if effect is None:
-                    return True
-                if _visible(effect * w**term.order, result, term.atom, resolution):
-                    return True
+        for term in result.kept:
+            effect = result.effect(term, name)
+            if effect is None:
+                return True
+            if spectra[term.atom].share(term.order, abs(effect) * w**term.order) >= resolution:
+                return True
         return False
 
     return tuple(f for f in faults if not acts(f))
-
-
-def _visible(effect: float, result: Seen, atom: Expr, resolution: float) -> bool:
-    assert result.largest is not None
-    return abs(effect) >= resolution * result.largest[atom] > 0 or (
-        result.largest[atom] == 0 and effect != 0
-    )
-
-
-Effects = Callable[[str], float | None]
