@@ -212,7 +212,8 @@ class Cursor:
             return False
         after = self.words[at + 1]
         if word in KEYWORDS:
-            name = after.isidentifier() and after not in RESERVED
+            # `let and b`, `let counts 24/turn`: there the keyword is the name of a value
+            name = after.isidentifier() and after not in RESERVED and after != "counts"
             return name and not self.fresh[at + 1]
         return is_arrow(word) or word == "}"
 

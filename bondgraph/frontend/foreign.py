@@ -32,13 +32,13 @@ def not_bondgraph(source: Source) -> Diagnostic | None:
     begin = blank.end() if blank else 0
     if begin == len(text):
         return _foreign(
-            source, 0, "empty-file", "The file is empty: there is no model in it.",
+            source, "empty-file", 0, "The file is empty: there is no model in it.",
             "A smallest file is `bg 1`, then `model Name { ... }` in the next line.",
         )  # fmt: skip
     head = text[begin : begin + _LOOK]
     if head[0] in "{[":
         return _foreign(
-            source, begin, "not-bondgraph-json", "The file looks like JSON, not like a bond graph.",
+            source, "not-bondgraph-json", begin, "The file looks like JSON, not like a bond graph.",
             "Give the command the `.bg` file that describes the model.",
         )  # fmt: skip
     yaml = _YAML.search(head)
@@ -46,7 +46,7 @@ def not_bondgraph(source: Source) -> Diagnostic | None:
         tools = _BOND_GRAPH_TOOLS.search(head) is not None
         what = "a BondGraphTools model, which is YAML" if tools else "YAML"
         return _foreign(
-            source, begin + yaml.start(), "not-bondgraph-yaml",
+            source, "not-bondgraph-yaml", begin + yaml.start(),
             f"The file looks like {what}; the ending `.bg` is used by both programs.",
             "Write the components and bonds of its netlist in the bond graph language: "
             "`bg 1`, then `model Name { 1:j { <- Se:U; -> R:R; -> C:C } }`.",
@@ -54,7 +54,7 @@ def not_bondgraph(source: Source) -> Diagnostic | None:
     modelica = _MODELICA.search(head)
     if modelica is not None:
         return _foreign(
-            source, begin + modelica.start(), "not-bondgraph-modelica",
+            source, "not-bondgraph-modelica", begin + modelica.start(),
             "The file looks like Modelica, not like a bond graph.",
             "Write the elements and bonds in the bond graph language: `bg 1`, then "
             "`model Name { 1:j { <- Se:U; -> R:R; -> C:C } }`.",
@@ -62,7 +62,7 @@ def not_bondgraph(source: Source) -> Diagnostic | None:
     return None
 
 
-def _foreign(source: Source, at: int, code: str, message: str, help: str) -> Diagnostic:
+def _foreign(source: Source, code: str, at: int, message: str, help: str) -> Diagnostic:
     end = source.text.find("\n", at)
     end = len(source.text) if end < 0 else end
     return Diagnostic(code, message, (Label(Span(source, at, max(at, end)), "here"),), help)

@@ -22,7 +22,7 @@ _BLANK = frozenset(" \t\r\n\ufeff#")
 
 
 class Words(NamedTuple):
-    """The words of a text, in parallel lists that end with one empty word.
+    """The words of a text, in parallel lists that end with three empty words.
 
     `starts[i]` is the offset of `words[i]`; `fresh[i]` says that a line end stands before it;
     `gaps[i]` is offset and text of the gap before word i, kept only where it holds a comment.
@@ -38,7 +38,7 @@ def split(text: str) -> Words:
     """The words of `text`; never fails, an impossible character is a word of its own.
 
     >>> split("a -> R:b # x").words
-    ['a', '->', 'R', ':', 'b', '']
+    ['a', '->', 'R', ':', 'b', '', '', '']
     """
     words: list[str] = []
     starts: list[int] = []
@@ -58,7 +58,8 @@ def split(text: str) -> Words:
             fresh.append(newline)
             newline = False
         at += len(piece)
-    words.append("")
-    starts.append(at)
-    fresh.append(True)
+    # Enough ends of the text that looking two words ahead needs no care.
+    words += ["", "", ""]
+    starts += [at, at, at]
+    fresh += [True, True, True]
     return Words(words, starts, fresh, gaps)

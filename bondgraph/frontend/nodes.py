@@ -193,7 +193,8 @@ class Nodes(Declarations):
             return True
         if not self.fresh[at] or self.indent(at) > self.indent(opening):
             return False
-        return self.words[at + 1] == ":" or self.begins_statement(at)
+        port = self.words[at] == "port"
+        return self.words[at + 1] == ":" or (not port and self.begins_statement(at))
 
     def _equation(self) -> syntax.Equation:
         at = self.i

@@ -47,8 +47,6 @@ class Setter:
             return "".join(self._words[at : self._unit_end[at]])
         if at in self._in_unit:
             return ""
-        if at in self._less_minus:
-            return "< -"
         word = self._words[at]
         if is_arrow(word) and "[" in word:
             return "".join(word.split())
@@ -84,7 +82,10 @@ class Setter:
                 last = None
                 continue
             text = self.text(piece)
-            if text:
+            if piece in self._less_minus:  # as if `<` and `-` had been written apart
+                found.append(Item("<", True, None if last is None else self._rank(last, depth)))
+                found.append(Item("-", True, depth * _PER_BRACKET + _BREAK["<"]))
+            elif text:
                 word = self._words[piece]
                 if word in (")", "]"):
                     depth -= 1

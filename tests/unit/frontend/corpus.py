@@ -6,6 +6,8 @@ from pathlib import Path
 
 #: Bodies of models that are right.
 RIGHT = [
+    "sensor s =\n let counts 24/turn", "let a = b +\n param and c",
+    "R:r(x = 1) =\n        2 {\n port x\n e = f\n}",
     "", "R:a", "Se:U -> R:r = 2 Ohm", "a -> b; b <- c", "a -[7]-> 1:j <-[x2]- Se:U",
     "1:i { -> a; <- b\n-> c }", "1:i {}", "out { -> C:Cs = line.C; -> De:Us }",
     "0:n[3] { -> R:r[2] }", "1:sw when on and not off { -> R:r }", "port a : in electrical",
