@@ -10,19 +10,21 @@ from collections.abc import Iterable, Mapping, Sequence
 from random import Random
 
 from bondgraph.exact import series
-from bondgraph.exact.algebra import Mixed
+from bondgraph.exact.algebra import Mixed, Waves
 from bondgraph.exact.assembly import Assembly, assemble
 from bondgraph.exact.equations import Setting, Writer
-from bondgraph.exact.evaluate import evaluate, highest_order
+from bondgraph.exact.evaluate import evaluate, highest_order, integral_depth
 from bondgraph.exact.field import Functions, P, Undefined
 from bondgraph.exact.linear import Contradiction, Singular
 from bondgraph.exact.point import KnownSample
 from bondgraph.exact.series import Series
 from bondgraph.exact.taylor import OverDetermined, solve
+from bondgraph.exact.waves import WaveSample, amplitudes, linear, tell
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Symbol, topological
 from bondgraph.ir.graph import BondGraph
 
 _ATTEMPTS = 60
+_LARGE = 4000  # coefficients of a trajectory that are many
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
 
 
@@ -110,7 +112,8 @@ class Plant:
         found = [n for n in topological(roots) if n.op is Op.SYM]
         self.constants = [n for n in found if n.symbol.kind in constant]
         self.modes = [n for n in found if n.symbol.kind is Kind.MODE]
-        self._names = {name: graph.fault_symbol(name) for name in graph.faults}
+        symbols = {x.name: x.symbol for x in (*graph.values, *graph.inputs, *graph.sensors)}
+        self._names = {name: symbols[name] for name in graph.faults}
         self._reach = highest_order([s.reads for s in graph.sensors])
         self._read = {name for name, _, _ in self.assembly.readings}
         self._starts: dict[Symbol, Expr] = {}
@@ -149,6 +152,77 @@ class Plant:
             except (Undefined, Contradiction, Singular) as found:
                 failure = found
         raise ExactUnavailable(self._reason(failure))
+
+    def wave(
+        self, seed: int, faults: Iterable[str] = (), modes: Mapping[Expr, int] | None = None
+    ) -> WaveSample:
+        """The plant with all signals exponentials of one random exponent, for any size.
+
+        Faults are random constants on parameters and random exponentials on signals. Raises
+        `Mixed` if the plant is not linear with constant coefficients, `ExactUnavailable`.
+        """
+        failure: Exception | None = None
+        for attempt in range(_ATTEMPTS):
+            functions = Functions(seed * _ATTEMPTS + attempt)
+            random = Random(seed * 2011 + attempt)
+            algebra = Waves(functions, random.randrange(2, P), random.randrange(2, P))
+            try:
+                constants = self.draw_constants(seed, attempt, modes or {})
+                return self._wave(algebra, random, tuple(faults), constants)
+            except (Undefined, Contradiction) as found:
+                failure = found
+        raise ExactUnavailable(self._reason(failure))
+
+    def _wave(
+        self,
+        algebra: Waves,
+        random: Random,
+        faults: Sequence[str],
+        constants: Mapping[Expr, Series],
+    ) -> WaveSample:
+        true = dict(constants)
+        errors = {self._names[name]: random.randrange(1, P) for name in faults}
+        if any(self._names[name] in errors for name in self._read):
+            raise Mixed("a law that uses a faulty reading")
+        for symbol, error in errors.items():
+            if symbol in true:
+                true[symbol] = [(true[symbol][0] + error) % P]
+        equations = Writer(self.assembly, Setting(true, algebra.functions, 1)).all({})
+        if not linear(equations):
+            raise Mixed("a law that is not linear")
+        found = amplitudes(self.assembly, equations, algebra.s, random)
+        sample = WaveSample(algebra, self.assembly.place, constants, found, {})
+        reads = {
+            s.symbol: s.reads
+            for s in self.graph.sensors
+            if s.same_as is None and s.name not in self._read
+        }
+        tell(sample, reads, errors)
+        return sample
+
+    def sample(
+        self,
+        roots: Sequence[Expr],
+        seed: int,
+        n: int = 1,
+        *,
+        faults: Iterable[str] = (),
+        modes: Mapping[Expr, int] | None = None,
+    ) -> Trajectory | WaveSample:
+        """A point on which `n` coefficients of all roots can be evaluated.
+
+        A trajectory where that is affordable; exponentials where the orders are many and the
+        plant and the roots are linear. Raises `ExactUnavailable`.
+        """
+        order = highest_order(roots, n)
+        if order * self.assembly.count_of > _LARGE and not integral_depth(roots):
+            try:
+                found = self.wave(seed, faults, modes)
+                evaluate(roots, found)
+                return found
+            except Mixed:
+                pass
+        return self.trajectory(seed, order, faults=faults, modes=modes)
 
     def draw_constants(
         self, seed: int, attempt: int, modes: Mapping[Expr, int]

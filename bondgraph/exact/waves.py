@@ -1,0 +1,107 @@
+"""Linear plants of any size: every signal an exponential X e^(s t), found by one sparse solve.
+
+In a linear plant with constant coefficients all signals may share one random s; the derivative is
+then a multiplication, and what would be a series of a thousand coefficients is one number.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from random import Random
+
+from bondgraph.exact.algebra import Mixed, Wave, Waves
+from bondgraph.exact.assembly import Assembly
+from bondgraph.exact.equations import Equation
+from bondgraph.exact.evaluate import evaluate
+from bondgraph.exact.field import P
+from bondgraph.exact.forms import ORDERS
+from bondgraph.exact.linear import CONSTANT, Row, back_substitute, eliminate
+from bondgraph.exact.series import Series
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Symbol
+
+
+def linear(equations: list[Equation]) -> bool:
+    """Whether all equations are linear and homogeneous with constant coefficients."""
+    return all(
+        e.rest is None and CONSTANT not in e.form and all(len(w) == 1 for w in e.form.values())
+        for e in equations
+    )
+
+
+def amplitudes(plant: Assembly, equations: list[Equation], s: int, random: Random) -> list[int]:
+    """The amplitude of every variable; free ones are random.
+
+    Raises `Contradiction` if the equations are more than the variables.
+    """
+    powers = [1]
+    for _ in range(ORDERS):
+        powers.append(powers[-1] * s % P)
+    rows = []
+    for equation in equations:
+        row: Row = {}
+        for key, weights in equation.form.items():
+            variable, derivative = divmod(key, ORDERS)
+            x = (row.get(variable, 0) + weights[0] * powers[derivative]) % P
+            if x:
+                row[variable] = x
+            else:
+                del row[variable]
+        rows.append(row)
+    pivots = eliminate(rows)
+    determined = {p.column for p in pivots}
+    values = {j: random.randrange(1, P) for j in range(plant.count_of) if j not in determined}
+    back_substitute(pivots, values)
+    return [values[j] for j in range(plant.count_of)]
+
+
+class WaveSample:
+    """Told signals and constants as exponentials; what is not told is what the plant shows."""
+
+    def __init__(
+        self,
+        algebra: Waves,
+        place: Mapping[Expr, tuple[int, int]],
+        constants: Mapping[Expr, Series],
+        found: list[int],
+        told: dict[Expr, Wave],
+    ) -> None:
+        self.algebra = algebra
+        self._place = place
+        self._constants = constants
+        self._found = found
+        self._told = told
+
+    def value(self, symbol: Expr) -> Wave:
+        """What a residual is told about a symbol."""
+        known = self._told.get(symbol)
+        if known is not None:
+            return known
+        constant = self._constants.get(symbol)
+        if constant is not None:
+            return Wave(constant[0], 0)
+        variable, sign = self._place[symbol]
+        return Wave(self._found[variable] * sign % P, 1)
+
+    def start(self, initial: Symbol) -> int:
+        """Exponentials have no integrals from an initial value."""
+        raise Mixed("an integral from an initial value")
+
+    def earlier(self, steps: int) -> WaveSample:
+        """Linear residuals look the same at every time."""
+        return self
+
+    def tell(self, symbol: Expr, amplitude: int) -> None:
+        """Say what a residual is told about a signal."""
+        self._told[symbol] = Wave(amplitude % P, 1)
+
+
+def tell(sample: WaveSample, readings: Mapping[Expr, Expr], errors: Mapping[Expr, int]) -> None:
+    """Fill in what sensors show, and the errors of sensors and known inputs."""
+    for symbol, reads in readings.items():
+        value = evaluate([reads], sample)[0]
+        if value.amplitude and value.degree != 1:
+            raise Mixed("a sensor that is not linear")
+        sample.tell(symbol, value.amplitude + errors.get(symbol, 0))
+    for symbol, error in errors.items():
+        if symbol.symbol.kind in KNOWN_SIGNALS and symbol not in readings:
+            sample.tell(symbol, sample.value(symbol).amplitude - error)
