@@ -25,7 +25,7 @@ def not_bondgraph(source: Source) -> Diagnostic | None:
     text = source.text
     if "\0" in text[:_LOOK]:
         return _foreign(
-            source, text.index("\0"), "not-text", "The file is not text: it contains zero bytes.",
+            source, "not-text", text.index("\0"), "The file is not text: it contains zero bytes.",
             "Give the command a model file; a compiled or packed file is none.",
         )  # fmt: skip
     blank = _BLANK.match(text)
