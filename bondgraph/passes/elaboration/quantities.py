@@ -71,7 +71,16 @@ class Quantities:
                 fresh(node.origin, f"the flow of {node.local}"),
             )
             self._pairs[root] = pair
+        elif pair[0].unknown or pair[1].unknown:
+            settled = self.settled(pair[0]), self.settled(pair[1])
+            if settled != pair:
+                pair = self._pairs[root] = settled
         return pair
+
+    def settled(self, term: Term) -> Term:
+        """The same dimension without unknowns, once nothing in it is open."""
+        dimension = self.dimensions.resolve(term) if term.unknown else None
+        return term if dimension is None else Term(dimension, {}, self.dimensions.places(term))
 
     def seed(self, port: PortEntry) -> None:
         """What the domain of a model port says of the bond through it."""
@@ -119,6 +128,8 @@ class Quantities:
     def same(self, left: Term, right: Term, origin: Span, what: str, help: str = "") -> bool:
         """Require one dimension of both; a conflict is reported, once."""
         if left is right:
+            return True
+        if not left.unknown and not right.unknown and left.known == right.known:
             return True
         conflict = self.dimensions.equate(left, right, origin, what)
         if conflict is None:

@@ -94,7 +94,7 @@ def test_one_error_a_cause(line: str, code: str) -> None:
     assert all(d.message and d.help and d.labels for d in said)
 
 
-PART = "model Part { port a : in electrical; port b : out electrical; param R = 1; a -> R:R -> b }\n"
+PART = "model Part { port a : in electrical; port b : out electrical; a -> R:R = 1 -> b }\n"
 LOAD = "model Load(n : int = 1) { port a : in electrical; param R : Ohm; input w; a -> R:R }\n"
 
 SUBMODELS = [
@@ -181,8 +181,8 @@ def test_huge_sizes_are_refused_at_once() -> None:
 
 
 WORDS = st.sampled_from(
-    "Se:U R:r C:c 1:j 0:k TF:t GY:g De:y Df:z j k r t = 2 3 * ( ) { } -> <- ; param let sensor fault "
-    "input a b e f a[1] for i in 1..2 if true cell model M port p : in any out when int der Ohm"
+    "Se:U R:r C:c 1:j 0:k TF:t GY:g De:y Df:z j k r t = 2 3 * ( ) { } -> <- ; param let sensor "
+    "fault input a b e f a[1] for i in 1..2 if true cell model M port p : in any out when int der Ohm"
     .split()
 )  # fmt: skip
 
