@@ -112,7 +112,9 @@ class Plant:
         found = [n for n in topological(roots) if n.op is Op.SYM]
         self.constants = [n for n in found if n.symbol.kind in constant]
         self.modes = [n for n in found if n.symbol.kind is Kind.MODE]
-        symbols = {x.name: x.symbol for x in (*graph.values, *graph.inputs, *graph.sensors)}
+        symbols = {v.name: v.symbol for v in graph.sensors}
+        symbols |= {v.name: v.symbol for v in graph.inputs}
+        symbols |= {v.name: v.symbol for v in graph.values}
         self._names = {name: symbols[name] for name in graph.faults}
         self._reach = highest_order([s.reads for s in graph.sensors])
         self._read = {name for name, _, _ in self.assembly.readings}

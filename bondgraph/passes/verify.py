@@ -1,0 +1,294 @@
+"""Check residuals and signatures against an exact simulation that shares nothing with them.
+
+Healthy plants must give residuals that are exactly zero. A plant in which all faults act at once
+that a residual is said not to see must leave it exactly zero. Every single fault that a residual
+is said to see must move it (translation validation: Pnueli, Siegel and Singerman, 1998).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from random import Random
+from typing import Any
+
+from bondgraph.exact.algebra import Mixed, Wave
+from bondgraph.exact.evaluate import Sample, evaluate, integral_depth
+from bondgraph.exact.field import P, Undefined
+from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.result import Verification
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, topological
+from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.residuals import ResidualSet
+from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.text.diagnostic import Report
+from bondgraph.text.source import Span
+
+_HEALTHY = 2  # healthy plants, each with other parameters
+_MODES = 8  # assignments of modes that are tried
+_WORK = 200_000  # nodes that may be evaluated to try single faults, before they are sampled
+_TRIES = 20  # points at which a residual or a law may have no value, drawn again
+
+
+def verify(
+    graph: BondGraph,
+    residuals: ResidualSet,
+    signatures: SignatureMatrix,
+    report: Report,
+    seed: int = 1,
+) -> Verification:
+    """Check every residual and every entry of the fault signature matrix, exactly.
+
+    Reports `verification-failed` (an error, and a bug of the compiler) with the residual and the
+    fault, or `verification-unavailable` (a warning) with the reason. The probability of passing
+    something wrong is below 1e-12 for each entry tried.
+    """
+    return _Check(graph, residuals, signatures, report, seed).run()
+
+
+class _Failed(Exception):
+    """An entry that is not as the matrix says."""
+
+    def __init__(self, residual: int, fault: str | None, message: str) -> None:
+        super().__init__(message)
+        self.residual = residual
+        self.fault = fault
+
+
+class _Check:
+    def __init__(
+        self,
+        graph: BondGraph,
+        residuals: ResidualSet,
+        signatures: SignatureMatrix,
+        report: Report,
+        seed: int,
+    ) -> None:
+        self.graph = graph
+        self.residuals = residuals.residuals
+        self.exprs = [r.expr for r in self.residuals]
+        self.signatures = signatures
+        self.report = report
+        self.seed = seed
+        self.plant = Plant(graph)
+        self.depth = integral_depth(self.exprs)
+        self.trajectories = 0
+        self.tried: dict[str, None] = {}
+        self.waves = False
+        self.sampled = False
+        self.modes = [
+            n for n in topological(self.exprs) if n.op is Op.SYM and n.symbol.kind is Kind.MODE
+        ]
+        for mode in self.plant.modes:
+            if mode not in self.modes:
+                self.modes.append(mode)
+
+    def run(self) -> Verification:
+        """Everything, in the order of cost; the first thing found wrong is reported."""
+        try:
+            if self.exprs:
+                points = self.healthy()
+                self.unmoved()
+                self.moved(points)
+        except ExactUnavailable as reason:
+            self.report.warning(
+                "verification-unavailable",
+                f"the residuals could not be checked by exact simulation: {reason}",
+                *self.place(),
+                help="The residuals were derived, but nothing independent confirms them. Try "
+                "them on simulated data before use, or write the law named here in another form.",
+            )
+            return self.result(f"not verified: {reason}")
+        except _Failed as failure:
+            self.report.error(
+                "verification-failed",
+                str(failure),
+                self.residuals[failure.residual].closing.origin,
+                help="This is a mistake of the compiler, not of the model: nothing was written. "
+                "Please report it with the model.",
+            )
+            return self.result("failed")
+        return self.result(self.method())
+
+    def result(self, method: str) -> Verification:
+        done = len(self.exprs) if method != "failed" and not method.startswith("not") else 0
+        return Verification(
+            self.trajectories, done, len(self.tried), len(self.signatures.faults), method
+        )
+
+    def method(self) -> str:
+        if not self.exprs:
+            return "nothing to verify: the model has no residual"
+        kind = "exponentials" if self.waves else "Taylor series"
+        faults = f"{len(self.tried)} of {len(self.signatures.faults)} faults"
+        sampled = " tried one by one (a sample)" if self.sampled else ""
+        return f"exact {kind} modulo a 61-bit prime; {faults}{sampled}"
+
+    def place(self) -> tuple[Span, ...]:
+        return (self.residuals[0].closing.origin,) if self.residuals else ()
+
+    # ------------------------------------------------------------------------- the parts
+
+    def healthy(self) -> list[Sample]:
+        """Every residual vanishes on healthy plants; returns these."""
+        points: list[Sample] = []
+        failure: ExactUnavailable | None = None
+        for number, modes in enumerate(self.assignments()):
+            try:
+                point, values = self.at(self.exprs, number, (), modes)
+            except ExactUnavailable as reason:
+                failure = reason  # not every combination of switches leaves a plant to speak of
+                continue
+            for at, value in enumerate(values):
+                if _moves(value):
+                    name = self.residuals[at].name
+                    raise _Failed(at, None, f"residual {name} is not zero on the healthy model")
+            points.append(point)
+        if not points:
+            raise failure or ExactUnavailable("no mode of the model has a trajectory")
+        return points
+
+    def unmoved(self) -> None:
+        """No residual sees what it is said not to see, all of that acting at once."""
+        groups: dict[tuple[str, ...], list[int]] = {}
+        for at in range(len(self.exprs)):
+            blind = tuple(
+                f
+                for f, row in zip(self.signatures.faults, self.signatures.rows, strict=True)
+                if not row[at]
+            )
+            if blind:
+                groups.setdefault(blind, []).append(at)
+        for faults, members in groups.items():
+            exprs = [self.exprs[at] for at in members]
+            for modes, values in self.faulty(exprs, faults):
+                for at, value in zip(members, values, strict=True):
+                    if _moves(value):
+                        self.single_out(at, faults, modes)
+
+    def faulty(
+        self, exprs: list[Expr], faults: Sequence[str]
+    ) -> Iterator[tuple[dict[Expr, int] | None, list[Any]]]:
+        """The values of the expressions under faults, in each mode that has a trajectory."""
+        failure: ExactUnavailable | None = None
+        found = False
+        for number, modes in enumerate(self.assignments() if self.modes else [None]):
+            try:
+                values = self.at(exprs, 100 + number, faults, modes)[1]
+            except ExactUnavailable as reason:
+                failure = reason
+                continue
+            found = True
+            yield modes, values
+        if not found:
+            raise failure or ExactUnavailable("no mode of the model has a trajectory")
+
+    def single_out(self, at: int, faults: Sequence[str], modes: dict[Expr, int] | None) -> None:
+        """Name the fault that moves a residual which should not see it."""
+        name = self.residuals[at].name
+        for fault in faults:
+            values = self.at([self.exprs[at]], 100, (fault,), modes)[1]
+            if _moves(values[0]):
+                raise _Failed(at, fault, f"residual {name} sees {fault}, its signature does not")
+        # several at once may move a product of residuals, which no single one does
+
+    def moved(self, points: list[Sample]) -> None:
+        """Every residual sees each fault that it is said to see."""
+        size = [len(topological([e])) for e in self.exprs]
+        entries = [
+            (fault, at)
+            for fault, row in zip(self.signatures.faults, self.signatures.rows, strict=True)
+            for at, hit in enumerate(row)
+            if hit
+        ]
+        work = sum(size[at] for _, at in entries)
+        step = 1 + work // _WORK
+        self.sampled = step > 1
+        for fault, at in entries[::step]:
+            if not any(self.told_moves(at, fault, p) for p in points) and not self.acts(at, fault):
+                name = self.residuals[at].name
+                raise _Failed(at, fault, f"residual {name} does not see {fault}, as it should")
+            self.tried[fault] = None
+        if not self.sampled:
+            self.tried.update(dict.fromkeys(self.signatures.faults))
+
+    def told_moves(self, at: int, fault: str, point: Sample) -> bool:
+        """Whether a constant error moves a residual: the healthy plant, and a wrong value told.
+
+        That is the same as a plant with the error and the right value told.
+        """
+        symbol = self.graph.fault_symbol(fault)
+        told = _Told(point, symbol, self.seed)
+        try:
+            return _moves(evaluate([self.exprs[at]], told, self.depth + 1)[0])
+        except (Undefined, Mixed):
+            return False
+
+    def acts(self, at: int, fault: str) -> bool:
+        """Whether a fault in the plant, any function of time, moves a residual."""
+        return any(_moves(values[0]) for _, values in self.faulty([self.exprs[at]], (fault,)))
+
+    # --------------------------------------------------------------------------- helpers
+
+    def at(
+        self, exprs: list[Expr], number: int, faults: Iterable[str], modes: dict[Expr, int] | None
+    ) -> tuple[Sample, list[Any]]:
+        """A point with these faults and the values of the expressions there."""
+        faults = tuple(faults)
+        for turn in range(_TRIES):
+            point: Sample = self.plant.sample(
+                exprs,
+                self.seed * 1000 + number + 5000 * turn,
+                self.depth + 1,
+                faults=faults,
+                modes=modes,
+            )
+            try:
+                values = evaluate(exprs, point, self.depth + 1)
+            except Undefined:
+                continue
+            self.trajectories += 1
+            self.waves = self.waves or not isinstance(values[0], list)
+            return point, values
+        raise ExactUnavailable("no random point was found where all residuals have a value")
+
+    def assignments(self) -> list[dict[Expr, int] | None]:
+        """Modes to try, all of them if they are few."""
+        if not self.modes:
+            return [None] * _HEALTHY
+        count = 1 << min(len(self.modes), 16)
+        step = max(1, count // _MODES) | 1
+        return [
+            {m: (k * step >> i) & 1 for i, m in enumerate(self.modes)}
+            for k in range(min(count, _MODES))
+        ]
+
+
+class _Told:
+    """A point at which one symbol is told wrong."""
+
+    def __init__(self, point: Sample, symbol: Expr, seed: int) -> None:
+        self.algebra = point.algebra
+        self._point = point
+        self._symbol = symbol
+        true = point.value(symbol)
+        random = Random(seed)
+        error: Any
+        if symbol.symbol.kind not in KNOWN_SIGNALS:
+            error = self.algebra.number(random.randrange(1, P))
+        elif isinstance(true, Wave):
+            error = Wave(random.randrange(1, P), 1)
+        else:
+            error = [random.randrange(1, P) for _ in true]
+        size = len(true) if isinstance(true, list) else 1
+        self._told = self.algebra.combine([(1, true), (1, error)], size)
+
+    def value(self, symbol: Expr) -> Any:
+        return self._told if symbol is self._symbol else self._point.value(symbol)
+
+    def start(self, initial: Any) -> int:
+        return self._point.start(initial)
+
+
+def _moves(value: Any) -> bool:
+    """Whether a value is not zero in any of its coefficients."""
+    return any(value) if isinstance(value, list) else value.amplitude != 0
