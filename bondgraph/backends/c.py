@@ -58,7 +58,12 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         "exact": code.exact(),
         "blocks": [code.block(k, b) for k, b in enumerate(spelling.blocks)],
         "block_count": max(1, len(spelling.blocks)),
-        "block_names": "; ".join(together(b.residuals) for b in spelling.blocks) or "nothing",
+        "block_names": listing.comment(
+            "samples since the start of "
+            + ("; ".join(together(b.residuals) for b in spelling.blocks) or "nothing"),
+            target,
+            4,
+        ),
         "report": code.report(),
     }
 

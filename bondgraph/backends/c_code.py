@@ -10,7 +10,7 @@ from bondgraph.backends.procedure import lines
 from bondgraph.backends.spell import Speller
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.walk import reads
-from bondgraph.ir.program import Assign, Const, PolynomialTape, Program, Ref
+from bondgraph.ir.program import Assign, Const, PolynomialTape, Program, Ref, ResidualInfo
 
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 
@@ -47,12 +47,19 @@ class Code:
             "parameters_are_finite": self._finite(params, "p"),
             "coefficients_are_finite": self._finite(coefs, "monitor"),
             "settle": [
-                f"    monitor->settle[{self._number(r.name)}] = "
-                f"samples({self.real(r.settle)}, sample_time, bandwidth);"
+                line
                 for r in program.residuals
                 if not r.unavailable
+                for line in self._settle(r)
             ],
         }
+
+    def _settle(self, info: ResidualInfo) -> list[str]:
+        prefix = f"monitor->settle[{self._number(info.name)}] ="
+        call = f"samples({self.real(info.settle)}, sample_time, bandwidth);"
+        if len(prefix) + len(call) + 5 <= self.target.width:
+            return [f"    {prefix} {call}"]
+        return [f"    {prefix}", f"        {call}"]
 
     def _coefficient_arguments(self) -> dict[str, object]:
         read = reads(self.program.configure)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from bondgraph.backends import listing
 from bondgraph.backends.facts import Facts
-from bondgraph.backends.names import snake
+from bondgraph.backends.names import identifier, snake
 from bondgraph.ir.program import Field, Known, Program, ResidualInfo
 
 _ROW_FAULTS = 200  # a longer matrix is left to the list of each residual
@@ -27,6 +27,7 @@ def readme(program: Program, facts: Facts, programs: Mapping[str, str]) -> dict[
         "parameters": _parameters(program.params),
         "examples": [_EXAMPLES[name](stem, text, facts) for name, text in programs.items()],
         "usage": _usage(program, facts, tuple(programs)),
+        "named": _named(program),
         "dropped": _table(
             ("residual", "signal", "derivative", "share of the largest term"),
             [
@@ -37,6 +38,14 @@ def readme(program: Program, facts: Facts, programs: Mapping[str, str]) -> dict[
         if program.dropped
         else [],
     }
+
+
+def _named(program: Program) -> str:
+    """How a name of the model looks in the code, if one of them looks different."""
+    for path in (*[k.path for k in program.knowns], *[p.path for p in program.params]):
+        if identifier(path) != path:
+            return f"In the code `.` and `[i]` are `__`: `{path}` is `{identifier(path)}`."
+    return ""
 
 
 def _plain(text: str) -> str:
@@ -152,8 +161,8 @@ def _usage(program: Program, facts: Facts, targets: Sequence[str]) -> list[str]:
         "later and quieter.",
         "- **`step`** takes samples. All signals pass one and the same filter, so that the result "
         "is the residual itself, filtered, without forming a derivative.",
-        f"- **Warm-up**: a residual is flagged valid {wait:.2g} s after the first sample ({settle:g} "
-        "time constants of the filter). Until then, do not judge it.",
+        f"- **Warm-up**: a residual is flagged valid {wait:.2g} s after the first sample "
+        f"({settle:g} time constants of the filter). Until then, do not judge it.",
         "- **Bad samples**: NaN or infinity in a signal, or a law outside its domain, makes the "
         "residuals that see it 0 and invalid, and starts their filter anew at the next good "
         "sample; integrals begin again at their initial values. Other residuals go on. After a "
