@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from typing import TYPE_CHECKING, Any
 
 from bondgraph import Compilation, Options
@@ -72,6 +73,14 @@ _bits.__name__ = "number of bits from 1 to 52"
 
 def run(args: Namespace) -> int:
     """Compile, write the files, print the result."""
+    if args.target:
+        from bondgraph.backends.target import targets
+
+        unknown = [name for name in args.target if name not in targets()]
+        if unknown:
+            listed = ", ".join(targets())
+            print(f"error: no target is called {unknown[0]}; there are {listed}", file=sys.stderr)
+            return 2
     options: dict[str, Any] = {
         "rate": args.rate,
         "bandwidth": args.bandwidth,
@@ -120,8 +129,11 @@ def _write(compilation: Compilation, output: str | None) -> list[str]:
     """Write all files or none; the paths that were written."""
     if not compilation.residuals:
         return []
-    from bondgraph.backends.write import write
+    from bondgraph.backends.write import ForeignFiles, write
 
     stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
     folder = output or os.path.join("generated", stem)
-    return [str(path) for path in write(compilation.artifacts, folder)]
+    try:
+        return list(write(compilation.artifacts, folder))
+    except ForeignFiles as error:
+        raise console.Trouble(str(error)) from error

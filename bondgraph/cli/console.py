@@ -11,6 +11,10 @@ from typing import IO
 from bondgraph.text.diagnostic import CompileError, Diagnostic
 
 
+class Trouble(Exception):
+    """Something that is wrong neither with the model nor with the compiler: a full message."""
+
+
 def coloured(stream: IO[str]) -> bool:
     """Whether colour is wanted on `stream`: a terminal, and NO_COLOR (no-color.org) not set."""
     return stream.isatty() and not os.environ.get("NO_COLOR")

@@ -88,6 +88,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("interrupted, nothing half written", file=sys.stderr)
         return 130
+    except console.Trouble as error:
+        return console.broken(str(error), as_json)
     except OSError as error:
         return console.broken(f"{error.strerror}: {error.filename}", as_json)
     except Exception as error:

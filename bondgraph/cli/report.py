@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 from bondgraph.cli.console import plural
@@ -11,8 +12,9 @@ from bondgraph.ir.dump import equation_name
 from bondgraph.ir.expr import Expr, symbols
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
+    from bondgraph.ir.equations import Equation
     from bondgraph.pipeline import Compilation
     from bondgraph.views import Relation
 
@@ -23,7 +25,7 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
     """The lines of the report."""
     matrix = compilation.signatures
     columns = width()
-    lines = [f"{compilation.graph.name}: {message(matrix)}"]
+    lines = [f"{compilation.graph.name}: {message(matrix)}", _checked(compilation)]
     for relation in compilation.residuals:
         lines += ["", *closed_form(compilation, relation, columns)]
     if matrix.faults and matrix.residuals:
@@ -36,8 +38,18 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
     if matrix.residuals:
         lines += _numerics(compilation, columns)
     if files:
-        lines += ["", f"Written ({plural(len(files), 'file')})", *[f"  {path}" for path in files]]
+        folder = os.path.commonpath([os.path.dirname(path) for path in files])
+        inside = [os.path.relpath(path, folder) for path in files]
+        lines += ["", f"Written to {folder}", *names(inside, columns, "  ")]
     return lines
+
+
+def _checked(compilation: Compilation) -> str:
+    done = compilation.verification
+    return (
+        f"checked exactly: {plural(done.residuals, 'residual')} on the healthy model,"
+        f" {plural(done.faults, 'fault')} one at a time"
+    )
 
 
 def closed_form(
@@ -74,38 +86,48 @@ def reasons(compilation: Compilation) -> dict[str, list[str]]:
 
 def reason(compilation: Compilation, fault: str) -> str:
     """Why no residual sees a fault, in words of the model."""
-    graph = compilation.graph
-    symbol = graph.fault_symbol(fault)
-    system = compilation.equations
-    holding = [e for e in system.equations if symbol in symbols(e.zero)]
-    blind = {id(e) for e in compilation.residuals.stage.unmonitored}
+    symbol = compilation.graph.fault_symbol(fault)
+    found = compilation.residuals.stage
+    holding = [e for e in found.system.equations if symbol in symbols(e.zero)]
     if not holding:
         return "no law uses it"
-    if all(id(e) in blind for e in holding):
-        around = _junctions(compilation, [v for e in holding for v in e.variables])
-        where = f" around {', '.join(around)}" if around else ""
-        return f"the part{where} is not measured twice over: no sensor leaves a relation there"
-    return "it cancels out of every residual"
+    used = {
+        id(equation)
+        for residual in found.residuals
+        for equation in (residual.closing, *(step.equation for step in residual.steps))
+    }
+    if any(id(e) in used for e in holding):
+        return "it cancels out of every residual"
+    rest = [e for e in found.system.equations if id(e) not in used]
+    part = _connected(holding, rest)
+    junctions = [e.name for e in part if e.kind == "balance"]
+    where = f" around {', '.join(_few(junctions))}" if junctions else ""
+    hidden = [i.name for i in compilation.graph.inputs if not i.known]
+    unknown = [n for n in hidden if any(n == v.symbol.name for e in part for v in e.variables)]
+    if unknown:
+        return f"what is measured{where} is needed to tell the unknown {', '.join(unknown)}"
+    return f"no sensor{where} could contradict the model there"
 
 
-def _junctions(compilation: Compilation, variables: Iterable[Expr]) -> list[str]:
-    """The junctions of the unmonitored part that some variables belong to, at most three."""
-    unmonitored = compilation.residuals.stage.unmonitored
-    reached = dict.fromkeys(variables)
-    grown = True
-    while grown:
-        grown = False
-        for equation in unmonitored:
-            if any(v in reached for v in equation.variables):
-                new = [v for v in equation.variables if v not in reached]
-                reached.update(dict.fromkeys(new))
-                grown = grown or bool(new)
-    found = [
-        e.name
-        for e in unmonitored
-        if e.kind == "balance" and any(v in reached for v in e.variables)
-    ]
-    return found if len(found) <= 3 else [*found[:3], "others"]
+def _connected(seeds: list[Equation], among: list[Equation]) -> list[Equation]:
+    """The equations that hang together with some of them by their unknowns."""
+    holders: dict[Expr, list[Equation]] = {}
+    for equation in among:
+        for variable in equation.variables:
+            holders.setdefault(variable, []).append(equation)
+    reached = {id(e) for e in seeds}
+    stack = list(seeds)
+    while stack:
+        for variable in stack.pop().variables:
+            for equation in holders.pop(variable, []):
+                if id(equation) not in reached:
+                    reached.add(id(equation))
+                    stack.append(equation)
+    return [e for e in among if id(e) in reached]
+
+
+def _few(items: list[str]) -> list[str]:
+    return items if len(items) <= 3 else [*items[:3], "others"]
 
 
 def _numerics(compilation: Compilation, columns: int) -> list[str]:
