@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from math import comb
 from types import MappingProxyType
 from typing import TypeAlias
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, topological
 from bondgraph.ir.normal import NormalForm, Term
+from bondgraph.passes.lowering.derivative import differentiate
 from bondgraph.passes.lowering.modular import Field
 from bondgraph.passes.lowering.names import ZERO_START
 from bondgraph.passes.lowering.record import record
@@ -265,7 +267,34 @@ class _Normaliser:
             if whole is not None:
                 factor, primitive = whole
                 return {(primitive, 1): pool.num(factor)}
+        parts = self._by_parts(keys, rest)
+        if parts is not None:
+            return parts
         return self._collected(pool.mul(rest, *[self._term(a, k) for a, k in keys]), pool.one)
+
+    def _by_parts(self, keys: tuple[tuple[Expr, int], ...], rest: Expr) -> Form | None:
+        """a p**k b = sum_j (-1)**j C(k, j) p**(k-j) (a^(j) b), where every a^(j) is static.
+
+        So it is where a depends on an angle whose speed is measured: a(Int(w)) D(b) becomes
+        D(a b) - a'(Int(w)) w b.
+        """
+        pool = self.pool
+        moving = [(atom, order) for atom, order in keys if order > 0]
+        if len(moving) != 1 or not static(moving[0][0]):
+            return None
+        atom, order = moving[0]
+        out: Form = {}
+        factor = pool.mul(rest, *[self._term(a, k) for a, k in keys if k <= 0])
+        for j in range(order + 1):
+            if j:
+                factor = differentiate(pool, factor)
+            if not static(factor):
+                return None
+            form = self.form(pool.mul(factor, atom))
+            for _ in range(order - j):
+                form = self._shift(form)
+            self._add(out, form, pool.num((-1) ** j * comb(order, j)))
+        return out
 
     def _total(self, factor: Expr, atom: Expr) -> tuple[Fraction, Expr] | None:
         """`factor` * D(`atom`) as number * D(...), where the factor is a function of the atom."""

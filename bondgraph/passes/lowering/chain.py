@@ -42,6 +42,7 @@ class Chain:
         self.states: list[Field] = []
         self.names = Names()
         self._leaves: dict[tuple[Expr, bool], Expression] = {}
+        self._atoms: dict[Expr, Expression] = {}
         self._speeds: dict[str, Expression] = {}
         self._filtered: dict[tuple[Expr, int], Expression] = {}
         self._ladders: dict[Expr, list[Expression]] = {}
@@ -65,6 +66,7 @@ class Chain:
                 integrals.setdefault(-term.order, []).append(term)
             else:
                 by_atom.setdefault(term.atom, []).append(term)
+        self._prepare([*by_atom, *[t.atom for level in integrals.values() for t in level]])
         for atom, own in by_atom.items():
             self._enter(atom, own, inputs, outside)
         if integrals:
@@ -259,11 +261,21 @@ class Chain:
             self.builder.is_constant,
         )
 
+    def _prepare(self, atoms: list[Expr]) -> None:
+        """Write the static atoms together, so that what they share is computed once."""
+        nonlinear = [a for a in dict.fromkeys(atoms) if a not in self.builder.signals]
+        start = self.builder.zero_start
+        values = self._static.values(
+            [gathered(self.pool, a, start) for a in nonlinear], self.origin
+        )
+        for atom, value in zip(nonlinear, values, strict=True):
+            if not isinstance(value, Ref) and value != ONE:
+                value = self._local(label(self.builder, atom), value, short(atom))
+            self._atoms[atom] = value
+
     def _static_value(self, atom: Expr) -> Expression:
-        value = self._static.value(gathered(self.pool, atom, self.builder.zero_start), self.origin)
-        if isinstance(value, Ref) or value == ONE:
-            return value
-        return self._local(label(self.builder, atom), value, short(atom))
+        found = self._atoms.get(atom)
+        return self._plain(atom) if found is None else found
 
     def _sample(self, node: Expr) -> Expression | None:
         """A leaf of a static value: a sample, or an integral of samples."""

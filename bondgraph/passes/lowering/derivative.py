@@ -46,8 +46,9 @@ _SLOPES: dict[str, _Rule] = {
 
 def differentiate(pool: Pool, expr: Expr, times: int = 1) -> Expr:
     """D(expr, times), with D on known signals (and on what stands under no other rule) only."""
+    expr = push(pool, expr)
     for _ in range(times):
-        expr = _once(pool, push(pool, expr))
+        expr = push(pool, _once(pool, expr))
     return expr
 
 

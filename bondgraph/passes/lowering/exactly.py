@@ -21,6 +21,7 @@ from bondgraph.passes.lowering.derivative import differentiate
 from bondgraph.passes.lowering.names import Names, brief, identifier, short
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure, positive_part
 from bondgraph.passes.normalise import LIMIT, rewritten
+from bondgraph.text.source import Span
 
 
 class Exactly:
@@ -50,7 +51,10 @@ class Exactly:
         self.highest = 0
         name = identifier(residual.name)
         origin = residual.closing.origin
-        terms = [self._term(residual, t) for t in form.terms]
+        operands = self._operands(form.terms, origin)
+        terms = [
+            self._term(residual, t, value) for t, value in zip(form.terms, operands, strict=True)
+        ]
         dots: list[DotTerm] = []
         for atom, (array, length) in arrays.items():
             if atom.op is Op.SYM and atom in self.builder.signals:
@@ -69,7 +73,7 @@ class Exactly:
         self.statements.append(Assign(target, total(terms), text, origin))
         return self.highest
 
-    def _term(self, residual: Residual, term: Term) -> tuple[bool, Expression]:
+    def _term(self, residual: Residual, term: Term, operand: Expression) -> tuple[bool, Expression]:
         builder = self.builder
         value = term.coefficient
         if builder.scaled and term.atom in builder.signals and term.order:
@@ -83,19 +87,25 @@ class Exactly:
         factor = builder.coef(size, wish, doc, residual.closing.origin)
         if term.atom is builder.pool.one and term.order == 0:
             return sign, factor
-        operand = self._operand(term, residual)
         return sign, operand if factor == ONE else Product((factor, operand))
 
-    def _operand(self, term: Term, residual: Residual) -> Expression:
+    def _operands(self, terms: tuple[Term, ...], origin: Span) -> list[Expression]:
+        """What the coefficients are multiplied by; nonlinear parts share what they can."""
         builder, pool = self.builder, self.builder.pool
-        if term.atom in builder.signals:
-            return self._need(term.atom, term.order)
-        expr = term.atom
-        if term.order > 0:
-            expr = differentiate(pool, expr, term.order)
-        for _ in range(-term.order):
-            expr = pool.integral(expr, builder.zero_start)
-        return self._procedure.value(expr, residual.closing.origin)
+        exprs: list[Expr] = []
+        for term in terms:
+            expr = term.atom
+            if expr not in builder.signals and (term.order > 0 or not term.static):
+                expr = differentiate(pool, expr, max(term.order, 0))
+            for _ in range(-term.order):
+                expr = pool.integral(expr, builder.zero_start)
+            exprs.append(expr)
+        nonlinear = [e for t, e in zip(terms, exprs, strict=True) if t.atom not in builder.signals]
+        values = iter(self._procedure.values(nonlinear, origin))
+        return [
+            self._need(t.atom, t.order) if t.atom in builder.signals else next(values)
+            for t in terms
+        ]
 
     def _large(
         self, array: str, length: int, atom: Expr, origin: object

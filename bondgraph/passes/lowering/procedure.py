@@ -79,7 +79,8 @@ class Procedure:
         `origin` is the place that the statements come from, or the place of each node.
         """
         roots = list(roots)
-        self._users = {}
+        outer = self._made, self._users  # a leaf may need values of its own
+        self._made, self._users = dict(self._made), {}
         for node in topological(roots):
             for arg in node.args:
                 self._users[arg] = self._users.get(arg, 0) + 1
@@ -100,7 +101,11 @@ class Procedure:
                         value = target
                     depth[node] = 0
             self._made[node] = value
-        return [self._made[r] for r in roots]
+        found = [self._made[r] for r in roots]
+        # what was written out in one place has no name to be called by in another
+        named = {n: v for n, v in self._made.items() if isinstance(v, Ref | Const)}
+        self._made, self._users = {**outer[0], **named}, outer[1]
+        return found
 
     def value(self, root: Expr, origin: Span | None) -> Expression:
         """The value of one expression."""
