@@ -7,7 +7,7 @@ import math
 from bondgraph.backends.draw_arrange import Figure, arrange
 from bondgraph.backends.draw_canvas import Point
 from bondgraph.backends.draw_place import Wire
-from bondgraph.backends.draw_scene import Item, Scene, scene
+from bondgraph.backends.draw_scene import Item, Path, Scene, scene
 from bondgraph.backends.draw_style import SEPARATOR, SMALL, legend, style, width
 from bondgraph.ir.causal import CausalGraph, Reason, Stroke
 from bondgraph.ir.graph import BondGraph, Node
@@ -29,15 +29,7 @@ def draw(causal: CausalGraph, title: str) -> str:
     """
     if len(causal.graph.nodes) > _TOO_MANY:
         return _excuse(causal, title)
-    view = scene(causal, frozenset())
-    figure, unframed = arrange(view)
-    while unframed:
-        known = frozenset(unframed)
-        view = scene(causal, known)
-        figure, more = arrange(view)
-        if more <= known:
-            break
-        unframed = known | more
+    view, figure = _framed(causal)
     body = [
         *_frames(view, figure),
         *[_wire(causal, view, wire) for wire in figure.wires],
@@ -49,6 +41,19 @@ def draw(causal: CausalGraph, title: str) -> str:
         ],
     ]
     return _page(causal, title, body, figure.size)
+
+
+def _framed(causal: CausalGraph) -> tuple[Scene, Figure]:
+    """The figure with the frames that can be drawn; names say what the others would have said."""
+    unframed: frozenset[Path] = frozenset()
+    for _ in range(3):
+        view = scene(causal, unframed)
+        figure, more = arrange(view)
+        if more <= unframed:
+            return view, figure
+        unframed |= more
+    view = scene(causal, unframed | frozenset(view.frames))
+    return view, arrange(view)[0]
 
 
 def _page(causal: CausalGraph, title: str, body: list[str], size: Point) -> str:

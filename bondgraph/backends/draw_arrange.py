@@ -17,6 +17,8 @@ _LINE = 1700.0  # parts wider than this are broken into lines, px
 _SHELF = 1150.0  # small parts stand side by side up to this width, px
 _APART = 46.0
 _LANE = 9.0
+_SPREADS = (1.0, 1.25, 1.6, 2.1, 2.8)  # tried in turn until every one-port finds room
+_MANY = 400  # vertices and bends beyond which a crowded part is left as it is
 
 
 class Figure(NamedTuple):
@@ -88,18 +90,10 @@ def _shelves(boxes: list[Box]) -> list[Point]:
 def _block(scene: Scene, layers: Layers) -> tuple[list[tuple[Part, float]], list[Wire], Box]:
     """One connected part: its lines with their heights, its skeleton bonds, its bounds."""
     shifts = _shifts(layers)
-    steps = _steps(scene, layers)
-    x = _positions(steps)
-    whole = Part(scene, layers, range(len(steps) + 1))
-    if x[len(steps)] <= _LINE:
-        whole.place(x, _legs(layers, shifts, whole.columns))
-        widened = _widen(scene, layers, whole, steps)
-        if widened != steps:
-            steps = widened
-            x = _positions(steps)
-            whole.unframed.clear()
-            whole.place(x, _legs(layers, shifts, whole.columns))
-    lines = _lines(scene, layers, shifts, steps, x, whole)
+    for spread in _SPREADS if len(layers.column) < _MANY else _SPREADS[:1]:
+        lines = _lines(scene, layers, shifts, spread)
+        if not any(line.crowded for line, _ in lines):
+            break
     bounds = lines[0][0].bounds
     for line, down in lines:
         bounds = bounds.join(line.bounds.move(0, down))
@@ -179,17 +173,21 @@ def _widen(scene: Scene, layers: Layers, part: Part, steps: list[float]) -> list
 
 
 def _lines(
-    scene: Scene,
-    layers: Layers,
-    shifts: dict[int, float],
-    steps: list[float],
-    x: dict[int, float],
-    whole: Part,
+    scene: Scene, layers: Layers, shifts: dict[int, float], spread: float
 ) -> list[tuple[Part, float]]:
     """The part on one line, or broken into lines of about equal width."""
+    steps = [spread * step for step in _steps(scene, layers)]
+    x = _positions(steps)
     columns = len(steps) + 1
     total = x[columns - 1]
     if total <= _LINE:
+        whole = Part(scene, layers, range(columns))
+        legs = _legs(layers, shifts, whole.columns)
+        whole.place(x, legs, spread)
+        widened = _widen(scene, layers, whole, steps)
+        if widened != steps:
+            whole = Part(scene, layers, range(columns))
+            whole.place(_positions(widened), legs, spread)
         return [(whole, 0.0)]
     walls = [0] * columns  # frames crossed after each column: good places to break the line
     crossing = [0] * columns
@@ -202,7 +200,7 @@ def _lines(
     for columns_here in _breaks(x, walls, total / (total // _LINE + 1)):
         local = {c: x[c] - x[columns_here[0]] for c in columns_here}
         part = Part(scene, layers, columns_here)
-        part.place(local, _legs(layers, shifts, columns_here))
+        part.place(local, _legs(layers, shifts, columns_here), spread)
         if lines:
             room = _APART + crossing[columns_here[0] - 1] * _LANE
             down += lines[-1][0].bounds.y1 - part.bounds.y0 + room

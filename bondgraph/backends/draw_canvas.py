@@ -137,12 +137,17 @@ def _cells(box: Box) -> list[tuple[int, int]]:
 
 
 def _cells_of_line(p: Point, q: Point) -> list[tuple[int, int]]:
-    box = Box(min(p[0], q[0]), min(p[1], q[1]), max(p[0], q[0]), max(p[1], q[1]))
-    cells = _cells(box)
-    if len(cells) < 9:
-        return cells
-    return [
-        (i, j)
-        for i, j in cells
-        if inside(p, q, Box(i * _CELL, j * _CELL, (i + 1) * _CELL, (j + 1) * _CELL).grow(1))
-    ]
+    """The cells that the line may touch, column by column."""
+    if p[0] > q[0]:
+        p, q = q, p
+    slope = (q[1] - p[1]) / (q[0] - p[0]) if q[0] - p[0] > 1e-9 else 0.0
+    cells = []
+    for i in range(int(p[0] // _CELL), int(q[0] // _CELL) + 1):
+        if slope or q[0] - p[0] > 1e-9:
+            left, right = max(p[0], i * _CELL), min(q[0], (i + 1) * _CELL)
+            y0, y1 = p[1] + slope * (left - p[0]), p[1] + slope * (right - p[0])
+        else:
+            y0, y1 = p[1], q[1]
+        low, high = min(y0, y1) - 0.5, max(y0, y1) + 0.5
+        cells += [(i, j) for j in range(int(low // _CELL), int(high // _CELL) + 1)]
+    return cells

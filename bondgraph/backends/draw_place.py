@@ -58,16 +58,23 @@ class Part:
         self.tags: dict[int, Point] = {}
         self.frames: list[Frame] = []
         self.unframed: set[Path] = set()
+        self.crowded = False
         self.bounds = Box(0, 0, 0, 0)
 
-    def place(self, x: dict[int, float], legs: list[Leg]) -> None:
-        """Put the skeleton at these columns, then bonds, one-ports, names and frames."""
+    def place(self, x: dict[int, float], legs: list[Leg], spread: float) -> None:
+        """Put the skeleton at these columns, then bonds, one-ports, names and frames.
+
+        `spread` stretches the rows. Where a one-port finds no room `crowded` is set.
+        """
+        self.crowded = False
         self.canvas = Canvas()
         self.box.clear()
         self.wires.clear()
         self.angles: dict[int, list[float]] = {}
         deep = max([len(self.scene.frames_of(n)) for n in self.layers.vertices], default=0)
-        pitch = _ROW + 2 * (_PAD + _TITLE) * deep * (len(set(self.layers.row.values())) > 1)
+        pitch = spread * _ROW + 2 * (_PAD + _TITLE) * deep * (
+            len(set(self.layers.row.values())) > 1
+        )
         for v, c in self.layers.column.items():
             if c in self.columns:
                 self.centre[v] = (x[c], self.layers.row[v] * pitch)
@@ -117,6 +124,8 @@ class Part:
         best: tuple[Point, Box, Point, Point, float] | None = None
         for length, angles, apart in tries:
             for angle in angles:
+                if best and self._apart(leaf.host, angle) < apart:
+                    continue
                 spot = self._spot(leaf, angle, length)
                 if best is None:
                     best = (*spot, angle)
@@ -124,6 +133,7 @@ class Part:
                     self._fasten(leaf, *spot, angle)
                     return
         assert best is not None
+        self.crowded = True
         self._fasten(leaf, *best)
 
     def _spot(self, leaf: Leaf, angle: float, length: float) -> tuple[Point, Box, Point, Point]:
