@@ -15,7 +15,7 @@ from bondgraph.text.diagnostic import CompileError, Diagnostic
 from bondgraph.text.source import Source
 
 PACKAGE = Path(bondgraph.__file__).parent
-_CODE = re.compile(r"[a-z]+(-[a-z]+)+")
+_CODE = re.compile(r"[a-z]+(-[a-z]+)*")
 _REPORTING = frozenset(
     "error warning info complain problem fail Odd SyntaxProblem Diagnostic _refuse _foreign".split()
 )
@@ -36,10 +36,9 @@ def _reported() -> set[str]:
                 continue
             name = getattr(node.func, "attr", getattr(node.func, "id", ""))
             if name in _REPORTING:
-                for argument in node.args[:3]:
-                    value = getattr(argument, "value", None)
-                    if isinstance(value, str) and _CODE.fullmatch(value):
-                        found.add(value)
+                words = [a.value for a in node.args[:3] if isinstance(a, ast.Constant)]
+                if words and isinstance(words[0], str) and _CODE.fullmatch(words[0]):
+                    found.add(words[0])
     return found
 
 
