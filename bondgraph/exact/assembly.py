@@ -37,7 +37,7 @@ class Assembly(NamedTuple):
     `place[symbol]` is (variable, sign) for every symbol that is not constant. `free` are the
     variables that the plant leaves open: known inputs first, then unknown ones. `silent` are
     variables that are zero because an ideal detector takes no power. `readings` are sensors
-    whose reading a law uses: a variable with the expression that it reads.
+    whose reading a law or another sensor uses: a variable with the expression that it reads.
     """
 
     count_of: int
@@ -144,7 +144,8 @@ class _Builder:
                     rates.append(Rate(number, self.fresh(port.state), value))
         for item in graph.integrals:
             rates.append(Rate(-1, self.fresh(item.symbol), item.integrand))
-        readings = self.readings([law for _, law in laws] + [r.value for r in rates])
+        reads = [s.reads for s in graph.sensors]
+        readings = self.readings([law for _, law in laws] + [r.value for r in rates] + reads)
         free: list[int] = []
         unknown: list[int] = []
         for source in graph.inputs:
@@ -164,7 +165,7 @@ class _Builder:
         )
 
     def readings(self, expressions: list[Expr]) -> tuple[tuple[str, int, Expr], ...]:
-        """The sensors whose readings occur in the expressions, with those that these read."""
+        """The sensors whose readings occur in the expressions, with what these read."""
         own = {s.symbol: s for s in self.graph.sensors if s.same_as is None}
         used: dict[Expr, None] = {}
         while expressions:

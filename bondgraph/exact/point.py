@@ -197,7 +197,11 @@ class Point:
                     self.add(self.linearised(equations[i], order), i)
 
     def values(self, pending: list[tuple[int, Equation]]) -> None:
-        """Satisfy nonlinear equations themselves."""
+        """Satisfy nonlinear equations themselves.
+
+        Which law gets a random value first is random too: another attempt takes another.
+        """
+        self.random.shuffle(pending)
         while pending:
             left, block = [], None
             for number, equation in pending:
