@@ -11,7 +11,7 @@ from bondgraph.text.source import Span
 
 
 class Number(NamedTuple):
-    """A literal quantity; `value` is exact, `unit` as written or None."""
+    """A literal quantity: `value` is exact, `unit` as written or None, `text` the digits alone."""
 
     value: Fraction
     unit: str | None
@@ -78,7 +78,7 @@ Expression: TypeAlias = Number | Text | Truth | Ref | Unary | Binary | Call
 
 
 class Tolerance(NamedTuple):
-    """`+- 5%` (relative, as a fraction 1/20) or `+- 2 Ohm` (absolute)."""
+    """`+- 5%` (relative; the value of the quantity is 1/20) or `+- 2 Ohm` (absolute)."""
 
     quantity: Number
     relative: bool
@@ -227,7 +227,7 @@ class For(NamedTuple):
 
 
 class If(NamedTuple):
-    """`if c { ... } else { ... }`, decided when the model is built."""
+    """`if c { ... } else { ... }`, decided when the model is built; `else if` is an If in it."""
 
     condition: Expression
     body: tuple[Statement, ...]
