@@ -107,13 +107,14 @@ class _Elaboration:
         integrals = records.integrals()
         reads = [s.reads for s, _, _ in records.sensors]
         used = _used([law.zero for n in nodes for law in n.laws] + reads, integrals)
+        listed, inputs, sensors, lets = records.finished(used)
         return BondGraph(
-            model.name, self.definition.source, model.doc, self.pool,
-            tuple([n._replace(domain=self.domain(e))
-                   for n, e in zip(nodes, self.nodes, strict=True)]),
-            tuple([_bond(i, b) for i, b in enumerate(bonds)]),
-            *records.finished(used)[:3], tuple(integrals), records.finished(used)[3],
-            tuple(records.events),
+            name=model.name, source=self.definition.source, doc=model.doc, pool=self.pool,
+            nodes=tuple([n._replace(domain=self.domain(e))
+                         for n, e in zip(nodes, self.nodes, strict=True)]),
+            bonds=tuple([_bond(i, b) for i, b in enumerate(bonds)]),
+            values=listed, inputs=inputs, sensors=sensors, integrals=tuple(integrals), lets=lets,
+            events=tuple(records.events.values()),
         )  # fmt: skip
 
     def connect(self) -> None:

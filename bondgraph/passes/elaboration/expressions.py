@@ -125,7 +125,7 @@ class Expressions:
                 number.origin, f"`{number.text}`"
             )
         dimension, factor = self.quantities.unit(number.unit, number.origin)
-        term = self.quantities.dimensions.known(dimension, number.origin, "")
+        term = self.quantities.known(dimension, number.origin, "")
         return self.pool.num(number.value * factor), term
 
     # ------------------------------------------------------------------ operators

@@ -32,6 +32,7 @@ class Quantities:
         self._units: dict[str, tuple[Dimension, Fraction]] = {}
         self.domain: dict[int, str] = {}
         self.bond_slot: list[int] = []
+        self._stated: set[Span] = set()
 
     # ------------------------------------------------------------------ groups
 
@@ -77,6 +78,11 @@ class Quantities:
                 pair = self._pairs[root] = settled
         return pair
 
+    def known(self, dimension: Dimension, origin: Span, what: str) -> Term:
+        """A dimension that the model states."""
+        self._stated.add(origin)
+        return self.dimensions.known(dimension, origin, what)
+
     def settled(self, term: Term) -> Term:
         """The same dimension without unknowns, once nothing in it is open."""
         dimension = self.dimensions.resolve(term) if term.unknown else None
@@ -100,7 +106,7 @@ class Quantities:
             (flow, domain.flow, domain.flow_name),
         ):
             if dimension is not None:
-                known = self.dimensions.known(dimension, port.origin, said)
+                known = self.known(dimension, port.origin, said)
                 conflict = self.dimensions.equate(term, known, meets, f"{said}: its {what}")
                 if conflict is not None:
                     self.tell(conflict, f"Port `{port.name}` is {name}, its bond is not",
@@ -134,6 +140,8 @@ class Quantities:
         conflict = self.dimensions.equate(left, right, origin, what)
         if conflict is None:
             return True
+        if not any(p.origin in self._stated for p in conflict.left_places + conflict.right_places):
+            return True  # only plain numbers meet here: q + f is theirs to add
         self.tell(conflict, what, help)
         return False
 
@@ -173,8 +181,11 @@ class Quantities:
         return found
 
     def show(self, term: Term | None, written: str | None) -> tuple[Dimension | None, str | None]:
-        """Dimension and SI unit of a quantity: as it was written where that is SI already."""
-        if term is None:
+        """Dimension and SI unit of a quantity: as it was written where that is SI already.
+
+        In a model that states no unit at all the unit of time is open too: nothing has one.
+        """
+        if term is None or not self._stated:
             return None, None
         dimension = self.dimensions.resolve(term)
         if dimension is None:

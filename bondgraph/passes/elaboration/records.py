@@ -34,7 +34,7 @@ class Records:
         self.inputs: list[tuple[Input, Term | None, str | None]] = []
         self.sensors: list[tuple[Sensor, Term | None, str | None]] = []
         self.lets: list[tuple[Let, Term | None, str | None]] = []
-        self.events: list[Event] = []
+        self.events: dict[str, Event] = {}
         self.numbers: dict[Expr, Expr | None] = {}
 
     def entry(self, entry: ValueEntry) -> None:
@@ -225,7 +225,7 @@ class Records:
         except Skip:
             return
         name = scope.path + event.local
-        before = next((e for e in self.events if e.name == name), None)
+        before = self.events.get(name)
         if before is not None:
             self.report.error(
                 "duplicate-name", f"The fault `{event.local}` is declared twice.",
@@ -233,8 +233,8 @@ class Records:
                 help="Give one of them another name.",
             )  # fmt: skip
             return
-        self.events.append(
-            Event(name, target, declaration.op, value, declaration.doc, declaration.name.origin)
+        self.events[name] = Event(
+            name, target, declaration.op, value, declaration.doc, declaration.name.origin
         )
 
     def target(self, ref: Ref, scope: Scope, event: instantiate.Event

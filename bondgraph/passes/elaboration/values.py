@@ -302,7 +302,7 @@ class Values(Expressions):
             return self.quantities.dimensions.fresh(entry.origin, entry.local)
         dimension, _ = self.quantities.unit(declaration.unit, declaration.origin)
         what = f"`{entry.local}` is declared in {declaration.unit}"
-        return self.quantities.dimensions.known(dimension, declaration.origin, what)
+        return self.quantities.known(dimension, declaration.origin, what)
 
     def parameter(self, entry: ValueEntry, declaration: Param) -> Typed:
         """A param or const that is not bound: a symbol."""

@@ -161,6 +161,14 @@ def test_plain_numbers_take_the_unit_their_use_requires() -> None:
     assert body_errors("Se:U = 2 V + 3 -> 1:j; j -> R:r = 2 kOhm; let h = 9.81*2 kg") == []
 
 
+def test_a_model_of_plain_numbers_is_not_checked() -> None:
+    text = "Se:U -> 1:j; j -> R:r = k; j -> C:c = k; param k = 2; let odd = c.q + j.f + c.e"
+    found, said = run(f"model M {{ {text} }}")
+    assert found is not None and said == []
+    assert [v.unit for v in (*found.values, *found.lets)] == [None, None]
+    assert body_errors(text + "; sensor s : V = c.e") == ["unit-mismatch"]
+
+
 def test_counts_beside_a_constant_have_no_unit() -> None:
     text = "param L = 1 mH; Se:U = 3 V -> 1:j; j -> I:m = L; j -> R:r = {}*L; j -> Df:y"
     assert body_errors(text.replace("{}", "1/2")) == ["unit-mismatch"]
@@ -182,7 +190,7 @@ def test_huge_sizes_are_refused_at_once() -> None:
 
 WORDS = st.sampled_from(
     "Se:U R:r C:c 1:j 0:k TF:t GY:g De:y Df:z j k r t = 2 3 * ( ) { } -> <- ; param let sensor "
-    "fault input a b e f a[1] for i in 1..2 if true cell model M port p : in any out when int der Ohm"
+    "fault input a b e f a[1] for i in 1..2 if true cell model M port p : in any out when int Ohm"
     .split()
 )  # fmt: skip
 
