@@ -20,6 +20,7 @@ from bondgraph.passes.colour import colours
 from bondgraph.passes.initial import without_free_integrals
 from bondgraph.passes.loops import Loops
 from bondgraph.passes.matching import decompose
+from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.solve import Solution, solve
 from bondgraph.text.diagnostic import Report
 
@@ -66,12 +67,13 @@ class Chain:
         self.sequence: dict[Expr, int] = {}
         self.heap: list[_Offer] = []
         self.integrable: list[_Offer] = []
-        self.closings: list[int] = []
-        self.loops = Loops(self.pool)
+        self.nominal = Nominal(system.graph)
+        self.loops = Loops(self.pool, self.nominal)
 
     # ---------------------------------------------------------------- chaining
 
     def start(self) -> None:
+        """Look at every equation once: sources, sensors and empty ones begin the chain."""
         for row, count in enumerate(self.waiting):
             self.look(row, count)
 
@@ -79,12 +81,38 @@ class Chain:
         """An equation has lost an unknown: it may now give its last one, or be a relation."""
         if count == 0:
             self.used[row] = True
-            self.closings.append(row)
+            row = self.at_junction(row)
             self.loops.row(row, self.substituted(self.system.equations[row].zero))
         elif count == 1:
             self.offer(row)
 
+    def at_junction(self, row: int) -> int:
+        """Let a relation stand at a junction, where a person looks for it, not at an element.
+
+        If a junction's balance gave a variable only for this element to contradict it, the element
+        can give it as well, and the balance is the relation.
+        """
+        equation = self.system.equations[row]
+        if equation.kind not in ("law", "state"):
+            return row
+        for variable in equation.variables:
+            step = self.steps[variable]
+            if step.equation.kind != "balance" or len(self.holders[variable]) != 2:
+                continue
+            found = solve(self.pool, equation.zero, variable, self.nominal.vanishes)
+            if found is None or found.hard:
+                continue
+            balance = next(r for r in self.holders[variable] if r != row)
+            closed = self.substituted(found.value)
+            how: How = "solved" if equation.state is None else "differentiated"
+            self.closed[variable] = closed
+            self.steps[variable] = Step(variable, found.value, closed, equation, how)
+            self.sequence[variable] = len(self.sequence)
+            return balance
+        return row
+
     def offer(self, row: int) -> None:
+        """An equation with one unknown left offers it, if it can be solved for it."""
         equation = self.system.equations[row]
         variable = next(v for v in equation.variables if v not in self.closed)
         how: How
@@ -96,7 +124,7 @@ class Chain:
             how = "integrated"
         else:
             free = False
-            found = solve(self.pool, equation.zero, variable)
+            found = solve(self.pool, equation.zero, variable, self.nominal.vanishes)
             if found is None:
                 return
             solution = found
@@ -126,6 +154,7 @@ class Chain:
                 self.take(offer, variable)
 
     def take(self, offer: _Offer, variable: Expr) -> None:
+        """Accept an offer."""
         self.used[offer.equation] = True
         equation = self.system.equations[offer.equation]
         closed = self.substituted(offer.solution.value)
@@ -133,6 +162,7 @@ class Chain:
         self.settle(variable, step, offer.cost)
 
     def settle(self, variable: Expr, step: Step, cost: Cost) -> None:
+        """A variable is computed: its equations have an unknown less."""
         self.closed[variable] = step.closed
         self.cost[variable] = cost
         self.steps[variable] = step
@@ -143,6 +173,7 @@ class Chain:
                 self.look(row, self.waiting[row])
 
     def substituted(self, expr: Expr) -> Expr:
+        """An expression of variables in known signals."""
         return self.pool.substitute([expr], self.closed)[0]
 
     # ------------------------------------------------------------------ stalls
@@ -217,6 +248,7 @@ class Chain:
         return tuple(self.steps[v] for v in sorted(seen, key=self.sequence.__getitem__))
 
     def result(self) -> ReducedSystem:
+        """The relations that were found, and what no sensor reaches."""
         relations, lost = self.loops.relations()
         final = self.loops.solutions()
         closings = []
@@ -238,6 +270,7 @@ class Chain:
         return ReducedSystem(self.system, tuple(closings), unsolved, unmonitored, lost)
 
     def initial_missing(self, equation: Equation, steps: tuple[Step, ...]) -> None:
+        """Say which storage needs an initial value."""
         for step in steps:
             if step.how == "integrated" and step.equation.initial is None:
                 self.report.warning(
@@ -252,6 +285,7 @@ class Chain:
                 return
 
     def report_loops(self) -> None:
+        """Say which loops cost a relation."""
         for variables in self.loops.refused():
             steps = [self.steps[v].equation for v in variables]
             names = ", ".join(dict.fromkeys(f"`{e.name}`" for e in steps))

@@ -11,8 +11,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.solve import affine, constant, solve
-from bondgraph.passes.zero import is_zero
+from bondgraph.passes.zero import is_zero, share_factor
 
 Polynomial = list[Expr]  # coefficients of D**0, D**1, ...
 
@@ -35,8 +36,9 @@ class _LinearRow(NamedTuple):
 class Loops:
     """The torn variables of one elimination and the rows that hold them."""
 
-    def __init__(self, pool: Pool) -> None:
+    def __init__(self, pool: Pool, nominal: Nominal) -> None:
         self.pool = pool
+        self.nominal = nominal
         self.variable: dict[Expr, Expr] = {}  # tear symbol to the variable it stands for
         self.solved: dict[Expr, _Row] = {}  # tear symbol to its value and rows
         self.spent: dict[Expr, tuple[int, ...]] = {}  # tear symbol to the rows it dropped out of
@@ -105,14 +107,14 @@ class Loops:
             parts = affine(self.pool, item.expr, symbol)
             if parts is None:
                 if len(tears) == 1 and not _differentiated(item.expr, symbol):
-                    found = solve(self.pool, item.expr, symbol)
+                    found = solve(self.pool, item.expr, symbol, self.nominal.vanishes)
                     if found is not None:
                         return symbol, found.value
                 continue
             slope = parts[0]
             if self._tears(slope) or is_zero(slope):
                 continue
-            found = solve(self.pool, item.expr, symbol)
+            found = solve(self.pool, item.expr, symbol, self.nominal.vanishes)
             if found is None:
                 continue
             if constant(slope):
@@ -242,7 +244,7 @@ class Loops:
 
     def _reduced(self, a: Polynomial, b: Polynomial) -> tuple[Polynomial, Polynomial]:
         """Both polynomials without a common factor in D."""
-        if len(a) > 1 and len(b) > 1:
+        if len(a) > 1 and len(b) > 1 and share_factor(a, b):
             from bondgraph.passes.solve_symbolic import without_common_factor
 
             return without_common_factor(self.pool, a, b)

@@ -6,6 +6,7 @@ variable more than once in a nonlinear way goes to SymPy.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -34,10 +35,16 @@ class Solution(NamedTuple):
     inverted: bool
 
 
-def solve(pool: Pool, zero: Expr, variable: Expr) -> Solution | None:
+def solve(
+    pool: Pool,
+    zero: Expr,
+    variable: Expr,
+    vanishes: Callable[[Expr], bool] = lambda _: False,
+) -> Solution | None:
     """The unique value of `variable` that makes `zero` vanish, or None if there is none to give.
 
-    A coefficient that a mode or a parameterless constant may turn to zero is never divided by.
+    A coefficient that a mode may turn to zero, or that `vanishes` at the nominal parameters (a
+    leak that is nominally nothing), is never divided by.
 
     >>> p = Pool(); e, f = p.symbol("e", Kind.EFFORT), p.symbol("f", Kind.FLOW)
     >>> R = p.symbol("R", Kind.PARAM)
@@ -50,11 +57,11 @@ def solve(pool: Pool, zero: Expr, variable: Expr) -> Solution | None:
     linear = affine(pool, zero, variable)
     if linear is not None:
         slope, rest = linear
-        if slope is pool.zero or not _dividable(slope):
+        if slope is pool.zero or not _dividable(slope) or vanishes(slope):
             return None
         value = pool.neg(rest) if slope is pool.one else _quotient(pool, rest, slope)
         return Solution(value, not constant(slope), False)
-    value_ = _peel(pool, zero, variable, holders)
+    value_ = _peel(pool, zero, variable, holders, vanishes)
     if value_ is None:
         from bondgraph.passes.solve_symbolic import solve_symbolic
 
@@ -146,7 +153,13 @@ def _quotient(pool: Pool, rest: Expr, slope: Expr) -> Expr:
     return pool.div(pool.neg(rest), slope)
 
 
-def _peel(pool: Pool, zero: Expr, variable: Expr, holders: dict[Expr, None]) -> Expr | None:
+def _peel(
+    pool: Pool,
+    zero: Expr,
+    variable: Expr,
+    holders: dict[Expr, None],
+    vanishes: Callable[[Expr], bool],
+) -> Expr | None:
     """Turn a chain of one-to-one functions around, from the outside to the variable."""
     node, target = zero, pool.zero
     while node is not variable:
@@ -168,7 +181,7 @@ def _peel(pool: Pool, zero: Expr, variable: Expr, holders: dict[Expr, None]) -> 
                 for a, e in zip(node.args, node.exponents, strict=True)
                 if a is not inner
             ]
-            if not all(_dividable(o) for o in others):
+            if not all(_dividable(o) and not vanishes(pool.power(o, -1)) for o in others):
                 return None
             root = _root(pool, pool.mul(target, *others), power)
             if root is None:

@@ -8,6 +8,7 @@ derivatives count as independent unknowns of their arguments' values, which can 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from zlib import crc32
 
 from bondgraph.ir.expr import Expr, Op, topological
@@ -26,6 +27,34 @@ def is_zero(expr: Expr) -> bool:
     True
     """
     return all(_value(expr, seed) == 0 for seed in (1, 2))
+
+
+def share_factor(a: list[Expr], b: list[Expr]) -> bool:
+    """Whether two polynomials (coefficients from the constant up) have a common factor.
+
+    Euclid's algorithm on their values at a random point; a division by zero there counts as yes.
+    """
+    left, right = ([_value(c, 3) for c in p] for p in (a, b))
+    if None in left or None in right:
+        return True
+    one, other = _trimmed(left), _trimmed(right)
+    while other:
+        top = pow(other[-1], -1, _P)
+        while len(one) >= len(other):
+            factor = one[-1] * top % _P
+            shift = len(one) - len(other)
+            for k, c in enumerate(other):
+                one[k + shift] = (one[k + shift] - factor * c) % _P
+            one = _trimmed(one[:-1])
+        one, other = other, one
+    return len(one) > 1
+
+
+def _trimmed(values: Sequence[int | None]) -> list[int]:
+    known = [v for v in values if v is not None]
+    while known and not known[-1]:
+        known.pop()
+    return known
 
 
 def _value(expr: Expr, seed: int) -> int | None:
