@@ -80,6 +80,8 @@ class _Builder:
         self.numbers = _Numbers(2 * len(graph.bonds))  # effort 2b, flow 2b + 1
         self.place: dict[Expr, tuple[int, int]] = {}
         self.size = 0
+        self.inner: dict[Expr, Expr] = {}  # what is differentiated, to the symbol made for it
+        self.extra: list[tuple[int, Expr]] = []
 
     def share(self) -> list[int]:
         """The final number of each bond variable."""
@@ -126,6 +128,22 @@ class _Builder:
         common = self.fresh(node.common)
         return Balance(number, tuple((v, c) for v, c in terms.items() if c), node.when, common)
 
+    def flat(self, number: int, expr: Expr) -> Expr:
+        """The expression with derivatives of variables only: others get a variable of their own."""
+        pool = self.graph.pool
+        new: dict[Expr, Expr] = {}
+        for node in topological([expr]):
+            args = tuple(new[a] for a in node.args)
+            if node.op is Op.DER and args[0].op not in (Op.SYM, Op.DER):
+                inner = self.inner.get(args[0])
+                if inner is None:
+                    inner = pool.symbol(f"der#{len(self.inner)}", Kind.INTEGRAL)
+                    self.inner[args[0]] = inner
+                    self.extra.append((number, pool.sub(inner, args[0])))
+                args = (inner,)
+            new[node] = pool.rebuild(node, args)
+        return new[expr]
+
     def build(self) -> Assembly:
         graph = self.graph
         final = self.share()
@@ -137,15 +155,17 @@ class _Builder:
             elif node.kind in ("De", "Df"):
                 shift = int(node.kind == "De")
                 silent += [final[2 * bond + shift] for bond, _ in self.ends[number]]
-            laws += [(number, law.zero) for law in node.laws]
+            laws += [(number, self.flat(number, law.zero)) for law in node.laws]
             for port in node.ports:
                 if port.state is not None:
                     value = port.flow if node.kind == "C" else port.effort
                     rates.append(Rate(number, self.fresh(port.state), value))
         for item in graph.integrals:
-            rates.append(Rate(-1, self.fresh(item.symbol), item.integrand))
+            rates.append(Rate(-1, self.fresh(item.symbol), self.flat(-1, item.integrand)))
         reads = [s.reads for s in graph.sensors]
         readings = self.readings([law for _, law in laws] + [r.value for r in rates] + reads)
+        readings = tuple((name, v, self.flat(-1, expr)) for name, v, expr in readings)
+        laws += self.extra
         free: list[int] = []
         unknown: list[int] = []
         for source in graph.inputs:
