@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
+import bondgraph
+from bondgraph.cli.report import report
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "codegen").rglob("*.md")])
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("codegen/**/*.md")])
 _FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
@@ -47,7 +52,8 @@ def complete_models() -> list[tuple[str, str]]:
     found = []
     for page in PAGES:
         for language, text in _FENCE.findall(page.read_text(encoding="utf-8")):
-            if language == "bg" and text.startswith("bg 1\n") and "..." not in text:
+            whole = text.startswith("bg 1\n") and text.count("{") == text.count("}")
+            if language == "bg" and whole:
                 found.append((str(page.relative_to(ROOT)), text))
     return found
 
@@ -93,3 +99,62 @@ def test_the_readme_shows_both_commands_and_the_code_at_once() -> None:
     head = "\n".join((ROOT / "README.md").read_text(encoding="utf-8").splitlines()[:20])
     for part in ("make run", "make test", "bg 1", "bondgraph compile", "```c"):
         assert part in head, part
+
+
+def replaced(page: Path, old: str, new: str) -> None:
+    page.write_text(page.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+
+
+def test_the_code_in_the_readme_is_what_the_robot_becomes(update: bool) -> None:
+    page = ROOT / "README.md"
+    shown = next(t for lang, t in _FENCE.findall(page.read_text(encoding="utf-8")) if lang == "c")
+    artifacts = bondgraph.compile(ROOT / "models" / "khepera.bg").artifacts
+    code = next(a.text for a in artifacts if a.path.endswith("residuals.c"))
+    start = code.index("    r[KHEPERA_R1] =")
+    lines = [line.removeprefix("    ") for line in code[start:].splitlines()]
+    actual = "".join(f"{line}\n" for line in lines[: shown.count("\n")])
+    if update:
+        replaced(page, shown, actual)
+    else:
+        assert shown == actual
+
+
+def test_the_report_in_the_readme_is_what_is_printed(
+    monkeypatch: pytest.MonkeyPatch, update: bool
+) -> None:
+    monkeypatch.setenv("COLUMNS", "100")
+    page = ROOT / "README.md"
+    blocks = [text for _, text in _FENCE.findall(page.read_text(encoding="utf-8"))]
+    shown = next(text for text in blocks if text.startswith("$ make run\n"))
+    lines = report(bondgraph.compile(ROOT / "models" / "khepera.bg"), [])
+    second = next(n for n, line in enumerate(lines) if line.startswith("r2"))
+    actual = "\n".join(["$ make run", *lines[: second - 1], "...", ""])
+    if update:
+        replaced(page, shown, actual)
+    else:
+        assert shown == actual
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/json.md"])
+def test_examples_in_python_run(page: str, tmp_path: Path) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    (tmp_path / "models").symlink_to(ROOT / "models")
+    command = tmp_path / "bondgraph"
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m bondgraph "$@"\n')
+    command.chmod(0o755)
+    for language, program in _FENCE.findall(text):
+        if language == "python":
+            done = subprocess.run(
+                [sys.executable, "-c", program],
+                cwd=tmp_path,
+                env={
+                    **os.environ,
+                    "PYTHONPATH": str(ROOT),
+                    "PATH": f"{tmp_path}:{os.environ['PATH']}",
+                },
+                capture_output=True,
+                text=True,
+                check=False,
+            )
+            assert done.returncode == 0, done.stderr
+            assert "r1" in done.stdout

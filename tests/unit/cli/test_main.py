@@ -49,7 +49,8 @@ def test_the_manual_knows_every_option() -> None:
 def test_every_command_has_a_module_with_a_docstring() -> None:
     folder = ROOT / "bondgraph" / "cli"
     for name in COMMANDS:
-        assert (folder / f"{name}.py").read_text(encoding="utf-8").startswith(f'"""`bondgraph {name}`')
+        text = (folder / f"{name}.py").read_text(encoding="utf-8")
+        assert text.startswith(f'"""`bondgraph {name}`')
 
 
 @pytest.mark.parametrize(

@@ -60,7 +60,8 @@ def test_an_integral_has_the_expression_of_its_initial_value() -> None:
     start = pool.symbol("spring.q0", Kind.INITIAL)
     node = pool.integral(x, start)
     assert parsable(pool, node, names, {"spring.q0": pool.mul(a, a)}).expr == "Int(x, w__a**2)"
-    assert parsable(pool, node, names, {"spring.q0": pool.num(Fraction(1, 2))}).expr == "Int(x, 1/2)"
+    half = pool.num(Fraction(1, 2))
+    assert parsable(pool, node, names, {"spring.q0": half}).expr == "Int(x, 1/2)"
 
 
 @pytest.mark.parametrize("value", [-2.5, -1.0, 0.25, 3.0])
