@@ -37,6 +37,20 @@ def corpus() -> list[str]:
     return [f.read_text(encoding="utf-8") for f in files]
 
 
+_FRAME = frozenset(("bg", "model", "port", "in", "out", "param"))
+
+#: A model to which random statements are added, and sound ones that it may have too.
+_SKELETON = ("Se:u -> 1:i", "i -> R:r = 2", "i -> 0:j", "j -> C:C1 = 1 F")
+_SOUND = (
+    "i -> Df:y", "j -> De:w", "i -> I:left = 3", "param k = 2 V", "let x = k*r.f",
+    "i -> R:a { e = 2*f*abs(f) }", "j -> GY:b -> 1:m", "j -> R:right { 0 = e - 2*f^3 }",
+    "m -> I:shaft = 3", "j -> TF:n { f1 = 2*f2 } -> R:load = 1", "fault break : r *= 2",
+    "C:mic { port x; port y; x.e = x.q*y.q; y.e = x.q^2/2 }", "i -> mic.x", "j -> mic.y",
+    "input on : bool", "1:gate when on { <- j; -> R:leak = 5 }", "Se:noise -> i",
+    "sensor z : A.s = int(r.f, q0)", "param q0 = 0 A.s", "j -> Sf:pump = 2*r.f",
+)  # fmt: skip
+
+
 class Mutator:
     """A stream of texts that depends on the seed alone."""
 
@@ -52,8 +66,10 @@ class Mutator:
         if kind < 0.03:
             return self._noise()
         text = self._grown() if kind < 0.35 else self._picked()
+        # half of the texts shall get past the parser
+        changes = _MUTATIONS if self.random.random() < 0.5 else _GENTLE
         for _ in range(self.random.choice((0, 1, 1, 1, 2, 2, 3, 5, 8)) if kind < 0.99 else 60):
-            text = self.random.choice(_MUTATIONS)(self, text)
+            text = self.random.choice(changes)(self, text)
         return text[:20_000]
 
     def _picked(self) -> str:
@@ -77,7 +93,7 @@ class Mutator:
 
     def rename(self, text: str) -> str:
         """Another name where a name stood: the mistakes that only elaboration can see."""
-        names = [m for m in re.finditer(r"\b[A-Za-z_]\w*\b", text)]
+        names = [m for m in re.finditer(r"\b[A-Za-z_]\w*\b", text) if m[0] not in _FRAME]
         if not names:
             return text
         one, other = self.random.choice(names), self.random.choice(names)
@@ -109,21 +125,21 @@ class Mutator:
     def drop_line(self, text: str) -> str:
         """A line left out."""
         lines = text.split("\n")
-        del lines[self.random.randrange(len(lines))]
+        del lines[min(self._inside(lines), len(lines) - 1)]
         return "\n".join(lines)
 
     def repeat_line(self, text: str) -> str:
         """A line said twice, or moved elsewhere."""
         lines = text.split("\n")
         line = self.random.choice(lines)
-        lines.insert(self.random.randrange(len(lines) + 1), line)
+        lines.insert(self._inside(lines), line)
         return "\n".join(lines)
 
     def join(self, text: str) -> str:
         """Some lines of another model."""
         lines, others = text.split("\n"), self._picked().split("\n")
         start = self.random.randrange(len(others))
-        at = self.random.randrange(len(lines) + 1)
+        at = self._inside(lines)
         lines[at:at] = others[start : start + self.random.randrange(1, 6)]
         return "\n".join(lines)
 
@@ -141,8 +157,17 @@ class Mutator:
     def statement(self, text: str) -> str:
         """A random statement in a random line."""
         lines = text.split("\n")
-        lines.insert(self.random.randrange(len(lines) + 1), self._statement())
+        lines.insert(self._inside(lines), self._statement())
         return "\n".join(lines)
+
+    def _inside(self, lines: list[str]) -> int:
+        """A place between lines, mostly one inside a model."""
+        models = [n for n, line in enumerate(lines) if line.startswith("model ")]
+        if not models or self.random.random() < 0.05:
+            return self.random.randrange(len(lines) + 1)
+        first = self.random.choice(models) + 1
+        ends = [n for n in range(first, len(lines)) if lines[n].startswith("}")]
+        return self.random.randrange(first, max(ends[0] if ends else len(lines), first) + 1)
 
     def _solid(self, words: list[str]) -> int:
         for _ in range(5):
@@ -155,7 +180,12 @@ class Mutator:
 
     def _grown(self) -> str:
         """A file of random statements that mostly parses."""
-        statements = "\n    ".join(self._statement() for _ in range(self.random.randrange(1, 9)))
+        lines = self.random.sample(_SOUND, self.random.randrange(len(_SOUND) + 1))
+        lines = [*_SKELETON, *lines] if self.random.random() < 0.8 else []
+        lines += [self._statement() for _ in range(self.random.choice((0, 1, 1, 2, 3, 6)))]
+        if self.random.random() < 0.5:
+            self.random.shuffle(lines)
+        statements = "\n    ".join(lines)
         part = f"""model Part {{
     port a : in {self.random.choice(_DOMAINS)}
     port b : out {self.random.choice(_DOMAINS)}
@@ -234,6 +264,10 @@ model Chain(n : int = {self._expression(2)}) {{
                        f"if({left} < {right}, {right}, {left})", f"not {left}"))  # fmt: skip
 
 
+_GENTLE = (
+    Mutator.rename, Mutator.rename, Mutator.number, Mutator.drop_line, Mutator.repeat_line,
+    Mutator.statement,
+)  # fmt: skip
 _MUTATIONS = (
     Mutator.swap_word, Mutator.swap_word, Mutator.rename, Mutator.rename, Mutator.rename,
     Mutator.drop_words, Mutator.add_word, Mutator.number, Mutator.drop_line, Mutator.repeat_line,
