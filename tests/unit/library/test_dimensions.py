@@ -142,7 +142,7 @@ _exponents = st.sampled_from([-2, -1, 1, 2, 3, Fraction(1, 2)])
 _side = st.tuples(st.integers(-2, 2), st.dictionaries(st.integers(0, 5), _exponents, max_size=3))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.lists(st.tuples(_side, _side), max_size=8))
 def test_agrees_with_linear_algebra(system: list[tuple[_Side, _Side]]) -> None:
     d = Dimensions()
