@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 
 from bondgraph.ir.syntax import (
@@ -46,11 +47,11 @@ class Files:
     def definitions(self, file: File, source: Source) -> dict[str, Definition]:
         """Every model that `file` declares or imports, by name."""
         known: dict[str, Definition] = {}
-        self.loaded[source.path] = known
-        self.loading[source.path] = None
+        self.loaded[_key(source)] = known
+        self.loading[_key(source)] = None
         for model in file.models:
             self.declare(model, known, source)
-        self.own[source.path] = set(known)
+        self.own[_key(source)] = set(known)
         for item in file.imports:
             try:
                 self.import_from(item.path, item.names, item.origin, known)
@@ -58,7 +59,7 @@ class Files:
                 # the names are taken as declared, or every use of them would be reported too
                 for name in item.names:
                     known.setdefault(name, _missing(name, item.origin, source))
-        del self.loading[source.path]
+        del self.loading[_key(source)]
         return known
 
     def declare(self, model: Model, known: dict[str, Definition], source: Source) -> None:
@@ -82,24 +83,26 @@ class Files:
         self, path: str, names: tuple[str, ...], origin: Span, known: dict[str, Definition]
     ) -> None:
         """Enter the models that one `import` names."""
+        before = len(self.report.diagnostics)
         file = self.load(path, origin)
-        if file is None:
-            if not self.report.failed:
-                fail(self.report, "import-failed", f'"{path}" cannot be imported.', origin,
-                     help="Check the path: it is taken from the folder of this file.")  # fmt: skip
+        said = any(d.severity == "error" for d in self.report.diagnostics[before:])
+        if file is None and not said:
+            fail(self.report, "import-failed", f'"{path}" cannot be imported.', origin,
+                 help="Check the path: it is taken from the folder of this file.")  # fmt: skip
+        if file is None or said:
             raise Skip
         source = file.origin.source
-        self.loading[origin.source.path] = origin
-        if source.path in self.loading:
+        self.loading[_key(origin.source)] = origin
+        if _key(source) in self.loading:
             files = list(self.loading)
-            steps = [self.loading[f] for f in files[files.index(source.path) :]]
+            steps = [self.loading[f] for f in files[files.index(_key(source)) :]]
             fail(self.report, "import-cycle", "These imports go round in a circle.",
                  *[Label(s, "imports the next file") for s in steps if s is not None],
                  help="Move what both files need into a third one.")  # fmt: skip
-        theirs = self.loaded.get(source.path)
+        theirs = self.loaded.get(_key(source))
         if theirs is None:
             theirs = self.definitions(file, source)
-        own = self.own[source.path]
+        own = self.own[_key(source)]
         for name in names:
             if name not in own:
                 help = meant(name, own, f"It declares {listed(sorted(own)) or 'no model'}.")
@@ -116,6 +119,11 @@ class Files:
                 )  # fmt: skip
             else:
                 known[name] = theirs[name]
+
+
+def _key(source: Source) -> str:
+    """One name for one file, however the path to it is written."""
+    return os.path.realpath(source.path)
 
 
 #: Stands for a model whose import failed: using it is no second error.

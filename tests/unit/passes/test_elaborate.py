@@ -126,6 +126,9 @@ def test_imports() -> None:
     cyclic = {"parts.bg": 'import M from "model.bg"\nmodel Load { port p : in any; p -> R:r = 1 }',
               "model.bg": text}  # fmt: skip
     assert [d.code for d in run(text, others=cyclic)[1]] == ["import-cycle"]
+    roundabout = {"parts.bg": cyclic["parts.bg"].replace("model.bg", "x/../model.bg"),
+                  "x/../model.bg": text}  # fmt: skip
+    assert [d.code for d in run(text, others=roundabout)[1]] == ["import-cycle"]
 
 
 # ---------------------------------------------------------------- ports and signs
