@@ -191,7 +191,7 @@ class Functions:
                 found = self.log(x + square_root(x * x - 1))
                 return found if sign(found) >= 0 else -found
             case "atanh":
-                return self.log((1 + x) * inverse(1 - x)) * _TWO
+                return self.log(square_root((1 + x) * inverse(1 - x)))
         raise KeyError(name)
 
 

@@ -110,7 +110,6 @@ class Plant:
         roots += [v.symbol for v in graph.values] + [i.symbol for i in graph.inputs if i.mode]
         constant = (Kind.PARAM, Kind.CONST, Kind.INITIAL, Kind.FREE)
         found = [n for n in topological(roots) if n.op is Op.SYM]
-        self.constants = [n for n in found if n.symbol.kind in constant]
         self.modes = [n for n in found if n.symbol.kind is Kind.MODE]
         symbols = {v.name: v.symbol for v in graph.sensors}
         symbols |= {v.name: v.symbol for v in graph.inputs}
@@ -118,14 +117,15 @@ class Plant:
         self._names = {name: symbols[name] for name in graph.faults}
         self._reach = highest_order([s.reads for s in graph.sensors])
         self._read = {name for name, _, _ in self.assembly.readings}
-        self._starts: dict[Symbol, Expr] = {}
+        self._starts: dict[Expr, Expr] = {}  # initial value to the variable that it is one of
         for node in graph.nodes:
             for port in node.ports:
                 if port.state is not None and port.initial is not None:
-                    self._starts[port.initial.symbol] = port.state
+                    self._starts[port.initial] = port.state
         for item in graph.integrals:
             if item.initial.op is Op.SYM:
-                self._starts[item.initial.symbol] = item.symbol
+                self._starts[item.initial] = item.symbol
+        self.constants = [n for n in found if n.symbol.kind in constant and n not in self._starts]
 
     def trajectory(
         self,
@@ -268,6 +268,8 @@ class Plant:
             raise ExactUnavailable(self._over(failure.node)) from None
         except Mixed as failure:
             raise ExactUnavailable(f"a law of the model holds {failure}") from None
+        except KeyError as failure:
+            raise ExactUnavailable(f"a law of the model rests on {failure}") from None
         truth = KnownSample(plant.place, setting, values)
         told = dict(constants)
         for item in graph.inputs:
@@ -278,12 +280,9 @@ class Plant:
             if sensor.same_as is None and sensor.name not in self._read:
                 reading = evaluate([sensor.reads], truth, order + 1)[0]
                 told[sensor.symbol] = series.add(reading, errors.get(sensor.name, [0]))
-        starts = {}
-        for initial, state in self._starts.items():
-            starts[initial] = truth.value(state)[0]
-        for symbol in self.constants:
-            if symbol.symbol in starts:
-                told[symbol] = [starts[symbol.symbol]]
+        starts = {i.symbol: truth.value(state)[0] for i, state in self._starts.items()}
+        for initial in self._starts:
+            told.setdefault(initial, [starts[initial.symbol]])
         return Trajectory(self, seed, order, tuple(faults), told, truth, starts)
 
     # ------------------------------------------------------------------------ explanations
