@@ -35,7 +35,7 @@ def run(args: Namespace) -> int:
         from bondgraph.text.render import as_json
 
         message = str(failures[0]) if failures else "; ".join(lines)
-        status = failures[0].status if failures else "ok"
+        status = console.status(failures[0]) if failures else "ok"
         diagnosed = as_json(tuple(found))
         console.print_json({"status": status, "message": message, "diagnostics": diagnosed})
     else:

@@ -36,12 +36,22 @@ def print_json(value: object) -> None:
     print(json.dumps(value, indent=2, ensure_ascii=False))
 
 
+#: Findings about a model that is sound, but that the compiler cannot solve.
+_REFUSALS = frozenset({"loop-unsolvable"})
+
+
+def status(error: CompileError) -> str:
+    """`error` where the model is wrong, `refused` where it cannot be solved."""
+    codes = {d.code for d in error.diagnostics if d.severity == "error"}
+    return "refused" if codes and codes <= _REFUSALS else error.status
+
+
 def failure(error: CompileError) -> dict[str, object]:
     """The machine-readable result of a model that is wrong or cannot be solved."""
     from bondgraph.text.render import as_json
 
     return {
-        "status": error.status,
+        "status": status(error),
         "message": str(error),
         "diagnostics": as_json(error.diagnostics),
         "n_arr": 0,

@@ -25,7 +25,9 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
     """The lines of the report."""
     matrix = compilation.signatures
     columns = width()
-    lines = [f"{compilation.graph.name}: {message(matrix)}", _checked(compilation)]
+    lines = [f"{compilation.graph.name}: {message(matrix)}"]
+    if matrix.residuals:
+        lines.append(_checked(compilation))
     for relation in compilation.residuals:
         lines += ["", *closed_form(compilation, relation, columns)]
     if matrix.faults and matrix.residuals:
