@@ -1,18 +1,20 @@
 """Colour equations and variables by their surroundings, so that ties do not depend on names.
 
 Colour refinement (Weisfeiler and Lehman, 1968) on the graph of equations and variables: what has
-different surroundings gets a different colour, whatever the order or the names in the file.
+different surroundings or other numbers gets a different colour, whatever the order or the names
+in the file, and however the bonds are drawn.
 """
 
 from __future__ import annotations
 
 from bondgraph.ir.equations import EquationSystem
-from bondgraph.ir.expr import Expr
+from bondgraph.ir.expr import CONSTANTS, Expr, Op, topological
+from bondgraph.passes.nominal import Nominal
 
 
 def colours(system: EquationSystem, rounds: int = 6) -> tuple[list[int], dict[Expr, int]]:
     """A rank for each equation and each variable, equal only where `rounds` steps look alike."""
-    nodes = system.graph.nodes
+    nodes, nominal = system.graph.nodes, Nominal(system.graph)
     position = {v: i for i, v in enumerate(system.unknowns)}
     members = [[position[v] for v in e.variables] for e in system.equations]
     holders: list[list[int]] = [[] for _ in system.unknowns]
@@ -21,7 +23,13 @@ def colours(system: EquationSystem, rounds: int = 6) -> tuple[list[int], dict[Ex
             holders[column].append(row)
     equation = _ranks(
         [
-            (e.kind == "sensor", e.kind, nodes[e.node].kind if e.node >= 0 else "", len(m))
+            (
+                e.kind == "sensor",
+                e.kind,
+                nodes[e.node].kind if e.node >= 0 else "",
+                len(m),
+                *_numbers(e.zero, nominal),
+            )
             for e, m in zip(system.equations, members, strict=True)
         ]
     )
@@ -47,6 +55,17 @@ def colours(system: EquationSystem, rounds: int = 6) -> tuple[list[int], dict[Ex
             break
         classes = found
     return equation, {v: variable[i] for v, i in position.items()}
+
+
+def _numbers(zero: Expr, nominal: Nominal) -> list[float]:
+    """The sizes of the numbers in an equation; their signs depend on how bonds are drawn."""
+    sizes = []
+    for node in topological([zero]):
+        if node.op is Op.SYM and node.symbol.kind in CONSTANTS:
+            sizes.append(abs(nominal.value(node) or 0.0))
+        elif node.op is Op.ADD:
+            sizes += [abs(float(c)) for c in node.coefficients]
+    return sorted(sizes)
 
 
 def _ranks(keys: list[tuple[object, ...]]) -> list[int]:
