@@ -23,7 +23,7 @@ from bondgraph.passes.elaboration.lookup import Lookup
 from bondgraph.passes.elaboration.problems import Abort, Skip, fail
 from bondgraph.passes.elaboration.quantities import Quantities
 from bondgraph.passes.elaboration.records import Records
-from bondgraph.passes.elaboration.scope import NodeEntry, Scope, ValueEntry, flattened
+from bondgraph.passes.elaboration.scope import Array, NodeEntry, Scope, ValueEntry, flattened
 from bondgraph.passes.elaboration.values import Values
 from bondgraph.passes.elaboration.variables import create, initial_values
 from bondgraph.text.diagnostic import Report
@@ -175,8 +175,6 @@ class _Elaboration:
     @staticmethod
     def sensor(value: object, entry: NodeEntry, values: Values) -> Expr | None:
         """The symbol that a detector gives."""
-        from bondgraph.passes.elaboration.scope import Array
-
         if isinstance(value, Array):
             value = value.entries.get(entry.place or 0)
         return values.value(value)[0] if isinstance(value, ValueEntry) else None

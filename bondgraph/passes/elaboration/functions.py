@@ -196,7 +196,7 @@ class Functions:
             name = self.unique(f"{place.owner}.int")
             known = (
                 self.pool.symbol(name, Kind.INTEGRAL),
-                self.pool.symbol(f"{name}0", Kind.INITIAL),
+                self.pool.symbol(f"{name}.x0", Kind.INITIAL),
             )
             self.integrals[node, start] = known
             self.integrands[known[0]] = node
