@@ -178,6 +178,8 @@ def _visible(
 
 def _order(term: Term) -> int:
     """The highest derivative that a term needs, those inside its atom counted."""
+    if term.static:
+        return max(term.order, 0)
     inside: dict[Expr, int] = {}
     deepest = 0
     for node in reversed(topological([term.atom])):

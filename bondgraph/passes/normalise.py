@@ -106,8 +106,11 @@ def static(node: Expr) -> bool:
 
 
 def constant(node: Expr) -> bool:
-    """Whether a value is made of parameters and numbers only."""
-    return all(n.symbol.kind in CONSTANTS for n in topological([node]) if n.op is Op.SYM)
+    """Whether a value is made of parameters and numbers only (an integral grows with time)."""
+    for n in topological([node]):
+        if n.op is Op.INT or (n.op is Op.SYM and n.symbol.kind not in CONSTANTS):
+            return False
+    return True
 
 
 class _Normaliser:
@@ -126,7 +129,7 @@ class _Normaliser:
         for node in topological([expr], stop=self._forms.__contains__):
             if node in self._forms:
                 continue
-            fixed = all(self._constant[a] for a in node.args)
+            fixed = node.op is not Op.INT and all(self._constant[a] for a in node.args)
             if node.op is Op.SYM:
                 fixed = node.symbol.kind in CONSTANTS
             self._constant[node] = fixed

@@ -15,7 +15,7 @@ def record(pool: Pool, expr: Expr) -> Tape:
     fixed: dict[Expr, bool] = {}
     moving: dict[Expr, bool] = {}
     for node in topological([expr]):
-        fixed[node] = all(fixed[a] for a in node.args)
+        fixed[node] = node.op is not Op.INT and all(fixed[a] for a in node.args)
         if node.op is Op.SYM:
             fixed[node] = node.symbol.kind in CONSTANTS
         moving[node] = node.op is Op.DER or any(moving[a] for a in node.args)

@@ -1,0 +1,359 @@
+"""The residual program: what exact computes, what step leaves out, what it costs."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+import sympy
+
+from bondgraph.ir.program import Assign, Dot, PolynomialTape, Program
+from bondgraph.passes.lower import LowerOptions
+from bondgraph.passes.lowering.filter import settle
+from bondgraph.runtime.interpret import Interpreter
+from tests.unit.passes.lowering_models import Bench, cable, drive, operations
+
+T = sympy.Symbol("t")
+
+
+def exact_cost(program: Program, residual: str) -> int:
+    (found,) = [s for s in program.exact if s.target.name == residual]
+    assert isinstance(found, Assign)
+    return operations(found.value)
+
+
+def test_operations_of_the_robot() -> None:
+    bench = Bench()
+    program = bench.program(*drive(bench))
+    assert exact_cost(program, "r1") == 16
+    bench = Bench()
+    assert exact_cost(bench.program(cable(bench, 1)), "r1") == 9
+
+
+def test_exact_drive_against_sympy() -> None:
+    bench = Bench()
+    program = bench.program(*drive(bench))
+    v = {f.name: sympy.Rational(str(f.default)) for f in program.params}
+    we, ws = 40 + 30 * sympy.sin(7 * T), sympy.Rational(3, 2) + sympy.sin(7 * T + 1)
+    fx, u0 = sympy.Rational(6, 100) * sympy.cos(T), 3 + sympy.sin(6 * T)
+    load = v["Js"] * ws.diff(T) + v["fs"] * ws + v["R"] * fx
+    torque = v["Je"] * we.diff(T) + v["fe"] * we + load / v["N"]
+    r1 = v["k"] * we - u0 + v["Re"] / v["k"] * torque + v["L"] / v["k"] * torque.diff(T)
+    twist = sympy.Rational(1, 100) + sympy.integrate(we - v["N"] * ws, (T, 0, T))
+    play = v["A"] * v["K"] * v["tau0"] * sympy.tanh(twist / (4 * v["tau0"]))
+    r2 = load - v["N"] * (play + v["K"] * twist)
+    at = {T: sympy.Rational(1, 3)}
+    known: dict[str, dict[int, float]] = {}
+    for name, signal in {"We": we, "Ws": ws, "Fx": fx, "U0": u0}.items():
+        orders = {k: float(signal.diff(T, k).subs(at)) for k in range(3)}
+        known[name] = {-1: float(sympy.integrate(signal, (T, 0, T)).subs(at)), **orders}
+    found = Interpreter(program).exact(known)
+    assert found["r1"] == pytest.approx(float(r1.subs(at)), rel=1e-11)
+    assert found["r2"] == pytest.approx(float(r2.subs(at)), rel=1e-11)
+    extent = {k.name: (k.lowest, k.highest) for k in program.knowns}
+    assert extent == {"U0": (0, 0), "Fx": (0, 1), "We": (-1, 2), "Ws": (-1, 2)}
+    assert [(r.order, r.stages, r.approximate) for r in program.residuals] == [
+        (2, 3, ""),
+        (1, 2, ""),
+    ]
+
+
+def test_exact_nonlinear_derivatives_against_sympy() -> None:
+    bench = Bench()
+    p = bench.pool
+    x, y, u = bench.sensor("x"), bench.sensor("y"), bench.input("u")
+    a = bench.param("a", "1.7")
+    choice = p.choose(p.compare("<", x, y), p.fn("tanh", p.mul(a, x)), p.fn("exp", y))
+    expr = p.add(
+        (1, p.der(p.der(p.mul(x, p.fn("atan2", y, u))))),
+        (3, p.der(p.fn("ssqrt", p.sub(x, p.scale(5, y))))),
+        (1, p.der(choice)),
+        (2, p.mul(p.fn("pow", y, a), p.der(u), p.der(p.fn("log", y)))),
+    )
+    program = bench.program(expr)
+    signals = {"x": sympy.sin(T) / 2, "y": 2 + sympy.cos(3 * T), "u": 1 + T**2}
+    sx, sy, su = signals.values()
+    aa = sympy.Rational("1.7")
+    reference = (
+        (sx * sympy.atan2(sy, su)).diff(T, 2)
+        - 3 * sympy.sqrt(5 * sy - sx).diff(T)
+        + sympy.tanh(aa * sx).diff(T)
+        + 2 * sy**aa * su.diff(T) * sympy.log(sy).diff(T)
+    )
+    at = {T: 0.4}
+    known = {n: {k: float(s.diff(T, k).subs(at)) for k in range(4)} for n, s in signals.items()}
+    found = Interpreter(program).exact(known)["r1"]
+    assert found == pytest.approx(float(reference.subs(at)), rel=1e-11)
+    assert program.residuals[0].approximate.startswith("a nonlinear term holds a derivative")
+
+
+def test_exact_rational_arithmetic() -> None:
+    bench = Bench()
+    program = bench.program(cable(bench, 1))
+    params = {"R": Fraction(16, 5), "L": Fraction(1, 4), "C": Fraction(3, 7)}
+    run = Interpreter(
+        program,
+        params,
+        real=Fraction,
+        functions={"exp": lambda x: Fraction(1)},
+        sample_time=Fraction(1, 10),
+        bandwidth=Fraction(1),
+    )
+    known = {"Uin": {0: Fraction(5)}, "Us": {k: Fraction(1, k + 2) for k in range(5)}}
+    r, ind, c = params.values()
+    us = [Fraction(1, k + 2) for k in range(5)]
+    expected = (
+        5
+        - us[0]
+        - Fraction(3, 2) * r * c * us[1]
+        - (Fraction(3, 2) * ind * c + r * r * c * c / 4) * us[2]
+        - r * ind * c * c / 2 * us[3]
+        - ind * ind * c * c / 4 * us[4]
+    )
+    assert run.exact(known)["r1"] == expected
+
+
+def test_long_cable_in_exact_arithmetic() -> None:
+    cells = 40
+    bench = Bench()
+    program = bench.program(cable(bench, cells))
+    (tape,) = [s for s in program.configure if isinstance(s, PolynomialTape)]
+    (dot,) = program.exact
+    assert isinstance(dot, Dot)
+    assert tape.rows <= 8
+    assert program.residuals[0].order == 2 * cells + 2
+    params = {"R": Fraction(2), "L": Fraction(1, 3), "C": Fraction(1, 5)}
+    run = Interpreter(
+        program,
+        params,
+        real=Fraction,
+        functions={"exp": lambda x: Fraction(1)},
+        sample_time=Fraction(1, 10),
+        bandwidth=Fraction(1),
+        time_unit=Fraction(1, 7),
+    )
+    # Us = exp(x t), Uin = 0: each cell is a chain matrix [[1 + zy, z(2 + zy)], [y, 1 + zy]]
+    x = Fraction(3, 2)
+    z, y = (params["R"] + params["L"] * x) / 2, params["C"] * x
+    voltage, current = Fraction(1), y
+    for _ in range(cells):
+        voltage += z * current
+        current += y * voltage
+        voltage += z * current
+    known = {
+        "Uin": {0: Fraction(0)},
+        "Us": {k: (x / 7) ** k for k in range(2 * cells + 3)},
+    }
+    assert run.exact(known)["r1"] == -voltage
+
+
+def test_long_cable_in_double_precision() -> None:
+    bench = Bench()
+    program = bench.program(cable(bench, 300))
+    run = Interpreter(program)
+    row = run.coefs["r1_Us"]
+    assert len(row) == 603
+    assert row[0] == -1.0
+    assert max(map(abs, row)) <= 4.0  # the time unit keeps them near the first one
+    assert all(c <= 0 for c in row)
+    info = program.residuals[0]
+    assert info.stages == 1
+    assert info.invisible == ("R", "L", "C")
+    assert len(program.dropped) == 602
+
+
+def test_what_is_visible_depends_on_the_rate() -> None:
+    kept = {}
+    for rate in (1e3, 1e7, 1e9):
+        bench = Bench()
+        program = bench.program(cable(bench, 1), options=LowerOptions(rate=rate))
+        info = program.residuals[0]
+        kept[rate] = info.stages, info.invisible
+    assert kept[1e3] == (1, ("R", "L", "C"))
+    assert kept[1e7] == (3, ())
+    assert kept[1e9] == (5, ())
+
+
+@pytest.mark.parametrize("rate", [1e3, 1e6, 4e6, 1e7, 1e9])
+def test_tape_and_written_form_agree(rate: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is visible, what a fault does and what comes out: the same by both ways."""
+    programs = []
+    for limit in (10**6, 10):
+        monkeypatch.setattr("bondgraph.passes.lower.LIMIT", limit)
+        bench = Bench()
+        programs.append(bench.program(cable(bench, 2), options=LowerOptions(rate=rate)))
+    written, taped = programs
+    assert not any(isinstance(s, PolynomialTape) for s in written.configure)
+    assert any(isinstance(s, PolynomialTape) for s in taped.configure)
+    one, other = written.residuals[0], taped.residuals[0]
+    assert (one.stages, one.invisible) == (other.stages, other.invisible)
+    assert {d.order for d in written.dropped} == {d.order for d in taped.dropped}
+    runs = [Interpreter(p) for p in programs]
+    for i in range(30):
+        samples = {"Uin": math.sin(0.3 * i), "Us": math.cos(0.2 * i)}
+        a, b = (run.step(samples).residuals["r1"] for run in runs)
+        assert a == pytest.approx(b, rel=1e-9, abs=1e-9)
+
+
+def test_a_small_term_is_kept_where_it_is_all_there_is() -> None:
+    # friction 1e-6 beside inertia 1: nothing at 100 Hz, everything at constant speed
+    bench = Bench()
+    p = bench.pool
+    w, torque = bench.sensor("w"), bench.input("T")
+    f, j = bench.param("f", "1e-6"), bench.param("J", "1")
+    program = bench.program(p.add((1, p.mul(j, p.der(w))), (1, p.mul(f, w)), (-1, torque)))
+    assert program.dropped == ()
+    assert program.residuals[0].invisible == ()
+
+
+def test_symbolic_models_drop_nothing() -> None:
+    bench = Bench()
+    p = bench.pool
+    y, c = bench.sensor("y"), bench.param("c", None)
+    program = bench.program(p.add((1, y), (1, p.mul(c, p.der(y)))))
+    assert program.params[0].default is None
+    assert program.dropped == ()
+    with pytest.raises(KeyError):
+        Interpreter(program)
+    assert Interpreter(program, {"c": 2.0}).exact({"y": {0: 1.0, 1: 5.0}}) == {"r1": 11.0}
+
+
+def test_orders_that_cannot_be_realised_are_refused_by_name() -> None:
+    bench = Bench()
+    p = bench.pool
+    y, c = bench.sensor("y"), bench.param("c", None)
+    high = y
+    for _ in range(20):
+        high = p.der(high)
+    program = bench.program(p.add((1, y), (1, p.mul(c, high))))
+    assert program.residuals[0].unavailable == "its order 20 is above 12"
+    run = Interpreter(program, {"c": 1.0})
+    assert run.step({"y": 1.0}) == ({"r1": 0.0}, {"r1": False})
+
+
+def test_derived_constants_and_initial_values_are_computed_by_configure() -> None:
+    bench = Bench()
+    p = bench.pool
+    d = bench.param("d", "2")
+    area = bench.param("area", p.scale(3, p.power(d, 2)), fault=False)
+    start = bench.initial("h0", p.mul(area, d))
+    y = bench.sensor("y")
+    program = bench.program(p.add((1, p.mul(area, y)), (1, p.integral(y, start))))
+    assert [f.name for f in program.params] == ["d"]
+    found = Interpreter(program, {"d": 3.0}).exact({"y": {0: 1.0, -1: 10.0}})
+    assert found["r1"] == pytest.approx(27.0 + 10.0 + 81.0)
+
+
+def test_integrals_that_must_be_given() -> None:
+    bench = Bench()
+    p = bench.pool
+    y, zero = bench.sensor("y"), bench.initial("x0", bench.pool.num(0))
+    program = bench.program(p.sub(y, p.integral(p.fn("tanh", y), zero)))
+    (given,) = program.integrals
+    assert given.path == "Int(tanh(y))"
+    found = Interpreter(program).exact({"y": {0: 3.0}}, integrals={given.name: 1.0})
+    assert found["r1"] == 2.0
+
+
+def test_change_since_the_start() -> None:
+    bench = Bench()
+    p = bench.pool
+    y, q0 = bench.sensor("y"), bench.initial("q0", bench.pool.num(4))
+    program = bench.program(p.add((1, p.integral(p.der(y), q0)), (1, p.integral(p.one, q0))))
+    (known,) = program.knowns
+    assert known.start
+    found = Interpreter(program).exact({"y": {0: 3.0}}, start={"y": 1.0}, time=10.0)
+    assert found["r1"] == 3.0 - 1.0 + 4.0 + 10.0 + 4.0
+    run = Interpreter(program, sample_time=0.5)
+    values = [run.step({"y": y}).residuals["r1"] for y in (1.0, 1.0, 1.0)]
+    assert values[0] == pytest.approx(8.0)  # q0 twice, nothing moved, no time passed
+    for _ in range(200):
+        last = run.step({"y": 2.0}).residuals["r1"]
+    assert last == pytest.approx(8.0 + 1.0 + 202 * 0.5 - 1 / run.options["bandwidth"], rel=1e-6)
+
+
+def test_modes_choose() -> None:
+    bench = Bench()
+    p = bench.pool
+    u, on = bench.input("u"), bench.input("on", mode=True)
+    y = bench.sensor("y")
+    program = bench.program(p.sub(p.der(y), p.choose(on, u, p.zero)))
+    run = Interpreter(program)
+    known = {"y": {0: 1.0, 1: 2.0}, "u": {0: 2.0}}
+    assert run.exact(known, modes={"on": True})["r1"] == 0.0
+    assert run.exact(known, modes={"on": False})["r1"] == 2.0
+    assert [k.kind for k in program.knowns] == ["input", "mode", "sensor"]
+    assert program.residuals[0].approximate == ""
+
+
+def test_tables_and_their_slopes() -> None:
+    bench = Bench()
+    p = bench.pool
+    p.tables["hill"] = tuple((Fraction(x), Fraction(y)) for x, y in ((0, 0), (1, 2), (3, 3)))
+    x = bench.sensor("x")
+    program = bench.program(p.der(p.fn("table:hill", x)), p.fn("table:hill", x))
+    run = Interpreter(program)
+    for at, value, slope in ((-1.0, 0.0, 0.0), (0.5, 1.0, 2.0), (2.0, 2.5, 0.5), (9.0, 3.0, 0.0)):
+        found = run.exact({"x": {0: at, 1: 1.0}})
+        assert found == {"r1": slope, "r2": value}
+
+
+def test_every_statement_says_what_it_is_and_where_from() -> None:
+    bench = Bench()
+    program = bench.program(*drive(bench))
+    for statement in (*program.exact, *program.first, *program.step):
+        assert statement.comment
+        assert statement.origin is not None
+    assert all(s.comment for s in program.configure)
+    names = [f.name for f in (*program.coefs, *program.states)]
+    assert len(names) == len(set(names))
+
+
+def test_locals_are_assigned_before_they_are_read_and_once() -> None:
+    from bondgraph.ir.program import Choice, Compare, Function, Logic, Product, Ref, Sum
+
+    def refs(value: object) -> list[Ref]:
+        match value:
+            case Ref():
+                return [value]
+            case Sum():
+                return [r for _, t in value.terms for r in refs(t)]
+            case Product():
+                return [r for f in (*value.factors, *value.divisors) for r in refs(f)]
+            case Function() | Logic():
+                return [r for a in value.args for r in refs(a)]
+            case Choice():
+                return refs(value.condition) + refs(value.yes) + refs(value.no)
+            case Compare():
+                return refs(value.left) + refs(value.right)
+            case _:
+                return []
+
+    bench = Bench()
+    program = bench.program(*drive(bench))
+    for part in (program.configure, program.exact, program.first, program.step):
+        seen: set[str] = set()
+        for statement in part:
+            assert isinstance(statement, Assign)
+            for ref in refs(statement.value):
+                assert ref.space != "local" or ref.name in seen
+            if statement.target.space == "local":
+                assert statement.target.name not in seen
+                seen.add(statement.target.name)
+
+
+def test_digest_follows_numbers_and_options_but_no_path() -> None:
+    def make(value: str, rate: float = 1000.0) -> str:
+        bench = Bench()
+        p = bench.pool
+        expr = p.mul(bench.param("a", value), p.der(bench.sensor("y")))
+        return bench.program(expr, options=LowerOptions(rate=rate)).digest
+
+    assert make("1") == make("1")
+    assert len({make("1"), make("2"), make("1", 500.0)}) == 3
+
+
+def test_settling_times() -> None:
+    assert settle(1) == pytest.approx(6.907755, rel=1e-6)  # ln 1000
+    assert settle(3) == pytest.approx(11.2289, rel=1e-4)  # chi-squared quantile / 2

@@ -1,0 +1,282 @@
+"""The realisable residual on samples, against exact linear simulation and analytic signals."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy import signal as sig
+
+from bondgraph.ir.expr import Expr
+from bondgraph.ir.program import Program
+from bondgraph.passes.lower import LowerOptions
+from bondgraph.runtime.interpret import Interpreter
+from tests.unit.passes.lowering_models import Bench, drive
+
+
+def run(program: Program, samples: dict[str, np.ndarray], **options: object) -> np.ndarray:
+    """The first residual of every sample."""
+    machine = Interpreter(program, **options)  # type: ignore[arg-type]
+    name = program.residuals[0].name
+    length = len(next(iter(samples.values())))
+    return np.array(
+        [machine.step({n: v[i] for n, v in samples.items()}).residuals[name] for i in range(length)]
+    )
+
+
+def smooth_start(t: np.ndarray) -> np.ndarray:
+    """From 0 to 1 in one second, with many derivatives zero at the start."""
+    x: np.ndarray = np.clip(t, 0.0, 1.0)
+    return x**5 * (126 - 420 * x + 540 * x**2 - 315 * x**3 + 70 * x**4)
+
+
+def third_order(bench: Bench) -> Expr:
+    p = bench.pool
+    y, u = bench.sensor("y"), bench.input("u")
+    a, b, c = bench.param("a", "0.3"), bench.param("b", "0.02"), bench.param("c", "0.001")
+    d = p.der
+    return p.add(
+        (2, y),
+        (1, p.mul(a, d(y))),
+        (1, p.mul(b, d(d(y)))),
+        (1, p.mul(c, d(d(d(y))))),
+        (-3, u),
+        (-1, p.mul(a, b, d(u))),
+        (5, p.one),
+    )
+
+
+def third_order_signals(noise: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    t = np.arange(0, 1.5, 1e-3)
+    random = np.random.default_rng(1).standard_normal(len(t))
+    y = smooth_start(t) * (np.sin(9 * t) + noise * random)
+    return t, {"y": y, "u": smooth_start(t) * np.cos(4 * t)}
+
+
+@pytest.mark.parametrize("bandwidth", [5.0, 20.0, 150.0])
+def test_smooth_signals_give_the_filtered_residual(bandwidth: float) -> None:
+    """Same as r(p) over (1 + p/wc)^4 in continuous time."""
+    bench = Bench()
+    program = bench.program(third_order(bench))
+    assert program.residuals[0].stages == 4
+    t, samples = third_order_signals(0.0)
+    found = run(program, samples, bandwidth=bandwidth)
+    lag = np.poly1d([1 / bandwidth, 1.0]) ** 4
+    expected = np.full(len(t), 5.0)
+    for name, numerator in (("y", [0.001, 0.02, 0.3, 2.0]), ("u", [-0.006, -3.0])):
+        system = sig.TransferFunction(numerator, lag.coeffs)
+        expected += sig.lsim(system, samples[name], t, interp=True)[1]
+    assert np.max(np.abs(found - expected)) < 5e-5 * np.max(np.abs(expected))
+
+
+@pytest.mark.parametrize("bandwidth", [5.0, 20.0, 150.0])
+def test_noisy_signals_give_the_sum_of_cascades(bandwidth: float) -> None:
+    """Term by term: p^k/(1 + p/wc)^4 as wc^k (1 - H)^k H^(4-k), H held linearly by SciPy."""
+    bench = Bench()
+    program = bench.program(third_order(bench))
+    t, samples = third_order_signals(0.1)
+    found = run(program, samples, bandwidth=bandwidth)
+    above, below, _ = sig.cont2discrete(([bandwidth], [1.0, bandwidth]), 1e-3, method="foh")
+    expected = np.full(len(t), 5.0)
+    for name, terms in (("y", [2.0, 0.3, 0.02, 0.001]), ("u", [-3.0, -0.006])):
+        for k, c in enumerate(terms):
+            x = samples[name]
+            for _ in range(4 - k):
+                x = sig.lfilter(above.ravel(), below, x)
+            for _ in range(k):
+                x = x - sig.lfilter(above.ravel(), below, x)
+            expected += c * bandwidth**k * x
+    assert np.max(np.abs(found - expected)) < 1e-9 * np.max(np.abs(expected))
+
+
+def test_constant_signals_are_at_rest_from_the_first_sample() -> None:
+    bench = Bench()
+    program = bench.program(third_order(bench))
+    found = run(program, {"y": np.full(50, 7.0), "u": np.full(50, -2.0)})
+    assert found == pytest.approx(np.full(50, 2 * 7.0 + 6.0 + 5.0), rel=1e-10)
+
+
+def healthy_drive(t: np.ndarray, params: dict[str, float]) -> dict[str, np.ndarray]:
+    """Samples of a drive that obeys r1, for speeds chosen freely."""
+    import sympy
+
+    time = sympy.Symbol("t")
+    start = time**5 * (126 - 420 * time + 540 * time**2 - 315 * time**3 + 70 * time**4)
+    we = 60 * start * sympy.cos(2 * time)
+    ws = 2.4 * start * sympy.cos(2 * time + sympy.Rational(1, 10))
+    fx = sympy.Rational(6, 100) * start
+    v = params
+    load = v["Js"] * ws.diff(time) + v["fs"] * ws + v["R"] * fx
+    torque = v["Je"] * we.diff(time) + v["fe"] * we + load / v["N"]
+    u0 = v["k"] * we + v["Re"] / v["k"] * torque + v["L"] / v["k"] * torque.diff(time)
+    found = {}
+    for name, value in {"We": we, "Ws": ws, "Fx": fx, "U0": u0}.items():
+        found[name] = sympy.lambdify(time, value, "numpy")(np.minimum(t, 1.0)) * np.ones(len(t))
+    return found
+
+
+def test_healthy_drive_gives_nothing_and_a_fault_its_share() -> None:
+    bench = Bench()
+    r1, _ = drive(bench)
+    program = bench.program(r1)
+    params = {f.name: float(f.default or 0) for f in program.params}
+    t = np.arange(0, 1, 1e-3)
+    samples = healthy_drive(t, params)
+    healthy = run(program, samples)
+    assert np.max(np.abs(healthy)) < 1e-5 * np.max(np.abs(samples["U0"]))
+    faulty = run(program, healthy_drive(t, params | {"fe": 1.1 * params["fe"]}))
+    gain = -0.1 * params["fe"] * params["Re"] / params["k"]
+    slope = -0.1 * params["fe"] * params["L"] / params["k"]
+    lag = np.poly1d([1 / program.bandwidth, 1.0]) ** 3
+    filtered = sig.lsim(sig.TransferFunction([slope, gain], lag.coeffs), samples["We"], t)[1]
+    assert np.max(np.abs(faulty - filtered)) < 1e-5 * np.max(np.abs(samples["U0"]))
+    assert np.max(np.abs(faulty)) > 1000 * np.max(np.abs(healthy))
+
+
+def test_integral_residual_of_the_drive() -> None:
+    """r2i with tanh of an integral: filtered exactly, from the declared initial twist."""
+    bench = Bench()
+    _, r2 = drive(bench)
+    program = bench.program(r2)
+    v = {f.name: float(f.default or 0) for f in program.params}
+    t = np.arange(0, 2, 1e-3)
+    rate = 0.05 * smooth_start(t) * np.sin(6 * t)  # of the twist
+    twist = 0.01 + np.concatenate([[0], np.cumsum((rate[1:] + rate[:-1]) / 2) * 1e-3])
+    ws = 2 * smooth_start(t)
+    we = rate + v["N"] * ws
+    torque = v["K"] * (v["A"] * v["tau0"] * np.tanh(twist / (4 * v["tau0"])) + twist)
+    lag = np.poly1d([1 / program.bandwidth, 1.0]) ** 2
+    expected = sig.lsim(sig.TransferFunction([v["Js"], v["fs"]], lag.coeffs), ws, t)[1]
+    torque_lag = sig.TransferFunction([1.0], lag.coeffs)
+    expected -= v["N"] * (sig.lsim(torque_lag, torque - torque[0], t)[1] + torque[0])
+    found = run(program, {"We": we, "Ws": ws, "Fx": np.zeros(len(t))})
+    assert np.max(np.abs(found - expected)) < 2e-5 * np.max(np.abs(expected))
+
+
+def test_tank() -> None:
+    """A p' / (rho g) + k ssqrt(p) - q, emptying through an orifice in closed form."""
+    bench = Bench()
+    p = bench.pool
+    level, q = bench.sensor("p"), bench.input("q")
+    area, k = bench.param("A", "0.01"), bench.param("k", "0.2")
+    flow = p.mul(k, p.fn("ssqrt", level))
+    program = bench.program(p.add((1, p.der(p.mul(area, level))), (1, flow), (-1, q)))
+    assert program.residuals[0].approximate == ""
+    t = np.arange(0, 1.0, 1e-3)
+    height = (8 - 0.2 / (2 * 0.01) * t * 0.5) ** 2  # sqrt(p)' = -k/(2A), with q for the rest
+    inflow = 0.2 * np.sqrt(height) - 2 * 0.01 * 5.0 * np.sqrt(height)
+    found = run(program, {"p": height, "q": inflow})
+    settled = found[int(12 / 20 / 1e-3) :]
+    assert np.max(np.abs(settled)) < 1e-3 * np.max(np.abs(inflow) + 0.2 * np.sqrt(height))
+    leak = run(program, {"p": height, "q": inflow + 0.05})
+    assert leak[-1] == pytest.approx(-0.05, rel=2e-2)
+
+
+def test_derivatives_inside_products_are_marked_and_close() -> None:
+    bench = Bench()
+    p = bench.pool
+    x, y, u = bench.sensor("x"), bench.sensor("y"), bench.input("u")
+    program = bench.program(p.sub(p.mul(x, p.der(p.der(y))), u))
+    info = program.residuals[0]
+    assert info.approximate
+    assert info.stages == 3
+    t = np.arange(0, 4, 1e-3)
+    slow, fast = 2 + 0.1 * np.sin(0.3 * t), np.sin(2 * t)
+    found = run(program, {"x": slow, "y": fast, "u": -4 * slow * fast}, bandwidth=60.0)
+    assert np.max(np.abs(found[1000:])) < 0.02 * 8
+    assert np.max(np.abs(run(program, {"x": slow, "y": fast, "u": -3 * slow * fast})[1000:])) > 1
+
+
+def encoder(counts: int | None, position: bool) -> Program:
+    bench = Bench()
+    p = bench.pool
+    th, torque = bench.sensor("th", counts), bench.input("T")
+    j, f, k = bench.param("J", "0.002"), bench.param("f", "0.01"), bench.param("k", "0.3")
+    terms = [(1, p.mul(j, p.der(p.der(th)))), (1, p.mul(f, p.der(th))), (-1, torque)]
+    if position:
+        terms += [(1, p.mul(k, th)), (1, p.mul(k, p.fn("sin", th)))]
+    return bench.program(p.add(*terms))
+
+
+@pytest.mark.parametrize("position", [False, True])
+@pytest.mark.parametrize("start", [0, 2**31 - 40, -(2**31) + 3])
+def test_encoder_counts_give_what_the_angle_gives(position: bool, start: int) -> None:
+    t = np.arange(0, 2, 1e-3)
+    counts = np.round(3 * smooth_start(t / 2) * np.sin(5 * t) * 96 / (2 * np.pi) * 10).astype(int)
+    angle = (counts - counts[0]) * 2 * np.pi / 96
+    torque = np.cos(3 * t)
+    wrapped = (counts + start + 2**31) % 2**32 - 2**31
+    by_counts = run(encoder(96, position), {"th": wrapped, "T": torque})
+    by_angle = run(encoder(None, position), {"th": angle, "T": torque})
+    assert np.max(np.abs(by_counts - by_angle)) < 1e-10 * np.max(np.abs(by_angle))
+
+
+def test_encoder_far_from_its_start_keeps_single_precision() -> None:
+    """A million turns in float32: the speed residual is as good as in double precision."""
+    t = np.arange(0, 20, 1e-2)
+    counts = (t * 5e7).astype(np.int64)
+    wrapped = (counts + 2**31) % 2**32 - 2**31
+    program = encoder(96, False)
+    samples = {"th": wrapped, "T": np.zeros(len(t))}
+    double = run(program, samples, sample_time=0.01, bandwidth=2.0)
+    single = run(program, samples, **single_precision(0.01, 2.0))
+    assert double[-1] == pytest.approx(0.01 * 5e7 * 2 * np.pi / 96, rel=1e-4)
+    assert abs(single[-1] - double[-1]) < 1e-5 * double[-1]
+
+
+def single_precision(sample_time: float, bandwidth: float) -> dict[str, object]:
+    """Options for an interpreter that computes as a float build does."""
+    functions = {
+        name: (lambda f: lambda *a: np.float32(f(*a)))(getattr(np, name)) for name in ("exp", "sin")
+    }
+    return {
+        "real": np.float32,
+        "functions": functions,
+        "sample_time": np.float32(sample_time),
+        "bandwidth": np.float32(bandwidth),
+    }
+
+
+@pytest.mark.parametrize("bandwidth", [0.5, 20.0])
+def test_chain_of_four_stages_is_stable_in_single_precision(bandwidth: float) -> None:
+    bench = Bench()
+    program = bench.program(third_order(bench))
+    t = np.arange(0, 3, 1e-3)
+    samples = {"y": np.sin(3 * t), "u": np.cos(t)}
+    double = run(program, samples, bandwidth=bandwidth)
+    real = {n: v.astype(np.float32) for n, v in samples.items()}
+    single = run(program, real, **single_precision(1e-3, bandwidth))
+    assert np.max(np.abs(single - double)) < 2e-4 * np.max(np.abs(double))
+
+
+def test_a_bad_sample_restarts_and_does_no_lasting_harm() -> None:
+    bench = Bench()
+    program = bench.program(third_order(bench))
+    machine = Interpreter(program)
+    settle = math.ceil(program.residuals[0].settle / (1e-3 * program.bandwidth))
+    for i in range(settle + 1):
+        outcome = machine.step({"y": 1.0, "u": 2.0})
+        assert outcome.valid["r1"] is (i >= settle)
+    assert machine.step({"y": math.nan, "u": 2.0}) == ({"r1": 0.0}, {"r1": False})
+    assert machine.step({"y": 1.0, "u": math.inf}).valid == {"r1": False}
+    outcome = machine.step({"y": 1.0, "u": 2.0})
+    assert outcome.residuals["r1"] == pytest.approx(2 - 6 + 5)
+    assert not outcome.valid["r1"]
+    for _ in range(settle):
+        outcome = machine.step({"y": 1.0, "u": 2.0})
+    assert outcome.valid["r1"]
+
+
+def test_a_wide_band_uses_the_closed_form_of_the_stage() -> None:
+    """Small and large wc T: both branches of b0 give the exact hold."""
+    bench = Bench()
+    p = bench.pool
+    program = bench.program(bench.sensor("y"), options=LowerOptions())
+    assert p
+    for x in (1e-6, 0.02, 0.1249, 0.1251, 3.0):
+        coefs = Interpreter(program, sample_time=x, bandwidth=1.0).coefs
+        a, b0, b1 = coefs["a"], coefs["b0"], coefs["b1"]
+        assert a == pytest.approx(math.exp(-x), rel=1e-14)
+        assert b0 == pytest.approx(1 + math.expm1(-x) / x, rel=1e-9, abs=1e-11)
+        assert a + b0 + b1 == pytest.approx(1.0, rel=1e-15)
