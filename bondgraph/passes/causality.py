@@ -44,7 +44,8 @@ def assign(graph: BondGraph, preference: Preference, report: Report) -> CausalGr
         strokes = repaired
     for b, bond in enumerate(graph.bonds):
         if strokes.value[b] < 0:  # a bond that no rule and no wish speaks of
-            strokes.put(b, 1, Reason("chosen", bond.head.node))
+            value = int(bond.head.node > bond.tail.node)
+            strokes.put(b, value, Reason("chosen", max(bond.head.node, bond.tail.node)))
     paths = Paths(graph, at, strokes)
     result = _result(graph, preference, strokes, wishes, tuple(paths.loops()))
     if preference == "integral":
@@ -99,7 +100,8 @@ def _exact(
         witness.fix(strokes)
     for wish in free:
         if strokes.value[wish.bond] < 0:
-            strokes.wish(wish._replace(value=witness.value(wish.bond)))
+            loose = wish.bond in witness.loose
+            strokes.wish(wish if loose else wish._replace(value=witness.value(wish.bond)))
     for rule, ends in enumerate(net.ends):
         for end in ends:
             if strokes.value[end >> 1] < 0:

@@ -20,7 +20,7 @@ class Matching:
         """Start from the strokes; `hint` is an assignment (-1 open) that may break rules."""
         net = strokes.net
         self.rules = len(net.ends)
-        self.loose: dict[int, int] = {}  # bonds between two elements obey no rule
+        self.loose: set[int] = set()  # bonds between two elements obey no rule
         self._edge = [-1] * net.bonds  # the (first) edge of a bond
         self._ends: list[tuple[int, int]] = []
         self._bond: list[int] = []
@@ -46,7 +46,7 @@ class Matching:
         net = strokes.net
         tail, head = net.rule[2 * bond], net.rule[2 * bond + 1]
         if tail < 0 and head < 0:
-            self.loose[bond] = 0
+            self.loose.add(bond)
             return
         self._edge[bond] = len(self._ends)
         strong_tail, strong_head = net.strong[2 * bond], net.strong[2 * bond + 1]
@@ -56,10 +56,10 @@ class Matching:
         middle = len(self._near)
         self._near.append([])
         self._optional.append(tail < 0 or head < 0)
-        if tail >= 0:
-            self._join(tail, middle, bond, strong_tail)
-        if head >= 0:
-            self._join(middle, head, bond, strong_head)
+        # the lower rule first: the way a bond is drawn must not matter
+        for rule, strong in sorted([(tail, strong_tail), (head, strong_head)]):
+            if rule >= 0:
+                self._join(rule, middle, bond, strong)
 
     def _join(self, u: int, v: int, bond: int, value: int) -> None:
         edge = len(self._ends)
@@ -101,21 +101,16 @@ class Matching:
         return True
 
     def value(self, bond: int) -> int:
-        """The stroke of an open bond in the witness."""
+        """The stroke of an open bond in the witness, if it is not loose."""
         edge = self._edge[bond]
-        if edge < 0:
-            return self.loose[bond]
         value = self._value[edge]
         return value if self._matched[edge] else 1 - value
 
     def turn(self, bond: int, value: int) -> bool:
         """Change the witness so that this element's bond has the stroke `value`, if possible."""
-        if self.value(bond) == value:
+        if bond in self.loose or self.value(bond) == value:
             return True
         edge = self._edge[bond]
-        if edge < 0:
-            self.loose[bond] = value
-            return True
         u, v = self._ends[edge]
         rule, leaf = (v, u) if self._optional[u] else (u, v)
         if self._matched[edge]:
