@@ -216,7 +216,8 @@ class Code:
             age, settle = "0u", "0u"
             if info.name in owner:
                 age, settle = f"monitor->age[{owner[info.name]}]", f"monitor->settle[{number}]"
-            found.append(f"    report(residuals, {number}, {age}, {settle});")
+            arguments = f"residuals, {number}, {age}, {settle}"
+            found += listing.statement("report({0});", arguments, self.target, 4)
         return found
 
     def _number(self, residual: str) -> str:

@@ -102,7 +102,8 @@ def about_known(known: Known) -> str:
 
 
 def _about(unit: str, doc: str, path: str, name: str, where: str) -> str:
-    meaning = ", ".join(part for part in (doc.rstrip("."), path if path != name else "") if part)
+    doc = " ".join(doc.split()).rstrip(".")
+    meaning = ", ".join(part for part in (doc, path if path != name else "") if part)
     text = f"{unit or '-'}: {meaning}" if meaning else (unit or "-")
     return f"{text} ({where})" if where else text
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from bondgraph.ir.program import (
     Assign,
     Choice,
@@ -151,7 +153,11 @@ def motor() -> Program:
         knowns=(known("U", kind="input"), known("i", 1, unit="A"), known("y"), known("y2")),
         coefs=(Field("R", "", "", "R"), Field("L", "", "", "L"), _B),
         states=(*one_states, *two_states),
-        configure=(put("coef:R", ref("param:R"), "R"), put("coef:L", ref("param:L"), "L"), *_FILTER),
+        configure=(
+            put("coef:R", ref("param:R"), "R"),
+            put("coef:L", ref("param:L"), "L"),
+            *_FILTER,
+        ),
         exact=(
             put("residual:r1", exact, "U - R*i - L*i'"),
             put("residual:r2", minus(ref("known:y"), ref("known:y2")), "y - y2"),
@@ -321,3 +327,5 @@ def silent() -> Program:
 
 
 ALL = (motor, encoder, functions, ladder, silent)
+
+Maker = Callable[[], Program]

@@ -1,0 +1,130 @@
+"""The files of a program: which, equal bytes under any hash seed, honest comments."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from bondgraph.backends.emit import emit
+from bondgraph.backends.target import load, targets
+from bondgraph.backends.templates import codegen
+from bondgraph.ir.program import Field, ResidualInfo
+from tests.unit.backends import programs
+
+
+def _text(path: str, make: programs.Maker = programs.motor) -> str:
+    return {a.path: a.text for a in emit(make(), ("c", "python"))}[path]
+
+
+def test_the_files_of_both_languages() -> None:
+    assert [a.path for a in emit(programs.motor(), ("c", "python"))] == [
+        "motor_residuals.h",
+        "motor_residuals.c",
+        "example.c",
+        "selftest.c",
+        "golden.h",
+        "CMakeLists.txt",
+        "motor_residuals.py",
+        "example.py",
+        "selftest.py",
+        "README.md",
+    ]
+    assert [a.path for a in emit(programs.motor(), ("python",))][-1] == "README.md"
+
+
+def test_an_unknown_target_is_refused_by_name() -> None:
+    with pytest.raises(ValueError, match=r"no target 'cobol'; there are c, python"):
+        emit(programs.motor(), ("cobol",))
+    assert targets() == ("c", "python")
+
+
+@pytest.mark.parametrize("make", programs.ALL, ids=lambda m: m.__name__)
+def test_same_bytes_under_any_hash_seed(make: programs.Maker) -> None:
+    code = (
+        "from tests.unit.backends import programs; from bondgraph.backends.emit import emit;"
+        f"print(emit(programs.{make.__name__}(), ('c', 'python')))"
+    )
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            check=True,
+        ).stdout
+        for seed in ("0", "1")
+    }
+    assert len(found) == 1
+
+
+@pytest.mark.parametrize("make", programs.ALL, ids=lambda m: m.__name__)
+def test_text_is_tidy(make: programs.Maker) -> None:
+    for path, text in emit(make(), ("c", "python")):
+        assert text.endswith("\n") and not text.endswith("\n\n"), path
+        for line in text.splitlines():
+            assert line == line.rstrip(), (path, line)
+            assert "\t" not in line
+            assert path == "README.md" or len(line) <= 100, (path, line)
+        assert "\n\n\n\n" not in text and "models/" not in text
+
+
+def test_every_statement_says_where_it_comes_from() -> None:
+    text = _text("motor_residuals.c")
+    assert "/* motor.bg:3: U - R*i - L*i' */\n    r[MOTOR_R1] = " in text
+    text = _text("motor_residuals.py")
+    assert "# motor.bg:3: U - R*i - L*i'\n        r.r1 = d.U - c.R * d.i[0] - c.L * d.i[1]" in text
+
+
+def test_every_field_says_unit_and_meaning() -> None:
+    text = _text("motor_residuals.h")
+    assert "motor_real R;  /* Ohm: resistance, el.R (motor.bg:3) */" in text
+    assert '#define MOTOR_DIGEST "0123456789abcdef"' in text
+    assert "#define MOTOR_ABI (1u * 256u + (uint32_t)sizeof(motor_real))" in text
+
+
+def test_a_comment_cannot_break_out() -> None:
+    evil = Field("R", "R", "", "*/ int x; /* \\ ??/ \n # type: ignore \u202e", 1.0)
+    program = programs.motor()._replace(params=(evil, programs.motor().params[1]))
+    for path, text in emit(program, ("c", "python")):
+        if path == "README.md":
+            continue
+        assert "*/ int" not in text and "??/" not in text and "\u202e" not in text
+        assert path.endswith((".c", ".h")) or "type: ignore" not in text
+
+
+def test_long_texts_are_cut() -> None:
+    info = programs.motor().residuals[0]._replace(text="r1 = " + "x + " * 5000 + "x")
+    residuals: tuple[ResidualInfo, ...] = (info, programs.motor().residuals[1])
+    program = programs.motor()._replace(residuals=residuals)
+    header = {a.path: a.text for a in emit(program, ("c",))}["motor_residuals.h"]
+    assert "..." in header and len(header) < 10_000
+
+
+def test_readme_has_both_programs_and_the_matrix() -> None:
+    text = _text("README.md")
+    assert _text("example.c") in text and _text("example.py") in text
+    assert "| x |  | `U`, `R`, `L`, `i` |" in text
+    assert "cmake -B build" in text and "0.25 s after the first sample" in text
+
+
+def test_numbers_that_float_cannot_hold_are_told_at_compile_time() -> None:
+    tiny = Field("L", "L", "H", "", 1e-60)
+    program = programs.motor()._replace(params=(programs.motor().params[0], tiny))
+    text = {a.path: a.text for a in emit(program, ("c",))}["motor_residuals.c"]
+    assert '#error "the model has numbers that float cannot hold: 1e-60"' in text
+    assert "#error \"the model has" not in _text("motor_residuals.c")
+
+
+def test_templates_are_files_with_holes() -> None:
+    for path in codegen().rglob("*.j2"):
+        lines = path.read_text().splitlines()
+        assert len(lines) <= 90, f"{path} is too long for a template"
+
+
+def test_targets_describe_themselves() -> None:
+    for name in targets():
+        target = load(name)
+        assert target.words <= target.reserved
+        assert all((codegen() / template).is_file() for template, _ in target.files)
