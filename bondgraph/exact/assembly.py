@@ -131,8 +131,11 @@ class _Builder:
     def flat(self, number: int, expr: Expr) -> Expr:
         """The expression with derivatives of variables only: others get a variable of their own."""
         pool = self.graph.pool
+        nodes = topological([expr])
+        if all(n.op is not Op.DER or n.args[0].op is Op.SYM for n in nodes):
+            return expr
         new: dict[Expr, Expr] = {}
-        for node in topological([expr]):
+        for node in nodes:
             args = tuple(new[a] for a in node.args)
             if node.op is Op.DER and args[0].op not in (Op.SYM, Op.DER):
                 inner = self.inner.get(args[0])

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.assembly import Assembly
-from bondgraph.exact.evaluate import demands, evaluate
+from bondgraph.exact.evaluate import demands, evaluate, values_of
 from bondgraph.exact.field import Functions, P
 from bondgraph.exact.forms import ORDERS, Form, Forms
 from bondgraph.exact.linear import CONSTANT
@@ -76,14 +76,27 @@ class Writer:
                 out.append(self.linear(node, {common * ORDERS: [1]}))
             elif terms:
                 out.append(self.linear(node, {v * ORDERS: [c] for v, c in terms}))
-        out += [self.equation(node, {}, zero) for node, zero in plant.laws]
+        parts: list[tuple[int, Form, Expr]] = [(node, {}, zero) for node, zero in plant.laws]
         for node, variable, value in plant.rates:
-            out.append(self.equation(node, {variable * ORDERS + 1: [-1]}, value))
+            parts.append((node, {variable * ORDERS + 1: [-1]}, value))
         for name, variable, reads in plant.readings:
             form: Form = {variable * ORDERS: [-1]}
             if name in readings:
                 form[CONSTANT] = readings[name]
-            out.append(self.equation(-1, form, reads))
+            parts.append((-1, form, reads))
+        rests = [rest for _, _, rest in parts]
+        nodes = topological(rests)
+        need = demands(nodes, rests, self.setting.n)
+        values, failures = values_of(nodes, need, self.sample)
+        for node, form, rest in parts:
+            failure = failures.get(rest)
+            if failure is None:
+                both = self.sample.algebra.combine([(1, values[rest]), (1, form)], self.setting.n)
+                out.append(self.linear(node, both))
+            elif isinstance(failure, Mixed):
+                out.append(self.nonlinear(node, form, rest))
+            else:
+                raise failure
         return out
 
     def holds(self, when: Expr) -> bool:
@@ -99,18 +112,13 @@ class Writer:
                 signature[variable] = max(signature.get(variable, 0), order)
         return Equation(node, form, None, signature)
 
-    def equation(self, node: int, form: Form, rest: Expr) -> Equation:
-        """form + rest = 0, the rest taken into the form where it is linear."""
-        algebra = self.sample.algebra
-        try:
-            value = evaluate([rest], self.sample, self.setting.n)[0]
-        except Mixed:
-            signature = self.linear(node, form).signature
-            for variable, order in self.reach(rest).items():
-                if variable not in self.free:
-                    signature[variable] = max(signature.get(variable, 0), order)
-            return Equation(node, form, rest, signature)
-        return self.linear(node, algebra.combine([(1, value), (1, form)], self.setting.n))
+    def nonlinear(self, node: int, form: Form, rest: Expr) -> Equation:
+        """form + rest = 0 where the rest is not linear."""
+        signature = self.linear(node, form).signature
+        for variable, order in self.reach(rest).items():
+            if variable not in self.free:
+                signature[variable] = max(signature.get(variable, 0), order)
+        return Equation(node, form, rest, signature)
 
     def reach(self, rest: Expr) -> dict[int, int]:
         """The highest derivative of each variable in an expression."""

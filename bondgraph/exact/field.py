@@ -36,9 +36,16 @@ def sign(x: int) -> int:
 
 def of_fraction(value: Fraction) -> int:
     """A rational number as field element; raises `Undefined` if P divides the denominator."""
-    if value.denominator == 1:
+    below = value.denominator
+    if below == 1:
         return value.numerator % P
-    return value.numerator * inverse(value.denominator) % P
+    found = _below.get(below)
+    if found is None:
+        found = _below[below] = inverse(below)
+    return value.numerator * found % P
+
+
+_below: dict[int, int] = {}  # inverses of denominators, which are few
 
 
 def root(x: int, exponent: Fraction) -> int:

@@ -23,7 +23,7 @@ from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
-_HEALTHY = 2  # healthy plants, each with other parameters
+_BRANCHES = 6  # healthy plants where a law or a residual decides something, else one
 _MODES = 8  # assignments of modes that are tried
 _WORK = 200_000  # nodes that may be evaluated to try single faults, before they are sampled
 _TRIES = 20  # points at which a residual or a law may have no value, drawn again
@@ -78,6 +78,8 @@ class _Check:
         self.modes = [
             n for n in topological(self.exprs) if n.op is Op.SYM and n.symbol.kind is Kind.MODE
         ]
+        laws = [law.zero for node in graph.nodes for law in node.laws]
+        self.decides = any(map(_decides, topological([*self.exprs, *laws])))
         for mode in self.plant.modes:
             if mode not in self.modes:
                 self.modes.append(mode)
@@ -254,7 +256,7 @@ class _Check:
     def assignments(self) -> list[dict[Expr, int] | None]:
         """Modes to try, all of them if they are few."""
         if not self.modes:
-            return [None] * _HEALTHY
+            return [None] * (_BRANCHES if self.decides else 1)
         count = 1 << min(len(self.modes), 16)
         step = max(1, count // _MODES) | 1
         return [
@@ -287,6 +289,12 @@ class _Told:
 
     def start(self, initial: Any) -> int:
         return self._point.start(initial)
+
+
+def _decides(node: Expr) -> bool:
+    """Whether a node takes one of several branches."""
+    branching = ("abs", "sign", "min", "max", "ssq", "ssqrt")
+    return node.op is Op.IF or (node.op is Op.FN and node.name in branching)
 
 
 def _moves(value: Any) -> bool:
