@@ -119,7 +119,7 @@ class Mutator:
         if not numbers:
             return text
         one = self.random.choice(numbers)
-        new = self.random.choice(("0", "-1", "2.5", "1e400", "1e-400", "3000000", "1/0", "7", "1"))
+        new = self.random.choice("0 1 7 -1 2.5 1e400 1e-400 90000000 30000 1/0".split())
         return text[: one.start()] + new + text[one.end() :]
 
     def drop_line(self, text: str) -> str:
