@@ -34,6 +34,7 @@ class Rate(NamedTuple):
 class Assembly(NamedTuple):
     """All equations of a plant in numbered variables.
 
+    `active` are the variables that the equations are about, all of them or those of a part.
     `place[symbol]` is (variable, sign) for every symbol that is not constant. `free` are the
     variables that the plant leaves open: known inputs first, then unknown ones. `silent` are
     variables that are zero because an ideal detector takes no power. `readings` are sensors
@@ -41,6 +42,7 @@ class Assembly(NamedTuple):
     """
 
     count_of: int
+    active: tuple[int, ...]
     place: dict[Expr, tuple[int, int]]
     free: tuple[int, ...]
     unknown: tuple[int, ...]
@@ -177,6 +179,7 @@ class _Builder:
         self.rest([law for _, law in laws] + [r.value for r in rates])
         return Assembly(
             self.size,
+            tuple(range(self.size)),
             self.place,
             tuple(free),
             tuple(unknown),
@@ -210,3 +213,56 @@ class _Builder:
 def assemble(graph: BondGraph) -> Assembly:
     """The equations of the plant, one variable for whatever a junction makes common."""
     return _Builder(graph).build()
+
+
+class Parts:
+    """The parts of a plant that share no variable: each can be simulated without the others."""
+
+    def __init__(self, plant: Assembly) -> None:
+        self._plant = plant
+        self._numbers = _Numbers(plant.count_of)
+        for _, terms, when, common in plant.balances:
+            self._join([common, *[v for v, _ in terms], *self._variables([when] if when else [])])
+        for _, law in plant.laws:
+            self._join(self._variables([law]))
+        for _, variable, value in plant.rates:
+            self._join([variable, *self._variables([value])])
+        for _, variable, reads in plant.readings:
+            self._join([variable, *self._variables([reads])])
+        self._known: dict[frozenset[int], Assembly] = {}
+
+    def _variables(self, roots: list[Expr]) -> list[int]:
+        place = self._plant.place
+        return [place[n][0] for n in topological(roots) if n in place]
+
+    def _join(self, variables: list[int]) -> None:
+        for v in variables[1:]:
+            self._numbers.join(variables[0], v)
+
+    def about(self, roots: list[Expr]) -> Assembly:
+        """The part of the plant that the variables in the expressions belong to."""
+        find = self._numbers.find
+        wanted = frozenset(find(v) for v in self._variables(roots))
+        found = self._known.get(wanted)
+        if found is None:
+            found = self._known[wanted] = self._part(wanted)
+        return found
+
+    def _part(self, wanted: frozenset[int]) -> Assembly:
+        plant = self._plant
+        active = tuple(v for v in range(plant.count_of) if self._numbers.find(v) in wanted)
+        inside = frozenset(active)
+
+        def holds(expr: Expr) -> bool:
+            return inside.issuperset(self._variables([expr]))
+
+        return plant._replace(
+            active=active,
+            free=tuple(v for v in plant.free if v in inside),
+            unknown=tuple(v for v in plant.unknown if v in inside),
+            silent=tuple(v for v in plant.silent if v in inside),
+            balances=tuple(b for b in plant.balances if b.common in inside),
+            laws=tuple(law for law in plant.laws if holds(law[1])),
+            rates=tuple(r for r in plant.rates if r.variable in inside),
+            readings=tuple(r for r in plant.readings if r[1] in inside),
+        )

@@ -38,6 +38,14 @@ class Setting(NamedTuple):
     n: int
 
 
+def constant(values: Mapping[Expr, Series], symbol: Expr) -> Series:
+    """The value of a constant; raises `Mixed` for an initial value, which is none of the plant."""
+    found = values.get(symbol)
+    if found is None:
+        raise Mixed(f"the initial value {symbol.symbol.name}")
+    return found
+
+
 class FormSample:
     """Every variable is an unknown of its own; constants are what the setting says."""
 
@@ -50,7 +58,7 @@ class FormSample:
         """A constant or an unknown."""
         where = self._place.get(symbol)
         if where is None:
-            return {CONSTANT: self._values[symbol]}
+            return {CONSTANT: constant(self._values, symbol)}
         return {where[0] * ORDERS: [where[1]]}
 
     def start(self, initial: Symbol) -> int:

@@ -11,7 +11,7 @@ from random import Random
 
 from bondgraph.exact import series
 from bondgraph.exact.algebra import Mixed, Waves
-from bondgraph.exact.assembly import Assembly, assemble
+from bondgraph.exact.assembly import Assembly, Parts, assemble
 from bondgraph.exact.equations import Setting, Writer
 from bondgraph.exact.evaluate import evaluate, highest_order, integral_depth
 from bondgraph.exact.field import Functions, P, Undefined
@@ -48,8 +48,10 @@ class Trajectory:
         told: dict[Expr, Series],
         truth: KnownSample,
         starts: dict[Symbol, int],
+        part: Assembly,
     ) -> None:
         self.plant = plant
+        self.part = part
         self.seed = seed
         self.order = order
         self.faults = faults
@@ -85,7 +87,12 @@ class Trajectory:
             constants = {s: v for s, v in self._told.items() if s.symbol.kind in CONSTANTS}
             constants.update((s, v) for s, v in self._told.items() if s.symbol.kind is Kind.MODE)
             found = self.plant.draw(
-                self.seed * 31 + steps, self.order, (), constants, self.algebra.functions
+                self.seed * 31 + steps,
+                self.order,
+                (),
+                constants,
+                self.algebra.functions,
+                self.part,
             )
             self._earlier[steps] = found
         return found
@@ -100,6 +107,7 @@ class Plant:
     def __init__(self, graph: BondGraph) -> None:
         self.graph = graph
         self.assembly: Assembly = assemble(graph)
+        self._parts: Parts | None = None
         roots = [
             *[law for _, law in self.assembly.laws],
             *[r.value for r in self.assembly.rates],
@@ -116,6 +124,8 @@ class Plant:
         symbols |= {v.name: v.symbol for v in graph.values}
         self._names = {name: symbols[name] for name in graph.faults}
         self._reach = highest_order([s.reads for s in graph.sensors])
+        self._inputs = {i.name: i.symbol for i in graph.inputs if i.known and not i.mode}
+        self._reads = {s.symbol: s.reads for s in graph.sensors if s.same_as is None}
         self._read = {name for name, _, _ in self.assembly.readings}
         self._starts: dict[Expr, Expr] = {}  # initial value to the variable that it is one of
         for node in graph.nodes:
@@ -135,12 +145,14 @@ class Plant:
         *,
         faults: Iterable[str] = (),
         modes: Mapping[Expr, int] | None = None,
+        part: Assembly | None = None,
     ) -> Trajectory:
         """A random trajectory to Taylor coefficient `order`; the same for equal arguments.
 
         `fault` and `faults` name faults that act at once, each as a random function of time.
-        `modes` fixes known booleans, the others are random. Raises `ExactUnavailable`, KeyError
-        for an unknown fault.
+        `modes` fixes known booleans, the others are random. With a `part` (see `part_for`) only
+        that part of the plant is simulated. Raises `ExactUnavailable`, KeyError for an unknown
+        fault.
         """
         acting = (*faults, *([] if fault is None else [fault]))
         for name in acting:
@@ -150,13 +162,24 @@ class Plant:
             functions = Functions(seed * _ATTEMPTS + attempt)
             try:
                 constants = self.draw_constants(seed, attempt, modes or {})
-                return self.draw(seed * _ATTEMPTS + attempt, order, acting, constants, functions)
+                return self.draw(
+                    seed * _ATTEMPTS + attempt,
+                    order,
+                    acting,
+                    constants,
+                    functions,
+                    part or self.assembly,
+                )
             except (Undefined, Contradiction, Singular) as found:
                 failure = found
         raise ExactUnavailable(self._reason(failure))
 
     def wave(
-        self, seed: int, faults: Iterable[str] = (), modes: Mapping[Expr, int] | None = None
+        self,
+        seed: int,
+        faults: Iterable[str] = (),
+        modes: Mapping[Expr, int] | None = None,
+        part: Assembly | None = None,
     ) -> WaveSample:
         """The plant with all signals exponentials of one random exponent, for any size.
 
@@ -170,7 +193,8 @@ class Plant:
             algebra = Waves(functions, random.randrange(2, P), random.randrange(2, P))
             try:
                 constants = self.draw_constants(seed, attempt, modes or {})
-                return self._wave(algebra, random, tuple(faults), constants)
+                acting = tuple(faults)
+                return self._wave(algebra, random, acting, constants, part or self.assembly)
             except (Undefined, Contradiction) as found:
                 failure = found
         raise ExactUnavailable(self._reason(failure))
@@ -181,6 +205,7 @@ class Plant:
         random: Random,
         faults: Sequence[str],
         constants: Mapping[Expr, Series],
+        plant: Assembly,
     ) -> WaveSample:
         true = dict(constants)
         errors = {self._names[name]: random.randrange(1, P) for name in faults}
@@ -189,15 +214,17 @@ class Plant:
         for symbol, error in errors.items():
             if symbol in true:
                 true[symbol] = [(true[symbol][0] + error) % P]
-        equations = Writer(self.assembly, Setting(true, algebra.functions, 1)).all({})
+        equations = Writer(plant, Setting(true, algebra.functions, 1)).all({})
         if not linear(equations):
             raise Mixed("a law that is not linear")
-        found = amplitudes(self.assembly, equations, algebra.s, random)
-        sample = WaveSample(algebra, self.assembly.place, constants, found, {})
-        reads = {
-            s.symbol: s.reads
-            for s in self.graph.sensors
-            if s.same_as is None and s.name not in self._read
+        found = amplitudes(plant, equations, algebra.s, random)
+        sample = WaveSample(algebra, plant.place, constants, found, {})
+        inside = frozenset(plant.active)
+        reads = {symbol: reads for _, symbol, reads in self._shown(plant)}
+        errors = {
+            v: e
+            for v, e in errors.items()
+            if v in reads or (v in plant.place and plant.place[v][0] in inside)
         }
         tell(sample, reads, errors)
         return sample
@@ -217,14 +244,15 @@ class Plant:
         plant and the roots are linear. Raises `ExactUnavailable`.
         """
         order = highest_order(roots, n)
-        if order * self.assembly.count_of > _LARGE and not integral_depth(roots):
+        part = self.part_for(roots)
+        if order * len(part.active) > _LARGE and not integral_depth(roots):
             try:
-                found = self.wave(seed, faults, modes)
+                found = self.wave(seed, faults, modes, part)
                 evaluate(roots, found)
                 return found
-            except Mixed:
-                pass
-        return self.trajectory(seed, order, faults=faults, modes=modes)
+            except (Mixed, Undefined):
+                pass  # a trajectory can be had where exponentials cannot
+        return self.trajectory(seed, order, faults=faults, modes=modes, part=part)
 
     def draw_constants(
         self, seed: int, attempt: int, modes: Mapping[Expr, int]
@@ -245,13 +273,13 @@ class Plant:
         faults: Sequence[str],
         constants: Mapping[Expr, Series],
         functions: Functions,
+        plant: Assembly,
     ) -> Trajectory:
         """A trajectory with these constants; raises `Undefined` and others if there is none.
 
         The plant's own parameters are the constants plus the faults that act.
         """
         random = Random(seed * 7 + 3)
-        graph, plant = self.graph, self.assembly
         n = order + self._reach + 1 + _EXTRA
         errors = {name: [random.randrange(1, P) for _ in range(n)] for name in faults}
         true = dict(constants)
@@ -268,22 +296,49 @@ class Plant:
             raise ExactUnavailable(self._over(failure.node)) from None
         except Mixed as failure:
             raise ExactUnavailable(f"a law of the model holds {failure}") from None
-        except KeyError as failure:
-            raise ExactUnavailable(f"a law of the model rests on {failure}") from None
         truth = KnownSample(plant.place, setting, values)
         told = dict(constants)
-        for item in graph.inputs:
-            if item.known and not item.mode and item.name in errors:
-                wrong = series.scale(-1, errors[item.name])
-                told[item.symbol] = series.add(truth.value(item.symbol), wrong)
-        for sensor in graph.sensors:
-            if sensor.same_as is None and sensor.name not in self._read:
-                reading = evaluate([sensor.reads], truth, order + 1)[0]
-                told[sensor.symbol] = series.add(reading, errors.get(sensor.name, [0]))
-        starts = {i.symbol: truth.value(state)[0] for i, state in self._starts.items()}
-        for initial in self._starts:
-            told.setdefault(initial, [starts[initial.symbol]])
-        return Trajectory(self, seed, order, tuple(faults), told, truth, starts)
+        inside = frozenset(plant.active)
+        for name, symbol in self._inputs.items():
+            if name in errors and plant.place[symbol][0] in inside:
+                wrong = series.scale(-1, errors[name])
+                told[symbol] = series.add(truth.value(symbol), wrong)
+        for name, symbol, reads in self._shown(plant):
+            reading = evaluate([reads], truth, order + 1)[0]
+            told[symbol] = series.add(reading, errors.get(name, [0]))
+        starts: dict[Symbol, int] = {}
+        for initial, state in self._starts.items():
+            if plant.place[state][0] in inside:
+                starts[initial.symbol] = truth.value(state)[0]
+                told.setdefault(initial, [starts[initial.symbol]])
+        return Trajectory(self, seed, order, tuple(faults), told, truth, starts, plant)
+
+    def _shown(self, plant: Assembly) -> list[tuple[str, Expr, Expr]]:
+        """The sensors of a part of the plant whose readings no law uses: name, symbol, reads."""
+        inside, place = frozenset(plant.active), plant.place
+        return [
+            (s.name, s.symbol, s.reads)
+            for s in self.graph.sensors
+            if s.same_as is None and s.name not in self._read
+            if all(place[n][0] in inside for n in topological([s.reads]) if n in place)
+        ]
+
+    def part_for(self, roots: Sequence[Expr]) -> Assembly:
+        """The part of the plant that shows the signals in the roots."""
+        if self._parts is None:
+            self._parts = Parts(self.assembly)
+        seen: dict[Expr, None] = {}
+        found = list(roots)
+        while found:
+            found = [n for n in topological(found) if n.op is Op.SYM and n not in seen]
+            seen.update(dict.fromkeys(found))
+            found = [self._reads[n] for n in found if n in self._reads]
+        starts = {i.symbol: state for i, state in self._starts.items()}
+        for node in topological(roots):
+            if node.op is Op.INT and node.symbol in starts:
+                seen[starts[node.symbol]] = None
+        seen.update((self._starts[n], None) for n in list(seen) if n in self._starts)
+        return self._parts.about(list(seen))
 
     # ------------------------------------------------------------------------ explanations
 

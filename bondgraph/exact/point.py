@@ -15,7 +15,13 @@ from typing import Any
 
 from bondgraph.exact import series
 from bondgraph.exact.algebra import Mixed, Taylor
-from bondgraph.exact.equations import Equation, FormSample, Setting, coefficient_row
+from bondgraph.exact.equations import (
+    Equation,
+    FormSample,
+    Setting,
+    coefficient_row,
+    constant,
+)
 from bondgraph.exact.evaluate import chosen, demands, evaluate, pull, values_of
 from bondgraph.exact.field import INVERSES, P, inverse, of_fraction, root, sign
 from bondgraph.exact.forms import ORDERS, Form, Forms, NotLinear
@@ -76,7 +82,7 @@ class KnownSample:
         """The series of a constant or a variable."""
         where = self._place.get(symbol)
         if where is None:
-            return self._values[symbol]
+            return constant(self._values, symbol)
         known = self._variables[where[0]]
         return known if where[1] == 1 else series.scale(where[1], known)
 

@@ -59,18 +59,16 @@ def solve(
     point.nonlinear(equations, c)
     given = set(system.given)
     found = point.complete(
-        [
-            j * STRIDE + k
-            for j in range(plant.count_of)
-            for k in range(order + 1 if j in given else d[j] + 1)
-        ]
+        [j * STRIDE + k for j in plant.active for k in range(order + 1 if j in given else d[j] + 1)]
     )
-    length = [d[j] + 1 for j in range(plant.count_of)]
+    length = {j: d[j] + 1 for j in plant.active}
     for column in found:
         j, k = divmod(column, STRIDE)
         if j in given:  # a free function: what nothing asks for is zero
             length[j] = max(length[j], k + 1)
-    values = [[found.get(j * STRIDE + k, 0) for k in range(size)] for j, size in enumerate(length)]
+    values: list[Series] = [[] for _ in range(plant.count_of)]
+    for j, size in length.items():
+        values[j] = [found.get(j * STRIDE + k, 0) for k in range(size)]
     try:
         _continue(system, plant, setting, values, order)
     except Singular:
@@ -86,7 +84,7 @@ def _continue(
     """Extend the series of every variable that is not given to the order."""
     c, d = system.offsets.equations, system.offsets.variables
     given = set(system.given)
-    inner = [j for j in range(plant.count_of) if j not in given]
+    inner = [j for j in plant.active if j not in given]
     position = {j: at for at, j in enumerate(inner)}
     slack = min((d[j] for j in inner), default=0)
     if not inner or order - slack < 1:
@@ -158,7 +156,8 @@ def _all_at_once(
     top = order + max(system.offsets.equations, default=0) + _MARGIN
     point = Point(plant.place, setting, random)
     point.linear(equations, [top] * len(equations))
-    found = point.complete(
-        [j * STRIDE + k for j in range(plant.count_of) for k in range(order + 1)]
-    )
-    return [[found[j * STRIDE + k] for k in range(order + 1)] for j in range(plant.count_of)]
+    found = point.complete([j * STRIDE + k for j in plant.active for k in range(order + 1)])
+    values: list[Series] = [[] for _ in range(plant.count_of)]
+    for j in plant.active:
+        values[j] = [found[j * STRIDE + k] for k in range(order + 1)]
+    return values

@@ -28,7 +28,9 @@ def linear(equations: list[Equation]) -> bool:
     )
 
 
-def amplitudes(plant: Assembly, equations: list[Equation], s: int, random: Random) -> list[int]:
+def amplitudes(
+    plant: Assembly, equations: list[Equation], s: int, random: Random
+) -> dict[int, int]:
     """The amplitude of every variable; free ones are random.
 
     Raises `Contradiction` if the equations are more than the variables.
@@ -49,9 +51,9 @@ def amplitudes(plant: Assembly, equations: list[Equation], s: int, random: Rando
         rows.append(row)
     pivots = eliminate(rows)
     determined = {p.column for p in pivots}
-    values = {j: random.randrange(1, P) for j in range(plant.count_of) if j not in determined}
+    values = {j: random.randrange(1, P) for j in plant.active if j not in determined}
     back_substitute(pivots, values)
-    return [values[j] for j in range(plant.count_of)]
+    return values
 
 
 class WaveSample:
@@ -62,7 +64,7 @@ class WaveSample:
         algebra: Waves,
         place: Mapping[Expr, tuple[int, int]],
         constants: Mapping[Expr, Series],
-        found: list[int],
+        found: Mapping[int, int],
         told: dict[Expr, Wave],
     ) -> None:
         self.algebra = algebra
