@@ -61,6 +61,7 @@ def normalise(
     >>> [(t.atom, t.order, t.coefficient) for t in form.terms]
     [(y, 0, 3), (y, 1, a)]
     """
+    expr = _at_rest(pool, expr)
     work = _Normaliser(pool, limit, initials)
     try:
         form = work.form(expr)
@@ -88,6 +89,7 @@ def rewritten(
     Integrals are then integrals of single signals or nonlinear parts, from zero. An expression
     that is too large comes back as it is.
     """
+    expr = _at_rest(pool, expr)
     work = _Normaliser(pool, limit, initials)
     try:
         work.form(expr)
@@ -111,6 +113,22 @@ def constant(node: Expr) -> bool:
         if n.op is Op.INT or (n.op is Op.SYM and n.symbol.kind not in CONSTANTS):
             return False
     return True
+
+
+def _at_rest(pool: Pool, expr: Expr) -> Expr:
+    """The expression with the derivatives of constants set to zero."""
+    while True:
+        still: dict[Expr, bool] = {}
+        gone: dict[Expr, Expr] = {}
+        for node in topological([expr]):
+            still[node] = node.op is not Op.INT and all(still[a] for a in node.args)
+            if node.op is Op.SYM:
+                still[node] = node.symbol.kind in CONSTANTS
+            if node.op is Op.DER and still[node]:
+                gone[node] = pool.zero
+        if not gone:
+            return expr
+        expr = pool.substitute([expr], gone)[0]
 
 
 class _Normaliser:
@@ -305,13 +323,12 @@ class _Normaliser:
         number = Fraction(1)
         if factor.op is Op.ADD and len(factor.args) == 1:
             number, factor = factor.coefficients[0], factor.args[0]
-        power = pool.div(factor, atom)
         exponent = None
         if factor is atom:
             exponent = 1
         elif factor.op is Op.MUL and factor.args == (atom,):
             exponent = factor.exponents[0]
-        elif atom.op is Op.MUL and power.op is Op.MUL and power.args == atom.args:
+        elif atom.op is Op.MUL and factor.op is Op.MUL and factor.args == atom.args:
             ratios = {Fraction(e, f) for e, f in zip(factor.exponents, atom.exponents, strict=True)}
             if len(ratios) == 1 and min(ratios).denominator == 1:
                 exponent = int(min(ratios))

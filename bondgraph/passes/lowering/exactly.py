@@ -111,7 +111,7 @@ class Exactly:
         self, array: str, length: int, atom: Expr, origin: object
     ) -> list[tuple[bool, Expression]]:
         pool = self.builder.pool
-        expr = rewritten(pool, atom, LIMIT, self.builder.initials)
+        expr = differentiate(pool, rewritten(pool, atom, LIMIT, self.builder.initials), 0)
         out: list[tuple[bool, Expression]] = []
         for k in range(length):
             value = self._procedure.value(expr, None)
