@@ -31,11 +31,17 @@ class Equation(NamedTuple):
 
 
 class Setting(NamedTuple):
-    """Constants of one trajectory: params, consts and modes as series, `n` coefficients."""
+    """Constants of one trajectory: params, consts and modes as series, `n` coefficients.
 
-    values: Mapping[Expr, Series]
+    `private` are those that one law alone uses and that may be changed to satisfy it; `tuned`
+    collects by how much they were.
+    """
+
+    values: dict[Expr, Series]
     functions: Functions
     n: int
+    private: frozenset[Expr]
+    tuned: dict[Expr, int]
 
 
 def constant(values: Mapping[Expr, Series], symbol: Expr) -> Series:

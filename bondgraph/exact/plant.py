@@ -15,8 +15,8 @@ from bondgraph.exact.assembly import Assembly, Parts, assemble
 from bondgraph.exact.equations import Setting, Writer
 from bondgraph.exact.evaluate import evaluate, highest_order, integral_depth
 from bondgraph.exact.field import Functions, P, Undefined
+from bondgraph.exact.known import KnownSample
 from bondgraph.exact.linear import Contradiction, Singular
-from bondgraph.exact.point import KnownSample
 from bondgraph.exact.series import Series
 from bondgraph.exact.taylor import OverDetermined, solve
 from bondgraph.exact.waves import WaveSample, amplitudes, linear, tell
@@ -86,16 +86,19 @@ class Trajectory:
         if found is None:
             constants = {s: v for s, v in self._told.items() if s.symbol.kind in CONSTANTS}
             constants.update((s, v) for s, v in self._told.items() if s.symbol.kind is Kind.MODE)
-            found = self.plant.draw(
-                self.seed * 31 + steps,
-                self.order,
-                (),
-                constants,
-                self.algebra.functions,
-                self.part,
-            )
+            found = self._draw_earlier(steps, constants)
             self._earlier[steps] = found
         return found
+
+    def _draw_earlier(self, steps: int, constants: dict[Expr, Series]) -> Trajectory:
+        functions = self.algebra.functions
+        for attempt in range(_ATTEMPTS):
+            seed = (self.seed * 31 + steps) * _ATTEMPTS + attempt
+            try:
+                return self.plant.draw(seed, self.order, (), constants, functions, self.part)
+            except (Undefined, Contradiction, Singular):
+                continue
+        raise Undefined("the plant has no earlier point with the same constants")
 
 
 class Plant:
@@ -115,6 +118,10 @@ class Plant:
             *[s.reads for s in graph.sensors],
             *[n.when for n in graph.nodes if n.when is not None],
         ]
+        uses: dict[Expr, int] = {}
+        for root in roots:
+            for part in topological([root]):
+                uses[part] = uses.get(part, 0) + 1
         roots += [v.symbol for v in graph.values] + [i.symbol for i in graph.inputs if i.mode]
         constant = (Kind.PARAM, Kind.CONST, Kind.INITIAL, Kind.FREE)
         found = [n for n in topological(roots) if n.op is Op.SYM]
@@ -136,6 +143,7 @@ class Plant:
             if item.initial.op is Op.SYM:
                 self._starts[item.initial] = item.symbol
         self.constants = [n for n in found if n.symbol.kind in constant and n not in self._starts]
+        self._private = frozenset(v for v in self.constants if uses.get(v) == 1)
 
     def trajectory(
         self,
@@ -169,6 +177,7 @@ class Plant:
                     constants,
                     functions,
                     part or self.assembly,
+                    tunable=True,
                 )
             except (Undefined, Contradiction, Singular) as found:
                 failure = found
@@ -214,7 +223,7 @@ class Plant:
         for symbol, error in errors.items():
             if symbol in true:
                 true[symbol] = [(true[symbol][0] + error) % P]
-        equations = Writer(plant, Setting(true, algebra.functions, 1)).all({})
+        equations = Writer(plant, Setting(true, algebra.functions, 1, frozenset(), {})).all({})
         if not linear(equations):
             raise Mixed("a law that is not linear")
         found = amplitudes(plant, equations, algebra.s, random)
@@ -274,10 +283,12 @@ class Plant:
         constants: Mapping[Expr, Series],
         functions: Functions,
         plant: Assembly,
+        tunable: bool = False,
     ) -> Trajectory:
         """A trajectory with these constants; raises `Undefined` and others if there is none.
 
-        The plant's own parameters are the constants plus the faults that act.
+        The plant's own parameters are the constants plus the faults that act. If they are
+        `tunable`, a law that nothing else can satisfy is satisfied by a parameter of its own.
         """
         random = Random(seed * 7 + 3)
         n = order + self._reach + 1 + _EXTRA
@@ -288,7 +299,7 @@ class Plant:
             symbol = self._names[name]
             if symbol in true:
                 true[symbol] = series.add(true[symbol], error)
-        setting = Setting(true, functions, n)
+        setting = Setting(true, functions, n, self._private if tunable else frozenset(), {})
         try:
             equations = Writer(plant, setting).all(readings)
             values = solve(plant, equations, setting, random, order + self._reach)
@@ -298,6 +309,8 @@ class Plant:
             raise ExactUnavailable(f"a law of the model holds {failure}") from None
         truth = KnownSample(plant.place, setting, values)
         told = dict(constants)
+        for symbol, value in setting.tuned.items():
+            told[symbol] = [(constants[symbol][0] + value) % P, *constants[symbol][1:]]
         inside = frozenset(plant.active)
         for name, symbol in self._inputs.items():
             if name in errors and plant.place[symbol][0] in inside:

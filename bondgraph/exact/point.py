@@ -11,20 +11,18 @@ from collections.abc import Mapping
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
 from random import Random
-from typing import Any
 
 from bondgraph.exact import series
-from bondgraph.exact.algebra import Mixed, Taylor
 from bondgraph.exact.equations import (
     Equation,
     FormSample,
     Setting,
     coefficient_row,
-    constant,
 )
-from bondgraph.exact.evaluate import chosen, demands, evaluate, pull, values_of
+from bondgraph.exact.evaluate import chosen, demands, evaluate, values_of
 from bondgraph.exact.field import INVERSES, P, inverse, of_fraction, root, sign
-from bondgraph.exact.forms import ORDERS, Form, Forms, NotLinear
+from bondgraph.exact.forms import Form, Forms, NotLinear
+from bondgraph.exact.known import KnownSample, gradient
 from bondgraph.exact.linear import (
     CONSTANT,
     Contradiction,
@@ -62,57 +60,6 @@ class _PointSample(FormSample):
     def __init__(self, point: Point) -> None:
         super().__init__(point.place, point.setting)
         self.algebra: Forms = _PointForms(point)
-
-
-class KnownSample:
-    """Variables as series, for laws; missing coefficients count as zero."""
-
-    def __init__(
-        self,
-        place: Mapping[Expr, tuple[int, int]],
-        setting: Setting,
-        variables: Mapping[int, Series] | list[Series],
-    ) -> None:
-        self.algebra = Taylor(setting.functions)
-        self._place = place
-        self._values = setting.values
-        self._variables = variables
-
-    def value(self, symbol: Expr) -> Series:
-        """The series of a constant or a variable."""
-        where = self._place.get(symbol)
-        if where is None:
-            return constant(self._values, symbol)
-        known = self._variables[where[0]]
-        return known if where[1] == 1 else series.scale(where[1], known)
-
-    def start(self, initial: Any) -> int:
-        """Laws have their integrals as variables."""
-        raise Mixed("an integral in a law")
-
-
-def gradient(
-    rest: Expr, sample: KnownSample, place: Mapping[Expr, tuple[int, int]]
-) -> dict[tuple[int, int], int]:
-    """The partial derivatives of an expression at the point by (variable, derivative)."""
-    nodes = topological([rest])
-    need = demands(nodes, [rest], 1)
-    values, failures = values_of(nodes, need, sample)
-    if rest in failures:
-        raise failures[rest]
-    adjoints: dict[Expr, Any] = {rest: [1]}
-    pull(nodes, need, values, sample.algebra, adjoints, jumps=False)
-    out: dict[tuple[int, int], int] = {}
-    for node, adjoint in adjoints.items():
-        if node.op is Op.SYM and node in place:
-            variable, s = place[node]
-            factorial = 1
-            for order, x in enumerate(adjoint):
-                factorial *= max(order, 1)
-                if x:
-                    key = (variable, order)
-                    out[key] = (out.get(key, 0) + s * x * inverse(factorial)) % P
-    return out
 
 
 class Point:
@@ -229,7 +176,11 @@ class Point:
         row = coefficient_row(equation.form, 0, STRIDE)
         if failure is None:
             add_multiple(row, 1, coefficient_row(values[equation.rest], 0, STRIDE))
-            self.add(row, number)
+            try:
+                self.add(row, number)
+            except Contradiction:
+                if not self.tuned(equation):
+                    raise
             return None
         if not isinstance(failure, NotLinear):
             raise failure
@@ -239,6 +190,31 @@ class Point:
         ):
             return None
         return failure.form
+
+    def tuned(self, equation: Equation) -> bool:
+        """Satisfy a law that contradicts the others by a parameter that it alone uses."""
+        assert equation.rest is not None
+        nodes = topological([equation.rest])
+        values = self.setting.values
+        for symbol in [n for n in nodes if n in self.setting.private]:
+            first = values[symbol]
+            found = []
+            for step in range(3):  # the law must be linear in the parameter
+                values[symbol] = [(first[0] + step) % P, *first[1:]]
+                results, failures = values_of(nodes, dict.fromkeys(nodes, 1), _PointSample(self))
+                if equation.rest in failures:
+                    break
+                row = coefficient_row(equation.form, 0, STRIDE)
+                add_multiple(row, 1, coefficient_row(results[equation.rest], 0, STRIDE))
+                found.append(self.reduce(row).get(CONSTANT, 0))
+            values[symbol] = first
+            if len(found) < 3 or (found[2] - 2 * found[1] + found[0]) % P or found[1] == found[0]:
+                continue
+            change = -found[0] * inverse(found[1] - found[0]) % P
+            values[symbol] = [(first[0] + change) % P, *first[1:]]
+            self.setting.tuned[symbol] = change
+            return True
+        return False
 
     def impose(
         self,
@@ -374,6 +350,3 @@ def _root(value: int, exponent: int) -> int:
         return root(value, Fraction(1, exponent))
     s = sign(value)
     return s * root(s * value, Fraction(1, exponent)) % P
-
-
-__all__ = ["ORDERS", "STRIDE", "KnownSample", "Point", "gradient"]

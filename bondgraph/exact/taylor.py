@@ -15,8 +15,9 @@ from bondgraph.exact.equations import Equation, Setting
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.field import P, inverse
 from bondgraph.exact.forms import ORDERS
+from bondgraph.exact.known import KnownSample, gradient
 from bondgraph.exact.linear import CONSTANT, Factors, Singular
-from bondgraph.exact.point import STRIDE, KnownSample, Point, gradient
+from bondgraph.exact.point import STRIDE, Point
 from bondgraph.exact.series import Series
 from bondgraph.exact.structure import Offsets, offsets
 

@@ -176,6 +176,11 @@ model A { param m = 1; param b = 1; param a = 1
     Se:F -> 1:v
     v { -> I:m; -> R:b { e = b*f + a*der(sin(f)) }; -> Df:y }
 }""",
+    "a law that only a parameter can satisfy": """
+model A { param g = 1; param a = 1; param b = 1; param J = 1
+    1:s { <- Se:W = g; -> R:x { e = a*f + b*tanh(f) }; -> TF:n { f1 = 2*f2 } -> 1:t }
+    t -> Df:w
+}""",
     "two laws on one effort": """
 model A { param a = 1; param b = 1
     Se:F -> 0:n
