@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import NamedTuple
+from functools import cached_property
+from typing import Literal, NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph, Input, Sensor, Value
@@ -15,6 +16,7 @@ from bondgraph.ir.program import (
     Field,
     Known,
     Mode,
+    Product,
     Ref,
 )
 from bondgraph.passes.lowering.names import OPTION, ZERO_START, Names, brief, identifier
@@ -92,6 +94,12 @@ class Builder:
         self.names.new(name)
         self.prelude.append(Assign(Ref("local", name), value, comment, None))
         return self.pool.symbol(f"{OPTION}{name}@", Kind.CONST)
+
+    @cached_property
+    def pace(self) -> Expr:
+        """bandwidth * time_unit: its powers stay in range where those of either would not."""
+        product = Product((Ref("option", "bandwidth"), Ref("option", "time_unit")))
+        return self.local("pace", product, "bandwidth*time_unit")
 
     # ------------------------------------------------------- coefficients
 
@@ -198,20 +206,19 @@ class Builder:
     def _known(self, signal: Signal) -> Known:
         declared = signal.declared
         low, high = self.extent.get(signal.name, [0, 0])
-        kind: str = "sensor"
+        kind: Literal["input", "sensor", "mode"] = "sensor"
         counts = None
         if isinstance(declared, Input):
             kind = "mode" if declared.mode else "input"
         elif declared.counts is not None:
-            value = evaluate(declared.counts, self.floats)
-            counts = None if value is None else float(value)
-            counts = counts if counts is not None else 0.0
+            value = evaluate(self.resolve([declared.counts])[0], self.floats)
+            counts = 0.0 if value is None else float(value)
         return Known(
             signal.name,
             declared.name,
             declared.unit or "",
             declared.doc,
-            "mode" if kind == "mode" else "input" if kind == "input" else "sensor",
+            kind,
             high,
             low < 0,
             counts,

@@ -37,7 +37,7 @@ class Large(NamedTuple):
         low = low_orders(builder, self.tape, 1 / frequency(rate), highest + 2)
         if low is None:
             return f"it has derivatives up to order {self.statement.length - 1} and no numbers"
-        pool, unit = builder.pool, builder.option("time_unit")
+        pool, bandwidth = builder.pool, builder.option("bandwidth")
         terms: list[Term] = []
         sizes: list[float] = []
         far: list[tuple[Term, float]] = []
@@ -46,7 +46,9 @@ class Large(NamedTuple):
             row = low[leaf.node]
             for k in range(length):
                 if k < len(row):
-                    value = pool.mul(builder.element(array, k), pool.power(unit, k))
+                    # time_unit**k, so written that bandwidth**k of the filter cancels
+                    factor = pool.power(pool.div(builder.pace, bandwidth), k)
+                    value = pool.mul(builder.element(array, k), factor)
                     terms.append(Term(leaf.atom, k, value, leaf.static))
                     sizes.append(abs(row[k]))
                 else:
