@@ -64,7 +64,7 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
             target,
             4,
         ),
-        "report": code.report(),
+        "unavailable": code.unavailable(),
     }
 
 

@@ -152,19 +152,20 @@ class Code:
             for name in block.knowns
             if known[name].kind != "mode" and known[name].counts is None
         ]
-        results = [f"r[{self._number(r)}]" for r in block.residuals]
+        numbers = [self._number(r) for r in block.residuals]
+        results = [f"r[{number}]" for number in numbers]
         return {
             "name": block.name,
             "number": number,
             "title": together(block.residuals),
             "first": self._run(block, block.first, "count_from"),
             "step": self._run(block, block.step, "count_on"),
-            "samples": self._unless_finite(samples) if samples else [],
-            "results": self._unless_finite(results),
+            "numbers": numbers,
+            "finite": self._if_finite([*samples, *results]),
         }
 
-    def _unless_finite(self, names: list[str]) -> list[str]:
-        test = "if (!finite_number({0})) \1"
+    def _if_finite(self, names: list[str]) -> list[str]:
+        test = "if (finite_number({0})) \1"
         rows = listing.statement(test, " + ".join(names), self.target, 4)
         return [row.replace("\1", "{") for row in rows]
 
@@ -207,18 +208,10 @@ class Code:
         head += unused
         return [*head, ""] if head else []
 
-    def report(self) -> list[str]:
-        """What step says of every residual at its end."""
-        found: list[str] = []
-        owner = {r: at for at, block in enumerate(self.spelling.blocks) for r in block.residuals}
-        for info in self.program.residuals:
-            number = self._number(info.name)
-            age, settle = "0u", "0u"
-            if info.name in owner:
-                age, settle = f"monitor->age[{owner[info.name]}]", f"monitor->settle[{number}]"
-            arguments = f"residuals, {number}, {age}, {settle}"
-            found += listing.statement("report({0});", arguments, self.target, 4)
-        return found
+    def unavailable(self) -> list[str]:
+        """The numbers of the residuals that step never computes."""
+        owned = {r for block in self.spelling.blocks for r in block.residuals}
+        return [self._number(r.name) for r in self.program.residuals if r.name not in owned]
 
     def _number(self, residual: str) -> str:
         return self.spelling.prefix + self.spelling.numbers[residual]

@@ -270,16 +270,18 @@ class _Module:
         }
 
     def _tables(self) -> list[dict[str, object]]:
-        return [
-            {
-                "comment": listing.harmless(f"The table {name}.", self.target),
-                "name": self.spelling.tables[name],
-                "lines": listing.table(
-                    [*[f"({digits(x)}, {digits(y)})" for x, y in points], ""], self.target, 4
-                ),
-            }
-            for name, points in self.program.tables
-        ]
+        found: list[dict[str, object]] = []
+        for name, points in self.program.tables:
+            pairs = points if len(points) > 1 else points * 2  # a single point is a constant
+            rows = [f"({digits(x)}, {digits(y)})" for x, y in pairs]
+            found.append(
+                {
+                    "comment": listing.harmless(f"The table {name}.", self.target),
+                    "name": self.spelling.tables[name],
+                    "lines": listing.table([*rows, ""], self.target, 4),
+                }
+            )
+        return found
 
     # ---------------------------------------------------------------- exact and step
 
@@ -319,8 +321,7 @@ class _Module:
             "title": together(block.residuals),
             "first": self._run(block, block.first, "count_from"),
             "step": self._run(block, block.step, "count_on"),
-            "samples": self._if("not math.isfinite({0})", measured, 12) if measured else [],
-            "results": self._if("not math.isfinite({0})", results, 12),
+            "finite": self._if("not math.isfinite({0})", [*measured, *results], 12),
             "zero": [f"            {name} = 0.0" for name in results],
         }
 

@@ -2,10 +2,7 @@ def _exponential(value: float) -> float:
     """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
     ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
     ln2_low = 1.4286068203094173e-06
-    if value > 1000.0:
-        return math.inf
-    if value < -1000.0:
-        return 0.0
+    value = max(-1000.0, min(1000.0, value)) if value == value else value
     n, scale, rest, sum_ = 0, 1.0, value, 1.0
     while rest > 0.35:
         n += 1

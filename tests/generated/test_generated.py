@@ -1,0 +1,69 @@
+"""Every model's code: as committed, without a warning, right in C and in Python."""
+
+from __future__ import annotations
+
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import bondgraph
+from bondgraph.backends.names import snake
+from bondgraph.backends.write import write
+from bondgraph.ir.artifact import Artifact
+from bondgraph.text.diagnostic import CompileError
+from tests.unit.backends.compilers import WARNINGS, compiler, run
+
+_ROOT = Path(__file__).resolve().parent.parent.parent
+_MODELS = [p.stem for p in sorted((_ROOT / "models").glob("*.bg"))]
+
+
+@cache
+def _artifacts(model: str) -> tuple[str, tuple[Artifact, ...]]:
+    compilation = bondgraph.compile(_ROOT / "models" / f"{model}.bg")
+    try:
+        return snake(compilation.program.name), compilation.artifacts
+    except CompileError:
+        return "", ()  # a model that shows a refusal
+
+
+@pytest.mark.parametrize("model", _MODELS)
+def test_is_what_is_committed(model: str, update: bool) -> None:
+    """`pytest --update` (or `make update`) writes it anew; look at the difference."""
+    _, artifacts = _artifacts(model)
+    folder = _ROOT / "generated" / model
+    if update and artifacts:
+        write(artifacts, folder)
+    for artifact in artifacts:
+        path = folder / artifact.path
+        assert path.is_file(), f"{path.relative_to(_ROOT)} is not there: run `make update`"
+        assert path.read_text(encoding="utf-8") == artifact.text
+
+
+@pytest.mark.parametrize("model", _MODELS)
+def test_compiles_and_passes_its_own_test(model: str, tmp_path: Path) -> None:
+    stem, artifacts = _artifacts(model)
+    if not artifacts:
+        return
+    write(artifacts, tmp_path)
+    assert run(sys.executable, "selftest.py", cwd=tmp_path).endswith("PASS\n")
+    assert "alarms" in run(sys.executable, "example.py", cwd=tmp_path)
+    real = f"-D{stem.upper()}_FLOAT"
+    sanitized = ("-ffp-contract=off", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    for options in (sanitized, (real,)):
+        sources = ("selftest.c", f"{stem}_residuals.c", "-lm", "-o", "selftest")
+        run(*compiler("gcc"), *WARNINGS, "-O1", *options, *sources, cwd=tmp_path)
+        told = run(tmp_path / "selftest")
+        assert told.endswith("PASS\n") and "FAIL" not in told
+
+
+@pytest.mark.parametrize("model", _MODELS)
+@pytest.mark.parametrize("name", ["clang", "g++", "clang++"])
+def test_no_warning_from_any_compiler(name: str, model: str, tmp_path: Path) -> None:
+    command = compiler(name)
+    stem, artifacts = _artifacts(model)
+    write(artifacts, tmp_path)
+    for source in (a.path for a in artifacts if a.path.endswith(".c")):
+        for real in ((), (f"-D{stem.upper()}_FLOAT",)):
+            run(*command, *WARNINGS, *real, "-fsyntax-only", source, cwd=tmp_path)
