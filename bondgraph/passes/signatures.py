@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
-from bondgraph.exact.evaluate import Sample, Sensitivity, highest_order, sensitivities
+from bondgraph.exact.evaluate import Sensitivity, highest_order, sensitivities
 from bondgraph.exact.field import Undefined
 from bondgraph.exact.free import FreeSample
 from bondgraph.exact.plant import ExactUnavailable, Plant
@@ -92,10 +92,9 @@ class _Analysis:
         reacts: list[set[Expr]] = [set() for _ in exprs]
         if not exprs:
             return reacts
-        order = highest_order(exprs) + 1
         try:
             for point in range(_points(exprs)):
-                parts = self.draw(lambda n: self.sensed(exprs, n, order), 2000 * self.seed + point)
+                parts = self.draw(lambda n: self.sensed(exprs, n), 2000 * self.seed + point)
                 for seen, part in zip(reacts, parts, strict=True):
                     seen.update(part)
         except ExactUnavailable:
@@ -104,8 +103,9 @@ class _Analysis:
                 seen.update(s for s, hit in free.depends.items() if hit)
         return reacts
 
-    def sensed(self, exprs: list[Expr], number: int, order: int) -> list[set[Expr]]:
-        sample: Sample = self.plant.trajectory(number, order)
+    def sensed(self, exprs: list[Expr], number: int) -> list[set[Expr]]:
+        """The symbols that each relation reacts to at one healthy trajectory."""
+        sample = self.plant.sample(exprs, number, 2)
         found = []
         for expr in exprs:
             here = _with_decisions(expr, sensitivities(expr, sample))
