@@ -137,3 +137,38 @@ def test_every_model_says_what_it_teaches(model: str) -> None:
 def test_every_model_has_a_case_or_is_tested_with_the_paper() -> None:
     with_the_paper = {"drive", "drive_fig6", "khepera", "khepera_plausible"}
     assert {c.model for c in CASES} | with_the_paper == set(ALL)
+
+
+def test_a_long_cable_in_shared_parts_is_the_chain_of_its_cells(tmp_path: Path) -> None:
+    """For constant parameters D is multiplication by p: then the cable is a chain of two-ports."""
+    cells = 60
+    path = tmp_path / "long.bg"
+    path.write_text(
+        f'bg 1\nimport Cable from "{MODELS / "khepera.bg"}"\nmodel Long {{\n'
+        f"    Se:Uin -> Cable:line(n = {cells}) -> 0:out\n"
+        "    out { -> C:Cs = line.C; -> De:Us }\n}\n",
+        encoding="utf-8",
+    )
+    found = result(bondgraph.compile(path), [])
+    arr = found["arrs"][0]
+    assert arr["defs"] and arr["orders"] == {"Uin": 0, "Us": 2 * cells + 2}
+    p, R, L, C, Us = Fraction(1, 3), Fraction(7, 2), Fraction(3, 5), Fraction(2, 7), Fraction(1)
+    voltage, current = Us, p * C * Us
+    for _ in range(cells):
+        voltage += (R + p * L) / (2 * cells) * current
+        current += p * C / cells * voltage
+        voltage += (R + p * L) / (2 * cells) * current
+
+    def residual(Uin: Fraction) -> Fraction:
+        scope: dict[str, Any] = {
+            "D": lambda x, n: x * p ** int(n),
+            "exactly": Fraction,
+            **{"line__R": R, "line__L": L, "line__C": C, "Us": Us, "Uin": Uin},
+        }
+        for name, part in [*arr["defs"], ["", arr["expr"]]]:
+            scope[name] = eval(_INTEGER.sub(r"exactly(\g<0>)", part), scope)
+        value: Fraction = scope[""]
+        return value
+
+    assert residual(voltage) == 0
+    assert residual(voltage + 1) != 0
