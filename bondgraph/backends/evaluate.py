@@ -33,6 +33,7 @@ from bondgraph.ir.program import (
 
 _CONTEXT = Context(prec=40, Emax=99999, Emin=-99999)
 _BUMP = 1e-7
+_MANY = 100_000  # terms of a tape; more would take longer than the rest of the compiler
 #: How much of the terms that it came from still counts where a value is used again.
 _KEPT = {"coef": 1e-3, "state": 0.05}
 
@@ -151,19 +152,9 @@ class Evaluation:
         return Value(number, size)
 
     def _tape(self, tape: PolynomialTape) -> None:
-        zero = Value(Decimal(0), 0.0)
-        rows = [[zero] * tape.length for _ in range(tape.rows)]
-        rows[0][0] = value(1.0)
         scales = [self._value(s) for s in tape.scales]
-        for op in tape.ops:
-            if op.fresh:
-                rows[op.target] = [zero] * tape.length
-            row, source, scale = rows[op.target], rows[op.source], scales[op.scale]
-            for k in range(op.length):
-                old, new = row[k + op.shift], source[k]
-                row[k + op.shift] = Value(
-                    old.number + scale.number * new.number, old.size + scale.size * new.size
-                )
+        work = sum(op.length for op in tape.ops)
+        rows = _rows(tape, scales) if work <= _MANY else _rows_in_double(tape, scales)
         for output in tape.outputs:
             for k in range(output.length):
                 self.given[Ref("coef", output.array, k)] = rows[output.row][k]
@@ -194,6 +185,43 @@ def _settled(target: Ref, found: Value) -> Value:
     if kept is None:
         return found
     return Value(found.number, abs(float(found.number)) + kept * found.size)
+
+
+def _rows(tape: PolynomialTape, scales: list[Value]) -> list[list[Value]]:
+    zero = Value(Decimal(0), 0.0)
+    rows = [[zero] * tape.length for _ in range(tape.rows)]
+    rows[0][0] = value(1.0)
+    for op in tape.ops:
+        if op.fresh:
+            rows[op.target] = [zero] * tape.length
+        row, source, scale = rows[op.target], rows[op.source], scales[op.scale]
+        for k in range(op.length):
+            old, new = row[k + op.shift], source[k]
+            row[k + op.shift] = Value(
+                old.number + scale.number * new.number, old.size + scale.size * new.size
+            )
+    return rows
+
+
+def _rows_in_double(tape: PolynomialTape, scales: list[Value]) -> list[list[Value]]:
+    """The same for millions of terms: rounded as in the generated code, operation by operation."""
+    import numpy as np
+
+    numbers = np.zeros((tape.rows, tape.length))
+    sizes = np.zeros((tape.rows, tape.length))
+    numbers[0, 0] = sizes[0, 0] = 1.0
+    factors = [(float(s.number), s.size) for s in scales]
+    for op in tape.ops:
+        factor, size = factors[op.scale]
+        to = slice(op.shift, op.shift + op.length)
+        if op.fresh:
+            numbers[op.target] = sizes[op.target] = 0.0
+        numbers[op.target, to] += factor * numbers[op.source, : op.length]
+        sizes[op.target, to] += size * sizes[op.source, : op.length]
+    return [
+        [Value(Decimal(n), s) for n, s in zip(row.tolist(), wide.tolist(), strict=True)]
+        for row, wide in zip(numbers, sizes, strict=True)
+    ]
 
 
 def _interpolate(points: tuple[tuple[float, float], ...], x: float) -> float:

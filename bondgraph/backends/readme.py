@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from bondgraph.backends import listing
 from bondgraph.backends.facts import Facts
 from bondgraph.backends.names import identifier, snake
-from bondgraph.ir.program import Field, Known, Program, ResidualInfo
+from bondgraph.ir.program import Dropped, Field, Known, Program, ResidualInfo
 
 _ROW_FAULTS = 200  # a longer matrix is left to the list of each residual
 
@@ -28,16 +28,24 @@ def readme(program: Program, facts: Facts, programs: Mapping[str, str]) -> dict[
         "examples": [_EXAMPLES[name](stem, text, facts) for name, text in programs.items()],
         "usage": _usage(program, facts, tuple(programs)),
         "named": _named(program),
-        "dropped": _table(
-            ("residual", "signal", "derivative", "share of the largest term"),
-            [
-                (f"`{d.residual}`", f"`{d.signal}`", str(d.order), f"{d.share:.1e}")
-                for d in program.dropped
-            ],
-        )
-        if program.dropped
-        else [],
+        "dropped": _dropped(program.dropped),
     }
+
+
+def _dropped(terms: Sequence[Dropped]) -> list[str]:
+    """One row for each signal of a residual."""
+    groups: dict[tuple[str, str], list[Dropped]] = {}
+    for term in terms:
+        groups.setdefault((term.residual, term.signal), []).append(term)
+    rows = []
+    for (residual, signal), found in groups.items():
+        orders = [d.order for d in found]
+        run = len(orders) > 2 and orders == list(range(orders[0], orders[-1] + 1))
+        text = f"{orders[0]} to {orders[-1]}" if run else ", ".join(map(str, orders))
+        share = max(d.share for d in found)
+        rows.append((f"`{residual}`", f"`{signal}`", text, f"{share:.1e}"))
+    head = ("residual", "signal", "derivatives", "largest share of the leading term")
+    return _table(head, rows) if rows else []
 
 
 def _named(program: Program) -> str:

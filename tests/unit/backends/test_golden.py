@@ -1,0 +1,105 @@
+"""The reference evaluation is right where the answer is known otherwise."""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+from fractions import Fraction
+
+import pytest
+
+from bondgraph.backends import evaluate as module
+from bondgraph.backends.evaluate import Evaluation, value
+from bondgraph.backends.golden import golden
+from bondgraph.ir.program import Const, Function, PolynomialTape, Ref
+from tests.unit.backends import programs
+
+
+def _ladder(cells: int) -> list[Fraction]:
+    """v/y of a chain of RC cells as polynomial in p, cell by cell from the open end."""
+    resistance, capacity = Fraction(3.2) / cells, Fraction(1.1e-2) / 2  # per time_unit 0.5
+    v, i = [Fraction(1)], [Fraction(0)]
+    for _ in range(cells):
+        size = max(len(v), len(i))
+        v = [*v, *[Fraction(0)] * (size - len(v))]
+        v = [a + resistance * b for a, b in zip(v, [*i, *[Fraction(0)] * size], strict=False)]
+        i = [*i, *[Fraction(0)] * (len(v) + 1 - len(i))]
+        i = [b + (capacity * v[k - 1] if k else 0) for k, b in enumerate(i)]
+    return v
+
+
+def _coefficients(cells: int) -> list[module.Value]:
+    program = programs.ladder(cells)
+    run = Evaluation(program, {})
+    run.given = {
+        Ref("param", "R"): value(3.2),
+        Ref("param", "C"): value(1.1e-2),
+        Ref("option", "sample_time"): value(0.001),
+        Ref("option", "bandwidth"): value(20.0),
+        Ref("option", "time_unit"): value(0.5),
+    }
+    run.run(program.configure)
+    return [run.given[Ref("coef", "y_polynomial", k)] for k in range(cells + 1)]
+
+
+@pytest.mark.parametrize("many", [10**9, 0], ids=["40 digits", "double"])
+def test_a_tape_is_the_polynomial_of_the_chain(many: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "_MANY", many)
+    wanted = _ladder(20)
+    for found, exact in zip(_coefficients(20), wanted, strict=False):
+        tolerance = Decimal("1e-26") if many else Decimal("1e-14")
+        number = Decimal(exact.numerator) / Decimal(exact.denominator)
+        assert abs(found.number - number) <= tolerance * max(abs(number), Decimal("1e-300"))
+        assert found.size == pytest.approx(float(exact))  # all terms are positive
+
+
+def test_the_size_says_what_cancels() -> None:
+    """1000.001 - 1000 is 0.001, from terms of 2000."""
+    run = Evaluation(programs.motor(), {})
+    run.given = {Ref("known", "U"): value(1000.001), Ref("known", "y"): value(1000.0)}
+    run.run([programs.put("local:d", programs.minus(*run.given))])
+    found = run.given[Ref("local", "d")]
+    assert float(found.number) == pytest.approx(0.001, rel=1e-9)
+    assert found.size == pytest.approx(2000.001)
+
+
+@pytest.mark.parametrize(
+    ("name", "args", "wanted"),
+    [
+        ("ssqrt", (-4.0,), -2.0),
+        ("ssq", (-3.0,), -9.0),
+        ("sign", (-3.0,), -1.0),
+        ("pow", (2.0, -2.0), 0.25),
+        ("pow", (2.0, 0.5), math.sqrt(2.0)),
+        ("min", (2.0, 1.0), 1.0),
+        ("atan2", (1.0, 1.0), math.pi / 4.0),
+        ("table:pump", (0.25,), 1.0),
+        ("table:pump", (9.0,), -1.0),
+        ("table:constant.csv", (-7.0,), 3.5),
+    ],
+)
+def test_functions(name: str, args: tuple[float, ...], wanted: float) -> None:
+    run = Evaluation(programs.functions(), {})
+    run.run([programs.put("local:f", Function(name, tuple(map(Const, args))))])
+    assert float(run.given[Ref("local", "f")].number) == pytest.approx(wanted, rel=1e-15)
+
+
+@pytest.mark.parametrize("make", programs.ALL, ids=lambda m: m.__name__)
+def test_vectors_are_there_and_the_same_each_time(make: programs.Maker) -> None:
+    found = golden(make())
+    assert found == golden(make())
+    assert found.exact and found.step
+    for vector in (*found.exact, *found.step):
+        assert all(abs(value) <= size for value, size in vector.results)
+
+
+def test_signals_lie_where_the_law_has_a_value() -> None:
+    """A logarithm of a signal: the vectors are positive."""
+    program = programs.motor()
+    law = programs.put("residual:r1", Function("log", (Ref("known", "U"),)))
+    found = golden(program._replace(exact=(law, program.exact[1])))
+    assert found.exact and all(v.values[Ref("known", "U")] > 0.0 for v in found.exact)
+
+
+def test_every_tape_is_found() -> None:
+    assert any(isinstance(s, PolynomialTape) for s in programs.ladder().configure)
