@@ -7,10 +7,11 @@ variable more than once in a nonlinear way goes to SymPy.
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from itertools import pairwise
 from typing import NamedTuple
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, topological
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, Rational, topological
 
 #: Functions that are one to one on the reals (or where they are defined), with their inverses.
 INVERSE = {
@@ -169,10 +170,10 @@ def _peel(
         inner = inside[0]
         if node.op is Op.ADD:
             c = node.coefficients[node.args.index(inner)]
-            terms = [(1 / c, target)]
+            terms: list[tuple[Rational, Expr]] = [(Fraction(1) / c, target)]
             for k, arg in zip(node.coefficients, node.args, strict=True):
                 if arg is not inner:
-                    terms.append((-k / c, arg))
+                    terms.append((-Fraction(k) / c, arg))
             target = pool.add(*terms)
         elif node.op is Op.MUL:
             power = node.exponents[node.args.index(inner)]
