@@ -192,14 +192,20 @@ class Chain:
                 continue
             self.take(offer, variable)
             return True
-        return self.tear(states=True)
+        return self.tear(states=True) or self.tear(states=True, stubborn=True)
 
-    def tear(self, states: bool) -> bool:
-        """Take one variable of each remaining solvable block as if it were known."""
+    def tear(self, states: bool, stubborn: bool = False) -> bool:
+        """Take one variable of each remaining solvable block as if it were known.
+
+        `stubborn` counts equations that cannot be solved for their last unknown as well: where
+        they make a part overdetermined, a relation exists that only iteration could give.
+        """
         rows = [
             r
             for r, equation in enumerate(self.system.equations)
-            if not self.used[r] and self.waiting[r] > 1 and (states or equation.state is None)
+            if not self.used[r]
+            and (stubborn or self.waiting[r] > 1)
+            and (states or equation.state is None)
         ]
         columns: dict[Expr, int] = {}
         graph = []
@@ -207,7 +213,7 @@ class Chain:
             free = [v for v in self.system.equations[r].variables if v not in self.closed]
             graph.append([columns.setdefault(v, len(columns)) for v in free])
         parts = decompose(graph, len(columns))
-        solvable = {*parts.over_columns, *parts.square_columns}
+        solvable = {*parts.over_columns, *(() if stubborn else parts.square_columns)}
         names = list(columns)
         chosen = []
         for block in _components(graph, [*parts.over_rows, *parts.square_rows], solvable):
@@ -275,26 +281,28 @@ class Chain:
             if step.how == "integrated" and step.equation.initial is None:
                 self.report.warning(
                     "initial-value-needed",
-                    f"a relation at `{equation.name}` needs the initial value of"
-                    f" `{step.equation.name}`, which the model does not declare",
+                    f"A relation at `{equation.name}` needs the initial value of"
+                    f" `{step.equation.name}`, which the model does not declare.",
                     step.equation.origin,
-                    help="the storage enters nonlinearly, so differentiating does not remove its"
+                    help="The storage enters nonlinearly, so differentiating does not remove its"
                     " initial value: declare it, for example"
-                    f" `({'q0' if step.variable.symbol.name.endswith('q') else 'p0'} = 0)`",
+                    f" `({'q0' if step.variable.symbol.name.endswith('q') else 'p0'} = 0)`.",
                 )
                 return
 
     def report_loops(self) -> None:
-        """Say which loops cost a relation."""
-        for variables in self.loops.refused():
-            steps = [self.steps[v].equation for v in variables]
-            names = ", ".join(dict.fromkeys(f"`{e.name}`" for e in steps))
+        """Say which loops cost a relation, by the elements that they run through."""
+        for rows in self.loops.refused():
+            steps = [s for s in self.resting_on(rows) if self.loops.open_in(s.closed)]
+            equations = [s.equation for s in steps] + [self.system.equations[r] for r in rows]
+            laws = [e for e in equations if e.kind == "law"] or equations
+            names = ", ".join(dict.fromkeys(f"`{e.name}`" for e in laws))
             self.report.error(
                 "loop-unsolvable",
-                f"the loop through {names} has no solution in closed form",
-                *[e.origin for e in steps],
-                help="measure a variable inside the loop, or give one of its laws in the"
-                " direction in which it can be inverted",
+                f"The nonlinear loop through {names} has no solution in closed form.",
+                *dict.fromkeys(e.origin for e in laws),
+                help="Measure a variable inside the loop, or give one of its laws in the"
+                " direction in which it can be inverted.",
             )
 
 

@@ -44,7 +44,7 @@ class Loops:
         self.spent: dict[Expr, tuple[int, ...]] = {}  # tear symbol to the rows it dropped out of
         self.pending: list[_Row] = []
         self.plain: list[_Row] = []
-        self.stuck: list[Expr] = []
+        self.lost: list[tuple[int, ...]] = []
 
     def tear(self, variable: Expr) -> Expr:
         """Take a variable as known: the symbol that stands for its value."""
@@ -54,7 +54,11 @@ class Loops:
 
     def row(self, row: int, expr: Expr) -> None:
         """An equation all of whose variables have been computed, some from torn ones."""
-        item = _Row((row,), expr)
+        solved = [t for t in self._tears(expr) if t in self.solved]
+        rows = [r for t in solved for r in self.solved[t].rows]
+        if solved:
+            expr = self.pool.substitute([expr], self.solutions())[0]
+        item = _Row((*dict.fromkeys(rows), row), expr)
         (self.pending if self._tears(expr) else self.plain).append(item)
 
     def open_in(self, expr: Expr) -> bool:
@@ -68,9 +72,9 @@ class Loops:
             return self.solved[symbol].rows
         return self.spent.get(symbol, ())
 
-    def refused(self) -> list[list[Expr]]:
-        """The torn variables that cost a relation because their loop could not be solved."""
-        return [[self.variable[t] for t in self.stuck]] if self.stuck else []
+    def refused(self) -> list[tuple[int, ...]]:
+        """The equations of each loop that could not be solved and so cost a relation."""
+        return self.lost
 
     def solutions(self) -> dict[Expr, Expr]:
         """The value of each solved tear, free of solved tears."""
@@ -130,7 +134,7 @@ class Loops:
             if expr is item.expr:
                 still.append(item)
                 continue
-            combined = _Row((*value.rows, *item.rows), expr)
+            combined = _Row(tuple(dict.fromkeys((*value.rows, *item.rows))), expr)
             (still if self._tears(expr) else self.plain).append(combined)
         self.pending = still
 
@@ -151,12 +155,11 @@ class Loops:
                 nonlinear.append(item)
             else:
                 linear.append(row)
-        torn = {t for item in nonlinear for t in self._tears(item.expr)}
-        self.stuck = sorted(torn, key=lambda t: t.id)
-        found += self._cross(linear, set(self.stuck))
-        lost = max(0, len(nonlinear) - len(self.stuck))
-        if not lost:
-            self.stuck = []
+        stuck = {t for item in nonlinear for t in self._tears(item.expr)}
+        found += self._cross(linear, stuck)
+        lost = max(0, len(nonlinear) - len(stuck))
+        if lost:
+            self.lost.append(tuple(r for item in nonlinear for r in item.rows))
         found = [(rows, expr) for rows, expr in found if not is_zero(expr)]
         return found, lost
 
