@@ -17,7 +17,8 @@ LONG = str(ROOT / "tests" / "bench" / "cable1000.bg")
 def row(what: str, own: float, yardstick: str, other: float, limit: str) -> None:
     """One line of the table: both medians, their ratio, and what is promised."""
     ratio = own / other
-    print(f"{what:38} {own * 1e3:8.0f} ms {yardstick:22} {other * 1e3:7.0f} ms {ratio:6.2f}x  {limit}")
+    print(f"{what:28} {own * 1e3:7.0f} ms  {yardstick:16} {other * 1e3:5.0f} ms", end="  ")
+    print(f"{ratio:6.2f}x  {limit}")
 
 
 def commands(runs: int) -> None:

@@ -1,0 +1,62 @@
+/* main.c: run one of the two steps on the same samples; `main generated|hand STEPS`. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "khepera_residuals.h"
+#include "step.h"
+
+static void signals(double t, hand_samples *s)
+{
+    int j;
+
+    for (j = 0; j < 2; ++j) {
+        s->U0[j] = 3.0 + sin(6.28 * t + j);
+        s->We[j] = 40.0 + 5.0 * sin(5.0 * t + j);
+        s->Ws[j] = s->We[j] / 25.0 + 1e-3 * sin(3.0 * t);
+        s->Fx[j] = 0.06;
+    }
+    s->Uin = 5.0;
+    s->Us = 5.0 - 0.01 * sin(9.0 * t);
+}
+
+int main(int count, char **words)
+{
+    const int hand = count > 1 && strcmp(words[1], "hand") == 0;
+    const long steps = count > 2 ? atol(words[2]) : 10;
+    static double r[5];
+    static int valid[5];
+    static hand_robot robot;
+    static khepera_monitor monitor;
+    static khepera_parameters parameters;
+    static khepera_samples given;
+    static khepera_residuals out;
+    hand_samples s;
+    long n;
+
+    memset(&s, 0, sizeof s);
+    s.r = r;
+    s.valid = valid;
+    hand_configure(&robot, 0.001, 20.0);
+    khepera_nominal(&parameters);
+    if (khepera_configure(&monitor, &parameters, 0.001, 20.0, 1.0) != 0) {
+        return 1;
+    }
+    for (n = 0; n < steps; ++n) {
+        signals(0.001 * (double)(n % 64), &s);
+        if (hand) {
+            hand_step(&robot, &s);
+        } else {
+            given.U0__1 = s.U0[0], given.U0__2 = s.U0[1], given.Uin = s.Uin, given.Us = s.Us;
+            given.Fx__1 = s.Fx[0], given.Fx__2 = s.Fx[1];
+            given.m__1__me__we = s.We[0], given.m__2__me__we = s.We[1];
+            given.m__1__wh__ws = s.Ws[0], given.m__2__wh__ws = s.Ws[1];
+            khepera_step(&monitor, &given, &out);
+        }
+    }
+    for (n = 0; n < 5; ++n) {
+        printf("%.12g %d\n", hand ? r[n] : out.value[n], hand ? valid[n] : (int)out.valid[n]);
+    }
+    return 0;
+}

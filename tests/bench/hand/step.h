@@ -1,0 +1,33 @@
+/* step.h: the robot's five residuals, written by hand. */
+#ifndef HAND_STEP_H
+#define HAND_STEP_H
+
+typedef struct hand_filter {
+    double a, b0, b1;
+} hand_filter;
+
+typedef struct hand_drive {
+    double e3, s3, x3, e2, s2, x2, e1, s1; /* r1: of We, Ws, Fx by stage */
+    double p3, p2, p1, px, pw, ge, gs;     /* r2: of Ws by stage, of Fx, of w */
+    double r1[3], r2[3], q;
+    unsigned age1, age2;
+} hand_drive;
+
+typedef struct hand_robot {
+    hand_filter f;
+    double half;
+    hand_drive drive[2];
+    double r3;
+    unsigned age3, settle3, settle1;
+} hand_robot;
+
+typedef struct hand_samples {
+    double U0[2], We[2], Ws[2], Fx[2], Uin, Us;
+    double *r;  /* five residuals out: r1, r2 of each drive, then the cable's */
+    int *valid;
+} hand_samples;
+
+void hand_configure(hand_robot *h, double sample_time, double bandwidth);
+void hand_step(hand_robot *h, const hand_samples *s);
+
+#endif
