@@ -12,8 +12,13 @@ from bondgraph.ir.expr import CONSTANTS, Expr, Op, topological
 from bondgraph.passes.nominal import Nominal
 
 
-def colours(system: EquationSystem, rounds: int = 6) -> tuple[list[int], dict[Expr, int]]:
-    """A rank for each equation and each variable, equal only where `rounds` steps look alike."""
+def colours(system: EquationSystem, rounds: int | None = None) -> tuple[list[int], dict[Expr, int]]:
+    """A rank for each equation and each variable, equal only where `rounds` steps look alike.
+
+    By default six steps, two in a large system, where they would cost more than they tell.
+    """
+    if rounds is None:
+        rounds = 6 if len(system.equations) < 2000 else 2
     nodes, nominal = system.graph.nodes, Nominal(system.graph)
     position = {v: i for i, v in enumerate(system.unknowns)}
     members = [[position[v] for v in e.variables] for e in system.equations]

@@ -70,6 +70,8 @@ class Nominal:
         A leak that is nominally zero, or a bridge that is nominally in balance: dividing by it
         gives a relation that has no value on the healthy machine.
         """
+        if expr.op is Op.NUM:
+            return not expr.number
         value = self.value(expr)
         if value is None:
             return False

@@ -24,8 +24,9 @@ from bondgraph.text.diagnostic import Report
 
 T = TypeVar("T")
 
-#: Points at which a relation is tried: a branch not taken at one is taken at another.
-_POINTS, _POINTS_WITH_BRANCHES = 2, 12
+#: Points at which a relation is tried: one is enough for a rational relation (it errs with a
+#: probability of about its degree / 2**61), a branch not taken at one point is taken at another.
+_POINTS, _POINTS_WITH_BRANCHES = 1, 12
 _TRIES = 40  # a point where a square root has no value is drawn again
 
 

@@ -52,10 +52,12 @@ def solve(
     >>> solve(p, p.sub(e, p.mul(R, f)), f).value
     e/R
     """
-    holders = _holders(zero, variable)
-    if zero not in holders:
-        return None
-    linear = affine(pool, zero, variable)
+    linear = _plain(pool, zero, variable)
+    if linear is None:
+        holders = _holders(zero, variable)
+        if zero not in holders:
+            return None
+        linear = affine(pool, zero, variable)
     if linear is not None:
         slope, rest = linear
         if slope is pool.zero or not _dividable(slope) or vanishes(slope):
@@ -68,6 +70,35 @@ def solve(
 
         value_ = solve_symbolic(pool, zero, variable)
     return None if value_ is None else Solution(value_, True, True)
+
+
+def _plain(pool: Pool, zero: Expr, variable: Expr) -> tuple[Expr, Expr] | None:
+    """`affine` for the usual balance or linear law: a sum of symbols and products of symbols.
+
+    None where the equation is of another form or holds the variable more than once.
+    """
+    if zero.op is not Op.ADD:
+        return None
+    found: tuple[Expr, Expr] | None = None
+    rest = []
+    for c, arg in zip(zero.coefficients, zero.args, strict=True):
+        if arg.op is Op.MUL:
+            if any(a.op is not Op.SYM for a in arg.args):
+                return None
+            if variable not in arg.args:
+                rest.append((c, arg))
+                continue
+            if arg.exponents[arg.args.index(variable)] != 1:
+                return None
+        elif arg.op is not Op.SYM:
+            return None
+        elif arg is not variable:
+            rest.append((c, arg))
+            continue
+        if found is not None:
+            return None
+        found = pool.scale(c, pool.div(arg, variable)), pool.zero
+    return None if found is None else (found[0], pool.add(*rest))
 
 
 def constant(expr: Expr, memo: dict[Expr, bool] | None = None) -> bool:

@@ -207,6 +207,12 @@ def listing(names: list[str], most: int = 6) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
+def sentence(text: str) -> str:
+    """The text with a capital letter, unless it begins with a name, and with a full stop."""
+    first = text if ":" in text.split(" ", 1)[0] else text[:1].upper() + text[1:]
+    return f"{first}."
+
+
 _TWICE = {
     "0": (
         "the effort of {0} is imposed twice, by {1}",
@@ -279,7 +285,7 @@ def _tell_junction(
         for at in side.way:
             _label(graph, at, "on the way", labels, seen)
     text = message.format(name(node), who)
-    report.error("causality-conflict", text, *labels[:8], help=f"{physics} {remedy}")
+    report.error("causality-conflict", sentence(text), *labels[:8], help=f"{physics} {remedy}")
 
 
 def _label(graph: BondGraph, at: int, text: str, labels: list[Label], seen: set[Span]) -> None:
@@ -314,7 +320,7 @@ def _tell_bond(graph: BondGraph, first: int, wish: Wish, report: Report) -> None
     what = "effort" if {a.kind, b.kind} <= {"Se", "Df"} else "flow"
     report.error(
         "causality-conflict",
-        f"the {what} of one bond is imposed at both ends, by {name(a)} and {name(b)}",
+        f"The {what} of one bond is imposed at both ends, by {name(a)} and {name(b)}.",
         Label(b.origin, _role(b)),
         Label(a.origin, _role(a)),
         help=f"One end of a bond gives the {what}, the other answers. Put the R, I or C that "
@@ -331,7 +337,7 @@ def _tell_loop(graph: BondGraph, net: Network, core: Core, report: Report) -> No
     places += [Label(n.origin, _role(n)) for n in fixed[:4]]
     report.error(
         "causality-conflict",
-        f"{listing([name(n) for n in nodes])} cannot all get their effort or flow{by}",
+        f"{listing([name(n) for n in nodes])} cannot all get their effort or flow{by}.",
         *places,
         help="Each 0-junction needs one bond that brings its effort, each 1-junction one that "
         "brings its flow, and these bonds are too few or too many. Add the R, C or I that is "

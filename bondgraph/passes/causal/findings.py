@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bondgraph.ir.causal import CausalGraph, Storage
 from bondgraph.ir.graph import Node
-from bondgraph.passes.causal.conflict import listing, name
+from bondgraph.passes.causal.conflict import listing, name, sentence
 from bondgraph.passes.causal.paths import Paths
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
@@ -35,7 +35,7 @@ def _dependent(causal: CausalGraph, paths: Paths, report: Report) -> None:
         for partner in partners:
             if all(nodes[partner].origin != label.span for label in labels):
                 labels.append(Label(nodes[partner].origin, _part(nodes[partner])))
-        report.info("dependent-storage", text, *labels, help=_remedy(nodes, partners))
+        report.info("dependent-storage", sentence(text), *labels, help=_remedy(nodes, partners))
 
 
 def _port(node: Node, storage: Storage) -> str:
@@ -80,7 +80,7 @@ def _loops(causal: CausalGraph, report: Report) -> None:
         for node in members[:6]:
             labels.setdefault(node.origin, Label(node.origin, "in the loop"))
         help = "This is no error: the loop is solved as one system of equations."
-        report.info("algebraic-loop", text, *labels.values(), help=help)
+        report.info("algebraic-loop", sentence(text), *labels.values(), help=help)
 
 
 def _circle(loop: list[Node]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bondgraph.ir.syntax import Argument, Node
-from bondgraph.passes.elaboration.problems import fail, listed, meant
+from bondgraph.passes.elaboration.problems import fail, listed, meant, rough
 from bondgraph.passes.elaboration.scope import (
     Array,
     Bound,
@@ -14,7 +14,7 @@ from bondgraph.passes.elaboration.scope import (
     Scope,
     ValueEntry,
 )
-from bondgraph.passes.elaboration.structure import index, structural
+from bondgraph.passes.elaboration.structure import decided, index
 from bondgraph.text.diagnostic import Label, Report
 
 
@@ -49,7 +49,7 @@ class Arguments:
                          f"declare a default: `{generic.name} : {generic.type} = ...`."
                          )  # fmt: skip
                 bound = Bound(generic.default, scope, {}, generic.origin)
-            value = structural(bound.value, bound.scope, bound.env, self.report)
+            value = decided(bound.value, bound.scope, bound.env, self.report)
             if isinstance(value, bool) != (generic.type == "bool"):
                 fail(self.report, "wrong-type", f"`{generic.name}` is declared {generic.type}.",
                      Label(bound.origin, "this is not"), Label(generic.origin, "declared here"),
@@ -57,7 +57,7 @@ class Arguments:
             if not isinstance(value, bool):
                 if value.denominator != 1:
                     fail(self.report, "not-an-integer", f"`{generic.name}` is declared int, but "
-                         f"given {float(value):g}.", bound.origin,
+                         f"given {rough(value)}.", bound.origin,
                          help="Use a whole number.")  # fmt: skip
                 scope.generics[generic.name] = value.numerator
             else:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import NamedTuple, assert_never
+from typing import NamedTuple, NoReturn, assert_never
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, topological
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Ref, Text, Truth, Unary
 from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration.functions import Functions
-from bondgraph.passes.elaboration.problems import Skip, fail
+from bondgraph.passes.elaboration.problems import Skip, fail, rough
 from bondgraph.passes.elaboration.quantities import PURE, Quantities
 from bondgraph.passes.elaboration.scope import Env, Scope, Typed
 from bondgraph.text.diagnostic import Report
@@ -18,7 +18,9 @@ from bondgraph.text.source import Span
 _MOST_DEEP = 80
 _MOST_POWER = 1000
 _MOST_BITS = 4096
-_LARGEST = Fraction(10) ** 300
+_MOST_EXACT = 64
+#: A double holds numbers between 2^-1022 and 2^1023; products of a few need some room.
+_MOST_MAGNITUDE = 996
 _COUNTS = frozenset({1, 2, 4})
 _MOST_COUNT = 16
 
@@ -121,12 +123,12 @@ class Expressions:
     def number(self, number: Number) -> tuple[Expr, Term]:
         """A literal in SI; without a unit it takes the one that its use requires."""
         if number.unit is None:
-            return self.pool.num(number.value), self.quantities.dimensions.fresh(
-                number.origin, f"`{number.text}`"
+            return self.pool.num(self.held(number.value, number.origin)), (
+                self.quantities.dimensions.fresh(number.origin, f"`{number.text}`")
             )
         dimension, factor = self.quantities.unit(number.unit, number.origin)
         term = self.quantities.known(dimension, number.origin, "")
-        return self.pool.num(number.value * factor), term
+        return self.pool.num(self.held(number.value * factor, number.origin)), term
 
     # ------------------------------------------------------------------ operators
 
@@ -233,11 +235,40 @@ class Expressions:
         return PURE if other.op is not Op.NUM and self.constant(other) else term
 
     def checked(self, node: Expr, expr: Expression) -> Expr:
-        """Refuse numbers that no double can hold."""
-        if node.op is Op.NUM and abs(node.number) > _LARGEST:
-            fail(self.report, "number-too-large", "This number is too large.", expr.origin,
-                 help="A double holds numbers up to 1e308.")  # fmt: skip
+        """Refuse numbers and powers that the generated code could not hold."""
+        if node.op is Op.NUM:
+            self.held(node.number, expr.origin)
+        elif node.op is Op.ADD:
+            for coefficient in node.coefficients:
+                self.held(coefficient, expr.origin)
+        elif node.op is Op.MUL and any(abs(e) > _MOST_POWER for e in node.exponents):
+            self.too_high(expr, Fraction(max(map(abs, node.exponents))))
         return node
+
+    def held(self, value: Fraction, origin: Span) -> Fraction:
+        """The number, if a double can hold it."""
+        magnitude = value.numerator.bit_length() - value.denominator.bit_length()
+        if value and abs(magnitude) > _MOST_MAGNITUDE:
+            what = "large" if magnitude > 0 else "close to zero"
+            fail(self.report, "number-too-large", f"This number is too {what}: {rough(value)}.",
+                 origin, help="Numbers from 1e-299 to 1e299 can be computed with; perhaps an "
+                 "exponent or a unit is not the one that was meant.")  # fmt: skip
+        return value
+
+    def too_high(self, expr: Expression, exponent: Fraction) -> NoReturn:
+        """Report a power that is beyond any use."""
+        fail(self.report, "number-too-large", f"A power of {rough(exponent)} is beyond any use.",
+             expr.origin, help="Use `exp`, or a smaller exponent.")  # fmt: skip
+
+    def raised(self, term: Term, exponent: Fraction, expr: Expression) -> Term:
+        """The dimension of a power."""
+        if term is PURE:
+            return PURE
+        result = self.quantities.dimensions.power(term, exponent)
+        for power in map(Fraction, (*result.known, *result.unknown.values())):
+            if abs(power) > _MOST_POWER or power.denominator.bit_length() > _MOST_EXACT:
+                self.too_high(expr, power)
+        return result
 
     def divides_by_zero(self, expr: Expression) -> None:
         """Report a division by the number zero."""
@@ -287,11 +318,11 @@ class Expressions:
         n = b.number
         if a.op is Op.NUM:
             self.number_power(a.number, n, expr)
+        elif a.op is Op.ADD and len(a.args) == 1 and n.denominator == 1:
+            self.number_power(a.coefficients[0], n, expr)
         if abs(n) > _MOST_POWER:
-            fail(self.report, "number-too-large", f"A power of {float(n):g} is beyond any use.",
-                 expr.origin, help="Use `exp`, or a smaller exponent.")  # fmt: skip
-        term = PURE if s is PURE else self.quantities.dimensions.power(s, n)
-        return self.checked(self.pool.fn("pow", a, b), expr), term
+            self.too_high(expr, n)
+        return self.checked(self.pool.fn("pow", a, b), expr), self.raised(s, n, expr)
 
     def pure_exponent(self, term: Term, expr: Expression) -> None:
         """An exponent has no unit."""
@@ -307,9 +338,11 @@ class Expressions:
                  expr.origin, help="Change the base; `ssqrt` and `cbrt` take negative numbers."
                  )  # fmt: skip
         bits = max(base.numerator.bit_length(), base.denominator.bit_length())
-        if bits * abs(exponent) > _MOST_BITS:
-            fail(self.report, "number-too-large", "This number is too large.", expr.origin,
-                 help="A double holds numbers up to 1e308.")  # fmt: skip
+        magnitude = abs(base.numerator.bit_length() - base.denominator.bit_length())
+        if bits * abs(exponent) > _MOST_BITS or magnitude * abs(exponent) > _MOST_MAGNITUDE:
+            fail(self.report, "number-too-large", f"{rough(base)} to the power {rough(exponent)} "
+                 "is beyond all numbers of physics.", expr.origin,
+                 help="Use a smaller exponent.")  # fmt: skip
 
 
 def _plain(expr: Expression) -> bool:

@@ -173,7 +173,8 @@ def pick(
     used = {n.type for d in own for n in nodes_of(d.model.body) if n.type != d.model.name}
     free = [d for d in own if d.model.name not in used]
     if not free:
-        recursion(own[0], report)  # all are used by another: that is a cycle
+        for definition in own:  # all are used by another: somewhere that is a cycle
+            recursion(definition, report)
         raise Skip
     if len(free) > 1 and report.failed:
         raise Skip  # an import failed: what it uses is not known

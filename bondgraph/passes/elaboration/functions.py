@@ -87,7 +87,7 @@ class Functions:
             return self.pool.fn("sign", node), PURE
         if name in _POWERS:
             self.defined(name, node, call)
-            unit = self.of.quantities.dimensions.power(term, _POWERS[name])
+            unit = self.of.raised(term, _POWERS[name], call)
             return self.pool.fn(name, node), unit
         what = f"`{call.name}` takes a pure number"
         if not self.of.quantities.pure(term, call.arguments[0].origin, what):

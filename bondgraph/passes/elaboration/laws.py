@@ -125,21 +125,21 @@ class Laws:
             other = node.ports[1]
             e2, f2 = self.pair(other)
             what = f"the ratio of `{node.local}` is effort over flow"
-            self.agree(e, values.product(term, f2), origin, what)
-            self.agree(e2, values.product(term, f), origin, what)
+            self.agree(values.quotient(e, f2), term, origin, what)
+            self.agree(values.quotient(e2, f), term, origin, what)
             return (
                 Law(pool.sub(port.effort, pool.mul(k, other.flow)), None, origin),
                 Law(pool.sub(other.effort, pool.mul(k, port.flow)), None, origin),
             )
         if element.kind == "R":
-            self.agree(e, values.product(term, f), origin,
+            self.agree(values.quotient(e, f), term, origin,
                        f"the resistance of `{node.local}` is effort over flow")  # fmt: skip
             return (Law(pool.sub(port.effort, pool.mul(k, port.flow)), None, origin),)
         assert port.state is not None
         cause, effect = (port.effort, e) if element.kind == "C" else (port.flow, f)
         stored = values.quantities.integrated(f if element.kind == "C" else e)
         what = "q over e" if element.kind == "C" else "p over f"
-        self.agree(stored, values.product(term, effect), origin,
+        self.agree(values.quotient(stored, effect), term, origin,
                    f"the {element.coefficient} of `{node.local}` is {what}")  # fmt: skip
         return (Law(pool.sub(port.state, pool.mul(k, cause)), None, origin),)
 

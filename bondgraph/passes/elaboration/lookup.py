@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from typing import NoReturn
 
 from bondgraph.ir.syntax import Part, Ref
+from bondgraph.library.units import suggest_unit
 from bondgraph.passes.elaboration.problems import Skip, fail, meant
 from bondgraph.passes.elaboration.scope import (
     Array,
@@ -17,6 +19,26 @@ from bondgraph.passes.elaboration.scope import (
 )
 from bondgraph.passes.elaboration.structure import index
 from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.source import Span
+
+#: A number and what looks like the first part of its unit, before a name.
+_UNIT_BEFORE = r"(?<![\w.])([0-9][\w.+-]*) ([^\W\d][\w.^/*\s-]*?[*/])\s*\Z"
+_UNIT_AFTER = r"\w+(?:\^-?[0-9]+)?(?:[*/.][^\W\d]\w*(?:\^-?[0-9]+)?)*"
+
+
+def unit_meant(origin: Span) -> str | None:
+    """How a unit that was taken for a product, as in `3 kg*m^2`, has to be spelt."""
+    source = origin.source
+    column = source.position(origin.start)[1] - 1
+    line = source.line(origin.line)
+    before = re.search(_UNIT_BEFORE, line[:column])
+    after = re.match(_UNIT_AFTER, line[column:])
+    if before is None or after is None:
+        return None
+    unit = suggest_unit("".join((before[2] + after[0]).split()))
+    return None if unit is None else (
+        f"A unit contains no `*` and no spaces: `{before[1]} {unit}`."
+    )
 
 
 class Lookup:
@@ -111,9 +133,10 @@ class Lookup:
             fail(self.report, "not-a-value", f"`{ref.origin.text}` is a node, not a value.",
                  Label(ref.origin, "used as a value"), Label(node.origin, "declared here"),
                  help=self.signals(node, ref.origin.text))  # fmt: skip
+        unit = unit_meant(ref.origin) if len(ref.parts) == 1 else None
         fail(self.report, "unknown-name", f"`{inside.model.name}` has no value `{part.name}`.",
-             part.origin, help=meant(part.name, (*known, *inside.values), "Declare it, as in "
-             f"`param {part.name} = 1` or `let {part.name} = ...`."))  # fmt: skip
+             part.origin, help=unit or meant(part.name, (*known, *inside.values), "Declare it, "
+             f"as in `param {part.name} = 1` or `let {part.name} = ...`."))  # fmt: skip
 
     @staticmethod
     def signals(node: Named, text: str) -> str:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from decimal import Decimal
+from fractions import Fraction
 from typing import NoReturn
 
 from bondgraph.text.diagnostic import Label, Report
@@ -39,6 +41,18 @@ def meant(name: str, known: Iterable[str], otherwise: str) -> str:
     """A remedy: the closest known name, or `otherwise`."""
     other = closest(name, known)
     return f"Did you mean `{other}`?" if other else otherwise
+
+
+def rough(value: Fraction) -> str:
+    """A number for a message, also one that no double holds.
+
+    >>> rough(Fraction(5, 2)), rough(Fraction(10) ** 400)
+    ('2.5', '1e+400')
+    """
+    exact = Decimal(value.numerator) / Decimal(value.denominator)
+    if abs(exact.adjusted()) > 300:
+        return f"{exact.normalize():.6g}".lower()
+    return f"{float(value):g}"
 
 
 def listed(names: Iterable[str], most: int = 8) -> str:

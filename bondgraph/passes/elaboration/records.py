@@ -22,6 +22,9 @@ from bondgraph.passes.elaboration.values import Values
 from bondgraph.text.diagnostic import Label
 from bondgraph.text.source import Span
 
+#: Longer exact numbers are not worked out.
+_MOST_BITS = 4096
+
 
 class Records:
     """Collects what the graph lists beside nodes and bonds."""
@@ -104,15 +107,16 @@ class Records:
         if written is None:
             return None
         if written.relative:
-            return abs(written.quantity.value)
+            return self.values.held(abs(written.quantity.value), written.origin)
         quantity, unit = self.values.number(written.quantity)
         if term is not None:
             self.values.alike(term, unit, written.origin, "a tolerance has the unit of the value")
         nominal = self.number(value) if value is not None else None
         if not nominal:
-            fail(self.report, "wrong-tolerance", "An absolute tolerance needs a value other than "
-                 "zero.", written.origin, help="Give it in percent, `+- 5%`.")  # fmt: skip
-        return abs(quantity.number / nominal)
+            fail(self.report, "wrong-tolerance", "An absolute tolerance needs a value that is a "
+                 "number other than zero.", written.origin, help="Give it in percent, `+- 5%`."
+                 )  # fmt: skip
+        return self.values.held(abs(quantity.number / nominal), written.origin)
 
     def number(self, expr: Expr, depth: int = 0) -> Fraction | None:
         """The value of an expression of params, where it is rational and all are known."""
@@ -132,7 +136,8 @@ class Records:
         if expr.op is Op.MUL:
             result = Fraction(1)
             for p, e in zip(known, expr.exponents, strict=True):
-                if p == 0 and e < 0:
+                bits = max(p.numerator.bit_length(), p.denominator.bit_length())
+                if (p == 0 and e < 0) or bits * abs(e) > _MOST_BITS:
                     return None
                 result *= p**e
             return result

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Part, Ref, Text, Truth, Unary
-from bondgraph.passes.elaboration.problems import fail, meant
+from bondgraph.passes.elaboration.problems import fail, meant, rough
 from bondgraph.passes.elaboration.scope import Env, Scope
 from bondgraph.text.diagnostic import Report
 
@@ -48,12 +48,18 @@ def structural(
             fail(report, "not-structural", "A text is not a size.", expr.origin, help=_HELP)
 
 
+def decided(expr: Expression, scope: Scope, env: Env, report: Report) -> Fraction | bool:
+    """A build-time value of a size that a computer counts with; raises Skip when it is none."""
+    value = structural(expr, scope, env, report)
+    return value if isinstance(value, bool) else _number(value, expr, report)
+
+
 def whole_number(expr: Expression, scope: Scope, env: Env, report: Report) -> int:
     """A build-time integer; raises Skip when it is none."""
     value = structural(expr, scope, env, report)
     number = _number(value, expr, report)
     if number.denominator != 1:
-        fail(report, "not-an-integer", f"`{expr.origin.text}` is {float(number):g}: an integer is "
+        fail(report, "not-an-integer", f"`{expr.origin.text}` is {rough(number)}: an integer is "
              "needed here.", expr.origin, help="Use a whole number.")  # fmt: skip
     return number.numerator
 
