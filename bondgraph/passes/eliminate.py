@@ -279,14 +279,15 @@ class Chain:
         """Say which storage needs an initial value."""
         for step in steps:
             if step.how == "integrated" and step.equation.initial is None:
-                self.report.warning(
+                name = "q0" if step.variable.symbol.name.endswith(".q") else "p0"
+                self.report.error(
                     "initial-value-needed",
-                    f"A relation at `{equation.name}` needs the initial value of"
+                    f"The relation at `{equation.name}` needs the initial value of"
                     f" `{step.equation.name}`, which the model does not declare.",
                     step.equation.origin,
-                    help="The storage enters nonlinearly, so differentiating does not remove its"
-                    " initial value: declare it, for example"
-                    f" `({'q0' if step.variable.symbol.name.endswith('q') else 'p0'} = 0)`.",
+                    help="The storage enters it nonlinearly, so differentiating does not remove"
+                    f" the initial value: declare it, for example `({name} = 0)` after the"
+                    " element's name.",
                 )
                 return
 
