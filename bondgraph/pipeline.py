@@ -46,8 +46,8 @@ class Compilation:
 
     >>> import bondgraph
     >>> c = bondgraph.compile("models/dc_motor.bg")
-    >>> len(c.residuals.residuals)
-    1
+    >>> len(c.residuals)
+    2
     """
 
     def __init__(
@@ -156,6 +156,18 @@ class Compilation:
 
         return emit(self.program, self.options.targets)
 
+    def drawing(self, derivative: bool = False) -> str:
+        """The bond graph with its causal strokes, as SVG."""
+        from bondgraph.backends.draw import draw
+
+        causal = self.derivative if derivative else self.integral
+        return draw(causal, self.graph.name)
+
+    def _repr_html_(self) -> str:
+        """The drawing, the relations and the signatures, for a notebook."""
+        parts = [self.drawing(), self.residuals._repr_html_(), self.signatures._repr_html_()]
+        return "\n".join(parts)
+
     # ------------------------------------------------------------------------- helpers
 
     def _stage(self, value: T | None) -> T:
@@ -170,7 +182,7 @@ class Compilation:
         from bondgraph.frontend.read import read
 
         beside = os.path.join(os.path.dirname(origin.source.path), path)
-        source = read(beside, self.report)
+        source = read(beside, self.report, origin)
         return parse(source, self.report) if source else None
 
 

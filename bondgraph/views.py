@@ -19,8 +19,12 @@ class Relation:
 
     >>> import bondgraph
     >>> r = bondgraph.compile("models/dc_motor.bg").residuals["r1"]
-    >>> sorted(r.orders)
-    ['U', 'w']
+    >>> r
+    <r1: U - k*speed - R*current - L*D(current)>
+    >>> r.expr
+    -L*Derivative(current(t), t) - R*current(t) - k*speed(t) + U(t)
+    >>> r.orders["current"], "J" in r.faults
+    (1, False)
     """
 
     def __init__(self, graph: BondGraph, residual: Residual, matrix: SignatureMatrix) -> None:

@@ -9,11 +9,14 @@ is said by the signs in `End`.
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from bondgraph.ir.expr import Expr, Pool, Symbol
 from bondgraph.ir.units import Dimension
 from bondgraph.text.source import Source, Span
+
+if TYPE_CHECKING:
+    import networkx as nx
 
 
 class Port(NamedTuple):
@@ -191,6 +194,26 @@ class BondGraph(NamedTuple):
         params = [v.name for v in self.values if v.fault]
         inputs = [i.name for i in self.inputs if i.known and not i.mode]
         return (*params, *inputs, *[s.name for s in self.sensors if s.same_as is None])
+
+    def to_networkx(self) -> nx.MultiDiGraph:
+        """The graph for networkx: nodes by path (`kind`, `keyword`, `doc`), one edge a bond from
+        the tail of its half arrow to the head (`number`, `label`, and the ports it meets)."""
+        import networkx as nx
+
+        graph = nx.MultiDiGraph(name=self.name)
+        for node in self.nodes:
+            graph.add_node(node.path, kind=node.kind, keyword=node.keyword, doc=node.doc)
+        for bond in self.bonds:
+            tail, head = self.nodes[bond.tail.node], self.nodes[bond.head.node]
+            graph.add_edge(
+                tail.path,
+                head.path,
+                number=bond.number,
+                label=bond.label,
+                tail_port=tail.ports[bond.tail.port].name if bond.tail.port >= 0 else None,
+                head_port=head.ports[bond.head.port].name if bond.head.port >= 0 else None,
+            )
+        return graph
 
     def initial_values(self) -> dict[Symbol, Expr]:
         """The declared value of each symbol that an integral starts from."""

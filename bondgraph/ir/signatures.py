@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from html import escape
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
@@ -59,6 +60,15 @@ class SignatureMatrix(NamedTuple):
         import numpy as np
 
         return np.array(self.rows, dtype=bool).reshape(len(self.faults), len(self.residuals))
+
+    def _repr_html_(self) -> str:
+        """A table for a notebook: one row a fault, a filled cell where a residual reacts."""
+        head = "".join(f"<th>{r}</th>" for r in self.residuals)
+        rows = []
+        for fault, row in zip(self.faults, self.rows, strict=True):
+            cells = "".join(f"<td>{'&#9679;' if hit else ''}</td>" for hit in row)
+            rows.append(f"<tr><th style='text-align:left'>{escape(fault)}</th>{cells}</tr>")
+        return f"<table><tr><th></th>{head}</tr>{''.join(rows)}</table>"
 
     def __str__(self) -> str:
         width = max([5, *map(len, self.faults)])

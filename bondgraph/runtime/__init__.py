@@ -1,0 +1,1 @@
+"""What runs after compiling: residual programs in Python, with any type of number."""
