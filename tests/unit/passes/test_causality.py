@@ -119,7 +119,7 @@ def test_resistances_in_series_form_a_loop_and_a_storage_between_them_opens_it()
 
 def test_two_effort_sources_meet_at_a_junction() -> None:
     message, places = refusal("Se:a -> 0:n <- Se:b; n -> R:r")
-    assert message == "the effort of 0:n is imposed twice, by Se:a and Se:b"
+    assert message == "The effort of 0:n is imposed twice, by Se:a and Se:b."
     assert places == ["0:n", "Se:a", "Se:b"]
 
 
@@ -127,32 +127,32 @@ def test_the_way_to_the_conflict_is_told() -> None:
     message, places = refusal(
         "Se:a -> 1:x -> R:r; x -> 0:y -> C:c; Se:b -> 0:n -> TF:t -> 0:m <- Se:d; m -> R:s"
     )
-    assert message == "the effort of 0:m is imposed twice, by Se:b (through 0:n and TF:t) and Se:d"
+    assert message == "The effort of 0:m is imposed twice, by Se:b (through 0:n and TF:t) and Se:d."
     assert places == ["0:m", "Se:b", "0:n", "TF:t", "Se:d"]
 
 
 def test_nobody_imposes_the_effort() -> None:
     message, _ = refusal("Sf:a -> 0:n <- Sf:b; n -> De:y")
     assert message == (
-        "nothing imposes the effort of 0:n: Sf:a, Sf:b and De:y all take the effort from it"
+        "Nothing imposes the effort of 0:n: Sf:a, Sf:b and De:y all take the effort from it."
     )
 
 
 @pytest.mark.parametrize(
     ("text", "start"),
     [
-        ("Sf:a -> 1:n <- Sf:b", "the flow of 1:n is imposed twice, by Sf:a and Sf:b"),
-        ("Se:a -> 1:n <- Se:b", "nothing imposes the flow of 1:n: Se:a and Se:b both take"),
+        ("Sf:a -> 1:n <- Sf:b", "The flow of 1:n is imposed twice, by Sf:a and Sf:b"),
+        ("Se:a -> 1:n <- Se:b", "Nothing imposes the flow of 1:n: Se:a and Se:b both take"),
         ("Se:a -> TF:t <- Se:b", "TF:t receives effort from both sides, by Se:a and Se:b"),
         ("Sf:a -> TF:t <- Sf:b", "TF:t receives a flow from both sides, by Sf:a and Sf:b"),
         ("Se:a -> GY:t <- Sf:b", "GY:t receives"),
-        ("Se:a -> Se:b", "the effort of one bond is imposed at both ends, by Se:a and Se:b"),
-        ("Sf:a -> Sf:b", "the flow of one bond is imposed at both ends, by Sf:a and Sf:b"),
-        ("Sf:a -> De:b", "the flow of one bond is imposed at both ends, by Sf:a and De:b"),
-        ("0:alone", "nothing imposes the effort of 0:alone: it has no bond"),
+        ("Se:a -> Se:b", "The effort of one bond is imposed at both ends, by Se:a and Se:b"),
+        ("Sf:a -> Sf:b", "The flow of one bond is imposed at both ends, by Sf:a and Sf:b"),
+        ("Sf:a -> De:b", "The flow of one bond is imposed at both ends, by Sf:a and De:b"),
+        ("0:alone", "Nothing imposes the effort of 0:alone: it has no bond"),
         (
             "1:c -> 0:x; c -> 0:y",
-            "nothing imposes the effort of 0:y: 0:x (through 1:c) takes the effort from it",
+            "Nothing imposes the effort of 0:y: 0:x (through 1:c) takes the effort from it",
         ),
         (
             "1:a -> GY:x -> 1:b -> GY:y -> 1:c -> GY:z -> a",
@@ -169,8 +169,8 @@ def test_independent_conflicts_are_independent_errors() -> None:
     report = Report()
     assign(build("Se:a -> 0:n <- Se:b; Sf:c -> 1:m <- Sf:d"), "integral", report)
     assert [d.message.split(" is ")[0] for d in report.diagnostics] == [
-        "the effort of 0:n",
-        "the flow of 1:m",
+        "The effort of 0:n",
+        "The flow of 1:m",
     ]
 
 
@@ -181,7 +181,7 @@ def test_dependent_storages_name_their_partner() -> None:
     (note,) = report.diagnostics
     assert (note.severity, note.code) == ("info", "dependent-storage")
     assert note.message == (
-        "I:j2 is in derivative causality: its flow is fixed by I:j1, which has the state"
+        "I:j2 is in derivative causality: its flow is fixed by I:j1, which has the state."
     )
 
 
@@ -189,7 +189,7 @@ def test_a_capacitor_across_a_source_is_told_as_such() -> None:
     report = Report()
     assert assign(build("Se:u -> 0:a -> C:c; a -> R:r"), "integral", report) is not None
     assert report.diagnostics[0].message == (
-        "C:c is in derivative causality: its effort is imposed by Se:u"
+        "C:c is in derivative causality: its effort is imposed by Se:u."
     )
 
 
@@ -215,7 +215,7 @@ def test_chained_cells_are_counted_in_one_message() -> None:
     assert graph is not None
     assert len(graph.dependent) == n - 1
     (note,) = report.diagnostics
-    assert note.message.endswith("which has the state; so are 4 more like it")
+    assert note.message.endswith("which has the state; so are 4 more like it.")
     assert [label.span.text for label in note.labels] == ["I:L1", "I:L2"]
 
 
