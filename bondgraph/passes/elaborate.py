@@ -20,6 +20,7 @@ from bondgraph.passes.elaboration.files import Definition, Files, Load, pick, re
 from bondgraph.passes.elaboration.instantiate import Opener
 from bondgraph.passes.elaboration.laws import Laws
 from bondgraph.passes.elaboration.lookup import Lookup
+from bondgraph.passes.elaboration.numbers import check_numbers
 from bondgraph.passes.elaboration.problems import Abort, Skip, fail
 from bondgraph.passes.elaboration.quantities import Quantities
 from bondgraph.passes.elaboration.records import Records
@@ -108,7 +109,7 @@ class _Elaboration:
         reads = [s.reads for s, _, _ in records.sensors]
         used = _used([law.zero for n in nodes for law in n.laws] + reads, integrals)
         listed, inputs, sensors, lets = records.finished(used)
-        return BondGraph(
+        graph = BondGraph(
             name=model.name, source=self.definition.source, doc=model.doc, pool=self.pool,
             nodes=tuple([n._replace(domain=self.domain(e))
                          for n, e in zip(nodes, self.nodes, strict=True)]),
@@ -116,6 +117,8 @@ class _Elaboration:
             values=listed, inputs=inputs, sensors=sensors, integrals=tuple(integrals), lets=lets,
             events=tuple(records.events.values()),
         )  # fmt: skip
+        check_numbers(graph, self.report)
+        return None if self.report.failed else graph
 
     def connect(self) -> None:
         """Bonds, ports and the variables of all nodes."""

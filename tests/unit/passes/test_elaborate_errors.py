@@ -52,6 +52,25 @@ ONE = [
     ("let a = (-8)^0.5", "undefined-value"),
     ("let a = 10^100000", "number-too-large"),
     ("let a = y^100000", "number-too-large"),
+    ("let a = y^1e400", "number-too-large"),
+    ("let a = 2^1000000", "number-too-large"),
+    ("let a = (1e200*y)^1000", "number-too-large"),
+    ("let a = (y^1000)^1000", "number-too-large"),
+    ("let a = 1e200*y*1e200", "number-too-large"),
+    ("param a = 1e400", "number-too-large"),
+    ("param a = 1e-400", "number-too-large"),
+    ("param a = 1e290^3.5", "number-too-large"),
+    ("param a = 1 +- 1e400%", "number-too-large"),
+    ("param a = 1e-290 +- 1e290", "number-too-large"),
+    ("param a[1e400] = 1", "number-too-large"),
+    ("sensor s = j.f counts 1e400/turn", "number-too-large"),
+    ("sensor s = j.f counts 0/turn", "wrong-counts"),
+    ("sensor s = j.f counts n/turn; const n = 2 - 3", "wrong-counts"),
+    ("param a = 0; param b = 1/a", "undefined-value"),
+    ("param a = -1; param b = sqrt(a); param c = b + 1", "undefined-value"),
+    ("param a = 1e200; param b = a*a; param c = b*b", "undefined-value"),
+    ("param a = exp(1000)", "undefined-value"),
+    ("param a = 2; param b = a^1000; param c = b^1000; param d = c^1000", "undefined-value"),
     ("let a = tan(1, 2)", "wrong-arguments"),
     ("let a = sine(y)", "unknown-function"),
     ('let a = table("none.csv", y)', "unreadable-table"),
@@ -77,6 +96,10 @@ ONE = [
     ("param a = 0 V +- 1 V; let b = a", "wrong-tolerance"),
     ("1:k when y > 1 { <- j }", "not-a-mode"),
     ("1:k when 3 { <- j }", "not-a-condition"),
+    ("1:k when j.f > 0 { <- j }", "not-a-mode"),
+    ("1:k when r.e > 0 { <- j }", "not-a-mode"),
+    ("sensor s = int(j.f); 1:k when s > 0 { <- j }", "not-a-mode"),
+    ("let a = int(j.f); 1:k when a > 0 { <- j }", "not-a-mode"),
     ("j -> j", "self-bond"),
     ("r { -> R:x = 1 }", "not-a-junction"),
     ("j -> TF:x { port a; port b; a.e = b.e; a.f = b.f } -> R:z = 1", "ports-not-allowed"),
@@ -145,6 +168,29 @@ def test_the_remedy_names_what_was_meant() -> None:
     said = run(f"model M {{ {BASE} param stiffness = 2; j -> C:c = 1/stifness }}")[1]
     assert "`stiffness`" in said[0].help
     assert said[0].labels[0].span.text == "stifness"
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [("3 kg*m^2", "3 kg.m^2"), ("2*3e-4 N*m*s/rad", "3e-4 N.m.s/rad"), ("3 N * m", "3 N.m")],
+)
+def test_a_unit_written_as_a_product_is_spelt(written: str, meant: str) -> None:
+    said = run(f"model M {{ {BASE} param J = {written} }}")[1]
+    assert [d.code for d in said] == ["unknown-name"]
+    assert f"`{meant}`" in said[0].help
+
+
+def test_powers_of_units_stay_finite() -> None:
+    doubled = "\n".join(f"let a{i + 1} = ssq(a{i})" for i in range(1200))
+    assert body_errors(BASE + "let a0 = y*1 m\n" + doubled) == ["number-too-large"]
+    raised = "\n".join(f"let a{i + 1} = pow(a{i}, 0.123456789)" for i in range(900))
+    assert body_errors(BASE + "let a0 = y*1 m\n" + raised) == ["number-too-large"]
+
+
+def test_a_coefficient_of_another_unit_is_told_as_such() -> None:
+    load = "model M { port a : in electrical; a -> 1:i; i -> R:R = 2 N.m.s; i -> C:c = 1 F }"
+    message = run(load, open_ports=True)[1][0].message
+    assert message == "The resistance of `R` is effort over flow: Ohm against N.m.s."
 
 
 def test_a_mismatch_names_both_units_and_places() -> None:
