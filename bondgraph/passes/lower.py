@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
 from typing import NamedTuple
 
-from bondgraph.ir.expr import Expr, Op, Symbol, topological
+from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.program import (
@@ -19,17 +18,17 @@ from bondgraph.ir.program import (
     Statement,
 )
 from bondgraph.ir.residuals import Residual, ResidualSet
-from bondgraph.ir.show import show
 from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.chain import Chain
 from bondgraph.passes.lowering.exactly import Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
-from bondgraph.passes.lowering.names import brief, identifier, short, written_size
+from bondgraph.passes.lowering.names import brief, identifier, short
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.tape import Large, large
 from bondgraph.passes.lowering.visible import Seen, seen, unseen_faults
 from bondgraph.passes.normalise import LIMIT, normalise
+from bondgraph.passes.present import closed_form
 
 #: Stages a chain may have; a residual of higher order has no step.
 HIGHEST = 12
@@ -92,10 +91,9 @@ def lower(
         )
     if time_unit is None:
         time_unit = max([t.time_unit for t in tapes if t is not None], default=1.0)
-    starts = {s.symbol: v for s, v in builder.initials.items()}
     lowered: list[_Lowered] = []
     for residual, form, tape in zip(residuals.residuals, forms, tapes, strict=True):
-        text = _text(residual, starts)
+        text = _text(graph, residual)
         builder.origin = residual.closing.origin
         arrays = {} if tape is None else tape.arrays
         order = exactly.residual(residual, form, arrays, text)
@@ -199,10 +197,10 @@ def _reason(moving: list[Term]) -> str:
     return f"a nonlinear term holds a derivative: {short(moving[0].atom)}"
 
 
-def _text(residual: Residual, starts: Mapping[Symbol, Expr]) -> str:
+def _text(graph: BondGraph, residual: Residual) -> str:
     """The residual as a person writes it, where that is short enough to be read."""
-    if written_size(residual.expr) <= _TEXT_NODES:
-        text = show(residual.expr, starts=starts)
+    if len(topological([residual.expr])) <= _TEXT_NODES:
+        text = str(closed_form(graph, residual))
         if len(text) <= _TEXT_LENGTH:
             return f"{residual.name} = {text}"
     return f"{residual.name}: {residual.closing.name} with everything else inserted"
