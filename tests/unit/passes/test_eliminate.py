@@ -1,0 +1,229 @@
+"""Elimination against relations derived by hand: chains, loops, integrals, and refusals."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+
+from bondgraph.text.diagnostic import CompileError
+from tests.unit.passes.relations import compiled, is_multiple, t
+
+Q = sp.Rational
+
+
+def D(x, n=1):
+    return sp.diff(x, t, n)
+
+
+def test_parallel_branches_make_a_differential_loop() -> None:
+    """i = i1 + i2, L1 i1' + R1 i1 = L2 i2' + R2 i2 = v: multiply by both operators."""
+    c = compiled(
+        """model M {
+        param R1 = 2; param L1 = 3; param R2 = 5; param L2 = 7; param R0 = 11
+        Se:U -> 1:s
+        s { -> R:R0; -> Df:i; -> n }
+        0:n { -> a; -> b }
+        1:a { -> I:L1; -> R:R1 }
+        1:b { -> I:L2; -> R:R2 }
+        }"""
+    )
+
+    def by_hand(R1, L1, R2, L2, R0, U, i):
+        v = U - R0 * i
+        one = L2 * D(i) + R2 * i
+        return L1 * D(one) + R1 * one - (L1 + L2) * D(v) - (R1 + R2) * v
+
+    params = {"R1": Q(2), "L1": Q(3), "R2": Q(5), "L2": Q(7), "R0": Q(11)}
+    assert len(c.residuals) == 1
+    assert is_multiple(c.residuals[0], by_hand, params, ("U", "i"))
+
+
+def test_equal_branches_need_no_factor_twice() -> None:
+    """With equal branches i1 = i2 = i/2: the relation has the order of one branch, not of two."""
+    c = compiled(
+        """model M {
+        param R = 2; param L = 3; param R0 = 11
+        Se:U -> 1:s
+        s { -> R:R0; -> Df:i; -> n }
+        0:n { -> a; -> b }
+        1:a { -> I:L1 = L; -> R:R1 = R }
+        1:b { -> I:L2 = L; -> R:R2 = R }
+        }"""
+    )
+
+    def by_hand(R, L, R0, U, i):
+        return U - R0 * i - (L * D(i) + R * i) / 2
+
+    assert is_multiple(c.residuals[0], by_hand, {"R": Q(2), "L": Q(3), "R0": Q(11)}, ("U", "i"))
+
+
+@pytest.mark.parametrize("balanced", [False, True])
+def test_bridge_is_solved_as_a_network(balanced: bool) -> None:
+    """Conductance of a bridge between its ends by Kirchhoff's laws, in balance and out of it."""
+    numbers = {f"R{k}": Q(k) for k in (1, 2, 3, 4, 5)} | {"R0": Q(1)}
+    if balanced:
+        numbers["R4"] = Q(6)
+    text = "; ".join(f"param {n} = {v}" for n, v in numbers.items())
+    c = compiled(
+        f"""model W {{
+        {text}
+        Se:U -> 1:s
+        s {{ -> R:R0; -> Df:i; -> 0:top }}
+        top -> 1:a -> 0:l
+        a -> R:R1
+        top -> 1:b -> 0:r
+        b -> R:R2
+        l -> R:R3
+        r -> R:R4
+        l -> 1:br -> r
+        br -> R:R5
+        }}"""
+    )
+
+    def by_hand(R1, R2, R3, R4, R5, R0, U, i):
+        v, left, right = sp.symbols("v left right")
+        nodes = sp.solve(
+            [
+                (v - left) / R1 - left / R3 - (left - right) / R5,
+                (v - right) / R2 - right / R4 + (left - right) / R5,
+            ],
+            [left, right],
+        )
+        current = (v - nodes[left]) / R1 + (v - nodes[right]) / R2
+        return i - current.subs(v, U - R0 * i)
+
+    assert len(c.residuals) == 1
+    assert is_multiple(c.residuals[0], by_hand, numbers, ("U", "i"))
+
+
+SPRING = """model M {{
+    param m = 2; param K = 10; param b = 3
+    Se:F -> 1:v
+    v {{ -> I:m; -> C:spring{start} = 1/K; -> R:b; -> Df:y }}
+    }}"""
+
+
+@pytest.mark.parametrize("start", ["", "(q0 = 5)"])
+def test_what_something_else_computes_is_not_integrated(start: str) -> None:
+    """The spring's force follows from the balance, with or without a declared start."""
+    c = compiled(SPRING.format(start=start))
+
+    def by_hand(m, K, b, F, y):
+        return D(F) - m * D(y, 2) - b * D(y) - K * y
+
+    params = {"m": Q(2), "K": Q(10), "b": Q(3)}
+    assert is_multiple(c.residuals[0], by_hand, params, ("F", "y"))
+    assert c.residuals[0].orders == {"F": 1, "y": 2}
+
+
+TWO_SPRINGS = """model M {{
+    param m = 2; param K1 = 10; param K2 = 3
+    Se:F -> 1:v
+    v {{ -> I:m; -> C:s1{start} = 1/K1; -> C:s2{start} = 1/K2; -> Df:y }}
+    }}"""
+
+
+@pytest.mark.parametrize("start", ["", "(q0 = 5)"])
+def test_a_storage_is_integrated_where_nothing_else_computes_it(start: str) -> None:
+    """One of two springs on one mass has only its speed: without a start, differentiate all."""
+    c = compiled(TWO_SPRINGS.format(start=start))
+
+    def by_hand(m, K1, K2, F, y):
+        return D(F) - m * D(y, 2) - (K1 + K2) * y
+
+    params = {"m": Q(2), "K1": Q(10), "K2": Q(3)}
+    assert is_multiple(c.residuals[0], by_hand, params, ("F", "y"))
+
+
+def test_what_is_nominally_zero_is_not_divided_by() -> None:
+    """A leak of nothing stays a fault, and the relation has a value without it."""
+    c = compiled(
+        """model Tank {
+        param leak = 0; param C = 2; param Rv = 3
+        Sf:Q -> 0:t
+        t { -> C:C; -> R:leak { f = leak*e }; -> out; -> De:p }
+        1:out { -> R:Rv; -> Df:q }
+        }"""
+    )
+    relations = {
+        "mass": lambda leak, C, Rv, Q, p, q: Q - C * D(p) - leak * p - q,
+        "valve": lambda leak, C, Rv, Q, p, q: p - Rv * q,
+        "mass by pressure": lambda leak, C, Rv, Q, p, q: Q - C * D(p) - leak * p - p / Rv,
+    }
+    params = {"leak": Q(0), "C": Q(2), "Rv": Q(3)}
+    found = [
+        name
+        for relation in c.residuals
+        for name, by_hand in relations.items()
+        if is_multiple(relation, by_hand, params, ("Q", "p", "q"))
+    ]
+    assert len(c.residuals) == len(found) == 2
+    assert any(c.signatures.row("leak"))
+
+
+def test_unknown_inputs_cost_a_relation_each() -> None:
+    c = compiled(
+        """model M {
+        input d unknown
+        param m = 2; param b = 3
+        Se:F -> 1:v
+        v { <- Se:d; -> I:m; -> R:b; -> Df:y1; -> Df:y2 }
+        }"""
+    )
+    assert len(c.residuals) == 1
+    assert is_multiple(c.residuals[0], lambda y1, y2, **_: y1 - y2, {}, ("y1", "y2"))
+    assert set(c.signatures.undetectable) == {"m", "b", "F"}
+
+
+def test_a_quadratic_law_is_turned_around() -> None:
+    """The drag's speed follows from its force: f = sign(e) sqrt(|e|/k)."""
+    c = compiled(
+        """model D {
+        param k = 2; param m = 3; param m2 = 5
+        Se:F -> 1:v1
+        v1 { -> I:m; -> j }
+        0:j { -> 1:vd; -> 1:v2 }
+        vd -> R:drag { e = k*f*abs(f) }
+        v2 { -> I:m2; -> Df:y }
+        }"""
+    )
+
+    def by_hand(k, m, m2, F, y):
+        force = m2 * D(y)
+        return F - force - m * D(y + sp.sign(force) * sp.sqrt(sp.Abs(force) / k))
+
+    params = {"k": Q(2), "m": Q(3), "m2": Q(5)}
+    assert is_multiple(c.residuals[0], by_hand, params, ("F", "y"))
+
+
+def test_a_nonlinear_loop_names_its_elements() -> None:
+    c = compiled(
+        """model L {
+        param L1 = 1
+        Se:U -> 1:i
+        i { -> I:L1; -> Df:y; -> a }
+        0:a { -> R:r1 { e = f + 0.1*sin(f) }; -> b }
+        1:b { -> R:r2 { e = f + 0.1*sin(f) }; -> c }
+        0:c { -> R:r3 { e = f + 0.1*sin(f) }; -> d }
+        1:d { -> R:r4 { e = f + 0.1*sin(f) } }
+        }"""
+    )
+    with pytest.raises(CompileError) as caught:
+        _ = c.residuals
+    [error] = [d for d in caught.value.diagnostics if d.severity == "error"]
+    assert error.code == "loop-unsolvable"
+    assert all(f"`r{k}`" in error.message for k in (1, 2, 3, 4))
+
+
+def test_a_start_inside_a_nonlinear_law_must_be_declared() -> None:
+    text = """model M {{
+        param m = 2
+        Se:F -> 1:v
+        v {{ -> I:m; -> C:s{start} {{ e = 2*q + q^3 }}; -> Df:y }}
+        }}"""
+    with pytest.raises(CompileError) as caught:
+        _ = compiled(text.format(start="")).residuals
+    assert [d.code for d in caught.value.diagnostics if d.severity == "error"] == [
+        "initial-value-needed"
+    ]
+    assert len(compiled(text.format(start="(q0 = 1)")).residuals) == 1
