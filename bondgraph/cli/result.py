@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph.cli.console import plural
 from bondgraph.cli.parsable import Names, parsable
+from bondgraph.passes.present import tidy
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -76,10 +77,7 @@ def names_of(graph: BondGraph) -> Names:
 
 def initial_values(graph: BondGraph) -> dict[str, Expr]:
     """The expression of every declared initial value, by the name of its symbol."""
-    ports = [port for node in graph.nodes for port in node.ports]
-    declared = [(p.initial, p.initial_value) for p in ports]
-    declared += [(i.initial, i.initial_value) for i in graph.integrals]
-    return {s.symbol.name: value for s, value in declared if s is not None and value is not None}
+    return {symbol.name: value for symbol, value in graph.initial_values().items()}
 
 
 def _arr(
@@ -89,7 +87,7 @@ def _arr(
     names: Names,
     initial: dict[str, Expr],
 ) -> tuple[dict[str, object], tuple[str, ...]]:
-    written = parsable(graph.pool, residual.expr, names, initial)
+    written = parsable(graph.pool, tidy(graph.pool, residual.expr)[0], names, initial)
     arr: dict[str, object] = {
         "name": residual.name,
         "expr": written.expr,
