@@ -19,7 +19,7 @@ from bondgraph.ir.residuals import Closing, How, ReducedSystem, Step
 from bondgraph.passes.colour import colours
 from bondgraph.passes.initial import without_free_integrals
 from bondgraph.passes.loops import Loops
-from bondgraph.passes.matching import decompose
+from bondgraph.passes.matching import decompose, match
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.solve import Solution, solve
 from bondgraph.text.diagnostic import Report
@@ -273,6 +273,7 @@ class Chain:
         unsolved = tuple(v for v in self.system.unknowns if v not in self.closed)
         unmonitored = tuple(e for r, e in enumerate(self.system.equations) if not self.used[r])
         self.report_loops()
+        self.report_count(self.loops.identities + len(closings) + lost)
         return ReducedSystem(self.system, tuple(closings), unsolved, unmonitored, lost)
 
     def initial_missing(self, equation: Equation, steps: tuple[Step, ...]) -> None:
@@ -304,6 +305,34 @@ class Chain:
                 *dict.fromkeys(e.origin for e in laws),
                 help="Measure a variable inside the loop, or give one of its laws in the"
                 " direction in which it can be inverted.",
+            )
+
+
+    def report_count(self, found: int) -> None:
+        """Hold the number of relations to theory: equations less what they can determine.
+
+        For a model whose unknown inputs all act this is sensors minus the rank of the unknown
+        inputs (Staroswiecki and Comtet-Varga, 2001). The matching knows nothing of costs, loops
+        or solvability.
+        """
+        equations = self.system.equations
+        row_of = {id(e): r for r, e in enumerate(equations)}
+        pairs = [
+            (row_of[id(s.equation)], self.position[v])
+            for v, s in self.steps.items()
+            if s.how != "loop"
+        ]
+        rows = [[self.position[v] for v in e.variables] for e in equations]
+        _, column_of = match(rows, len(self.position), pairs)
+        expected = sum(c < 0 for c in column_of)
+        if found != expected:
+            self.report.warning(
+                "relations-missing",
+                f"The structure of the model has {expected} independent relations, of which"
+                f" {found} could be derived.",
+                self.system.graph.nodes[0].origin,
+                help="Measure one more variable in the part that the relations found leave out;"
+                " `bondgraph dump --stage residuals` shows it.",
             )
 
 

@@ -45,6 +45,7 @@ class Loops:
         self.pending: list[_Row] = []
         self.plain: list[_Row] = []
         self.lost: list[tuple[int, ...]] = []
+        self.identities = 0  # relations that hold whatever the machine does
 
     def tear(self, variable: Expr) -> Expr:
         """Take a variable as known: the symbol that stands for its value."""
@@ -160,8 +161,9 @@ class Loops:
         lost = max(0, len(nonlinear) - len(stuck))
         if lost:
             self.lost.append(tuple(r for item in nonlinear for r in item.rows))
-        found = [(rows, expr) for rows, expr in found if not is_zero(expr)]
-        return found, lost
+        telling = [(rows, expr) for rows, expr in found if not is_zero(expr)]
+        self.identities = len(found) - len(telling)
+        return telling, lost
 
     def _linear(self, item: _Row) -> _LinearRow | None:
         """The row as polynomials in D; None if it is not linear in its torn variables."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable
 from typing import NamedTuple
 
 
@@ -21,14 +22,21 @@ class Parts(NamedTuple):
     column_of: list[int]
 
 
-def match(rows: list[list[int]], columns: int) -> tuple[list[int], list[int]]:
+def match(
+    rows: list[list[int]], columns: int, pairs: Iterable[tuple[int, int]] = ()
+) -> tuple[list[int], list[int]]:
     """A maximum matching as (row of each column, column of each row), -1 where there is none.
 
-    Greedy first, then one breadth-first augmenting search a free row.
+    Greedy first, after the given (row, column) `pairs`; then one breadth-first augmenting search
+    a free row.
     """
     row_of = [-1] * columns
     column_of = [-1] * len(rows)
+    for r, c in pairs:
+        row_of[c], column_of[r] = r, c
     for r, members in enumerate(rows):
+        if column_of[r] >= 0:
+            continue
         for c in members:
             if row_of[c] < 0:
                 row_of[c], column_of[r] = r, c
