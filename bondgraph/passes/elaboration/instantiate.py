@@ -24,11 +24,12 @@ from bondgraph.library.elements import JUNCTIONS, KINDS
 from bondgraph.library.units import DOMAINS
 from bondgraph.passes.elaboration.arguments import Arguments
 from bondgraph.passes.elaboration.files import Definition, Missing
-from bondgraph.passes.elaboration.problems import Abort, Skip, fail, listed, meant
+from bondgraph.passes.elaboration.problems import Skip, fail, listed, meant
 from bondgraph.passes.elaboration.scope import (
     Array,
     Bound,
     Env,
+    Given,
     Link,
     Named,
     NodeEntry,
@@ -37,12 +38,10 @@ from bondgraph.passes.elaboration.scope import (
     ValueEntry,
     ValueKind,
 )
+from bondgraph.passes.elaboration.size import Size, weight
 from bondgraph.passes.elaboration.structure import index, mentions, truth, whole_number
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
-
-#: Names and unrolled statements of one model; a typing error must not fill the memory.
-MOST = 5_000_000
 
 _KEYWORDS: dict[str, ValueKind] = {"param": "param", "const": "const"}
 
@@ -66,7 +65,7 @@ class Opener(Arguments):
         super().__init__(report)
         self.waiting: list[Scope] = []
         self.events: list[Event] = []
-        self.made = 0
+        self.size = Size(report)
 
     def open(self, definition: Definition) -> Scope:
         """The top instance with everything inside it."""
@@ -77,16 +76,6 @@ class Opener(Arguments):
         while self.waiting:
             self.fill(self.waiting.pop())
         return top
-
-    def count(self, number: int, origin: Span) -> None:
-        """Keep the size of the model within bounds."""
-        self.made += number
-        if self.made > MOST:
-            self.report.error(
-                "model-too-large", f"The model has more than {MOST:,} parts.", origin,
-                help="Check the sizes of arrays and `for` loops.",
-            )  # fmt: skip
-            raise Abort
 
     def fill(self, scope: Scope) -> None:
         """Everything that the body of the model says."""
@@ -117,7 +106,6 @@ class Opener(Arguments):
         self, body: tuple[Statement, ...], scope: Scope, env: Env, at: NodeEntry | Ref | None
     ) -> None:
         """Statements, inside the junction `at` if there is one."""
-        self.count(len(body), scope.origin)
         for statement in body:
             try:
                 self.statement(statement, scope, env, at)
@@ -168,7 +156,7 @@ class Opener(Arguments):
         """`for`: the body once for each value of the variable."""
         first = whole_number(loop.first, scope, env, self.report)
         last = whole_number(loop.last, scope, env, self.report)
-        self.count(max(0, last - first + 1), loop.origin)
+        self.size.unroll(max(0, last - first + 1) * weight(loop.body), scope, loop.origin)
         for i in range(first, last + 1):
             self.body(loop.body, scope, {**env, loop.variable: i}, at)
 
@@ -309,27 +297,39 @@ class Opener(Arguments):
         name = node.name.name
         own = self.arguments(node, scope, env)
         made: list[Scope] = []
-        for place in self.places(node.name, scope, env, scope.nodes):
+        alike: list[Scope] = []
+        deeper: list[Given] = []
+        for place in self.places(node.name, scope, env, scope.nodes, definition):
             inner = Scope(definition, scope, name, place, node.origin)
             inner.givens = own
+            inner.times = scope.times
             if scope.givens:
-                inner.givens = own + [
-                    g.inner() for g in self.matching(scope.givens, name, place) if len(g.parts) > 1
-                ]
+                deeper = [g for g in self.matching(scope.givens, name, place) if len(g.parts) > 1]
+                inner.givens = own + [g.inner() for g in deeper]
+            if not any(g.parts[0][1] is not None for g in deeper):
+                alike.append(inner)
             self.enter(scope.nodes, name, place, inner, node.origin)
             self.structure(inner)
             scope.items.append(inner)
             made.append(inner)
+        for inner in alike:
+            inner.times = scope.times * len(alike) if inner is alike[0] else 0
         if made:
             self.givens += [(g, made[0]) for g in own]
         self.waiting += reversed(made)
         return tuple(made)
 
     def places(
-        self, part: Part, scope: Scope, env: Env, table: dict[str, Named]
-    ) -> list[int | None]:
-        """The indices that a declaration stands for; a `for` variable in it means one element."""
+        self, part: Part, scope: Scope, env: Env, table: dict[str, Named],
+        definition: Definition | None = None,
+    ) -> list[int | None]:  # fmt: skip
+        """The indices that a declaration stands for; a `for` variable in it means one element.
+
+        With a `definition` they are those of instances of it.
+        """
         if part.first is None:
+            if definition is not None:
+                self.size.count(1 + weight(definition.model.body), scope, part.origin)
             return [None]
         if part.last is not None:
             low = whole_number(part.first, scope, env, self.report)
@@ -341,7 +341,11 @@ class Opener(Arguments):
                 fail(self.report, "index-out-of-range", f"`{part.origin.text}` declares a negative "
                      "number of elements.", part.origin, help="Give a size from 0 up."
                      )  # fmt: skip
-        self.count(max(0, high - low + 1), part.origin)
+        size = max(0, high - low + 1)
+        if definition is not None:
+            self.size.count(size * (1 + weight(definition.model.body)), scope, part.origin)
+        elif size > 1:
+            self.size.unroll(size, scope, part.origin)
         if high < low:
             table.setdefault(part.name, Array(part.origin))
         return list(range(low, high + 1))

@@ -246,12 +246,15 @@ class Scope:
     """One instance of a model.
 
     What could not be declared leaves its name in `wrong`; `unlinked` says that bonds are missing
-    for such a reason, `incomplete` that whole statements are.
+    for such a reason, `incomplete` that whole statements are. `unrolled` is the number of parts
+    that its loops and arrays make, `times` how many instances it counts for in the size of the
+    model.
     """
 
     __slots__ = (
         "definition", "generics", "givens", "incomplete", "items", "links", "name", "nodes",
-        "origin", "parent", "path", "place", "ports", "unlinked", "values", "wrong",
+        "origin", "parent", "path", "place", "ports", "times", "unlinked", "unrolled", "values",
+        "wrong",
     )  # fmt: skip
 
     def __init__(
@@ -275,6 +278,8 @@ class Scope:
         self.wrong: set[str] = set()
         self.unlinked = False
         self.incomplete = False
+        self.unrolled = 0
+        self.times = 1
 
     @property
     def model(self) -> Model:

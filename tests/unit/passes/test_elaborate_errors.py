@@ -232,6 +232,30 @@ def test_units_go_through_junctions_and_two_ports() -> None:
 def test_huge_sizes_are_refused_at_once() -> None:
     assert body_errors(BASE + "for i in 1..1000000000 { let a[i] = 1 }") == ["model-too-large"]
     assert body_errors(BASE + "param a[999999999] = 1") == ["model-too-large"]
+    cell = "model Cell {{ port a : in any; port b : out any; {} }}\n"
+    part = cell.format("a -> 1:j -> b; j -> R:r = 1")
+    chain = f"Cell:c[{{0}}]; {BASE} j -> c[1..{{0}}] -> R:end = 1"
+    assert errors(part + f"model M {{ {chain.format(10**7)} }}") == ["model-too-large"]
+    loop = cell.format("a -> 1:j -> b; for i in 1..1000 { j -> R:r[i] = 1 }")
+    assert errors(loop + f"model M {{ {chain.format(10**4)} }}") == ["model-too-large"]
+    sized = part + "model All(n : int = 1) { Cell:c[n]; Se:U -> c[1..n] -> R:end = 1 }\n"
+    uneven = "model Some { All:x[3] }\nmodel M { Some:s(x[2].n = 100000000) }"
+    assert errors(sized + uneven) == ["model-too-large"]
+
+
+@pytest.mark.parametrize(
+    "repeated", ["", "let a[i] = i", "j -> 0:k[i] -> R:a[i] = 1", "if i > 5 { }", "for k in 1..i { }"]
+)
+def test_a_loop_of_millions_is_refused_before_it_runs(repeated: str) -> None:
+    said = run(f"model M {{ {BASE} for i in 1..3000000 {{ {repeated} }} }}")[1]
+    assert [d.code for d in said] == ["model-too-large"]
+    assert "Cell:cell[n]" in said[0].help
+
+
+def test_a_long_statement_in_a_loop_counts_as_the_many_that_it_is() -> None:
+    chain = "j" + "".join(f" -> 0:k{n}[i] -> 1:m{n}[i]" for n in range(40))
+    text = f"{BASE} for i in 1..10000 {{ {chain} }}"
+    assert body_errors(text) == ["model-too-large"]
 
 
 WORDS = st.sampled_from(
