@@ -6,6 +6,7 @@ from bondgraph.frontend.cursor import MAX_DEPTH, SyntaxProblem
 from bondgraph.frontend.nodes import Nodes
 from bondgraph.frontend.words import KEYWORDS, is_arrow, say
 from bondgraph.ir import syntax
+from bondgraph.text.diagnostic import Label
 
 #: After one of these a keyword is an ordinary name: `port -> x`, `input { ... }`, `let:x`.
 _NAME_FOLLOWERS = frozenset([":", ".", "[", "{", ";", "}", ""])
@@ -13,6 +14,9 @@ _NAME_FOLLOWERS = frozenset([":", ".", "[", "{", ";", "}", ""])
 
 class Statements(Nodes):
     """The part of the parser that reads what stands in the braces of a model."""
+
+    #: the variables of the `for` loops around the cursor
+    loops: tuple[str, ...] = ()
 
     def body(self, opening: int, inside: bool) -> tuple[syntax.Statement, ...]:
         """Statements up to the closing brace; `inside`: bonds may begin with an arrow.
@@ -40,9 +44,9 @@ class Statements(Nodes):
                 break
             self.notes.begins.append(begin)
             try:
-                statement = self.statement(inside)
+                found = self.statement(inside)
                 self._statement_end()
-                statements.append(statement)
+                statements += found
             except SyntaxProblem as problem:
                 self.depth = depth
                 self.tell(problem)
@@ -51,28 +55,31 @@ class Statements(Nodes):
         self.depth -= 1
         return tuple(statements)
 
-    def statement(self, inside: bool) -> syntax.Statement:
-        """One statement; `inside` a junction body it may be a bond that begins with an arrow."""
+    def statement(self, inside: bool) -> tuple[syntax.Statement, ...]:
+        """One statement; `inside` a junction body it may be a bond that begins with an arrow.
+
+        A chain that ends with the braces of a junction is two.
+        """
         at = self.i
         word = self.words[at]
         if word in KEYWORDS and not self._is_name(at):
             match word:
                 case "param" | "const":
-                    return self._param(word)
+                    return (self._param(word),)
                 case "let":
-                    return self._let()
+                    return (self._let(),)
                 case "port":
-                    return self._port()
+                    return (self._port(),)
                 case "input":
-                    return self._input()
+                    return (self._input(),)
                 case "sensor":
-                    return self._sensor()
+                    return (self._sensor(),)
                 case "fault":
-                    return self._fault()
+                    return (self._fault(),)
                 case "for":
-                    return self._for(inside)
+                    return (self._for(inside),)
                 case "if":
-                    return self._if(inside)
+                    return (self._if(inside),)
                 case "model":
                     raise self.problem(
                         "model-in-model",
@@ -119,7 +126,12 @@ class Statements(Nodes):
         self.take("..", "`..`", form)
         last = self.expression()
         opening = self.open(form)
-        return syntax.For(variable, first, last, self.body(opening, inside), self.span(at))
+        around, self.loops = self.loops, (*self.loops, variable)
+        try:
+            body = self.body(opening, inside)
+        finally:
+            self.loops = around
+        return syntax.For(variable, first, last, body, self.span(at))
 
     def _if(self, inside: bool) -> syntax.If:
         at = self.i
@@ -141,17 +153,19 @@ class Statements(Nodes):
                 otherwise = self.body(self.open("Write `else { ... }`."), inside)
         return syntax.If(condition, body, otherwise, self.span(at))
 
-    def _chain_or_junction(self, inside: bool) -> syntax.Junction | syntax.Chain:
+    def _chain_or_junction(self, inside: bool) -> tuple[syntax.Statement, ...]:
         at = self.i
         doc = self.doc(at)
         nodes: list[syntax.Node | syntax.Ref | None] = []
         arrows: list[syntax.Arrow] = []
+        last = at
         words = self.words
         if is_arrow(words[at]):
             if not inside:
                 raise self._no_start(at)
             nodes.append(None)
             arrows.append(self._arrow())
+            last = self.i
             nodes.append(self._node())
         else:
             node = self._node()
@@ -160,9 +174,10 @@ class Statements(Nodes):
             if word == "{" or (word == "when" and not self.fresh[self.i]):
                 junction = self._junction(at, node, doc)
                 if junction is not None:
-                    return junction
+                    return (junction,)
         while is_arrow(words[self.i]) and not self.fresh[self.i]:
             arrows.append(self._arrow())
+            last = self.i
             nodes.append(self._node())
         if not arrows and not isinstance(nodes[0], syntax.Node):
             if not inside and is_arrow(words[self.i]):
@@ -178,16 +193,59 @@ class Statements(Nodes):
             )
         if not inside and self.fresh[self.i] and is_arrow(words[self.i]):
             raise self._no_start(self.i)
-        if words[self.i] == "{":
+        opened = words[self.i] == "{" or (words[self.i] == "when" and not self.fresh[self.i])
+        if arrows and opened:
+            chain = syntax.Chain(tuple(nodes), tuple(arrows), doc, self.span(at))
+            return self._with_block(chain, last)
+        return (syntax.Chain(tuple(nodes), tuple(arrows), doc, self.span(at)),)
+
+    def _with_block(self, chain: syntax.Chain, at: int) -> tuple[syntax.Statement, ...]:
+        """`a -> 1:j { ... }` is the chain `a -> 1:j` and then `j { ... }`.
+
+        The last node stands at word `at`. A switched junction is declared before both.
+        """
+        opening = self.i
+        node = chain.nodes[-1]
+        assert node is not None
+        if isinstance(node, syntax.Node):
+            self._one_of_its_name(node, opening)
+        junction = self._junction(at, node, "")
+        if junction is None:
+            raise self.unexpected("the end of the statement", "Only a junction is opened so.")
+        if is_arrow(self.words[self.i]) and not self.fresh[self.i]:
             raise self.problem(
                 "junction-in-chain",
-                "A junction inside a chain takes no braces.",
+                "A chain ends where a junction opens its braces.",
                 self.i,
-                "these braces",
-                help="End the chain at the junction and open its braces in a statement of its "
-                "own: `name { ... }`.",
+                "the chain goes on here",
+                Label(self.word_span(opening), "these braces"),
+                help="Go on in a statement of its own that begins with the name of the junction, "
+                "or inside the braces: `-> x`.",
             )
-        return syntax.Chain(tuple(nodes), tuple(arrows), doc, self.span(at))
+        again = junction._replace(type="", when=None)
+        if junction.when is None:
+            return chain, again
+        declared = junction._replace(body=())
+        return declared, chain._replace(nodes=(*chain.nodes[:-1], junction.name)), again
+
+    def _one_of_its_name(self, node: syntax.Node, opening: int) -> None:
+        """Refuse braces after an array of junctions at the end of a chain: which one has them?"""
+        index = node.name.first
+        if index is None:
+            return
+        words = self.words
+        end = next(i for i in range(opening, 0, -1) if words[i] == "[")
+        if node.name.last is None and any(w in self.loops for w in words[end:opening]):
+            return
+        raise self.problem(
+            "junction-in-chain",
+            "Braces at the end of a chain belong to one junction, and these follow an array.",
+            opening,
+            "these braces",
+            Label(node.origin, "the array"),
+            help="Declare the array with its braces in a statement of its own, "
+            f"`{node.type}:{node.name.name}[...] {{ ... }}`, and bond it by its name.",
+        )
 
     def _no_start(self, at: int) -> SyntaxProblem:
         return self.problem(

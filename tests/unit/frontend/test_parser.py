@@ -151,6 +151,21 @@ def test_junction_body() -> None:
     )
 
 
+def test_a_chain_may_end_with_the_braces_of_a_junction() -> None:
+    def tree(body: str) -> Any:
+        return bare(inside(body))
+
+    assert tree("## of U\nSe:U -> 1:i { -> I:L; <- b }") == tree(
+        "## of U\nSe:U -> 1:i; i { -> I:L; <- b }"
+    )
+    assert tree("a <- m.p { -> 0:n { } }") == tree("a <- m.p; m.p { -> 0:n; n { } }")
+    assert tree("a -> 1:s when on { -> b }") == tree("1:s when on { }; a -> s; s { -> b }")
+    loop = "for j in 1..2 {{ {} }}"
+    assert tree(loop.format("a -> 0:k[j] { -> b }")) == tree(
+        loop.format("a -> 0:k[j]; k[j] { -> b }")
+    )
+
+
 def test_reopened_junction() -> None:
     assert _one("m[1].out { }") == (
         "Junction",
