@@ -73,8 +73,12 @@ class Trajectory:
         return self._truth.value(symbol)
 
     def start(self, initial: Symbol) -> int:
-        """The value from which integrals with this initial value begin."""
-        return self._starts[initial]
+        """The value from which integrals with this initial value begin; random if undeclared."""
+        found = self._starts.get(initial)
+        if found is None:
+            draw = Random(f"{self.seed}:{initial.name}")
+            found = self._starts[initial] = draw.randrange(2, P)
+        return found
 
     def earlier(self, steps: int) -> Trajectory:
         """The same healthy plant with the same constants at another time.

@@ -60,6 +60,11 @@ FUNCTIONS = frozenset(
     "sinh cosh tanh asinh acosh atanh pow min max atan2".split()
 )
 
+#: Their values at zero, where some have no slope to differentiate.
+_AT_ZERO = dict.fromkeys(
+    "abs sign sqrt cbrt ssqrt ssq sin tan asin atan sinh tanh asinh atanh".split(), 0
+) | {"exp": 1, "cos": 1, "cosh": 1}
+
 
 class Symbol(NamedTuple):
     """A name with its kind; unique by name within a pool."""
@@ -266,6 +271,8 @@ class Pool:
 
     def fn(self, name: str, *args: Expr) -> Expr:
         """A function of `FUNCTIONS`, or `table:<id>`."""
+        if len(args) == 1 and args[0] is self.zero and name in _AT_ZERO:
+            return self.num(_AT_ZERO[name])
         if name == "pow" and args[1].op is Op.NUM and args[1].number.denominator == 1:
             return self.power(args[0], int(args[1].number))
         if name == "pow" and args[1].op is Op.NUM and args[1].number == Fraction(1, 2):

@@ -55,13 +55,15 @@ class Closing(NamedTuple):
     """An equation that was left over when all its variables had been computed: `expr` = 0.
 
     `steps` are what its variables rest on, in the order of the elimination; `differentiated` as
-    in `Residual`.
+    in `Residual`. `raw` is the same relation before derivatives were moved past parameters: equal
+    while these are constant, it shows what a parameter does that moves.
     """
 
     equation: Equation
     expr: Expr
     steps: tuple[Step, ...]
     differentiated: int
+    raw: Expr
 
 
 class ReducedSystem(NamedTuple):

@@ -21,6 +21,7 @@ from bondgraph.passes.initial import without_free_integrals
 from bondgraph.passes.loops import Loops
 from bondgraph.passes.matching import decompose, match
 from bondgraph.passes.nominal import Nominal
+from bondgraph.passes.rank import relations as independent
 from bondgraph.passes.solve import Solution, solve
 from bondgraph.text.diagnostic import Report
 
@@ -269,7 +270,10 @@ class Chain:
                 self.initial_missing(equation, steps)
                 lost += 1
             elif found[0] is not self.pool.zero:
-                closings.append(Closing(equation, found[0], steps, found[1]))
+                raw = expr
+                for _ in range(found[1]):
+                    raw = self.pool.der(raw)
+                closings.append(Closing(equation, found[0], steps, found[1], raw))
         unsolved = tuple(v for v in self.system.unknowns if v not in self.closed)
         unmonitored = tuple(e for r, e in enumerate(self.system.equations) if not self.used[r])
         self.report_loops()
@@ -325,6 +329,8 @@ class Chain:
         rows = [[self.position[v] for v in e.variables] for e in equations]
         _, column_of = match(rows, len(self.position), pairs)
         expected = sum(c < 0 for c in column_of)
+        if found != expected:  # a loop that cancels misleads the count: take the exact one
+            expected = independent(self.system)
         if found != expected:
             self.report.warning(
                 "relations-missing",

@@ -156,14 +156,26 @@ class Loops:
                 nonlinear.append(item)
             else:
                 linear.append(row)
-        stuck = {t for item in nonlinear for t in self._tears(item.expr)}
-        found += self._cross(linear, stuck)
-        lost = max(0, len(nonlinear) - len(stuck))
+        stuck, free = self._stuck(nonlinear, linear)
+        found += self._cross(free)
+        held = [*nonlinear, *[r for r in linear if r not in free]]
+        lost = max(0, len(held) - len(stuck))
         if lost:
-            self.lost.append(tuple(r for item in nonlinear for r in item.rows))
+            self.lost.append(tuple(r for item in held for r in item.rows))
         telling = [(rows, expr) for rows, expr in found if not is_zero(expr)]
         self.identities = len(found) - len(telling)
         return telling, lost
+
+    def _stuck(
+        self, nonlinear: list[_Row], linear: list[_LinearRow]
+    ) -> tuple[set[Expr], list[_LinearRow]]:
+        """The torn variables tied to a nonlinear row, and the linear rows that hold none of them."""
+        stuck = {t for item in nonlinear for t in self._tears(item.expr)}
+        free = list(linear)
+        while tied := [r for r in free if any(t in stuck for t in r.entries)]:
+            stuck.update(t for r in tied for t in r.entries)
+            free = [r for r in free if r not in tied]
+        return stuck, free
 
     def _linear(self, item: _Row) -> _LinearRow | None:
         """The row as polynomials in D; None if it is not linear in its torn variables."""
@@ -218,11 +230,8 @@ class Loops:
             polynomial[k] = pool.add((1, polynomial[k]), (1, value))
         return _LinearRow(item.rows, _trim(polynomials), rest)
 
-    def _cross(
-        self, rows: list[_LinearRow], stuck: set[Expr]
-    ) -> list[tuple[tuple[int, ...], Expr]]:
+    def _cross(self, rows: list[_LinearRow]) -> list[tuple[tuple[int, ...], Expr]]:
         """Combine rows crosswise until each torn variable has dropped out of the others."""
-        rows = [r for r in rows if not any(t in stuck for t in r.entries)]
         found = []
         while rows:
             rows.sort(key=lambda r: (len(r.entries), max(map(len, r.entries.values()), default=0)))

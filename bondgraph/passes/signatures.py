@@ -27,6 +27,7 @@ T = TypeVar("T")
 #: Points at which a relation is tried: one is enough for a rational relation (it errs with a
 #: probability of about its degree / 2**61), a branch not taken at one point is taken at another.
 _POINTS, _POINTS_WITH_BRANCHES = 1, 12
+_LONG = 2000  # nodes
 _TRIES = 40  # a point where a square root has no value is drawn again
 
 
@@ -57,7 +58,7 @@ class _Analysis:
             if any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items()):
                 own = pruned(self.pool, closing, free)
                 relations.append((own, upright(self.pool, own.expr), free.orders))
-        reacts = self.on_trajectories([expr for _, expr, _ in relations])
+        reacts = self.on_trajectories([_with_moving_parameters(c, e) for c, e, _ in relations])
         names = [f"r{i + 1}" for i in range(len(relations))]
         residuals = tuple(
             Residual(name, expr, c.equation, c.steps, c.differentiated)
@@ -79,13 +80,15 @@ class _Analysis:
 
     def at_free_signals(self, expr: Expr) -> Sensitivity:
         """What the relation depends on when its signals are independent of each other."""
-        found: Sensitivity | None = None
+        found = Sensitivity(dict.fromkeys(symbols(expr), False), {}, frozenset(), ())
         for point in range(_points([expr])):
-            here = self.draw(
-                lambda n: sensitivities(expr, FreeSample.of(expr, n)), 1000 * self.seed + point
-            )
-            found = here if found is None else _union(found, here)
-        assert found is not None
+            try:
+                here = self.draw(
+                    lambda n: sensitivities(expr, FreeSample.of(expr, n)), 1000 * self.seed + point
+                )
+            except ExactUnavailable:
+                return _by_presence(expr)
+            found = _union(found, here) if point else here
         return _with_decisions(expr, found)
 
     def on_trajectories(self, exprs: list[Expr]) -> list[set[Expr]]:
@@ -121,6 +124,27 @@ class _Analysis:
             except Undefined:
                 continue
         raise ExactUnavailable("no point was found at which every law has a value")
+
+
+def _with_moving_parameters(closing: Closing, expr: Expr) -> Expr:
+    """The form of a relation that shows what a parameter does that moves.
+
+    Differentiating takes an undeclared initial value away only while its parameter is constant.
+    A long relation is left as it is: there the random points are exponentials, without integrals.
+    """
+    nodes = topological([closing.raw])
+    moved = any(n.op is Op.INT and n.symbol.kind is Kind.FREE for n in nodes)
+    return closing.raw if moved and len(nodes) <= _LONG else expr
+
+
+def _by_presence(expr: Expr) -> Sensitivity:
+    """What a relation may depend on, where it has no value at any random point."""
+    inside = symbols(expr)
+    signals = [s for s in inside if s.symbol.kind in (Kind.INPUT, Kind.SENSOR)]
+    order = highest_order([expr])
+    return Sensitivity(
+        dict.fromkeys(inside, True), dict.fromkeys(signals, order), frozenset(), ()
+    )
 
 
 def _points(exprs: list[Expr]) -> int:
