@@ -157,8 +157,8 @@ class Loops:
             else:
                 linear.append(row)
         stuck, free = self._stuck(nonlinear, linear)
-        found += self._cross(free)
         held = [*nonlinear, *[r for r in linear if r not in free]]
+        found += self._cross(free)
         lost = max(0, len(held) - len(stuck))
         if lost:
             self.lost.append(tuple(r for item in held for r in item.rows))
