@@ -157,11 +157,11 @@ class Loops:
             else:
                 linear.append(row)
         stuck, free = self._stuck(nonlinear, linear)
-        held = [*nonlinear, *[r for r in linear if r not in free]]
+        held = [item.rows for item in nonlinear] + [r.rows for r in linear if r not in free]
         found += self._cross(free)
         lost = max(0, len(held) - len(stuck))
         if lost:
-            self.lost.append(tuple(r for item in held for r in item.rows))
+            self.lost.append(tuple(r for rows in held for r in rows))
         telling = [(rows, expr) for rows, expr in found if not is_zero(expr)]
         self.identities = len(found) - len(telling)
         return telling, lost

@@ -10,9 +10,15 @@ found whatever its course. Presence of a symbol proves nothing; a derivative tha
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from bondgraph.exact.evaluate import Sensitivity, highest_order, sensitivities
+from bondgraph.exact.evaluate import (
+    Sensitivity,
+    evaluate,
+    highest_order,
+    integral_depth,
+    sensitivities,
+)
 from bondgraph.exact.field import Undefined
 from bondgraph.exact.free import FreeSample
 from bondgraph.exact.plant import ExactUnavailable, Plant
@@ -50,6 +56,7 @@ class _Analysis:
         self.report = report
         self.seed = seed
         self.plant = Plant(self.graph)
+        self.faults = {self.graph.fault_symbol(f): f for f in self.graph.faults}
 
     def run(self) -> tuple[ResidualSet, SignatureMatrix]:
         relations: list[tuple[Closing, Expr, dict[Expr, int]]] = []
@@ -89,32 +96,57 @@ class _Analysis:
             except ExactUnavailable:
                 return _by_presence(expr)
             found = _union(found, here) if point else here
-        return _with_decisions(expr, found)
+        return found
 
     def on_trajectories(self, exprs: list[Expr]) -> list[set[Expr]]:
-        """The symbols that each relation reacts to in the healthy plant."""
-        reacts: list[set[Expr]] = [set() for _ in exprs]
+        """The symbols that each relation reacts to in the healthy plant.
+
+        One trajectory serves all relations; where the plant as a whole has none, each relation is
+        tried on the part of the plant that it is about.
+        """
         if not exprs:
-            return reacts
+            return []
         try:
-            for point in range(_points(exprs)):
-                parts = self.draw(lambda n: self.sensed(exprs, n), 2000 * self.seed + point)
-                for seen, part in zip(reacts, parts, strict=True):
-                    seen.update(part)
+            return self.sensed(exprs)
         except ExactUnavailable:
-            for seen, expr in zip(reacts, exprs, strict=True):
-                free = self.at_free_signals(expr)
-                seen.update(s for s, hit in free.depends.items() if hit)
+            if len(exprs) > 1:
+                return [self.on_trajectories([e])[0] for e in exprs]
+            free = self.at_free_signals(exprs[0])
+            return [{s for s, hit in free.depends.items() if hit}]
+
+    def sensed(self, exprs: list[Expr]) -> list[set[Expr]]:
+        """The symbols that each relation reacts to, over enough points to meet every branch."""
+        reacts: list[set[Expr]] = [set() for _ in exprs]
+        for point in range(_points(exprs)):
+            parts = self.draw(lambda n: self.at_trajectory(exprs, n), 2000 * self.seed + point)
+            for seen, part in zip(reacts, parts, strict=True):
+                seen.update(s for s, hit in part.depends.items() if hit)
+        for seen, expr in zip(reacts, exprs, strict=True):
+            seen.update(s for s in symbols(expr) if s not in seen and self.moves(expr, s))
         return reacts
 
-    def sensed(self, exprs: list[Expr], number: int) -> list[set[Expr]]:
-        """The symbols that each relation reacts to at one healthy trajectory."""
-        sample = self.plant.sample(exprs, number, 2)
-        found = []
-        for expr in exprs:
-            here = _with_decisions(expr, sensitivities(expr, sample))
-            found.append({s for s, hit in here.depends.items() if hit})
-        return found
+    def at_trajectory(self, exprs: list[Expr], number: int) -> list[Sensitivity]:
+        """Derivatives of all relations at one healthy trajectory."""
+        sample = self.plant.sample(exprs, number, integral_depth(exprs) + 1)
+        return [sensitivities(expr, sample) for expr in exprs]
+
+    def moves(self, expr: Expr, symbol: Expr) -> bool:
+        """Whether a fault that is not small moves a relation that small ones leave alone.
+
+        A machine at rest, without any input, hides a parameter from the derivative that a change
+        of finite size shows.
+        """
+        fault = self.faults.get(symbol)
+        if fault is None:
+            return False
+        size = integral_depth([expr]) + 1
+
+        def value(number: int) -> Any:
+            sample = self.plant.sample([expr], number, size, faults=(fault,))
+            return evaluate([expr], sample, size)[0]
+
+        found = self.draw(value, 3000 * self.seed)
+        return any(found) if isinstance(found, list) else bool(found.amplitude)
 
     def draw(self, attempt: Callable[[int], T], number: int) -> T:
         """The result at a random point; points where something has no value are drawn again."""
@@ -166,44 +198,14 @@ def _union(a: Sensitivity, b: Sensitivity) -> Sensitivity:
     )
 
 
-def _decisions(expr: Expr, dead: frozenset[Expr]) -> list[Expr]:
-    """The conditions on which a relation depends by jumps, where no derivative shows it."""
-    return [
-        n.args[0]
-        for n in topological([expr])
-        if n not in dead and (n.op is Op.IF or (n.op is Op.FN and n.name == "sign"))
-    ]
-
-
-def _with_decisions(expr: Expr, found: Sensitivity) -> Sensitivity:
-    conditions = _decisions(expr, found.dead)
-    if not conditions:
-        return found
-    through = symbols(*conditions)
-    orders = dict(found.orders)
-    depth = highest_order(conditions)
-    for s in through:
-        if s.symbol.kind in (Kind.INPUT, Kind.SENSOR):
-            orders[s] = max(orders.get(s, 0), depth if s not in orders else 0)
-    return found._replace(depends={**found.depends, **dict.fromkeys(through, True)}, orders=orders)
-
-
 def pruned(pool: Pool, closing: Closing, free: Sensitivity) -> Closing:
     """The relation without the parts that cancel whatever the signals are.
 
     A part cancels when the relation's derivative with respect to it vanishes; the relation keeps
-    its value when the part is put to zero. What decides between branches is never such a part.
+    its value when the part is put to zero. (What decides between branches counts as influence.)
     """
     nodes = topological([closing.expr])
-    kept: set[Expr] = set()
-    for node in nodes:
-        if node.op in (Op.CMP, Op.LOGIC) or (node.op is Op.FN and node.name == "sign"):
-            kept.update(node.args)
-        elif node.op is Op.IF:
-            kept.add(node.args[0])
-    dead = {
-        n: pool.zero for n in nodes if n in free.dead and n not in kept and n.op is not Op.NUM
-    }
+    dead = {n: pool.zero for n in nodes if n in free.dead and n.op is not Op.NUM}
     if not dead:
         return closing
     try:
