@@ -82,16 +82,23 @@ class Paths:
                     if not order[w]:
                         clock += 1
                         order[w] = low[w] = clock
+                        further = self.sources(w)
+                        if not further:  # a state or a source closes no loop
+                            done[w] = 1
+                            continue
                         stack.append(w)
-                        work.append((w, iter(self.sources(w))))
+                        work.append((w, iter(further)))
                         break
-                    if not done[w]:
-                        low[v] = min(low[v], order[w])
+                    if not done[w] and order[w] < low[v]:
+                        low[v] = order[w]
                 else:
                     work.pop()
-                    if work:
-                        low[work[-1][0]] = min(low[work[-1][0]], low[v])
+                    if work and low[v] < low[work[-1][0]]:
+                        low[work[-1][0]] = low[v]
                     if low[v] == order[v]:
+                        if stack[-1] == v:
+                            done[stack.pop()] = 1
+                            continue
                         component: list[int] = []
                         while not component or component[-1] != v:
                             component.append(stack.pop())
