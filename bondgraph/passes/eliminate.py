@@ -301,7 +301,7 @@ class Chain:
         for rows in self.loops.refused():
             steps = [s for s in self.resting_on(rows) if self.loops.open_in(s.closed)]
             equations = [s.equation for s in steps] + [self.system.equations[r] for r in rows]
-            laws = [e for e in equations if e.kind == "law"] or equations
+            laws = [e for e in equations if e.kind in ("law", "sensor")] or equations
             names = ", ".join(dict.fromkeys(f"`{e.name}`" for e in laws))
             self.report.error(
                 "loop-unsolvable",

@@ -111,8 +111,14 @@ class _Analysis:
         except ExactUnavailable:
             if len(exprs) > 1:
                 return [self.on_trajectories([e])[0] for e in exprs]
-            free = self.at_free_signals(exprs[0])
-            return [{s for s, hit in free.depends.items() if hit}]
+            return [self.without_slopes(exprs[0])]
+
+    def without_slopes(self, expr: Expr) -> set[Expr]:
+        """The symbols that move a relation where its derivatives do not exist on the plant."""
+        try:
+            return {s for s in symbols(expr) if self.moves(expr, s)}
+        except ExactUnavailable:
+            return {s for s, hit in self.at_free_signals(expr).depends.items() if hit}
 
     def sensed(self, exprs: list[Expr]) -> list[set[Expr]]:
         """The symbols that each relation reacts to, over enough points to meet every branch."""
