@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.source import Source, Span
+from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from bondgraph.exact.result import Verification

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+
+from bondgraph.text.tuples import NamedTuple
 
 #: Everything between two words; the pieces of this pattern tile any text without a hole.
 _PIECE = re.compile(

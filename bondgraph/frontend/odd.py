@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import Final, NamedTuple
+from typing import Final
 
 from bondgraph.frontend.words import NOT_UNITS, say
+from bondgraph.text.tuples import NamedTuple
 
 
 class Odd(NamedTuple):

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import Final
 
 from bondgraph.frontend.cursor import Notes
 from bondgraph.frontend.words import is_arrow
+from bondgraph.text.tuples import NamedTuple
 
 WIDTH: Final = 100
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from bondgraph.ir.graph import BondGraph
+from bondgraph.text.tuples import NamedTuple
 
 Preference = Literal["integral", "derivative"]
 Cause = Literal["source", "sensor", "law", "propagated", "preferred", "chosen"]

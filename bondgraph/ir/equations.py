@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.graph import BondGraph
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 EquationKind = Literal["balance", "law", "state", "integral", "sensor"]
 

@@ -9,11 +9,12 @@ is said by the signs in `End`.
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from bondgraph.ir.expr import Expr, Pool, Symbol
 from bondgraph.ir.units import Dimension
 from bondgraph.text.source import Source, Span
+from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
     import networkx as nx

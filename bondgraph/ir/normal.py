@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from bondgraph.ir.expr import Expr
+from bondgraph.text.tuples import NamedTuple
 
 
 class Term(NamedTuple):

@@ -8,9 +8,10 @@ cascade of first-order stages. All arithmetic is on one type, `real`.
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple, TypeAlias
+from typing import Literal, TypeAlias
 
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 # ----------------------------------------------------------------- expressions
 

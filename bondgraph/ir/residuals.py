@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from bondgraph.ir.equations import Equation, EquationSystem
 from bondgraph.ir.expr import Expr
+from bondgraph.text.tuples import NamedTuple
 
 How = Literal["solved", "inverted", "differentiated", "integrated", "loop", "known"]
 

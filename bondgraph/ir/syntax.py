@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 # ---------------------------------------------------------------- expressions
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
+
+from bondgraph.text.tuples import NamedTuple
 
 #: Exponents of (m, kg, s, A, K, mol, cd); a radian and a turn have no dimension.
 Dimension: TypeAlias = tuple[Fraction | int, ...]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import NamedTuple
 
 from bondgraph.ir.units import NONE, Dimension, over, raised, times, whole
 from bondgraph.library.units import describe
 from bondgraph.text.diagnostic import Label
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 _MOST_PLACES = 3  # more would bury the two that matter
 

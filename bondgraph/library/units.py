@@ -7,9 +7,9 @@ from decimal import Context, Decimal
 from fractions import Fraction
 from importlib import import_module
 from math import lcm
-from typing import NamedTuple
 
 from bondgraph.ir.units import NONE, Dimension, Unit, raised, times, whole
+from bondgraph.text.tuples import NamedTuple
 
 #: The shortest decimal that is the double nearest to pi: products of it still print shortly.
 PI = Fraction("3.141592653589793")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 Severity = Literal["error", "warning", "info"]
 

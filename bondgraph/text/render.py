@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
 
 from bondgraph.text.diagnostic import Diagnostic, Label
 from bondgraph.text.source import Source, Span
+from bondgraph.text.tuples import NamedTuple
 
 _WIDTH = 100  # of a source line and of running text
 _TAB = 4

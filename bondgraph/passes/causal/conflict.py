@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.passes.causal.matching import Matching
 from bondgraph.passes.causal.network import Network, Wish
 from bondgraph.passes.causal.strokes import Clash, Strokes
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 #: Beyond this size a core is the chain of forced strokes as it was found, not tested link by link.
 _LARGE = 400

@@ -9,11 +9,10 @@ The stroke of bond `b` is the number 0 (at the tail) or 1 (at the head); the end
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from bondgraph.ir.causal import Cause, Preference
 from bondgraph.ir.expr import Expr, Op
 from bondgraph.ir.graph import BondGraph, Node
+from bondgraph.text.tuples import NamedTuple
 
 
 class Wish(NamedTuple):

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from bondgraph.ir.causal import Reason
 from bondgraph.passes.causal.network import Network, Wish
+from bondgraph.text.tuples import NamedTuple
 
 
 class Clash(NamedTuple):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
 from bondgraph.ir.graph import End
 from bondgraph.passes.elaboration.problems import Skip, fail
@@ -17,6 +16,7 @@ from bondgraph.passes.elaboration.scope import (
 )
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 
 class FlatEnd(NamedTuple):

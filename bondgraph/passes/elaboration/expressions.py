@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import NamedTuple, NoReturn, assert_never
+from typing import NoReturn, assert_never
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, topological
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Ref, Text, Truth, Unary
@@ -14,6 +14,7 @@ from bondgraph.passes.elaboration.quantities import PURE, Quantities
 from bondgraph.passes.elaboration.scope import Env, Scope, Typed
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 _MOST_DEEP = 80
 _MOST_POWER = 1000

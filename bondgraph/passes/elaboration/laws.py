@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import Law
 from bondgraph.ir.syntax import Equation, Node, Number, Part, Ref
@@ -16,6 +14,7 @@ from bondgraph.passes.elaboration.scope import Array, NodeEntry, PortVariables, 
 from bondgraph.passes.elaboration.values import Values
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 
 class Coefficient(NamedTuple):

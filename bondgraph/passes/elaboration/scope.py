@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.syntax import (
@@ -21,6 +21,7 @@ from bondgraph.ir.syntax import (
 )
 from bondgraph.library.elements import ElementKind
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from bondgraph.library.dimensions import Term
