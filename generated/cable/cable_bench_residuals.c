@@ -1,0 +1,415 @@
+/* cable_bench_residuals.c: the residuals of CableBench; generated, see the header. */
+#include "cable_bench_residuals.h"
+
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef cable_bench_real real;
+
+#define REAL(x) CABLE_BENCH_CONSTANT(x)
+#if defined CABLE_BENCH_FLOAT && !defined CABLE_BENCH_REAL
+#define SLOWEST REAL(0.0001)
+#else
+#define SLOWEST REAL(1.0e-09)
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
+static real exponential(real value)
+{
+    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
+    const real ln2_low = REAL(1.4286068203094173e-06);
+    real rest;
+    real scale = REAL(1.0);
+    real sum = REAL(1.0);
+    int n = 0;
+    int k;
+
+    if (value > REAL(1000.0)) {
+        value = REAL(1000.0); /* more than enough for infinity */
+    }
+    if (value < REAL(-1000.0)) {
+        value = REAL(-1000.0); /* more than enough for zero */
+    }
+    rest = value;
+    while (rest > REAL(0.35)) {
+        ++n;
+        scale *= REAL(2.0);
+        rest = value - (real)n * ln2_high;
+    }
+    while (rest < REAL(-0.35)) {
+        --n;
+        scale *= REAL(0.5);
+        rest = value - (real)n * ln2_high;
+    }
+    rest -= (real)n * ln2_low;
+    for (k = 14; k > 0; --k) {
+        sum = REAL(1.0) + sum * rest / (real)k;
+    }
+    return sum * scale;
+}
+
+uint32_t cable_bench_abi(void)
+{
+    return CABLE_BENCH_ABI;
+}
+
+const char *cable_bench_digest(void)
+{
+    return CABLE_BENCH_DIGEST;
+}
+
+void cable_bench_nominal(cable_bench_parameters *parameters)
+{
+    parameters->line__R = REAL(3.2);      /* Ohm */
+    parameters->line__L = REAL(2.5e-07);  /* H */
+    parameters->line__C = REAL(1.1e-10);  /* F */
+}
+
+/* The coefficients of exact and of the filter, from the parameters. */
+static void compute_coefficients(cable_bench_monitor *monitor, const cable_bench_parameters *p,
+        real sample_time, real bandwidth)
+{
+    cable_bench_coefficients *c = &monitor->c;
+
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* khepera.bg:114: line.L*line.C */
+    const real t = p->line__L * p->line__C;
+
+    /* khepera.bg:114: line.L*line.C^2 */
+    const real t_2 = p->line__L * p->line__C * p->line__C;
+
+    /* khepera.bg:114: line.R*line.L*line.C^2 */
+    const real t_3 = p->line__R * p->line__L * p->line__C * p->line__C;
+
+    /* khepera.bg:114: line.L^2*line.C^2 */
+    const real t_4 = p->line__L * p->line__L * p->line__C * p->line__C;
+
+    /* khepera.bg:114: line.R^2*line.C^2 */
+    const real t_5 = p->line__R * p->line__R * p->line__C * p->line__C;
+
+    /* khepera.bg:114: line.C*(0.4375*line.L*line.C + 0.0078125*line.R^2*line.C^2) */
+    const real t_6 = p->line__C * (REAL(0.4375) * t + REAL(0.0078125) * t_5);
+
+    /* khepera.bg:114: line.R*line.L*line.C^3 */
+    const real t_7 = p->line__R * p->line__L * p->line__C * p->line__C * p->line__C;
+
+    /* khepera.bg:114: line.L^2*line.C^3 */
+    const real t_8 = p->line__L * p->line__L * p->line__C * p->line__C * p->line__C;
+
+    /* khepera.bg:114: 0.03125*line.L*line.C^2 + line.C*(0.4375*line.L*line.C +
+     * 0.0078125*line.R^2*line.C^2)/4 */
+    const real t_9 = REAL(0.03125) * t_2 + REAL(0.25) * t_6;
+
+    /* khepera.bg:114: line.L*(0.03125*line.L*line.C^2 + line.C*(0.4375*line.L*line.C +
+     * 0.0078125*line.R^2*li ... */
+    const real t_10 = p->line__L * t_9;
+
+    /* khepera.bg:114: line.R*(0.03125*line.L*line.C^2 + line.C*(0.4375*line.L*line.C +
+     * 0.0078125*line.R^2*li ... */
+    const real t_11 = p->line__R * t_9;
+
+    /* khepera.bg:114: line.R^2*line.L*line.C^3 */
+    const real t_12 = p->line__R * p->line__R * p->line__L * p->line__C * p->line__C * p->line__C;
+
+    /* khepera.bg:114: line.C*(0.8125*line.L*line.C + 0.04296875*line.R^2*line.C^2) */
+    const real t_13 = p->line__C * (REAL(0.8125) * t + REAL(0.04296875) * t_5);
+
+    /* khepera.bg:114: line.C*(0.05078125*line.R*line.L*line.C^2 +
+     * line.R*(0.03125*line.L*line.C^2 + line.C*( ... */
+    const real t_14 = p->line__C * (REAL(0.05078125) * t_3 + REAL(0.25) * t_11);
+
+    /* khepera.bg:114: line.C*(0.0078125*line.L^2*line.C^2 + line.L*(0.03125*line.L*line.C^2 +
+     * line.C*(0.4375 ... */
+    const real t_15 = p->line__C * (REAL(0.0078125) * t_4 + REAL(0.25) * t_10
+            + REAL(0.0009765625) * t_12);
+
+    /* khepera.bg:114: 0.03125*line.L*line.C^2 + line.C*(0.4375*line.L*line.C +
+     * 0.0078125*line.R^2*line.C^2)/ ... */
+    const real t_16 = REAL(0.03125) * t_2 + REAL(0.25) * t_6 + REAL(0.25) * t_13;
+
+    /* khepera.bg:114: 0.00390625*line.R*line.L*line.C^3 +
+     * line.C*(0.05078125*line.R*line.L*line.C^2 + line.R ... */
+    const real t_17 = REAL(0.00390625) * t_7 + REAL(0.25) * t_14;
+
+    /* khepera.bg:114: 0.001953125*line.L^2*line.C^3 + line.C*(0.0078125*line.L^2*line.C^2 +
+     * line.L*(0.03125* ... */
+    const real t_18 = REAL(0.001953125) * t_8 + REAL(0.25) * t_15;
+
+    /* khepera.bg:114: 1.25*line.L*line.C + 0.12890625*line.R^2*line.C^2 */
+    const real t_19 = REAL(1.25) * t + REAL(0.12890625) * t_5;
+
+    /* khepera.bg:114: 0.13671875*line.R*line.L*line.C^2 + line.R*(0.03125*line.L*line.C^2 +
+     * line.C*(0.4375*l ... */
+    const real t_20 = REAL(0.13671875) * t_3 + REAL(0.25) * t_11 + REAL(0.25) * p->line__R * t_16;
+
+    /* khepera.bg:114: 0.0078125*line.L^2*line.C^2 + line.L*(0.03125*line.L*line.C^2 +
+     * line.C*(0.4375*line.L* ... */
+    const real t_21 = REAL(0.0078125) * t_4 + REAL(0.25) * t_10 + REAL(0.0009765625) * t_12
+        + REAL(0.25) * p->line__L * t_16 + REAL(0.25) * p->line__R * t_17;
+
+    /* khepera.bg:114: 0.00146484375*line.R*line.L^2*line.C^3 +
+     * line.L*(0.00390625*line.R*line.L*line.C^3 + l ... */
+    const real t_22 = REAL(0.00146484375) * p->line__R * p->line__L * p->line__L * p->line__C
+            * p->line__C * p->line__C
+        + REAL(0.25) * p->line__L * t_17 + REAL(0.25) * p->line__R * t_18;
+
+    /* khepera.bg:114: 0.00048828125*line.L^3*line.C^3 + line.L*(0.001953125*line.L^2*line.C^3 +
+     * line.C*(0.00 ... */
+    const real t_23 = REAL(0.00048828125) * p->line__L * p->line__L * p->line__L * p->line__C
+            * p->line__C * p->line__C
+        + REAL(0.25) * p->line__L * t_18
+        + REAL(9.1552734375e-05) * p->line__R * p->line__R * p->line__L * p->line__L * p->line__C
+            * p->line__C * p->line__C * p->line__C;
+
+    /* khepera.bg:114: 0.03125*line.L*line.C^2 + line.C*(0.4375*line.L*line.C +
+     * 0.0078125*line.R^2*line.C^2)/ ... */
+    const real t_24 = REAL(0.03125) * t_2 + REAL(0.25) * t_6 + REAL(0.25) * t_13
+        + REAL(0.25) * p->line__C * t_19;
+
+    /* khepera.bg:114: 0.00390625*line.R*line.L*line.C^3 +
+     * line.C*(0.05078125*line.R*line.L*line.C^2 + line.R ... */
+    const real t_25 = REAL(0.00390625) * t_7 + REAL(0.25) * t_14 + REAL(0.25) * p->line__C * t_20;
+
+    /* khepera.bg:114: 0.001953125*line.L^2*line.C^3 + line.C*(0.0078125*line.L^2*line.C^2 +
+     * line.L*(0.03125* ... */
+    const real t_26 = REAL(0.001953125) * t_8 + REAL(0.25) * t_15 + REAL(0.25) * p->line__C * t_21;
+
+    /* khepera.bg:114: 0.0003662109375*line.R*line.L^2*line.C^4 +
+     * line.C*(0.00146484375*line.R*line.L^2*line. ... */
+    const real t_27 = REAL(0.0003662109375) * p->line__R * p->line__L * p->line__L * p->line__C
+            * p->line__C * p->line__C * p->line__C
+        + REAL(0.25) * p->line__C * t_22;
+
+    /* khepera.bg:114: 0.0001220703125*line.L^3*line.C^4 +
+     * line.C*(0.00048828125*line.L^3*line.C^3 + line.L*( ... */
+    const real t_28 = REAL(0.0001220703125) * p->line__L * p->line__L * p->line__L * p->line__C
+            * p->line__C * p->line__C * p->line__C
+        + REAL(0.25) * p->line__C * t_23;
+
+    /* exp(-x) */
+    const real t_29 = exponential(-x_);
+
+    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
+    const real t_30 = x_ < REAL(0.125)
+        ? x_ * (REAL(0.5)
+            - x_ * (REAL(1.0) / REAL(6.0)
+                - x_ * (REAL(1.0) / REAL(24.0)
+                    - x_ * (REAL(1.0) / REAL(120.0)
+                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
+        : REAL(1.0) - (REAL(1.0) - t_29) / x_;
+
+    /* khepera.bg:114: r1: factor of Us': 1.5*line.R*line.C */
+    c->r1_Us_1 = REAL(1.5) * p->line__R * p->line__C;
+
+    /* khepera.bg:114: r1: factor of Us'': line.L*line.C/4 + 0.08203125*line.R^2*line.C^2 +
+     * (1.25*line.L*line.C + 0.12890625*line ... */
+    c->r1_Us_2 = REAL(0.25) * t + REAL(0.08203125) * t_5 + t_19;
+
+    /* khepera.bg:114: r1: factor of Us''': 0.08203125*line.R*line.L*line.C^2 +
+     * (0.13671875*line.R*line.L*line.C^2 + line.R*(0.031 ... */
+    c->r1_Us_3 = REAL(0.08203125) * t_3 + t_20 + REAL(0.125) * p->line__R * t_24;
+
+    /* khepera.bg:114: r1: factor of D(Us, 4): ... */
+    c->r1_Us_4 = t_21 + REAL(0.125) * p->line__L * t_24 + REAL(0.125) * p->line__R * t_25;
+
+    /* khepera.bg:114: r1: factor of D(Us, 5): ... */
+    c->r1_Us_5 = t_22 + REAL(0.125) * p->line__L * t_25 + REAL(0.125) * p->line__R * t_26;
+
+    /* khepera.bg:114: r1: factor of D(Us, 6): ... */
+    c->r1_Us_6 = t_23 + REAL(0.125) * p->line__L * t_26 + REAL(0.125) * p->line__R * t_27;
+
+    /* khepera.bg:114: r1: factor of D(Us, 7): 0.0001220703125*line.R*line.L^3*line.C^4 +
+     * line.L*(0.0003662109375*line.R*line.L^2*lin ... */
+    c->r1_Us_7 = REAL(0.0001220703125) * p->line__R * p->line__L * p->line__L * p->line__L
+            * p->line__C * p->line__C * p->line__C * p->line__C
+        + REAL(0.125) * p->line__L * t_27 + REAL(0.125) * p->line__R * t_28;
+
+    /* khepera.bg:114: r1: factor of D(Us, 8): 3.0517578125e-05*line.L^4*line.C^4 +
+     * line.L*(0.0001220703125*line.L^3*line.C^4 + line. ... */
+    c->r1_Us_8 = REAL(3.0517578125e-05) * p->line__L * p->line__L * p->line__L * p->line__L
+            * p->line__C * p->line__C * p->line__C * p->line__C
+        + REAL(0.125) * p->line__L * t_28
+        + REAL(3.814697265625e-06) * p->line__R * p->line__R * p->line__L * p->line__L * p->line__L
+            * p->line__C * p->line__C * p->line__C * p->line__C * p->line__C;
+
+    /* khepera.bg:114: r1: factor of D(Us, 9): 4.76837158203125e-06*line.R*line.L^4*line.C^5 */
+    c->r1_Us_9 = REAL(4.76837158203125e-06) * p->line__R * p->line__L * p->line__L * p->line__L
+            * p->line__L * p->line__C * p->line__C * p->line__C * p->line__C * p->line__C;
+
+    /* khepera.bg:114: r1: factor of D(Us, 10): 9.5367431640625e-07*line.L^5*line.C^5 */
+    c->r1_Us_10 = REAL(9.5367431640625e-07) * p->line__L * p->line__L * p->line__L * p->line__L
+            * p->line__L * p->line__C * p->line__C * p->line__C * p->line__C * p->line__C;
+
+    /* filter: exp(-bandwidth*sample_time) */
+    c->a = t_29;
+
+    /* filter: weight of the new sample */
+    c->b0 = t_30;
+
+    /* filter: weight of the sample before */
+    c->b1 = REAL(1.0) - t_29 - t_30;
+
+    /* filter: 1 - b0, the memory of a constant 1 */
+    c->rest = REAL(1.0) - t_30;
+}
+
+static bool parameters_are_finite(const cable_bench_parameters *p)
+{
+    return finite_number(p->line__R + p->line__L + p->line__C);
+}
+
+static bool coefficients_are_finite(const cable_bench_monitor *monitor)
+{
+    return finite_number(monitor->c.r1_Us_1 + monitor->c.r1_Us_2 + monitor->c.r1_Us_3
+            + monitor->c.r1_Us_4 + monitor->c.r1_Us_5 + monitor->c.r1_Us_6 + monitor->c.r1_Us_7
+            + monitor->c.r1_Us_8 + monitor->c.r1_Us_9 + monitor->c.r1_Us_10 + monitor->c.a
+            + monitor->c.b0 + monitor->c.b1 + monitor->c.rest);
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+cable_bench_status cable_bench_configure(
+    cable_bench_monitor *monitor,
+    const cable_bench_parameters *parameters,
+    cable_bench_real sample_time,
+    cable_bench_real bandwidth,
+    cable_bench_real time_unit)
+{
+    int k;
+
+    for (k = 0; k < CABLE_BENCH_RESIDUALS; ++k) {
+        monitor->settle[k] = UINT32_MAX;
+    }
+    cable_bench_reset(monitor);
+    if (!parameters_are_finite(parameters)) {
+        return CABLE_BENCH_BAD_PARAMETER;
+    }
+    if (!(sample_time >= REAL(0.000999999)) || !finite_number(sample_time)) {
+        return CABLE_BENCH_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return CABLE_BENCH_BAD_BANDWIDTH;
+    }
+    if (!(time_unit > REAL(0.0)) || !finite_number(time_unit)) {
+        return CABLE_BENCH_BAD_TIME_UNIT;
+    }
+    compute_coefficients(monitor, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(monitor)) {
+        return CABLE_BENCH_BAD_COEFFICIENT;
+    }
+    monitor->settle[CABLE_BENCH_R1] = samples(REAL(6.907755278982138), sample_time, bandwidth);
+    return CABLE_BENCH_OK;
+}
+
+void cable_bench_exact(
+    const cable_bench_monitor *monitor,
+    const cable_bench_derivatives *derivatives,
+    cable_bench_real residuals[CABLE_BENCH_RESIDUALS])
+{
+    const cable_bench_coefficients *c = &monitor->c;
+    const cable_bench_derivatives *d = derivatives;
+    real *r = residuals;
+
+    /* khepera.bg:114: r1: line.cell[1].left with everything else inserted */
+    r[CABLE_BENCH_R1] = d->Uin - d->Us[0] - c->r1_Us_1 * d->Us[1] - c->r1_Us_2 * d->Us[2]
+        - c->r1_Us_3 * d->Us[3] - c->r1_Us_4 * d->Us[4] - c->r1_Us_5 * d->Us[5]
+        - c->r1_Us_6 * d->Us[6] - c->r1_Us_7 * d->Us[7] - c->r1_Us_8 * d->Us[8]
+        - c->r1_Us_9 * d->Us[9] - c->r1_Us_10 * d->Us[10];
+}
+
+/* r1 on its first sample: the filter as if it had always been so. */
+static void start_r1(
+    cable_bench_monitor *monitor, const cable_bench_samples *s, real *r)
+{
+    const cable_bench_coefficients *c = &monitor->c;
+    cable_bench_memory *x = &monitor->x;
+
+    /* khepera.bg:114: r1: input of stage 1 */
+    const real r1_u1 = s->Uin - s->Us;
+
+    /* khepera.bg:114: r1: stage 1, at rest */
+    const real r1_y1 = r1_u1;
+
+    /* khepera.bg:114: r1: stage 1: memory */
+    x->r1_s1 = c->rest * r1_u1;
+
+    /* khepera.bg:114: r1: line.cell[1].left with everything else inserted */
+    r[CABLE_BENCH_R1] = r1_y1;
+}
+
+/* r1 on every further sample. */
+static void next_r1(
+    cable_bench_monitor *monitor, const cable_bench_samples *s, real *r)
+{
+    const cable_bench_coefficients *c = &monitor->c;
+    cable_bench_memory *x = &monitor->x;
+
+    /* khepera.bg:114: r1: input of stage 1 */
+    const real r1_u1 = s->Uin - s->Us;
+
+    /* khepera.bg:114: r1: stage 1 */
+    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+
+    /* khepera.bg:114: r1: stage 1: memory */
+    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+
+    /* khepera.bg:114: r1: line.cell[1].left with everything else inserted */
+    r[CABLE_BENCH_R1] = r1_y1;
+}
+
+/* One sample for r1; a number that is not finite makes the next sample the first. */
+static void run_r1(
+    cable_bench_monitor *monitor, const cable_bench_samples *s, cable_bench_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[0];
+
+    if (age == 0u) {
+        start_r1(monitor, s, r);
+    } else {
+        next_r1(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Uin + s->Us + r[CABLE_BENCH_R1])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[CABLE_BENCH_R1] = REAL(0.0);
+    }
+    monitor->age[0] = age;
+    residuals->valid[CABLE_BENCH_R1] = age > monitor->settle[CABLE_BENCH_R1];
+}
+
+void cable_bench_reset(cable_bench_monitor *monitor)
+{
+    int k;
+
+    for (k = 0; k < 1; ++k) {
+        monitor->age[k] = 0u;
+    }
+}
+
+void cable_bench_step(
+    cable_bench_monitor *monitor,
+    const cable_bench_samples *samples,
+    cable_bench_residuals *residuals)
+{
+    run_r1(monitor, samples, residuals);
+}

@@ -1,0 +1,125 @@
+/* selftest.c: does cable_bench_residuals.c, compiled here, give what it must? */
+#include <math.h>
+#include <stdio.h>
+
+#include "golden.h"
+
+#ifdef CABLE_BENCH_FLOAT
+#define TOLERANCE 1e-4f
+#else
+#define TOLERANCE 1e-12
+#endif
+
+static const char *const name[CABLE_BENCH_RESIDUALS] = {
+    "r1",
+};
+
+/* The error of a result by the sum of its terms; NaN and infinity are larger than anything. */
+static cable_bench_real relative_error(
+    cable_bench_real value, const golden_result *golden)
+{
+    const cable_bench_real size = golden->size > 0 ? golden->size : 1;
+    const cable_bench_real off = (value - golden->value) / size;
+
+    return off >= -1000 && off <= 1000 ? (off < 0 ? -off : off) : 1000;
+}
+
+static int judge(const char *what, const cable_bench_real *worst)
+{
+    int failures = 0;
+    int k;
+
+    for (k = 0; k < CABLE_BENCH_RESIDUALS; ++k) {
+        const bool pass = worst[k] <= TOLERANCE;
+
+        printf("%s %s %s: error %.1e of the terms\n", pass ? "PASS" : "FAIL", what, name[k],
+            (double)worst[k]);
+        failures += pass ? 0 : 1;
+    }
+    return failures;
+}
+
+/* The residuals that read a sample which can be NaN. */
+static const bool spoilt[CABLE_BENCH_RESIDUALS] = {
+    true,
+};
+
+static int check_exact(const cable_bench_monitor *monitor)
+{
+    cable_bench_real worst[CABLE_BENCH_RESIDUALS] = {0};
+    cable_bench_real r[CABLE_BENCH_RESIDUALS] = {0};
+    int at;
+    int k;
+
+    for (at = 0; at < GOLDEN_EXACT; ++at) {
+        cable_bench_exact(monitor, &golden_derivatives[at], r);
+        for (k = 0; k < CABLE_BENCH_RESIDUALS; ++k) {
+            const cable_bench_real off = relative_error(r[k], &golden_exact[at][k]);
+
+            worst[k] = off > worst[k] ? off : worst[k];
+        }
+    }
+    return judge("exact", worst);
+}
+
+static int check_step(cable_bench_monitor *monitor)
+{
+    cable_bench_real worst[CABLE_BENCH_RESIDUALS] = {0};
+    cable_bench_residuals r;
+    int at;
+    int k;
+
+    cable_bench_reset(monitor);
+    for (at = 0; at < GOLDEN_STEP; ++at) {
+        cable_bench_step(monitor, &golden_samples[at], &r);
+        for (k = 0; k < CABLE_BENCH_RESIDUALS; ++k) {
+            const cable_bench_real off = relative_error(r.value[k], &golden_step[at][k]);
+
+            worst[k] = off > worst[k] ? off : worst[k];
+        }
+    }
+    return judge("step", worst);
+}
+
+/* A sample that is not a number is told, and after it everything starts anew. */
+static int check_restart(cable_bench_monitor *monitor)
+{
+    cable_bench_samples bad = golden_samples[0];
+    cable_bench_residuals r;
+    int failures = 0;
+    int k;
+
+    bad.Uin = (cable_bench_real)NAN;
+    bad.Us = (cable_bench_real)NAN;
+    cable_bench_step(monitor, &bad, &r);
+    for (k = 0; k < CABLE_BENCH_RESIDUALS; ++k) {
+        failures += spoilt[k] && r.valid[k] ? 1 : 0;
+    }
+    printf("%s a sample that is not a number\n", failures ? "FAIL" : "PASS");
+    return failures + check_step(monitor);
+}
+
+int main(void)
+{
+    cable_bench_parameters parameters;
+    cable_bench_monitor monitor;
+    cable_bench_status status;
+    int failures = 0;
+
+    golden_parameters(&parameters);
+    status = cable_bench_configure(
+        &monitor,
+        &parameters,
+        CABLE_BENCH_SAMPLE_TIME,
+        CABLE_BENCH_BANDWIDTH,
+        CABLE_BENCH_TIME_UNIT);
+    if (status != CABLE_BENCH_OK) {
+        printf("FAIL configure\n");
+        return 1;
+    }
+    failures += check_exact(&monitor);
+    failures += check_step(&monitor);
+    failures += check_restart(&monitor);
+    printf("%s\n", failures ? "FAIL" : "PASS");
+    return failures ? 1 : 0;
+}

@@ -1,0 +1,600 @@
+/* drive_bench_residuals.c: the residuals of DriveBench; generated, see the header. */
+#include "drive_bench_residuals.h"
+
+#include <math.h>
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef drive_bench_real real;
+
+#define REAL(x) DRIVE_BENCH_CONSTANT(x)
+#if defined DRIVE_BENCH_FLOAT && !defined DRIVE_BENCH_REAL
+#define SLOWEST REAL(0.0001)
+#define MATH(name) name##f
+#else
+#define SLOWEST REAL(1.0e-09)
+#define MATH(name) name
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
+static real exponential(real value)
+{
+    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
+    const real ln2_low = REAL(1.4286068203094173e-06);
+    real rest;
+    real scale = REAL(1.0);
+    real sum = REAL(1.0);
+    int n = 0;
+    int k;
+
+    if (value > REAL(1000.0)) {
+        value = REAL(1000.0); /* more than enough for infinity */
+    }
+    if (value < REAL(-1000.0)) {
+        value = REAL(-1000.0); /* more than enough for zero */
+    }
+    rest = value;
+    while (rest > REAL(0.35)) {
+        ++n;
+        scale *= REAL(2.0);
+        rest = value - (real)n * ln2_high;
+    }
+    while (rest < REAL(-0.35)) {
+        --n;
+        scale *= REAL(0.5);
+        rest = value - (real)n * ln2_high;
+    }
+    rest -= (real)n * ln2_low;
+    for (k = 14; k > 0; --k) {
+        sum = REAL(1.0) + sum * rest / (real)k;
+    }
+    return sum * scale;
+}
+
+uint32_t drive_bench_abi(void)
+{
+    return DRIVE_BENCH_ABI;
+}
+
+const char *drive_bench_digest(void)
+{
+    return DRIVE_BENCH_DIGEST;
+}
+
+void drive_bench_nominal(drive_bench_parameters *parameters)
+{
+    parameters->m__tau0 = REAL(0.01);        /* rad */
+    parameters->m__A = -REAL(4.0);           /* 1 */
+    parameters->m__el__L = REAL(0.0003);     /* H */
+    parameters->m__el__Re = REAL(17.6);      /* Ohm */
+    parameters->m__el__k = REAL(0.00351);    /* N.m/A */
+    parameters->m__me__Je = REAL(1.4e-08);   /* kg.m^2 */
+    parameters->m__me__fe = REAL(1.19e-05);  /* N.m.s/rad */
+    parameters->m__me__K = REAL(0.1);        /* N.m/rad */
+    parameters->m__ge__N = REAL(25.0);       /* 1 */
+    parameters->m__wh__Js = REAL(0.1);       /* kg.m^2 */
+    parameters->m__wh__fs = REAL(0.0003);    /* N.m.s/rad */
+    parameters->m__wh__R = REAL(0.005);      /* m */
+}
+
+/* The coefficients of exact and of the filter, from the parameters. */
+static void compute_coefficients(drive_bench_monitor *monitor, const drive_bench_parameters *p,
+        real sample_time, real bandwidth)
+{
+    drive_bench_coefficients *c = &monitor->c;
+
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* khepera.bg:17: m.el.L*m.me.fe/m.el.k */
+    const real t = p->m__el__L * p->m__me__fe / p->m__el__k;
+
+    /* khepera.bg:17: m.el.L*m.wh.fs/(m.ge.N*m.el.k) */
+    const real t_2 = p->m__el__L * p->m__wh__fs / p->m__ge__N / p->m__el__k;
+
+    /* khepera.bg:17: m.el.Re*m.me.fe/m.el.k */
+    const real t_3 = p->m__el__Re * p->m__me__fe / p->m__el__k;
+
+    /* khepera.bg:17: m.el.Re*m.me.Je/m.el.k */
+    const real t_4 = p->m__el__Re * p->m__me__Je / p->m__el__k;
+
+    /* khepera.bg:17: m.el.Re*m.wh.Js/(m.ge.N*m.el.k) */
+    const real t_5 = p->m__el__Re * p->m__wh__Js / p->m__ge__N / p->m__el__k;
+
+    /* exp(-x) */
+    const real t_6 = exponential(-x_);
+
+    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
+    const real t_7 = x_ < REAL(0.125)
+        ? x_ * (REAL(0.5)
+            - x_ * (REAL(1.0) / REAL(6.0)
+                - x_ * (REAL(1.0) / REAL(24.0)
+                    - x_ * (REAL(1.0) / REAL(120.0)
+                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
+        : REAL(1.0) - (REAL(1.0) - t_6) / x_;
+
+    /* khepera.bg:17: (-m.el.L*m.me.fe/m.el.k - m.el.Re*m.me.Je/m.el.k)*bandwidth */
+    const real t_8 = (-t - t_4) * bandwidth;
+
+    /* khepera.bg:17: m.el.L*m.me.Je*bandwidth^2/m.el.k */
+    const real t_9 = p->m__el__L * p->m__me__Je * bandwidth * bandwidth / p->m__el__k;
+
+    /* khepera.bg:17: (-m.el.L*m.wh.fs/(m.ge.N*m.el.k) -
+     * m.el.Re*m.wh.Js/(m.ge.N*m.el.k))*bandwidth */
+    const real t_10 = (-t_2 - t_5) * bandwidth;
+
+    /* khepera.bg:17: m.el.L*m.wh.Js*bandwidth^2/(m.ge.N*m.el.k) */
+    const real t_11 = p->m__el__L * p->m__wh__Js * bandwidth * bandwidth / p->m__ge__N
+            / p->m__el__k;
+
+    /* khepera.bg:41: m.wh.Js*bandwidth^2/(m.ge.N*m.me.K) */
+    const real t_12 = p->m__wh__Js * bandwidth * bandwidth / p->m__ge__N / p->m__me__K;
+
+    /* khepera.bg:17: r1: factor of m.me.we: m.el.k + m.el.Re*m.me.fe/m.el.k */
+    c->r1_m__me__we = p->m__el__k + t_3;
+
+    /* khepera.bg:17: r1: factor of m.me.we': m.el.L*m.me.fe/m.el.k + m.el.Re*m.me.Je/m.el.k */
+    c->r1_m__me__we_1 = t + t_4;
+
+    /* khepera.bg:17: r1: factor of m.me.we'': m.el.L*m.me.Je/m.el.k */
+    c->r1_m__me__we_2 = p->m__el__L * p->m__me__Je / p->m__el__k;
+
+    /* khepera.bg:17: r1: factor of m.wh.ws: m.el.Re*m.wh.fs/(m.ge.N*m.el.k) */
+    c->r1_m__wh__ws = p->m__el__Re * p->m__wh__fs / p->m__ge__N / p->m__el__k;
+
+    /* khepera.bg:17: r1: factor of m.wh.ws': m.el.L*m.wh.fs/(m.ge.N*m.el.k) +
+     * m.el.Re*m.wh.Js/(m.ge.N*m.el.k) */
+    c->r1_m__wh__ws_1 = t_2 + t_5;
+
+    /* khepera.bg:17: r1: factor of m.wh.ws'': m.el.L*m.wh.Js/(m.ge.N*m.el.k) */
+    c->r1_m__wh__ws_2 = p->m__el__L * p->m__wh__Js / p->m__ge__N / p->m__el__k;
+
+    /* khepera.bg:17: r1: factor of Fx: m.el.Re*m.wh.R/(m.ge.N*m.el.k) */
+    c->r1_Fx = p->m__el__Re * p->m__wh__R / p->m__ge__N / p->m__el__k;
+
+    /* khepera.bg:17: r1: factor of Fx': m.el.L*m.wh.R/(m.ge.N*m.el.k) */
+    c->r1_Fx_1 = p->m__el__L * p->m__wh__R / p->m__ge__N / p->m__el__k;
+
+    /* khepera.bg:17: r1: factor of m.me.we in stage 1 */
+    c->r1_v1_m__me__we = t_9;
+
+    /* khepera.bg:17: r1: factor of m.me.we in stage 2 */
+    c->r1_v2_m__me__we = t_8 + REAL(2.0) * t_9;
+
+    /* khepera.bg:17: r1: factor of m.me.we in stage 3 */
+    c->r1_v3_m__me__we = -p->m__el__k - t_3 - t_8 - t_9;
+
+    /* khepera.bg:17: r1: factor of m.wh.ws in stage 1 */
+    c->r1_v1_m__wh__ws = t_11;
+
+    /* khepera.bg:17: r1: factor of m.wh.ws in stage 2 */
+    c->r1_v2_m__wh__ws = t_10 + REAL(2.0) * t_11;
+
+    /* khepera.bg:17: r1: factor of m.wh.ws in stage 3 */
+    c->r1_v3_m__wh__ws = p->m__el__Re * p->m__wh__fs / p->m__ge__N / p->m__el__k + t_10 + t_11;
+
+    /* khepera.bg:17: r1: factor of Fx in stage 2 */
+    c->r1_v2_Fx = p->m__el__L * p->m__wh__R * bandwidth / p->m__ge__N / p->m__el__k;
+
+    /* khepera.bg:17: r1: factor of Fx in stage 3 */
+    c->r1_v3_Fx = p->m__el__L * p->m__wh__R * bandwidth / p->m__ge__N / p->m__el__k
+        - p->m__el__Re * p->m__wh__R / p->m__ge__N / p->m__el__k;
+
+    /* filter: exp(-bandwidth*sample_time) */
+    c->a = t_6;
+
+    /* filter: weight of the new sample */
+    c->b0 = t_7;
+
+    /* filter: weight of the sample before */
+    c->b1 = REAL(1.0) - t_6 - t_7;
+
+    /* filter: 1 - b0, the memory of a constant 1 */
+    c->rest = REAL(1.0) - t_7;
+
+    /* khepera.bg:41: 1/(4*m.tau0) */
+    c->g = REAL(0.25) / p->m__tau0;
+
+    /* khepera.bg:41: m.ge.N/(4*m.tau0) */
+    c->g_2 = REAL(0.25) * p->m__ge__N / p->m__tau0;
+
+    /* khepera.bg:41: r2: factor of m.wh.ws: m.ge.N */
+    c->r2_m__wh__ws = p->m__ge__N;
+
+    /* khepera.bg:41: r2: factor of m.wh.ws': m.wh.fs/(m.ge.N*m.me.K) */
+    c->r2_m__wh__ws_1 = p->m__wh__fs / p->m__ge__N / p->m__me__K;
+
+    /* khepera.bg:41: r2: factor of m.wh.ws'': m.wh.Js/(m.ge.N*m.me.K) */
+    c->r2_m__wh__ws_2 = p->m__wh__Js / p->m__ge__N / p->m__me__K;
+
+    /* khepera.bg:41: r2: factor of Fx': m.wh.R/(m.ge.N*m.me.K) */
+    c->r2_Fx_1 = p->m__wh__R / p->m__ge__N / p->m__me__K;
+
+    /* khepera.bg:41: r2: factor of D(tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m.
+     * ...): m.tau0*m.A */
+    c->r2_tanh_1 = p->m__tau0 * p->m__A;
+
+    /* half the sample time */
+    c->half_time = REAL(0.5) * sample_time;
+
+    /* khepera.bg:41: r2: factor of m.wh.ws in stage 1 */
+    c->r2_v1_m__wh__ws = t_12;
+
+    /* khepera.bg:41: r2: factor of m.wh.ws in stage 2 */
+    c->r2_v2_m__wh__ws = REAL(2.0) * t_12;
+
+    /* khepera.bg:41: r2: factor of m.wh.ws in stage 3 */
+    c->r2_v3_m__wh__ws = p->m__ge__N + t_12;
+
+    /* khepera.bg:41: r2: factor of Fx in stage 2 */
+    c->r2_v2_Fx = p->m__wh__R * bandwidth / p->m__ge__N / p->m__me__K;
+
+    /* khepera.bg:41: r2: factor of tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ...
+     * in stage 2 */
+    c->r2_v2_tanh = p->m__tau0 * p->m__A * bandwidth;
+}
+
+static bool parameters_are_finite(const drive_bench_parameters *p)
+{
+    return finite_number(p->m__tau0 + p->m__A + p->m__el__L + p->m__el__Re + p->m__el__k
+            + p->m__me__Je + p->m__me__fe + p->m__me__K + p->m__ge__N + p->m__wh__Js + p->m__wh__fs
+            + p->m__wh__R);
+}
+
+static bool coefficients_are_finite(const drive_bench_monitor *monitor)
+{
+    return finite_number(monitor->c.r1_m__me__we + monitor->c.r1_m__me__we_1
+            + monitor->c.r1_m__me__we_2 + monitor->c.r1_m__wh__ws + monitor->c.r1_m__wh__ws_1
+            + monitor->c.r1_m__wh__ws_2 + monitor->c.r1_Fx + monitor->c.r1_Fx_1
+            + monitor->c.r1_v1_m__me__we + monitor->c.r1_v2_m__me__we + monitor->c.r1_v3_m__me__we
+            + monitor->c.r1_v1_m__wh__ws + monitor->c.r1_v2_m__wh__ws + monitor->c.r1_v3_m__wh__ws
+            + monitor->c.r1_v2_Fx + monitor->c.r1_v3_Fx + monitor->c.a + monitor->c.b0
+            + monitor->c.b1 + monitor->c.rest + monitor->c.g + monitor->c.g_2
+            + monitor->c.r2_m__wh__ws + monitor->c.r2_m__wh__ws_1 + monitor->c.r2_m__wh__ws_2
+            + monitor->c.r2_Fx_1 + monitor->c.r2_tanh_1 + monitor->c.half_time
+            + monitor->c.r2_v1_m__wh__ws + monitor->c.r2_v2_m__wh__ws + monitor->c.r2_v3_m__wh__ws
+            + monitor->c.r2_v2_Fx + monitor->c.r2_v2_tanh);
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+drive_bench_status drive_bench_configure(
+    drive_bench_monitor *monitor,
+    const drive_bench_parameters *parameters,
+    drive_bench_real sample_time,
+    drive_bench_real bandwidth,
+    drive_bench_real time_unit)
+{
+    int k;
+
+    for (k = 0; k < DRIVE_BENCH_RESIDUALS; ++k) {
+        monitor->settle[k] = UINT32_MAX;
+    }
+    drive_bench_reset(monitor);
+    if (!parameters_are_finite(parameters)) {
+        return DRIVE_BENCH_BAD_PARAMETER;
+    }
+    if (!(sample_time >= REAL(0.000999999)) || !finite_number(sample_time)) {
+        return DRIVE_BENCH_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return DRIVE_BENCH_BAD_BANDWIDTH;
+    }
+    if (!(time_unit > REAL(0.0)) || !finite_number(time_unit)) {
+        return DRIVE_BENCH_BAD_TIME_UNIT;
+    }
+    compute_coefficients(monitor, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(monitor)) {
+        return DRIVE_BENCH_BAD_COEFFICIENT;
+    }
+    monitor->settle[DRIVE_BENCH_R1] = samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[DRIVE_BENCH_R2] = samples(REAL(11.228872242412663), sample_time, bandwidth);
+    return DRIVE_BENCH_OK;
+}
+
+void drive_bench_exact(
+    const drive_bench_monitor *monitor,
+    const drive_bench_derivatives *derivatives,
+    drive_bench_real residuals[DRIVE_BENCH_RESIDUALS])
+{
+    const drive_bench_coefficients *c = &monitor->c;
+    const drive_bench_derivatives *d = derivatives;
+    real *r = residuals;
+
+    /* khepera.bg:17: r1 = U0 - m.el.k*m.me.we - m.el.Re*m.el.k.e2/m.el.k -
+     * m.el.L*D(m.el.k.e2)/m.el.k
+     * where m.el.k.e2 = m.me.fe*m.me.we + m.me.Je*D(m.me.we) + (m.wh.fs*m.wh.ws + m.wh.R*Fx +
+     * m.wh.Js*D(m.wh.ws))/m.ge.N */
+    r[DRIVE_BENCH_R1] = d->U0 - c->r1_m__me__we * d->m__me__we[0]
+        - c->r1_m__me__we_1 * d->m__me__we[1] - c->r1_m__me__we_2 * d->m__me__we[2]
+        - c->r1_m__wh__ws * d->m__wh__ws[0] - c->r1_m__wh__ws_1 * d->m__wh__ws[1]
+        - c->r1_m__wh__ws_2 * d->m__wh__ws[2] - c->r1_Fx * d->Fx[0] - c->r1_Fx_1 * d->Fx[1];
+
+    /* khepera.bg:41: tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m.tau0)) */
+    const real t = MATH(tanh)(c->g * d->m__me__we_integral - c->g_2 * d->m__wh__ws_integral);
+
+    /* khepera.bg:41: r2 = m.me.we - m.ge.N*m.wh.ws - D(m.wh.fs*m.wh.ws + m.wh.R*Fx +
+     * m.wh.Js*D(m.wh.ws) - m.tau0*m.A*m.ge.N*m.me.K*tanh((Int(m.me.we) -
+     * m.ge.N*Int(m.wh.ws))/(4*m.tau0)))/(m.ge.N*m.me.K) */
+    r[DRIVE_BENCH_R2] = d->m__me__we[0]
+        + c->r2_tanh_1 * ((c->g * d->m__me__we[0] - c->g_2 * d->m__wh__ws[0]) * (REAL(1.0) - t * t))
+        - c->r2_m__wh__ws * d->m__wh__ws[0] - c->r2_m__wh__ws_1 * d->m__wh__ws[1]
+        - c->r2_m__wh__ws_2 * d->m__wh__ws[2] - c->r2_Fx_1 * d->Fx[1];
+}
+
+/* r1 on its first sample: the filter as if it had always been so. */
+static void start_r1(
+    drive_bench_monitor *monitor, const drive_bench_samples *s, real *r)
+{
+    const drive_bench_coefficients *c = &monitor->c;
+    drive_bench_memory *x = &monitor->x;
+
+    /* khepera.bg:17: r1: input of stage 3 */
+    const real r1_u3 = s->U0 + c->r1_v3_m__me__we * s->m__me__we + c->r1_v3_Fx * s->Fx
+        - c->r1_v3_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1: stage 3, at rest */
+    const real r1_y3 = r1_u3;
+
+    /* khepera.bg:17: r1: stage 3: memory */
+    x->r1_s3 = c->rest * r1_u3;
+
+    /* khepera.bg:17: r1: input of stage 2 */
+    const real r1_u2 = r1_y3 + c->r1_v2_m__me__we * s->m__me__we + c->r1_v2_m__wh__ws * s->m__wh__ws
+        - c->r1_v2_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: stage 2, at rest */
+    const real r1_y2 = r1_u2;
+
+    /* khepera.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->rest * r1_u2;
+
+    /* khepera.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_m__me__we * s->m__me__we
+        - c->r1_v1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1: stage 1, at rest */
+    const real r1_y1 = r1_u1;
+
+    /* khepera.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->rest * r1_u1;
+
+    /* khepera.bg:17: r1 = U0 - m.el.k*m.me.we - m.el.Re*m.el.k.e2/m.el.k -
+     * m.el.L*D(m.el.k.e2)/m.el.k
+     * where m.el.k.e2 = m.me.fe*m.me.we + m.me.Je*D(m.me.we) + (m.wh.fs*m.wh.ws + m.wh.R*Fx +
+     * m.wh.Js*D(m.wh.ws))/m.ge.N */
+    r[DRIVE_BENCH_R1] = r1_y1;
+}
+
+/* r1 on every further sample. */
+static void next_r1(
+    drive_bench_monitor *monitor, const drive_bench_samples *s, real *r)
+{
+    const drive_bench_coefficients *c = &monitor->c;
+    drive_bench_memory *x = &monitor->x;
+
+    /* khepera.bg:17: r1: input of stage 3 */
+    const real r1_u3 = s->U0 + c->r1_v3_m__me__we * s->m__me__we + c->r1_v3_Fx * s->Fx
+        - c->r1_v3_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1: stage 3 */
+    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+
+    /* khepera.bg:17: r1: stage 3: memory */
+    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+
+    /* khepera.bg:17: r1: input of stage 2 */
+    const real r1_u2 = r1_y3 + c->r1_v2_m__me__we * s->m__me__we + c->r1_v2_m__wh__ws * s->m__wh__ws
+        - c->r1_v2_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: stage 2 */
+    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+
+    /* khepera.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+
+    /* khepera.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_m__me__we * s->m__me__we
+        - c->r1_v1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1: stage 1 */
+    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+
+    /* khepera.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+
+    /* khepera.bg:17: r1 = U0 - m.el.k*m.me.we - m.el.Re*m.el.k.e2/m.el.k -
+     * m.el.L*D(m.el.k.e2)/m.el.k
+     * where m.el.k.e2 = m.me.fe*m.me.we + m.me.Je*D(m.me.we) + (m.wh.fs*m.wh.ws + m.wh.R*Fx +
+     * m.wh.Js*D(m.wh.ws))/m.ge.N */
+    r[DRIVE_BENCH_R1] = r1_y1;
+}
+
+/* One sample for r1; a number that is not finite makes the next sample the first. */
+static void run_r1(
+    drive_bench_monitor *monitor, const drive_bench_samples *s, drive_bench_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[0];
+
+    if (age == 0u) {
+        start_r1(monitor, s, r);
+    } else {
+        next_r1(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->U0 + s->Fx + s->m__me__we + s->m__wh__ws + r[DRIVE_BENCH_R1])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[DRIVE_BENCH_R1] = REAL(0.0);
+    }
+    monitor->age[0] = age;
+    residuals->valid[DRIVE_BENCH_R1] = age > monitor->settle[DRIVE_BENCH_R1];
+}
+
+/* r2 on its first sample: the filter as if it had always been so. */
+static void start_r2(
+    drive_bench_monitor *monitor, const drive_bench_samples *s, real *r)
+{
+    const drive_bench_coefficients *c = &monitor->c;
+    drive_bench_memory *x = &monitor->x;
+
+    /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0), what is
+     * integrated */
+    const real r2_rate = c->g * s->m__me__we - c->g_2 * s->m__wh__ws;
+
+    /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0), at the start */
+    const real r2_int = REAL(0.0);
+
+    /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): memory */
+    x->r2_q = c->half_time * r2_rate;
+
+    /* khepera.bg:41: tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ... */
+    const real r2_tanh = MATH(tanh)(r2_int);
+
+    /* khepera.bg:41: r2: input of stage 3 */
+    const real r2_u3 = s->m__me__we + c->r2_v2_Fx * s->Fx - c->r2_v3_m__wh__ws * s->m__wh__ws
+        - c->r2_v2_tanh * r2_tanh;
+
+    /* khepera.bg:41: r2: stage 3, at rest */
+    const real r2_y3 = r2_u3;
+
+    /* khepera.bg:41: r2: stage 3: memory */
+    x->r2_s3 = c->rest * r2_u3;
+
+    /* khepera.bg:41: r2: input of stage 2 */
+    const real r2_u2 = r2_y3 + c->r2_v2_m__wh__ws * s->m__wh__ws + c->r2_v2_tanh * r2_tanh
+        - c->r2_v2_Fx * s->Fx;
+
+    /* khepera.bg:41: r2: stage 2, at rest */
+    const real r2_y2 = r2_u2;
+
+    /* khepera.bg:41: r2: stage 2: memory */
+    x->r2_s2 = c->rest * r2_u2;
+
+    /* khepera.bg:41: r2: input of stage 1 */
+    const real r2_u1 = r2_y2 - c->r2_v1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:41: r2: stage 1, at rest */
+    const real r2_y1 = r2_u1;
+
+    /* khepera.bg:41: r2: stage 1: memory */
+    x->r2_s1 = c->rest * r2_u1;
+
+    /* khepera.bg:41: r2 = m.me.we - m.ge.N*m.wh.ws - D(m.wh.fs*m.wh.ws + m.wh.R*Fx +
+     * m.wh.Js*D(m.wh.ws) - m.tau0*m.A*m.ge.N*m.me.K*tanh((Int(m.me.we) -
+     * m.ge.N*Int(m.wh.ws))/(4*m.tau0)))/(m.ge.N*m.me.K) */
+    r[DRIVE_BENCH_R2] = r2_y1;
+}
+
+/* r2 on every further sample. */
+static void next_r2(
+    drive_bench_monitor *monitor, const drive_bench_samples *s, real *r)
+{
+    const drive_bench_coefficients *c = &monitor->c;
+    drive_bench_memory *x = &monitor->x;
+
+    /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0), what is
+     * integrated */
+    const real r2_rate = c->g * s->m__me__we - c->g_2 * s->m__wh__ws;
+
+    /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0) */
+    const real r2_int = x->r2_q + c->half_time * r2_rate;
+
+    /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): memory */
+    x->r2_q = r2_int + c->half_time * r2_rate;
+
+    /* khepera.bg:41: tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ... */
+    const real r2_tanh = MATH(tanh)(r2_int);
+
+    /* khepera.bg:41: r2: input of stage 3 */
+    const real r2_u3 = s->m__me__we + c->r2_v2_Fx * s->Fx - c->r2_v3_m__wh__ws * s->m__wh__ws
+        - c->r2_v2_tanh * r2_tanh;
+
+    /* khepera.bg:41: r2: stage 3 */
+    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+
+    /* khepera.bg:41: r2: stage 3: memory */
+    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+
+    /* khepera.bg:41: r2: input of stage 2 */
+    const real r2_u2 = r2_y3 + c->r2_v2_m__wh__ws * s->m__wh__ws + c->r2_v2_tanh * r2_tanh
+        - c->r2_v2_Fx * s->Fx;
+
+    /* khepera.bg:41: r2: stage 2 */
+    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+
+    /* khepera.bg:41: r2: stage 2: memory */
+    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+
+    /* khepera.bg:41: r2: input of stage 1 */
+    const real r2_u1 = r2_y2 - c->r2_v1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:41: r2: stage 1 */
+    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+
+    /* khepera.bg:41: r2: stage 1: memory */
+    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+
+    /* khepera.bg:41: r2 = m.me.we - m.ge.N*m.wh.ws - D(m.wh.fs*m.wh.ws + m.wh.R*Fx +
+     * m.wh.Js*D(m.wh.ws) - m.tau0*m.A*m.ge.N*m.me.K*tanh((Int(m.me.we) -
+     * m.ge.N*Int(m.wh.ws))/(4*m.tau0)))/(m.ge.N*m.me.K) */
+    r[DRIVE_BENCH_R2] = r2_y1;
+}
+
+/* One sample for r2; a number that is not finite makes the next sample the first. */
+static void run_r2(
+    drive_bench_monitor *monitor, const drive_bench_samples *s, drive_bench_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[1];
+
+    if (age == 0u) {
+        start_r2(monitor, s, r);
+    } else {
+        next_r2(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx + s->m__me__we + s->m__wh__ws + r[DRIVE_BENCH_R2])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[DRIVE_BENCH_R2] = REAL(0.0);
+    }
+    monitor->age[1] = age;
+    residuals->valid[DRIVE_BENCH_R2] = age > monitor->settle[DRIVE_BENCH_R2];
+}
+
+void drive_bench_reset(drive_bench_monitor *monitor)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        monitor->age[k] = 0u;
+    }
+}
+
+void drive_bench_step(
+    drive_bench_monitor *monitor,
+    const drive_bench_samples *samples,
+    drive_bench_residuals *residuals)
+{
+    run_r1(monitor, samples, residuals);
+    run_r2(monitor, samples, residuals);
+}

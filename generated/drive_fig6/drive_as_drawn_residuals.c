@@ -1,0 +1,638 @@
+/* drive_as_drawn_residuals.c: the residuals of DriveAsDrawn; generated, see the header. */
+#include "drive_as_drawn_residuals.h"
+
+#include <math.h>
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef drive_as_drawn_real real;
+
+#define REAL(x) DRIVE_AS_DRAWN_CONSTANT(x)
+#if defined DRIVE_AS_DRAWN_FLOAT && !defined DRIVE_AS_DRAWN_REAL
+#define SLOWEST REAL(0.0001)
+#define MATH(name) name##f
+#else
+#define SLOWEST REAL(1.0e-09)
+#define MATH(name) name
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
+static real exponential(real value)
+{
+    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
+    const real ln2_low = REAL(1.4286068203094173e-06);
+    real rest;
+    real scale = REAL(1.0);
+    real sum = REAL(1.0);
+    int n = 0;
+    int k;
+
+    if (value > REAL(1000.0)) {
+        value = REAL(1000.0); /* more than enough for infinity */
+    }
+    if (value < REAL(-1000.0)) {
+        value = REAL(-1000.0); /* more than enough for zero */
+    }
+    rest = value;
+    while (rest > REAL(0.35)) {
+        ++n;
+        scale *= REAL(2.0);
+        rest = value - (real)n * ln2_high;
+    }
+    while (rest < REAL(-0.35)) {
+        --n;
+        scale *= REAL(0.5);
+        rest = value - (real)n * ln2_high;
+    }
+    rest -= (real)n * ln2_low;
+    for (k = 14; k > 0; --k) {
+        sum = REAL(1.0) + sum * rest / (real)k;
+    }
+    return sum * scale;
+}
+
+uint32_t drive_as_drawn_abi(void)
+{
+    return DRIVE_AS_DRAWN_ABI;
+}
+
+const char *drive_as_drawn_digest(void)
+{
+    return DRIVE_AS_DRAWN_DIGEST;
+}
+
+void drive_as_drawn_nominal(drive_as_drawn_parameters *parameters)
+{
+    parameters->tau0 = REAL(0.01);        /* rad */
+    parameters->A = -REAL(4.0);           /* 1 */
+    parameters->el__L = REAL(0.0003);     /* H */
+    parameters->el__Re = REAL(17.6);      /* Ohm */
+    parameters->el__k = REAL(0.00351);    /* N.m/A */
+    parameters->me__Je = REAL(1.4e-08);   /* kg.m^2 */
+    parameters->me__fe = REAL(1.19e-05);  /* N.m.s/rad */
+    parameters->me__K = REAL(0.1);        /* N.m/rad */
+    parameters->ge__N = REAL(25.0);       /* 1 */
+    parameters->wh__Js = REAL(0.1);       /* kg.m^2 */
+    parameters->wh__fs = REAL(0.0003);    /* N.m.s/rad */
+    parameters->wh__R = REAL(0.005);      /* m */
+}
+
+/* The coefficients of exact and of the filter, from the parameters. */
+static void compute_coefficients(drive_as_drawn_monitor *monitor,
+        const drive_as_drawn_parameters *p, real sample_time, real bandwidth)
+{
+    drive_as_drawn_coefficients *c = &monitor->c;
+
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* khepera.bg:17: el.L*me.fe/el.k */
+    const real t = p->el__L * p->me__fe / p->el__k;
+
+    /* khepera.bg:17: el.L*wh.fs/(ge.N*el.k) */
+    const real t_2 = p->el__L * p->wh__fs / p->ge__N / p->el__k;
+
+    /* khepera.bg:17: el.Re*me.fe/el.k */
+    const real t_3 = p->el__Re * p->me__fe / p->el__k;
+
+    /* khepera.bg:17: tau0*A*me.K*el.Re/el.k */
+    const real t_4 = p->tau0 * p->A * p->me__K * p->el__Re / p->el__k;
+
+    /* khepera.bg:17: el.Re*me.Je/el.k */
+    const real t_5 = p->el__Re * p->me__Je / p->el__k;
+
+    /* khepera.bg:17: el.Re*wh.Js/(ge.N*el.k) */
+    const real t_6 = p->el__Re * p->wh__Js / p->ge__N / p->el__k;
+
+    /* exp(-x) */
+    const real t_7 = exponential(-x_);
+
+    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
+    const real t_8 = x_ < REAL(0.125)
+        ? x_ * (REAL(0.5)
+            - x_ * (REAL(1.0) / REAL(6.0)
+                - x_ * (REAL(1.0) / REAL(24.0)
+                    - x_ * (REAL(1.0) / REAL(120.0)
+                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
+        : REAL(1.0) - (REAL(1.0) - t_7) / x_;
+
+    /* khepera.bg:17: (-el.L*me.fe/el.k - el.Re*me.Je/el.k)*bandwidth */
+    const real t_9 = (-t - t_5) * bandwidth;
+
+    /* khepera.bg:17: el.L*me.Je*bandwidth^2/el.k */
+    const real t_10 = p->el__L * p->me__Je * bandwidth * bandwidth / p->el__k;
+
+    /* khepera.bg:17: tau0*A*me.K*el.L*bandwidth/el.k */
+    const real t_11 = p->tau0 * p->A * p->me__K * p->el__L * bandwidth / p->el__k;
+
+    /* khepera.bg:17: (-el.L*wh.fs/(ge.N*el.k) - el.Re*wh.Js/(ge.N*el.k))*bandwidth */
+    const real t_12 = (-t_2 - t_6) * bandwidth;
+
+    /* khepera.bg:17: el.L*wh.Js*bandwidth^2/(ge.N*el.k) */
+    const real t_13 = p->el__L * p->wh__Js * bandwidth * bandwidth / p->ge__N / p->el__k;
+
+    /* khepera.bg:41: wh.Js*bandwidth^2/(ge.N*me.K) */
+    const real t_14 = p->wh__Js * bandwidth * bandwidth / p->ge__N / p->me__K;
+
+    /* khepera.bg:17: 1/(4*tau0) */
+    c->g = REAL(0.25) / p->tau0;
+
+    /* khepera.bg:17: ge.N/(4*tau0) */
+    c->g_2 = REAL(0.25) * p->ge__N / p->tau0;
+
+    /* khepera.bg:17: r1: factor of me.we: el.k + el.Re*me.fe/el.k */
+    c->r1_me__we = p->el__k + t_3;
+
+    /* khepera.bg:17: r1: factor of me.we': el.L*me.fe/el.k + el.Re*me.Je/el.k */
+    c->r1_me__we_1 = t + t_5;
+
+    /* khepera.bg:17: r1: factor of me.we'': el.L*me.Je/el.k */
+    c->r1_me__we_2 = p->el__L * p->me__Je / p->el__k;
+
+    /* khepera.bg:17: r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)):
+     * 2*tau0*A*me.K*el.Re/el.k */
+    c->r1_tanh = REAL(2.0) * t_4;
+
+    /* khepera.bg:17: r1: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))):
+     * 2*tau0*A*me.K*el.L/el.k */
+    c->r1_tanh_1 = REAL(2.0) * p->tau0 * p->A * p->me__K * p->el__L / p->el__k;
+
+    /* khepera.bg:17: r1: factor of wh.ws: el.Re*wh.fs/(ge.N*el.k) */
+    c->r1_wh__ws = p->el__Re * p->wh__fs / p->ge__N / p->el__k;
+
+    /* khepera.bg:17: r1: factor of wh.ws': el.L*wh.fs/(ge.N*el.k) + el.Re*wh.Js/(ge.N*el.k) */
+    c->r1_wh__ws_1 = t_2 + t_6;
+
+    /* khepera.bg:17: r1: factor of wh.ws'': el.L*wh.Js/(ge.N*el.k) */
+    c->r1_wh__ws_2 = p->el__L * p->wh__Js / p->ge__N / p->el__k;
+
+    /* khepera.bg:17: r1: factor of Fx: el.Re*wh.R/(ge.N*el.k) */
+    c->r1_Fx = p->el__Re * p->wh__R / p->ge__N / p->el__k;
+
+    /* khepera.bg:17: r1: factor of Fx': el.L*wh.R/(ge.N*el.k) */
+    c->r1_Fx_1 = p->el__L * p->wh__R / p->ge__N / p->el__k;
+
+    /* half the sample time */
+    c->half_time = REAL(0.5) * sample_time;
+
+    /* khepera.bg:17: r1: factor of me.we in stage 1 */
+    c->r1_v1_me__we = t_10;
+
+    /* khepera.bg:17: r1: factor of me.we in stage 2 */
+    c->r1_v2_me__we = t_9 + REAL(2.0) * t_10;
+
+    /* khepera.bg:17: r1: factor of me.we in stage 3 */
+    c->r1_v3_me__we = -p->el__k - t_3 - t_9 - t_10;
+
+    /* khepera.bg:17: r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage
+     * 2 */
+    c->r1_v2_tanh = REAL(2.0) * t_11;
+
+    /* khepera.bg:17: r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage
+     * 3 */
+    c->r1_v3_tanh = REAL(2.0) * t_4 - REAL(2.0) * t_11;
+
+    /* khepera.bg:17: r1: factor of wh.ws in stage 1 */
+    c->r1_v1_wh__ws = t_13;
+
+    /* khepera.bg:17: r1: factor of wh.ws in stage 2 */
+    c->r1_v2_wh__ws = t_12 + REAL(2.0) * t_13;
+
+    /* khepera.bg:17: r1: factor of wh.ws in stage 3 */
+    c->r1_v3_wh__ws = p->el__Re * p->wh__fs / p->ge__N / p->el__k + t_12 + t_13;
+
+    /* khepera.bg:17: r1: factor of Fx in stage 2 */
+    c->r1_v2_Fx = p->el__L * p->wh__R * bandwidth / p->ge__N / p->el__k;
+
+    /* khepera.bg:17: r1: factor of Fx in stage 3 */
+    c->r1_v3_Fx = p->el__L * p->wh__R * bandwidth / p->ge__N / p->el__k
+        - p->el__Re * p->wh__R / p->ge__N / p->el__k;
+
+    /* filter: exp(-bandwidth*sample_time) */
+    c->a = t_7;
+
+    /* filter: weight of the new sample */
+    c->b0 = t_8;
+
+    /* filter: weight of the sample before */
+    c->b1 = REAL(1.0) - t_7 - t_8;
+
+    /* filter: 1 - b0, the memory of a constant 1 */
+    c->rest = REAL(1.0) - t_8;
+
+    /* khepera.bg:41: r2: factor of wh.ws: ge.N */
+    c->r2_wh__ws = p->ge__N;
+
+    /* khepera.bg:41: r2: factor of wh.ws': wh.fs/(ge.N*me.K) */
+    c->r2_wh__ws_1 = p->wh__fs / p->ge__N / p->me__K;
+
+    /* khepera.bg:41: r2: factor of wh.ws'': wh.Js/(ge.N*me.K) */
+    c->r2_wh__ws_2 = p->wh__Js / p->ge__N / p->me__K;
+
+    /* khepera.bg:41: r2: factor of Fx': wh.R/(ge.N*me.K) */
+    c->r2_Fx_1 = p->wh__R / p->ge__N / p->me__K;
+
+    /* khepera.bg:41: r2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))):
+     * tau0*A */
+    c->r2_tanh_1 = p->tau0 * p->A;
+
+    /* khepera.bg:41: r2: factor of wh.ws in stage 1 */
+    c->r2_v1_wh__ws = t_14;
+
+    /* khepera.bg:41: r2: factor of wh.ws in stage 2 */
+    c->r2_v2_wh__ws = REAL(2.0) * t_14;
+
+    /* khepera.bg:41: r2: factor of wh.ws in stage 3 */
+    c->r2_v3_wh__ws = p->ge__N + t_14;
+
+    /* khepera.bg:41: r2: factor of Fx in stage 2 */
+    c->r2_v2_Fx = p->wh__R * bandwidth / p->ge__N / p->me__K;
+
+    /* khepera.bg:41: r2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage
+     * 2 */
+    c->r2_v2_tanh = p->tau0 * p->A * bandwidth;
+}
+
+static bool parameters_are_finite(const drive_as_drawn_parameters *p)
+{
+    return finite_number(p->tau0 + p->A + p->el__L + p->el__Re + p->el__k + p->me__Je + p->me__fe
+            + p->me__K + p->ge__N + p->wh__Js + p->wh__fs + p->wh__R);
+}
+
+static bool coefficients_are_finite(const drive_as_drawn_monitor *monitor)
+{
+    return finite_number(monitor->c.g + monitor->c.g_2 + monitor->c.r1_me__we
+            + monitor->c.r1_me__we_1 + monitor->c.r1_me__we_2 + monitor->c.r1_tanh
+            + monitor->c.r1_tanh_1 + monitor->c.r1_wh__ws + monitor->c.r1_wh__ws_1
+            + monitor->c.r1_wh__ws_2 + monitor->c.r1_Fx + monitor->c.r1_Fx_1 + monitor->c.half_time
+            + monitor->c.r1_v1_me__we + monitor->c.r1_v2_me__we + monitor->c.r1_v3_me__we
+            + monitor->c.r1_v2_tanh + monitor->c.r1_v3_tanh + monitor->c.r1_v1_wh__ws
+            + monitor->c.r1_v2_wh__ws + monitor->c.r1_v3_wh__ws + monitor->c.r1_v2_Fx
+            + monitor->c.r1_v3_Fx + monitor->c.a + monitor->c.b0 + monitor->c.b1 + monitor->c.rest
+            + monitor->c.r2_wh__ws + monitor->c.r2_wh__ws_1 + monitor->c.r2_wh__ws_2
+            + monitor->c.r2_Fx_1 + monitor->c.r2_tanh_1 + monitor->c.r2_v1_wh__ws
+            + monitor->c.r2_v2_wh__ws + monitor->c.r2_v3_wh__ws + monitor->c.r2_v2_Fx
+            + monitor->c.r2_v2_tanh);
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+drive_as_drawn_status drive_as_drawn_configure(
+    drive_as_drawn_monitor *monitor,
+    const drive_as_drawn_parameters *parameters,
+    drive_as_drawn_real sample_time,
+    drive_as_drawn_real bandwidth,
+    drive_as_drawn_real time_unit)
+{
+    int k;
+
+    for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS; ++k) {
+        monitor->settle[k] = UINT32_MAX;
+    }
+    drive_as_drawn_reset(monitor);
+    if (!parameters_are_finite(parameters)) {
+        return DRIVE_AS_DRAWN_BAD_PARAMETER;
+    }
+    if (!(sample_time >= REAL(0.000999999)) || !finite_number(sample_time)) {
+        return DRIVE_AS_DRAWN_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return DRIVE_AS_DRAWN_BAD_BANDWIDTH;
+    }
+    if (!(time_unit > REAL(0.0)) || !finite_number(time_unit)) {
+        return DRIVE_AS_DRAWN_BAD_TIME_UNIT;
+    }
+    compute_coefficients(monitor, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(monitor)) {
+        return DRIVE_AS_DRAWN_BAD_COEFFICIENT;
+    }
+    monitor->settle[DRIVE_AS_DRAWN_R1] = samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[DRIVE_AS_DRAWN_R2] = samples(REAL(11.228872242412663), sample_time, bandwidth);
+    return DRIVE_AS_DRAWN_OK;
+}
+
+void drive_as_drawn_exact(
+    const drive_as_drawn_monitor *monitor,
+    const drive_as_drawn_derivatives *derivatives,
+    drive_as_drawn_real residuals[DRIVE_AS_DRAWN_RESIDUALS])
+{
+    const drive_as_drawn_coefficients *c = &monitor->c;
+    const drive_as_drawn_derivatives *d = derivatives;
+    real *r = residuals;
+
+    /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    const real t = MATH(tanh)(c->g * d->me__we_integral - c->g_2 * d->wh__ws_integral);
+
+    /* khepera.bg:17: r1 = U0 - el.k*me.we - el.Re*el.k.e2/el.k - el.L*D(el.k.e2)/el.k
+     * where el.k.e2 = me.fe*me.we + me.Je*D(me.we) + (wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
+     * tau0*A*ge.N*me.K*x1)/ge.N - tau0*A*me.K*x1
+     * x1 = tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)) */
+    r[DRIVE_AS_DRAWN_R1] = d->U0 + c->r1_tanh * t
+        + c->r1_tanh_1 * ((c->g * d->me__we[0] - c->g_2 * d->wh__ws[0]) * (REAL(1.0) - t * t))
+        - c->r1_me__we * d->me__we[0] - c->r1_me__we_1 * d->me__we[1]
+        - c->r1_me__we_2 * d->me__we[2] - c->r1_wh__ws * d->wh__ws[0]
+        - c->r1_wh__ws_1 * d->wh__ws[1] - c->r1_wh__ws_2 * d->wh__ws[2] - c->r1_Fx * d->Fx[0]
+        - c->r1_Fx_1 * d->Fx[1];
+
+    /* khepera.bg:41: r2 = me.we - ge.N*wh.ws - D(wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
+     * tau0*A*ge.N*me.K*tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)))/(ge.N*me.K) */
+    r[DRIVE_AS_DRAWN_R2] = d->me__we[0]
+        + c->r2_tanh_1 * ((c->g * d->me__we[0] - c->g_2 * d->wh__ws[0]) * (REAL(1.0) - t * t))
+        - c->r2_wh__ws * d->wh__ws[0] - c->r2_wh__ws_1 * d->wh__ws[1]
+        - c->r2_wh__ws_2 * d->wh__ws[2] - c->r2_Fx_1 * d->Fx[1];
+}
+
+/* r1 on its first sample: the filter as if it had always been so. */
+static void start_r1(
+    drive_as_drawn_monitor *monitor, const drive_as_drawn_samples *s, real *r)
+{
+    const drive_as_drawn_coefficients *c = &monitor->c;
+    drive_as_drawn_memory *x = &monitor->x;
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
+    const real r1_rate = c->g * s->me__we - c->g_2 * s->wh__ws;
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), at the start */
+    const real r1_int = REAL(0.0);
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_q = c->half_time * r1_rate;
+
+    /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    const real r1_tanh = MATH(tanh)(r1_int);
+
+    /* khepera.bg:17: r1: input of stage 3 */
+    const real r1_u3 = s->U0 + c->r1_v3_me__we * s->me__we + c->r1_v3_tanh * r1_tanh
+        + c->r1_v3_Fx * s->Fx - c->r1_v3_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1: stage 3, at rest */
+    const real r1_y3 = r1_u3;
+
+    /* khepera.bg:17: r1: stage 3: memory */
+    x->r1_s3 = c->rest * r1_u3;
+
+    /* khepera.bg:17: r1: input of stage 2 */
+    const real r1_u2 = r1_y3 + c->r1_v2_me__we * s->me__we + c->r1_v2_tanh * r1_tanh
+        + c->r1_v2_wh__ws * s->wh__ws - c->r1_v2_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: stage 2, at rest */
+    const real r1_y2 = r1_u2;
+
+    /* khepera.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->rest * r1_u2;
+
+    /* khepera.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_me__we * s->me__we - c->r1_v1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1: stage 1, at rest */
+    const real r1_y1 = r1_u1;
+
+    /* khepera.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->rest * r1_u1;
+
+    /* khepera.bg:17: r1 = U0 - el.k*me.we - el.Re*el.k.e2/el.k - el.L*D(el.k.e2)/el.k
+     * where el.k.e2 = me.fe*me.we + me.Je*D(me.we) + (wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
+     * tau0*A*ge.N*me.K*x1)/ge.N - tau0*A*me.K*x1
+     * x1 = tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)) */
+    r[DRIVE_AS_DRAWN_R1] = r1_y1;
+}
+
+/* r1 on every further sample. */
+static void next_r1(
+    drive_as_drawn_monitor *monitor, const drive_as_drawn_samples *s, real *r)
+{
+    const drive_as_drawn_coefficients *c = &monitor->c;
+    drive_as_drawn_memory *x = &monitor->x;
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
+    const real r1_rate = c->g * s->me__we - c->g_2 * s->wh__ws;
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_int = x->r1_q + c->half_time * r1_rate;
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_q = r1_int + c->half_time * r1_rate;
+
+    /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    const real r1_tanh = MATH(tanh)(r1_int);
+
+    /* khepera.bg:17: r1: input of stage 3 */
+    const real r1_u3 = s->U0 + c->r1_v3_me__we * s->me__we + c->r1_v3_tanh * r1_tanh
+        + c->r1_v3_Fx * s->Fx - c->r1_v3_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1: stage 3 */
+    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+
+    /* khepera.bg:17: r1: stage 3: memory */
+    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+
+    /* khepera.bg:17: r1: input of stage 2 */
+    const real r1_u2 = r1_y3 + c->r1_v2_me__we * s->me__we + c->r1_v2_tanh * r1_tanh
+        + c->r1_v2_wh__ws * s->wh__ws - c->r1_v2_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: stage 2 */
+    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+
+    /* khepera.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+
+    /* khepera.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_me__we * s->me__we - c->r1_v1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1: stage 1 */
+    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+
+    /* khepera.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+
+    /* khepera.bg:17: r1 = U0 - el.k*me.we - el.Re*el.k.e2/el.k - el.L*D(el.k.e2)/el.k
+     * where el.k.e2 = me.fe*me.we + me.Je*D(me.we) + (wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
+     * tau0*A*ge.N*me.K*x1)/ge.N - tau0*A*me.K*x1
+     * x1 = tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)) */
+    r[DRIVE_AS_DRAWN_R1] = r1_y1;
+}
+
+/* One sample for r1; a number that is not finite makes the next sample the first. */
+static void run_r1(
+    drive_as_drawn_monitor *monitor, const drive_as_drawn_samples *s, drive_as_drawn_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[0];
+
+    if (age == 0u) {
+        start_r1(monitor, s, r);
+    } else {
+        next_r1(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->U0 + s->Fx + s->me__we + s->wh__ws + r[DRIVE_AS_DRAWN_R1])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[DRIVE_AS_DRAWN_R1] = REAL(0.0);
+    }
+    monitor->age[0] = age;
+    residuals->valid[DRIVE_AS_DRAWN_R1] = age > monitor->settle[DRIVE_AS_DRAWN_R1];
+}
+
+/* r2 on its first sample: the filter as if it had always been so. */
+static void start_r2(
+    drive_as_drawn_monitor *monitor, const drive_as_drawn_samples *s, real *r)
+{
+    const drive_as_drawn_coefficients *c = &monitor->c;
+    drive_as_drawn_memory *x = &monitor->x;
+
+    /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
+    const real r2_rate = c->g * s->me__we - c->g_2 * s->wh__ws;
+
+    /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), at the start */
+    const real r2_int = REAL(0.0);
+
+    /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r2_q = c->half_time * r2_rate;
+
+    /* khepera.bg:41: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    const real r2_tanh = MATH(tanh)(r2_int);
+
+    /* khepera.bg:41: r2: input of stage 3 */
+    const real r2_u3 = s->me__we + c->r2_v2_Fx * s->Fx - c->r2_v3_wh__ws * s->wh__ws
+        - c->r2_v2_tanh * r2_tanh;
+
+    /* khepera.bg:41: r2: stage 3, at rest */
+    const real r2_y3 = r2_u3;
+
+    /* khepera.bg:41: r2: stage 3: memory */
+    x->r2_s3 = c->rest * r2_u3;
+
+    /* khepera.bg:41: r2: input of stage 2 */
+    const real r2_u2 = r2_y3 + c->r2_v2_wh__ws * s->wh__ws + c->r2_v2_tanh * r2_tanh
+        - c->r2_v2_Fx * s->Fx;
+
+    /* khepera.bg:41: r2: stage 2, at rest */
+    const real r2_y2 = r2_u2;
+
+    /* khepera.bg:41: r2: stage 2: memory */
+    x->r2_s2 = c->rest * r2_u2;
+
+    /* khepera.bg:41: r2: input of stage 1 */
+    const real r2_u1 = r2_y2 - c->r2_v1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:41: r2: stage 1, at rest */
+    const real r2_y1 = r2_u1;
+
+    /* khepera.bg:41: r2: stage 1: memory */
+    x->r2_s1 = c->rest * r2_u1;
+
+    /* khepera.bg:41: r2 = me.we - ge.N*wh.ws - D(wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
+     * tau0*A*ge.N*me.K*tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)))/(ge.N*me.K) */
+    r[DRIVE_AS_DRAWN_R2] = r2_y1;
+}
+
+/* r2 on every further sample. */
+static void next_r2(
+    drive_as_drawn_monitor *monitor, const drive_as_drawn_samples *s, real *r)
+{
+    const drive_as_drawn_coefficients *c = &monitor->c;
+    drive_as_drawn_memory *x = &monitor->x;
+
+    /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
+    const real r2_rate = c->g * s->me__we - c->g_2 * s->wh__ws;
+
+    /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r2_int = x->r2_q + c->half_time * r2_rate;
+
+    /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r2_q = r2_int + c->half_time * r2_rate;
+
+    /* khepera.bg:41: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    const real r2_tanh = MATH(tanh)(r2_int);
+
+    /* khepera.bg:41: r2: input of stage 3 */
+    const real r2_u3 = s->me__we + c->r2_v2_Fx * s->Fx - c->r2_v3_wh__ws * s->wh__ws
+        - c->r2_v2_tanh * r2_tanh;
+
+    /* khepera.bg:41: r2: stage 3 */
+    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+
+    /* khepera.bg:41: r2: stage 3: memory */
+    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+
+    /* khepera.bg:41: r2: input of stage 2 */
+    const real r2_u2 = r2_y3 + c->r2_v2_wh__ws * s->wh__ws + c->r2_v2_tanh * r2_tanh
+        - c->r2_v2_Fx * s->Fx;
+
+    /* khepera.bg:41: r2: stage 2 */
+    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+
+    /* khepera.bg:41: r2: stage 2: memory */
+    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+
+    /* khepera.bg:41: r2: input of stage 1 */
+    const real r2_u1 = r2_y2 - c->r2_v1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:41: r2: stage 1 */
+    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+
+    /* khepera.bg:41: r2: stage 1: memory */
+    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+
+    /* khepera.bg:41: r2 = me.we - ge.N*wh.ws - D(wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
+     * tau0*A*ge.N*me.K*tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)))/(ge.N*me.K) */
+    r[DRIVE_AS_DRAWN_R2] = r2_y1;
+}
+
+/* One sample for r2; a number that is not finite makes the next sample the first. */
+static void run_r2(
+    drive_as_drawn_monitor *monitor, const drive_as_drawn_samples *s, drive_as_drawn_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[1];
+
+    if (age == 0u) {
+        start_r2(monitor, s, r);
+    } else {
+        next_r2(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx + s->me__we + s->wh__ws + r[DRIVE_AS_DRAWN_R2])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[DRIVE_AS_DRAWN_R2] = REAL(0.0);
+    }
+    monitor->age[1] = age;
+    residuals->valid[DRIVE_AS_DRAWN_R2] = age > monitor->settle[DRIVE_AS_DRAWN_R2];
+}
+
+void drive_as_drawn_reset(drive_as_drawn_monitor *monitor)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        monitor->age[k] = 0u;
+    }
+}
+
+void drive_as_drawn_step(
+    drive_as_drawn_monitor *monitor,
+    const drive_as_drawn_samples *samples,
+    drive_as_drawn_residuals *residuals)
+{
+    run_r1(monitor, samples, residuals);
+    run_r2(monitor, samples, residuals);
+}

@@ -1,0 +1,75 @@
+/*
+ * example.c: DriveAsDrawn watched by its residuals; a program to start from.
+ *
+ * Put your sensors into read_samples and what to do about a fault into raise_alarm. Compile:
+ *     cc -std=c99 -O2 example.c drive_as_drawn_residuals.c -o example -lm
+ */
+#include <stdio.h>
+
+#include "drive_as_drawn_residuals.h"
+
+#define TICKS 5000
+
+/* How far a residual may be from 0 while all is well: measure this on your healthy machine. */
+static const drive_as_drawn_real threshold[DRIVE_AS_DRAWN_RESIDUALS] = {
+    DRIVE_AS_DRAWN_CONSTANT(0.001), /* r1 */
+    DRIVE_AS_DRAWN_CONSTANT(0.001), /* r2 */
+};
+
+static const char *const name[DRIVE_AS_DRAWN_RESIDUALS] = {
+    "r1", "r2",
+};
+
+/* One sample of every signal, all taken at the same moment. Here: a machine at rest. */
+static void read_samples(drive_as_drawn_samples *samples)
+{
+    samples->U0 = 0;      /* V */
+    samples->Fx = 0;      /* N */
+    samples->me__we = 0;  /* rad/s: me.we */
+    samples->wh__ws = 0;  /* rad/s: wh.ws */
+}
+
+static void raise_alarm(int residual, drive_as_drawn_real value)
+{
+    printf("%s = %g: look for a fault that it sees\n", name[residual], (double)value);
+}
+
+int main(void)
+{
+    drive_as_drawn_parameters parameters;
+    drive_as_drawn_monitor monitor;
+    drive_as_drawn_status status;
+    drive_as_drawn_samples samples;
+    drive_as_drawn_residuals residuals;
+    int alarms = 0;
+    int tick;
+    int k;
+
+    if (drive_as_drawn_abi() != DRIVE_AS_DRAWN_ABI) {
+        return 2; /* the library was compiled from another version, or with another real */
+    }
+    drive_as_drawn_nominal(&parameters);
+    status = drive_as_drawn_configure(
+        &monitor,
+        &parameters,
+        DRIVE_AS_DRAWN_SAMPLE_TIME,
+        DRIVE_AS_DRAWN_BANDWIDTH,
+        DRIVE_AS_DRAWN_TIME_UNIT);
+    if (status != DRIVE_AS_DRAWN_OK) {
+        return 2;
+    }
+    for (tick = 0; tick < TICKS; ++tick) { /* every sample_time, from a timer */
+        read_samples(&samples);
+        drive_as_drawn_step(&monitor, &samples, &residuals);
+        for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS; ++k) {
+            const drive_as_drawn_real r = residuals.value[k];
+
+            if (residuals.valid[k] && (r > threshold[k] || r < -threshold[k])) {
+                raise_alarm(k, r);
+                ++alarms;
+            }
+        }
+    }
+    printf("%d samples, %d alarms\n", TICKS, alarms);
+    return 0;
+}

@@ -1,0 +1,1134 @@
+/* khepera_residuals.c: the residuals of Khepera; generated, see the header. */
+#include "khepera_residuals.h"
+
+#include <math.h>
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef khepera_real real;
+
+#define REAL(x) KHEPERA_CONSTANT(x)
+#if defined KHEPERA_FLOAT && !defined KHEPERA_REAL
+#define SLOWEST REAL(0.0001)
+#define MATH(name) name##f
+#else
+#define SLOWEST REAL(1.0e-09)
+#define MATH(name) name
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
+static real exponential(real value)
+{
+    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
+    const real ln2_low = REAL(1.4286068203094173e-06);
+    real rest;
+    real scale = REAL(1.0);
+    real sum = REAL(1.0);
+    int n = 0;
+    int k;
+
+    if (value > REAL(1000.0)) {
+        value = REAL(1000.0); /* more than enough for infinity */
+    }
+    if (value < REAL(-1000.0)) {
+        value = REAL(-1000.0); /* more than enough for zero */
+    }
+    rest = value;
+    while (rest > REAL(0.35)) {
+        ++n;
+        scale *= REAL(2.0);
+        rest = value - (real)n * ln2_high;
+    }
+    while (rest < REAL(-0.35)) {
+        --n;
+        scale *= REAL(0.5);
+        rest = value - (real)n * ln2_high;
+    }
+    rest -= (real)n * ln2_low;
+    for (k = 14; k > 0; --k) {
+        sum = REAL(1.0) + sum * rest / (real)k;
+    }
+    return sum * scale;
+}
+
+uint32_t khepera_abi(void)
+{
+    return KHEPERA_ABI;
+}
+
+const char *khepera_digest(void)
+{
+    return KHEPERA_DIGEST;
+}
+
+void khepera_nominal(khepera_parameters *parameters)
+{
+    parameters->m__1__tau0 = REAL(0.01);        /* rad */
+    parameters->m__1__A = -REAL(4.0);           /* 1 */
+    parameters->m__1__el__L = REAL(0.0003);     /* H */
+    parameters->m__1__el__Re = REAL(17.6);      /* Ohm */
+    parameters->m__1__el__k = REAL(0.00351);    /* N.m/A */
+    parameters->m__1__me__Je = REAL(1.4e-08);   /* kg.m^2 */
+    parameters->m__1__me__fe = REAL(1.19e-05);  /* N.m.s/rad */
+    parameters->m__1__me__K = REAL(0.1);        /* N.m/rad */
+    parameters->m__1__ge__N = REAL(25.0);       /* 1 */
+    parameters->m__1__wh__Js = REAL(0.1);       /* kg.m^2 */
+    parameters->m__1__wh__fs = REAL(0.0003);    /* N.m.s/rad */
+    parameters->m__1__wh__R = REAL(0.005);      /* m */
+    parameters->m__2__tau0 = REAL(0.01);        /* rad */
+    parameters->m__2__A = -REAL(4.0);           /* 1 */
+    parameters->m__2__el__L = REAL(0.0003);     /* H */
+    parameters->m__2__el__Re = REAL(17.6);      /* Ohm */
+    parameters->m__2__el__k = REAL(0.00351);    /* N.m/A */
+    parameters->m__2__me__Je = REAL(1.4e-08);   /* kg.m^2 */
+    parameters->m__2__me__fe = REAL(1.19e-05);  /* N.m.s/rad */
+    parameters->m__2__me__K = REAL(0.1);        /* N.m/rad */
+    parameters->m__2__ge__N = REAL(25.0);       /* 1 */
+    parameters->m__2__wh__Js = REAL(0.1);       /* kg.m^2 */
+    parameters->m__2__wh__fs = REAL(0.0003);    /* N.m.s/rad */
+    parameters->m__2__wh__R = REAL(0.005);      /* m */
+    parameters->line__R = REAL(3.2);            /* Ohm */
+    parameters->line__L = REAL(2.5e-07);        /* H */
+    parameters->line__C = REAL(1.1e-10);        /* F */
+}
+
+/* The coefficients of exact and of the filter, from the parameters. */
+static void compute_coefficients(khepera_monitor *monitor, const khepera_parameters *p,
+        real sample_time, real bandwidth)
+{
+    khepera_coefficients *c = &monitor->c;
+
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* khepera.bg:17: m[1].el.L*m[1].me.fe/m[1].el.k */
+    const real t = p->m__1__el__L * p->m__1__me__fe / p->m__1__el__k;
+
+    /* khepera.bg:17: m[1].el.L*m[1].wh.fs/(m[1].ge.N*m[1].el.k) */
+    const real t_2 = p->m__1__el__L * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k;
+
+    /* khepera.bg:17: m[1].el.Re*m[1].me.fe/m[1].el.k */
+    const real t_3 = p->m__1__el__Re * p->m__1__me__fe / p->m__1__el__k;
+
+    /* khepera.bg:17: m[1].el.Re*m[1].me.Je/m[1].el.k */
+    const real t_4 = p->m__1__el__Re * p->m__1__me__Je / p->m__1__el__k;
+
+    /* khepera.bg:17: m[1].el.Re*m[1].wh.Js/(m[1].ge.N*m[1].el.k) */
+    const real t_5 = p->m__1__el__Re * p->m__1__wh__Js / p->m__1__ge__N / p->m__1__el__k;
+
+    /* khepera.bg:17: m[2].el.L*m[2].me.fe/m[2].el.k */
+    const real t_6 = p->m__2__el__L * p->m__2__me__fe / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].el.L*m[2].wh.fs/(m[2].ge.N*m[2].el.k) */
+    const real t_7 = p->m__2__el__L * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].el.Re*m[2].me.fe/m[2].el.k */
+    const real t_8 = p->m__2__el__Re * p->m__2__me__fe / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].el.Re*m[2].me.Je/m[2].el.k */
+    const real t_9 = p->m__2__el__Re * p->m__2__me__Je / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].el.Re*m[2].wh.Js/(m[2].ge.N*m[2].el.k) */
+    const real t_10 = p->m__2__el__Re * p->m__2__wh__Js / p->m__2__ge__N / p->m__2__el__k;
+
+    /* exp(-x) */
+    const real t_11 = exponential(-x_);
+
+    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
+    const real t_12 = x_ < REAL(0.125)
+        ? x_ * (REAL(0.5)
+            - x_ * (REAL(1.0) / REAL(6.0)
+                - x_ * (REAL(1.0) / REAL(24.0)
+                    - x_ * (REAL(1.0) / REAL(120.0)
+                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
+        : REAL(1.0) - (REAL(1.0) - t_11) / x_;
+
+    /* khepera.bg:17: (-m[1].el.L*m[1].me.fe/m[1].el.k -
+     * m[1].el.Re*m[1].me.Je/m[1].el.k)*bandwidth */
+    const real t_13 = (-t - t_4) * bandwidth;
+
+    /* khepera.bg:17: m[1].el.L*m[1].me.Je*bandwidth^2/m[1].el.k */
+    const real t_14 = p->m__1__el__L * p->m__1__me__Je * bandwidth * bandwidth / p->m__1__el__k;
+
+    /* khepera.bg:17: (-m[1].el.L*m[1].wh.fs/(m[1].ge.N*m[1].el.k) -
+     * m[1].el.Re*m[1].wh.Js/(m[1].ge.N*m[1].e ... */
+    const real t_15 = (-t_2 - t_5) * bandwidth;
+
+    /* khepera.bg:17: m[1].el.L*m[1].wh.Js*bandwidth^2/(m[1].ge.N*m[1].el.k) */
+    const real t_16 = p->m__1__el__L * p->m__1__wh__Js * bandwidth * bandwidth / p->m__1__ge__N
+            / p->m__1__el__k;
+
+    /* khepera.bg:41: m[1].wh.Js*bandwidth^2/(m[1].ge.N*m[1].me.K) */
+    const real t_17 = p->m__1__wh__Js * bandwidth * bandwidth / p->m__1__ge__N / p->m__1__me__K;
+
+    /* khepera.bg:17: (-m[2].el.L*m[2].me.fe/m[2].el.k -
+     * m[2].el.Re*m[2].me.Je/m[2].el.k)*bandwidth */
+    const real t_18 = (-t_6 - t_9) * bandwidth;
+
+    /* khepera.bg:17: m[2].el.L*m[2].me.Je*bandwidth^2/m[2].el.k */
+    const real t_19 = p->m__2__el__L * p->m__2__me__Je * bandwidth * bandwidth / p->m__2__el__k;
+
+    /* khepera.bg:17: (-m[2].el.L*m[2].wh.fs/(m[2].ge.N*m[2].el.k) -
+     * m[2].el.Re*m[2].wh.Js/(m[2].ge.N*m[2].e ... */
+    const real t_20 = (-t_7 - t_10) * bandwidth;
+
+    /* khepera.bg:17: m[2].el.L*m[2].wh.Js*bandwidth^2/(m[2].ge.N*m[2].el.k) */
+    const real t_21 = p->m__2__el__L * p->m__2__wh__Js * bandwidth * bandwidth / p->m__2__ge__N
+            / p->m__2__el__k;
+
+    /* khepera.bg:41: m[2].wh.Js*bandwidth^2/(m[2].ge.N*m[2].me.K) */
+    const real t_22 = p->m__2__wh__Js * bandwidth * bandwidth / p->m__2__ge__N / p->m__2__me__K;
+
+    /* khepera.bg:17: r1: factor of m[1].me.we: m[1].el.k + m[1].el.Re*m[1].me.fe/m[1].el.k */
+    c->r1_m__1__me__we = p->m__1__el__k + t_3;
+
+    /* khepera.bg:17: r1: factor of m[1].me.we': m[1].el.L*m[1].me.fe/m[1].el.k +
+     * m[1].el.Re*m[1].me.Je/m[1].el.k */
+    c->r1_m__1__me__we_1 = t + t_4;
+
+    /* khepera.bg:17: r1: factor of m[1].me.we'': m[1].el.L*m[1].me.Je/m[1].el.k */
+    c->r1_m__1__me__we_2 = p->m__1__el__L * p->m__1__me__Je / p->m__1__el__k;
+
+    /* khepera.bg:17: r1: factor of m[1].wh.ws: m[1].el.Re*m[1].wh.fs/(m[1].ge.N*m[1].el.k) */
+    c->r1_m__1__wh__ws = p->m__1__el__Re * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k;
+
+    /* khepera.bg:17: r1: factor of m[1].wh.ws': m[1].el.L*m[1].wh.fs/(m[1].ge.N*m[1].el.k) +
+     * m[1].el.Re*m[1].wh.Js/(m[1].ge.N*m[1].el.k) */
+    c->r1_m__1__wh__ws_1 = t_2 + t_5;
+
+    /* khepera.bg:17: r1: factor of m[1].wh.ws'': m[1].el.L*m[1].wh.Js/(m[1].ge.N*m[1].el.k) */
+    c->r1_m__1__wh__ws_2 = p->m__1__el__L * p->m__1__wh__Js / p->m__1__ge__N / p->m__1__el__k;
+
+    /* khepera.bg:17: r1: factor of Fx[1]: m[1].el.Re*m[1].wh.R/(m[1].ge.N*m[1].el.k) */
+    c->r1_Fx__1 = p->m__1__el__Re * p->m__1__wh__R / p->m__1__ge__N / p->m__1__el__k;
+
+    /* khepera.bg:17: r1: factor of Fx[1]': m[1].el.L*m[1].wh.R/(m[1].ge.N*m[1].el.k) */
+    c->r1_Fx__1_1 = p->m__1__el__L * p->m__1__wh__R / p->m__1__ge__N / p->m__1__el__k;
+
+    /* khepera.bg:17: r1: factor of m[1].me.we in stage 1 */
+    c->r1_v1_m__1__me__we = t_14;
+
+    /* khepera.bg:17: r1: factor of m[1].me.we in stage 2 */
+    c->r1_v2_m__1__me__we = t_13 + REAL(2.0) * t_14;
+
+    /* khepera.bg:17: r1: factor of m[1].me.we in stage 3 */
+    c->r1_v3_m__1__me__we = -p->m__1__el__k - t_3 - t_13 - t_14;
+
+    /* khepera.bg:17: r1: factor of m[1].wh.ws in stage 1 */
+    c->r1_v1_m__1__wh__ws = t_16;
+
+    /* khepera.bg:17: r1: factor of m[1].wh.ws in stage 2 */
+    c->r1_v2_m__1__wh__ws = t_15 + REAL(2.0) * t_16;
+
+    /* khepera.bg:17: r1: factor of m[1].wh.ws in stage 3 */
+    c->r1_v3_m__1__wh__ws = p->m__1__el__Re * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k
+        + t_15 + t_16;
+
+    /* khepera.bg:17: r1: factor of Fx[1] in stage 2 */
+    c->r1_v2_Fx__1 = p->m__1__el__L * p->m__1__wh__R * bandwidth / p->m__1__ge__N / p->m__1__el__k;
+
+    /* khepera.bg:17: r1: factor of Fx[1] in stage 3 */
+    c->r1_v3_Fx__1 = p->m__1__el__L * p->m__1__wh__R * bandwidth / p->m__1__ge__N / p->m__1__el__k
+        - p->m__1__el__Re * p->m__1__wh__R / p->m__1__ge__N / p->m__1__el__k;
+
+    /* filter: exp(-bandwidth*sample_time) */
+    c->a = t_11;
+
+    /* filter: weight of the new sample */
+    c->b0 = t_12;
+
+    /* filter: weight of the sample before */
+    c->b1 = REAL(1.0) - t_11 - t_12;
+
+    /* filter: 1 - b0, the memory of a constant 1 */
+    c->rest = REAL(1.0) - t_12;
+
+    /* khepera.bg:41: 1/(4*m[1].tau0) */
+    c->g = REAL(0.25) / p->m__1__tau0;
+
+    /* khepera.bg:41: m[1].ge.N/(4*m[1].tau0) */
+    c->g_2 = REAL(0.25) * p->m__1__ge__N / p->m__1__tau0;
+
+    /* khepera.bg:41: r2: factor of m[1].wh.ws: m[1].ge.N */
+    c->r2_m__1__wh__ws = p->m__1__ge__N;
+
+    /* khepera.bg:41: r2: factor of m[1].wh.ws': m[1].wh.fs/(m[1].ge.N*m[1].me.K) */
+    c->r2_m__1__wh__ws_1 = p->m__1__wh__fs / p->m__1__ge__N / p->m__1__me__K;
+
+    /* khepera.bg:41: r2: factor of m[1].wh.ws'': m[1].wh.Js/(m[1].ge.N*m[1].me.K) */
+    c->r2_m__1__wh__ws_2 = p->m__1__wh__Js / p->m__1__ge__N / p->m__1__me__K;
+
+    /* khepera.bg:41: r2: factor of Fx[1]': m[1].wh.R/(m[1].ge.N*m[1].me.K) */
+    c->r2_Fx__1_1 = p->m__1__wh__R / p->m__1__ge__N / p->m__1__me__K;
+
+    /* khepera.bg:41: r2: factor of D(tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1].
+     * ...): m[1].tau0*m[1].A */
+    c->r2_tanh_1 = p->m__1__tau0 * p->m__1__A;
+
+    /* half the sample time */
+    c->half_time = REAL(0.5) * sample_time;
+
+    /* khepera.bg:41: r2: factor of m[1].wh.ws in stage 1 */
+    c->r2_v1_m__1__wh__ws = t_17;
+
+    /* khepera.bg:41: r2: factor of m[1].wh.ws in stage 2 */
+    c->r2_v2_m__1__wh__ws = REAL(2.0) * t_17;
+
+    /* khepera.bg:41: r2: factor of m[1].wh.ws in stage 3 */
+    c->r2_v3_m__1__wh__ws = p->m__1__ge__N + t_17;
+
+    /* khepera.bg:41: r2: factor of Fx[1] in stage 2 */
+    c->r2_v2_Fx__1 = p->m__1__wh__R * bandwidth / p->m__1__ge__N / p->m__1__me__K;
+
+    /* khepera.bg:41: r2: factor of tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1]. ...
+     * in stage 2 */
+    c->r2_v2_tanh = p->m__1__tau0 * p->m__1__A * bandwidth;
+
+    /* khepera.bg:17: r3: factor of m[2].me.we: m[2].el.k + m[2].el.Re*m[2].me.fe/m[2].el.k */
+    c->r3_m__2__me__we = p->m__2__el__k + t_8;
+
+    /* khepera.bg:17: r3: factor of m[2].me.we': m[2].el.L*m[2].me.fe/m[2].el.k +
+     * m[2].el.Re*m[2].me.Je/m[2].el.k */
+    c->r3_m__2__me__we_1 = t_6 + t_9;
+
+    /* khepera.bg:17: r3: factor of m[2].me.we'': m[2].el.L*m[2].me.Je/m[2].el.k */
+    c->r3_m__2__me__we_2 = p->m__2__el__L * p->m__2__me__Je / p->m__2__el__k;
+
+    /* khepera.bg:17: r3: factor of m[2].wh.ws: m[2].el.Re*m[2].wh.fs/(m[2].ge.N*m[2].el.k) */
+    c->r3_m__2__wh__ws = p->m__2__el__Re * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k;
+
+    /* khepera.bg:17: r3: factor of m[2].wh.ws': m[2].el.L*m[2].wh.fs/(m[2].ge.N*m[2].el.k) +
+     * m[2].el.Re*m[2].wh.Js/(m[2].ge.N*m[2].el.k) */
+    c->r3_m__2__wh__ws_1 = t_7 + t_10;
+
+    /* khepera.bg:17: r3: factor of m[2].wh.ws'': m[2].el.L*m[2].wh.Js/(m[2].ge.N*m[2].el.k) */
+    c->r3_m__2__wh__ws_2 = p->m__2__el__L * p->m__2__wh__Js / p->m__2__ge__N / p->m__2__el__k;
+
+    /* khepera.bg:17: r3: factor of Fx[2]: m[2].el.Re*m[2].wh.R/(m[2].ge.N*m[2].el.k) */
+    c->r3_Fx__2 = p->m__2__el__Re * p->m__2__wh__R / p->m__2__ge__N / p->m__2__el__k;
+
+    /* khepera.bg:17: r3: factor of Fx[2]': m[2].el.L*m[2].wh.R/(m[2].ge.N*m[2].el.k) */
+    c->r3_Fx__2_1 = p->m__2__el__L * p->m__2__wh__R / p->m__2__ge__N / p->m__2__el__k;
+
+    /* khepera.bg:17: r3: factor of m[2].me.we in stage 1 */
+    c->r3_v1_m__2__me__we = t_19;
+
+    /* khepera.bg:17: r3: factor of m[2].me.we in stage 2 */
+    c->r3_v2_m__2__me__we = t_18 + REAL(2.0) * t_19;
+
+    /* khepera.bg:17: r3: factor of m[2].me.we in stage 3 */
+    c->r3_v3_m__2__me__we = -p->m__2__el__k - t_8 - t_18 - t_19;
+
+    /* khepera.bg:17: r3: factor of m[2].wh.ws in stage 1 */
+    c->r3_v1_m__2__wh__ws = t_21;
+
+    /* khepera.bg:17: r3: factor of m[2].wh.ws in stage 2 */
+    c->r3_v2_m__2__wh__ws = t_20 + REAL(2.0) * t_21;
+
+    /* khepera.bg:17: r3: factor of m[2].wh.ws in stage 3 */
+    c->r3_v3_m__2__wh__ws = p->m__2__el__Re * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k
+        + t_20 + t_21;
+
+    /* khepera.bg:17: r3: factor of Fx[2] in stage 2 */
+    c->r3_v2_Fx__2 = p->m__2__el__L * p->m__2__wh__R * bandwidth / p->m__2__ge__N / p->m__2__el__k;
+
+    /* khepera.bg:17: r3: factor of Fx[2] in stage 3 */
+    c->r3_v3_Fx__2 = p->m__2__el__L * p->m__2__wh__R * bandwidth / p->m__2__ge__N / p->m__2__el__k
+        - p->m__2__el__Re * p->m__2__wh__R / p->m__2__ge__N / p->m__2__el__k;
+
+    /* khepera.bg:41: 1/(4*m[2].tau0) */
+    c->g_3 = REAL(0.25) / p->m__2__tau0;
+
+    /* khepera.bg:41: m[2].ge.N/(4*m[2].tau0) */
+    c->g_4 = REAL(0.25) * p->m__2__ge__N / p->m__2__tau0;
+
+    /* khepera.bg:41: r4: factor of m[2].wh.ws: m[2].ge.N */
+    c->r4_m__2__wh__ws = p->m__2__ge__N;
+
+    /* khepera.bg:41: r4: factor of m[2].wh.ws': m[2].wh.fs/(m[2].ge.N*m[2].me.K) */
+    c->r4_m__2__wh__ws_1 = p->m__2__wh__fs / p->m__2__ge__N / p->m__2__me__K;
+
+    /* khepera.bg:41: r4: factor of m[2].wh.ws'': m[2].wh.Js/(m[2].ge.N*m[2].me.K) */
+    c->r4_m__2__wh__ws_2 = p->m__2__wh__Js / p->m__2__ge__N / p->m__2__me__K;
+
+    /* khepera.bg:41: r4: factor of Fx[2]': m[2].wh.R/(m[2].ge.N*m[2].me.K) */
+    c->r4_Fx__2_1 = p->m__2__wh__R / p->m__2__ge__N / p->m__2__me__K;
+
+    /* khepera.bg:41: r4: factor of D(tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2].
+     * ...): m[2].tau0*m[2].A */
+    c->r4_tanh_1 = p->m__2__tau0 * p->m__2__A;
+
+    /* khepera.bg:41: r4: factor of m[2].wh.ws in stage 1 */
+    c->r4_v1_m__2__wh__ws = t_22;
+
+    /* khepera.bg:41: r4: factor of m[2].wh.ws in stage 2 */
+    c->r4_v2_m__2__wh__ws = REAL(2.0) * t_22;
+
+    /* khepera.bg:41: r4: factor of m[2].wh.ws in stage 3 */
+    c->r4_v3_m__2__wh__ws = p->m__2__ge__N + t_22;
+
+    /* khepera.bg:41: r4: factor of Fx[2] in stage 2 */
+    c->r4_v2_Fx__2 = p->m__2__wh__R * bandwidth / p->m__2__ge__N / p->m__2__me__K;
+
+    /* khepera.bg:41: r4: factor of tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2]. ...
+     * in stage 2 */
+    c->r4_v2_tanh = p->m__2__tau0 * p->m__2__A * bandwidth;
+
+    /* khepera.bg:114: r5: factor of Us': 1.5*line.R*line.C */
+    c->r5_Us_1 = REAL(1.5) * p->line__R * p->line__C;
+
+    /* khepera.bg:114: r5: factor of Us'': 1.5*line.L*line.C + line.R^2*line.C^2/4 */
+    c->r5_Us_2 = REAL(1.5) * p->line__L * p->line__C
+        + REAL(0.25) * p->line__R * p->line__R * p->line__C * p->line__C;
+
+    /* khepera.bg:114: r5: factor of Us''': line.R*line.L*line.C^2/2 */
+    c->r5_Us_3 = REAL(0.5) * p->line__R * p->line__L * p->line__C * p->line__C;
+
+    /* khepera.bg:114: r5: factor of D(Us, 4): line.L^2*line.C^2/4 */
+    c->r5_Us_4 = REAL(0.25) * p->line__L * p->line__L * p->line__C * p->line__C;
+}
+
+static bool parameters_are_finite(const khepera_parameters *p)
+{
+    return finite_number(p->m__1__tau0 + p->m__1__A + p->m__1__el__L + p->m__1__el__Re
+            + p->m__1__el__k + p->m__1__me__Je + p->m__1__me__fe + p->m__1__me__K + p->m__1__ge__N
+            + p->m__1__wh__Js + p->m__1__wh__fs + p->m__1__wh__R + p->m__2__tau0 + p->m__2__A
+            + p->m__2__el__L + p->m__2__el__Re + p->m__2__el__k + p->m__2__me__Je + p->m__2__me__fe
+            + p->m__2__me__K + p->m__2__ge__N + p->m__2__wh__Js + p->m__2__wh__fs + p->m__2__wh__R
+            + p->line__R + p->line__L + p->line__C);
+}
+
+static bool coefficients_are_finite(const khepera_monitor *monitor)
+{
+    return finite_number(monitor->c.r1_m__1__me__we + monitor->c.r1_m__1__me__we_1
+            + monitor->c.r1_m__1__me__we_2 + monitor->c.r1_m__1__wh__ws
+            + monitor->c.r1_m__1__wh__ws_1 + monitor->c.r1_m__1__wh__ws_2 + monitor->c.r1_Fx__1
+            + monitor->c.r1_Fx__1_1 + monitor->c.r1_v1_m__1__me__we + monitor->c.r1_v2_m__1__me__we
+            + monitor->c.r1_v3_m__1__me__we + monitor->c.r1_v1_m__1__wh__ws
+            + monitor->c.r1_v2_m__1__wh__ws + monitor->c.r1_v3_m__1__wh__ws + monitor->c.r1_v2_Fx__1
+            + monitor->c.r1_v3_Fx__1 + monitor->c.a + monitor->c.b0 + monitor->c.b1
+            + monitor->c.rest + monitor->c.g + monitor->c.g_2 + monitor->c.r2_m__1__wh__ws
+            + monitor->c.r2_m__1__wh__ws_1 + monitor->c.r2_m__1__wh__ws_2 + monitor->c.r2_Fx__1_1
+            + monitor->c.r2_tanh_1 + monitor->c.half_time + monitor->c.r2_v1_m__1__wh__ws
+            + monitor->c.r2_v2_m__1__wh__ws + monitor->c.r2_v3_m__1__wh__ws + monitor->c.r2_v2_Fx__1
+            + monitor->c.r2_v2_tanh + monitor->c.r3_m__2__me__we + monitor->c.r3_m__2__me__we_1
+            + monitor->c.r3_m__2__me__we_2 + monitor->c.r3_m__2__wh__ws
+            + monitor->c.r3_m__2__wh__ws_1 + monitor->c.r3_m__2__wh__ws_2 + monitor->c.r3_Fx__2
+            + monitor->c.r3_Fx__2_1 + monitor->c.r3_v1_m__2__me__we + monitor->c.r3_v2_m__2__me__we
+            + monitor->c.r3_v3_m__2__me__we + monitor->c.r3_v1_m__2__wh__ws
+            + monitor->c.r3_v2_m__2__wh__ws + monitor->c.r3_v3_m__2__wh__ws + monitor->c.r3_v2_Fx__2
+            + monitor->c.r3_v3_Fx__2 + monitor->c.g_3 + monitor->c.g_4 + monitor->c.r4_m__2__wh__ws
+            + monitor->c.r4_m__2__wh__ws_1 + monitor->c.r4_m__2__wh__ws_2 + monitor->c.r4_Fx__2_1
+            + monitor->c.r4_tanh_1 + monitor->c.r4_v1_m__2__wh__ws + monitor->c.r4_v2_m__2__wh__ws
+            + monitor->c.r4_v3_m__2__wh__ws + monitor->c.r4_v2_Fx__2 + monitor->c.r4_v2_tanh
+            + monitor->c.r5_Us_1 + monitor->c.r5_Us_2 + monitor->c.r5_Us_3 + monitor->c.r5_Us_4);
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+khepera_status khepera_configure(
+    khepera_monitor *monitor,
+    const khepera_parameters *parameters,
+    khepera_real sample_time,
+    khepera_real bandwidth,
+    khepera_real time_unit)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
+        monitor->settle[k] = UINT32_MAX;
+    }
+    khepera_reset(monitor);
+    if (!parameters_are_finite(parameters)) {
+        return KHEPERA_BAD_PARAMETER;
+    }
+    if (!(sample_time >= REAL(0.000999999)) || !finite_number(sample_time)) {
+        return KHEPERA_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return KHEPERA_BAD_BANDWIDTH;
+    }
+    if (!(time_unit > REAL(0.0)) || !finite_number(time_unit)) {
+        return KHEPERA_BAD_TIME_UNIT;
+    }
+    compute_coefficients(monitor, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(monitor)) {
+        return KHEPERA_BAD_COEFFICIENT;
+    }
+    monitor->settle[KHEPERA_R1] = samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[KHEPERA_R2] = samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[KHEPERA_R3] = samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[KHEPERA_R4] = samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[KHEPERA_R5] = samples(REAL(6.907755278982138), sample_time, bandwidth);
+    return KHEPERA_OK;
+}
+
+void khepera_exact(
+    const khepera_monitor *monitor,
+    const khepera_derivatives *derivatives,
+    khepera_real residuals[KHEPERA_RESIDUALS])
+{
+    const khepera_coefficients *c = &monitor->c;
+    const khepera_derivatives *d = derivatives;
+    real *r = residuals;
+
+    /* khepera.bg:17: r1 = U0[1] - m[1].el.k*m[1].me.we - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
+     * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
+     * where m[1].el.k.e2 = m[1].me.fe*m[1].me.we + m[1].me.Je*D(m[1].me.we) +
+     * (m[1].wh.fs*m[1].wh.ws + Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws))/m[1].ge.N */
+    r[KHEPERA_R1] = d->U0__1 - c->r1_m__1__me__we * d->m__1__me__we[0]
+        - c->r1_m__1__me__we_1 * d->m__1__me__we[1] - c->r1_m__1__me__we_2 * d->m__1__me__we[2]
+        - c->r1_m__1__wh__ws * d->m__1__wh__ws[0] - c->r1_m__1__wh__ws_1 * d->m__1__wh__ws[1]
+        - c->r1_m__1__wh__ws_2 * d->m__1__wh__ws[2] - c->r1_Fx__1 * d->Fx__1[0]
+        - c->r1_Fx__1_1 * d->Fx__1[1];
+
+    /* khepera.bg:41: tanh(Int(m[1].me.we)/(4*m[1].tau0) -
+     * m[1].ge.N*Int(m[1].wh.ws)/(4*m[1].tau0)) */
+    const real t = MATH(tanh)(c->g * d->m__1__me__we_integral - c->g_2 * d->m__1__wh__ws_integral);
+
+    /* khepera.bg:41: r2 = m[1].me.we - m[1].ge.N*m[1].wh.ws - D(m[1].wh.fs*m[1].wh.ws +
+     * Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws) -
+     * m[1].tau0*m[1].A*m[1].ge.N*m[1].me.K*tanh((Int(m[1].me.we) -
+     * m[1].ge.N*Int(m[1].wh.ws))/(4*m[1].tau0)))/(m[1].ge.N*m[1].me.K) */
+    r[KHEPERA_R2] = d->m__1__me__we[0]
+        + c->r2_tanh_1
+            * ((c->g * d->m__1__me__we[0] - c->g_2 * d->m__1__wh__ws[0]) * (REAL(1.0) - t * t))
+        - c->r2_m__1__wh__ws * d->m__1__wh__ws[0] - c->r2_m__1__wh__ws_1 * d->m__1__wh__ws[1]
+        - c->r2_m__1__wh__ws_2 * d->m__1__wh__ws[2] - c->r2_Fx__1_1 * d->Fx__1[1];
+
+    /* khepera.bg:17: r3 = U0[2] - m[2].el.k*m[2].me.we - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
+     * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
+     * where m[2].el.k.e2 = m[2].me.fe*m[2].me.we + m[2].me.Je*D(m[2].me.we) +
+     * (m[2].wh.fs*m[2].wh.ws + Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws))/m[2].ge.N */
+    r[KHEPERA_R3] = d->U0__2 - c->r3_m__2__me__we * d->m__2__me__we[0]
+        - c->r3_m__2__me__we_1 * d->m__2__me__we[1] - c->r3_m__2__me__we_2 * d->m__2__me__we[2]
+        - c->r3_m__2__wh__ws * d->m__2__wh__ws[0] - c->r3_m__2__wh__ws_1 * d->m__2__wh__ws[1]
+        - c->r3_m__2__wh__ws_2 * d->m__2__wh__ws[2] - c->r3_Fx__2 * d->Fx__2[0]
+        - c->r3_Fx__2_1 * d->Fx__2[1];
+
+    /* khepera.bg:41: tanh(Int(m[2].me.we)/(4*m[2].tau0) -
+     * m[2].ge.N*Int(m[2].wh.ws)/(4*m[2].tau0)) */
+    const real t_2 = MATH(tanh)(c->g_3 * d->m__2__me__we_integral
+            - c->g_4 * d->m__2__wh__ws_integral);
+
+    /* khepera.bg:41: r4 = m[2].me.we - m[2].ge.N*m[2].wh.ws - D(m[2].wh.fs*m[2].wh.ws +
+     * Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws) -
+     * m[2].tau0*m[2].A*m[2].ge.N*m[2].me.K*tanh((Int(m[2].me.we) -
+     * m[2].ge.N*Int(m[2].wh.ws))/(4*m[2].tau0)))/(m[2].ge.N*m[2].me.K) */
+    r[KHEPERA_R4] = d->m__2__me__we[0]
+        + c->r4_tanh_1
+            * ((c->g_3 * d->m__2__me__we[0] - c->g_4 * d->m__2__wh__ws[0]) * (REAL(1.0)
+                - t_2 * t_2))
+        - c->r4_m__2__wh__ws * d->m__2__wh__ws[0] - c->r4_m__2__wh__ws_1 * d->m__2__wh__ws[1]
+        - c->r4_m__2__wh__ws_2 * d->m__2__wh__ws[2] - c->r4_Fx__2_1 * d->Fx__2[1];
+
+    /* khepera.bg:114: r5 = Uin - line.cell[1].mid.e - line.R*line.cell[1].left.f/2 -
+     * line.L*D(line.cell[1].left.f)/2
+     * where line.cell[1].left.f = line.C*D(Us) + line.C*D(line.cell[1].mid.e)
+     * line.cell[1].mid.e = Us + line.R*line.C*D(Us)/2 + line.L*line.C*D(Us, 2)/2 */
+    r[KHEPERA_R5] = d->Uin - d->Us[0] - c->r5_Us_1 * d->Us[1] - c->r5_Us_2 * d->Us[2]
+        - c->r5_Us_3 * d->Us[3] - c->r5_Us_4 * d->Us[4];
+}
+
+/* r1 on its first sample: the filter as if it had always been so. */
+static void start_r1(
+    khepera_monitor *monitor, const khepera_samples *s, real *r)
+{
+    const khepera_coefficients *c = &monitor->c;
+    khepera_memory *x = &monitor->x;
+
+    /* khepera.bg:17: r1: input of stage 3 */
+    const real r1_u3 = s->U0__1 + c->r1_v3_m__1__me__we * s->m__1__me__we
+        + c->r1_v3_Fx__1 * s->Fx__1 - c->r1_v3_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1: stage 3, at rest */
+    const real r1_y3 = r1_u3;
+
+    /* khepera.bg:17: r1: stage 3: memory */
+    x->r1_s3 = c->rest * r1_u3;
+
+    /* khepera.bg:17: r1: input of stage 2 */
+    const real r1_u2 = r1_y3 + c->r1_v2_m__1__me__we * s->m__1__me__we
+        + c->r1_v2_m__1__wh__ws * s->m__1__wh__ws - c->r1_v2_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: stage 2, at rest */
+    const real r1_y2 = r1_u2;
+
+    /* khepera.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->rest * r1_u2;
+
+    /* khepera.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_m__1__me__we * s->m__1__me__we
+        - c->r1_v1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1: stage 1, at rest */
+    const real r1_y1 = r1_u1;
+
+    /* khepera.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->rest * r1_u1;
+
+    /* khepera.bg:17: r1 = U0[1] - m[1].el.k*m[1].me.we - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
+     * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
+     * where m[1].el.k.e2 = m[1].me.fe*m[1].me.we + m[1].me.Je*D(m[1].me.we) +
+     * (m[1].wh.fs*m[1].wh.ws + Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws))/m[1].ge.N */
+    r[KHEPERA_R1] = r1_y1;
+}
+
+/* r1 on every further sample. */
+static void next_r1(
+    khepera_monitor *monitor, const khepera_samples *s, real *r)
+{
+    const khepera_coefficients *c = &monitor->c;
+    khepera_memory *x = &monitor->x;
+
+    /* khepera.bg:17: r1: input of stage 3 */
+    const real r1_u3 = s->U0__1 + c->r1_v3_m__1__me__we * s->m__1__me__we
+        + c->r1_v3_Fx__1 * s->Fx__1 - c->r1_v3_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1: stage 3 */
+    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+
+    /* khepera.bg:17: r1: stage 3: memory */
+    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+
+    /* khepera.bg:17: r1: input of stage 2 */
+    const real r1_u2 = r1_y3 + c->r1_v2_m__1__me__we * s->m__1__me__we
+        + c->r1_v2_m__1__wh__ws * s->m__1__wh__ws - c->r1_v2_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: stage 2 */
+    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+
+    /* khepera.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+
+    /* khepera.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_m__1__me__we * s->m__1__me__we
+        - c->r1_v1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1: stage 1 */
+    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+
+    /* khepera.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+
+    /* khepera.bg:17: r1 = U0[1] - m[1].el.k*m[1].me.we - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
+     * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
+     * where m[1].el.k.e2 = m[1].me.fe*m[1].me.we + m[1].me.Je*D(m[1].me.we) +
+     * (m[1].wh.fs*m[1].wh.ws + Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws))/m[1].ge.N */
+    r[KHEPERA_R1] = r1_y1;
+}
+
+/* One sample for r1; a number that is not finite makes the next sample the first. */
+static void run_r1(
+    khepera_monitor *monitor, const khepera_samples *s, khepera_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[0];
+
+    if (age == 0u) {
+        start_r1(monitor, s, r);
+    } else {
+        next_r1(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx__1 + s->U0__1 + s->m__1__me__we + s->m__1__wh__ws + r[KHEPERA_R1])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_R1] = REAL(0.0);
+    }
+    monitor->age[0] = age;
+    residuals->valid[KHEPERA_R1] = age > monitor->settle[KHEPERA_R1];
+}
+
+/* r2 on its first sample: the filter as if it had always been so. */
+static void start_r2(
+    khepera_monitor *monitor, const khepera_samples *s, real *r)
+{
+    const khepera_coefficients *c = &monitor->c;
+    khepera_memory *x = &monitor->x;
+
+    /* khepera.bg:41: integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ...,
+     * what is integrated */
+    const real r2_rate = c->g * s->m__1__me__we - c->g_2 * s->m__1__wh__ws;
+
+    /* khepera.bg:41: integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ...,
+     * at the start */
+    const real r2_int = REAL(0.0);
+
+    /* khepera.bg:41: integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ...:
+     * memory */
+    x->r2_q = c->half_time * r2_rate;
+
+    /* khepera.bg:41: tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1]. ... */
+    const real r2_tanh = MATH(tanh)(r2_int);
+
+    /* khepera.bg:41: r2: input of stage 3 */
+    const real r2_u3 = s->m__1__me__we + c->r2_v2_Fx__1 * s->Fx__1
+        - c->r2_v3_m__1__wh__ws * s->m__1__wh__ws - c->r2_v2_tanh * r2_tanh;
+
+    /* khepera.bg:41: r2: stage 3, at rest */
+    const real r2_y3 = r2_u3;
+
+    /* khepera.bg:41: r2: stage 3: memory */
+    x->r2_s3 = c->rest * r2_u3;
+
+    /* khepera.bg:41: r2: input of stage 2 */
+    const real r2_u2 = r2_y3 + c->r2_v2_m__1__wh__ws * s->m__1__wh__ws + c->r2_v2_tanh * r2_tanh
+        - c->r2_v2_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:41: r2: stage 2, at rest */
+    const real r2_y2 = r2_u2;
+
+    /* khepera.bg:41: r2: stage 2: memory */
+    x->r2_s2 = c->rest * r2_u2;
+
+    /* khepera.bg:41: r2: input of stage 1 */
+    const real r2_u1 = r2_y2 - c->r2_v1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:41: r2: stage 1, at rest */
+    const real r2_y1 = r2_u1;
+
+    /* khepera.bg:41: r2: stage 1: memory */
+    x->r2_s1 = c->rest * r2_u1;
+
+    /* khepera.bg:41: r2 = m[1].me.we - m[1].ge.N*m[1].wh.ws - D(m[1].wh.fs*m[1].wh.ws +
+     * Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws) -
+     * m[1].tau0*m[1].A*m[1].ge.N*m[1].me.K*tanh((Int(m[1].me.we) -
+     * m[1].ge.N*Int(m[1].wh.ws))/(4*m[1].tau0)))/(m[1].ge.N*m[1].me.K) */
+    r[KHEPERA_R2] = r2_y1;
+}
+
+/* r2 on every further sample. */
+static void next_r2(
+    khepera_monitor *monitor, const khepera_samples *s, real *r)
+{
+    const khepera_coefficients *c = &monitor->c;
+    khepera_memory *x = &monitor->x;
+
+    /* khepera.bg:41: integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ...,
+     * what is integrated */
+    const real r2_rate = c->g * s->m__1__me__we - c->g_2 * s->m__1__wh__ws;
+
+    /* khepera.bg:41: integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ... */
+    const real r2_int = x->r2_q + c->half_time * r2_rate;
+
+    /* khepera.bg:41: integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ...:
+     * memory */
+    x->r2_q = r2_int + c->half_time * r2_rate;
+
+    /* khepera.bg:41: tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1]. ... */
+    const real r2_tanh = MATH(tanh)(r2_int);
+
+    /* khepera.bg:41: r2: input of stage 3 */
+    const real r2_u3 = s->m__1__me__we + c->r2_v2_Fx__1 * s->Fx__1
+        - c->r2_v3_m__1__wh__ws * s->m__1__wh__ws - c->r2_v2_tanh * r2_tanh;
+
+    /* khepera.bg:41: r2: stage 3 */
+    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+
+    /* khepera.bg:41: r2: stage 3: memory */
+    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+
+    /* khepera.bg:41: r2: input of stage 2 */
+    const real r2_u2 = r2_y3 + c->r2_v2_m__1__wh__ws * s->m__1__wh__ws + c->r2_v2_tanh * r2_tanh
+        - c->r2_v2_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:41: r2: stage 2 */
+    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+
+    /* khepera.bg:41: r2: stage 2: memory */
+    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+
+    /* khepera.bg:41: r2: input of stage 1 */
+    const real r2_u1 = r2_y2 - c->r2_v1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:41: r2: stage 1 */
+    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+
+    /* khepera.bg:41: r2: stage 1: memory */
+    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+
+    /* khepera.bg:41: r2 = m[1].me.we - m[1].ge.N*m[1].wh.ws - D(m[1].wh.fs*m[1].wh.ws +
+     * Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws) -
+     * m[1].tau0*m[1].A*m[1].ge.N*m[1].me.K*tanh((Int(m[1].me.we) -
+     * m[1].ge.N*Int(m[1].wh.ws))/(4*m[1].tau0)))/(m[1].ge.N*m[1].me.K) */
+    r[KHEPERA_R2] = r2_y1;
+}
+
+/* One sample for r2; a number that is not finite makes the next sample the first. */
+static void run_r2(
+    khepera_monitor *monitor, const khepera_samples *s, khepera_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[1];
+
+    if (age == 0u) {
+        start_r2(monitor, s, r);
+    } else {
+        next_r2(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx__1 + s->m__1__me__we + s->m__1__wh__ws + r[KHEPERA_R2])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_R2] = REAL(0.0);
+    }
+    monitor->age[1] = age;
+    residuals->valid[KHEPERA_R2] = age > monitor->settle[KHEPERA_R2];
+}
+
+/* r3 on its first sample: the filter as if it had always been so. */
+static void start_r3(
+    khepera_monitor *monitor, const khepera_samples *s, real *r)
+{
+    const khepera_coefficients *c = &monitor->c;
+    khepera_memory *x = &monitor->x;
+
+    /* khepera.bg:17: r3: input of stage 3 */
+    const real r3_u3 = s->U0__2 + c->r3_v3_m__2__me__we * s->m__2__me__we
+        + c->r3_v3_Fx__2 * s->Fx__2 - c->r3_v3_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3: stage 3, at rest */
+    const real r3_y3 = r3_u3;
+
+    /* khepera.bg:17: r3: stage 3: memory */
+    x->r3_s3 = c->rest * r3_u3;
+
+    /* khepera.bg:17: r3: input of stage 2 */
+    const real r3_u2 = r3_y3 + c->r3_v2_m__2__me__we * s->m__2__me__we
+        + c->r3_v2_m__2__wh__ws * s->m__2__wh__ws - c->r3_v2_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: stage 2, at rest */
+    const real r3_y2 = r3_u2;
+
+    /* khepera.bg:17: r3: stage 2: memory */
+    x->r3_s2 = c->rest * r3_u2;
+
+    /* khepera.bg:17: r3: input of stage 1 */
+    const real r3_u1 = r3_y2 - c->r3_v1_m__2__me__we * s->m__2__me__we
+        - c->r3_v1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3: stage 1, at rest */
+    const real r3_y1 = r3_u1;
+
+    /* khepera.bg:17: r3: stage 1: memory */
+    x->r3_s1 = c->rest * r3_u1;
+
+    /* khepera.bg:17: r3 = U0[2] - m[2].el.k*m[2].me.we - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
+     * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
+     * where m[2].el.k.e2 = m[2].me.fe*m[2].me.we + m[2].me.Je*D(m[2].me.we) +
+     * (m[2].wh.fs*m[2].wh.ws + Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws))/m[2].ge.N */
+    r[KHEPERA_R3] = r3_y1;
+}
+
+/* r3 on every further sample. */
+static void next_r3(
+    khepera_monitor *monitor, const khepera_samples *s, real *r)
+{
+    const khepera_coefficients *c = &monitor->c;
+    khepera_memory *x = &monitor->x;
+
+    /* khepera.bg:17: r3: input of stage 3 */
+    const real r3_u3 = s->U0__2 + c->r3_v3_m__2__me__we * s->m__2__me__we
+        + c->r3_v3_Fx__2 * s->Fx__2 - c->r3_v3_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3: stage 3 */
+    const real r3_y3 = x->r3_s3 + c->b0 * r3_u3;
+
+    /* khepera.bg:17: r3: stage 3: memory */
+    x->r3_s3 = c->a * r3_y3 + c->b1 * r3_u3;
+
+    /* khepera.bg:17: r3: input of stage 2 */
+    const real r3_u2 = r3_y3 + c->r3_v2_m__2__me__we * s->m__2__me__we
+        + c->r3_v2_m__2__wh__ws * s->m__2__wh__ws - c->r3_v2_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: stage 2 */
+    const real r3_y2 = x->r3_s2 + c->b0 * r3_u2;
+
+    /* khepera.bg:17: r3: stage 2: memory */
+    x->r3_s2 = c->a * r3_y2 + c->b1 * r3_u2;
+
+    /* khepera.bg:17: r3: input of stage 1 */
+    const real r3_u1 = r3_y2 - c->r3_v1_m__2__me__we * s->m__2__me__we
+        - c->r3_v1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3: stage 1 */
+    const real r3_y1 = x->r3_s1 + c->b0 * r3_u1;
+
+    /* khepera.bg:17: r3: stage 1: memory */
+    x->r3_s1 = c->a * r3_y1 + c->b1 * r3_u1;
+
+    /* khepera.bg:17: r3 = U0[2] - m[2].el.k*m[2].me.we - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
+     * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
+     * where m[2].el.k.e2 = m[2].me.fe*m[2].me.we + m[2].me.Je*D(m[2].me.we) +
+     * (m[2].wh.fs*m[2].wh.ws + Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws))/m[2].ge.N */
+    r[KHEPERA_R3] = r3_y1;
+}
+
+/* One sample for r3; a number that is not finite makes the next sample the first. */
+static void run_r3(
+    khepera_monitor *monitor, const khepera_samples *s, khepera_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[2];
+
+    if (age == 0u) {
+        start_r3(monitor, s, r);
+    } else {
+        next_r3(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx__2 + s->U0__2 + s->m__2__me__we + s->m__2__wh__ws + r[KHEPERA_R3])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_R3] = REAL(0.0);
+    }
+    monitor->age[2] = age;
+    residuals->valid[KHEPERA_R3] = age > monitor->settle[KHEPERA_R3];
+}
+
+/* r4 on its first sample: the filter as if it had always been so. */
+static void start_r4(
+    khepera_monitor *monitor, const khepera_samples *s, real *r)
+{
+    const khepera_coefficients *c = &monitor->c;
+    khepera_memory *x = &monitor->x;
+
+    /* khepera.bg:41: integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ...,
+     * what is integrated */
+    const real r4_rate = c->g_3 * s->m__2__me__we - c->g_4 * s->m__2__wh__ws;
+
+    /* khepera.bg:41: integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ...,
+     * at the start */
+    const real r4_int = REAL(0.0);
+
+    /* khepera.bg:41: integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ...:
+     * memory */
+    x->r4_q = c->half_time * r4_rate;
+
+    /* khepera.bg:41: tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2]. ... */
+    const real r4_tanh = MATH(tanh)(r4_int);
+
+    /* khepera.bg:41: r4: input of stage 3 */
+    const real r4_u3 = s->m__2__me__we + c->r4_v2_Fx__2 * s->Fx__2
+        - c->r4_v3_m__2__wh__ws * s->m__2__wh__ws - c->r4_v2_tanh * r4_tanh;
+
+    /* khepera.bg:41: r4: stage 3, at rest */
+    const real r4_y3 = r4_u3;
+
+    /* khepera.bg:41: r4: stage 3: memory */
+    x->r4_s3 = c->rest * r4_u3;
+
+    /* khepera.bg:41: r4: input of stage 2 */
+    const real r4_u2 = r4_y3 + c->r4_v2_m__2__wh__ws * s->m__2__wh__ws + c->r4_v2_tanh * r4_tanh
+        - c->r4_v2_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:41: r4: stage 2, at rest */
+    const real r4_y2 = r4_u2;
+
+    /* khepera.bg:41: r4: stage 2: memory */
+    x->r4_s2 = c->rest * r4_u2;
+
+    /* khepera.bg:41: r4: input of stage 1 */
+    const real r4_u1 = r4_y2 - c->r4_v1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:41: r4: stage 1, at rest */
+    const real r4_y1 = r4_u1;
+
+    /* khepera.bg:41: r4: stage 1: memory */
+    x->r4_s1 = c->rest * r4_u1;
+
+    /* khepera.bg:41: r4 = m[2].me.we - m[2].ge.N*m[2].wh.ws - D(m[2].wh.fs*m[2].wh.ws +
+     * Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws) -
+     * m[2].tau0*m[2].A*m[2].ge.N*m[2].me.K*tanh((Int(m[2].me.we) -
+     * m[2].ge.N*Int(m[2].wh.ws))/(4*m[2].tau0)))/(m[2].ge.N*m[2].me.K) */
+    r[KHEPERA_R4] = r4_y1;
+}
+
+/* r4 on every further sample. */
+static void next_r4(
+    khepera_monitor *monitor, const khepera_samples *s, real *r)
+{
+    const khepera_coefficients *c = &monitor->c;
+    khepera_memory *x = &monitor->x;
+
+    /* khepera.bg:41: integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ...,
+     * what is integrated */
+    const real r4_rate = c->g_3 * s->m__2__me__we - c->g_4 * s->m__2__wh__ws;
+
+    /* khepera.bg:41: integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ... */
+    const real r4_int = x->r4_q + c->half_time * r4_rate;
+
+    /* khepera.bg:41: integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ...:
+     * memory */
+    x->r4_q = r4_int + c->half_time * r4_rate;
+
+    /* khepera.bg:41: tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2]. ... */
+    const real r4_tanh = MATH(tanh)(r4_int);
+
+    /* khepera.bg:41: r4: input of stage 3 */
+    const real r4_u3 = s->m__2__me__we + c->r4_v2_Fx__2 * s->Fx__2
+        - c->r4_v3_m__2__wh__ws * s->m__2__wh__ws - c->r4_v2_tanh * r4_tanh;
+
+    /* khepera.bg:41: r4: stage 3 */
+    const real r4_y3 = x->r4_s3 + c->b0 * r4_u3;
+
+    /* khepera.bg:41: r4: stage 3: memory */
+    x->r4_s3 = c->a * r4_y3 + c->b1 * r4_u3;
+
+    /* khepera.bg:41: r4: input of stage 2 */
+    const real r4_u2 = r4_y3 + c->r4_v2_m__2__wh__ws * s->m__2__wh__ws + c->r4_v2_tanh * r4_tanh
+        - c->r4_v2_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:41: r4: stage 2 */
+    const real r4_y2 = x->r4_s2 + c->b0 * r4_u2;
+
+    /* khepera.bg:41: r4: stage 2: memory */
+    x->r4_s2 = c->a * r4_y2 + c->b1 * r4_u2;
+
+    /* khepera.bg:41: r4: input of stage 1 */
+    const real r4_u1 = r4_y2 - c->r4_v1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:41: r4: stage 1 */
+    const real r4_y1 = x->r4_s1 + c->b0 * r4_u1;
+
+    /* khepera.bg:41: r4: stage 1: memory */
+    x->r4_s1 = c->a * r4_y1 + c->b1 * r4_u1;
+
+    /* khepera.bg:41: r4 = m[2].me.we - m[2].ge.N*m[2].wh.ws - D(m[2].wh.fs*m[2].wh.ws +
+     * Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws) -
+     * m[2].tau0*m[2].A*m[2].ge.N*m[2].me.K*tanh((Int(m[2].me.we) -
+     * m[2].ge.N*Int(m[2].wh.ws))/(4*m[2].tau0)))/(m[2].ge.N*m[2].me.K) */
+    r[KHEPERA_R4] = r4_y1;
+}
+
+/* One sample for r4; a number that is not finite makes the next sample the first. */
+static void run_r4(
+    khepera_monitor *monitor, const khepera_samples *s, khepera_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[3];
+
+    if (age == 0u) {
+        start_r4(monitor, s, r);
+    } else {
+        next_r4(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx__2 + s->m__2__me__we + s->m__2__wh__ws + r[KHEPERA_R4])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_R4] = REAL(0.0);
+    }
+    monitor->age[3] = age;
+    residuals->valid[KHEPERA_R4] = age > monitor->settle[KHEPERA_R4];
+}
+
+/* r5 on its first sample: the filter as if it had always been so. */
+static void start_r5(
+    khepera_monitor *monitor, const khepera_samples *s, real *r)
+{
+    const khepera_coefficients *c = &monitor->c;
+    khepera_memory *x = &monitor->x;
+
+    /* khepera.bg:114: r5: input of stage 1 */
+    const real r5_u1 = s->Uin - s->Us;
+
+    /* khepera.bg:114: r5: stage 1, at rest */
+    const real r5_y1 = r5_u1;
+
+    /* khepera.bg:114: r5: stage 1: memory */
+    x->r5_s1 = c->rest * r5_u1;
+
+    /* khepera.bg:114: r5 = Uin - line.cell[1].mid.e - line.R*line.cell[1].left.f/2 -
+     * line.L*D(line.cell[1].left.f)/2
+     * where line.cell[1].left.f = line.C*D(Us) + line.C*D(line.cell[1].mid.e)
+     * line.cell[1].mid.e = Us + line.R*line.C*D(Us)/2 + line.L*line.C*D(Us, 2)/2 */
+    r[KHEPERA_R5] = r5_y1;
+}
+
+/* r5 on every further sample. */
+static void next_r5(
+    khepera_monitor *monitor, const khepera_samples *s, real *r)
+{
+    const khepera_coefficients *c = &monitor->c;
+    khepera_memory *x = &monitor->x;
+
+    /* khepera.bg:114: r5: input of stage 1 */
+    const real r5_u1 = s->Uin - s->Us;
+
+    /* khepera.bg:114: r5: stage 1 */
+    const real r5_y1 = x->r5_s1 + c->b0 * r5_u1;
+
+    /* khepera.bg:114: r5: stage 1: memory */
+    x->r5_s1 = c->a * r5_y1 + c->b1 * r5_u1;
+
+    /* khepera.bg:114: r5 = Uin - line.cell[1].mid.e - line.R*line.cell[1].left.f/2 -
+     * line.L*D(line.cell[1].left.f)/2
+     * where line.cell[1].left.f = line.C*D(Us) + line.C*D(line.cell[1].mid.e)
+     * line.cell[1].mid.e = Us + line.R*line.C*D(Us)/2 + line.L*line.C*D(Us, 2)/2 */
+    r[KHEPERA_R5] = r5_y1;
+}
+
+/* One sample for r5; a number that is not finite makes the next sample the first. */
+static void run_r5(
+    khepera_monitor *monitor, const khepera_samples *s, khepera_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[4];
+
+    if (age == 0u) {
+        start_r5(monitor, s, r);
+    } else {
+        next_r5(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Uin + s->Us + r[KHEPERA_R5])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_R5] = REAL(0.0);
+    }
+    monitor->age[4] = age;
+    residuals->valid[KHEPERA_R5] = age > monitor->settle[KHEPERA_R5];
+}
+
+void khepera_reset(khepera_monitor *monitor)
+{
+    int k;
+
+    for (k = 0; k < 5; ++k) {
+        monitor->age[k] = 0u;
+    }
+}
+
+void khepera_step(
+    khepera_monitor *monitor,
+    const khepera_samples *samples,
+    khepera_residuals *residuals)
+{
+    run_r1(monitor, samples, residuals);
+    run_r2(monitor, samples, residuals);
+    run_r3(monitor, samples, residuals);
+    run_r4(monitor, samples, residuals);
+    run_r5(monitor, samples, residuals);
+}

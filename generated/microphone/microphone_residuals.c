@@ -1,0 +1,443 @@
+/* microphone_residuals.c: the residuals of Microphone; generated, see the header. */
+#include "microphone_residuals.h"
+
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef microphone_real real;
+
+#define REAL(x) MICROPHONE_CONSTANT(x)
+#if defined MICROPHONE_FLOAT && !defined MICROPHONE_REAL
+#define SLOWEST REAL(0.0001)
+#else
+#define SLOWEST REAL(1.0e-09)
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
+static real exponential(real value)
+{
+    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
+    const real ln2_low = REAL(1.4286068203094173e-06);
+    real rest;
+    real scale = REAL(1.0);
+    real sum = REAL(1.0);
+    int n = 0;
+    int k;
+
+    if (value > REAL(1000.0)) {
+        value = REAL(1000.0); /* more than enough for infinity */
+    }
+    if (value < REAL(-1000.0)) {
+        value = REAL(-1000.0); /* more than enough for zero */
+    }
+    rest = value;
+    while (rest > REAL(0.35)) {
+        ++n;
+        scale *= REAL(2.0);
+        rest = value - (real)n * ln2_high;
+    }
+    while (rest < REAL(-0.35)) {
+        --n;
+        scale *= REAL(0.5);
+        rest = value - (real)n * ln2_high;
+    }
+    rest -= (real)n * ln2_low;
+    for (k = 14; k > 0; --k) {
+        sum = REAL(1.0) + sum * rest / (real)k;
+    }
+    return sum * scale;
+}
+
+uint32_t microphone_abi(void)
+{
+    return MICROPHONE_ABI;
+}
+
+const char *microphone_digest(void)
+{
+    return MICROPHONE_DIGEST;
+}
+
+void microphone_nominal(microphone_parameters *parameters)
+{
+    parameters->eps = REAL(8.8541878128e-12);  /* F/m */
+    parameters->A = REAL(0.0001);              /* m^2 */
+    parameters->R = REAL(10000000.0);          /* Ohm */
+    parameters->m = REAL(1.0e-06);             /* kg */
+    parameters->b = REAL(0.002);               /* N.s/m */
+    parameters->k = REAL(5000.0);              /* N/m */
+    parameters->x0 = REAL(2.0e-05);            /* m */
+}
+
+/* The coefficients of exact and of the filter, from the parameters. */
+static void compute_coefficients(microphone_monitor *monitor, const microphone_parameters *p,
+        real sample_time, real bandwidth)
+{
+    microphone_coefficients *c = &monitor->c;
+
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* exp(-x) */
+    const real t = exponential(-x_);
+
+    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
+    const real t_2 = x_ < REAL(0.125)
+        ? x_ * (REAL(0.5)
+            - x_ * (REAL(1.0) / REAL(6.0)
+                - x_ * (REAL(1.0) / REAL(24.0)
+                    - x_ * (REAL(1.0) / REAL(120.0)
+                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
+        : REAL(1.0) - (REAL(1.0) - t) / x_;
+
+    /* microphone.bg:17: mic.mech.q0 */
+    c->mic__mech__q0 = p->x0;
+
+    /* microphone.bg:17: r1: factor of U0: 1/R */
+    c->r1_U0 = REAL(1.0) / p->R;
+
+    /* microphone.bg:17: r1: factor of D(u/(mic.mech.q0 + Int(v))): eps*A */
+    c->r1_product_1 = p->eps * p->A;
+
+    /* half the sample time */
+    c->half_time = REAL(0.5) * sample_time;
+
+    /* microphone.bg:17: r1: factor of u/(mic.mech.q0 + Int(v)) in stage 1 */
+    c->r1_v1_product = p->eps * p->A * bandwidth;
+
+    /* filter: exp(-bandwidth*sample_time) */
+    c->a = t;
+
+    /* filter: weight of the new sample */
+    c->b0 = t_2;
+
+    /* filter: weight of the sample before */
+    c->b1 = REAL(1.0) - t - t_2;
+
+    /* filter: 1 - b0, the memory of a constant 1 */
+    c->rest = REAL(1.0) - t_2;
+
+    /* microphone.bg:29: r2: factor of pressure: A */
+    c->r2_pressure = p->A;
+
+    /* microphone.bg:29: r2: factor of Int(v): k */
+    c->r2_v_int = p->k;
+
+    /* microphone.bg:29: r2: factor of v: b */
+    c->r2_v = p->b;
+
+    /* microphone.bg:29: r2: factor of v': m */
+    c->r2_v_1 = p->m;
+
+    /* microphone.bg:29: r2: factor of u^2/(mic.mech.q0 + Int(v))^2: eps*A/2 */
+    c->r2_product = REAL(0.5) * p->eps * p->A;
+}
+
+static bool parameters_are_finite(const microphone_parameters *p)
+{
+    return finite_number(p->eps + p->A + p->R + p->m + p->b + p->k + p->x0);
+}
+
+static bool coefficients_are_finite(const microphone_monitor *monitor)
+{
+    return finite_number(monitor->c.mic__mech__q0 + monitor->c.r1_U0 + monitor->c.r1_product_1
+            + monitor->c.half_time + monitor->c.r1_v1_product + monitor->c.a + monitor->c.b0
+            + monitor->c.b1 + monitor->c.rest + monitor->c.r2_pressure + monitor->c.r2_v_int
+            + monitor->c.r2_v + monitor->c.r2_v_1 + monitor->c.r2_product);
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+microphone_status microphone_configure(
+    microphone_monitor *monitor,
+    const microphone_parameters *parameters,
+    microphone_real sample_time,
+    microphone_real bandwidth,
+    microphone_real time_unit)
+{
+    int k;
+
+    for (k = 0; k < MICROPHONE_RESIDUALS; ++k) {
+        monitor->settle[k] = UINT32_MAX;
+    }
+    microphone_reset(monitor);
+    if (!parameters_are_finite(parameters)) {
+        return MICROPHONE_BAD_PARAMETER;
+    }
+    if (!(sample_time >= REAL(0.000999999)) || !finite_number(sample_time)) {
+        return MICROPHONE_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return MICROPHONE_BAD_BANDWIDTH;
+    }
+    if (!(time_unit > REAL(0.0)) || !finite_number(time_unit)) {
+        return MICROPHONE_BAD_TIME_UNIT;
+    }
+    compute_coefficients(monitor, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(monitor)) {
+        return MICROPHONE_BAD_COEFFICIENT;
+    }
+    monitor->settle[MICROPHONE_R1] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    monitor->settle[MICROPHONE_R2] = samples(REAL(6.907755278982138), sample_time, bandwidth);
+    return MICROPHONE_OK;
+}
+
+void microphone_exact(
+    const microphone_monitor *monitor,
+    const microphone_derivatives *derivatives,
+    microphone_real residuals[MICROPHONE_RESIDUALS])
+{
+    const microphone_coefficients *c = &monitor->c;
+    const microphone_derivatives *d = derivatives;
+    real *r = residuals;
+
+    /* microphone.bg:17: mic.mech.q0 + Int(v) */
+    const real t = d->v_integral + c->mic__mech__q0;
+
+    /* microphone.bg:17: r1 = (U0 - u)/R - eps*A*D(u/Int(v, x0)) */
+    r[MICROPHONE_R1] = c->r1_U0 * d->U0 - c->r1_U0 * d->u[0]
+        - c->r1_product_1 * (d->u[1] / t - d->u[0] * d->v[0] / t / t);
+
+    /* microphone.bg:29: r2 = pressure*A - b*v - k*Int(v) - eps*A*u^2/(2*Int(v, x0)^2) - m*D(v) */
+    r[MICROPHONE_R2] = c->r2_pressure * d->pressure - c->r2_v_int * d->v_integral
+        - c->r2_v * d->v[0] - c->r2_v_1 * d->v[1] - c->r2_product * (d->u[0] * d->u[0] / t / t);
+}
+
+/* r1 on its first sample: the filter as if it had always been so. */
+static void start_r1(
+    microphone_monitor *monitor, const microphone_samples *s, real *r)
+{
+    const microphone_coefficients *c = &monitor->c;
+    microphone_memory *x = &monitor->x;
+
+    /* microphone.bg:17: integral of v, at the start */
+    const real r1_int = REAL(0.0);
+
+    /* microphone.bg:17: integral of v: memory */
+    x->r1_q = c->half_time * s->v;
+
+    /* microphone.bg:17: u/(mic.mech.q0 + Int(v)) */
+    const real r1_product = s->u / (r1_int + c->mic__mech__q0);
+
+    /* microphone.bg:17: r1: input of stage 2 */
+    const real r1_u2 = c->r1_U0 * s->U0 + c->r1_v1_product * r1_product - c->r1_U0 * s->u;
+
+    /* microphone.bg:17: r1: stage 2, at rest */
+    const real r1_y2 = r1_u2;
+
+    /* microphone.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->rest * r1_u2;
+
+    /* microphone.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_product * r1_product;
+
+    /* microphone.bg:17: r1: stage 1, at rest */
+    const real r1_y1 = r1_u1;
+
+    /* microphone.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->rest * r1_u1;
+
+    /* microphone.bg:17: r1 = (U0 - u)/R - eps*A*D(u/Int(v, x0)) */
+    r[MICROPHONE_R1] = r1_y1;
+}
+
+/* r1 on every further sample. */
+static void next_r1(
+    microphone_monitor *monitor, const microphone_samples *s, real *r)
+{
+    const microphone_coefficients *c = &monitor->c;
+    microphone_memory *x = &monitor->x;
+
+    /* microphone.bg:17: integral of v */
+    const real r1_int = x->r1_q + c->half_time * s->v;
+
+    /* microphone.bg:17: integral of v: memory */
+    x->r1_q = r1_int + c->half_time * s->v;
+
+    /* microphone.bg:17: u/(mic.mech.q0 + Int(v)) */
+    const real r1_product = s->u / (r1_int + c->mic__mech__q0);
+
+    /* microphone.bg:17: r1: input of stage 2 */
+    const real r1_u2 = c->r1_U0 * s->U0 + c->r1_v1_product * r1_product - c->r1_U0 * s->u;
+
+    /* microphone.bg:17: r1: stage 2 */
+    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+
+    /* microphone.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+
+    /* microphone.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_product * r1_product;
+
+    /* microphone.bg:17: r1: stage 1 */
+    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+
+    /* microphone.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+
+    /* microphone.bg:17: r1 = (U0 - u)/R - eps*A*D(u/Int(v, x0)) */
+    r[MICROPHONE_R1] = r1_y1;
+}
+
+/* One sample for r1; a number that is not finite makes the next sample the first. */
+static void run_r1(
+    microphone_monitor *monitor, const microphone_samples *s, microphone_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[0];
+
+    if (age == 0u) {
+        start_r1(monitor, s, r);
+    } else {
+        next_r1(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->U0 + s->u + s->v + r[MICROPHONE_R1])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[MICROPHONE_R1] = REAL(0.0);
+    }
+    monitor->age[0] = age;
+    residuals->valid[MICROPHONE_R1] = age > monitor->settle[MICROPHONE_R1];
+}
+
+/* r2 on its first sample: the filter as if it had always been so. */
+static void start_r2(
+    microphone_monitor *monitor, const microphone_samples *s, real *r)
+{
+    const microphone_coefficients *c = &monitor->c;
+    microphone_memory *x = &monitor->x;
+
+    /* microphone.bg:29: integral of v, at the start */
+    const real r2_int = REAL(0.0);
+
+    /* microphone.bg:29: integral of v: memory */
+    x->r2_q = c->half_time * s->v;
+
+    /* microphone.bg:29: mic.mech.q0 + Int(v) */
+    const real r2_t = r2_int + c->mic__mech__q0;
+
+    /* microphone.bg:29: u^2/(mic.mech.q0 + Int(v))^2 */
+    const real r2_product = s->u * s->u / r2_t / r2_t;
+
+    /* microphone.bg:29: r2: integral, what is integrated */
+    const real r2_rate = -c->r2_v_int * s->v;
+
+    /* microphone.bg:29: r2: integral, at the start */
+    const real r2_int_2 = REAL(0.0);
+
+    /* microphone.bg:29: r2: integral: memory */
+    x->r2_q_2 = c->half_time * r2_rate;
+
+    /* microphone.bg:29: r2: input of stage 1 */
+    const real r2_u1 = c->r2_pressure * s->pressure + r2_int_2 - c->r2_v * s->v
+        - c->r2_product * r2_product;
+
+    /* microphone.bg:29: r2: stage 1, at rest */
+    const real r2_y1 = r2_u1;
+
+    /* microphone.bg:29: r2: stage 1: memory */
+    x->r2_s1 = c->rest * r2_u1;
+
+    /* microphone.bg:29: r2 = pressure*A - b*v - k*Int(v) - eps*A*u^2/(2*Int(v, x0)^2) - m*D(v) */
+    r[MICROPHONE_R2] = r2_y1;
+}
+
+/* r2 on every further sample. */
+static void next_r2(
+    microphone_monitor *monitor, const microphone_samples *s, real *r)
+{
+    const microphone_coefficients *c = &monitor->c;
+    microphone_memory *x = &monitor->x;
+
+    /* microphone.bg:29: integral of v */
+    const real r2_int = x->r2_q + c->half_time * s->v;
+
+    /* microphone.bg:29: integral of v: memory */
+    x->r2_q = r2_int + c->half_time * s->v;
+
+    /* microphone.bg:29: mic.mech.q0 + Int(v) */
+    const real r2_t = r2_int + c->mic__mech__q0;
+
+    /* microphone.bg:29: u^2/(mic.mech.q0 + Int(v))^2 */
+    const real r2_product = s->u * s->u / r2_t / r2_t;
+
+    /* microphone.bg:29: r2: integral, what is integrated */
+    const real r2_rate = -c->r2_v_int * s->v;
+
+    /* microphone.bg:29: r2: integral */
+    const real r2_int_2 = x->r2_q_2 + c->half_time * r2_rate;
+
+    /* microphone.bg:29: r2: integral: memory */
+    x->r2_q_2 = r2_int_2 + c->half_time * r2_rate;
+
+    /* microphone.bg:29: r2: input of stage 1 */
+    const real r2_u1 = c->r2_pressure * s->pressure + r2_int_2 - c->r2_v * s->v
+        - c->r2_product * r2_product;
+
+    /* microphone.bg:29: r2: stage 1 */
+    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+
+    /* microphone.bg:29: r2: stage 1: memory */
+    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+
+    /* microphone.bg:29: r2 = pressure*A - b*v - k*Int(v) - eps*A*u^2/(2*Int(v, x0)^2) - m*D(v) */
+    r[MICROPHONE_R2] = r2_y1;
+}
+
+/* One sample for r2; a number that is not finite makes the next sample the first. */
+static void run_r2(
+    microphone_monitor *monitor, const microphone_samples *s, microphone_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[1];
+
+    if (age == 0u) {
+        start_r2(monitor, s, r);
+    } else {
+        next_r2(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->pressure + s->u + s->v + r[MICROPHONE_R2])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[MICROPHONE_R2] = REAL(0.0);
+    }
+    monitor->age[1] = age;
+    residuals->valid[MICROPHONE_R2] = age > monitor->settle[MICROPHONE_R2];
+}
+
+void microphone_reset(microphone_monitor *monitor)
+{
+    int k;
+
+    for (k = 0; k < 2; ++k) {
+        monitor->age[k] = 0u;
+    }
+}
+
+void microphone_step(
+    microphone_monitor *monitor,
+    const microphone_samples *samples,
+    microphone_residuals *residuals)
+{
+    run_r1(monitor, samples, residuals);
+    run_r2(monitor, samples, residuals);
+}

@@ -1,0 +1,127 @@
+/* selftest.c: does oven_residuals.c, compiled here, give what it must? */
+#include <math.h>
+#include <stdio.h>
+
+#include "golden.h"
+
+#ifdef OVEN_FLOAT
+#define TOLERANCE 1e-4f
+#else
+#define TOLERANCE 1e-12
+#endif
+
+static const char *const name[OVEN_RESIDUALS] = {
+    "r1", "r2",
+};
+
+/* The error of a result by the sum of its terms; NaN and infinity are larger than anything. */
+static oven_real relative_error(
+    oven_real value, const golden_result *golden)
+{
+    const oven_real size = golden->size > 0 ? golden->size : 1;
+    const oven_real off = (value - golden->value) / size;
+
+    return off >= -1000 && off <= 1000 ? (off < 0 ? -off : off) : 1000;
+}
+
+static int judge(const char *what, const oven_real *worst)
+{
+    int failures = 0;
+    int k;
+
+    for (k = 0; k < OVEN_RESIDUALS; ++k) {
+        const bool pass = worst[k] <= TOLERANCE;
+
+        printf("%s %s %s: error %.1e of the terms\n", pass ? "PASS" : "FAIL", what, name[k],
+            (double)worst[k]);
+        failures += pass ? 0 : 1;
+    }
+    return failures;
+}
+
+/* The residuals that read a sample which can be NaN. */
+static const bool spoilt[OVEN_RESIDUALS] = {
+    true, true,
+};
+
+static int check_exact(const oven_monitor *monitor)
+{
+    oven_real worst[OVEN_RESIDUALS] = {0};
+    oven_real r[OVEN_RESIDUALS] = {0};
+    int at;
+    int k;
+
+    for (at = 0; at < GOLDEN_EXACT; ++at) {
+        oven_exact(monitor, &golden_derivatives[at], r);
+        for (k = 0; k < OVEN_RESIDUALS; ++k) {
+            const oven_real off = relative_error(r[k], &golden_exact[at][k]);
+
+            worst[k] = off > worst[k] ? off : worst[k];
+        }
+    }
+    return judge("exact", worst);
+}
+
+static int check_step(oven_monitor *monitor)
+{
+    oven_real worst[OVEN_RESIDUALS] = {0};
+    oven_residuals r;
+    int at;
+    int k;
+
+    oven_reset(monitor);
+    for (at = 0; at < GOLDEN_STEP; ++at) {
+        oven_step(monitor, &golden_samples[at], &r);
+        for (k = 0; k < OVEN_RESIDUALS; ++k) {
+            const oven_real off = relative_error(r.value[k], &golden_step[at][k]);
+
+            worst[k] = off > worst[k] ? off : worst[k];
+        }
+    }
+    return judge("step", worst);
+}
+
+/* A sample that is not a number is told, and after it everything starts anew. */
+static int check_restart(oven_monitor *monitor)
+{
+    oven_samples bad = golden_samples[0];
+    oven_residuals r;
+    int failures = 0;
+    int k;
+
+    bad.P = (oven_real)NAN;
+    bad.Ta = (oven_real)NAN;
+    bad.Th = (oven_real)NAN;
+    bad.To = (oven_real)NAN;
+    oven_step(monitor, &bad, &r);
+    for (k = 0; k < OVEN_RESIDUALS; ++k) {
+        failures += spoilt[k] && r.valid[k] ? 1 : 0;
+    }
+    printf("%s a sample that is not a number\n", failures ? "FAIL" : "PASS");
+    return failures + check_step(monitor);
+}
+
+int main(void)
+{
+    oven_parameters parameters;
+    oven_monitor monitor;
+    oven_status status;
+    int failures = 0;
+
+    golden_parameters(&parameters);
+    status = oven_configure(
+        &monitor,
+        &parameters,
+        OVEN_SAMPLE_TIME,
+        OVEN_BANDWIDTH,
+        OVEN_TIME_UNIT);
+    if (status != OVEN_OK) {
+        printf("FAIL configure\n");
+        return 1;
+    }
+    failures += check_exact(&monitor);
+    failures += check_step(&monitor);
+    failures += check_restart(&monitor);
+    printf("%s\n", failures ? "FAIL" : "PASS");
+    return failures ? 1 : 0;
+}

@@ -1,0 +1,126 @@
+/* selftest.c: does quarter_car_residuals.c, compiled here, give what it must? */
+#include <math.h>
+#include <stdio.h>
+
+#include "golden.h"
+
+#ifdef QUARTER_CAR_FLOAT
+#define TOLERANCE 1e-4f
+#else
+#define TOLERANCE 1e-12
+#endif
+
+static const char *const name[QUARTER_CAR_RESIDUALS] = {
+    "r1", "r2",
+};
+
+/* The error of a result by the sum of its terms; NaN and infinity are larger than anything. */
+static quarter_car_real relative_error(
+    quarter_car_real value, const golden_result *golden)
+{
+    const quarter_car_real size = golden->size > 0 ? golden->size : 1;
+    const quarter_car_real off = (value - golden->value) / size;
+
+    return off >= -1000 && off <= 1000 ? (off < 0 ? -off : off) : 1000;
+}
+
+static int judge(const char *what, const quarter_car_real *worst)
+{
+    int failures = 0;
+    int k;
+
+    for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+        const bool pass = worst[k] <= TOLERANCE;
+
+        printf("%s %s %s: error %.1e of the terms\n", pass ? "PASS" : "FAIL", what, name[k],
+            (double)worst[k]);
+        failures += pass ? 0 : 1;
+    }
+    return failures;
+}
+
+/* The residuals that read a sample which can be NaN. */
+static const bool spoilt[QUARTER_CAR_RESIDUALS] = {
+    true, true,
+};
+
+static int check_exact(const quarter_car_monitor *monitor)
+{
+    quarter_car_real worst[QUARTER_CAR_RESIDUALS] = {0};
+    quarter_car_real r[QUARTER_CAR_RESIDUALS] = {0};
+    int at;
+    int k;
+
+    for (at = 0; at < GOLDEN_EXACT; ++at) {
+        quarter_car_exact(monitor, &golden_derivatives[at], r);
+        for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+            const quarter_car_real off = relative_error(r[k], &golden_exact[at][k]);
+
+            worst[k] = off > worst[k] ? off : worst[k];
+        }
+    }
+    return judge("exact", worst);
+}
+
+static int check_step(quarter_car_monitor *monitor)
+{
+    quarter_car_real worst[QUARTER_CAR_RESIDUALS] = {0};
+    quarter_car_residuals r;
+    int at;
+    int k;
+
+    quarter_car_reset(monitor);
+    for (at = 0; at < GOLDEN_STEP; ++at) {
+        quarter_car_step(monitor, &golden_samples[at], &r);
+        for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+            const quarter_car_real off = relative_error(r.value[k], &golden_step[at][k]);
+
+            worst[k] = off > worst[k] ? off : worst[k];
+        }
+    }
+    return judge("step", worst);
+}
+
+/* A sample that is not a number is told, and after it everything starts anew. */
+static int check_restart(quarter_car_monitor *monitor)
+{
+    quarter_car_samples bad = golden_samples[0];
+    quarter_car_residuals r;
+    int failures = 0;
+    int k;
+
+    bad.vw = (quarter_car_real)NAN;
+    bad.vb = (quarter_car_real)NAN;
+    bad.stroke = (quarter_car_real)NAN;
+    quarter_car_step(monitor, &bad, &r);
+    for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+        failures += spoilt[k] && r.valid[k] ? 1 : 0;
+    }
+    printf("%s a sample that is not a number\n", failures ? "FAIL" : "PASS");
+    return failures + check_step(monitor);
+}
+
+int main(void)
+{
+    quarter_car_parameters parameters;
+    quarter_car_monitor monitor;
+    quarter_car_status status;
+    int failures = 0;
+
+    golden_parameters(&parameters);
+    status = quarter_car_configure(
+        &monitor,
+        &parameters,
+        QUARTER_CAR_SAMPLE_TIME,
+        QUARTER_CAR_BANDWIDTH,
+        QUARTER_CAR_TIME_UNIT);
+    if (status != QUARTER_CAR_OK) {
+        printf("FAIL configure\n");
+        return 1;
+    }
+    failures += check_exact(&monitor);
+    failures += check_step(&monitor);
+    failures += check_restart(&monitor);
+    printf("%s\n", failures ? "FAIL" : "PASS");
+    return failures ? 1 : 0;
+}

@@ -1,0 +1,48 @@
+"""RcLoop watched by its residuals; a program to start from.
+
+Put your sensors into read_samples and what to do about a fault into raise_alarm.
+"""
+
+from __future__ import annotations
+
+import rc_loop_residuals as m
+
+TICKS = 1000
+
+#: How far a residual may be from 0 while all is well: measure this on your healthy machine.
+THRESHOLD = {
+    "r1": 0.001,
+    "r2": 0.001,
+}
+
+
+def read_samples() -> m.Samples:
+    """One sample of every signal, all taken at the same moment. Here: a machine at rest."""
+    return m.Samples(
+        U=0.0,   # -
+        ua=0.0,  # -
+        uc=0.0,  # -
+    )
+
+
+def raise_alarm(residual: str, value: float) -> None:
+    """Say that something is wrong."""
+    print(f"{residual} = {value:g}: look for a fault that it sees")
+
+
+def main() -> None:
+    """Watch the machine for a while."""
+    monitor = m.Monitor()
+    alarms = 0
+    for _ in range(TICKS):  # every SAMPLE_TIME, from a timer
+        residuals = monitor.step(read_samples())
+        for name, threshold in THRESHOLD.items():
+            value: float = getattr(residuals, name)
+            if name in residuals.valid and abs(value) > threshold:
+                raise_alarm(name, value)
+                alarms += 1
+    print(f"{TICKS} samples, {alarms} alarms")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,126 @@
+/* selftest.c: does rc_loop_residuals.c, compiled here, give what it must? */
+#include <math.h>
+#include <stdio.h>
+
+#include "golden.h"
+
+#ifdef RC_LOOP_FLOAT
+#define TOLERANCE 1e-4f
+#else
+#define TOLERANCE 1e-12
+#endif
+
+static const char *const name[RC_LOOP_RESIDUALS] = {
+    "r1", "r2",
+};
+
+/* The error of a result by the sum of its terms; NaN and infinity are larger than anything. */
+static rc_loop_real relative_error(
+    rc_loop_real value, const golden_result *golden)
+{
+    const rc_loop_real size = golden->size > 0 ? golden->size : 1;
+    const rc_loop_real off = (value - golden->value) / size;
+
+    return off >= -1000 && off <= 1000 ? (off < 0 ? -off : off) : 1000;
+}
+
+static int judge(const char *what, const rc_loop_real *worst)
+{
+    int failures = 0;
+    int k;
+
+    for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+        const bool pass = worst[k] <= TOLERANCE;
+
+        printf("%s %s %s: error %.1e of the terms\n", pass ? "PASS" : "FAIL", what, name[k],
+            (double)worst[k]);
+        failures += pass ? 0 : 1;
+    }
+    return failures;
+}
+
+/* The residuals that read a sample which can be NaN. */
+static const bool spoilt[RC_LOOP_RESIDUALS] = {
+    true, true,
+};
+
+static int check_exact(const rc_loop_monitor *monitor)
+{
+    rc_loop_real worst[RC_LOOP_RESIDUALS] = {0};
+    rc_loop_real r[RC_LOOP_RESIDUALS] = {0};
+    int at;
+    int k;
+
+    for (at = 0; at < GOLDEN_EXACT; ++at) {
+        rc_loop_exact(monitor, &golden_derivatives[at], r);
+        for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+            const rc_loop_real off = relative_error(r[k], &golden_exact[at][k]);
+
+            worst[k] = off > worst[k] ? off : worst[k];
+        }
+    }
+    return judge("exact", worst);
+}
+
+static int check_step(rc_loop_monitor *monitor)
+{
+    rc_loop_real worst[RC_LOOP_RESIDUALS] = {0};
+    rc_loop_residuals r;
+    int at;
+    int k;
+
+    rc_loop_reset(monitor);
+    for (at = 0; at < GOLDEN_STEP; ++at) {
+        rc_loop_step(monitor, &golden_samples[at], &r);
+        for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+            const rc_loop_real off = relative_error(r.value[k], &golden_step[at][k]);
+
+            worst[k] = off > worst[k] ? off : worst[k];
+        }
+    }
+    return judge("step", worst);
+}
+
+/* A sample that is not a number is told, and after it everything starts anew. */
+static int check_restart(rc_loop_monitor *monitor)
+{
+    rc_loop_samples bad = golden_samples[0];
+    rc_loop_residuals r;
+    int failures = 0;
+    int k;
+
+    bad.U = (rc_loop_real)NAN;
+    bad.ua = (rc_loop_real)NAN;
+    bad.uc = (rc_loop_real)NAN;
+    rc_loop_step(monitor, &bad, &r);
+    for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+        failures += spoilt[k] && r.valid[k] ? 1 : 0;
+    }
+    printf("%s a sample that is not a number\n", failures ? "FAIL" : "PASS");
+    return failures + check_step(monitor);
+}
+
+int main(void)
+{
+    rc_loop_parameters parameters;
+    rc_loop_monitor monitor;
+    rc_loop_status status;
+    int failures = 0;
+
+    golden_parameters(&parameters);
+    status = rc_loop_configure(
+        &monitor,
+        &parameters,
+        RC_LOOP_SAMPLE_TIME,
+        RC_LOOP_BANDWIDTH,
+        RC_LOOP_TIME_UNIT);
+    if (status != RC_LOOP_OK) {
+        printf("FAIL configure\n");
+        return 1;
+    }
+    failures += check_exact(&monitor);
+    failures += check_step(&monitor);
+    failures += check_restart(&monitor);
+    printf("%s\n", failures ? "FAIL" : "PASS");
+    return failures ? 1 : 0;
+}

@@ -1,0 +1,117 @@
+"""Does slider_crank_residuals.py, as it runs here, give what it must? Ends with 0 if so."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Iterable
+from typing import TypeVar
+
+import slider_crank_residuals as m
+
+TOLERANCE = 1e-12
+
+RESIDUALS = (
+    "r1",
+)
+
+#: Signals that can be NaN, and the residuals that read one.
+SIGNALS: tuple[str, ...] = (
+    "T", "load", "speed",
+)
+SPOILT: tuple[str, ...] = (
+    "r1",
+)
+
+PARAMETERS = m.Parameters(
+)
+
+Result = tuple[tuple[float, float], ...]
+
+#: What goes in, and for each residual what comes out and the sum of the sizes of its terms.
+EXACT: tuple[tuple[m.Derivatives, Result], ...] = (
+    (m.Derivatives(T=0.625, load=0.9375, speed=(0.34375, -448.0), speed_integral=0.90625),
+    ((1.7262779549820835, 2.9099455634437077),)),
+    (m.Derivatives(T=0.0625, load=0.03125, speed=(-0.15625, -160.0), speed_integral=-0.90625),
+    ((0.47146767699389597, 0.8537606089810156),)),
+    (m.Derivatives(T=-0.09375, load=0.5, speed=(0.28125, -288.0), speed_integral=0.1875),
+    ((0.4873285888664079, 0.7321449301990381),)),
+    (m.Derivatives(T=-0.71875, load=-0.96875, speed=(0.6875, -304.0), speed_integral=0.09375),
+    ((-0.1042380278757128, 1.3523256108159378),)),
+)
+STEP: tuple[tuple[m.Samples, Result], ...] = (
+    (m.Samples(T=0.0625, load=-0.15625, speed=-0.03125), ((0.06253125, 0.06497128125),)),
+    (m.Samples(T=0.6875, load=-0.78125, speed=0.34375), ((0.06244536235877715,
+    0.0659705398620372),)),
+    (m.Samples(T=0.4375, load=0.8125, speed=-0.125), ((0.06256020509547564, 0.06588750576986149),)),
+    (m.Samples(T=0.0, load=-0.25, speed=-0.375), ((0.06308028420294039, 0.06641046555667011),)),
+    (m.Samples(T=-0.9375, load=0.625, speed=-0.1875), ((0.06352936473754754,
+    0.06707562233411572),)),
+    (m.Samples(T=-0.0625, load=-0.34375, speed=0.75), ((0.06330388511785096,
+    0.06731364967052612),)),
+    (m.Samples(T=-0.75, load=-0.5625, speed=-0.1875), ((0.06288722159210039,
+    0.06642786290730295),)),
+    (m.Samples(T=0.25, load=0.96875, speed=-0.53125), ((0.06283539945000716,
+    0.06618097741433572),)),
+    (m.Samples(T=-0.96875, load=-0.96875, speed=-0.28125), ((0.06267749291113599,
+    0.06618358633893939),)),
+    (m.Samples(T=0.5, load=-0.34375, speed=0.3125), ((0.06205376008607927, 0.06562317052056528),)),
+    (m.Samples(T=0.375, load=-0.125, speed=0.9375), ((0.060992817930948566, 0.06500418040884948),)),
+    (m.Samples(T=-0.625, load=0.4375, speed=0.375), ((0.059986882068450174, 0.06366584633631657),)),
+    (m.Samples(T=-0.96875, load=0.71875, speed=-0.03125), ((0.059194728227992634,
+    0.06257651552211846),)),
+    (m.Samples(T=0.25, load=-0.125, speed=-0.6875), ((0.05860127451542493, 0.06172784519371002),)),
+    (m.Samples(T=-0.9375, load=0.53125, speed=-0.25), ((0.057954786192356264,
+    0.06120381921888715),)),
+    (m.Samples(T=0.6875, load=0.0, speed=-0.21875), ((0.05703619025391865, 0.060194477748515045),)),
+)
+
+Input = TypeVar("Input")
+
+
+def check(
+    what: str, run: Callable[[Input], m.Residuals], golden: Iterable[tuple[Input, Result]]
+) -> bool:
+    """Whether all results are right; says so for each residual."""
+    worst = dict.fromkeys(RESIDUALS, 0.0)
+    for given, results in golden:
+        found = run(given)
+        for name, (value, size) in zip(RESIDUALS, results, strict=True):
+            off = abs(getattr(found, name) - value) / (size or 1.0)
+            worst[name] = max(worst[name], off if math.isfinite(off) else 1000.0)
+    for name, off in worst.items():
+        verdict = "PASS" if off <= TOLERANCE else "FAIL"
+        print(f"{verdict} {what} {name}: error {off:.1e} of the terms")
+    return max(worst.values()) <= TOLERANCE
+
+
+def check_restart(monitor: m.Monitor) -> bool:
+    """Whether a sample that is not a number is told, and everything starts anew after it."""
+    told = True
+    for sample, _ in STEP[:1]:
+        before = {name: getattr(sample, name) for name in SIGNALS}
+        for name in SIGNALS:
+            setattr(sample, name, math.nan)
+        told = not monitor.step(sample).valid.intersection(SPOILT)
+        for name, value in before.items():
+            setattr(sample, name, value)
+    print(f"{'PASS' if told else 'FAIL'} a sample that is not a number")
+    return told
+
+
+def main() -> int:
+    """Run all checks; 0 if they pass."""
+    monitor = m.Monitor(PARAMETERS)
+    passed = [
+        check("exact", monitor.exact, EXACT),
+        check("step", monitor.step, STEP),
+        check_restart(monitor),
+    ]
+    monitor.reset()
+    passed.append(check("step", monitor.step, STEP))
+    print("PASS" if all(passed) else "FAIL")
+    return 0 if all(passed) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
