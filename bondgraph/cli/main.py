@@ -1,78 +1,50 @@
-"""Which commands there are, how they are found, and what a failure looks like to the user."""
+"""How a command is found and run, and what a failure looks like to the user."""
 
 from __future__ import annotations
 
-import argparse
+import gc
 import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
+from types import SimpleNamespace
+from typing import TYPE_CHECKING
 
 from bondgraph.cli import console
 from bondgraph.text.diagnostic import CompileError
 
-#: Every command with its one line; the module of the same name has `arguments` and `run`.
-COMMANDS = {
-    "check": "say whether models are sound: syntax, names, units, causality",
-    "format": "write models in the one style they are all written in",
-    "compile": "make residuals, fault signatures and code from a model",
-    "dump": "print what the compiler knows about a model at one of its stages",
-    "explain": "explain an error code, or a bond, element, residual or fault of a model",
-    "draw": "draw a bond graph with half arrows and causal strokes",
-}
+if TYPE_CHECKING:
+    import argparse
 
-_EPILOG = """\
-MODEL is a file, or file.bg:Name for one of the models in it.
-Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage.
-`bondgraph COMMAND --help` says more; docs/cli.md says all.
-"""
+gc.set_threshold(100_000, 20, 20)  # what a command makes is kept: looking for garbage is in vain
 
 
-class Version(argparse.Action):
-    """Print the version; looked up only when asked for."""
+def plain_check(words: list[str]) -> SimpleNamespace | None:
+    """What the parser makes of `check MODEL ...`, if that is what the words are.
 
-    def __call__(self, parser: argparse.ArgumentParser, *_: object, **__: object) -> None:
-        """Print and leave."""
-        from importlib.metadata import PackageNotFoundError, version
-
-        try:
-            print("bondgraph", version("bondgraph-arr"))
-        except PackageNotFoundError:
-            print("bondgraph (from a checkout that is not installed)")
-        parser.exit(0)
+    Editors run this at every change of a model; reading it without argparse saves a tenth.
+    """
+    models = [word for word in words[1:] if word != "--json"]
+    if words[:1] != ["check"] or not models or any(word.startswith("-") for word in models):
+        return None
+    return SimpleNamespace(command="check", models=models, json="--json" in words)
 
 
-def parser_for(command: str | None) -> argparse.ArgumentParser:
-    """The parser with all commands; only `command` gets its arguments (None: every one)."""
-    parser = argparse.ArgumentParser(
-        prog="bondgraph",
-        description="Compile bond graphs into residuals that detect and isolate faults.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
-    parser.add_argument(
-        "--version", action=Version, nargs=0, default=argparse.SUPPRESS, help="print the version"
-    )
-    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, line in COMMANDS.items():
-        sub = commands.add_parser(
-            name,
-            help=line,
-            description=f"{line[0].upper()}{line[1:]}.",
-            formatter_class=argparse.RawDescriptionHelpFormatter,
-            allow_abbrev=False,
-        )
-        if command in (None, name):
-            import_module(f"bondgraph.cli.{name}").arguments(sub)
-    return parser
+def parsed(words: list[str]) -> SimpleNamespace | argparse.Namespace:
+    """The words of the command line, understood; leaves with help or usage if they are not."""
+    plain = plain_check(words)
+    if plain is not None:
+        return plain
+    from bondgraph.cli.usage import parser_for
+
+    named = next((w for w in words if not w.startswith("-")), "")
+    return parser_for(named).parse_args(words)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit status is 0 (done), 1 (wrong model) or 2 (wrong usage)."""
     words = list(sys.argv[1:] if argv is None else argv)
-    named = next((w for w in words if not w.startswith("-")), "")
-    args = parser_for(named).parse_args(words)
+    args = parsed(words)
     command = import_module(f"bondgraph.cli.{args.command}")
     as_json = bool(getattr(args, "json", False))
     try:

@@ -11,7 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from bondgraph.cli.main import COMMANDS, parser_for
+from bondgraph.cli.main import plain_check
+from bondgraph.cli.usage import COMMANDS, parser_for
 from tests.unit.cli.conftest import MODELS, Command
 
 ROOT = MODELS.parent
@@ -132,11 +133,13 @@ HEAVY = {"dataclasses", "inspect", "jinja2", "networkx", "numpy", "scipy", "symp
 
 @pytest.mark.parametrize("words", [["check", "models/khepera.bg"], ["--help"], ["--version"]])
 def test_light_commands_import_nothing_heavy(words: list[str]) -> None:
+    late = {"argparse", "difflib", "json", "shutil"} if words[0] == "check" else set()
+    heavy = sorted(HEAVY | late)
     program = (
         "import sys; from bondgraph.cli.main import main\n"
         "try: status = main(sys.argv[1:])\n"
         "except SystemExit as leaving: status = leaving.code\n"
-        f"print('heavy:', status or 0, sorted(set({sorted(HEAVY)!r}) & set(sys.modules)))"
+        f"print('heavy:', status or 0, sorted(set({heavy!r}) & set(sys.modules)))"
     )
     done = subprocess.run(
         [sys.executable, "-c", program, *words],
@@ -147,3 +150,19 @@ def test_light_commands_import_nothing_heavy(words: list[str]) -> None:
         check=True,
     )
     assert done.stdout.splitlines()[-1] == "heavy: 0 []"
+
+
+@pytest.mark.parametrize(
+    "words", ["check a.bg", "check a.bg:M b.bg --json", "check --json x", "check check"]
+)
+def test_a_plain_check_is_read_as_the_parser_reads_it(words: str) -> None:
+    plain = plain_check(words.split())
+    assert plain is not None
+    assert vars(plain) == vars(parser_for("check").parse_args(words.split()))
+
+
+@pytest.mark.parametrize(
+    "words", ["", "check", "check --json", "check -h", "check a.bg --help", "check -- -a", "dump a"]
+)
+def test_whatever_else_goes_to_the_parser(words: str) -> None:
+    assert plain_check(words.split()) is None

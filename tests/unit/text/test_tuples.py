@@ -30,7 +30,7 @@ class Slow(typing.NamedTuple):
 
 
 def test_like_those_of_typing() -> None:
-    assert Quick(1) == Slow(1) == (1, "b")
+    assert tuple(Quick(1)) == tuple(Slow(1)) == (1, "b")
     assert Quick(second="c", first=2)._asdict() == Slow(2, "c")._asdict()
     assert repr(Quick(1)) == "Quick(first=1, second='b')"
     assert (Quick._fields, Quick._field_defaults) == (Slow._fields, Slow._field_defaults)

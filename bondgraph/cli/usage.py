@@ -1,0 +1,62 @@
+"""Which commands there are, and what each of them takes."""
+
+from __future__ import annotations
+
+import argparse
+from importlib import import_module
+
+#: Every command with its one line; the module of the same name has `arguments` and `run`.
+COMMANDS = {
+    "check": "say whether models are sound: syntax, names, units, causality",
+    "format": "write models in the one style they are all written in",
+    "compile": "make residuals, fault signatures and code from a model",
+    "dump": "print what the compiler knows about a model at one of its stages",
+    "explain": "explain an error code, or a bond, element, residual or fault of a model",
+    "draw": "draw a bond graph with half arrows and causal strokes",
+}
+
+_EPILOG = """\
+MODEL is a file, or file.bg:Name for one of the models in it.
+Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage.
+`bondgraph COMMAND --help` says more; docs/cli.md says all.
+"""
+
+
+class Version(argparse.Action):
+    """Print the version; looked up only when asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object, **__: object) -> None:
+        """Print and leave."""
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            print("bondgraph", version("bondgraph-arr"))
+        except PackageNotFoundError:
+            print("bondgraph (from a checkout that is not installed)")
+        parser.exit(0)
+
+
+def parser_for(command: str | None) -> argparse.ArgumentParser:
+    """The parser with all commands; only `command` gets its arguments (None: every one)."""
+    parser = argparse.ArgumentParser(
+        prog="bondgraph",
+        description="Compile bond graphs into residuals that detect and isolate faults.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument(
+        "--version", action=Version, nargs=0, default=argparse.SUPPRESS, help="print the version"
+    )
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    for name, line in COMMANDS.items():
+        sub = commands.add_parser(
+            name,
+            help=line,
+            description=f"{line[0].upper()}{line[1:]}.",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,
+        )
+        if command in (None, name):
+            import_module(f"bondgraph.cli.{name}").arguments(sub)
+    return parser
