@@ -19,6 +19,7 @@ from bondgraph.ir.program import (
     Product,
     Ref,
 )
+from bondgraph.passes.lowering.derivative import Jets
 from bondgraph.passes.lowering.names import OPTION, ZERO_START, Names, brief, identifier
 from bondgraph.passes.lowering.numeric import evaluate, nominal
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure
@@ -49,6 +50,7 @@ class Builder:
     def __init__(self, graph: BondGraph) -> None:
         self.graph = graph
         self.pool: Pool = graph.pool
+        self.jets = Jets(graph.pool)
         self.values: dict[str, Fraction | float] = nominal(graph)
         self.floats = {name: float(value) for name, value in self.values.items()}
         self.fields: list[Field] = []

@@ -1,4 +1,9 @@
-"""The exact time derivative of an expression of known signals, by the rules of calculus.
+"""Exact time derivatives of any order of expressions of known signals, by recurrences (jets).
+
+The k-th derivative of a node is made from lower ones of what the node rests on: a product by
+Leibniz' rule, a reciprocal y = 1/b from b y = 1, a function y = f(u) from y' = f'(u) u', where the
+slope f'(u) is a node like any other. Each pair of node and order is made once, so that a node costs
+O(k**2) and a chain of n laws O(n k**2), where repeated differentiation costs 2**k.
 
 Parameters are constant in time. `if`, `abs`, `min`, `max` and tables are differentiated piece by
 piece; a jump of a mode or of a sign has no derivative and contributes nothing.
@@ -6,13 +11,25 @@ piece; a jump of a mode or of a sign has no derivative and contributes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Iterable
 from fractions import Fraction
 from itertools import pairwise
+from math import comb
+from typing import TypeAlias
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, topological
 
-_Rule = Callable[[Pool, Expr, Expr], Expr]
+_Slope = Callable[[Pool, Expr, Expr], Expr]
+
+#: A node and the order of its derivative.
+_Key: TypeAlias = tuple[Expr, int]
+
+#: A rule asks for the derivatives that it needs, one by one, and returns its own.
+_Rule: TypeAlias = Generator[_Key, Expr, Expr]
+
+
+class TooManyOperations(Exception):
+    """The derivative is larger than allowed."""
 
 
 def _root(pool: Pool, x: Expr) -> Expr:
@@ -20,7 +37,7 @@ def _root(pool: Pool, x: Expr) -> Expr:
 
 
 #: d f(x) / dx, given the node f(x) and x
-_SLOPES: dict[str, _Rule] = {
+_SLOPES: dict[str, _Slope] = {
     "abs": lambda p, f, x: p.fn("sign", x),
     "sign": lambda p, f, x: p.zero,
     "sqrt": lambda p, f, x: p.scale(Fraction(1, 2), p.power(f, -1)),
@@ -46,75 +63,216 @@ _SLOPES: dict[str, _Rule] = {
 
 def differentiate(pool: Pool, expr: Expr, times: int = 1) -> Expr:
     """D(expr, times), with D on known signals (and on what stands under no other rule) only."""
-    expr = push(pool, expr)
-    for _ in range(times):
-        expr = push(pool, _once(pool, expr))
-    return expr
+    return Jets(pool).of(expr, times)
 
 
-def push(pool: Pool, expr: Expr) -> Expr:
-    """The same expression with every derivative moved inwards to the known signals."""
-    new: dict[Expr, Expr] = {}
-    for node in topological([expr]):
-        args = tuple(new[a] for a in node.args)
-        new[node] = _once(pool, args[0]) if node.op is Op.DER else pool.rebuild(node, args)
-    return new[expr]
+class Jets:
+    """Derivatives of the expressions of a pool; what was made for one serves all."""
 
+    def __init__(self, pool: Pool) -> None:
+        self.pool = pool
+        self._made: dict[_Key, Expr] = {}
 
-def _once(pool: Pool, expr: Expr) -> Expr:
-    slopes: dict[Expr, Expr] = {}
-    for node in topological([expr], stop=lambda n: n.op in (Op.DER, Op.INT)):
-        slopes[node] = _slope(pool, node, slopes)
-    return slopes[expr]
+    def of(self, expr: Expr, order: int = 0, limit: int | None = None) -> Expr:
+        """D(expr, order), with every derivative inside moved inwards to the known signals.
 
+        Raises `TooManyOperations` once more than `limit` new nodes were made on the way.
+        """
+        end = None if limit is None else len(self.pool) + limit
+        made = self._made
+        goal = (expr, order)
+        waiting: list[tuple[_Key, _Rule]] = []
+        if goal not in made:
+            waiting.append((goal, self._rule(*goal)))
+        answer: Expr | None = None
+        while waiting:  # not a recursion: a chain may be thousands of nodes deep
+            key, rule = waiting[-1]
+            try:
+                wanted = next(rule) if answer is None else rule.send(answer)
+            except StopIteration as stop:
+                waiting.pop()
+                answer = made[key] = stop.value
+                if end is not None and len(self.pool) > end:
+                    raise TooManyOperations from None
+                continue
+            answer = made.get(wanted)
+            if answer is None:
+                waiting.append((wanted, self._rule(*wanted)))
+        return made[goal]
 
-def _slope(pool: Pool, node: Expr, slopes: dict[Expr, Expr]) -> Expr:
-    match node.op:
-        case Op.NUM | Op.CMP | Op.LOGIC:
+    # --------------------------------------------------------------- rules
+
+    def _rule(self, node: Expr, order: int) -> _Rule:
+        if node.op is Op.DER:
+            return self._same(node.args[0], order + 1)
+        if order == 0:
+            return self._inside(node)
+        match node.op:
+            case Op.NUM | Op.CMP | Op.LOGIC:
+                return self._zero()
+            case Op.SYM:
+                return self._signal(node, order)
+            case Op.INT:
+                return self._same(node.args[0], order - 1)
+            case Op.ADD:
+                return self._sum(node, order)
+            case Op.MUL:
+                return self._product(node, order)
+            case Op.IF:
+                condition, yes, no = node.args
+                return self._choice(condition, yes, no, order)
+            case Op.FN:
+                return self._function(node, order)
+
+    def _same(self, node: Expr, order: int) -> _Rule:
+        return (yield node, order)
+
+    def _inside(self, node: Expr) -> _Rule:
+        args = []
+        for a in node.args:
+            args.append((yield a, 0))
+        return self.pool.rebuild(node, tuple(args))
+
+    def _zero(self) -> _Rule:
+        yield from ()
+        return self.pool.zero
+
+    def _signal(self, node: Expr, order: int) -> _Rule:
+        yield from ()
+        if node.symbol.kind in CONSTANTS or node.symbol.kind is Kind.MODE:
+            return self.pool.zero
+        for _ in range(order):
+            node = self.pool.der(node)
+        return node
+
+    def _sum(self, node: Expr, order: int) -> _Rule:
+        terms = []
+        for c, a in zip(node.coefficients, node.args, strict=True):
+            terms.append((c, (yield a, order)))
+        return self.pool.add(*terms)
+
+    def _choice(self, condition: Expr, yes: Expr, no: Expr, order: int) -> _Rule:
+        left = yield yes, order
+        right = yield no, order
+        return self.pool.choose((yield condition, 0), left, right)
+
+    # ------------------------------------------------------------ products
+
+    def _product(self, node: Expr, order: int) -> _Rule:
+        pool = self.pool
+        still: list[Expr] = []
+        moving: list[tuple[Expr, int]] = []
+        slopes: list[Expr] = []
+        for a, e in zip(node.args, node.exponents, strict=True):
+            slope = yield a, 1
+            if slope is pool.zero:
+                still.append(pool.power((yield a, 0), e))
+            else:
+                moving.append((a, e))
+                slopes.append(slope)
+        if not moving:
             return pool.zero
-        case Op.SYM:
-            still = node.symbol.kind in CONSTANTS or node.symbol.kind is Kind.MODE
-            return pool.zero if still else pool.der(node)
-        case Op.DER | Op.INT:
-            return pool.der(node)
-        case Op.ADD:
-            pairs = zip(node.coefficients, node.args, strict=True)
-            return pool.add(*[(c, slopes[a]) for c, a in pairs])
-        case Op.MUL:
-            terms = []
-            for a, e in zip(node.args, node.exponents, strict=True):
-                if slopes[a] is not pool.zero:
-                    terms.append((e, pool.mul(node, pool.power(a, -1), slopes[a])))
-            return pool.add(*terms)
-        case Op.IF:
-            condition, yes, no = node.args
-            return pool.choose(condition, slopes[yes], slopes[no])
-        case Op.FN:
-            return _chain(pool, node, slopes)
+        if order == 1:  # flat, as a person would write it
+            factors = []
+            for a, e in moving:
+                factors.append(((yield a, 0), e))
+            return self._slope_of_product(still, factors, slopes)
+        if still:
+            rest = pool.mul(*[pool.power(a, e) for a, e in moving])
+            return pool.mul(*still, (yield rest, order))
+        *others, (base, exponent) = moving
+        if others:
+            left = pool.mul(*[pool.power(a, e) for a, e in others])
+            return (yield from self._leibniz(left, pool.power(base, exponent), order))
+        if exponent > 0:
+            half = exponent // 2
+            parts = pool.power(base, half), pool.power(base, exponent - half)
+            return (yield from self._leibniz(*parts, order))
+        return (yield from self._reciprocal(node, pool.power(base, -exponent), order))
 
+    def _slope_of_product(
+        self, still: list[Expr], factors: list[tuple[Expr, int]], slopes: list[Expr]
+    ) -> Expr:
+        pool = self.pool
+        terms = []
+        for at, slope in enumerate(slopes):
+            rest = [pool.power(a, e - (k == at)) for k, (a, e) in enumerate(factors)]
+            terms.append((factors[at][1], pool.mul(*still, *rest, slope)))
+        return pool.add(*terms)
 
-def _chain(pool: Pool, node: Expr, slopes: dict[Expr, Expr]) -> Expr:
-    if all(slopes[a] is pool.zero for a in node.args):
-        return pool.zero
-    x = node.args[0]
-    if node.name.startswith("table:"):
-        return pool.mul(_table_slope(pool, node.name, x), slopes[x])
-    if len(node.args) == 1:
-        return pool.mul(_SLOPES[node.name](pool, node, x), slopes[x])
-    y = node.args[1]
-    if node.name in ("min", "max"):
-        first = pool.compare("<=" if node.name == "min" else ">=", x, y)
-        return pool.choose(first, slopes[x], slopes[y])
-    if node.name == "atan2":
-        square = pool.add((1, pool.power(x, 2)), (1, pool.power(y, 2)))
-        turned = pool.sub(pool.mul(y, slopes[x]), pool.mul(x, slopes[y]))
-        return pool.div(turned, square)
-    assert node.name == "pow"
-    lowered = pool.fn("pow", x, pool.sub(y, pool.one))
-    base = pool.mul(y, lowered, slopes[x])
-    if slopes[y] is pool.zero:
-        return base
-    return pool.add((1, base), (1, pool.mul(node, pool.fn("log", x), slopes[y])))
+    def _leibniz(self, left: Expr, right: Expr, order: int) -> _Rule:
+        """(a b)^(k) = sum_i C(k, i) a^(i) b^(k-i)"""
+        pool = self.pool
+        terms = []
+        for i in range(order + 1):
+            a = yield left, i
+            if a is not pool.zero:
+                terms.append((comb(order, i), pool.mul(a, (yield right, order - i))))
+        return pool.add(*terms)
+
+    def _reciprocal(self, node: Expr, below: Expr, order: int) -> _Rule:
+        """y = 1/b: y^(k) = -y sum_{i>0} C(k, i) b^(i) y^(k-i)"""
+        pool = self.pool
+        terms = []
+        for i in range(1, order + 1):
+            b = yield below, i
+            if b is not pool.zero:
+                terms.append((-comb(order, i), pool.mul(b, (yield node, order - i))))
+        return pool.mul((yield node, 0), pool.add(*terms))
+
+    # ----------------------------------------------------------- functions
+
+    def _function(self, node: Expr, order: int) -> _Rule:
+        pool, x = self.pool, node.args[0]
+        if node.name.startswith("table:"):
+            return (yield from self._chain(_table_slope(pool, node.name, x), x, order))
+        if len(node.args) == 1:
+            return (yield from self._chain(_SLOPES[node.name](pool, node, x), x, order))
+        y = node.args[1]
+        if node.name in ("min", "max"):
+            first = pool.compare("<=" if node.name == "min" else ">=", x, y)
+            return (yield from self._choice(first, x, y, order))
+        if node.name == "atan2":
+            square = pool.add((1, pool.power(x, 2)), (1, pool.power(y, 2)))
+            turned = pool.sub(pool.mul(y, pool.der(x)), pool.mul(x, pool.der(y)))
+            return (yield pool.div(turned, square), order - 1)
+        assert node.name == "pow"
+        return (yield from self._power(node, x, y, order))
+
+    def _chain(self, slope: Expr, x: Expr, order: int) -> _Rule:
+        """y' = s x': y^(k) = sum_i C(k-1, i) s^(i) x^(k-i)"""
+        pool = self.pool
+        terms = []
+        for i in range(order):
+            dx = yield x, order - i
+            if dx is not pool.zero:
+                terms.append((comb(order - 1, i), pool.mul((yield slope, i), dx)))
+        return pool.add(*terms)
+
+    def _power(self, node: Expr, x: Expr, y: Expr, order: int) -> _Rule:
+        """x**y: y x**(y-1) x' + x**y log(x) y'"""
+        pool = self.pool
+        if y.op is Op.NUM and y.number < 0 and order > 1:
+            return (yield from self._falling(node, x, y.number, order))
+        exponent = list(zip(y.coefficients, y.args, strict=True)) if y.op is Op.ADD else [(1, y)]
+        lowered = pool.fn("pow", x, pool.add(*exponent, (-1, pool.one)))
+        slope = pool.mul(y, lowered)
+        base = yield from self._chain(slope, x, order)
+        if (yield y, 1) is pool.zero:
+            return base
+        turned = pool.mul(node, pool.fn("log", x))
+        return pool.add((1, base), (1, (yield from self._chain(turned, y, order))))
+
+    def _falling(self, node: Expr, x: Expr, e: Fraction, order: int) -> _Rule:
+        """x p' = e p x', for a negative exponent (p has no value at zero in any case)"""
+        pool, k = self.pool, order
+        terms = []
+        for i in range(k):
+            dx = yield x, i + 1
+            if dx is not pool.zero:
+                factor = e * comb(k - 1, i) - (comb(k - 1, i + 1) if i + 1 < k else 0)
+                terms.append((factor, pool.mul(dx, (yield node, k - 1 - i))))
+        return pool.div(pool.add(*terms), (yield x, 0))
 
 
 def _table_slope(pool: Pool, name: str, x: Expr) -> Expr:
@@ -132,3 +290,14 @@ def _table_slope(pool: Pool, name: str, x: Expr) -> Expr:
         return pool.choose(below, pick(low, middle), pick(middle + 1, high))
 
     return pick(0, len(slopes) - 1)
+
+
+def operations(roots: Iterable[Expr]) -> int:
+    """How many operations the roots take, what they share counted once; D and Int are given."""
+    total = 0
+    for node in topological(roots, stop=lambda n: n.op in (Op.DER, Op.INT)):
+        if node.op in (Op.ADD, Op.MUL):
+            total += len(node.args)
+        elif node.op in (Op.FN, Op.IF, Op.CMP, Op.LOGIC):
+            total += 1
+    return total
