@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph.cli.console import plural
 from bondgraph.cli.parsable import Names, parsable
+from bondgraph.ir.latex import latex
 from bondgraph.passes.present import tidy
 
 if TYPE_CHECKING:
@@ -87,7 +88,8 @@ def _arr(
     names: Names,
     initial: dict[str, Expr],
 ) -> tuple[dict[str, object], tuple[str, ...]]:
-    written = parsable(graph.pool, tidy(graph.pool, residual.expr)[0], names, initial)
+    root = tidy(graph.pool, residual.expr)[0]
+    written = parsable(graph.pool, root, names, initial)
     arr: dict[str, object] = {
         "name": residual.name,
         "expr": written.expr,
@@ -97,4 +99,6 @@ def _arr(
     }
     if written.defs:
         arr["defs"] = [list(definition) for definition in written.defs]
+    else:
+        arr["latex"] = latex(root, graph.initial_values())
     return arr, written.symbols

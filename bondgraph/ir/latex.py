@@ -21,8 +21,8 @@ _PLAIN = frozenset(["exp", "sin", "cos", "tan", "sinh", "cosh", "tanh", "log", "
 def letter(name: str) -> str:
     r"""A name of the model as mathematics.
 
-    >>> letter("m[1].el.Re"), letter("tau0"), letter("Uin")
-    ('R_{e}^{m_1.el}', '\\tau_{0}', 'U_{in}')
+    >>> letter("m[1].el.Re"), letter("tau0"), letter("Uin"), letter("leak")
+    ('R_{e}^{m_1.el}', '\\tau_{0}', 'U_{in}', '\\mathit{leak}')
     """
     *path, last = name.split(".")
     base = _base(last)
@@ -38,8 +38,12 @@ def _base(name: str) -> str:
         escaped = name.replace("_", r"\_")
         return rf"\mathit{{{escaped}}}"
     word, digits, place = found.groups()
-    greek = word.lower() in _GREEK
-    head, rest = ("\\" + word, "") if greek else (word[0], word[1:])
+    if word.lower() in _GREEK:
+        head, rest = "\\" + word, ""
+    elif len(word) > 3:  # a word, not a letter with an index
+        head, rest = rf"\mathit{{{word}}}", ""
+    else:
+        head, rest = word[0], word[1:]
     below = ",".join(p for p in (rest + digits, place) if p)
     return f"{head}_{{{below}}}" if below else head
 

@@ -169,7 +169,7 @@ class Loops:
     def _stuck(
         self, nonlinear: list[_Row], linear: list[_LinearRow]
     ) -> tuple[set[Expr], list[_LinearRow]]:
-        """The torn variables tied to a nonlinear row, and the linear rows that hold none of them."""
+        """The torn variables tied to a nonlinear row, and the linear rows free of them."""
         stuck = {t for item in nonlinear for t in self._tears(item.expr)}
         free = list(linear)
         while tied := [r for r in free if any(t in stuck for t in r.entries)]:

@@ -65,13 +65,13 @@ def cable(Us: sp.Expr, output: bool) -> dict[str, sp.Expr]:
 # ------------------------------------------------- relations derived by hand, PAPER_CHECKED order
 
 
-def torque(s: dict[str, sp.Expr], extra: sp.Expr = sp.Integer(0)) -> sp.Expr:
+def torque(s: dict[str, sp.Expr], extra: sp.Expr | int = 0) -> sp.Expr:
     """The motor's torque from both balances; w cancels unless the drawing adds `extra`."""
     load = Js * s["Ws"].diff(t) + fs * s["Ws"] + R * s["Fx"]
     return Je * s["We"].diff(t) + fe * s["We"] + load / N + extra
 
 
-def r1(s: dict[str, sp.Expr], extra: sp.Expr = sp.Integer(0)) -> sp.Expr:
+def r1(s: dict[str, sp.Expr], extra: sp.Expr | int = 0) -> sp.Expr:
     """Voltages of the armature with the current taken from the torque."""
     T = torque(s, extra)
     return k * s["We"] - s["U0"] + Re / k * T + L / k * T.diff(t)
