@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from bondgraph.backends.draw_arrange import Figure, arrange
-from bondgraph.backends.draw_canvas import Point
-from bondgraph.backends.draw_place import Wire
-from bondgraph.backends.draw_scene import Item, Path, Scene, scene
-from bondgraph.backends.draw_style import SEPARATOR, SMALL, legend, style, width
+from bondgraph.backends.drawing.arrange import Figure, arrange
+from bondgraph.backends.drawing.canvas import Point
+from bondgraph.backends.drawing.place import Wire
+from bondgraph.backends.drawing.scene import Item, Path, Scene, scene
+from bondgraph.backends.drawing.style import SEPARATOR, SMALL, legend, style, width
 from bondgraph.ir.causal import CausalGraph, Reason, Stroke
 from bondgraph.ir.graph import BondGraph, Node
 

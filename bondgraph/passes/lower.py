@@ -21,7 +21,8 @@ from bondgraph.ir.residuals import Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.chain import Chain
-from bondgraph.passes.lowering.exactly import Exactly
+from bondgraph.passes.lowering.derivative import TooManyOperations
+from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
 from bondgraph.passes.lowering.names import brief, identifier, short
 from bondgraph.passes.lowering.procedure import ZERO
@@ -76,7 +77,8 @@ def lower(
     """The residual program of a model: coefficients, exact residuals, realisable residuals.
 
     A residual whose visible order exceeds `HIGHEST` stages, or that has no numbers to tell what
-    is visible, gets no step (`ResidualInfo.unavailable`). See METHOD 4.1, 4.2, 4.5 for the theory.
+    is visible, gets no step (`ResidualInfo.unavailable`); one of more than `LARGEST` operations no
+    exact (`ResidualInfo.inexact`). See METHOD 4.1, 4.2, 4.5 for the theory.
     """
     builder = Builder(graph)
     forms = [normalise(graph.pool, r.expr, LIMIT, builder.initials) for r in residuals.residuals]

@@ -18,8 +18,8 @@ from bondgraph.ir.normal import Term
 from bondgraph.ir.program import Assign, Expression, Field, Product, Ref, Sum
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder, Signal
-from bondgraph.passes.lowering.derivative import differentiate
-from bondgraph.passes.lowering.exactly import label, total
+from bondgraph.passes.lowering.derivative import TooManyOperations, operations
+from bondgraph.passes.lowering.exactly import LARGEST, label, total
 from bondgraph.passes.lowering.filter import Filter
 from bondgraph.passes.lowering.integrals import gathered
 from bondgraph.passes.lowering.names import Names, identifier, short
@@ -52,15 +52,19 @@ class Chain:
     # ---------------------------------------------------------- statements
 
     def run(self, terms: tuple[Term, ...], text: str) -> None:
-        """Append the statements of the residual, made of the given terms."""
+        """Append the statements of the residual, made of the given terms.
+
+        Raises `TooManyOperations`, before anything is written, if its nonlinear terms need more
+        than `LARGEST`.
+        """
         inputs: dict[int, list[tuple[bool, Expression]]] = {}
-        outside: list[tuple[bool, Expression]] = []
+        outside = self._approximate([t for t in terms if not t.static])
         integrals: dict[int, list[Term]] = {}
         by_atom: dict[Expr, list[Term]] = {}
         for term in terms:
             if not term.static:
-                outside.append(self._approximate(term))
-            elif term.atom is self.pool.one and term.order == 0:
+                continue
+            if term.atom is self.pool.one and term.order == 0:
                 outside.append(self._signed(term.coefficient, "constant", "constant part"))
             elif term.order < 0:
                 integrals.setdefault(-term.order, []).append(term)
@@ -332,12 +336,18 @@ class Chain:
 
     # ---------------------------------------------------- state variables
 
-    def _approximate(self, term: Term) -> tuple[bool, Expression]:
-        """A nonlinear term of filtered derivatives, in place of the filtered nonlinear term."""
-        expr = differentiate(self.pool, term.atom, term.order)
-        expr = gathered(self.pool, expr, self.builder.zero_start)
-        value = self._moving.value(self.pool.mul(term.coefficient, expr), self.origin)
-        return True, value
+    def _approximate(self, terms: list[Term]) -> list[tuple[bool, Expression]]:
+        """Nonlinear terms of filtered derivatives, in place of the filtered nonlinear terms."""
+        pool, jets = self.pool, self.builder.jets
+        end = len(pool) + LARGEST
+        exprs: list[Expr] = []
+        for term in terms:
+            expr = jets.of(term.atom, max(term.order, 0), end - len(pool))
+            exprs.append(pool.mul(term.coefficient, expr))
+        if operations(exprs) > LARGEST:
+            raise TooManyOperations
+        exprs = [gathered(pool, expr, self.builder.zero_start) for expr in exprs]
+        return [(True, value) for value in self._moving.values(exprs, self.origin)]
 
     def _state_variable(self, symbol: Expr, order: int) -> Expression:
         """p**order H**n of a known signal, from the outputs of its own chain of n stages."""

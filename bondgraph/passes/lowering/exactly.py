@@ -17,11 +17,14 @@ from bondgraph.ir.program import (
 )
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.derivative import differentiate
+from bondgraph.passes.lowering.derivative import TooManyOperations, operations
 from bondgraph.passes.lowering.names import Names, brief, identifier, short
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure, positive_part
 from bondgraph.passes.normalise import LIMIT, rewritten
 from bondgraph.text.source import Span
+
+#: Operations that one residual may take in exact; a longer one has no exact.
+LARGEST = 20_000
 
 
 class Exactly:
@@ -43,25 +46,30 @@ class Exactly:
 
     def residual(
         self, residual: Residual, form: NormalForm, arrays: dict[Expr, tuple[str, int]], text: str
-    ) -> int:
+    ) -> int | None:
         """Append the statements of one residual; the highest derivative that it reads.
 
         `arrays` has the coefficient array and its length of every atom of a large residual.
+        Where more than `LARGEST` operations would be needed, nothing is written: None.
         """
         self.highest = 0
         name = identifier(residual.name)
         origin = residual.closing.origin
-        operands = self._operands(form.terms, origin)
+        try:
+            exprs, series = self._expressions(form.terms, arrays)
+        except TooManyOperations:
+            return None
+        operands = self._operands(form.terms, exprs, origin)
         terms = [
             self._term(residual, t, value) for t, value in zip(form.terms, operands, strict=True)
         ]
         dots: list[DotTerm] = []
         for atom, (array, length) in arrays.items():
-            if atom.op is Op.SYM and atom in self.builder.signals:
+            if atom in series:
+                terms += self._series(array, series[atom], origin)
+            else:
                 self._need(atom, length - 1)
                 dots.append(DotTerm(array, self.builder.signals[atom].name, length))
-            else:
-                terms += self._large(array, length, atom, origin)
         target = Ref("residual", name)
         if dots and terms:
             linear = Ref("local", f"{name}_linear")
@@ -89,41 +97,61 @@ class Exactly:
             return sign, factor
         return sign, operand if factor == ONE else Product((factor, operand))
 
-    def _operands(self, terms: tuple[Term, ...], origin: Span) -> list[Expression]:
-        """What the coefficients are multiplied by; nonlinear parts share what they can."""
+    def _expressions(
+        self, terms: tuple[Term, ...], arrays: dict[Expr, tuple[str, int]]
+    ) -> tuple[list[Expr], dict[Expr, list[Expr]]]:
+        """What stands beside each coefficient; of a large residual, all derivatives by atom.
+
+        Raises `TooManyOperations` if that is more than `LARGEST`.
+        """
         builder, pool = self.builder, self.builder.pool
+        end = len(pool) + LARGEST
+
+        def derivative(expr: Expr, order: int) -> Expr:
+            return builder.jets.of(expr, order, end - len(pool))
+
         exprs: list[Expr] = []
         for term in terms:
             expr = term.atom
             if expr not in builder.signals and (term.order > 0 or not term.static):
-                expr = differentiate(pool, expr, max(term.order, 0))
+                expr = derivative(expr, max(term.order, 0))
             for _ in range(-term.order):
                 expr = pool.integral(expr, builder.zero_start)
             exprs.append(expr)
-        nonlinear = [e for t, e in zip(terms, exprs, strict=True) if t.atom not in builder.signals]
+        series: dict[Expr, list[Expr]] = {}
+        for atom, (_, length) in arrays.items():
+            if atom in builder.signals:
+                continue
+            plain = rewritten(pool, atom, LIMIT, builder.initials)
+            own = series[atom] = [derivative(plain, 0)]
+            while len(own) < length and own[-1] is not pool.zero:
+                own.append(derivative(plain, len(own)))
+        if operations([*exprs, *[e for own in series.values() for e in own]]) > LARGEST:
+            raise TooManyOperations
+        return exprs, series
+
+    def _operands(
+        self, terms: tuple[Term, ...], exprs: list[Expr], origin: Span
+    ) -> list[Expression]:
+        """What the coefficients are multiplied by; nonlinear parts share what they can."""
+        signals = self.builder.signals
+        nonlinear = [e for t, e in zip(terms, exprs, strict=True) if t.atom not in signals]
         values = iter(self._procedure.values(nonlinear, origin))
         return [
-            self._need(t.atom, t.order) if t.atom in builder.signals else next(values)
-            for t in terms
+            self._need(t.atom, t.order) if t.atom in signals else next(values) for t in terms
         ]
 
-    def _large(
-        self, array: str, length: int, atom: Expr, origin: object
+    def _series(
+        self, array: str, exprs: list[Expr], origin: Span
     ) -> list[tuple[bool, Expression]]:
-        pool = self.builder.pool
-        expr = differentiate(pool, rewritten(pool, atom, LIMIT, self.builder.initials), 0)
+        """An atom of a large residual with all its derivatives, each beside its coefficient."""
         out: list[tuple[bool, Expression]] = []
-        for k in range(length):
-            value = self._procedure.value(expr, None)
+        for k, value in enumerate(self._procedure.values(exprs, origin)):
             factor: Expression = Ref("coef", array, k)
             for _ in range(k):
                 unit = self.builder.hoist(self.builder.option("time_unit"))
                 factor = Product((factor, unit))
             out.append((True, factor if value == ONE else Product((factor, value))))
-            if k + 1 < length:
-                expr = differentiate(pool, expr)
-                if expr is pool.zero:
-                    break
         return out
 
     # -------------------------------------------------------------- leaves

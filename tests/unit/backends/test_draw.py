@@ -13,10 +13,10 @@ from xml.etree import ElementTree
 import pytest
 
 from bondgraph.backends.draw import draw
-from bondgraph.backends.draw_arrange import arrange
-from bondgraph.backends.draw_canvas import Box, around, between, cross, inside
-from bondgraph.backends.draw_layout import parts
-from bondgraph.backends.draw_scene import scene
+from bondgraph.backends.drawing.arrange import arrange
+from bondgraph.backends.drawing.canvas import Box, around, between, cross, inside
+from bondgraph.backends.drawing.layout import parts
+from bondgraph.backends.drawing.scene import scene
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.expr import Pool
 from bondgraph.passes.causality import assign

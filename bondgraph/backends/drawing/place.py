@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from bondgraph.backends.draw_canvas import Box, Canvas, Point, around, between
-from bondgraph.backends.draw_layout import Layers
-from bondgraph.backends.draw_scene import Leaf, Path, Scene
-from bondgraph.backends.draw_style import GAP, SMALL, width
+from bondgraph.backends.drawing.canvas import Box, Canvas, Point, around, between
+from bondgraph.backends.drawing.layout import Layers
+from bondgraph.backends.drawing.scene import Leaf, Path, Scene
+from bondgraph.backends.drawing.style import GAP, SMALL, width
 
 _ARM = 32.0  # visible length of a short bond, px
 _WALL = 14.0  # room for a frame that a bond crosses, px

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from bondgraph.backends.draw_style import BIG, FONT, HEIGHT, KINDS, width
+from bondgraph.backends.drawing.style import BIG, FONT, HEIGHT, KINDS, width
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.ir.show import show

@@ -1,0 +1,1 @@
+"""The parts of a drawn bond graph: arrangement, places, scene, canvas."""
