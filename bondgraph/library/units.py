@@ -78,6 +78,7 @@ _WORDS = {
 }  # fmt: skip
 
 _described: dict[Dimension, str] = {}
+_written = iter(_WRITTEN.split())
 _Entry = tuple[Dimension, Fraction]
 _entries: dict[str, tuple[str, str, bool]] = {}
 _atoms: dict[str, _Entry | None] = {}
@@ -128,13 +129,14 @@ def describe(dimension: Dimension) -> str:
     >>> describe((2, 1, -2, -1, 0, 0, 0)), describe((2, 1, 0, 0, 0, 0, 0)), describe(NONE)
     ('N.m/A', 'kg.m^2', '1')
     """
-    if not _described:
-        for text in _WRITTEN.split():
-            unit = parse_unit(text)
-            if unit is not None:
-                _described.setdefault(unit.dimension, text)
-    if dimension not in _described:
-        _described[dimension] = _compose(dimension)
+    while dimension not in _described:
+        text = next(_written, None)  # no further than this dimension needs
+        if text is None:
+            _described[dimension] = _compose(dimension)
+            break
+        unit = parse_unit(text)
+        if unit is not None:
+            _described.setdefault(unit.dimension, text)
     return _described[dimension]
 
 
