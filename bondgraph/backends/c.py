@@ -35,6 +35,7 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
     code = Code(program, spelling, facts.stem)
     stem, unset = facts.stem, any(f.default is None for f in program.params)
     has_dot = any(isinstance(s, Dot) for s in program.exact)
+    unwritten = any(r.unwritten for r in program.residuals)
     return {
         **_limits(program, facts, code),
         **_Declarations(program, spelling, stem).all(),
@@ -52,7 +53,8 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         "tables": _tables(program, spelling, code),
         "needs_functions": facts.library,
         "libm": " -lm" if facts.library else "",
-        "needs_math": facts.library or unset,
+        "needs_math": facts.library or unset or unwritten,
+        "unwritten": unwritten,
         "needs_stddef": "table" in facts.laws or has_dot or bool(code.tapes),
         "beyond_float": ", ".join(f"{n:g}" for n in facts.beyond_float[:8]),
         "exact": code.exact(),
@@ -126,7 +128,7 @@ class _Declarations:
         return {
             "residual_numbers": self._members(numbers),
             "residual_count": len(program.residuals),
-            "parameters": self._members(parameters or [_empty("no parameters")]),
+            "parameters": self._members(parameters or [_empty("the code reads no parameters")]),
             "samples": self._struct(samples(program, spelling)),
             "derivatives": self._struct(derivatives(program, spelling)),
             "derivative_scale": "" if program.time_unit == 1.0 else _SCALED,
@@ -142,7 +144,7 @@ class _Declarations:
         pairs = [
             (f"{types[m.type]} {m.name}{f'[{m.size}]' if m.size else ''};", m.text) for m in found
         ]
-        return self._members(pairs or [_empty("no signals")])
+        return self._members(pairs or [_empty("the model has no signals")])
 
     def _parts(self) -> list[dict[str, object]]:
         spelling, real = self.spelling, self.real
@@ -169,7 +171,7 @@ class _Declarations:
 
 
 def _empty(what: str) -> tuple[str, str]:
-    return "char unused;", f"the model has {what}"
+    return "char unused;", what
 
 
 def _helpers(

@@ -38,12 +38,13 @@ class Code:
         coefs = [
             f"monitor->c.{spelling.coefs[f.name]}{'[0]' if f.size else ''}" for f in program.coefs
         ]
+        head = self._pointers(program.configure, "c")
         body = lines(program.configure, spelling, self._configure, 4, self._tape)
         return {
             "nominal": self._nominal(),
             "tapes": [self._tape_table(t) for t in self.tapes],
             **self._coefficient_arguments(),
-            "configure": [*self._pointers(program.configure, "c"), *body],
+            "configure": [*head, *body] if body else head[:-1],
             "parameters_are_finite": self._finite(params, "p"),
             "coefficients_are_finite": self._finite(coefs, "monitor"),
             "settle": [
@@ -135,14 +136,23 @@ class Code:
         speller = Speller(self.target.dialect, self.spelling.exact, self.spelling.tables)
         spaces = {ref.space for ref in reads(self.program.exact)}
         head: list[str] = []
+        unused: list[str] = []
         if "coef" in spaces:
             head.append(f"    const {self.stem}_coefficients *c = &monitor->c;")
+        else:
+            unused.append("    (void)monitor;")
         if spaces & {"known", "start", "integral", "time"}:
             head.append(f"    const {self.stem}_derivatives *d = derivatives;")
+        else:
+            unused.append("    (void)derivatives;")
         head.append("    real *r = residuals;")
-        if "coef" not in spaces:
-            head += ["", "    (void)monitor;"]
-        return [*head, "", *lines(self.program.exact, self.spelling, speller, 4)]
+        body = lines(self.program.exact, self.spelling, speller, 4)
+        for info in self.program.residuals:
+            if info.unwritten:
+                why = listing.words(listing.place(info.origin), f"{info.name}: {info.unwritten}")
+                body += ([""] if body else []) + listing.comment(why, self.target, 4)
+                body.append(f"    r[{self._number(info.name)}] = (real)NAN;")
+        return [*head, *([""] if unused else []), *unused, "", *body]
 
     def block(self, number: int, block: Block) -> dict[str, object]:
         """The holes of block.c.j2."""

@@ -111,7 +111,11 @@ def _about(unit: str, doc: str, path: str, name: str, where: str) -> str:
 def about_residual(info: ResidualInfo) -> str:
     """Two paragraphs: `r1 = ...`, what it is, and the faults that it reacts to."""
     sees = "sees " + (", ".join(info.faults) or "no fault")
+    if info.unavailable:
+        sees += f"\nstep never has it: {info.unavailable}"
+    if info.unwritten:
+        sees += f"\nexact gives NaN for it: {info.unwritten}"
     if not info.text:
         return sees
-    named = info.text.startswith(f"{info.name} = ")
+    named = info.text.startswith((f"{info.name} = ", f"{info.name}: "))
     return f"{info.text if named else f'{info.name} = {info.text}'}\n{sees}"

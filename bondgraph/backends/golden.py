@@ -78,7 +78,15 @@ def golden(program: Program) -> Golden:
     coefs = {ref: found for ref, found in start.given.items() if ref.space == "coef"}
     exact = _in_some_region(lambda region: _exact(program, coefs, numbers, region))
     step = _in_some_region(lambda region: _step(program, coefs, numbers, region))
-    return Golden(parameters, exact, step)
+    return Golden(parameters, tuple(_without_unwritten(program, v) for v in exact), step)
+
+
+def _without_unwritten(program: Program, vector: Vector) -> Vector:
+    """NaN for the residuals that exact does not have."""
+    pairs = zip(program.residuals, vector.results, strict=True)
+    return vector._replace(
+        results=tuple((math.nan, 0.0) if r.unwritten else found for r, found in pairs)
+    )
 
 
 def _in_some_region(

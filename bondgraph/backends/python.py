@@ -62,6 +62,7 @@ class _Module:
             "sample_time": digits(1.0 / program.rate),
             "bandwidth": digits(program.bandwidth),
             "time_unit": digits(program.time_unit),
+            "unwritten": any(r.unwritten for r in program.residuals),
             "unset": "; those without a value are yours to set" if self.unset else "",
             "parameters": self._parameters(),
             "samples": self._struct(samples(program, self.spelling), "no signals"),
@@ -108,7 +109,7 @@ class _Module:
         for field in self.program.params:
             value = "" if field.default is None else f" = {digits(field.default)}"
             pairs.append((f"{self.spelling.params[field.name]}: float{value}", about_field(field)))
-        return self._members(pairs) if pairs else ["    # the model has none"]
+        return self._members(pairs) if pairs else ["    # the code reads none"]
 
     def _struct(self, found: Iterable[Member], none: str) -> list[str]:
         pairs = []
@@ -288,12 +289,19 @@ class _Module:
     def _exact(self) -> list[str]:
         spelling = self.spelling
         speller = Speller(self.target.dialect, spelling.exact, spelling.tables)
-        names = ", ".join(f'"{r.name}"' for r in self.program.residuals)
+        written = [r for r in self.program.residuals if not r.unwritten]
+        names = ", ".join(f'"{r.name}"' for r in written)
         call = "r = Residuals(valid=frozenset({0}))"
         head = listing.statement(call, f"[{names}]", self.target, 8)
         if any(ref.space == "coef" for ref in reads(self.program.exact)):
             head.insert(0, "        c = self._c")
-        return [*head, "", *lines(self.program.exact, spelling, speller, 8)]
+        body = lines(self.program.exact, spelling, speller, 8)
+        for info in self.program.residuals:
+            if info.unwritten:
+                why = listing.words(listing.place(info.origin), f"{info.name}: {info.unwritten}")
+                body += ([""] if body else []) + listing.comment(why, self.target, 8)
+                body.append(f"        r.{spelling.residuals[info.name]} = math.nan")
+        return [*head, "", *body]
 
     def _step(self) -> list[str]:
         found = [f"        self._run_{block.name}(s, r)" for block in self.spelling.blocks]

@@ -71,7 +71,7 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 
 def _residual(info: ResidualInfo) -> dict[str, object]:
     text = info.text or "(too long to be written here)"
-    if info.text and not info.text.startswith(f"{info.name} = "):
+    if info.text and not info.text.startswith((f"{info.name} = ", f"{info.name}: ")):
         text = f"{info.name} = {info.text}"
     facts = []
     if info.order >= 0:
@@ -87,6 +87,8 @@ def _residual(info: ResidualInfo) -> dict[str, object]:
         facts.append(f"`step` is an approximation: {_plain(info.approximate)}")
     if info.unavailable:
         facts.append(f"`step` never has it: {_plain(info.unavailable)}")
+    if info.unwritten:
+        facts.append(f"`exact` gives NaN for it: {_plain(info.unwritten)}")
     return {"name": info.name, "text": text.replace("```", "'''"), "facts": facts}
 
 
@@ -121,7 +123,7 @@ def _signal(known: Known) -> tuple[str, str, str, str]:
 
 def _parameters(params: Sequence[Field]) -> list[str]:
     if not params:
-        return ["The residuals have no parameters."]
+        return ["The code reads no parameters."]
     rows = (
         (f"`{f.path}`", f.unit or "-", "yours" if f.default is None else f"{f.default:g}", f.doc)
         for f in params

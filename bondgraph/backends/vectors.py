@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 
 from bondgraph.backends import listing
@@ -101,8 +102,13 @@ class Vectors:
         return {"type": kind, "name": f"golden_{name}[]", "lines": lines}
 
     def _c_results(self, name: str, vectors: Sequence[Vector], count: int) -> dict[str, object]:
+        nan = f"({self.spelling.prefix.lower()}real)NAN"
+
+        def number(x: float) -> str:
+            return nan if math.isnan(x) else f"N({_number(x)})"
+
         rows = [
-            f"{{{', '.join(f'{{N({_number(v)}), N({_number(s)})}}' for v, s in v.results)}}}"
+            f"{{{', '.join(f'{{{number(v)}, {number(s)}}}' for v, s in v.results)}}}"
             for v in vectors
         ]
         lines = _rows(rows or ["{{0}}"], self.spelling)
@@ -139,7 +145,10 @@ class Vectors:
         rows = []
         for vector in vectors:
             values = _row(members, vector, _number, "()", named=True)
-            results = ", ".join(f"({_number(v)}, {_number(s)})" for v, s in vector.results)
+            results = ", ".join(
+                f"({'math.nan' if math.isnan(v) else _number(v)}, {_number(s)})"
+                for v, s in vector.results
+            )
             rows.append(f"({kind}{values}, ({results},))")
         return _rows(rows, self.spelling)
 

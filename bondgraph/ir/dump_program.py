@@ -47,6 +47,7 @@ def dump_program(program: Program) -> str:
         notes = [
             ("approximate", info.approximate),
             ("unavailable", info.unavailable),
+            ("not in exact", info.unwritten),
             ("invisible", ", ".join(info.invisible)),
         ]
         lines += [f"    {title}: {note}" for title, note in notes if note]

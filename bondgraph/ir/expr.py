@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from enum import Enum
 from fractions import Fraction
+from operator import attrgetter
 from typing import TypeAlias
 
 from bondgraph.text.tuples import NamedTuple
@@ -20,6 +21,8 @@ Rational: TypeAlias = int | Fraction
 
 class Op(Enum):
     """What a node does with its arguments."""
+
+    __hash__ = object.__hash__  # members are single objects; Enum's own hash is slow Python
 
     NUM = "num"  # data: Fraction
     SYM = "sym"  # data: Symbol
@@ -35,6 +38,8 @@ class Op(Enum):
 
 class Kind(Enum):
     """What a symbol stands for."""
+
+    __hash__ = object.__hash__
 
     PARAM = "param"  # physics that may fail
     CONST = "const"  # cannot fail
@@ -131,6 +136,7 @@ def _whole(value: Rational) -> Rational:
     return value.numerator if value.denominator == 1 else value
 
 
+_ID = attrgetter("id")
 _ZERO = Fraction(0)
 _ONE = Fraction(1)
 
@@ -344,6 +350,10 @@ class Pool:
         roots = list(roots)
         if not mapping:
             return roots
+        try:
+            return [self._shallow(r, mapping, _SHALLOW) for r in roots]
+        except _DeepError:
+            pass
         new: dict[Expr, Expr] = {}
         for node in topological(roots, stop=mapping.__contains__):
             known = mapping.get(node)
@@ -351,6 +361,25 @@ class Pool:
                 known if known is not None else self.rebuild(node, tuple(new[a] for a in node.args))
             )
         return [new[r] for r in roots]
+
+    def _shallow(self, node: Expr, mapping: Mapping[Expr, Expr], depth: int) -> Expr:
+        """`substitute` for an expression of a few levels, as most laws and balances are."""
+        known = mapping.get(node)
+        if known is not None:
+            return known
+        if not node.args:
+            return node
+        if not depth:
+            raise _DeepError
+        args = tuple([self._shallow(a, mapping, depth - 1) for a in node.args])
+        return self.rebuild(node, args)
+
+
+class _DeepError(Exception):
+    """An expression has more levels than `_shallow` goes down."""
+
+
+_SHALLOW = 3
 
 
 def topological(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> list[Expr]:
@@ -363,7 +392,7 @@ def topological(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = Non
             seen.add(node)
             if stop is None or not stop(node):
                 stack.extend(node.args)
-    return sorted(seen, key=lambda n: n.id)
+    return sorted(seen, key=_ID)
 
 
 def symbols(*roots: Expr) -> list[Expr]:

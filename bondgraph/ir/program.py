@@ -237,7 +237,8 @@ class ResidualInfo(NamedTuple):
     `faults` are the faults it sees, `invisible` those of them that step cannot see at the sample
     rate. `settle` is how many time constants (1/bandwidth) step needs before it is valid.
     `approximate` says why step puts filtered derivatives into a nonlinear term ("" where step is
-    the exact residual, filtered); `unavailable` why step has no value at all (never valid).
+    the exact residual, filtered); `unavailable` why step has no value at all (never valid),
+    `unwritten` why exact has none (no statement of it assigns the residual).
     """
 
     name: str
@@ -251,6 +252,7 @@ class ResidualInfo(NamedTuple):
     settle: float = 0.0
     approximate: str = ""
     unavailable: str = ""
+    unwritten: str = ""
 
 
 class Program(NamedTuple):

@@ -137,7 +137,8 @@ class Chain:
         cost = Cost(
             max((c.integrations for c in others), default=0) + storage * (1000 if free else 1),
             max((c.hard for c in others), default=0) + solution.hard,
-            max((c.order for c in others), default=0) + _differentiates(solution.value),
+            max((c.order for c in others), default=0)
+            + (equation.kind != "balance" and _differentiates(solution.value)),
             max((c.depth for c in others), default=0) + 1,
         )
         offer = _Offer(

@@ -26,6 +26,7 @@ from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
 from bondgraph.passes.lowering.names import brief, identifier, short
 from bondgraph.passes.lowering.procedure import ZERO
+from bondgraph.passes.lowering.prune import pruned
 from bondgraph.passes.lowering.tape import Large, large
 from bondgraph.passes.lowering.visible import Seen, seen, unseen_faults
 from bondgraph.passes.normalise import LIMIT, normalise
@@ -34,6 +35,7 @@ from bondgraph.passes.present import closed_form
 #: Stages a chain may have; a residual of higher order has no step.
 HIGHEST = 12
 
+_TOO_LONG = f"written out it takes more than {LARGEST} operations"
 _TEXT_NODES = 150
 _TEXT_LENGTH = 600
 
@@ -78,7 +80,7 @@ def lower(
 
     A residual whose visible order exceeds `HIGHEST` stages, or that has no numbers to tell what
     is visible, gets no step (`ResidualInfo.unavailable`); one of more than `LARGEST` operations no
-    exact (`ResidualInfo.inexact`). See METHOD 4.1, 4.2, 4.5 for the theory.
+    exact (`ResidualInfo.unwritten`). See METHOD 4.1, 4.2, 4.5 for the theory.
     """
     builder = Builder(graph)
     forms = [normalise(graph.pool, r.expr, LIMIT, builder.initials) for r in residuals.residuals]
@@ -100,7 +102,12 @@ def lower(
         arrays = {} if tape is None else tape.arrays
         order = exactly.residual(residual, form, arrays, text)
         found = _visible(builder, form, tape, options)
-        lowered.append(_realise(builder, filter, residual, signatures, found, options, text, order))
+        low = _realise(builder, filter, residual, signatures, found, options, text)
+        if order is None:
+            info = low.info._replace(order=_highest(form), unwritten=_TOO_LONG)
+        else:
+            info = low.info._replace(order=order)
+        lowered.append(low._replace(info=info))
     configure: list[Statement] = [t.statement for t in tapes if t is not None]
     own = builder.configure()
     wanted = builder.used
@@ -128,6 +135,7 @@ def lower(
         integrals=tuple(builder.integrals.values()),
         time_unit=time_unit,
     )
+    program = pruned(program)
     return program._replace(digest=digest(program, graph.source.text))
 
 
@@ -139,24 +147,27 @@ def _realise(
     found: Seen | str,
     options: LowerOptions,
     text: str,
-    order: int,
 ) -> _Lowered:
     """One residual of `step`, or the reason why it has none."""
     faults = signatures.signature(residual.name)
     name = identifier(residual.name)
     origin = residual.closing.origin
-    info = ResidualInfo(name, residual.name, text, order, 0, faults, (), origin)
+    info = ResidualInfo(name, residual.name, text, 0, 0, faults, (), origin)
     if not isinstance(found, str):
         stages = max([_order(t) for t in found.kept], default=0) + options.extra_order
         if stages > HIGHEST + options.extra_order:
             found = f"its order {stages - options.extra_order} is above {HIGHEST}"
+    if not isinstance(found, str):
+        stages = max(stages, 1)
+        chain = Chain(builder, filter, residual, stages)
+        try:
+            chain.run(found.kept, text)
+        except TooManyOperations:
+            found = _TOO_LONG
     if isinstance(found, str):
         nothing = Assign(Ref("residual", name), ZERO, f"{residual.name}: {found}", origin)
         info = info._replace(invisible=faults, unavailable=found)
         return _Lowered(info, [nothing], [nothing], [], [])
-    stages = max(stages, 1)
-    chain = Chain(builder, filter, residual, stages)
-    chain.run(found.kept, text)
     moving = [t for t in found.kept if not t.static]
     info = info._replace(
         stages=stages,
@@ -191,6 +202,14 @@ def _order(term: Term) -> int:
         for arg in node.args:
             inside[arg] = max(inside.get(arg, 0), below)
     return max(term.order, 0) + deepest
+
+
+def _highest(form: NormalForm) -> int:
+    """The highest derivative in a residual that exact does not have."""
+    terms = list(form.terms)
+    if form.tape is not None:
+        terms = [Term(f.atom, f.degree, f.atom, f.static) for f in form.tape.leaves]
+    return max(map(_order, terms), default=0)
 
 
 def _reason(moving: list[Term]) -> str:

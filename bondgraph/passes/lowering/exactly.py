@@ -137,13 +137,9 @@ class Exactly:
         signals = self.builder.signals
         nonlinear = [e for t, e in zip(terms, exprs, strict=True) if t.atom not in signals]
         values = iter(self._procedure.values(nonlinear, origin))
-        return [
-            self._need(t.atom, t.order) if t.atom in signals else next(values) for t in terms
-        ]
+        return [self._need(t.atom, t.order) if t.atom in signals else next(values) for t in terms]
 
-    def _series(
-        self, array: str, exprs: list[Expr], origin: Span
-    ) -> list[tuple[bool, Expression]]:
+    def _series(self, array: str, exprs: list[Expr], origin: Span) -> list[tuple[bool, Expression]]:
         """An atom of a large residual with all its derivatives, each beside its coefficient."""
         out: list[tuple[bool, Expression]] = []
         for k, value in enumerate(self._procedure.values(exprs, origin)):
