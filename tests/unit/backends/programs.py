@@ -326,6 +326,18 @@ def silent() -> Program:
     )
 
 
-ALL = (motor, encoder, functions, ladder, silent)
+def unwritten() -> Program:
+    """A residual that exact does not have, beside one that it has."""
+    return program(
+        "Unwritten",
+        (residual("r1", ("y",)), residual("r2", ("y",))._replace(unwritten="it is too long")),
+        knowns=(known("y"),),
+        exact=(put("residual:r1", times(Const(2.0), ref("known:y")), "2 y"),),
+        first=(put("residual:r1", ref("known:y")), put("residual:r2", ref("known:y"))),
+        step=(put("residual:r1", ref("known:y")), put("residual:r2", ref("known:y"))),
+    )
+
+
+ALL = (motor, encoder, functions, ladder, silent, unwritten)
 
 Maker = Callable[[], Program]

@@ -62,7 +62,8 @@ def test_c_and_python_give_the_same_digits(make: programs.Maker, tmp_path: Path)
             module.Derivatives(**_named(list(derivatives(program, ours)), given))
         )
         numbers = in_c.exact(**_named(list(derivatives(program, theirs)), given))
-        assert [getattr(exact, n) for n in names] == pytest.approx(numbers, rel=1e-12, abs=1e-13)
+        same = pytest.approx(numbers, rel=1e-12, abs=1e-13, nan_ok=True)
+        assert [getattr(exact, n) for n in names] == same
 
 
 @_SAMPLE

@@ -90,7 +90,10 @@ def test_vectors_are_there_and_the_same_each_time(make: programs.Maker) -> None:
     assert found == golden(make())
     assert found.exact and found.step
     for vector in (*found.exact, *found.step):
-        assert all(abs(value) <= size for value, size in vector.results)
+        told = [(value, size) for value, size in vector.results if not math.isnan(value)]
+        assert all(abs(value) <= size for value, size in told)
+        missing = sum(r.unwritten != "" for r in make().residuals) if vector in found.exact else 0
+        assert len(told) == len(vector.results) - missing
 
 
 def test_signals_lie_where_the_law_has_a_value() -> None:
