@@ -131,7 +131,7 @@ class Expr:
         return show(self)
 
 
-def _whole(value: Rational) -> Rational:
+def whole(value: Rational) -> Rational:
     """The same number as an int where it is whole."""
     return value.numerator if value.denominator == 1 else value
 
@@ -194,9 +194,9 @@ class Pool:
                 collected[node] += factor
             else:
                 collected[node] = factor
-        items = [(n.id, n, c if type(c) is int else _whole(c)) for n, c in collected.items() if c]
+        items = [(n.id, n, c if type(c) is int else whole(c)) for n, c in collected.items() if c]
         if constant:
-            items.append((self.one.id, self.one, _whole(constant)))
+            items.append((self.one.id, self.one, whole(constant)))
         if not items:
             return self.zero
         if len(items) == 1:
@@ -241,7 +241,7 @@ class Pool:
         return self._product([(left, 1), (right, -1)])
 
     def _product(self, factors: Iterable[tuple[Expr, int]]) -> Expr:
-        coefficient = _ONE
+        coefficient: Rational = 1
         collected: dict[Expr, int] = {}
         for base, exponent in factors:
             if exponent == 0:
@@ -384,14 +384,15 @@ _SHALLOW = 3
 
 def topological(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> list[Expr]:
     """All nodes that the roots are made of, arguments first; below a `stop` node it ends."""
-    seen: set[Expr] = set()
-    stack = list(roots)
+    seen = set(roots)
+    stack = list(seen)
     while stack:
         node = stack.pop()
-        if node not in seen:
-            seen.add(node)
-            if stop is None or not stop(node):
-                stack.extend(node.args)
+        if stop is None or not stop(node):
+            for arg in node.args:
+                if arg not in seen:
+                    seen.add(arg)
+                    stack.append(arg)
     return sorted(seen, key=_ID)
 
 

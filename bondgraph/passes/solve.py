@@ -11,7 +11,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import NamedTuple
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, Rational, topological
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, Rational, topological, whole
 
 #: Functions that are one to one on the reals (or where they are defined), with their inverses.
 INVERSE = {
@@ -175,7 +175,7 @@ def _dividable(slope: Expr) -> bool:
 def _quotient(pool: Pool, rest: Expr, slope: Expr) -> Expr:
     """-rest/slope, with the sign taken into a sum and single factors divided out of it."""
     if slope.op is Op.NUM:
-        factor = -1 / slope.number
+        factor = whole(-1 / slope.number)
         if rest.op is Op.ADD:
             terms = zip(rest.coefficients, rest.args, strict=True)
             return pool.add(*[(factor * c, a) for c, a in terms])
