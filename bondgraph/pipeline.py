@@ -11,6 +11,7 @@ from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
+    from bondgraph.exact.plant import Plant
     from bondgraph.exact.result import Verification
     from bondgraph.ir.artifact import Artifact
     from bondgraph.ir.causal import CausalGraph
@@ -124,7 +125,14 @@ class Compilation:
     def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:
         from bondgraph.passes.signatures import signatures
 
-        return self._stage(signatures(self.reduced, self.report, self.options.seed))
+        return self._stage(signatures(self.reduced, self.report, self.options.seed, self._plant))
+
+    @cached_property
+    def _plant(self) -> Plant:
+        """The exact simulation of the model, independent of its elimination."""
+        from bondgraph.exact.plant import Plant
+
+        return Plant(self.graph)
 
     @cached_property
     def verification(self) -> Verification:
@@ -132,7 +140,7 @@ class Compilation:
         from bondgraph.passes.verify import verify
 
         return self._stage(
-            verify(self.graph, *self._analysis, self.report, self.options.seed)
+            verify(self.graph, *self._analysis, self.report, self.options.seed, self._plant)
         )
 
     @cached_property

@@ -9,7 +9,7 @@ from bondgraph.cli.console import plural
 from bondgraph.cli.layout import formula, names, signature_table, width
 from bondgraph.cli.result import message
 from bondgraph.ir.dump import equation_name
-from bondgraph.ir.expr import Expr, symbols
+from bondgraph.ir.expr import Expr, symbols, topological
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -61,10 +61,14 @@ def closed_form(
 
     At most `longest` lines (None: all).
     """
-    form = relation.closed_form
     source = compilation.source
     lines = [f"{relation.name}  {equation_name(relation.residual.closing, source)}"]
     indent = " " * (len(relation.name) + 2)
+    nodes = len(topological([relation.residual.expr]))
+    if longest is not None and nodes > 40 * longest:  # not worth the time it takes to write
+        more = f"bondgraph explain {source.path} {relation.name}"
+        return [*lines, f"{indent}too long to be read here ({nodes} operations): {more}"]
+    form = relation.closed_form
     lines += formula(form.text, columns, f"{indent}0 = ", f"{indent}    ")
     for name, text in form.where:
         lines += formula(text, columns, f"{indent}{name} = ", f"{indent}    ")

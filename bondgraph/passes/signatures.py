@@ -38,24 +38,24 @@ _TRIES = 40  # a point where a square root has no value is drawn again
 
 
 def signatures(
-    reduced: ReducedSystem, report: Report, seed: int = 1
+    reduced: ReducedSystem, report: Report, seed: int = 1, plant: Plant | None = None
 ) -> tuple[ResidualSet, SignatureMatrix]:
     """The relations, named in the order of the model, and their fault signature matrix.
 
     Exact up to a probability below 1e-12 (Schwartz and Zippel). Where no trajectory of the plant
     can be had, the signatures are those at free signals and the verification says so.
     """
-    return _Analysis(reduced, report, seed).run()
+    return _Analysis(reduced, report, seed, plant or Plant(reduced.system.graph)).run()
 
 
 class _Analysis:
-    def __init__(self, reduced: ReducedSystem, report: Report, seed: int) -> None:
+    def __init__(self, reduced: ReducedSystem, report: Report, seed: int, plant: Plant) -> None:
         self.reduced = reduced
         self.graph = reduced.system.graph
         self.pool = self.graph.pool
         self.report = report
         self.seed = seed
-        self.plant = Plant(self.graph)
+        self.plant = plant
         self.faults = {self.graph.fault_symbol(f): f for f in self.graph.faults}
 
     def run(self) -> tuple[ResidualSet, SignatureMatrix]:

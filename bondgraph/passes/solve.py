@@ -52,6 +52,9 @@ def solve(
     >>> solve(p, p.sub(e, p.mul(R, f)), f).value
     e/R
     """
+    alone = _isolated(pool, zero, variable)
+    if alone is not None:
+        return Solution(alone, False, False)
     linear = _plain(pool, zero, variable)
     if linear is None:
         holders = _holders(zero, variable)
@@ -70,6 +73,26 @@ def solve(
 
         value_ = solve_symbolic(pool, zero, variable)
     return None if value_ is None else Solution(value_, True, True)
+
+
+def _isolated(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
+    """The variable from a sum in which it stands by itself, as in the balance of a junction."""
+    if zero.op is not Op.ADD or variable not in zero.args:
+        return None
+    own = zero.coefficients[zero.args.index(variable)]
+    factor = whole(Fraction(-1) / own)
+    terms = []
+    for c, arg in zip(zero.coefficients, zero.args, strict=True):
+        if arg is variable:
+            continue
+        if arg.op is not Op.SYM and (
+            arg.op is not Op.MUL
+            or variable in arg.args
+            or any(a.op is not Op.SYM for a in arg.args)
+        ):
+            return None
+        terms.append((factor * c, arg))
+    return pool.add(*terms)
 
 
 def _plain(pool: Pool, zero: Expr, variable: Expr) -> tuple[Expr, Expr] | None:

@@ -35,6 +35,7 @@ def verify(
     signatures: SignatureMatrix,
     report: Report,
     seed: int = 1,
+    plant: Plant | None = None,
 ) -> Verification:
     """Check every residual and every entry of the fault signature matrix, exactly.
 
@@ -42,7 +43,7 @@ def verify(
     fault, or `verification-unavailable` (a warning) with the reason. The probability of passing
     something wrong is below 1e-12 for each entry tried.
     """
-    return _Check(graph, residuals, signatures, report, seed).run()
+    return _Check(graph, residuals, signatures, report, seed, plant or Plant(graph)).run()
 
 
 class _Failed(Exception):
@@ -62,6 +63,7 @@ class _Check:
         signatures: SignatureMatrix,
         report: Report,
         seed: int,
+        plant: Plant,
     ) -> None:
         self.graph = graph
         self.residuals = residuals.residuals
@@ -69,7 +71,7 @@ class _Check:
         self.signatures = signatures
         self.report = report
         self.seed = seed
-        self.plant = Plant(graph)
+        self.plant = plant
         self.depth = integral_depth(self.exprs)
         self.trajectories = 0
         self.tried: dict[str, None] = {}
