@@ -124,8 +124,10 @@ class Cursor:
         from bondgraph.frontend.odd import odd  # the slow path: only errors need it
 
         found = odd(self.source.text, self.words, self.starts, at)
-        return None if found is None else self.problem(
-            found.code, found.message, found.at, found.label, help=found.help
+        return (
+            None
+            if found is None
+            else self.problem(found.code, found.message, found.at, found.label, help=found.help)
         )
 
     def tell(self, problem: SyntaxProblem) -> None:

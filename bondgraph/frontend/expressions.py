@@ -154,8 +154,8 @@ class Expressions(Cursor):
                 return syntax.Truth(word == "true", self.span(at))
             if word in RESERVED:
                 raise self.unexpected(
-                    "a value", f"Put brackets around it: `({word} ...)`." if word == "not"
-                    else _OPERAND_HELP,
+                    "a value",
+                    f"Put brackets around it: `({word} ...)`." if word == "not" else _OPERAND_HELP,
                 )
             return self.ref()
         first = word[:1]

@@ -200,8 +200,9 @@ class Nodes(Declarations):
         at = self.i
         if is_arrow(self.words[at]):
             raise self.unexpected(
-                "an equation", "The braces of an element hold its law; bonds stand in the braces "
-                "of a junction, `0:name { ... }` or `1:name { ... }`."
+                "an equation",
+                "The braces of an element hold its law; bonds stand in the braces "
+                "of a junction, `0:name { ... }` or `1:name { ... }`.",
             )
         left = self.expression()
         self.take("=", "`=`", "A law is an equation: `e = R*f`, or `0 = e - R*f`.")

@@ -31,7 +31,7 @@ _INSTEAD: Final = {
     "=>": "`->` for a bond, `>=` for a comparison", "-->": "`->`", "<--": "`<-`",
     "\x0c": "a line end",
 }  # fmt: skip
-_PLAIN: Final = frozenset("+-*/^<>=(){}[],;:.%\"±")
+_PLAIN: Final = frozenset('+-*/^<>=(){}[],;:.%"±')
 _GREEK: Final = dict(
     zip(
         "αβγδεζηθικλμνξοπρστυφχψωΓΔΘΛΞΠΣΦΨΩϕϑϵ",

@@ -44,9 +44,7 @@ def read(path: str, report: Report, origin: Span | None = None) -> Source | None
     return decode(path, data, report, origin)
 
 
-def decode(
-    path: str, data: bytes, report: Report, origin: Span | None = None
-) -> Source | None:
+def decode(path: str, data: bytes, report: Report, origin: Span | None = None) -> Source | None:
     """The text in `data`; None, and one error in `report`, if it is not UTF-8 text."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         _refuse(path, report, "not-text", "is written in UTF-16, not in UTF-8",

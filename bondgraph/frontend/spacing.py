@@ -109,8 +109,7 @@ class Setter:
 def line(items: list[Item]) -> str:
     """The items in one line."""
     return "".join(
-        f" {item.text}" if item.space and number else item.text
-        for number, item in enumerate(items)
+        f" {item.text}" if item.space and number else item.text for number, item in enumerate(items)
     )
 
 

@@ -279,7 +279,6 @@ class Statements(Nodes):
         return syntax.Junction(type, name, when, self.body(opening, True), doc, self.span(at))
 
 
-
 def _alone(word: str) -> str:
     return (
         f"Declare a node with its type, `R:{word}`, bond it, `{word} -> x`, or open its braces, "

@@ -5,9 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 #: Words that begin a statement when a name follows; they may be names anywhere else.
-KEYWORDS: Final = frozenset(
-    "model import port param const input sensor let fault for if".split()
-)
+KEYWORDS: Final = frozenset("model import port param const input sensor let fault for if".split())
 #: Words of expressions: no value, node or port can be called so.
 RESERVED: Final = frozenset(["and", "or", "not", "true", "false"])
 #: Words that follow a number without being its unit.

@@ -138,7 +138,6 @@ def whole(value: Rational) -> Rational:
 
 _ID = attrgetter("id")
 _ZERO = Fraction(0)
-_ONE = Fraction(1)
 
 
 class Pool:
@@ -151,24 +150,20 @@ class Pool:
 
     def __init__(self) -> None:
         self._table: dict[object, Expr] = {}
-        self._count = 0
         self.zero = self._make(Op.NUM, (), _ZERO)
-        self.one = self._make(Op.NUM, (), _ONE)
+        self.one = self._make(Op.NUM, (), Fraction(1))
         #: piecewise linear tables by id: ((x, y), ...) ascending in x
         self.tables: dict[str, tuple[tuple[Fraction, Fraction], ...]] = {}
 
     def __len__(self) -> int:
-        return self._count
+        return len(self._table)
 
     def _make(self, op: Op, args: tuple[Expr, ...], data: object) -> Expr:
         key = (op, data, *[a.id for a in args])
         found = self._table.get(key)
         if found is None:
-            found = self._table[key] = Expr(op, args, data, self._count)
-            self._count += 1
+            found = self._table[key] = Expr(op, args, data, len(self._table))
         return found
-
-    # ------------------------------------------------------------- leaves
 
     def num(self, value: Rational) -> Expr:
         """An exact number."""
@@ -318,8 +313,6 @@ class Pool:
     def logic(self, op: str, *args: Expr) -> Expr:
         """`and`, `or`, `not` of conditions."""
         return self._make(Op.LOGIC, args, op)
-
-    # ------------------------------------------------------------ rebuild
 
     def rebuild(self, node: Expr, args: tuple[Expr, ...]) -> Expr:
         """The node with other arguments, simplified as if it were made anew."""

@@ -312,7 +312,6 @@ class Chain:
                 " direction in which it can be inverted.",
             )
 
-
     def report_count(self, found: int) -> None:
         """Hold the number of relations to theory: equations less what they can determine.
 

@@ -180,9 +180,7 @@ def _by_presence(expr: Expr) -> Sensitivity:
     inside = symbols(expr)
     signals = [s for s in inside if s.symbol.kind in (Kind.INPUT, Kind.SENSOR)]
     order = highest_order([expr])
-    return Sensitivity(
-        dict.fromkeys(inside, True), dict.fromkeys(signals, order), frozenset(), ()
-    )
+    return Sensitivity(dict.fromkeys(inside, True), dict.fromkeys(signals, order), frozenset(), ())
 
 
 def _points(exprs: list[Expr]) -> int:

@@ -209,9 +209,7 @@ class _Painter:
             text = self.paint(_clean(last.text), self.style(last, severity))
             yield self.drawn(left, last.start) + text
 
-    def barred(
-        self, source: Source, label: Label, primary: bool, severity: str
-    ) -> Iterator[str]:
+    def barred(self, source: Source, label: Label, primary: bool, severity: str) -> Iterator[str]:
         """A span of several lines: its first and last ones along a bar."""
         style = severity if primary else "frame"
         first = label.span.line

@@ -160,6 +160,7 @@ def main(argv: list[str] | None = None) -> int:
                 print(f"\r{answers.total()} texts, {answers['traceback']} tracebacks", end="",
                       file=sys.stderr)  # fmt: skip
     for where, finding in sorted(findings.items()):
+
         def fails(text: str, where: str = where) -> bool:
             again = attempt(text)[1]
             return again is not None and again.where == where

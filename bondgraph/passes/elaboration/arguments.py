@@ -69,17 +69,13 @@ class Arguments:
 
     def argument(self, argument: Argument, scope: Scope, env: Env) -> Given:
         """One argument, its target split into names with their indices."""
-        parts = tuple(
-            [(p.name, index(p, scope, env, self.report)) for p in argument.target.parts]
-        )
+        parts = tuple([(p.name, index(p, scope, env, self.report)) for p in argument.target.parts])
         return Given(parts, Bound(argument.value, scope, env, argument.origin), argument)
 
     @staticmethod
     def matching(givens: list[Given], name: str, place: int | None) -> list[Given]:
         """The arguments whose target begins with `name` (of that index, or of none)."""
-        return [
-            g for g in givens if g.parts[0][0] == name and g.parts[0][1] in (None, place)
-        ]
+        return [g for g in givens if g.parts[0][0] == name and g.parts[0][1] in (None, place)]
 
     def once(self, before: Bound | None, given: Given) -> None:
         """Refuse a second argument for one thing."""
@@ -123,4 +119,3 @@ def _bindable(value: Named) -> bool:
     if isinstance(value, Array):
         return any(_bindable(v) for v in value.entries.values())
     return isinstance(value, ValueEntry) and value.kind in ("param", "const", "input")
-

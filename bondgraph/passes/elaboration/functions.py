@@ -23,9 +23,7 @@ _POWERS = {
 }  # fmt: skip
 
 #: Functions of a pure number.
-_PURE = frozenset(
-    "exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh".split()
-)
+_PURE = frozenset("exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh".split())
 
 _ALIASES = {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "sgn": "sign"}
 

@@ -235,9 +235,7 @@ class Opener(Arguments):
 
     # ------------------------------------------------------------------ nodes
 
-    def node(
-        self, node: Node, scope: Scope, env: Env, doc: str
-    ) -> tuple[NodeEntry | Scope, ...]:
+    def node(self, node: Node, scope: Scope, env: Env, doc: str) -> tuple[NodeEntry | Scope, ...]:
         """Declare `TYPE:name`: a junction, an element or an instance, or an array of them."""
         if node.type in JUNCTIONS or node.type in KINDS:
             return self.element(node, scope, env, doc)
@@ -251,9 +249,7 @@ class Opener(Arguments):
             raise Skip
         return self.instances(definition, node, scope, env)
 
-    def element(
-        self, node: Node, scope: Scope, env: Env, doc: str
-    ) -> tuple[NodeEntry, ...]:
+    def element(self, node: Node, scope: Scope, env: Env, doc: str) -> tuple[NodeEntry, ...]:
         """A junction or element of the library."""
         made: list[NodeEntry] = []
         name = node.name.name

@@ -325,4 +325,3 @@ def _degree_one(expr: Expr, pair: tuple[Expr, Expr]) -> bool:
 
 def _is_zero(expr: object) -> bool:
     return isinstance(expr, Number) and expr.value == 0 and expr.unit is None
-

@@ -36,8 +36,8 @@ def unit_meant(origin: Span) -> str | None:
     if before is None or after is None:
         return None
     unit = suggest_unit("".join((before[2] + after[0]).split()))
-    return None if unit is None else (
-        f"A unit contains no `*` and no spaces: `{before[1]} {unit}`."
+    return (
+        None if unit is None else (f"A unit contains no `*` and no spaces: `{before[1]} {unit}`.")
     )
 
 

@@ -141,9 +141,7 @@ def test_the_text_evaluates_like_the_expression(drawn: tuple[Pool, Expr]) -> Non
                         float(c) * v for c, v in zip(node.coefficients, args, strict=True)
                     )
                 case Op.MUL:
-                    known[node] = math.prod(
-                        v**e for v, e in zip(args, node.exponents, strict=True)
-                    )
+                    known[node] = math.prod(v**e for v, e in zip(args, node.exponents, strict=True))
                 case _:
                     functions = {"abs": abs, "ssq": lambda v: v * abs(v), "atan": math.atan}
                     known[node] = functions[node.name](args[0])

@@ -159,9 +159,7 @@ def test_models(path: Path) -> None:
 _PHASES = [Phase.explicit, Phase.reuse, Phase.generate]
 
 
-@settings(
-    max_examples=100, deadline=None, phases=_PHASES, suppress_health_check=list(HealthCheck)
-)
+@settings(max_examples=100, deadline=None, phases=_PHASES, suppress_health_check=list(HealthCheck))
 @given(texts.models())
 def test_any_model_keeps_its_meaning(text: str) -> None:
     _same(text)
@@ -191,7 +189,7 @@ def test_any_beginning_and_any_end_of_a_model_gets_an_answer() -> None:
 
 
 @settings(max_examples=200, deadline=None)
-@given(st.text() | st.text("bgmodelRx01 :;{}()[]<->.=,+#\n\"%^", max_size=80))
+@given(st.text() | st.text('bgmodelRx01 :;{}()[]<->.=,+#\n"%^', max_size=80))
 def test_any_text_gives_a_file_or_a_diagnostic(text: str) -> None:
     _answers(text)
     _answers("bg 1\nmodel M {\n" + text + "\n}")

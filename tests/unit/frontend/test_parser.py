@@ -203,7 +203,7 @@ def test_loop_and_else_if() -> None:
 
 def test_file() -> None:
     file = good(
-        "## The file.\nbg 1\nimport A, B from \"parts.bg\"\n"
+        '## The file.\nbg 1\nimport A, B from "parts.bg"\n'
         "## One.\n##\n##  Two.\n# not this\nmodel M(n : int = 1, fast : bool) {\n"
         "    param a = 1  ## not documentation of b\n    ## Of c.\n    let c = 1; let d = 2\n}\n"
     )

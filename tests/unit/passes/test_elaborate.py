@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from fractions import Fraction
 
 import pytest
@@ -384,25 +383,3 @@ def test_a_table_beside_the_model(tmp_path: object) -> None:
     half = Fraction(1, 2)
     assert g.pool.tables["valve.csv"] == ((-1, -2), (0, 0), (3 * half, 5 * half))
     assert laws(g, "r") == ["r.e - table:valve.csv(r.f)"]
-
-
-# ---------------------------------------------------------------- scale
-
-
-def test_a_thousand_cells_in_about_a_second() -> None:
-    text = CELL + "model T { Se:U -> Line:line(n = 1000) -> 0:out; out -> De:y; out -> R:r = 1 }"
-    start = time.process_time()
-    g = graph(text)
-    assert len(g.nodes) == 4004
-    assert time.process_time() - start < 5
-
-
-def test_a_long_chain_of_lets() -> None:
-    lets = "\n".join(f"let a{i} = a{i + 1} + j.f" for i in range(3000))
-    g = body(f"Se:U -> 1:j; j -> R:r = 1\n{lets}\nlet a3000 = 1")
-    assert len(g.lets) == 3001
-
-
-def test_a_long_sum() -> None:
-    g = body(f"Se:U -> 1:j; j -> R:r = 1\nlet s = {' + '.join(['j.f'] * 150)}")
-    assert repr(g.lets[0].value) == "150*j.f"

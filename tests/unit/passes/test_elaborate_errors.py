@@ -244,7 +244,8 @@ def test_huge_sizes_are_refused_at_once() -> None:
 
 
 @pytest.mark.parametrize(
-    "repeated", ["", "let a[i] = i", "j -> 0:k[i] -> R:a[i] = 1", "if i > 5 { }", "for k in 1..i { }"]
+    "repeated",
+    ["", "let a[i] = i", "j -> 0:k[i] -> R:a[i] = 1", "if i > 5 { }", "for k in 1..i { }"],
 )
 def test_a_loop_of_millions_is_refused_before_it_runs(repeated: str) -> None:
     said = run(f"model M {{ {BASE} for i in 1..3000000 {{ {repeated} }} }}")[1]

@@ -39,7 +39,9 @@ def shown(*labels: Label, help: str = "", severity: Severity = "error") -> str:
 
 def test_two_lines_and_help() -> None:
     text = shown(Label(span("Se:U2"), "this one too"), Label(span("Se:U1"), "fixes it"), help="do")
-    assert text == """\
+    assert (
+        text
+        == """\
 error[a-code]: what is wrong
  --> m.bg:4:2
   |
@@ -50,12 +52,15 @@ error[a-code]: what is wrong
   |
   = help: do
 """
+    )
 
 
 def test_three_labels_on_one_line_after_a_tab() -> None:
     middle = span("j -> Se:U3", 1)
     labels = (Label(span("Se:U2"), "a"), Label(span("Se:U3"), "c"), Label(middle, "b"))
-    assert shown(*labels) == """\
+    assert (
+        shown(*labels)
+        == """\
 error[a-code]: what is wrong
  --> m.bg:4:2
   |
@@ -65,12 +70,15 @@ error[a-code]: what is wrong
   |     |        b
   |     a
 """
+    )
 
 
 def test_span_of_several_lines() -> None:
     start = TEXT.index("1:i {")
     long = Span(SOURCE, start, TEXT.index("    }\n") + 5)
-    assert shown(Label(long, "this junction"), severity="info") == """\
+    assert (
+        shown(Label(long, "this junction"), severity="info")
+        == """\
 note[a-code]: what is wrong
   --> m.bg:6:5
    |
@@ -81,29 +89,38 @@ note[a-code]: what is wrong
 11 | |     }
    | |_____^ this junction
 """
+    )
 
 
 def test_wide_characters_take_two_columns() -> None:
-    assert shown(Label(span("Se:é"))) == """\
+    assert (
+        shown(Label(span("Se:é")))
+        == """\
 error[a-code]: what is wrong
  --> m.bg:5:10
   |
 5 |     # 漢字 Se:é
   |            ^^^^
 """
+    )
 
 
 def test_no_label() -> None:
-    assert shown(help="write `bg 1` first") == """\
+    assert (
+        shown(help="write `bg 1` first")
+        == """\
 error[a-code]: what is wrong
   = help: write `bg 1` first
 """
+    )
 
 
 def test_end_of_file_and_another_file() -> None:
     other = Source("parts/b.bg", "bg 1\nmodel B {")
     labels = (Label(Span(SOURCE, len(TEXT), len(TEXT)), "here"), Label(Span(other, 5, 10), "there"))
-    assert shown(*labels) == """\
+    assert (
+        shown(*labels)
+        == """\
 error[a-code]: what is wrong
   --> m.bg:13:1
    |
@@ -114,6 +131,7 @@ error[a-code]: what is wrong
  2 | model B {
    | ----- there
 """
+    )
 
 
 def test_wide_line_is_cut_around_each_label() -> None:
