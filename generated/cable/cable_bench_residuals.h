@@ -28,7 +28,7 @@ typedef double cable_bench_real;
 /* Version of the structs and functions, and the size of a number. */
 #define CABLE_BENCH_ABI (1u * 256u + (uint32_t)sizeof(cable_bench_real))
 /* Identifies the model and the options that this code was made from. */
-#define CABLE_BENCH_DIGEST "40a3a0625b371660"
+#define CABLE_BENCH_DIGEST "ff7703aaa46fce38"
 
 /* What the code was made for: arguments of cable_bench_configure, in s, rad/s and s. */
 #define CABLE_BENCH_SAMPLE_TIME CABLE_BENCH_CONSTANT(0.001)
@@ -41,7 +41,7 @@ extern "C" {
 
 /* The residuals, by number. */
 enum {
-    /* r1 = r1: line.cell[1].left with everything else inserted
+    /* r1: line.cell[1].left with everything else inserted
      * sees line.R, line.L, line.C, Uin, Us */
     CABLE_BENCH_R1 = 0,
     CABLE_BENCH_RESIDUALS = 1

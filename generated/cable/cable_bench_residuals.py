@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "40a3a0625b371660"
+DIGEST = "ff7703aaa46fce38"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -49,7 +49,7 @@ class Derivatives:
 class Residuals:
     """The residuals; `valid` has the names of those that may be believed."""
 
-    # r1 = r1: line.cell[1].left with everything else inserted
+    # r1: line.cell[1].left with everything else inserted
     # sees line.R, line.L, line.C, Uin, Us
     r1: float = 0.0
     valid: frozenset[str] = frozenset()

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "2a35f8e5af5e464c"
+DIGEST = "20d8600187676e86"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

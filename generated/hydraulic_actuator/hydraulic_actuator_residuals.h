@@ -29,7 +29,7 @@ typedef double hydraulic_actuator_real;
 /* Version of the structs and functions, and the size of a number. */
 #define HYDRAULIC_ACTUATOR_ABI (1u * 256u + (uint32_t)sizeof(hydraulic_actuator_real))
 /* Identifies the model and the options that this code was made from. */
-#define HYDRAULIC_ACTUATOR_DIGEST "586bc72add3d6fff"
+#define HYDRAULIC_ACTUATOR_DIGEST "f12b4bd97d2e64b7"
 
 /* What the code was made for: arguments of hydraulic_actuator_configure, in s, rad/s and s. */
 #define HYDRAULIC_ACTUATOR_SAMPLE_TIME HYDRAULIC_ACTUATOR_CONSTANT(0.001)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "9c1fabec3a3998bd"
+DIGEST = "ba56528863ee6204"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

