@@ -7,6 +7,7 @@ the Taylor series of every signal. The oracle shares nothing with the eliminatio
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
 from random import Random
 
 from bondgraph.exact import series
@@ -122,10 +123,7 @@ class Plant:
             *[s.reads for s in graph.sensors],
             *[n.when for n in graph.nodes if n.when is not None],
         ]
-        uses: dict[Expr, int] = {}
-        for root in roots:
-            for part in topological([root]):
-                uses[part] = uses.get(part, 0) + 1
+        self._roots = tuple(roots)
         roots += [v.symbol for v in graph.values] + [i.symbol for i in graph.inputs if i.mode]
         constant = (Kind.PARAM, Kind.CONST, Kind.INITIAL, Kind.FREE)
         found = [n for n in topological(roots) if n.op is Op.SYM]
@@ -147,7 +145,16 @@ class Plant:
             if item.initial.op is Op.SYM:
                 self._starts[item.initial] = item.symbol
         self.constants = [n for n in found if n.symbol.kind in constant and n not in self._starts]
-        self._private = frozenset(v for v in self.constants if uses.get(v) == 1)
+        self._samples: dict[object, Trajectory | WaveSample] = {}
+
+    @cached_property
+    def _private(self) -> frozenset[Expr]:
+        """Constants that a single law uses, and that may be retuned to satisfy it."""
+        uses: dict[Expr, int] = {}
+        for root in self._roots:
+            for part in topological([root]):
+                uses[part] = uses.get(part, 0) + 1
+        return frozenset(v for v in self.constants if uses.get(v) == 1)
 
     def trajectory(
         self,
@@ -254,8 +261,24 @@ class Plant:
         """A point on which `n` coefficients of all roots can be evaluated.
 
         A trajectory where that is affordable; exponentials where the orders are many and the
-        plant and the roots are linear. Raises `ExactUnavailable`.
+        plant and the roots are linear. A healthy point is remembered. Raises `ExactUnavailable`.
         """
+        acting = tuple(faults)
+        if acting or modes:
+            return self._sample(roots, seed, n, acting, modes)
+        key = (tuple(roots), seed, n)
+        if key not in self._samples:
+            self._samples[key] = self._sample(roots, seed, n, (), None)
+        return self._samples[key]
+
+    def _sample(
+        self,
+        roots: Sequence[Expr],
+        seed: int,
+        n: int,
+        faults: tuple[str, ...],
+        modes: Mapping[Expr, int] | None,
+    ) -> Trajectory | WaveSample:
         order = highest_order(roots, n)
         part = self.part_for(roots)
         if order * len(part.active) > _LARGE and not integral_depth(roots):

@@ -124,7 +124,7 @@ class _Analysis:
         """The symbols that each relation reacts to, over enough points to meet every branch."""
         reacts: list[set[Expr]] = [set() for _ in exprs]
         for point in range(_points(exprs)):
-            parts = self.draw(lambda n: self.at_trajectory(exprs, n), 2000 * self.seed + point)
+            parts = self.draw(lambda n: self.at_trajectory(exprs, n), 1000 * self.seed + point)
             for seen, part in zip(reacts, parts, strict=True):
                 seen.update(s for s, hit in part.depends.items() if hit)
         for seen, expr in zip(reacts, exprs, strict=True):
