@@ -148,6 +148,8 @@ def _numerics(compilation: Compilation, columns: int) -> list[str]:
             notes.append([f"  {info.name}  is approximate: {info.approximate}"])
         if info.unavailable:
             notes.append([f"  {info.name}  is never valid: {info.unavailable}"])
+        if info.unwritten:
+            notes.append([f"  {info.name}  has no exact form in the code: {info.unwritten}"])
         for note in notes:
             lines += note
     if not lines:

@@ -90,9 +90,13 @@ def seen(builder: Builder, terms: tuple[Term, ...], rate: float, resolution: flo
     sizes: list[float] = []
     for term in terms:
         value = evaluate(coefficients[term.atom, term.order], builder.floats)
-        if value is None or not math.isfinite(value):
+        try:
+            size = math.inf if value is None else abs(float(value)) * w**term.order
+        except OverflowError:
+            size = math.inf
+        if not math.isfinite(size):
             return Seen(terms, (), None, effect)
-        sizes.append(abs(float(value)) * w**term.order)
+        sizes.append(size)
     return split(terms, sizes, resolution, effect)
 
 
