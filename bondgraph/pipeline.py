@@ -212,5 +212,5 @@ def compile(
     source = read(name, report)
     if source is None:
         raise CompileError(tuple(report.diagnostics))
-    chosen = Options()._replace(**options) if options else Options()  # type: ignore[arg-type]
+    chosen = Options(**options)  # type: ignore[arg-type]
     return Compilation(source, model, chosen)

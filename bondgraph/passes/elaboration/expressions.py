@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from fractions import Fraction
 from typing import NoReturn, assert_never
 
@@ -38,7 +39,7 @@ class Place(NamedTuple):
     local: dict[str, Typed] | None = None
 
 
-class Expressions:
+class Expressions(ABC):
     """Converts expressions; what a name means is asked of `names` (see `values`)."""
 
     def __init__(self, pool: Pool, report: Report, quantities: Quantities) -> None:
@@ -50,9 +51,9 @@ class Expressions:
         self._made: dict[tuple[str, Expr, Expr], Expr] = {}
         self._depth = 0
 
+    @abstractmethod
     def reference(self, ref: Ref, place: Place) -> Typed:
         """The value of a reference."""
-        raise NotImplementedError
 
     def convert(self, expr: Expression, place: Place) -> Typed:
         """The expression and its dimension; what is wrong is reported and raises Skip."""
