@@ -1,0 +1,254 @@
+"""Truncated power series with 40 digits, and the evaluation of SymPy expressions on them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import mpmath
+import sympy
+from mpmath import mpf
+
+mpmath.mp.dps = 40
+Jet = list[Any]  # the Taylor coefficients, lowest first
+
+
+def constant(value: Any, n: int) -> Jet:
+    return [mpf(value)] + [mpf(0)] * (n - 1)
+
+
+def add(a: Jet, b: Jet) -> Jet:
+    return [x + y for x, y in zip(a, b, strict=False)]
+
+
+def scale(c: Any, a: Jet) -> Jet:
+    return [c * x for x in a]
+
+
+def mul(a: Jet, b: Jet) -> Jet:
+    n = min(len(a), len(b))
+    rows = [i for i in range(n) if a[i]]
+    return [mpmath.fsum(a[i] * b[k - i] for i in rows if i <= k) for k in range(n)]
+
+
+def div(a: Jet, b: Jet) -> Jet:
+    n = min(len(a), len(b))
+    out: Jet = []
+    for k in range(n):
+        out.append((a[k] - mpmath.fsum(out[i] * b[k - i] for i in range(k))) / b[0])
+    return out
+
+
+def der(a: Jet, n: int = 1) -> Jet:
+    for _ in range(n):
+        a = [k * a[k] for k in range(1, len(a))]
+    return a
+
+
+def integral(a: Jet, start: Any) -> Jet:
+    return [mpf(start)] + [a[k] / (k + 1) for k in range(len(a))]
+
+
+def _through(a: Jet, f0: Any, slope: Callable[[Jet], Jet]) -> Jet:
+    """F with F' = slope(F) a', for example exp: slope(F) = F."""
+    out = [mpf(f0)]
+    rate = der(a)
+    for k in range(1, len(a)):
+        s = slope(out)
+        out.append(mpmath.fsum(s[i] * rate[k - 1 - i] for i in range(k)) / k)
+    return out
+
+
+def _of_argument(a: Jet, f0: Any, slope: Jet) -> Jet:
+    rate = mul(slope, der(a)) if len(a) > 1 else []
+    return integral(rate, f0)[: len(a)]
+
+
+def power(a: Jet, c: Any) -> Jet:
+    if c == int(c):
+        out = constant(1, len(a))
+        for _ in range(abs(int(c))):
+            out = mul(out, a)
+        return out if c >= 0 else div(constant(1, len(a)), out)
+    c = mpf(c)
+    out = [a[0] ** c]
+    for k in range(1, len(a)):
+        out.append(
+            mpmath.fsum((c * i - (k - i)) * a[i] * out[k - i] for i in range(1, k + 1)) / (k * a[0])
+        )
+    return out
+
+
+def sign_of(a: Jet) -> int:
+    for x in a:
+        if abs(x) > mpf(10) ** -25:
+            return 1 if x > 0 else -1
+    return 0
+
+
+def sincos(a: Jet, hyperbolic: bool = False) -> tuple[Jet, Jet]:
+    s0, c0 = (
+        (mpmath.sinh(a[0]), mpmath.cosh(a[0]))
+        if hyperbolic
+        else (mpmath.sin(a[0]), mpmath.cos(a[0]))
+    )
+    s, c = [s0], [c0]
+    rate = der(a)
+    for k in range(1, len(a)):
+        ds = mpmath.fsum(c[i] * rate[k - 1 - i] for i in range(k)) / k
+        dc = mpmath.fsum(s[i] * rate[k - 1 - i] for i in range(k)) / k
+        s.append(ds)
+        c.append(dc if hyperbolic else -dc)
+    return s, c
+
+
+def function(name: str, args: Sequence[Jet]) -> Jet:
+    a = args[0]
+    n = len(a)
+    one = constant(1, n)
+    match name:
+        case "exp":
+            return _through(a, mpmath.exp(a[0]), lambda f: f)
+        case "log":
+            return _of_argument(a, mpmath.log(a[0]), div(one, a))
+        case "sin":
+            return sincos(a)[0]
+        case "cos":
+            return sincos(a)[1]
+        case "tan":
+            return div(*sincos(a))
+        case "sinh":
+            return sincos(a, True)[0]
+        case "cosh":
+            return sincos(a, True)[1]
+        case "tanh":
+            return div(*sincos(a, True))
+        case "atan":
+            return _of_argument(a, mpmath.atan(a[0]), div(one, add(one, mul(a, a))))
+        case "asin":
+            root = power(add(one, scale(-1, mul(a, a))), 0.5)
+            return _of_argument(a, mpmath.asin(a[0]), div(one, root))
+        case "acos":
+            return add(constant(mpmath.pi / 2, n), scale(-1, function("asin", args)))
+        case "asinh":
+            root = power(add(one, mul(a, a)), 0.5)
+            return _of_argument(a, mpmath.asinh(a[0]), div(one, root))
+        case "Abs" | "myabs":
+            return scale(sign_of(a), a)
+        case "sign" | "mysign":
+            return constant(sign_of(a), n)
+        case "sqrt":
+            return power(a, 0.5)
+        case "ssqrt":
+            s = sign_of(a)
+            return scale(s, power(scale(s, a), 0.5))
+        case "cbrt":
+            s = sign_of(a)
+            return scale(s, power(scale(s, a), mpf(1) / 3))
+        case "Min" | "Max":
+            best = a
+            for b in args[1:]:
+                d = sign_of(add(best, scale(-1, b)))
+                if (d > 0) == (name == "Min"):
+                    best = b
+            return best
+        case "atan2":
+            lead = mpmath.atan2(args[0][0], args[1][0])
+            out = function("atan", [div(args[0], args[1])])
+            return [lead, *out[1:]]
+    raise NotImplementedError(name)
+
+
+class Evaluator:
+    """Values of SymPy expressions; `signals` gives the jet, number or truth of every symbol.
+
+    `fixed_integrals` replaces the start of every Int by a number of its own, so that the jets
+    need not begin where the integrals do. `size` collects the sum of absolute top-level terms.
+    """
+
+    def __init__(self, signals: Mapping[str, Any], n: int, free_integrals: bool = False) -> None:
+        self.signals = signals
+        self.n = n
+        self.free = free_integrals
+        self.memo: dict[Any, Any] = {}
+        self.starts: dict[Any, Any] = {}
+
+    def truth(self, e: Any) -> bool:
+        if e is sympy.true or e is True:
+            return True
+        if e is sympy.false or e is False:
+            return False
+        if isinstance(e, sympy.Symbol):
+            value = self.signals[e.name]
+            assert isinstance(value, bool), e
+            return value
+        if isinstance(e, sympy.Not):
+            return not self.truth(e.args[0])
+        if isinstance(e, sympy.And):
+            return all(self.truth(a) for a in e.args)
+        if isinstance(e, sympy.Or):
+            return any(self.truth(a) for a in e.args)
+        if isinstance(e, sympy.ITE):
+            return self.truth(e.args[1] if self.truth(e.args[0]) else e.args[2])
+        if isinstance(e, sympy.core.relational.Relational):
+            if all(self.is_boolean(a) for a in e.args):
+                same = self.truth(e.args[0]) == self.truth(e.args[1])
+                return same == isinstance(e, sympy.Eq)
+            d = sign_of(add(self(e.args[0]), scale(-1, self(e.args[1]))))
+            return {
+                "<": d < 0,
+                "<=": d <= 0,
+                ">": d > 0,
+                ">=": d >= 0,
+                "==": d == 0,
+                "!=": d != 0,
+            }[e.rel_op]
+        raise NotImplementedError(e)
+
+    def is_boolean(self, e: Any) -> bool:
+        if isinstance(e, sympy.Symbol):
+            return isinstance(self.signals[e.name], bool)
+        return isinstance(e, sympy.logic.boolalg.Boolean)
+
+    def __call__(self, e: Any) -> Jet:
+        if e not in self.memo:
+            self.memo[e] = self._value(e)
+        return self.memo[e]
+
+    def _value(self, e: Any) -> Jet:
+        if e.is_Number or e.is_NumberSymbol:
+            return constant(mpmath.mpmathify(e.evalf(40)), self.n)
+        if isinstance(e, sympy.Symbol):
+            value = self.signals[e.name]
+            return value if isinstance(value, list) else constant(value, self.n)
+        if isinstance(e, sympy.Add):
+            out = self(e.args[0])
+            for a in e.args[1:]:
+                out = add(out, self(a))
+            return out
+        if isinstance(e, sympy.Mul):
+            out = self(e.args[0])
+            for a in e.args[1:]:
+                out = mul(out, self(a))
+            return out
+        if isinstance(e, sympy.Pow):
+            if e.args[1].is_Rational:
+                c = e.args[1]
+                return power(self(e.args[0]), int(c) if c.is_Integer else mpf(c.p) / c.q)
+            exponent = self(e.args[1])
+            return function("exp", [mul(exponent, function("log", [self(e.args[0])]))])
+        if isinstance(e, sympy.Piecewise):
+            for value, condition in e.args:
+                if self.truth(condition):
+                    return self(value)
+            raise ValueError("no branch holds")
+        name = e.func.__name__
+        if name == "D":
+            return der(self(e.args[0]), int(e.args[1]))
+        if name == "Int":
+            if self.free:
+                start = self.starts.setdefault(e, mpf(1) / (3 + len(self.starts)))
+            else:
+                start = self(e.args[1])[0]
+            return integral(self(e.args[0]), start)[: self.n]
+        return function(name, [self(a) for a in e.args])
