@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import cable_open_residuals as m
 
-TOLERANCE = 1e-12
+TOLERANCE = 5e-13
 
 RESIDUALS = (
     "r1",

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import khepera_plausible_residuals as m
 
-TOLERANCE = 1e-12
+TOLERANCE = 5e-13
 
 RESIDUALS = (
     "r1", "r2", "r3", "r4", "r5",
