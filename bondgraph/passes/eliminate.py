@@ -306,7 +306,7 @@ class Chain:
             names = ", ".join(dict.fromkeys(f"`{e.name}`" for e in laws))
             self.report.error(
                 "loop-unsolvable",
-                f"The nonlinear equations of {names} have no solution in closed form.",
+                f"The loop of nonlinear equations through {names} has no solution in closed form.",
                 *dict.fromkeys(e.origin for e in laws),
                 help="Measure a variable inside the loop, or give one of its laws in the"
                 " direction in which it can be inverted.",
