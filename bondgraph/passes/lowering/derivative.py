@@ -295,6 +295,52 @@ def _table_slope(pool: Pool, name: str, x: Expr) -> Expr:
     return pick(0, len(slopes) - 1)
 
 
+def partials(pool: Pool, node: Expr) -> list[Expr]:
+    """The derivatives of a node of ADD, MUL, FN or IF with respect to each of its arguments.
+
+    Piece by piece: a jump (of a sign, of a condition) has none and counts as zero.
+
+    >>> from bondgraph.ir.expr import Pool
+    >>> p = Pool(); x = p.symbol("x", Kind.SENSOR); R = p.symbol("R", Kind.PARAM)
+    >>> partials(p, p.mul(p.power(R, 2), x))
+    [R^2, 2*x*R]
+    """
+    args = node.args
+    match node.op:
+        case Op.ADD:
+            return [pool.num(c) for c in node.coefficients]
+        case Op.MUL:
+            pairs = list(zip(args, node.exponents, strict=True))
+            return [
+                pool.scale(e, pool.mul(*[pool.power(b, f - (b is a)) for b, f in pairs]))
+                for a, e in pairs
+            ]
+        case Op.IF:
+            yes, no = (pool.one, pool.zero), (pool.zero, pool.one)
+            return [pool.zero, *[pool.choose(args[0], *branch) for branch in (yes, no)]]
+        case Op.FN if len(args) == 1:
+            if node.name.startswith("table:"):
+                return [_table_slope(pool, node.name, args[0])]
+            return [_SLOPES[node.name](pool, node, args[0])]
+        case Op.FN:
+            return _partials_of_two(pool, node)
+    return [pool.zero for _ in args]
+
+
+def _partials_of_two(pool: Pool, node: Expr) -> list[Expr]:
+    x, y = node.args
+    if node.name in ("min", "max"):
+        first = pool.compare("<=" if node.name == "min" else ">=", x, y)
+        return [pool.choose(first, pool.one, pool.zero), pool.choose(first, pool.zero, pool.one)]
+    if node.name == "atan2":
+        square = pool.add((1, pool.power(x, 2)), (1, pool.power(y, 2)))
+        return [pool.div(y, square), pool.neg(pool.div(x, square))]
+    assert node.name == "pow"
+    exponent = list(zip(y.coefficients, y.args, strict=True)) if y.op is Op.ADD else [(1, y)]
+    lowered = pool.fn("pow", x, pool.add(*exponent, (-1, pool.one)))
+    return [pool.mul(y, lowered), pool.mul(node, pool.fn("log", x))]
+
+
 def operations(roots: Iterable[Expr]) -> int:
     """How many operations the roots take, what they share counted once; D and Int are given."""
     total = 0
