@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.program import Program
     from bondgraph.ir.residuals import ReducedSystem, ResidualSet
-    from bondgraph.ir.signatures import SignatureMatrix
+    from bondgraph.ir.signatures import ModeSignatures, SignatureMatrix
     from bondgraph.ir.syntax import File
     from bondgraph.views import Relations
 
@@ -120,6 +120,13 @@ class Compilation:
     def signatures(self) -> SignatureMatrix:
         """The fault signature matrix."""
         return self._analysis[1]
+
+    @cached_property
+    def modes(self) -> ModeSignatures:
+        """The fault signature matrix of each mode of a switched machine."""
+        from bondgraph.passes.modes import modes
+
+        return modes(self.reduced, *self._analysis, self._plant, self.options.seed)
 
     @cached_property
     def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:

@@ -32,6 +32,7 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
         lines += ["", *closed_form(compilation, relation, columns)]
     if matrix.faults and matrix.residuals:
         lines += ["", "Fault signatures", *signature_table(matrix)]
+    lines += _modes(compilation, columns)
     if matrix.undetectable:
         lines += ["", "Undetectable"]
         for reason, faults in reasons(compilation).items():
@@ -79,6 +80,31 @@ def closed_form(
             f"{indent}... {plural(rest, 'line')} more: bondgraph explain"
             f" {compilation.source.path} {relation.name}",
         ]
+    return lines
+
+
+def _modes(compilation: Compilation, columns: int) -> list[str]:
+    """What can be detected in each mode of a switched machine, one mode a line."""
+    matrix, found = compilation.signatures, compilation.modes
+    if not found.modes or not matrix.residuals:
+        return []
+    lines = ["", "While the machine stays in one mode"]
+    for mode in found.modes:
+        lead = "  " + ", ".join(f"{n} {'on' if on else 'off'}" for n, on in mode.modes.items())
+        if mode.matrix is None:
+            lines.append(f"{lead}: no behaviour, {mode.reason}")
+        elif mode.matrix.rows == matrix.rows:
+            lines.append(f"{lead}: the same signatures")
+        else:
+            lost = [f for f in mode.matrix.undetectable if f not in matrix.undetectable]
+            blind = [r for r in matrix.residuals if not mode.matrix.signature(r)]
+            lines.append(f"{lead}: {plural(len(mode.matrix.groups), 'group')}")
+            if lost:
+                lines += names(lost, columns, "    undetectable here: ")
+            if blind:
+                lines += names(blind, columns, "    sees nothing: ")
+    if len(found.modes) < found.total:
+        lines.append(f"  and {found.total - len(found.modes)} modes more")
     return lines
 
 

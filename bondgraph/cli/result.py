@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.expr import Expr
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.residuals import Residual
-    from bondgraph.ir.signatures import SignatureMatrix
+    from bondgraph.ir.signatures import ModeSignatures, SignatureMatrix
     from bondgraph.pipeline import Compilation
 
 
@@ -48,7 +48,26 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
         "names": {plain: name for name, plain in names.by_model.items() if plain in used},
         "undetectable": list(matrix.undetectable),
         "groups": [list(group) for group in matrix.groups],
+        **_modes(compilation.modes),
     }
+
+
+def _modes(found: ModeSignatures) -> dict[str, object]:
+    """The signatures of each mode of a switched model; nothing for another model."""
+    if not found.modes:
+        return {}
+    listed: list[dict[str, object]] = []
+    for mode in found.modes:
+        item: dict[str, object] = {"inputs": dict(mode.modes)}
+        if mode.matrix is None:
+            item["reason"] = mode.reason
+        else:
+            matrix = mode.matrix
+            item["signatures"] = {r: list(matrix.signature(r)) for r in matrix.residuals}
+            item["undetectable"] = list(matrix.undetectable)
+            item["groups"] = [list(group) for group in matrix.groups]
+        listed.append(item)
+    return {"modes": listed, "modes_total": found.total}
 
 
 def message(matrix: SignatureMatrix) -> str:

@@ -85,3 +85,26 @@ class SignatureMatrix(NamedTuple):
             verdict = f"{int(any(row)):>4}{int(fault in alone):>4}"
             lines.append(fault.ljust(width) + "  " + "  ".join(cells) + verdict)
         return "\n".join(lines)
+
+
+class ModeSignature(NamedTuple):
+    """The signatures while the machine stays in one mode.
+
+    `modes` gives each boolean input its value; `matrix` is None where the plant has no behaviour
+    in that mode, and `reason` then says why.
+    """
+
+    modes: dict[str, bool]
+    matrix: SignatureMatrix | None
+    reason: str
+
+
+class ModeSignatures(NamedTuple):
+    """The signatures in each mode, in binary order of the boolean inputs `names`.
+
+    `total` is how many modes there are; fewer are listed where they are too many.
+    """
+
+    names: tuple[str, ...]
+    modes: tuple[ModeSignature, ...]
+    total: int

@@ -14,9 +14,10 @@ from typing import Any
 from bondgraph.exact.algebra import Mixed, Wave
 from bondgraph.exact.evaluate import Sample, evaluate, integral_depth
 from bondgraph.exact.field import P, Undefined
+from bondgraph.exact.modes import assignments, modes_of
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.result import Verification
-from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, topological
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
@@ -24,7 +25,6 @@ from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
 _BRANCHES = 6  # healthy plants where a law or a residual decides something, else one
-_MODES = 8  # assignments of modes that are tried
 _WORK = 200_000  # nodes that may be evaluated to try single faults, before they are sampled
 _TRIES = 20  # points at which a residual or a law may have no value, drawn again
 
@@ -77,14 +77,9 @@ class _Check:
         self.tried: dict[str, None] = {}
         self.waves = False
         self.sampled = False
-        self.modes = [
-            n for n in topological(self.exprs) if n.op is Op.SYM and n.symbol.kind is Kind.MODE
-        ]
+        self.modes = modes_of(graph, self.exprs)
         laws = [law.zero for node in graph.nodes for law in node.laws]
         self.decides = any(map(_decides, topological([*self.exprs, *laws])))
-        for mode in self.plant.modes:
-            if mode not in self.modes:
-                self.modes.append(mode)
 
     def run(self) -> Verification:
         """Everything, in the order of cost; the first thing found wrong is reported."""
@@ -259,12 +254,7 @@ class _Check:
         """Modes to try, all of them if they are few."""
         if not self.modes:
             return [None] * (_BRANCHES if self.decides else 1)
-        count = 1 << min(len(self.modes), 16)
-        step = max(1, count // _MODES) | 1
-        return [
-            {m: (k * step >> i) & 1 for i, m in enumerate(self.modes)}
-            for k in range(min(count, _MODES))
-        ]
+        return [*assignments(self.modes)]
 
 
 class _Told:

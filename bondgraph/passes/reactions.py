@@ -1,0 +1,179 @@
+"""Which symbols move an expression: at free signals, and on healthy trajectories of the plant.
+
+The derivatives are taken by reverse mode over a prime field at random points. Parameters are
+functions of time here, so that a fault is found whatever its course.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any, TypeVar
+
+from bondgraph.exact.evaluate import (
+    Sensitivity,
+    evaluate,
+    highest_order,
+    integral_depth,
+    sensitivities,
+)
+from bondgraph.exact.field import Undefined
+from bondgraph.exact.free import FreeSample
+from bondgraph.exact.modes import assignments, modes_of
+from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
+
+T = TypeVar("T")
+
+#: Points at which a relation is tried: one is enough for a rational relation (it errs with a
+#: probability of about its degree / 2**61), a branch not taken at one point is taken at another.
+_POINTS, _POINTS_WITH_BRANCHES = 1, 12
+_TRIES = 40  # a point where a square root has no value is drawn again
+
+
+class Reactions:
+    """What expressions of known signals react to in one plant, in given modes or in any."""
+
+    def __init__(self, plant: Plant, seed: int, modes: Mapping[Expr, int] | None = None) -> None:
+        self.plant = plant
+        self.seed = seed
+        self.modes = modes
+        graph = plant.graph
+        self.faults = {graph.fault_symbol(f): f for f in graph.faults}
+
+    def at_free_signals(self, expr: Expr) -> Sensitivity:
+        """What the relation depends on when its signals are independent of each other."""
+        found = Sensitivity(dict.fromkeys(symbols(expr), False), {}, frozenset(), ())
+        for point in range(_points([expr], None)):
+            try:
+                here = self.draw(
+                    lambda n: sensitivities(expr, FreeSample.of(expr, n)), 1000 * self.seed + point
+                )
+            except ExactUnavailable:
+                return _by_presence(expr)
+            found = _union(found, here) if point else here
+        return found
+
+    def on_trajectories(self, exprs: list[Expr]) -> list[set[Expr]]:
+        """The symbols that each relation reacts to in the healthy plant.
+
+        One trajectory serves all relations; where the plant as a whole has none, each relation is
+        tried on the part of the plant that it is about.
+        """
+        if not exprs:
+            return []
+        try:
+            return self.sensed(exprs)
+        except ExactUnavailable:
+            if len(exprs) > 1:
+                return [self.on_trajectories([e])[0] for e in exprs]
+            return [self.without_slopes(exprs[0])]
+
+    def without_slopes(self, expr: Expr) -> set[Expr]:
+        """The symbols that move a relation where its derivatives do not exist on the plant."""
+        try:
+            return {s for s in symbols(expr) if self.moves(expr, s)}
+        except ExactUnavailable:
+            return {s for s, hit in self.at_free_signals(expr).depends.items() if hit}
+
+    def sensed(self, exprs: list[Expr]) -> list[set[Expr]]:
+        """The symbols that each relation reacts to, over enough points to meet every branch.
+
+        Where the modes are not given, they take all their values in turn; one in which the plant
+        has no behaviour is passed over.
+        """
+        reacts: list[set[Expr]] = [set() for _ in exprs]
+        failure: ExactUnavailable | None = None
+        met = False
+        for point, modes in enumerate(self.settings(exprs)):
+            try:
+                attempt = partial(self.at_trajectory, exprs, modes)
+                parts = self.draw(attempt, 1000 * self.seed + point)
+            except ExactUnavailable as reason:
+                failure = reason
+                continue
+            met = True
+            for seen, part in zip(reacts, parts, strict=True):
+                seen.update(s for s, hit in part.depends.items() if hit)
+        if not met and failure is not None:
+            raise failure
+        for seen, expr in zip(reacts, exprs, strict=True):
+            seen.update(s for s in symbols(expr) if s not in seen and self.moves(expr, s))
+        return reacts
+
+    def at_trajectory(
+        self, exprs: list[Expr], modes: Mapping[Expr, int] | None, number: int
+    ) -> list[Sensitivity]:
+        """Derivatives of all relations at one healthy trajectory."""
+        sample = self.plant.sample(exprs, number, integral_depth(exprs) + 1, modes=modes)
+        return [sensitivities(expr, sample) for expr in exprs]
+
+    def settings(self, exprs: list[Expr]) -> list[Mapping[Expr, int] | None]:
+        """The modes at each of the points that are tried."""
+        free = [] if self.modes is not None else modes_of(self.plant.graph, exprs)
+        if not free:
+            return [self.modes] * _points(exprs, self.modes)
+        tried = assignments(free)
+        rounds = -(-_POINTS_WITH_BRANCHES // len(tried))
+        return [*tried] * rounds
+
+    def moves(self, expr: Expr, symbol: Expr) -> bool:
+        """Whether a fault that is not small moves a relation that small ones leave alone.
+
+        A machine at rest, without any input, hides a parameter from the derivative that a change
+        of finite size shows.
+        """
+        fault = self.faults.get(symbol)
+        if fault is None:
+            return False
+        size = integral_depth([expr]) + 1
+
+        def value(number: int) -> Any:
+            sample = self.plant.sample([expr], number, size, faults=(fault,), modes=self.modes)
+            return evaluate([expr], sample, size)[0]
+
+        found = self.draw(value, 3000 * self.seed)
+        return any(found) if isinstance(found, list) else bool(found.amplitude)
+
+    def draw(self, attempt: Callable[[int], T], number: int) -> T:
+        """The result at a random point; points where something has no value are drawn again."""
+        for turn in range(_TRIES):
+            try:
+                return attempt(number + 100_000 * turn)
+            except Undefined:
+                continue
+        raise ExactUnavailable("no point was found at which every law has a value")
+
+
+def _by_presence(expr: Expr) -> Sensitivity:
+    """What a relation may depend on, where it has no value at any random point."""
+    inside = symbols(expr)
+    signals = [s for s in inside if s.symbol.kind in (Kind.INPUT, Kind.SENSOR)]
+    order = highest_order([expr])
+    return Sensitivity(dict.fromkeys(inside, True), dict.fromkeys(signals, order), frozenset(), ())
+
+
+def _points(exprs: list[Expr], modes: Mapping[Expr, int] | None) -> int:
+    """Several points where an expression takes branches that the modes do not decide."""
+    decided: dict[Expr, bool] = {}
+    for n in topological(exprs):
+        if n.op is Op.SYM:
+            decided[n] = modes is not None and n in modes
+            branches = n.symbol.kind is Kind.MODE and not decided[n]
+        else:
+            decided[n] = all(decided[a] for a in n.args)
+            branches = (n.op is Op.IF and not decided[n.args[0]]) or (
+                n.op is Op.FN and n.name in ("sign", "min", "max", "abs")
+            )
+        if branches:
+            return _POINTS_WITH_BRANCHES
+    return _POINTS
+
+
+def _union(a: Sensitivity, b: Sensitivity) -> Sensitivity:
+    return Sensitivity(
+        {s: hit or b.depends[s] for s, hit in a.depends.items()},
+        {s: max(a.orders.get(s, -2), b.orders.get(s, -2)) for s in {**a.orders, **b.orders}},
+        a.dead & b.dead,
+        tuple(dict.fromkeys((*a.starts, *b.starts))),
+    )
