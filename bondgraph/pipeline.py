@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.program import Program
     from bondgraph.ir.residuals import ReducedSystem, ResidualSet
-    from bondgraph.ir.signatures import ModeSignatures, SignatureMatrix
+    from bondgraph.ir.signatures import Detectability, ModeSignatures, SignatureMatrix
     from bondgraph.ir.syntax import File
     from bondgraph.views import Relations
 
@@ -127,6 +127,13 @@ class Compilation:
         from bondgraph.passes.modes import modes
 
         return modes(self.reduced, *self._analysis, self._plant, self.options.seed)
+
+    @cached_property
+    def detectability(self) -> Detectability:
+        """Which faults a residual sees as long as they last, which only in transients."""
+        from bondgraph.passes.detectability import detectability
+
+        return detectability(*self._analysis, self._plant, self.options.seed)
 
     @cached_property
     def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:

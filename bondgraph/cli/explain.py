@@ -191,7 +191,11 @@ def _residual(compilation: Compilation, relation: Relation) -> list[str]:
         lines += ["", "  The relation is differentiated: an initial value is not declared."]
     shown = [f"{s} {'only integrated' if n < 0 else n}" for s, n in relation.orders.items()]
     lines += ["", "Highest derivatives", *_listed(shown, columns)]
-    lines += ["", "Faults that it sees", *_listed(relation.faults, columns)]
+    weak = compilation.detectability.weak(relation.name)
+    lasting = [f for f in relation.faults if f not in (weak or ())]
+    lines += ["", "Faults that it sees", *_listed(lasting, columns)]
+    if weak:
+        lines += ["", "Faults that it sees only while signals change", *_listed(weak, columns)]
     return lines
 
 
@@ -210,6 +214,11 @@ def _fault(compilation: Compilation, name: str) -> list[str]:
     if not seen:
         return [*lines, f"  undetectable: {reason(compilation, name)}"]
     lines.append(f"  moves {', '.join(seen)}")
+    weak = [r for r in seen if name in (compilation.detectability.weak(r) or ())]
+    if weak == seen:
+        lines.append("  weakly: only while signals change, not in steady operation")
+    elif weak:
+        lines.append(f"  of these {', '.join(weak)} only while signals change")
     others = matrix.confused_with(name)
     if others:
         lines += ["  cannot be told apart from", *_listed(others, 100)]

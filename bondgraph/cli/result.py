@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.expr import Expr
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.residuals import Residual
-    from bondgraph.ir.signatures import ModeSignatures, SignatureMatrix
+    from bondgraph.ir.signatures import Detectability, ModeSignatures, SignatureMatrix
     from bondgraph.pipeline import Compilation
 
 
@@ -31,8 +31,9 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
     matrix = compilation.signatures
     names = names_of(graph)
     initial = initial_values(graph)
+    lasting = compilation.detectability
     arrs = [
-        _arr(graph, residual, matrix, names, initial)
+        _arr(graph, residual, lasting, names, initial)
         for residual in compilation.residuals.stage.residuals
     ]
     used = {symbol for _, symbols in arrs for symbol in symbols}
@@ -47,6 +48,7 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
         "symbols": [plain for plain in names.by_model.values() if plain in used],
         "names": {plain: name for name, plain in names.by_model.items() if plain in used},
         "undetectable": list(matrix.undetectable),
+        "weak": list(lasting.only_weak),
         "groups": [list(group) for group in matrix.groups],
         **_modes(compilation.modes),
     }
@@ -103,11 +105,12 @@ def initial_values(graph: BondGraph) -> dict[str, Expr]:
 def _arr(
     graph: BondGraph,
     residual: Residual,
-    matrix: SignatureMatrix,
+    lasting: Detectability,
     names: Names,
     initial: dict[str, Expr],
 ) -> tuple[dict[str, object], tuple[str, ...]]:
     root = tidy(graph.pool, residual.expr)[0]
+    matrix, weak = lasting.matrix, lasting.weak(residual.name)
     written = parsable(graph.pool, root, names, initial)
     arr: dict[str, object] = {
         "name": residual.name,
@@ -115,6 +118,7 @@ def _arr(
         "symbols": list(written.symbols),
         "orders": dict(matrix.orders[matrix.residuals.index(residual.name)]),
         "signature": list(matrix.signature(residual.name)),
+        "weak": None if weak is None else list(weak),
     }
     if written.defs:
         arr["defs"] = [list(definition) for definition in written.defs]

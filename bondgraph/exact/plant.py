@@ -19,7 +19,7 @@ from bondgraph.exact.field import Functions, P, Undefined
 from bondgraph.exact.known import KnownSample
 from bondgraph.exact.linear import Contradiction, Singular
 from bondgraph.exact.series import Series
-from bondgraph.exact.taylor import OverDetermined, solve
+from bondgraph.exact.taylor import OverDetermined, Solver, solve
 from bondgraph.exact.waves import WaveSample, amplitudes, linear, tell
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Symbol, topological
 from bondgraph.ir.graph import BondGraph
@@ -165,6 +165,7 @@ class Plant:
         faults: Iterable[str] = (),
         modes: Mapping[Expr, int] | None = None,
         part: Assembly | None = None,
+        solver: Solver = solve,
     ) -> Trajectory:
         """A random trajectory to Taylor coefficient `order`; the same for equal arguments.
 
@@ -189,6 +190,7 @@ class Plant:
                     functions,
                     part or self.assembly,
                     tunable=True,
+                    solver=solver,
                 )
             except (Undefined, Contradiction, Singular) as found:
                 failure = found
@@ -311,6 +313,7 @@ class Plant:
         functions: Functions,
         plant: Assembly,
         tunable: bool = False,
+        solver: Solver = solve,
     ) -> Trajectory:
         """A trajectory with these constants; raises `Undefined` and others if there is none.
 
@@ -329,7 +332,7 @@ class Plant:
         setting = Setting(true, functions, n, self._private if tunable else frozenset(), {})
         try:
             equations = Writer(plant, setting).all(readings)
-            values = solve(plant, equations, setting, random, order + self._reach)
+            values = solver(plant, equations, setting, random, order + self._reach)
         except OverDetermined as failure:
             raise ExactUnavailable(self._over(failure.node)) from None
         except Mixed as failure:

@@ -7,8 +7,9 @@ entries cancel is solved as one large system of all coefficients instead.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from random import Random
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.equations import Equation, Setting
@@ -20,6 +21,9 @@ from bondgraph.exact.linear import CONSTANT, Factors, Singular
 from bondgraph.exact.point import STRIDE, Point
 from bondgraph.exact.series import Series
 from bondgraph.exact.structure import Offsets, offsets
+
+#: What finds the series of all variables: assembly, equations, setting, random numbers, order.
+Solver: TypeAlias = Callable[[Assembly, list[Equation], Setting, Random, int], list[Series]]
 
 
 class OverDetermined(Exception):

@@ -108,3 +108,34 @@ class ModeSignatures(NamedTuple):
     names: tuple[str, ...]
     modes: tuple[ModeSignature, ...]
     total: int
+
+
+class Detectability(NamedTuple):
+    """How each residual sees each fault: for as long as it lasts, or only while signals change.
+
+    `strong[fault][residual]` says that a constant fault holds the residual away from zero in
+    steady operation; None where the machine has no steady operation to decide it by.
+    """
+
+    residuals: tuple[str, ...]
+    faults: tuple[str, ...]
+    strong: tuple[tuple[bool | None, ...], ...]
+    matrix: SignatureMatrix
+
+    def weak(self, residual: str) -> tuple[str, ...] | None:
+        """The faults that a residual sees only in transients; None where that is not known."""
+        at = self.residuals.index(residual)
+        if any(row[at] is None for row in self.strong):
+            return None
+        seen = self.matrix.signature(residual)
+        lasting = {f for f, row in zip(self.faults, self.strong, strict=True) if row[at]}
+        return tuple(f for f in seen if f not in lasting)
+
+    @property
+    def only_weak(self) -> tuple[str, ...]:
+        """The detectable faults that every residual that sees them sees only in transients."""
+        return tuple(
+            fault
+            for fault, hits, row in zip(self.faults, self.matrix.rows, self.strong, strict=True)
+            if any(hits) and all(s is False for s, hit in zip(row, hits, strict=True) if hit)
+        )

@@ -1,0 +1,149 @@
+"""Decide which faults a residual sees for as long as they last, and which only in transients."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from random import Random
+from typing import Any
+
+from bondgraph.exact.algebra import Mixed
+from bondgraph.exact.evaluate import Sample, evaluate, highest_order, integral_depth
+from bondgraph.exact.field import P, Undefined
+from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.steady import rest, steady
+from bondgraph.exact.taylor import Solver
+from bondgraph.ir.expr import Expr, Op, Symbol, topological
+from bondgraph.ir.residuals import ResidualSet
+from bondgraph.ir.signatures import Detectability, SignatureMatrix
+from bondgraph.passes.reactions import Reactions
+
+_TRIES = 12  # points at which a residual or a law may have no value, drawn again
+
+
+def detectability(
+    residuals: ResidualSet, matrix: SignatureMatrix, plant: Plant, seed: int = 1
+) -> Detectability:
+    """Strong and weak detectability of every fault in every residual, exactly.
+
+    A fault is strongly detectable in a residual if a constant fault (a parameter off by a
+    constant, a sensor or known input with a constant error) keeps the residual away from zero in
+    steady operation: every effort and flow of the machine is constant, known and unknown inputs
+    are, and what the model writes as an integral may grow. It is weakly detectable if the
+    residual reacts, but not so (Chen and Patton, 1999; Nyberg, 2002). So r = U - R i - L i' sees
+    R strongly and L weakly, a residual that had to be differentiated sees no constant error of a
+    sensor for long, and an integral keeps what it has once taken up. Of a machine with switches
+    or branches it is enough that one mode or branch shows the fault.
+
+    Decided at random points modulo a 61-bit prime, as the signatures are. Where the machine
+    has no steady operation it is taken at rest (no flow), and without that the answer is None.
+    """
+    columns = []
+    for residual in residuals.residuals:
+        seen = matrix.signature(residual.name)
+        columns.append(_strong(residual.expr, seen, plant, seed))
+    strong = tuple(
+        tuple(None if own is None else fault in own for own in columns) for fault in matrix.faults
+    )
+    return Detectability(matrix.residuals, matrix.faults, strong, matrix)
+
+
+def _strong(expr: Expr, faults: Iterable[str], plant: Plant, seed: int) -> frozenset[str] | None:
+    """The faults that hold the residual away from zero; None without any steady operation."""
+    left = dict.fromkeys(faults)
+    found: list[str] = []
+    decided = False
+    for number, modes in enumerate(Reactions(plant, seed).settings([expr])):
+        if not left:
+            break
+        point = _point(expr, plant, 1000 * seed + number, modes)
+        if point is None:
+            continue
+        decided = True
+        for fault in list(left):
+            if _held(expr, plant.graph.fault_symbol(fault), point):
+                found.append(fault)
+                del left[fault]
+    return frozenset(found) if decided or not left else None
+
+
+class _Point:
+    """Steady operation, and the same plant in motion for what integrals have taken up."""
+
+    def __init__(self, still: Sample, moving: Sample) -> None:
+        self.still = still
+        self.moving = moving
+
+
+def _point(
+    expr: Expr, plant: Plant, number: int, modes: Mapping[Expr, int] | None
+) -> _Point | None:
+    """A point of steady operation, at rest if there is no other; None if there is not even that."""
+    return _at(expr, plant, number, modes, steady) or _at(expr, plant, number, modes, rest)
+
+
+def _at(
+    expr: Expr, plant: Plant, number: int, modes: Mapping[Expr, int] | None, solver: Solver
+) -> _Point | None:
+    n = integral_depth([expr]) + 2
+    order = highest_order([expr], n)
+    part = plant.part_for([expr])
+    for turn in range(_TRIES):
+        at = number + 100_000 * turn
+        try:
+            still = plant.trajectory(at, order, modes=modes, part=part, solver=solver)
+            evaluate([expr], still, n)
+        except Undefined:
+            continue
+        except (ExactUnavailable, Mixed):
+            return None
+        moving = plant.sample([expr], at, n, modes=modes) if n > 2 else still
+        return _Point(still, moving)
+    return None
+
+
+def _held(expr: Expr, symbol: Expr, point: _Point) -> bool:
+    """Whether a residual that is told a constantly wrong value stays away from zero."""
+    n = integral_depth([expr]) + 2
+    taken_up: dict[Symbol, int] = {}
+    moving = _Wrong(point.moving, symbol, taken_up)
+    for node in topological([expr]):
+        if node.op is Op.INT and _differ(node.args[0], point.moving, moving):
+            taken_up[node.symbol] = Random(node.symbol.name).randrange(1, P)
+    try:
+        value = evaluate([expr], _Wrong(point.still, symbol, taken_up), n)[0]
+    except (Undefined, Mixed):
+        return False
+    return any(value)
+
+
+def _differ(expr: Expr, right: Sample, wrong: Sample) -> bool:
+    """Whether an integrand is wrong while the machine moves."""
+    try:
+        return bool(evaluate([expr], right)[0] != evaluate([expr], wrong)[0])
+    except (Undefined, Mixed):
+        return True
+
+
+class _Wrong:
+    """A point at which one symbol is told wrong by a constant, and integrals by what they hold."""
+
+    def __init__(self, point: Sample, symbol: Expr, taken_up: Mapping[Symbol, int]) -> None:
+        self.algebra = point.algebra
+        self._point = point
+        self._symbol = symbol
+        self._taken_up = taken_up
+        true = point.value(symbol)
+        error = Random(symbol.symbol.name).randrange(1, P)
+        self._told: Any = [(true[0] + error) % P, *true[1:]]
+
+    def value(self, symbol: Expr) -> Any:
+        """What the residual is told."""
+        return self._told if symbol is self._symbol else self._point.value(symbol)
+
+    def start(self, initial: Symbol) -> int:
+        """Where an integral stands."""
+        return (self._point.start(initial) + self._taken_up.get(initial, 0)) % P
+
+    def earlier(self, steps: int) -> Sample:
+        """Not asked for: nothing is differentiated here."""
+        raise NotImplementedError

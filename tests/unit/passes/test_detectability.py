@@ -1,0 +1,116 @@
+"""Strong and weak detectability against what each relation, written by hand, says at rest."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.unit.passes.relations import compiled
+
+#: Model; for each fault the residuals' verdicts joined: "strong", "weak" or "unknown".
+CASES: dict[str, tuple[str, set[str], set[str]]] = {
+    # U - R i - L i' - k w = 0 and k i - J w' - f w = 0; derivatives vanish in steady operation
+    "motor": (
+        """model M { param L=1; param R=2; param k=3; param J=4; param f=5
+        Se:U -> 1:a; a { -> I:L; -> R:R; -> Df:i; -> GY:k -> b }
+        1:b { -> I:J; -> R:f; -> Df:w } }""",
+        {"R", "k", "f", "U", "i", "w"},
+        {"L", "J"},
+    ),
+    # v1 - v2 - C F' = 0: at rest F' = 0 whatever the error of F, so it and C are lost
+    "differentiated": (
+        """model M { param C=2
+        Sf:v1 -> 0:x; x { -> De:F; -> C:C; -> b }
+        1:b { -> Df:v2; -> Sf:v3 } }""",
+        {"v1", "v2", "v3"},
+        {"C", "F"},
+    ),
+    # with a damper behind it there is F = r v2 as well, an equation of constants
+    "damper": (
+        """model M { param C=2; param r=7
+        Sf:v1 -> 0:x; x { -> De:F; -> C:C; -> b }
+        1:b { -> Df:v2; -> R:r } }""",
+        {"v1", "v2", "r", "F"},
+        {"C"},
+    ),
+    # h' A = Q - q, q = k sqrt(h): the area only while the level moves
+    "tank": (
+        """model M { param A=2; param k=3
+        Sf:Q -> 0:t; t { -> C:A; -> De:h; -> R:out { f = k*ssqrt(e) } } }""",
+        {"k", "Q", "h"},
+        {"A"},
+    ),
+    # s = x'/g: a constant error of the position is gone, its scale is wrong as long as it moves
+    "position": (
+        """model M { param m=2; param g=1
+        Se:F -> 1:v; v { -> I:m; -> Df:s; -> R:b = 3 }
+        sensor x = int(v.f, 4)*g }""",
+        {"g", "s", "F"},
+        {"m", "x"},
+    ),
+    # s = (F - b s - m s')'/K: all but the sensor of speed act through derivatives
+    "spring": (
+        """model M { param m=2; param K=5; param b=3
+        Se:F -> 1:v; v { -> I:m; -> Df:s; -> R:b; -> C:c(q0 = 0) = 1/K } }""",
+        {"s"},
+        {"m", "b", "K", "F"},
+    ),
+    # with the force y in the spring measured: F = b s + m s' + y, s = y'/K; it cannot move and
+    # keep its force, so that s = 0 and the damping b does not count either
+    "spring and gauge": (
+        """model M { param m=2; param K=5; param b=3
+        Se:F -> 1:v; v { -> I:m; -> Df:s; -> R:b; -> 0:x -> C:c = 1/K; x -> De:y; } }""",
+        {"s", "F", "y"},
+        {"m", "K", "b"},
+    ),
+    # y + m s' - m g = 0, s = y'/K: the weight counts at rest, the stiffness does not
+    "weight": (
+        """model M { param m=2; const g=9.81; param K=3
+        1:v { <- Se:W = m*g; -> I:m; -> C:c(q0 = 0) = 1/K; -> Df:s }
+        sensor load = c.e }""",
+        {"m", "load", "s"},
+        {"K"},
+    ),
+    # a closed angle without friction: w = T = 0 in steady operation, the sine of a resting angle
+    "pendulum": (
+        """model M { param J=2; param mgl=3; param d=4
+        Se:T -> 1:w; w { -> I:J; -> Df:s; -> R:d; -> Se:G = mgl*sin(int(w.f)) } }""",
+        {"T", "mgl", "s"},
+        {"J", "d"},
+    ),
+    # off, the residual is i itself; on, U - R i - L i'
+    "switch": (
+        """model M { param R=1; param L=2
+        input on : bool
+        Se:U -> 1:a; a { -> I:L; -> R:R; -> R:s { 0 = if(on, e, f) }; -> Df:i } }""",
+        {"R", "U", "i"},
+        {"L"},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_by_hand(name: str) -> None:
+    text, strong, weak = CASES[name]
+    c = compiled(text)
+    found = c.detectability
+    assert set(found.only_weak) == weak
+    told = {f for r in found.residuals for f in c.signatures.signature(r)}
+    lasting = {
+        f
+        for r in found.residuals
+        for f in c.signatures.signature(r)
+        if f not in (found.weak(r) or ())
+    }
+    assert lasting == strong
+    assert told == strong | weak
+
+
+def test_a_machine_that_cannot_stand_still() -> None:
+    """A source that is a growing integral allows no steady operation: the answer is open."""
+    c = compiled(
+        """model M { param R=1; param C=2; param a=3
+        1:x { <- Se:U = a*int(int(1)); -> R:R; -> C:C; -> Df:i } }"""
+    )
+    (r,) = c.detectability.residuals
+    assert c.detectability.weak(r) is None
+    assert c.detectability.only_weak == ()
