@@ -136,6 +136,15 @@ class Compilation:
         return detectability(*self._analysis, self._plant, self.options.seed)
 
     @cached_property
+    def best(self) -> tuple[tuple[str, ...], ...] | None:
+        """The detectable faults in groups that no set of residuals could divide any further."""
+        from bondgraph.passes.isolability import isolability
+        from bondgraph.passes.signatures import moving
+
+        residuals, matrix = self._analysis
+        return isolability(moving(self.reduced, residuals), matrix, self._plant, self.options.seed)
+
+    @cached_property
     def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:
         from bondgraph.passes.signatures import signatures
 

@@ -48,10 +48,7 @@ class Code:
             "parameters_are_finite": self._finite(params, "p"),
             "coefficients_are_finite": self._finite(coefs, "monitor"),
             "settle": [
-                line
-                for r in program.residuals
-                if not r.unavailable
-                for line in self._settle(r)
+                line for r in program.residuals if not r.unavailable for line in self._settle(r)
             ],
         }
 

@@ -104,9 +104,7 @@ class Evaluation:
             case _:
                 assert_never(node)
 
-    def _product(
-        self, factors: tuple[Expression, ...], divisors: tuple[Expression, ...]
-    ) -> Value:
+    def _product(self, factors: tuple[Expression, ...], divisors: tuple[Expression, ...]) -> Value:
         number, size = Decimal(1), 1.0
         for factor in factors:
             found = self._value(factor)

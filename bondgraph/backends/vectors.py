@@ -64,8 +64,7 @@ class Vectors:
             "spoilt": listing.table_lines(spoilt, target, 4),
             "spoil": [f"    bad.{name} = ({stem}real)NAN;" for name in reals],
             "thresholds": [
-                f"    {stem.upper()}CONSTANT(0.001), /* {r.name} */"
-                for r in self.program.residuals
+                f"    {stem.upper()}CONSTANT(0.001), /* {r.name} */" for r in self.program.residuals
             ],
             "readings": self._readings("    samples->{0} = {1};", _C_ZERO),
             "to_set": [
@@ -133,9 +132,7 @@ class Vectors:
                 for name, unit, _ in self.unset()
             ],
             "golden_parameters": [f"    {name}={_number(x)}," for name, _, x in self.unset()],
-            "golden_exact": self._python_rows(
-                "m.Derivatives", self.derivatives, self.golden.exact
-            ),
+            "golden_exact": self._python_rows("m.Derivatives", self.derivatives, self.golden.exact),
             "golden_step": self._python_rows("m.Samples", self.samples, self.golden.step),
         }
 

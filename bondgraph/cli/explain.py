@@ -222,8 +222,20 @@ def _fault(compilation: Compilation, name: str) -> list[str]:
     others = matrix.confused_with(name)
     if others:
         lines += ["  cannot be told apart from", *_listed(others, 100)]
+        lines += _combined(compilation, name, others)
     else:
         lines.append("  is told apart from all other faults")
     events = [e for e in compilation.graph.events if e.target == name]
     lines += [f"  event {e.name}: {e.doc}".rstrip(": ") for e in events]
     return lines
+
+
+def _combined(compilation: Compilation, name: str, others: Sequence[str]) -> list[str]:
+    """What other residuals, made by combining these, could tell the fault from."""
+    group = next((g for g in compilation.best or () if name in g), None)
+    if group is None:
+        return []
+    apart = [f for f in others if f not in group]
+    if not apart:
+        return ["  and no combination of the residuals would help"]
+    return ["  but combinations of the residuals tell it from", *_listed(apart, 100)]

@@ -31,7 +31,7 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
     matrix = compilation.signatures
     names = names_of(graph)
     initial = initial_values(graph)
-    lasting = compilation.detectability
+    lasting, best = compilation.detectability, compilation.best
     arrs = [
         _arr(graph, residual, lasting, names, initial)
         for residual in compilation.residuals.stage.residuals
@@ -50,6 +50,7 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
         "undetectable": list(matrix.undetectable),
         "weak": list(lasting.only_weak),
         "groups": [list(group) for group in matrix.groups],
+        "best": None if best is None else [list(group) for group in best],
         **_modes(compilation.modes),
     }
 

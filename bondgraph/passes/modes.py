@@ -8,7 +8,7 @@ from bondgraph.ir.expr import Expr
 from bondgraph.ir.residuals import ReducedSystem, ResidualSet
 from bondgraph.ir.signatures import ModeSignature, ModeSignatures, SignatureMatrix
 from bondgraph.passes.reactions import Reactions
-from bondgraph.passes.signatures import with_moving_parameters
+from bondgraph.passes.signatures import moving
 
 
 def modes(
@@ -26,7 +26,7 @@ def modes(
     Zhang, 2010). Of more than six such inputs the first six are varied, the others are off.
     Without boolean inputs the result is empty.
     """
-    exprs = _moving(reduced, residuals)
+    exprs = moving(reduced, residuals)
     used = modes_of(residuals.system.graph, exprs)
     if not used:
         return ModeSignatures((), (), 0)
@@ -47,9 +47,3 @@ def _in_mode(
     symbol = {name: s for s, name in reactions.faults.items()}
     rows = tuple(tuple(symbol[f] in own for own in seen) for f in matrix.faults)
     return ModeSignature(told, matrix._replace(rows=rows), "")
-
-
-def _moving(reduced: ReducedSystem, residuals: ResidualSet) -> list[Expr]:
-    """The residuals in the form that shows what a parameter does that moves."""
-    closings = {id(c.equation): c for c in reduced.closings}
-    return [with_moving_parameters(closings[id(r.closing)], r.expr) for r in residuals.residuals]

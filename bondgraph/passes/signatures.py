@@ -78,6 +78,12 @@ def with_moving_parameters(closing: Closing, expr: Expr) -> Expr:
     return closing.raw if moved and len(nodes) <= _LONG else expr
 
 
+def moving(reduced: ReducedSystem, residuals: ResidualSet) -> list[Expr]:
+    """The residuals of a model in the form that shows what a parameter does that moves."""
+    closings = {id(c.equation): c for c in reduced.closings}
+    return [with_moving_parameters(closings[id(r.closing)], r.expr) for r in residuals.residuals]
+
+
 def pruned(pool: Pool, closing: Closing, free: Sensitivity) -> Closing:
     """The relation without the parts that cancel whatever the signals are.
 
