@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from bondgraph.ir.expr import Expr, Kind, Op, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph, Node
 
 
@@ -39,6 +39,7 @@ class Assembly(NamedTuple):
     variables that the plant leaves open: known inputs first, then unknown ones. `silent` are
     variables that are zero because an ideal detector takes no power. `readings` are sensors
     whose reading a law or another sensor uses: a variable with the expression that it reads.
+    `pool` has made all expressions.
     """
 
     count_of: int
@@ -51,6 +52,7 @@ class Assembly(NamedTuple):
     laws: tuple[tuple[int, Expr], ...]
     rates: tuple[Rate, ...]
     readings: tuple[tuple[str, int, Expr], ...]
+    pool: Pool
 
 
 class _Numbers:
@@ -188,6 +190,7 @@ class _Builder:
             tuple(laws),
             tuple(rates),
             readings,
+            graph.pool,
         )
 
     def readings(self, expressions: list[Expr]) -> tuple[tuple[str, int, Expr], ...]:

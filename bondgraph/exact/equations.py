@@ -129,21 +129,34 @@ class Writer:
     def nonlinear(self, node: int, form: Form, rest: Expr) -> Equation:
         """form + rest = 0 where the rest is not linear."""
         signature = self.linear(node, form).signature
-        for variable, order in self.reach(rest).items():
+        for variable, order in reach(self.assembly.place, rest).items():
             if variable not in self.free:
                 signature[variable] = max(signature.get(variable, 0), order)
         return Equation(node, form, rest, signature)
 
-    def reach(self, rest: Expr) -> dict[int, int]:
-        """The highest derivative of each variable in an expression."""
-        nodes = topological([rest])
-        need = demands(nodes, [rest], 1)
-        out: dict[int, int] = {}
-        for v in nodes:
-            if v.op is Op.SYM and v in self.assembly.place:
-                variable = self.assembly.place[v][0]
-                out[variable] = max(out.get(variable, 0), need[v] - 1)
-        return out
+
+def reach(place: Mapping[Expr, tuple[int, int]], rest: Expr) -> dict[int, int]:
+    """The highest derivative of each variable in an expression, free ones included."""
+    nodes = topological([rest])
+    need = demands(nodes, [rest], 1)
+    out: dict[int, int] = {}
+    for v in nodes:
+        if v.op is Op.SYM and v in place:
+            variable = place[v][0]
+            out[variable] = max(out.get(variable, 0), need[v] - 1)
+    return out
+
+
+def made_linear(equation: Equation, sample: FormSample, n: int) -> Equation:
+    """The equation with its rest in the form, if the rest is linear after all."""
+    if equation.rest is None:
+        return equation
+    try:
+        rest = evaluate([equation.rest], sample, n)[0]
+    except Mixed:
+        return equation
+    form = sample.algebra.combine([(1, rest), (1, equation.form)], n)
+    return equation._replace(form=form, rest=None)
 
 
 def coefficient_row(form: Form, order: int, stride: int) -> dict[int, int]:

@@ -18,8 +18,9 @@ from bondgraph.exact.equations import (
     FormSample,
     Setting,
     coefficient_row,
+    reach,
 )
-from bondgraph.exact.evaluate import chosen, demands, evaluate, values_of
+from bondgraph.exact.evaluate import chosen, evaluate, values_of
 from bondgraph.exact.field import INVERSES, P, inverse, of_fraction, root, sign
 from bondgraph.exact.forms import Form, Forms, NotLinear
 from bondgraph.exact.known import KnownSample, gradient
@@ -262,7 +263,7 @@ class Point:
         row = coefficient_row(equation.form, order, STRIDE)
         variables: dict[int, Series] = {}
         newest: dict[int, int] = {}
-        for variable, highest in self.reach(equation.rest).items():
+        for variable, highest in reach(self.place, equation.rest).items():
             known = [self.fix({variable * STRIDE + k: 1}) for k in range(order + highest)]
             top = self.reduce({variable * STRIDE + order + highest: 1})
             if all(c == CONSTANT for c in top):
@@ -282,17 +283,6 @@ class Point:
             if slope:
                 add_multiple(row, slope, {variable * STRIDE + order + highest: 1})
         return row
-
-    def reach(self, rest: Expr) -> dict[int, int]:
-        """The highest derivative of each variable in an expression, free ones included."""
-        nodes = topological([rest])
-        need = demands(nodes, [rest], 1)
-        out: dict[int, int] = {}
-        for v in nodes:
-            if v.op is Op.SYM and v in self.place:
-                variable = self.place[v][0]
-                out[variable] = max(out.get(variable, 0), need[v] - 1)
-        return out
 
     # ------------------------------------------------------------------------ completion
 

@@ -63,6 +63,31 @@ class _Matching:
             j = previous
 
 
+def square_part(signature: Sequence[dict[int, int]], variables: int) -> list[tuple[int, int]]:
+    """The equations that leave their variables no freedom, each with a variable of its own.
+
+    The part of the decomposition of Dulmage and Mendelsohn (1958) that no variable without an
+    equation can be reached from; -1 stands for the variable of an equation that is one too many.
+    """
+    count = len(signature)
+    matching = _Matching(signature, variables)
+    for i in range(count):
+        matching.augment(i, [0] * count, None)
+    holders: list[list[int]] = [[] for _ in range(variables)]
+    for i, row in enumerate(signature):
+        for j in row:
+            holders[j].append(i)
+    loose = {j for j in range(variables) if matching.equation_of[j] < 0}
+    stack = sorted(loose)
+    while stack:
+        for i in holders[stack.pop()]:
+            j = matching.variable_of[i]
+            if j not in loose:
+                loose.add(j)
+                stack.append(j)
+    return [(i, j) for i, j in enumerate(matching.variable_of) if j not in loose]
+
+
 def offsets(signature: Sequence[dict[int, int]], variables: int) -> Offsets:
     """The offsets of a system; `signature[i][j]` is the highest derivative of j in equation i.
 

@@ -1,8 +1,8 @@
 """The Taylor series of all variables of a plant around a random consistent point.
 
 Beyond the point every order is one linear system with the same matrix, the Jacobian of Pryce's
-Sigma-method (2001); it is factored once. A linear plant whose Jacobian is singular because its
-entries cancel is solved as one large system of all coefficients instead.
+Sigma-method (2001); it is factored once. A plant whose Jacobian is singular because its entries
+cancel is solved as one large system of all coefficients instead.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from bondgraph.exact.forms import ORDERS
 from bondgraph.exact.known import KnownSample, gradient
 from bondgraph.exact.linear import CONSTANT, Factors, Singular
 from bondgraph.exact.point import STRIDE, Point
+from bondgraph.exact.rest import settled
 from bondgraph.exact.series import Series
 from bondgraph.exact.structure import Offsets, offsets
 
@@ -57,10 +58,9 @@ def solve(
     Raises `OverDetermined`, `Contradiction` or `Undefined` (another random point may do),
     `Singular` if the equations do not determine the variables.
     """
-    system = _structure(plant, equations)
+    system, point = _begun(plant, equations, setting, random)
+    equations = system.equations
     c, d = system.offsets.equations, system.offsets.variables
-    point = Point(plant.place, setting, random)
-    point.linear(equations, c)
     point.nonlinear(equations, c)
     given = set(system.given)
     found = point.complete(
@@ -77,10 +77,24 @@ def solve(
     try:
         _continue(system, plant, setting, values, order)
     except Singular:
-        if any(e.rest is not None for e in equations):
-            raise
-        return _all_at_once(plant, equations, system, setting, random, order)
+        return _all_at_once(plant, system, setting, random, order)
     return values
+
+
+def _begun(
+    plant: Assembly, equations: list[Equation], setting: Setting, random: Random
+) -> tuple[_System, Point]:
+    """The structure and a point that satisfies the linear equations, what rests made linear."""
+    while True:
+        system = _structure(plant, equations)
+        point = Point(plant.place, setting, random)
+        point.linear(equations, system.offsets.equations)
+        if all(e.rest is None for e in equations):
+            return system, point
+        found = settled(plant, equations, setting, point)
+        if found is equations:
+            return system, point
+        equations = found
 
 
 def _continue(
@@ -147,20 +161,17 @@ _MARGIN = 4
 
 
 def _all_at_once(
-    plant: Assembly,
-    equations: list[Equation],
-    system: _System,
-    setting: Setting,
-    random: Random,
-    order: int,
+    plant: Assembly, system: _System, setting: Setting, random: Random, order: int
 ) -> list[Series]:
-    """All coefficients of a linear plant as one system, with some orders to spare.
+    """All coefficients as one system, with some orders to spare.
 
     The orders to spare hold what follows from the equations by differentiation.
     """
-    top = order + max(system.offsets.equations, default=0) + _MARGIN
+    c = system.offsets.equations
+    top = order + max(c, default=0) + _MARGIN
     point = Point(plant.place, setting, random)
-    point.linear(equations, [top] * len(equations))
+    point.linear(system.equations, [top] * len(c))
+    point.nonlinear(system.equations, [order + i + 1 for i in c])
     found = point.complete([j * STRIDE + k for j in plant.active for k in range(order + 1)])
     values: list[Series] = [[] for _ in range(plant.count_of)]
     for j in plant.active:
