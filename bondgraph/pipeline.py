@@ -31,7 +31,8 @@ class Options(NamedTuple):
 
     `rate` in samples a second, `bandwidth` of the residual filter in rad/s (None: chosen from the
     rate), `resolution` the relative size below which a term cannot be seen (12 bits), `targets`
-    the languages to emit, `seed` of the random points that the exact verification uses.
+    the languages to emit, `seed` of the random points that the exact verification uses,
+    `decouple` the faults that further relations are to be free of, by combining relations.
     """
 
     rate: float = 1000.0
@@ -39,6 +40,7 @@ class Options(NamedTuple):
     resolution: float = 2.0**-12
     targets: tuple[str, ...] = ("c", "python")
     seed: int = 1
+    decouple: tuple[str, ...] = ()
 
 
 class Compilation:
@@ -110,6 +112,19 @@ class Compilation:
         return self._stage(eliminate(self.equations, self.report))
 
     @cached_property
+    def combined(self) -> ReducedSystem:
+        """The same with relations that are free of the faults to `decouple`, if there are any."""
+        if not self.options.decouple:
+            return self.reduced
+        from bondgraph.passes.decouple import decouple
+        from bondgraph.passes.signatures import signatures
+
+        seed, plant = self.options.seed, self._plant
+        first = signatures(self.reduced, self.report, seed, plant)
+        faults = self.options.decouple
+        return self._stage(decouple(self.reduced, *first, faults, plant, self.report, seed))
+
+    @cached_property
     def residuals(self) -> Relations:
         """The analytical redundancy relations, without what cancels in them."""
         from bondgraph.views import Relations
@@ -126,7 +141,7 @@ class Compilation:
         """The fault signature matrix of each mode of a switched machine."""
         from bondgraph.passes.modes import modes
 
-        return modes(self.reduced, *self._analysis, self._plant, self.options.seed)
+        return modes(self.combined, *self._analysis, self._plant, self.options.seed)
 
     @cached_property
     def detectability(self) -> Detectability:
@@ -142,13 +157,15 @@ class Compilation:
         from bondgraph.passes.signatures import moving
 
         residuals, matrix = self._analysis
-        return isolability(moving(self.reduced, residuals), matrix, self._plant, self.options.seed)
+        exprs = moving(self.combined, residuals)
+        made = [r.free_of is not None for r in residuals.residuals]  # they add nothing new
+        return isolability(exprs, made, matrix, self._plant, self.options.seed)
 
     @cached_property
     def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:
         from bondgraph.passes.signatures import signatures
 
-        return self._stage(signatures(self.reduced, self.report, self.options.seed, self._plant))
+        return self._stage(signatures(self.combined, self.report, self.options.seed, self._plant))
 
     @cached_property
     def _plant(self) -> Plant:

@@ -49,6 +49,14 @@ def arguments(parser: ArgumentParser) -> None:
         action="append",
         help=f"emit this language; may be repeated (default: {', '.join(defaults.targets)})",
     )
+    parser.add_argument(
+        "--decouple",
+        metavar="FAULT",
+        action="append",
+        default=[],
+        help="add relations, combined from the others, that are free of this fault; may be"
+        " repeated",
+    )
 
 
 def _positive(text: str) -> float:
@@ -88,7 +96,11 @@ def run(args: Namespace) -> int:
     }
     if args.target:
         options["targets"] = tuple(dict.fromkeys(args.target))
+    options["decouple"] = tuple(dict.fromkeys(args.decouple))
     compilation = open_model(args.model, **options)
+    for fault in args.decouple:
+        if fault not in compilation.graph.faults:
+            return console.unknown(fault, "no fault of the model", compilation.graph.faults)
     _compute(compilation)
     files = _write(compilation, args.output)
     if args.json:
@@ -107,7 +119,7 @@ def run(args: Namespace) -> int:
 _STAGES = (
     ("reading", "graph"),
     ("causality", "integral"),
-    ("eliminating", "reduced"),
+    ("eliminating", "combined"),
     ("signatures", "signatures"),
     ("verifying", "verification"),
     ("lowering", "program"),

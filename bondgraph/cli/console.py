@@ -140,3 +140,13 @@ def progress(steps: int, patience: float = 1.0) -> Iterator[Callable[[str], None
     finally:
         finished.set()
         thread.join()
+
+
+def unknown(name: str, what: str, names: Iterable[str]) -> int:
+    """Say that nothing has a name, with those that are close; the exit status for it."""
+    from difflib import get_close_matches
+
+    close = get_close_matches(name, list(names), 3, 0.5)
+    hint = f"; did you mean {' or '.join(f'`{c}`' for c in close)}?" if close else ""
+    print(f"error: {what} is called `{name}`{hint}", file=sys.stderr)
+    return 2

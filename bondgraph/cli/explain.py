@@ -8,10 +8,11 @@ import sys
 from typing import TYPE_CHECKING
 
 from bondgraph import Compilation, compile
+from bondgraph.cli import console
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from bondgraph.ir.causal import CausalGraph
     from bondgraph.ir.graph import Bond, BondGraph
@@ -41,7 +42,7 @@ def run(args: Namespace) -> int:
         return _latex(compilation, args.name)
     lines = about(compilation, args.name)
     if not lines:
-        return _unknown(args.name, "nothing in the model", _all_names(compilation))
+        return console.unknown(args.name, "nothing in the model", _all_names(compilation))
     print("\n".join(lines))
     return 0
 
@@ -54,18 +55,9 @@ def _code(code: str) -> int:
         if os.path.exists(code) or code.endswith(".bg"):
             print(f"say what of {code} to explain: explain MODEL NAME", file=sys.stderr)
             return 2
-        return _unknown(code, "no error code", codes())
+        return console.unknown(code, "no error code", codes())
     print(text.rstrip())
     return 0
-
-
-def _unknown(name: str, what: str, names: Iterable[str]) -> int:
-    from difflib import get_close_matches
-
-    close = get_close_matches(name, list(names), 3, 0.5)
-    hint = f"; did you mean {' or '.join(f'`{c}`' for c in close)}?" if close else ""
-    print(f"error: {what} is called `{name}`{hint}", file=sys.stderr)
-    return 2
 
 
 def _all_names(compilation: Compilation) -> list[str]:
@@ -80,7 +72,7 @@ def _latex(compilation: Compilation, name: str) -> int:
         if relation.name == name:
             print(relation.latex)
             return 0
-    return _unknown(name, "no residual", compilation.signatures.residuals)
+    return console.unknown(name, "no residual", compilation.signatures.residuals)
 
 
 def about(compilation: Compilation, name: str) -> list[str]:

@@ -121,6 +121,8 @@ def _arr(
         "signature": list(matrix.signature(residual.name)),
         "weak": None if weak is None else list(weak),
     }
+    if residual.free_of is not None:
+        arr["free_of"] = residual.free_of
     if written.defs:
         arr["defs"] = [list(definition) for definition in written.defs]
     else:

@@ -30,7 +30,8 @@ class Residual(NamedTuple):
     `closing` is the equation that was left over and became the relation, `steps` the elimination
     steps that it rests on, in order: the causal path from the known signals to the closing
     equation. `differentiated` counts how often the relation was differentiated because an initial
-    value is not declared.
+    value is not declared. `free_of` names the fault that it was made to be free of, by combining
+    two others.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Residual(NamedTuple):
     closing: Equation
     steps: tuple[Step, ...]
     differentiated: int
+    free_of: str | None = None
 
 
 class ResidualSet(NamedTuple):
@@ -57,7 +59,8 @@ class Closing(NamedTuple):
 
     `steps` are what its variables rest on, in the order of the elimination; `differentiated` as
     in `Residual`. `raw` is the same relation before derivatives were moved past parameters: equal
-    while these are constant, it shows what a parameter does that moves.
+    while these are constant, it shows what a parameter does that moves. `free_of` as in
+    `Residual`.
     """
 
     equation: Equation
@@ -65,6 +68,7 @@ class Closing(NamedTuple):
     steps: tuple[Step, ...]
     differentiated: int
     raw: Expr
+    free_of: str | None = None
 
 
 class ReducedSystem(NamedTuple):

@@ -27,11 +27,16 @@ _Columns = list[dict[int, int]]
 
 
 def isolability(
-    exprs: list[Expr], matrix: SignatureMatrix, plant: Plant, seed: int = 1
+    exprs: list[Expr],
+    combined: list[bool],
+    matrix: SignatureMatrix,
+    plant: Plant,
+    seed: int = 1,
 ) -> tuple[tuple[str, ...], ...] | None:
     """The detectable faults in groups that no set of residuals could divide any further.
 
-    `exprs` are the residuals in the form in which parameters may move. Fault i can be told from
+    `exprs` are the residuals in the form in which parameters may move; those that are `combined`
+    from others are passed over. Fault i can be told from
     fault j if rank [F_j F_i] > rank F_j, with F the columns of a fault, arbitrary in time, in the
     Jacobian of the relations and their derivatives; it is taken on healthy trajectories modulo a
     61-bit prime. Faults of different signatures are always told apart. Of a machine with modes
@@ -41,7 +46,7 @@ def isolability(
     known: dict[tuple[int, ...], list[list[str]]] = {}
     for group in classes:
         row = matrix.row(group[0])
-        rows = tuple(at for at, hit in enumerate(row) if hit)
+        rows = tuple(at for at, hit in enumerate(row) if hit and not combined[at])
         if len(group) > 1 and len(rows) > 1:
             known.setdefault(rows, []).append(group)
     for rows, groups in known.items():

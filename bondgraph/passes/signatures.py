@@ -51,7 +51,7 @@ class _Analysis:
         )
         names = [f"r{i + 1}" for i in range(len(relations))]
         residuals = tuple(
-            Residual(name, expr, c.equation, c.steps, c.differentiated)
+            Residual(name, expr, c.equation, c.steps, c.differentiated, c.free_of)
             for name, (c, expr, _) in zip(names, relations, strict=True)
         )
         faults = self.graph.faults
