@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.program import Program
     from bondgraph.ir.residuals import ReducedSystem, ResidualSet
     from bondgraph.ir.signatures import Detectability, ModeSignatures, SignatureMatrix
+    from bondgraph.ir.structure import StructuralModel
     from bondgraph.ir.syntax import File
     from bondgraph.views import Relations
 
@@ -103,6 +104,13 @@ class Compilation:
         from bondgraph.passes.equations import equations
 
         return self._stage(equations(self.integral.graph))
+
+    @cached_property
+    def structure(self) -> StructuralModel:
+        """Which unknown, known signal and fault is in which equation."""
+        from bondgraph.passes.structure.extract import extract
+
+        return self._stage(extract(self.equations))
 
     @cached_property
     def reduced(self) -> ReducedSystem:

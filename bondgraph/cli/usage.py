@@ -12,6 +12,8 @@ COMMANDS = {
     "compile": "make residuals, fault signatures and code from a model",
     "dump": "print what the compiler knows about a model at one of its stages",
     "explain": "explain an error code, or a bond, element, residual or fault of a model",
+    "isolate": "count the testable subsets of a model, and what they could tell apart at best",
+    "sensors": "rank the places where one more sensor would help",
     "draw": "draw a bond graph with half arrows and causal strokes",
 }
 

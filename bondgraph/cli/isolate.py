@@ -1,0 +1,171 @@
+"""`bondgraph isolate`: the testable subsets of a model, and what they could tell apart at best."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bondgraph.cli import console
+from bondgraph.cli.console import plural
+from bondgraph.cli.layout import names, width
+from bondgraph.cli.structural import MODEL_HELP, named, open_structure
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from bondgraph.ir.structure import StructuralModel
+    from bondgraph.passes.structure.analyse import Analysis, Chosen
+
+LIMIT = 20_000
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `isolate`."""
+    parser.add_argument("model", metavar="MODEL", help=MODEL_HELP)
+    parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
+    parser.add_argument(
+        "--limit",
+        metavar="N",
+        type=_count,
+        default=LIMIT,
+        help=f"stop after so many MSO sets (default: {LIMIT})",
+    )
+    parser.add_argument("--sets", action="store_true", help="list all MSO sets that were found")
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if value < 1:
+        raise ValueError
+    return value
+
+
+_count.__name__ = "number above 0"
+
+
+def run(args: Namespace) -> int:
+    """Search, choose, print."""
+    model, diagnostics, _ = open_structure(args.model)
+    from bondgraph.passes.structure.analyse import analyse
+
+    steps = 100
+    with console.progress(steps) as advance:
+        shown = 0
+
+        def progress(done: float, found: int) -> None:
+            nonlocal shown
+            while shown < done * steps:
+                shown += 1
+                advance(f"{found} sets")
+
+        analysis = analyse(model, args.limit, progress)
+    if args.json:
+        from bondgraph.text.render import as_json
+
+        diagnosed = as_json(diagnostics)
+        console.print_json({"status": "ok", "message": message(analysis),
+                            "diagnostics": diagnosed, **_result(analysis, args.sets)})  # fmt: skip
+        return 0
+    console.show(diagnostics)
+    print("\n".join(_lines(analysis, args.sets)))
+    return 0
+
+
+def message(analysis: Analysis) -> str:
+    """One line on what the structure could tell."""
+    best, count = analysis.best, len(analysis.model.faults)
+    if not analysis.sets.number:
+        return "nothing is measured twice over, so no fault can be detected"
+    return (
+        f"at best {count - len(best.undetectable)} of {plural(count, 'fault')} can be detected,"
+        f" in {plural(len(best.groups), 'group')}"
+    )
+
+
+def _result(analysis: Analysis, all_sets: bool) -> dict[str, object]:
+    model, sets = analysis.model, analysis.sets
+    result: dict[str, object] = {
+        "model": model.name,
+        "n_equations": len(model.equations),
+        "n_unknowns": len(model.unknowns),
+        "redundancy": sets.redundancy,
+        "n_mso": sets.number,
+        "complete": sets.complete,
+        "n_integral": len(analysis.integral),
+        "undetectable": named(model, analysis.best.undetectable),
+        "groups": [named(model, g) for g in analysis.best.groups],
+        "mso_groups": [named(model, g) for g in analysis.reached.groups],
+        "least": analysis.least,
+        "chosen": [_entry(model, chosen) for chosen in analysis.chosen],
+    }
+    if all_sets:
+        result["sets"] = [[model.equations[e].name for e in mso] for mso in sets.all()]
+    return result
+
+
+def _entry(model: StructuralModel, chosen: Chosen) -> dict[str, object]:
+    way = chosen.realisation
+    return {
+        "equations": [model.equations[e].name for e in chosen.equations],
+        "faults": named(model, chosen.faults),
+        "residual": model.equations[way.residual].name,
+        "causality": way.causality,
+        "loop": way.loop,
+    }
+
+
+def _lines(analysis: Analysis, all_sets: bool) -> list[str]:
+    model, columns = analysis.model, width()
+    lines = [f"{model.name}: {message(analysis)}", *_counts(analysis)]
+    if analysis.best.groups:
+        lines += ["", "Told apart at best by the structure, whatever residuals are used"]
+        for group in analysis.best.groups:
+            lines += names(named(model, group), columns, "  ")
+    if analysis.best.undetectable:
+        lines += ["", "Undetectable"]
+        lines += names(named(model, analysis.best.undetectable), columns, "  ")
+    if len(analysis.reached.groups) < len(analysis.best.groups):
+        lines += [
+            "",
+            f"MSO sets alone reach {plural(len(analysis.reached.groups), 'group')}; for the rest"
+            " a fault must be",
+            "eliminated between the equations that hold it.",
+        ]
+    if analysis.chosen:
+        count = plural(len(analysis.chosen), "residual")
+        how = "no fewer reach as much" if analysis.least else "they reach as much"
+        lines += ["", f"Chosen: {count}, {how} as all MSO sets together"]
+        for number, chosen in enumerate(analysis.chosen, 1):
+            lines += _chosen(model, number, chosen, columns)
+    if all_sets:
+        lines += ["", "MSO sets"]
+        for number, mso in enumerate(analysis.sets.all(), 1):
+            held = [model.equations[e].name for e in mso]
+            lines += names(held, columns, f"  {number:4}  ")
+    return lines
+
+
+def _counts(analysis: Analysis) -> list[str]:
+    model, sets = analysis.model, analysis.sets
+    size = f"{plural(len(model.equations), 'equation')}, {plural(len(model.unknowns), 'unknown')}"
+    lines = [f"{size}, redundancy {sets.redundancy}"]
+    if sets.number:
+        few = "" if sets.complete else " (the search stopped there: --limit)"
+        lines.append(f"{plural(sets.number, 'MSO set')}{few}")
+        lines.append(f"{len(analysis.integral)} of them need no differentiation (low index)")
+    return lines
+
+
+def _chosen(model: StructuralModel, number: int, chosen: Chosen, columns: int) -> list[str]:
+    way = chosen.realisation
+    loop = "" if way.loop == "none" else f", with {_article(way.loop)} loop"
+    causality = {"algebraic": "no dynamics"}.get(way.causality, f"{way.causality} causality")
+    lead = f"  s{number:<3} "
+    return [
+        f"{lead}{plural(len(chosen.equations), 'equation')}, residual"
+        f" {model.equations[way.residual].name}: {causality}{loop}",
+        *names(named(model, chosen.faults), columns, "       sees "),
+    ]
+
+
+def _article(loop: str) -> str:
+    return f"an {loop}" if loop == "algebraic" else f"a {loop}"

@@ -1,0 +1,1 @@
+"""What the structure alone can tell: testable subsets, isolability, placement of sensors."""
