@@ -198,7 +198,7 @@ def _listed(names: Sequence[str], columns: int) -> list[str]:
 
 
 def _fault(compilation: Compilation, name: str) -> list[str]:
-    from bondgraph.cli.report import reason
+    from bondgraph.cli.reasons import reason
 
     matrix = compilation.signatures
     lines = [f"{name}  fault candidate"]

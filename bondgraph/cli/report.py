@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 from bondgraph.cli.console import plural
 from bondgraph.cli.layout import formula, names, signature_table, width
-from bondgraph.cli.result import message
+from bondgraph.cli.reasons import message, reasons
 from bondgraph.ir.dump import equation_name
-from bondgraph.ir.expr import Expr, symbols, topological
+from bondgraph.ir.expr import topological
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bondgraph.ir.equations import Equation
     from bondgraph.pipeline import Compilation
     from bondgraph.views import Relation
 
@@ -25,7 +24,7 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
     """The lines of the report."""
     matrix = compilation.signatures
     columns = width()
-    lines = [f"{compilation.graph.name}: {message(matrix)}"]
+    lines = [f"{compilation.graph.name}: {message(compilation)}"]
     if matrix.residuals:
         lines.append(_checked(compilation))
     for relation in compilation.residuals:
@@ -106,60 +105,6 @@ def _modes(compilation: Compilation, columns: int) -> list[str]:
     if len(found.modes) < found.total:
         lines.append(f"  and {found.total - len(found.modes)} modes more")
     return lines
-
-
-def reasons(compilation: Compilation) -> dict[str, list[str]]:
-    """Why each undetectable fault is undetectable, with the faults of equal reason together."""
-    found: dict[str, list[str]] = {}
-    for fault in compilation.signatures.undetectable:
-        found.setdefault(reason(compilation, fault), []).append(fault)
-    return found
-
-
-def reason(compilation: Compilation, fault: str) -> str:
-    """Why no residual sees a fault, in words of the model."""
-    symbol = compilation.graph.fault_symbol(fault)
-    found = compilation.residuals.stage
-    holding = [e for e in found.system.equations if symbol in symbols(e.zero)]
-    if not holding:
-        return "no law uses it"
-    used = {
-        id(equation)
-        for residual in found.residuals
-        for equation in (residual.closing, *(step.equation for step in residual.steps))
-    }
-    if any(id(e) in used for e in holding):
-        return "it cancels out of every residual"
-    rest = [e for e in found.system.equations if id(e) not in used]
-    part = _connected(holding, rest)
-    junctions = [e.name for e in part if e.kind == "balance"]
-    where = f" around {', '.join(_few(junctions))}" if junctions else ""
-    hidden = [i.name for i in compilation.graph.inputs if not i.known]
-    unknown = [n for n in hidden if any(n == v.symbol.name for e in part for v in e.variables)]
-    if unknown:
-        return f"what is measured{where} is needed to tell the unknown {', '.join(unknown)}"
-    return f"no sensor{where} could contradict the model there"
-
-
-def _connected(seeds: list[Equation], among: list[Equation]) -> list[Equation]:
-    """The equations that hang together with some of them by their unknowns."""
-    holders: dict[Expr, list[Equation]] = {}
-    for equation in among:
-        for variable in equation.variables:
-            holders.setdefault(variable, []).append(equation)
-    reached = {id(e) for e in seeds}
-    stack = list(seeds)
-    while stack:
-        for variable in stack.pop().variables:
-            for equation in holders.pop(variable, []):
-                if id(equation) not in reached:
-                    reached.add(id(equation))
-                    stack.append(equation)
-    return [e for e in among if id(e) in reached]
-
-
-def _few(items: list[str]) -> list[str]:
-    return items if len(items) <= 3 else [*items[:3], "others"]
 
 
 def _numerics(compilation: Compilation, columns: int) -> list[str]:

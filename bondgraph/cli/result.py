@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bondgraph.cli.console import plural
 from bondgraph.cli.parsable import Names, parsable
+from bondgraph.cli.reasons import message, reason
 from bondgraph.ir.latex import latex
 from bondgraph.passes.present import tidy
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.expr import Expr
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.residuals import Residual
-    from bondgraph.ir.signatures import Detectability, ModeSignatures, SignatureMatrix
+    from bondgraph.ir.signatures import Detectability, ModeSignatures
     from bondgraph.pipeline import Compilation
 
 
@@ -39,7 +39,7 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
     used = {symbol for _, symbols in arrs for symbol in symbols}
     return {
         "status": "ok" if arrs else "no_arr",
-        "message": message(matrix),
+        "message": message(compilation),
         "diagnostics": as_json(tuple(compilation.report.diagnostics)),
         "model": graph.name,
         "n_arr": len(arrs),
@@ -48,6 +48,7 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
         "symbols": [plain for plain in names.by_model.values() if plain in used],
         "names": {plain: name for name, plain in names.by_model.items() if plain in used},
         "undetectable": list(matrix.undetectable),
+        "reasons": {fault: reason(compilation, fault) for fault in matrix.undetectable},
         "weak": list(lasting.only_weak),
         "groups": [list(group) for group in matrix.groups],
         "best": None if best is None else [list(group) for group in best],
@@ -71,23 +72,6 @@ def _modes(found: ModeSignatures) -> dict[str, object]:
             item["groups"] = [list(group) for group in matrix.groups]
         listed.append(item)
     return {"modes": listed, "modes_total": found.total}
-
-
-def message(matrix: SignatureMatrix) -> str:
-    """One line on what the residuals can tell.
-
-    >>> from bondgraph.ir.signatures import SignatureMatrix
-    >>> message(SignatureMatrix(("r1",), ("R", "C"), ((True,), (False,)), ({},)))
-    '1 residual detects 1 of 2 faults, in 1 group'
-    """
-    if not matrix.residuals:
-        return "no residual: nothing is measured twice over, so no fault can be detected"
-    found = len(matrix.faults) - len(matrix.undetectable)
-    verb = "detects" if len(matrix.residuals) == 1 else "detect"
-    return (
-        f"{plural(len(matrix.residuals), 'residual')} {verb} {found} of"
-        f" {plural(len(matrix.faults), 'fault')}, in {plural(len(matrix.groups), 'group')}"
-    )
 
 
 def names_of(graph: BondGraph) -> Names:

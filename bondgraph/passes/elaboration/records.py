@@ -206,6 +206,12 @@ class Records:
                  help=f"Put it on a {wanted}-junction" + (f", or use `{remedy}`." if
                  other.port < 0 else "."))  # fmt: skip
         same = symbol.symbol.name if declaration.value is not None else None
+        if same is not None:
+            self.report.info("same-instrument", f"`{node.local}` reads the instrument `{same}`: "
+                             "together they are one sensor, and one fault.", node.origin,
+                             help="Two detectors of one instrument always agree, so that they "
+                             "check nothing. If it is an instrument of its own, leave out the "
+                             f"`= {same}`.")  # fmt: skip
         record = Sensor(entry.path, symbol, other.node.common, kind, node.number, None, same, None,
                         None, node.doc, entry.origin)  # fmt: skip
         self.sensors.append((record, term, None))

@@ -1,0 +1,138 @@
+"""Why a fault cannot be detected, and why a model has no residual, in words of the model."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bondgraph.cli.console import plural
+from bondgraph.ir.expr import Expr, symbols
+from bondgraph.passes.matching import decompose
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from bondgraph.ir.equations import Equation
+    from bondgraph.ir.residuals import ResidualSet
+    from bondgraph.pipeline import Compilation
+
+
+def message(compilation: Compilation) -> str:
+    """One line on what the residuals can tell, or why there is none.
+
+    >>> import bondgraph
+    >>> message(bondgraph.compile("models/dc_motor.bg"))
+    '2 residuals detect 9 of 9 faults, in 3 groups'
+    """
+    matrix = compilation.signatures
+    if not matrix.residuals:
+        return f"no residual: {_nothing(compilation)}"
+    found = len(matrix.faults) - len(matrix.undetectable)
+    verb = "detects" if len(matrix.residuals) == 1 else "detect"
+    return (
+        f"{plural(len(matrix.residuals), 'residual')} {verb} {found} of"
+        f" {plural(len(matrix.faults), 'fault')}, in {plural(len(matrix.groups), 'group')}"
+    )
+
+
+def _nothing(compilation: Compilation) -> str:
+    """Why a model has no redundancy."""
+    graph = compilation.graph
+    sensors = [s.name for s in graph.sensors if s.same_as is None]
+    if not sensors:
+        return "the model has no sensor, so no fault can be detected"
+    found = compilation.residuals.stage
+    hidden = _unknowns(found)
+    if _needed(found, hidden):
+        names = _and(_few([f"`{s}`" for s in sensors]))
+        verb = "is" if len(sensors) == 1 else "are all"
+        unknown = _and(_few([f"`{u.symbol.name}`" for u in hidden]))
+        return f"{names} {verb} needed to tell the unknown {unknown}, so no fault can be detected"
+    return "nothing is measured twice over, so no fault can be detected"
+
+
+def reasons(compilation: Compilation) -> dict[str, list[str]]:
+    """Why each undetectable fault is undetectable, with the faults of equal reason together."""
+    found: dict[str, list[str]] = {}
+    for fault in compilation.signatures.undetectable:
+        found.setdefault(reason(compilation, fault), []).append(fault)
+    return found
+
+
+def reason(compilation: Compilation, fault: str) -> str:
+    """Why no residual sees a fault, in words of the model."""
+    symbol = compilation.graph.fault_symbol(fault)
+    found = compilation.residuals.stage
+    holding = [e for e in found.system.equations if symbol in symbols(e.zero)]
+    if not holding:
+        return "no law uses it"
+    used = {
+        id(equation)
+        for residual in found.residuals
+        for equation in (residual.closing, *(step.equation for step in residual.steps))
+    }
+    if any(id(e) in used for e in holding):
+        return "it cancels out of every residual"
+    rest = [e for e in found.system.equations if id(e) not in used]
+    part = _connected(holding, rest)
+    junctions = [e.name for e in part if e.kind == "balance"]
+    where = f" around {', '.join(_few(junctions))}" if junctions else ""
+    inside = {v for e in part for v in e.variables}
+    unknown = [u for u in _unknowns(found) if u in inside]
+    needed = _needed(found, unknown)
+    if any(id(e) in needed for e in holding):
+        names = ", ".join(u.symbol.name for u in unknown)
+        return f"what is measured{where} is needed to tell the unknown {names}"
+    if any(e.kind == "sensor" for e in found.system.equations if _touches(e, part)):
+        return f"the sensors{where} show nothing that depends on it"
+    return f"no sensor{where} could contradict the model there"
+
+
+def _unknowns(found: ResidualSet) -> list[Expr]:
+    """The unknown inputs."""
+    return [i.symbol for i in found.system.graph.inputs if not i.known]
+
+
+def _needed(found: ResidualSet, unknown: list[Expr]) -> set[int]:
+    """The equations that would have redundancy if these unknown inputs were known."""
+    if not unknown:
+        return set()
+    equations = found.system.equations
+    gone = set(unknown)
+    columns: dict[Expr, int] = {}
+    rows = [
+        [columns.setdefault(v, len(columns)) for v in e.variables if v not in gone]
+        for e in equations
+    ]
+    return {id(equations[r]) for r in decompose(rows, len(columns)).over_rows}
+
+
+def _touches(equation: Equation, part: list[Equation]) -> bool:
+    """Whether an equation has a variable in common with a part."""
+    inside = {v for e in part for v in e.variables}
+    return any(v in inside for v in equation.variables)
+
+
+def _connected(seeds: list[Equation], among: list[Equation]) -> list[Equation]:
+    """The equations that hang together with some of them by their unknowns."""
+    holders: dict[Expr, list[Equation]] = {}
+    for equation in among:
+        for variable in equation.variables:
+            holders.setdefault(variable, []).append(equation)
+    reached = {id(e) for e in seeds}
+    stack = list(seeds)
+    while stack:
+        for variable in stack.pop().variables:
+            for equation in holders.pop(variable, []):
+                if id(equation) not in reached:
+                    reached.add(id(equation))
+                    stack.append(equation)
+    return [e for e in among if id(e) in reached]
+
+
+def _few(items: list[str]) -> list[str]:
+    return items if len(items) <= 3 else [*items[:3], "others"]
+
+
+def _and(names: Iterable[str]) -> str:
+    *most, last = names
+    return f"{', '.join(most)} and {last}" if most else last
