@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from random import Random
 from typing import Any
 
@@ -37,33 +37,43 @@ def detectability(
     Decided at random points modulo a 61-bit prime, as the signatures are. Where the machine
     has no steady operation it is taken at rest (no flow), and without that the answer is None.
     """
-    columns = []
-    for residual in residuals.residuals:
-        seen = matrix.signature(residual.name)
-        columns.append(_strong(residual.expr, seen, plant, seed))
+    items = [(r.expr, matrix.signature(r.name)) for r in residuals.residuals]
+    columns = _strong(items, plant, seed)
     strong = tuple(
         tuple(None if own is None else fault in own for own in columns) for fault in matrix.faults
     )
     return Detectability(matrix.residuals, matrix.faults, strong, matrix)
 
 
-def _strong(expr: Expr, faults: Iterable[str], plant: Plant, seed: int) -> frozenset[str] | None:
-    """The faults that hold the residual away from zero; None without any steady operation."""
-    left = dict.fromkeys(faults)
-    found: list[str] = []
+def _strong(
+    items: list[tuple[Expr, tuple[str, ...]]], plant: Plant, seed: int
+) -> list[frozenset[str] | None]:
+    """For each relation, which of its faults hold it away from zero; None where none can be told.
+
+    One point serves all relations; where the plant as a whole cannot stand still, each relation
+    is tried on the part of the plant that it is about.
+    """
+    exprs = [expr for expr, _ in items]
+    left = [dict.fromkeys(faults) for _, faults in items]
+    found: list[list[str]] = [[] for _ in items]
     decided = False
-    for number, modes in enumerate(Reactions(plant, seed).settings([expr])):
-        if not left:
+    for number, modes in enumerate(Reactions(plant, seed).settings(exprs)):
+        if not any(left):
             break
-        point = _point(expr, plant, 1000 * seed + number, modes)
+        point = _point(exprs, plant, 1000 * seed + number, modes)
         if point is None:
             continue
         decided = True
-        for fault in list(left):
-            if _held(expr, plant.graph.fault_symbol(fault), point):
-                found.append(fault)
-                del left[fault]
-    return frozenset(found) if decided or not left else None
+        for at, expr in enumerate(exprs):
+            for fault in list(left[at]):
+                if _held(expr, plant.graph.fault_symbol(fault), point):
+                    found[at].append(fault)
+                    del left[at][fault]
+    if decided or not any(left):
+        return [frozenset(own) for own in found]
+    if len(items) > 1:
+        return [_strong([item], plant, seed)[0] for item in items]
+    return [None]
 
 
 class _Point:
@@ -75,28 +85,28 @@ class _Point:
 
 
 def _point(
-    expr: Expr, plant: Plant, number: int, modes: Mapping[Expr, int] | None
+    exprs: list[Expr], plant: Plant, number: int, modes: Mapping[Expr, int] | None
 ) -> _Point | None:
     """A point of steady operation, at rest if there is no other; None if there is not even that."""
-    return _at(expr, plant, number, modes, steady) or _at(expr, plant, number, modes, rest)
+    return _at(exprs, plant, number, modes, steady) or _at(exprs, plant, number, modes, rest)
 
 
 def _at(
-    expr: Expr, plant: Plant, number: int, modes: Mapping[Expr, int] | None, solver: Solver
+    exprs: list[Expr], plant: Plant, number: int, modes: Mapping[Expr, int] | None, solver: Solver
 ) -> _Point | None:
-    n = integral_depth([expr]) + 2
-    order = highest_order([expr], n)
-    part = plant.part_for([expr])
+    n = integral_depth(exprs) + 2
+    order = highest_order(exprs, n)
+    part = plant.part_for(exprs)
     for turn in range(_TRIES):
         at = number + 100_000 * turn
         try:
             still = plant.trajectory(at, order, modes=modes, part=part, solver=solver)
-            evaluate([expr], still, n)
+            evaluate(exprs, still, n)
         except Undefined:
             continue
         except (ExactUnavailable, Mixed):
             return None
-        moving = plant.sample([expr], at, n, modes=modes) if n > 2 else still
+        moving = plant.sample(exprs, at, n, modes=modes) if n > 2 else still
         return _Point(still, moving)
     return None
 

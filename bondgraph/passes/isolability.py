@@ -8,11 +8,18 @@ partition of the detectable faults (Krysander and Frisk, 2008; for operators Ore
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from functools import partial
 from typing import Any
 
 from bondgraph.exact.algebra import Mixed, Waves
-from bondgraph.exact.evaluate import demands, highest_order, integral_depth, pull, values_of
+from bondgraph.exact.evaluate import (
+    demands,
+    highest_order,
+    integral_depth,
+    pull,
+    values_of,
+)
 from bondgraph.exact.field import P
 from bondgraph.exact.linear import Row, eliminate
 from bondgraph.exact.plant import ExactUnavailable, Plant
@@ -42,46 +49,50 @@ def isolability(
     61-bit prime. Faults of different signatures are always told apart. Of a machine with modes
     it is enough that one mode divides them. None where the plant has no trajectory.
     """
-    classes = [list(group) for group in matrix.groups]
-    known: dict[tuple[int, ...], list[list[str]]] = {}
-    for group in classes:
-        row = matrix.row(group[0])
-        rows = tuple(at for at, hit in enumerate(row) if hit and not combined[at])
+    fixed: list[list[str]] = []
+    open_: list[tuple[list[str], tuple[int, ...]]] = []
+    for group in matrix.groups:
+        hits = zip(matrix.row(group[0]), combined, strict=True)
+        rows = tuple(at for at, (hit, made) in enumerate(hits) if hit and not made)
         if len(group) > 1 and len(rows) > 1:
-            known.setdefault(rows, []).append(group)
-    for rows, groups in known.items():
-        own = [exprs[at] for at in rows]
-        divided = _divided(own, groups, plant, seed)
-        if divided is None:
-            return None
-        for group in groups:
-            classes.remove(group)
-        classes += divided
+            open_.append((list(group), rows))
+        else:
+            fixed.append(list(group))
+    divided = _divided(exprs, open_, Reactions(plant, seed))
+    if divided is None:
+        return None
     order = {fault: at for at, fault in enumerate(matrix.faults)}
-    return tuple(tuple(g) for g in sorted(classes, key=lambda g: order[g[0]]))
+    return tuple(tuple(g) for g in sorted([*fixed, *divided], key=lambda g: order[g[0]]))
 
 
 def _divided(
-    exprs: list[Expr], groups: list[list[str]], plant: Plant, seed: int
+    exprs: list[Expr], groups: list[tuple[list[str], tuple[int, ...]]], reactions: Reactions
 ) -> list[list[str]] | None:
-    """The groups, divided as far as some point allows."""
-    reactions = Reactions(plant, seed)
+    """The groups, each with the relations that see it, divided as far as some point allows.
+
+    One point serves all groups; where the plant as a whole has none, each is tried by itself.
+    """
+    plant, seed = reactions.plant, reactions.seed
+    own = [exprs[at] for at in sorted({at for _, rows in groups for at in rows})]
+    found = [group for group, _ in groups]
     met = False
-    for number, modes in enumerate(reactions.settings(exprs)):
-        symbols = [plant.graph.fault_symbol(f) for g in groups if len(g) > 1 for f in g]
+    for number, modes in enumerate(reactions.settings(own)):
+        symbols = [plant.graph.fault_symbol(f) for g in found if len(g) > 1 for f in g]
         if not symbols:
             break
-
-        def attempt(n: int, modes: Any = modes, symbols: Any = symbols) -> dict[Expr, _Columns]:
-            return _columns(exprs, symbols, plant, n, modes)
-
+        attempt = partial(_columns, own, symbols, plant, modes)
         try:
             columns = reactions.draw(attempt, 1000 * seed + number)
         except (ExactUnavailable, Mixed):
             continue
         met = True
-        groups = [part for g in groups for part in _parallel(g, columns, plant)]
-    return groups if met else None
+        found = [part for g in found for part in _parallel(g, columns, plant)]
+    if met or not groups:
+        return found
+    if len(groups) == 1:
+        return None
+    parts = [_divided(exprs, [group], reactions) for group in groups]
+    return None if None in parts else [g for part in parts if part for g in part]
 
 
 def _parallel(group: list[str], columns: dict[Expr, _Columns], plant: Plant) -> list[list[str]]:
@@ -104,13 +115,16 @@ def _rank(columns: Iterable[Row]) -> int:
 
 
 def _columns(
-    exprs: list[Expr], symbols: list[Expr], plant: Plant, number: int, modes: Any
+    exprs: list[Expr],
+    symbols: list[Expr],
+    plant: Plant,
+    modes: Mapping[Expr, int] | None,
+    number: int,
 ) -> dict[Expr, _Columns]:
     """What each symbol does to the prolonged relations, at one healthy point."""
-    part = plant.part_for(exprs)
     try:
-        sample: Any = plant.wave(number, (), modes, part)
-        return _pulled(exprs, symbols, sample, 0)
+        wave = plant.wave(number, (), modes, plant.part_for(exprs))
+        return _pulled(exprs, symbols, wave, 0)
     except (Mixed, ExactUnavailable):
         times = min(highest_order(exprs), _MOST) + integral_depth(exprs)
         sample = plant.sample(exprs, number, times + 1, modes=modes)
@@ -135,10 +149,11 @@ def _pulled(
         if expr in failures:
             raise failures[expr]
         below = {n: [s for s in topological(n.args) if s in table] for n in nodes if n.op is Op.INT}
+        own = [n for n in nodes if n in table]
         for k in range(times + 1):
             adjoints: dict[Expr, Any] = {expr: algebra.seed(1) if waves else [*[0] * k, 1]}
             pull(nodes, need, values, algebra, adjoints)
-            for symbol in symbols:
+            for symbol in own:
                 found = adjoints.get(symbol)
                 if found is None or algebra.vanishes(found):
                     continue

@@ -105,9 +105,7 @@ def _columns(
         raise _UnluckyError
     draw = random.Random(-seed)
     mix = [[draw.randrange(1, PRIME) for _ in range(excess)] for _ in range(excess)]
-    columns = [
-        [sum(weights[d] * x for d, x in key) % PRIME for key in classes] for weights in mix
-    ]
+    columns = [[sum(weights[d] * x for d, x in key) % PRIME for key in classes] for weights in mix]
     return [tuple(c) for c in classes.values()], np.array(columns, dtype=np.int64)
 
 
