@@ -162,10 +162,9 @@ class Compilation:
     def best(self) -> tuple[tuple[str, ...], ...] | None:
         """The detectable faults in groups that no set of residuals could divide any further."""
         from bondgraph.passes.isolability import isolability
-        from bondgraph.passes.signatures import moving
 
         residuals, matrix = self._analysis
-        exprs = moving(self.combined, residuals)
+        exprs = [r.expr for r in residuals.residuals]
         made = [r.free_of is not None for r in residuals.residuals]  # they add nothing new
         return isolability(exprs, made, matrix, self._plant, self.options.seed)
 

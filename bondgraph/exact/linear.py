@@ -47,15 +47,16 @@ def add_multiple(target: Row, factor: int, source: Row) -> None:
             target.pop(column, None)
 
 
-def eliminate(rows: list[Row]) -> list[Pivot]:
+def eliminate(rows: list[Row], left: list[Row] | None = None) -> list[Pivot]:
     """The pivots in the order of elimination; the rows are used up.
 
-    Dependent rows vanish; columns without a pivot are free. Raises `Contradiction`.
+    Dependent rows vanish; columns without a pivot are free. Negative columns are never
+    eliminated: rows that have no others raise `Contradiction`, or are collected in `left`.
     """
     where: dict[int, set[int]] = {}
     for number, row in enumerate(rows):
         for column in row:
-            if column != CONSTANT:
+            if column >= 0:
                 where.setdefault(column, set()).add(number)
     queue = [(len(row), number) for number, row in enumerate(rows)]
     heapify(queue)
@@ -67,10 +68,12 @@ def eliminate(rows: list[Row]) -> list[Pivot]:
         if done[number] or size != len(row):
             continue
         done[number] = True
-        columns = [c for c in row if c != CONSTANT]
+        columns = [c for c in row if c >= 0]
         if not columns:
-            if row:
+            if row and left is None:
                 raise Contradiction(number)
+            if row and left is not None:
+                left.append(row)
             continue
         column = min(columns, key=lambda c: (len(where[c]), c))
         scale = pow(row.pop(column), -1, P)
@@ -85,7 +88,7 @@ def eliminate(rows: list[Row]) -> list[Pivot]:
                 known = target.get(c)
                 if known is None:
                     target[c] = factor * x % P
-                    if c != CONSTANT:
+                    if c >= 0:
                         where[c].add(other)
                 else:
                     value = (known + factor * x) % P
@@ -93,7 +96,7 @@ def eliminate(rows: list[Row]) -> list[Pivot]:
                         target[c] = value
                     else:
                         del target[c]
-                        if c != CONSTANT:
+                        if c >= 0:
                             where[c].discard(other)
             heappush(queue, (len(target), other))
     return pivots

@@ -113,3 +113,33 @@ def test_products_of_signals() -> None:
     assert ("a", "b") in c.best
     assert ("h",) in c.best and ("g",) in c.best and ("R",) in c.best
     assert ("A", "Q") in c.best
+
+
+def test_parameters_behind_a_differential_loop() -> None:
+    """v_j = (L_j D + R_j) x with x unmeasured: whatever is wrong in branch j adds to equation j.
+
+    The relations hold L1 and R1 with different signals, after x was eliminated crosswise.
+    """
+    branches = "".join(
+        f"""0:p{j} {{ <- s; -> De:v{j}; -> 1:b{j} }}
+        b{j} {{ -> I:L{j}; -> R:R{j} }}
+        param L{j} = {j}; param R{j} = {j + 3}
+        """
+        for j in (1, 2, 3)
+    )
+    c = compiled(f"model M {{ input d unknown; Se:U = d -> 1:s\n {branches} }}")
+    assert c.best is not None
+    assert {frozenset(g) for g in c.best} == {
+        frozenset((f"L{j}", f"R{j}", f"v{j}")) for j in (1, 2, 3)
+    }
+
+
+def test_parameters_that_two_machines_share() -> None:
+    """R and L in two equal circuits: (i1, i2) and (D i1, D i2) are no multiples of each other."""
+    c = compiled(
+        """model M { param R=1; param L=2
+        Se:U1 -> 1:a; a { -> R:r1 = R; -> I:l1 = L; -> Df:i1 }
+        Se:U2 -> 1:b; b { -> R:r2 = R; -> I:l2 = L; -> Df:i2 } }"""
+    )
+    assert ("R", "L") in c.signatures.groups
+    assert c.best is not None and ("R",) in c.best and ("L",) in c.best

@@ -1,0 +1,168 @@
+"""What faults do to everything that can be concluded from the known signals: parity rows.
+
+The equations of the plant and their derivatives are linearised on a healthy trajectory, coefficient
+by coefficient, and all unknowns are eliminated. What is left are rows in the faults alone, each a
+small deviation that is an arbitrary function of time. Nothing is shared with the elimination that
+makes the residuals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from bondgraph.exact.evaluate import demands, evaluate, pull, values_of
+from bondgraph.exact.field import P, Undefined
+from bondgraph.exact.linear import Row, eliminate
+from bondgraph.exact.plant import Plant, Trajectory
+from bondgraph.exact.point import STRIDE
+from bondgraph.ir.expr import Expr, Op, Symbol, topological
+
+
+def parity(
+    plant: Plant,
+    faults: Sequence[str],
+    roots: Sequence[Expr],
+    times: int,
+    number: int,
+    modes: Mapping[Expr, int] | None = None,
+) -> dict[str, list[Row]]:
+    """For each fault its columns in the rows that are free of unknowns.
+
+    The equations of the part of the plant that the `roots` are about are differentiated up to
+    `times` times. Raises `ExactUnavailable` or `Undefined` like a trajectory does.
+    """
+    part = plant.part_for(roots)
+    trajectory = plant.trajectory(number, times + 2, modes=modes, part=part)
+    rows = _Rows(plant, trajectory, faults, times).all()
+    left: list[Row] = []
+    eliminate(rows, left)
+    columns: dict[int, Row] = {}
+    for at, row in enumerate(left):
+        for column, x in row.items():
+            columns.setdefault(column, {})[at] = x
+    found: dict[str, list[Row]] = {fault: [] for fault in faults}
+    for column in sorted(columns, reverse=True):
+        found[faults[(-column - 1) // STRIDE]].append(columns[column])
+    return found
+
+
+class _Truth:
+    """A trajectory as it truly is."""
+
+    def __init__(self, trajectory: Trajectory) -> None:
+        self.algebra = trajectory.algebra
+        self.value = trajectory.truth
+
+    def start(self, initial: Symbol) -> int:
+        """Laws have their integrals as variables."""
+        raise Undefined(f"an integral from {initial.name} in a law")
+
+
+class _Rows:
+    """The linearised equations; column variable * STRIDE + k, faults below zero."""
+
+    def __init__(
+        self, plant: Plant, trajectory: Trajectory, faults: Sequence[str], times: int
+    ) -> None:
+        self.plant = plant.graph
+        self.part = trajectory.part
+        self.active = frozenset(self.part.active)
+        self.truth = _Truth(trajectory)
+        self.times = times
+        self.fault = {plant.graph.fault_symbol(f): at for at, f in enumerate(faults)}
+        self.rows: list[Row] = []
+
+    def all(self) -> list[Row]:
+        """Every equation with its derivatives."""
+        part, graph = self.part, self.plant
+        for variable in part.silent:
+            if variable in self.active:
+                self.plain({variable: 1})
+        for _, terms, when, common in part.balances:
+            off = when is not None and not self.truth.algebra.lead(evaluate([when], self.truth)[0])
+            self.plain({common: 1} if off else dict(terms))
+        for _, law in part.laws:
+            self.expression(law)
+        for _, variable, value in part.rates:
+            self.expression(value, variable, derivative=True)
+        read = {name for name, _, _ in part.readings}
+        for sensor in graph.sensors:
+            if sensor.same_as is not None or not self.inside(sensor.reads):
+                continue
+            if sensor.name in read:
+                at = part.place[sensor.symbol][0]
+                self.expression(sensor.reads, at, fault=sensor.symbol)
+                self.plain({at: 1})  # the reading itself is known
+            else:
+                self.expression(sensor.reads, fault=sensor.symbol)
+        for source in graph.inputs:
+            where = part.place.get(source.symbol)
+            if source.known and not source.mode and where is not None and where[0] in self.active:
+                self.known(source.symbol, where[0])
+        return self.rows
+
+    def inside(self, expr: Expr) -> bool:
+        """Whether an expression is about this part of the plant."""
+        place = self.part.place
+        return all(place[n][0] in self.active for n in topological([expr]) if n in place)
+
+    def plain(self, terms: dict[int, int]) -> None:
+        """A sum of variables that is zero."""
+        for k in range(self.times + 1):
+            self.rows.append({v * STRIDE + k: c % P for v, c in terms.items() if c % P})
+
+    def known(self, symbol: Expr, variable: int) -> None:
+        """A known input: what truly acts differs from what is told by the fault."""
+        for k in range(self.times + 3):
+            row = {variable * STRIDE + k: 1}
+            if symbol in self.fault:
+                row[self.column(symbol, k)] = P - 1
+            self.rows.append(row)
+
+    def column(self, symbol: Expr, k: int) -> int:
+        return -1 - self.fault[symbol] * STRIDE - k
+
+    def expression(
+        self,
+        expr: Expr,
+        minus: int | None = None,
+        fault: Expr | None = None,
+        derivative: bool = False,
+    ) -> None:
+        """expr (+ fault) (- variable or its derivative) = 0."""
+        nodes = topological([expr])
+        need = demands(nodes, [expr], self.times + 1)
+        values, failures = values_of(nodes, need, self.truth)
+        if expr in failures:
+            raise failures[expr]
+        for k in range(self.times + 1):
+            adjoints: dict[Expr, Any] = {expr: [*[0] * k, 1]}
+            pull(nodes, need, values, self.truth.algebra, adjoints, jumps=False)
+            row: Row = {}
+            for node, adjoint in adjoints.items():
+                if node.op is Op.SYM:
+                    self.enter(row, node, adjoint)
+            if minus is not None:
+                at, weight = (k + 1, -k - 1) if derivative else (k, -1)
+                _add(row, minus * STRIDE + at, weight)
+            if fault is not None and fault in self.fault:
+                _add(row, self.column(fault, k), 1)
+            self.rows.append(row)
+
+    def enter(self, row: Row, symbol: Expr, adjoint: list[int]) -> None:
+        """The share of one symbol, a variable or a faulty parameter."""
+        where = self.part.place.get(symbol)
+        for k, x in enumerate(adjoint):
+            if where is not None:
+                _add(row, where[0] * STRIDE + k, where[1] * x)
+            elif symbol in self.fault:
+                _add(row, self.column(symbol, k), x)
+
+
+def _add(row: Row, column: int, x: int) -> None:
+    value = (row.get(column, 0) + x) % P
+    if value:
+        row[column] = value
+    else:
+        row.pop(column, None)
