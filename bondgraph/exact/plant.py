@@ -139,8 +139,10 @@ class Plant:
         self._starts: dict[Expr, Expr] = {}  # initial value to the variable that it is one of
         for node in graph.nodes:
             for port in node.ports:
-                if port.state is not None and port.initial is not None:
-                    self._starts[port.initial] = port.state
+                if port.state is not None:
+                    name = f"{port.state.symbol.name}.0"  # of one that nobody declared
+                    start = port.initial or graph.pool.symbol(name, Kind.FREE)
+                    self._starts[start] = port.state
         for item in graph.integrals:
             if item.initial.op is Op.SYM:
                 self._starts[item.initial] = item.symbol
