@@ -12,7 +12,7 @@ from random import Random
 from typing import NamedTuple, TypeAlias
 
 from bondgraph.exact.assembly import Assembly
-from bondgraph.exact.equations import Equation, Setting
+from bondgraph.exact.equations import Equation, Setting, coefficient_row
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.field import P, inverse
 from bondgraph.exact.forms import ORDERS
@@ -25,6 +25,9 @@ from bondgraph.exact.structure import Offsets, offsets
 
 #: What finds the series of all variables: assembly, equations, setting, random numbers, order.
 Solver: TypeAlias = Callable[[Assembly, list[Equation], Setting, Random, int], list[Series]]
+
+
+_MARGIN = 4  # orders to spare for what follows by differentiation
 
 
 class OverDetermined(Exception):
@@ -86,15 +89,44 @@ def _begun(
 ) -> tuple[_System, Point]:
     """The structure and a point that satisfies the linear equations, what rests made linear."""
     while True:
-        system = _structure(plant, equations)
+        failure: OverDetermined | None = None
+        times = [_MARGIN] * len(equations)
+        try:
+            system = _structure(plant, equations)
+            times = system.offsets.equations
+        except OverDetermined as reason:
+            failure = reason
         point = Point(plant.place, setting, random)
-        point.linear(equations, system.offsets.equations)
-        if all(e.rest is None for e in equations):
-            return system, point
-        found = settled(plant, equations, setting, point)
+        point.linear(equations, times)
+        found = equations
+        if any(e.rest is not None for e in equations):
+            found = settled(plant, equations, setting, point)
+        if failure is not None and found is equations:
+            found = _independent(plant, equations, setting, random)
+            if len(found) == len(equations):
+                raise failure
         if found is equations:
             return system, point
         equations = found
+
+
+def _independent(
+    plant: Assembly, equations: list[Equation], setting: Setting, random: Random
+) -> list[Equation]:
+    """The equations without linear ones that follow from those before them.
+
+    The balance of a junction does, when a loop of bonds has fixed already what it says.
+    """
+    point = Point(plant.place, setting, random)
+    out = []
+    for number, equation in enumerate(equations):
+        if equation.rest is None:
+            if not point.reduce(coefficient_row(equation.form, 0, STRIDE)):
+                continue
+            for order in range(_MARGIN + 1):
+                point.add(coefficient_row(equation.form, order, STRIDE), number)
+        out.append(equation)
+    return out
 
 
 def _continue(
@@ -155,9 +187,6 @@ def _residue(equation: Equation, order: int, values: list[Series], sample: Known
         rest: Series = evaluate([equation.rest], sample, order + 1)[0]
         total += rest[order] if order < len(rest) else 0
     return total % P
-
-
-_MARGIN = 4
 
 
 def _all_at_once(

@@ -14,7 +14,7 @@ import heapq
 from typing import NamedTuple
 
 from bondgraph.ir.equations import Equation, EquationSystem
-from bondgraph.ir.expr import Expr, Kind, Op, topological
+from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
 from bondgraph.ir.residuals import Closing, How, ReducedSystem, Step
 from bondgraph.passes.colour import colours
 from bondgraph.passes.initial import without_free_integrals
@@ -157,11 +157,22 @@ class Chain:
 
     def take(self, offer: _Offer, variable: Expr) -> None:
         """Accept an offer."""
-        self.used[offer.equation] = True
         equation = self.system.equations[offer.equation]
-        closed = self.substituted(offer.solution.value)
+        try:
+            closed = self.substituted(offer.solution.value)
+        except ZeroDivisionError:
+            self.without(offer.equation, variable)
+            return
+        self.used[offer.equation] = True
         step = Step(variable, offer.solution.value, closed, equation, offer.how)
         self.settle(variable, step, offer.cost)
+
+    def without(self, row: int, variable: Expr) -> None:
+        """An equation loses its last unknown where what stands before it is zero: a relation."""
+        expr = self.substituted(self.system.equations[row].zero)
+        if variable not in symbols(expr):
+            self.used[row] = True
+            self.loops.row(row, expr)
 
     def settle(self, variable: Expr, step: Step, cost: Cost) -> None:
         """A variable is computed: its equations have an unknown less."""
@@ -329,7 +340,8 @@ class Chain:
         rows = [[self.position[v] for v in e.variables] for e in equations]
         _, column_of = match(rows, len(self.position), pairs)
         expected = sum(c < 0 for c in column_of)
-        if found != expected:  # a loop that cancels misleads the count: take the exact one
+        stuck = any(n == 1 and not u for n, u in zip(self.waiting, self.used, strict=True))
+        if found != expected or stuck:  # a loop that cancels misleads the count: take the exact one
             expected = independent(self.system)
         if found != expected:
             self.report.warning(

@@ -1,0 +1,1 @@
+"""Bond graphs that nobody drew: random structure, elements, sensors and unknown inputs."""
