@@ -18,13 +18,14 @@ from bondgraph.backends.facts import (
 )
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples
+from bondgraph.backends.roots import roots
 from bondgraph.backends.spell import digits
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
 from bondgraph.backends.vectors import Vectors
 from bondgraph.ir.program import Dot, Program
 
-_PURE = ("sign", "ssqrt", "ssq", "equal", "min", "max", "power", "table")
+_PURE = ("sign", "ssqrt", "ssq", "equal", "min", "max", "power", "table", "root")
 
 _SCALED = ";\n * derivative k times time_unit to the power k"
 
@@ -51,9 +52,10 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         "unset": " (NaN where the model has none)" if unset else "",
         "helpers": _helpers(program, facts, spelling, has_dot, code),
         "tables": _tables(program, spelling, code),
+        "roots": roots(program, spelling, "real {0}", 8),
         "needs_functions": facts.library,
         "libm": " -lm" if facts.library else "",
-        "needs_math": facts.library or unset or unwritten,
+        "needs_math": facts.library or unset or unwritten or bool(program.roots),
         "unwritten": unwritten,
         "needs_stddef": "table" in facts.laws or has_dot or bool(code.tapes),
         "beyond_float": ", ".join(f"{n:g}" for n in facts.beyond_float[:8]),

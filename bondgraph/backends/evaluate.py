@@ -24,12 +24,14 @@ from bondgraph.ir.program import (
     Function,
     Logic,
     Mode,
+    NewtonBlock,
     PolynomialTape,
     Product,
     Program,
     Ref,
     Sum,
 )
+from bondgraph.passes.lowering.newton import newton, or_nan
 
 _CONTEXT = Context(prec=40, Emax=99999, Emin=-99999)
 _BUMP = 1e-7
@@ -62,8 +64,10 @@ class Evaluation:
 
     def __init__(self, program: Program, modes: Mapping[str, bool]) -> None:
         self.modes = dict(modes)
+        self._program = program
         self.given: Values = {}
         self._tables = dict(program.tables)
+        self._roots = {block.name: block for block in program.roots}
 
     def run(self, statements: Iterable[Assign | Dot | PolynomialTape]) -> None:
         """Run a procedure; its results are in `given` afterwards."""
@@ -137,7 +141,30 @@ class Evaluation:
         if name.startswith("table:"):
             points = self._tables[name.removeprefix("table:")]
             return lambda x: _interpolate(points, x)
+        if name.startswith("root:"):
+            block = self._roots[name.removeprefix("root:")]
+            return lambda *args: self._root(block, args)
         return _FUNCTIONS[name] if name in _FUNCTIONS else getattr(math, name)
+
+    def _root(self, block: NewtonBlock, args: tuple[float, ...]) -> float:
+        inside = Evaluation(self._program, self.modes)
+        inside.given = {
+            Ref("local", name): value(x) for name, x in zip(block.arguments, args, strict=True)
+        }
+
+        def part(statements: tuple[Assign, ...], result: Expression) -> float:
+            inside.run(statements)
+            return float(inside._value(result).number)
+
+        def look(x: float) -> tuple[float, float]:
+            inside.given[Ref("local", "x")] = value(x)
+            number = or_nan(lambda: part(block.body, block.value))
+            return number, or_nan(lambda: part(block.further, block.slope))
+
+        found = newton(look, block.rising, block.guess, block.most)
+        if math.isnan(found):
+            raise ValueError(f"no root {block.name}")
+        return found
 
     def _dot(self, node: Dot) -> Value:
         number, size = Decimal(0), 0.0

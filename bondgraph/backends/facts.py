@@ -54,6 +54,8 @@ def facts(program: Program) -> Facts:
     """The facts of a program."""
     default = program.bandwidth / program.rate
     run = [*_values(program.exact), *_values(program.first), *_values(program.step)]
+    for block in program.roots:
+        run += [*_values(block.body + block.further), block.value, block.slope]
     every = [*_values(program.configure), *run]
     numbers = [node.value for node in nodes(every) if isinstance(node, Const)]
     numbers += [z for _, points in program.tables for point in points for z in point]

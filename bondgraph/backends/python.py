@@ -19,6 +19,7 @@ from bondgraph.backends.facts import (
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples
 from bondgraph.backends.procedure import lines
+from bondgraph.backends.roots import roots
 from bondgraph.backends.spell import Speller, digits
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
@@ -26,7 +27,7 @@ from bondgraph.backends.vectors import Vectors
 from bondgraph.backends.walk import reads
 from bondgraph.ir.program import Assign, Dot, PolynomialTape, Program
 
-_HELPERS = ("sign", "ssqrt", "ssq", "power", "table")
+_HELPERS = ("sign", "ssqrt", "ssq", "power", "table", "root")
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 _TYPES = {"real": "float", "bool": "bool", "count": "int"}
 
@@ -78,6 +79,7 @@ class _Module:
             "encoders": bool(self.spelling.encoders),
             "encoder_fields": self._encoders(),
             "helpers": self._helpers(),
+            "roots": roots(program, self.spelling, "{0}: float", 12),
             "tables": [*self._tables(), *map(self._tape_table, self.tapes)],
             "exact": self._exact(),
             "step": self._step(),

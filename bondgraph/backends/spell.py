@@ -30,7 +30,8 @@ class Dialect(NamedTuple):
     """How one language writes what languages write differently; holes are `{0}`, `{1}`, ...
 
     `functions` has an entry for every function of `bondgraph.ir.expr.FUNCTIONS`, and for `power`
-    (integer exponent) and `table`; `equal` and `unequal` compare two reals, perhaps by a call.
+    (integer exponent), `table` and `root`; `equal` and `unequal` compare two reals, perhaps by a
+    call.
     """
 
     constant: str
@@ -133,6 +134,8 @@ class Speller:
         if value.name.startswith("table:"):
             table = self.tables[value.name.removeprefix("table:")]
             return functions["table"].format(*texts, table), _ATOM
+        if value.name.startswith("root:"):
+            return functions["root"].format(", ".join(texts), self.tables[value.name]), _ATOM
         return functions[value.name].format(*texts), _ATOM
 
     # ------------------------------------------------------------------ conditions

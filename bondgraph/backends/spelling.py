@@ -23,7 +23,8 @@ class Spelling:
     """The names of one program in one language.
 
     `params`, `coefs`, `knowns`, `states`, `locals`, `tables` map names of the program to
-    identifiers; `inputs` maps (signal, suffix or "") to members of the struct of derivatives.
+    identifiers (a root by `root:<name>` in `tables`); `inputs` maps (signal, suffix or "") to
+    members of the struct of derivatives.
     """
 
     def __init__(self, program: Program, target: Target) -> None:
@@ -39,7 +40,10 @@ class Spelling:
         self.residuals = spellings((r.name for r in program.residuals), words | {"valid"})
         #: the names of the numbers of the residuals: `R1`
         self.numbers = self._numbers(program)
-        self.tables = spellings((name for name, _ in program.tables), target.reserved)
+        called = {name: name for name, _ in program.tables}
+        called |= {f"root:{b.name}": f"root_{b.name}" for b in program.roots}
+        free = spellings(called.values(), target.reserved)
+        self.tables = {name: free[wish] for name, wish in called.items()}
         self.locals = spellings(_locals(program), target.reserved)
         self.inputs = self._inputs(program)
         self.blocks = blocks(program)
@@ -160,6 +164,7 @@ def suffixes(known: Known) -> tuple[str, ...]:
 
 def _locals(program: Program) -> Iterable[str]:
     statements: list[Statement | Dot] = [
+        *(s for block in program.roots for s in (*block.body, *block.further)),
         *program.configure,
         *program.exact,
         *program.first,
@@ -170,4 +175,5 @@ def _locals(program: Program) -> Iterable[str]:
         for s in statements
         if isinstance(s, Assign | Dot) and s.target.space == "local"
     ]
+    names += [name for block in program.roots for name in ("x", *block.arguments)]
     return dict.fromkeys(names)

@@ -9,7 +9,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import NamedTuple
 
-from bondgraph.ir.expr import Expr, Op, Pool
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 
 #: Names that mean something in the text and so cannot be names of the model as well.
 FUNCTIONS = frozenset(
@@ -28,11 +28,16 @@ _SUM, _PRODUCT, _POWER, _ATOM = range(4)
 
 
 class Parsable(NamedTuple):
-    """`expr` in `symbols` and the names of `defs`, each in symbols and earlier names."""
+    """`expr` in `symbols` and the names of `defs`, each in symbols and earlier names.
+
+    `implicit` has the inner unknowns, which are among the symbols: name, expression that vanishes
+    where the unknown has its value, and a number from which a search may start.
+    """
 
     expr: str
     symbols: tuple[str, ...]
     defs: tuple[tuple[str, str], ...]
+    implicit: tuple[tuple[str, str, float], ...] = ()
 
 
 class Names:
@@ -44,15 +49,22 @@ class Names:
 
     def __init__(self, names: Iterable[str]) -> None:
         self.by_model: dict[str, str] = {}
-        taken: set[str] = set()
+        self.known_as: dict[str, str] = {}  # inner unknowns by identifier: variable of the model
+        self._taken: set[str] = set()
         for name in names:
+            self.add(name)
+
+    def add(self, name: str) -> str:
+        """The identifier of a name of the model, the same for the same name."""
+        if name not in self.by_model:
             plain = name.replace("].", "__").replace("[", "__").replace("]", "")
+            plain = plain.replace("?", "").replace("'", "_")
             plain = unicodedata.normalize("NFKC", plain.replace(".", "__"))
-            while keyword.iskeyword(plain) or plain in FUNCTIONS or plain in taken:
+            while keyword.iskeyword(plain) or plain in FUNCTIONS or plain in self._taken:
                 plain += "_"
-            taken.add(plain)
+            self._taken.add(plain)
             self.by_model[name] = plain
-        self._taken = taken
+        return self.by_model[name]
 
     def fresh(self, number: int) -> str:
         """A name for shared part `number` that no name of the model is."""
@@ -84,9 +96,12 @@ class _Writer:
         self.size: dict[Expr, int] = {}
         self.symbols: dict[str, None] = {}
         self.defs: list[tuple[str, str]] = []
+        self.unknown: dict[Expr, str] = {}  # ROOT nodes by what they are called
+        self.inner: list[tuple[str, Expr, float]] = []
 
     def write(self, root: Expr) -> Parsable:
-        nodes = self._order(root)
+        targets = self._targets(root)
+        nodes = self._order(targets)
         uses: dict[Expr, int] = {}
         written: dict[Expr, int] = {}
         for node in nodes:
@@ -94,13 +109,13 @@ class _Writer:
             written[node] = min(1 + sum(written[a] for a in args), 10 * LARGE)
             for arg in args:
                 uses[arg] = uses.get(arg, 0) + 1
-        shared = written[root] > LARGE
+        shared = sum(written[t] for t in targets) > LARGE
         for node in nodes:
             args = self._args(node)
             self.depth[node] = 1 + max((self.depth[a] for a in args), default=0)
             self.size[node] = 1 + sum(self.size[a] for a in args)
             self.text[node] = self._text(node)
-            if node is root or not args:
+            if node in targets or not args:
                 continue
             repeated = shared and uses[node] > 1 and self.size[node] > 3
             if repeated or self.depth[node] >= DEEP or self.size[node] >= LONG:
@@ -108,12 +123,33 @@ class _Writer:
                 self.defs.append((name, self.text[node][0]))
                 self.text[node] = (name, _ATOM)
                 self.depth[node] = self.size[node] = 1
-        return Parsable(self.text[root][0], tuple(self.symbols), tuple(self.defs))
+        implicit = tuple((n, self.text[zero][0], guess) for n, zero, guess in self.inner)
+        return Parsable(self.text[root][0], tuple(self.symbols), tuple(self.defs), implicit)
 
-    def _order(self, root: Expr) -> list[Expr]:
+    def _targets(self, root: Expr) -> list[Expr]:
+        """The expression, and one for each inner unknown that has to be solved for."""
+        targets = [root]
+        for target in targets:  # grows: a root may rest on others
+            for node in topological([target]):
+                if node.op is Op.ROOT and node not in self.unknown:
+                    solved = node.root
+                    name = solved.name
+                    while name in self.unknown.values():
+                        name += "'"
+                    self.unknown[node] = name
+                    plain = self.names.add(f"{name}?")
+                    self.names.known_as[plain] = solved.name
+                    inside = dict(zip(solved.places, node.args, strict=True))
+                    inside[solved.unknown] = self.pool.symbol(f"{name}?", Kind.TEAR)
+                    zero = self.pool.substitute([solved.zero], inside)[0]
+                    self.inner.append((plain, zero, float(solved.guess)))
+                    targets.append(zero)
+        return targets
+
+    def _order(self, roots: list[Expr]) -> list[Expr]:
         """Everything that is written, arguments first; initial values stand for their symbols."""
         done: dict[Expr, None] = {}
-        stack = [(root, False)]
+        stack = [(root, False) for root in reversed(roots)]
         while stack:
             node, ready = stack.pop()
             if ready:
@@ -128,6 +164,8 @@ class _Writer:
         if node.op is Op.SYM:
             value = self.initial.get(node.symbol.name)
             return () if value is None else (value,)
+        if node.op is Op.ROOT:
+            return ()
         if node.op is Op.INT:
             start = self.initial.get(node.symbol.name)
             return (*node.args, *([] if start is None else [start]))
@@ -151,6 +189,8 @@ class _Writer:
                 return self._product(node), _PRODUCT
             case Op.FN:
                 return self._function(node)
+            case Op.ROOT:
+                return self._symbol(f"{self.unknown[node]}?"), _ATOM
             case Op.DER:
                 return self._derivative(node), _ATOM
             case Op.INT:

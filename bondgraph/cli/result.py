@@ -46,7 +46,11 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
         "files": list(files),
         "arrs": [arr for arr, _ in arrs],
         "symbols": [plain for plain in names.by_model.values() if plain in used],
-        "names": {plain: name for name, plain in names.by_model.items() if plain in used},
+        "names": {
+            plain: names.known_as.get(plain, name)
+            for name, plain in names.by_model.items()
+            if plain in used
+        },
         "undetectable": list(matrix.undetectable),
         "reasons": {fault: reason(compilation, fault) for fault in matrix.undetectable},
         "weak": list(lasting.only_weak),
@@ -107,6 +111,9 @@ def _arr(
     }
     if residual.free_of is not None:
         arr["free_of"] = residual.free_of
+    if written.implicit:
+        arr["implicit"] = {name: zero for name, zero, _ in written.implicit}
+        arr["guess"] = {name: guess for name, _, guess in written.implicit}
     if written.defs:
         arr["defs"] = [list(definition) for definition in written.defs]
     else:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple, Protocol
 
+from bondgraph.exact import implicit
 from bondgraph.exact.algebra import Algebra, Mixed, Values, Waves, compare
 from bondgraph.exact.field import P, Undefined, of_fraction
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Symbol, topological
@@ -168,6 +169,8 @@ def node_value(
         if node.name == "pow" and node.args[1].op is Op.NUM:
             return algebra.rational(values[node.args[0]], node.args[1].number, n)
         return algebra.function(node.name, [values[a] for a in node.args], n)
+    if op is Op.ROOT:
+        return implicit.root_value(node, [values[a] for a in node.args], sample, n)
     if op is Op.IF:
         return values[chosen(node, values, algebra)]
     return algebra.number(int(holds(node, values, algebra)))
@@ -193,10 +196,13 @@ def holds(node: Expr, values: dict[Expr, Any], algebra: Values[Any]) -> bool:
 # ------------------------------------------------------------------------------- reverse mode
 
 
-def _slopes(
+def slopes(
     node: Expr, values: dict[Expr, Any], algebra: Algebra[Any, Any], n: int, jumps: bool
 ) -> list[tuple[Expr, Any]]:
-    """The arguments of a static node with its partial derivatives."""
+    """The arguments of a node without memory, with its partial derivatives there.
+
+    With `jumps` what a decision rests on has a slope as well.
+    """
     args = node.args
     if node.op is Op.IF:
         return _slopes_of_choice(node, values, algebra, n, jumps)
@@ -222,6 +228,10 @@ def _slopes(
             return [(args[0], algebra.combine([(of_fraction(exponent), slope)], n))]
         inner = [values[a] for a in args]
         return list(zip(args, algebra.slopes(node.name, inner, values[node], n), strict=True))
+    if node.op is Op.ROOT:
+        inner = [values[a] for a in args]
+        found = implicit.root_slopes(node, values[node], inner, algebra, n)
+        return list(zip(args, found, strict=True))
     if node.op is Op.CMP and jumps:
         return [(args[0], algebra.number(_JUMP)), (args[1], algebra.number(-_JUMP))]
     return [(a, algebra.number(_JUMP)) for a in args] if jumps else []
@@ -277,7 +287,7 @@ def pull(
         elif node.op is Op.INT:
             give(node.args[0], algebra.back_integral(adjoint))
         else:
-            for argument, slope in _slopes(node, values, algebra, need[node], jumps):
+            for argument, slope in slopes(node, values, algebra, need[node], jumps):
                 give(argument, algebra.back(adjoint, slope, need[argument]))
 
 

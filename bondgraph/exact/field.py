@@ -89,8 +89,11 @@ class Functions:
         self._half_tangent: dict[int, int] = {0: 0}
         self._angle: dict[int, int] = {0: 0}
         self._tables: dict[tuple[str, int], tuple[int, int]] = {}
+        #: solutions of equations by equation and arguments, see `bondgraph.exact.implicit`
+        self.roots: dict[object, int] = {}
 
-    def _draw(self) -> int:
+    def draw(self) -> int:
+        """A random number, each time another."""
         return self._random.randrange(2, P - 1)
 
     def exp(self, x: int) -> int:
@@ -98,7 +101,7 @@ class Functions:
         x %= P
         found = self._exp.get(x)
         if found is None:
-            draw = self._draw()
+            draw = self.draw()
             found = draw * draw % P
             self._pair_exp(x, found)
         return found
@@ -110,7 +113,7 @@ class Functions:
         if found is None:
             if sign(x) != 1:
                 raise Undefined("the logarithm of a number that is not positive")
-            found = self._draw()
+            found = self.draw()
             self._pair_exp(found, x)
         return found
 
@@ -124,7 +127,7 @@ class Functions:
         x %= P
         t = self._half_tangent.get(x)
         if t is None:
-            t = self._draw()
+            t = self.draw()
             self._pair_angle(x, t)
         scale = inverse(1 + t * t)
         return (1 - t * t) * scale % P, 2 * t * scale % P
@@ -134,7 +137,7 @@ class Functions:
         t = sine * inverse(1 + cosine) % P
         found = self._angle.get(t)
         if found is None:
-            found = self._draw()
+            found = self.draw()
             self._pair_angle(found, t)
         return found
 
@@ -152,8 +155,45 @@ class Functions:
         """Value and slope of a table at x."""
         found = self._tables.get((name, x))
         if found is None:
-            found = self._tables[name, x] = (self._draw(), self._draw())
+            found = self._tables[name, x] = (self.draw(), self.draw())
         return found
+
+    def force(self, name: str, x: int, value: int) -> None:
+        """Let a function of `FORCED` or a table have a value at x.
+
+        Raises `Undefined` where it has another one already, or cannot have this one.
+        """
+        x, value = x % P, value % P
+        if name.startswith("table:"):
+            if self._tables.setdefault((name, x), (value, self.draw()))[0] != value:
+                raise Undefined("a table that has another value")
+            return
+        match name:
+            case "exp":
+                at, power = x, value
+            case "log":
+                at, power = value, x
+            case "sinh":
+                at, power = x, _positive(value, square_root(1 + value * value))
+            case "asinh":
+                at, power = value, _positive(x, square_root(1 + x * x))
+            case "tanh":
+                at, power = x, square_root((1 + value) * inverse(1 - value))
+            case "atanh":
+                at, power = value, square_root((1 + x) * inverse(1 - x))
+            case "atan" | "tan":
+                at, slope = (value, x) if name == "atan" else (x, value)
+                cosine = inverse(square_root(1 + slope * slope))
+                half = slope * cosine * inverse(1 + cosine) % P
+                if self._half_tangent.get(at, half) != half or half in self._angle:
+                    raise Undefined("an angle that has another tangent")
+                self._pair_angle(at, half)
+                return
+            case _:
+                raise Undefined(f"{name} cannot be given a value")
+        if sign(power) != 1 or self._exp.get(at, power) != power or power in self._log:
+            raise Undefined("an exponential that has another value")
+        self._pair_exp(at, power)
 
     def value(self, name: str, x: int) -> int:
         """A function of one argument of `bondgraph.ir.expr.FUNCTIONS`, or `table:<id>`.
@@ -192,14 +232,18 @@ class Functions:
                 return sinh * inverse(cosh)
             case "asinh":
                 # of y + w and y - w, whose product is -1, exactly one is positive
-                up = x + square_root(1 + x * x)
-                return self.log(up if sign(up) == 1 else 2 * x - up)
+                return self.log(_positive(x, square_root(1 + x * x)))
             case "acosh":
                 found = self.log(x + square_root(x * x - 1))
                 return found if sign(found) >= 0 else -found
             case "atanh":
                 return self.log(square_root((1 + x) * inverse(1 - x)))
         raise KeyError(name)
+
+
+def _positive(x: int, w: int) -> int:
+    """The positive one of x + w and x - w, whose product is -1."""
+    return (x + w) % P if sign(x + w) == 1 else (x - w) % P
 
 
 def _signed_root(x: int) -> int:
@@ -220,6 +264,9 @@ _SIMPLE: dict[str, Callable[[int], int]] = {
     "ssqrt": _signed_root,
     "ssq": lambda x: sign(x) * x * x,
 }
+
+#: Functions that `Functions.force` can give a value.
+FORCED = frozenset("exp log sinh asinh tanh atanh tan atan".split())
 
 #: The function that undoes a function of one argument.
 INVERSES = {

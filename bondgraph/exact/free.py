@@ -82,7 +82,7 @@ def linear(expr: Expr) -> bool:
             degree[node] = 0
         elif node.op is Op.DER:
             degree[node] = below[0]
-        elif any(below) or node.op in (Op.INT, Op.IF, Op.CMP, Op.LOGIC):
+        elif any(below) or node.op in (Op.INT, Op.IF, Op.CMP, Op.LOGIC, Op.ROOT):
             return False
         else:
             degree[node] = 0

@@ -73,6 +73,18 @@ class Trajectory:
         """The true series of a variable, an input or a parameter."""
         return self._truth.value(symbol)
 
+    @property
+    def healthy(self) -> bool:
+        """Whether no fault acts."""
+        return not self.faults
+
+    def truly(self, variable: Expr) -> int | None:
+        """The true value of a variable at the point; None for one that the plant has not."""
+        try:
+            return self._truth.value(variable)[0]
+        except Mixed:  # not one of the plant's variables
+            return None
+
     def start(self, initial: Symbol) -> int:
         """The value from which integrals with this initial value begin; random if undeclared."""
         found = self._starts.get(initial)

@@ -21,8 +21,9 @@ from bondgraph.exact.equations import (
     reach,
 )
 from bondgraph.exact.evaluate import chosen, evaluate, values_of
-from bondgraph.exact.field import INVERSES, P, inverse, of_fraction, root, sign
+from bondgraph.exact.field import INVERSES, P, Undefined, inverse, of_fraction, root, sign
 from bondgraph.exact.forms import Form, Forms, NotLinear
+from bondgraph.exact.implicit import solve
 from bondgraph.exact.known import KnownSample, gradient
 from bondgraph.exact.linear import (
     CONSTANT,
@@ -33,6 +34,7 @@ from bondgraph.exact.linear import (
     back_substitute,
     eliminate,
 )
+from bondgraph.exact.polynomials import trim
 from bondgraph.exact.series import Series
 from bondgraph.ir.expr import Expr, Op, topological
 
@@ -164,6 +166,10 @@ class Point:
                     left.append((number, equation))
                     block = block or found
             if len(left) == len(pending) and block is not None:
+                solved = next((n for n, e in pending if self.by_itself(e)), None)
+                if solved is not None:
+                    pending = [item for item in pending if item[0] != solved]
+                    continue
                 self.fix(coefficient_row(block, 0, STRIDE))
             pending = left
 
@@ -191,6 +197,40 @@ class Point:
         ):
             return None
         return failure.form
+
+    def by_itself(self, equation: Equation) -> bool:
+        """Satisfy a law by the one quantity that is still open in it, if it is only one."""
+        assert equation.rest is not None
+        rest = self.reduce(coefficient_row(equation.form, 0, STRIDE))
+        rows: dict[Expr, Row] = {}
+        for node in topological([equation.rest]):
+            if node.op is Op.SYM and node in self.place:
+                variable, sign_ = self.place[node]
+                rows[node] = self.reduce({variable * STRIDE: sign_ % P})
+            elif node.op is Op.DER:
+                return False
+        free = {c for row in (rest, *rows.values()) for c in row if c != CONSTANT}
+        if len(free) != 1:
+            return False
+        (column,) = free
+        values = self.setting.values
+        leaves = {
+            n: [values[n][0]]
+            for n in topological([equation.rest])
+            if n.op is Op.SYM and n not in rows and n in values
+        }
+        leaves |= {n: [row.get(CONSTANT, 0), row.get(column, 0)] for n, row in rows.items()}
+        try:
+            found = solve(
+                equation.rest,
+                {n: trim(v) or [0] for n, v in leaves.items()},
+                trim([rest.get(CONSTANT, 0), rest.get(column, 0)]),
+                self.setting.functions,
+            )
+        except (Undefined, KeyError):
+            return False
+        self.add({column: 1, CONSTANT: -found % P})
+        return True
 
     def tuned(self, equation: Equation) -> bool:
         """Satisfy a law that contradicts the others by a parameter that it alone uses."""

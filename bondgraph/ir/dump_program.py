@@ -58,6 +58,10 @@ def dump_program(program: Program) -> str:
         ("step", program.step),
     ):
         lines += ["", title, *_procedure(statements)]
+    for block in program.roots:
+        head = f"root {block.name}({', '.join(block.arguments)}), from x = {block.guess!r}"
+        lines += ["", head, *_procedure((*block.body, *block.further))]
+        lines += table([("value", f"= {_text(block.value)}"), ("slope", f"= {_text(block.slope)}")])
     if program.dropped:
         lines += ["", "left out of step, cannot be seen at this rate"]
         lines += table((d.residual, f"D({d.signal}, {d.order})", f"{d.share:.1g}")

@@ -34,6 +34,7 @@ class Op(Enum):
     IF = "if"  # condition, value if true, value if false
     CMP = "cmp"  # data: "<", "<=" or "=="
     LOGIC = "logic"  # data: "and", "or" or "not"
+    ROOT = "root"  # data: Root; args: what stands in its places
 
 
 class Kind(Enum):
@@ -80,6 +81,23 @@ class Symbol(NamedTuple):
     kind: Kind
 
 
+class Root(NamedTuple):
+    """The only number at which `zero` vanishes, where no closed form is known.
+
+    `zero` holds the symbols `unknown` and `places`; it grows with the unknown if `rising`, else
+    it falls. `name` is what a person calls the unknown, `variable` the variable of the model that
+    it stands for, `guess` a number at which `zero` is defined.
+    """
+
+    name: str
+    zero: Expr
+    unknown: Expr
+    places: tuple[Expr, ...]
+    variable: Expr
+    rising: bool
+    guess: Fraction
+
+
 class Expr:
     """A node of the graph; made by a `Pool`, compared by identity."""
 
@@ -120,6 +138,12 @@ class Expr:
         return self.data
 
     @property
+    def root(self) -> Root:
+        """What a ROOT node solves."""
+        assert isinstance(self.data, Root)
+        return self.data
+
+    @property
     def name(self) -> str:
         """The function of an FN node, the operator of a CMP or LOGIC node."""
         assert isinstance(self.data, str)
@@ -154,6 +178,8 @@ class Pool:
         self.one = self._make(Op.NUM, (), Fraction(1))
         #: piecewise linear tables by id: ((x, y), ...) ascending in x
         self.tables: dict[str, tuple[tuple[Fraction, Fraction], ...]] = {}
+        #: what each `Root` of the pool solves, by name
+        self.roots: dict[str, Expr] = {}
 
     def __len__(self) -> int:
         return len(self._table)
@@ -298,6 +324,10 @@ class Pool:
         """The integral of `node` from the start, plus the symbol of its initial value."""
         return self._make(Op.INT, (node,), initial.symbol)
 
+    def root(self, root: Root, *args: Expr) -> Expr:
+        """The number that `root` is, with `args` in its places."""
+        return self._make(Op.ROOT, args, root)
+
     def choose(self, condition: Expr, yes: Expr, no: Expr) -> Expr:
         """`if(condition, yes, no)`."""
         return yes if yes is no else self._make(Op.IF, (condition, yes, no), None)
@@ -333,8 +363,8 @@ class Pool:
                 return self.compare(node.name, *args)
             case Op.LOGIC:
                 return self.logic(node.name, *args)
-            case Op.INT:
-                return self._make(Op.INT, args, node.data)
+            case Op.INT | Op.ROOT:
+                return self._make(node.op, args, node.data)
             case _:
                 return node
 

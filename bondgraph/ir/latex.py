@@ -57,10 +57,32 @@ def latex(expr: Expr, starts: Mapping[Symbol, Expr] | None = None) -> str:
     'y - 2 \\frac{\\dot{y}}{R}'
     """
     begins = starts or {}
-    done: dict[Expr, tuple[str, int]] = {}
+    return _nested(expr, {}, begins)[0]
+
+
+def _nested(
+    expr: Expr, given: Mapping[Expr, tuple[str, int]], begins: Mapping[Symbol, Expr]
+) -> tuple[str, int]:
+    done = dict(given)
     for node in topological([expr, *begins.values()]):
-        done[node] = _integral(node, done, begins) if node.op is Op.INT else _tex(node, done)
-    return done[expr][0]
+        if node in done:
+            continue
+        if node.op is Op.INT:
+            done[node] = _integral(node, done, begins)
+        elif node.op is Op.ROOT:
+            done[node] = _root(node, done)
+        else:
+            done[node] = _tex(node, done)
+    return done[expr]
+
+
+def _root(node: Expr, done: dict[Expr, tuple[str, int]]) -> tuple[str, int]:
+    """The unknown, with the equation that it solves below it."""
+    root = node.root
+    inside = {root.unknown: (letter(root.name), _ATOM)}
+    inside.update((p, done[a]) for p, a in zip(root.places, node.args, strict=True))
+    zero = _nested(root.zero, inside, {})[0]
+    return rf"\underset{{{zero} = 0}}{{{letter(root.name)}}}", _ATOM
 
 
 def _integral(
@@ -98,7 +120,7 @@ def _tex(node: Expr, done: dict[Expr, tuple[str, int]]) -> tuple[str, int]:
             return _product(node, args), _PRODUCT
         case Op.DER:
             return _derivative(node, done), _ATOM
-        case Op.FN | Op.INT:
+        case Op.FN | Op.INT | Op.ROOT:
             inside = ", ".join(a[0] for a in args)
             if node.name in _NAMED:
                 return _NAMED[node.name] % inside, _ATOM

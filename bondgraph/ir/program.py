@@ -72,7 +72,10 @@ class Product(NamedTuple):
 
 
 class Function(NamedTuple):
-    """A function of `bondgraph.ir.expr.FUNCTIONS`, or table lookup `table:<id>`."""
+    """A function of `bondgraph.ir.expr.FUNCTIONS`, table lookup `table:<id>`, or `root:<name>`.
+
+    `root:<name>` is what the `NewtonBlock` of that name finds; NaN where it finds nothing.
+    """
 
     name: str
     args: tuple[Expression, ...]
@@ -156,6 +159,28 @@ class PolynomialTape(NamedTuple):
     scales: tuple[Expression, ...]
     ops: tuple[TapeOp, ...]
     outputs: tuple[TapeOutput, ...]
+    comment: str
+    origin: Span | None
+
+
+class NewtonBlock(NamedTuple):
+    """The number x at which `value` is zero: Newton's method inside a bracket, from `guess`.
+
+    `body` computes what `value` is made of from the locals `x` and `arguments`, `further` what its
+    derivative `slope` needs besides; a slope may be missing where a value is not. `value` grows
+    with x if `rising`, else it falls, so that its sign tells on which side the root lies. After
+    `most` steps there is no root.
+    """
+
+    name: str
+    arguments: tuple[str, ...]
+    body: tuple[Assign, ...]
+    value: Expression
+    further: tuple[Assign, ...]
+    slope: Expression
+    rising: bool
+    guess: float
+    most: int
     comment: str
     origin: Span | None
 
@@ -282,3 +307,4 @@ class Program(NamedTuple):
     tables: tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
     integrals: tuple[Field, ...] = ()  # what exact takes besides the known signals
     time_unit: float = 1.0  # s, default of configure
+    roots: tuple[NewtonBlock, ...] = ()  # each may use those before it

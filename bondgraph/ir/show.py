@@ -81,9 +81,19 @@ class _Printer:
                 parts = [f"({self.text(a)[0]})" for a in node.args]
                 text = f"not {parts[0]}" if node.name == "not" else f" {node.name} ".join(parts)
                 return text, _SUM
+            case Op.ROOT:
+                return self.root(node), _ATOM
             case Op.FN | Op.IF:
                 called = "if" if node.op is Op.IF else node.name
                 return f"{called}({', '.join(self.text(a)[0] for a in node.args)})", _ATOM
+
+    def root(self, node: Expr) -> str:
+        """`root(x, zero)`: the x at which the second vanishes."""
+        root = node.root
+        inside: dict[Expr, tuple[str, int]] = {root.unknown: (root.name, _ATOM)}
+        inside.update(zip(root.places, map(self.text, node.args), strict=True))
+        inner = _Printer(lambda n: _wrap(inside[n], _ATOM) if n in inside else None, self.starts)
+        return f"root({root.name}, {inner.text(root.zero)[0]})"
 
     def derivative(self, node: Expr) -> str:
         inner, order = node, 0

@@ -22,17 +22,25 @@ from bondgraph.passes.loops import Loops
 from bondgraph.passes.matching import decompose, match
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.rank import relations as independent
-from bondgraph.passes.solve import Solution, solve
+from bondgraph.passes.solve import ITERATED, Solution, solve
 from bondgraph.text.diagnostic import Report
 
 
 class Cost(NamedTuple):
-    """What it takes to compute a variable, in the order of what is to be avoided."""
+    """What it takes to compute a variable, in the order of what is to be avoided.
 
-    integrations: int
+    `late` counts what is taken only where nothing else goes on: integrations of a storage, and
+    iterations, each as much as `_ITERATED` integrations.
+    """
+
+    late: int
     hard: int
     order: int
     depth: int
+
+
+#: What an iteration, and an integration from an undeclared start, count in integrations.
+_ITERATED, _FREE = 10, 1000
 
 
 class _Offer(NamedTuple):
@@ -67,7 +75,7 @@ class Chain:
         self.steps: dict[Expr, Step] = {}
         self.sequence: dict[Expr, int] = {}
         self.heap: list[_Offer] = []
-        self.integrable: list[_Offer] = []
+        self.later: list[_Offer] = []
         self.nominal = Nominal(system.graph)
         self.loops = Loops(self.pool, self.nominal)
 
@@ -125,7 +133,9 @@ class Chain:
             how = "integrated"
         else:
             free = False
-            found = solve(self.pool, equation.zero, variable, self.nominal.vanishes)
+            found = solve(
+                self.pool, equation.zero, variable, self.nominal.vanishes, self.nominal.value
+            )
             if found is None:
                 return
             solution = found
@@ -133,9 +143,13 @@ class Chain:
             if equation.state is not None:
                 how = "differentiated"
         others = [self.cost[v] for v in equation.variables if v is not variable]
-        storage = equation.kind == "state" and how == "integrated"
+        late = 0
+        if equation.kind == "state" and how == "integrated":
+            late = _FREE if free else 1
+        elif solution.hard == ITERATED:
+            late = _ITERATED
         cost = Cost(
-            max((c.integrations for c in others), default=0) + storage * (1000 if free else 1),
+            max((c.late for c in others), default=0) + late,
             max((c.hard for c in others), default=0) + solution.hard,
             max((c.order for c in others), default=0)
             + (equation.kind != "balance" and _differentiates(solution.value)),
@@ -145,7 +159,7 @@ class Chain:
             cost, self.colour[row], self.variable_colour[variable], row,
             self.position[variable], solution, how,
         )  # fmt: skip
-        heapq.heappush(self.integrable if storage else self.heap, offer)
+        heapq.heappush(self.later if late else self.heap, offer)
 
     def run(self) -> None:
         """Take the cheapest offers until nothing is offered any more."""
@@ -196,8 +210,8 @@ class Chain:
         self.loops.solve_algebraic()
         if self.tear(states=False):
             return True
-        while self.integrable:
-            offer = heapq.heappop(self.integrable)
+        while self.later:
+            offer = heapq.heappop(self.later)
             variable = self.system.unknowns[offer.variable]
             if self.used[offer.equation] or variable in self.closed:
                 continue
@@ -317,10 +331,11 @@ class Chain:
             names = ", ".join(dict.fromkeys(f"`{e.name}`" for e in laws))
             self.report.error(
                 "loop-unsolvable",
-                f"The loop of nonlinear equations through {names} has no solution in closed form.",
+                f"The loop of nonlinear equations through {names} cannot be solved with certainty:"
+                " it has no closed solution, and may have several.",
                 *dict.fromkeys(e.origin for e in laws),
-                help="Measure a variable inside the loop, or give one of its laws in the"
-                " direction in which it can be inverted.",
+                help="Measure a variable inside the loop, give one of its laws in the other"
+                " direction, or a law that rises everywhere, which iteration can invert.",
             )
 
     def report_count(self, found: int) -> None:

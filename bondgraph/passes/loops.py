@@ -11,8 +11,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.passes.implicit import invert
 from bondgraph.passes.nominal import Nominal
-from bondgraph.passes.solve import affine, constant, solve
+from bondgraph.passes.solve import ITERATED, Solution, affine, constant, solve
 from bondgraph.passes.zero import is_zero, share_factor
 
 Polynomial = list[Expr]  # coefficients of D**0, D**1, ...
@@ -45,6 +46,7 @@ class Loops:
         self.pending: list[_Row] = []
         self.plain: list[_Row] = []
         self.lost: list[tuple[int, ...]] = []
+        self.unsolvable: set[tuple[Expr, Expr]] = set()
         self.identities = 0  # relations that hold whatever the machine does
 
     def tear(self, variable: Expr) -> Expr:
@@ -93,16 +95,40 @@ class Loops:
 
     def solve_algebraic(self) -> None:
         """Give a value to every torn variable that some row holds without derivative."""
-        again = bool(self.pending)
-        while again:
-            again = False
-            for item in self.pending:
-                pivot = self._pivot(item)
-                if pivot is not None:
-                    self.pending.remove(item)
-                    self._record(pivot[0], _Row(item.rows, pivot[1]))
-                    again = True
-                    break
+        while self.pending:
+            pivots = (
+                (item, pivot)
+                for attempt in (self._pivot, self._nested)
+                for item in self.pending
+                if (pivot := attempt(item)) is not None
+            )
+            found = next(pivots, None)
+            if found is None:
+                return
+            item, (symbol, value) = found
+            self.pending.remove(item)
+            self._record(symbol, _Row(item.rows, value))
+
+    def _nested(self, item: _Row) -> tuple[Expr, Expr] | None:
+        """A torn variable that a nonlinear row gives in terms of other torn ones."""
+        for symbol in self._tears(item.expr):
+            if not _differentiated(item.expr, symbol):
+                found = self._solve(item.expr, symbol)
+                if found is not None:
+                    return symbol, found.value
+        return None
+
+    def _solve(self, zero: Expr, symbol: Expr) -> Solution | None:
+        """The value of a torn variable, by iteration where there is no closed form."""
+        if (zero, symbol) in self.unsolvable:
+            return None
+        found = solve(self.pool, zero, symbol, self.nominal.vanishes)
+        if found is None and affine(self.pool, zero, symbol) is None:
+            value = invert(self.pool, zero, symbol, self.nominal.value, self.variable[symbol])
+            found = None if value is None else Solution(value, ITERATED, True)
+        if found is None:
+            self.unsolvable.add((zero, symbol))
+        return found
 
     def _pivot(self, item: _Row) -> tuple[Expr, Expr] | None:
         """A torn variable of the row and its value from it."""
@@ -112,7 +138,7 @@ class Loops:
             parts = affine(self.pool, item.expr, symbol)
             if parts is None:
                 if len(tears) == 1 and not _differentiated(item.expr, symbol):
-                    found = solve(self.pool, item.expr, symbol, self.nominal.vanishes)
+                    found = self._solve(item.expr, symbol)
                     if found is not None:
                         return symbol, found.value
                 continue

@@ -25,6 +25,7 @@ from bondgraph.passes.lowering.derivative import TooManyOperations
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
 from bondgraph.passes.lowering.names import brief, identifier, short
+from bondgraph.passes.lowering.newton import newton_blocks, roots_in
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.prune import pruned
 from bondgraph.passes.lowering.tape import Large, large
@@ -132,6 +133,7 @@ def lower(
         bandwidth=options.bandwidth or options.rate / 50,
         warmup=max([low.info.settle for low in lowered], default=0.0),
         tables=_tables(graph, residuals),
+        roots=newton_blocks(graph.pool, [r.expr for r in residuals.residuals]),
         integrals=tuple(builder.integrals.values()),
         time_unit=time_unit,
     )
@@ -231,7 +233,8 @@ def _tables(
     graph: BondGraph, residuals: ResidualSet
 ) -> tuple[tuple[str, tuple[tuple[float, float], ...]], ...]:
     used: dict[str, None] = {}
-    for node in topological([r.expr for r in residuals.residuals]):
+    exprs = [r.expr for r in residuals.residuals]
+    for node in topological([*exprs, *[r.zero for r in roots_in(exprs)]]):
         if node.op is Op.FN and node.name.startswith("table:"):
             used[node.name.removeprefix("table:")] = None
     return tuple(

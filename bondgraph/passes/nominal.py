@@ -83,6 +83,23 @@ class Nominal:
         return abs(value) <= 1e-12 * size
 
 
+def defined(expr: Expr, variable: Expr, at: float) -> bool:
+    """Whether an expression has a value when the variable has one, and all else is one."""
+    values: dict[Expr, float] = {}
+    for node in topological([expr]):
+        if node.op is Op.SYM:
+            values[node] = at if node is variable else 1.0
+            continue
+        if node.op in (Op.FN, Op.NUM, Op.ADD, Op.MUL):
+            value = _apply(node, [values[a] for a in node.args])
+            if value is None and not (node.op is Op.FN and node.name not in _FUNCTIONS):
+                return False
+            values[node] = 1.0 if value is None else value
+        else:
+            values[node] = 1.0
+    return True
+
+
 def _apply(node: Expr, args: list[float]) -> float | None:
     try:
         match node.op:

@@ -28,11 +28,16 @@ INVERSE = {
 }
 
 
+#: How hard it is to have a value that iteration has to find.
+ITERATED = 5
+
+
 class Solution(NamedTuple):
-    """`value` of the variable; `hard` if it divides by a signal or inverts a nonlinear law."""
+    """`value` of the variable and how hard it is to have: 0 as it stands, 1 where it divides by a
+    signal or inverts a nonlinear law, `ITERATED` where iteration has to find it."""
 
     value: Expr
-    hard: bool
+    hard: int
     inverted: bool
 
 
@@ -41,11 +46,13 @@ def solve(
     zero: Expr,
     variable: Expr,
     vanishes: Callable[[Expr], bool] = lambda _: False,
+    number: Callable[[Expr], float | None] | None = None,
 ) -> Solution | None:
     """The unique value of `variable` that makes `zero` vanish, or None if there is none to give.
 
     A coefficient that a mode may turn to zero, or that `vanishes` at the nominal parameters (a
-    leak that is nominally nothing), is never divided by.
+    leak that is nominally nothing), is never divided by. With `number`, the nominal values, an
+    equation that has one solution but no closed form gives a ROOT node.
 
     >>> p = Pool(); e, f = p.symbol("e", Kind.EFFORT), p.symbol("f", Kind.FLOW)
     >>> R = p.symbol("R", Kind.PARAM)
@@ -54,7 +61,7 @@ def solve(
     """
     alone = _isolated(pool, zero, variable)
     if alone is not None:
-        return Solution(alone, False, False)
+        return Solution(alone, 0, False)
     linear = _plain(pool, zero, variable)
     if linear is None:
         holders = _holders(zero, variable)
@@ -66,13 +73,20 @@ def solve(
         if slope is pool.zero or not _dividable(slope) or vanishes(slope):
             return None
         value = pool.neg(rest) if slope is pool.one else _quotient(pool, rest, slope)
-        return Solution(value, not constant(slope), False)
+        return Solution(value, int(not constant(slope)), False)
     value_ = _peel(pool, zero, variable, holders, vanishes)
     if value_ is None:
         from bondgraph.passes.solve_symbolic import solve_symbolic
 
         value_ = solve_symbolic(pool, zero, variable)
-    return None if value_ is None else Solution(value_, True, True)
+    if value_ is not None:
+        return Solution(value_, 1, True)
+    if number is None:
+        return None
+    from bondgraph.passes.implicit import invert
+
+    value_ = invert(pool, zero, variable, number)
+    return None if value_ is None else Solution(value_, ITERATED, True)
 
 
 def _isolated(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:

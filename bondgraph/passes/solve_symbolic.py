@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import sympy as sp
 
-from bondgraph.ir.expr import Expr, Pool, topological
+from bondgraph.ir.expr import Expr, Op, Pool, topological
 from bondgraph.passes.symbolic import from_sympy, to_sympy
 
 
@@ -21,6 +22,8 @@ def solve_symbolic(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
     names: dict[Any, Expr] = {leaves[variable]: variable}
     for node in topological([zero]):
         if any(a in holding for a in node.args):
+            if node.op not in (Op.ADD, Op.MUL):
+                return None  # a choice is no fraction, whatever SymPy makes of it
             holding.add(node)
     for node in sorted(holding, key=lambda n: n.id):
         for arg in node.args:
@@ -36,6 +39,26 @@ def solve_symbolic(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
         return None
     slope, rest = polynomial.all_coeffs()
     return from_sympy(pool, sp.factor_terms(-rest / slope), names)
+
+
+def simplified_slope(
+    pool: Pool, zero: Expr, variable: Expr, positive: Callable[[Expr], bool]
+) -> Expr | None:
+    """The derivative of an algebraic equation with respect to a variable, factored, or None.
+
+    `positive` says which parameters are. `p/sqrt(1 + p^2)` has the slope (1 + p^2)^(-3/2), which
+    shows its sign; the quotient rule does not.
+    """
+    leaves: dict[Expr, Any] = {}
+    for node in topological([zero]):
+        if node.op is Op.FN and node.name not in ("sqrt", "pow"):
+            return None  # factoring sums of functions may take for ever
+        if node.op is Op.SYM:
+            sign = True if node is not variable and positive(node) else None
+            leaves[node] = sp.Symbol(f"c{len(leaves)}", real=True, positive=sign)
+    names = {s: n for n, s in leaves.items()}
+    slope = sp.factor(sp.together(sp.diff(to_sympy(zero, leaves), leaves[variable])))
+    return from_sympy(pool, slope, names)
 
 
 def without_common_factor(

@@ -41,6 +41,7 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "acosh": sp.acosh,
     "atanh": sp.atanh,
 }
+_NAMES = {f: name for name, f in _FUNCTIONS.items() if isinstance(f, type)}
 _COMPARE: dict[str, Callable[..., Any]] = {"<": sp.Lt, "<=": sp.Le, "==": sp.Eq}
 _LOGIC: dict[str, Callable[..., Any]] = {"and": sp.And, "or": sp.Or, "not": sp.Not}
 
@@ -84,6 +85,8 @@ def _convert(node: Expr, args: list[Any]) -> Any:
         case Op.FN:
             named = _FUNCTIONS.get(node.name)
             return named(*args) if named else sp.Function(node.name.replace(":", "_"))(*args)
+        case Op.ROOT:
+            return sp.Function(f"root_{node.root.name}")(*args)
         case Op.DER:
             inner, order = args[0], 1
             return sp.Derivative(inner, (t, order)) if inner.has(t) else sp.Integer(0)
@@ -103,7 +106,7 @@ def _truth(value: Any) -> Any:
 
 
 def from_sympy(pool: Pool, value: Any, names: Mapping[Any, Expr]) -> Expr | None:
-    """A rational SymPy expression in the given symbols as one of ours; None if it is not one."""
+    """A SymPy expression in the given symbols as one of ours; None if it cannot be written so."""
     if value in names:
         return names[value]
     if value.is_Rational:
@@ -118,4 +121,9 @@ def from_sympy(pool: Pool, value: Any, names: Mapping[Any, Expr]) -> Expr | None
         return pool.mul(*known)
     if value.is_Pow and value.exp.is_Integer:
         return pool.power(known[0], int(value.exp))
-    return None
+    if value.is_Pow and value.exp.is_Rational:
+        return pool.fn("pow", known[0], known[1])
+    if value.is_Pow and value.base == sp.E:
+        return pool.fn("exp", known[1])
+    name = _NAMES.get(value.func)
+    return pool.fn(name, *known) if name and len(known) == 1 else None

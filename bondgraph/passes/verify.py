@@ -12,10 +12,10 @@ from random import Random
 from typing import Any
 
 from bondgraph.exact.algebra import Mixed, Wave
-from bondgraph.exact.evaluate import Sample, evaluate, integral_depth
+from bondgraph.exact.evaluate import Sample, evaluate, integral_depth, sensitivities
 from bondgraph.exact.field import P, Undefined
 from bondgraph.exact.modes import assignments, modes_of
-from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.plant import ExactUnavailable, Plant, Trajectory
 from bondgraph.exact.result import Verification
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
@@ -203,7 +203,9 @@ class _Check:
         step = 1 + work // _WORK
         self.sampled = step > 1
         for fault, at in entries[::step]:
-            if not any(self.told_moves(at, fault, p) for p in points) and not self.acts(at, fault):
+            if not any(self.told_moves(at, fault, p) for p in points) and not (
+                self.inclined(at, fault, points) or self.acts(at, fault)
+            ):
                 name = self.residuals[at].name
                 raise _Failed(at, fault, f"residual {name} does not see {fault}, as it should")
             self.tried[fault] = None
@@ -221,6 +223,16 @@ class _Check:
             return _moves(evaluate([self.exprs[at]], told, self.depth + 1)[0])
         except (Undefined, Mixed):
             return False
+
+    def inclined(self, at: int, fault: str, points: list[Sample]) -> bool:
+        """Whether a small error of a fault moves a residual that holds roots of equations.
+
+        With the error its equations may have no solution in the field.
+        """
+        expr, symbol = self.exprs[at], self.graph.fault_symbol(fault)
+        if not any(n.op is Op.ROOT for n in topological([expr])):
+            return False
+        return any(sensitivities(expr, p).depends.get(symbol, False) for p in points)
 
     def acts(self, at: int, fault: str) -> bool:
         """Whether a fault in the plant, any function of time, moves a residual."""
@@ -278,6 +290,11 @@ class _Told:
 
     def value(self, symbol: Expr) -> Any:
         return self._told if symbol is self._symbol else self._point.value(symbol)
+
+    healthy = False
+
+    def truly(self, variable: Expr) -> int | None:
+        return self._point.truly(variable) if isinstance(self._point, Trajectory) else None
 
     def start(self, initial: Any) -> int:
         return self._point.start(initial)

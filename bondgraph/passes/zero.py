@@ -79,7 +79,8 @@ def _value(expr: Expr, seed: int) -> int | None:
         elif node.op is Op.SYM:
             value = _mix(seed, node.symbol.name)
         else:
-            value = _mix(seed, f"{node.op.value}:{node.data}:{args}")
+            data = node.root.zero.id if node.op is Op.ROOT else node.data
+            value = _mix(seed, f"{node.op.value}:{data}:{args}")
         values[node] = value % _P
     return values[expr]
 

@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple, assert_never
 
 from bondgraph.ir.program import (
+    Assign,
     Choice,
     Compare,
     Condition,
@@ -18,12 +19,14 @@ from bondgraph.ir.program import (
     Function,
     Logic,
     Mode,
+    NewtonBlock,
     PolynomialTape,
     Product,
     Program,
     Ref,
     Sum,
 )
+from bondgraph.passes.lowering.newton import newton, or_nan
 
 #: Anything with the arithmetic of a real number: float, numpy.float32, Fraction, mpmath.mpf.
 Real = Any
@@ -60,6 +63,7 @@ class Interpreter:
         self.real = real
         self.functions = dict(_FUNCTIONS) | dict(functions or {})
         self.tables = dict(program.tables)
+        self.roots = {block.name: block for block in program.roots}
         self.params: dict[str, Real] = {
             f.name: real(f.default) for f in program.params if f.default is not None
         }
@@ -246,6 +250,8 @@ class Interpreter:
                 args = [self._value(a, read, modes) for a in value.args]
                 if value.name.startswith("table:"):
                     return self._lookup(value.name.removeprefix("table:"), args[0])
+                if value.name.startswith("root:"):
+                    return self._root(self.roots[value.name.removeprefix("root:")], args)
                 return self.functions[value.name](*args)
             case Choice():
                 chosen = value.yes if self._holds(value.condition, read, modes) else value.no
@@ -268,6 +274,24 @@ class Interpreter:
                     return not parts[0]
                 return all(parts) if condition.op == "and" else any(parts)
         assert_never(condition)
+
+    def _root(self, block: NewtonBlock, args: list[Real]) -> Real:
+        """Newton's method of a block, as generated code does it."""
+        given = dict(zip(block.arguments, args, strict=True))
+
+        def look(x: float) -> tuple[float, float]:
+            spaces: dict[str, dict[str, Real]] = {"local": {**given, "x": self.real(x)}}
+            read = self._reader(spaces)
+
+            def part(statements: tuple[Assign, ...], value: Expression) -> float:
+                for statement in statements:
+                    self._assign(statement, spaces, {}, {})
+                return float(self._value(value, read, {}))
+
+            value = or_nan(lambda: part(block.body, block.value))
+            return value, or_nan(lambda: part(block.further, block.slope))
+
+        return self.real(newton(look, block.rising, block.guess, block.most))
 
     def _lookup(self, name: str, x: Real) -> Real:
         points: Sequence[tuple[float, float]] = self.tables[name]

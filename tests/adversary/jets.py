@@ -163,11 +163,19 @@ class Evaluator:
     """Values of SymPy expressions; `signals` gives the jet, number or truth of every symbol.
 
     `fixed_integrals` replaces the start of every Int by a number of its own, so that the jets
-    need not begin where the integrals do. `size` collects the sum of absolute top-level terms.
+    need not begin where the integrals do. `roots` gives expressions that vanish at a symbol which
+    is no signal, each with a number to start from.
     """
 
-    def __init__(self, signals: Mapping[str, Any], n: int, free_integrals: bool = False) -> None:
+    def __init__(
+        self,
+        signals: Mapping[str, Any],
+        n: int,
+        free_integrals: bool = False,
+        roots: Mapping[str, tuple[Any, float]] | None = None,
+    ) -> None:
         self.signals = signals
+        self.roots = roots or {}
         self.n = n
         self.free = free_integrals
         self.memo: dict[Any, Any] = {}
@@ -215,10 +223,32 @@ class Evaluator:
             self.memo[e] = self._value(e)
         return self.memo[e]
 
+    def _root(self, name: str, zero: Any, guess: float) -> Jet:
+        """The lead by a bracket and bisection with secants, the rest one coefficient at a time."""
+        others = {k: v for k, v in self.roots.items() if k != name}
+
+        def at(jet: Jet) -> Jet:
+            inner = Evaluator({**self.signals, name: jet}, self.n, self.free, others)
+            inner.starts = self.starts
+            return inner(zero)
+
+        def lead(x: Any) -> Any:
+            return at(constant(x, self.n))[0]
+
+        jet = constant(_bracketed(lead, mpf(guess)), self.n)
+        known = len(at(jet))
+        for k in range(1, known):
+            moved = [*jet[:k], mpf(1), *jet[k + 1 :]]
+            here, there = at(jet)[k], at(moved)[k]
+            jet[k] = -here / (there - here)
+        return jet[:known]
+
     def _value(self, e: Any) -> Jet:
         if e.is_Number or e.is_NumberSymbol:
             return constant(mpmath.mpmathify(e.evalf(40)), self.n)
         if isinstance(e, sympy.Symbol):
+            if e.name in self.roots:
+                return self._root(e.name, *self.roots[e.name])
             value = self.signals[e.name]
             return value if isinstance(value, list) else constant(value, self.n)
         if isinstance(e, sympy.Add):
@@ -252,3 +282,17 @@ class Evaluator:
                 start = self(e.args[1])[0]
             return integral(self(e.args[0]), start)[: self.n]
         return function(name, [self(a) for a in e.args])
+
+
+def _bracketed(f: Callable[[Any], Any], guess: Any) -> Any:
+    """The zero of a function that grows or falls everywhere."""
+    width = mpf(1) / 64
+    low = high = guess
+    while f(low) * f(high) > 0:
+        low, high, width = guess - width, guess + width, 2 * width
+    while high - low > mpf(10) ** -60:
+        middle = (low + high) / 2
+        if middle in (low, high):
+            break
+        low, high = (middle, high) if f(low) * f(middle) > 0 else (low, middle)
+    return (low + high) / 2

@@ -9,7 +9,7 @@ move exactly where its signature says when one parameter, input or sensor is per
 from __future__ import annotations
 
 import random
-from typing import Any
+from typing import Any, NamedTuple
 
 import mpmath
 import sympy
@@ -34,16 +34,28 @@ def judge_all_modes(plant: Plant, answer: dict[str, Any]) -> list[str]:
     ]
 
 
-def parse(arr: dict[str, Any]) -> Any:
+class Parsed(NamedTuple):
+    """A residual as SymPy reads it, and its inner unknowns: expression that vanishes, start."""
+
+    expr: Any
+    roots: dict[str, tuple[Any, float]]
+
+
+def parse(arr: dict[str, Any]) -> Parsed:
     names: dict[str, Any] = {x: sympy.Symbol(x) for x in arr["symbols"]}
     for name, text in arr.get("defs", []):
         names[name] = sympy.parse_expr(text, local_dict=dict(names))
-    return sympy.parse_expr(arr["expr"], local_dict=names)
+    roots = {
+        name: (sympy.parse_expr(text, local_dict=names), arr["guess"][name])
+        for name, text in arr.get("implicit", {}).items()
+    }
+    return Parsed(sympy.parse_expr(arr["expr"], local_dict=names), roots)
 
 
-def evaluate(expr: Any, signals: dict[str, Any], n: int) -> tuple[Jet, Any]:
+def evaluate(parsed: Parsed, signals: dict[str, Any], n: int) -> tuple[Jet, Any]:
     """The residual as a series and the sum of the absolute values of its terms."""
-    value = Evaluator(signals, n)
+    expr = parsed.expr
+    value = Evaluator(signals, n, roots=parsed.roots)
     out = value(expr)
     parts = expr.args if isinstance(expr, sympy.Add) else (expr,)
     # The terms of factors count: (a - b)*c vanishes only by cancellation inside.
@@ -59,7 +71,7 @@ def evaluate(expr: Any, signals: dict[str, Any], n: int) -> tuple[Jet, Any]:
     return out, max(size, mpf(10) ** -4)
 
 
-def highest_orders(expr: Any, signals: dict[str, Any], known: list[str]) -> dict[str, int]:
+def highest_orders(parsed: Parsed, signals: dict[str, Any], known: list[str]) -> dict[str, int]:
     """By changing one coefficient of one signal at a time, at a point that is no trajectory."""
     n = 14
     rnd = random.Random(5)
@@ -69,10 +81,11 @@ def highest_orders(expr: Any, signals: dict[str, Any], known: list[str]) -> dict
 
     # Not a trajectory, but near one in value, so that roots and branches stay where they were.
     base = {k: jet(v[0]) if k in known and isinstance(v, list) else v for k, v in signals.items()}
-    present = {s.name for s in expr.free_symbols}
+    every = [parsed.expr, *[zero for zero, _ in parsed.roots.values()]]
+    present = {s.name for e in every for s in e.free_symbols}
 
     def at(values: dict[str, Any]) -> Any:
-        return Evaluator(values, n, free_integrals=True)(expr)[0]
+        return Evaluator(values, n, True, parsed.roots)(parsed.expr)[0]
 
     here = at(base)
     out = {}
@@ -129,7 +142,7 @@ def judge(plant: Plant, answer: dict[str, Any], modes: dict[str, bool] | None = 
     base = named(known_signals(healthy))
     measured = [to_plain[m] for m in rename.values() if own(m) in {*sim.inputs, *sim.sensors}]
     for arr, expr in exprs:
-        strange = {s.name for s in expr.free_symbols} - set(base)
+        strange = {s.name for s in expr.expr.free_symbols} - {*base, *expr.roots}
         if strange:
             wrong.append(f"{arr['name']}: symbols {sorted(strange)} are not of the model")
             continue
@@ -152,7 +165,7 @@ def judge(plant: Plant, answer: dict[str, Any], modes: dict[str, bool] | None = 
             continue
         signals = named(known_signals(y))
         for arr, expr in exprs:
-            if set(s.name for s in expr.free_symbols) - set(base):
+            if {s.name for s in expr.expr.free_symbols} - {*base, *expr.roots}:
                 continue
             r, size = evaluate(expr, signals, sim.n)
             moved = max(abs(c) for c in r[:4]) > size * mpf(10) ** -16

@@ -14,13 +14,13 @@ from typing import Any
 import pytest
 
 from bondgraph.cli.main import main
-from tests.adversary import plants_laws, plants_mechanical, plants_other, plants_power
+from tests.adversary import plants_laws, plants_mechanical, plants_other, plants_power, plants_roots
 from tests.adversary.fuzz import generate
 from tests.adversary.judge import judge, judge_all_modes
 from tests.adversary.plant import HERE, Plant, Simulator, counts
 from tests.adversary.verdicts import VERDICTS
 
-FILES = (plants_power, plants_mechanical, plants_other, plants_laws)
+FILES = (plants_power, plants_mechanical, plants_other, plants_laws, plants_roots)
 PLANTS = {p.name: p for file in FILES for p in file.PLANTS}
 SLOW = {"double_mtf"}
 EXIT = {"ok": 0, "no_arr": 0, "error": 1, "refused": 1}

@@ -123,6 +123,8 @@ class Jets:
                 return self._choice(condition, yes, no, order)
             case Op.FN:
                 return self._function(node, order)
+            case Op.ROOT:
+                return self._root(node, order)
 
     def _same(self, node: Expr, order: int) -> _Rule:
         return (yield node, order)
@@ -242,6 +244,15 @@ class Jets:
         assert node.name == "pow"
         return (yield from self._power(node, x, y, order))
 
+    def _root(self, node: Expr, order: int) -> _Rule:
+        """y = root(a): y' = sum_i s_i a_i', by the theorem of the implicit function"""
+        terms = []
+        for arg, place in zip(node.args, node.root.places, strict=True):
+            if (yield arg, 1) is not self.pool.zero:
+                slope = root_slope(self.pool, node, place)
+                terms.append((1, (yield from self._chain(slope, arg, order))))
+        return self.pool.add(*terms)
+
     def _chain(self, slope: Expr, x: Expr, order: int) -> _Rule:
         """y' = s x': y^(k) = sum_i C(k-1, i) s^(i) x^(k-i)"""
         pool = self.pool
@@ -278,6 +289,24 @@ class Jets:
         return pool.div(pool.add(*terms), (yield x, 0))
 
 
+def partial(pool: Pool, expr: Expr, symbol: Expr) -> Expr:
+    """The partial derivative of an expression without D and Int with respect to a symbol."""
+    slopes: dict[Expr, Expr] = {symbol: pool.one}
+    for node in topological([expr]):
+        if node is not symbol and any(a in slopes for a in node.args):
+            parts = zip(partials(pool, node), node.args, strict=True)
+            slopes[node] = pool.add(*[(1, pool.mul(d, slopes[a])) for d, a in parts if a in slopes])
+    return slopes.get(expr, pool.zero)
+
+
+def root_slope(pool: Pool, node: Expr, place: Expr) -> Expr:
+    """The derivative of a root with respect to what stands in one of its places."""
+    root = node.root
+    own = pool.div(partial(pool, root.zero, place), partial(pool, root.zero, root.unknown))
+    mapping = {root.unknown: node, **dict(zip(root.places, node.args, strict=True))}
+    return pool.substitute([pool.neg(own)], mapping)[0]
+
+
 def _table_slope(pool: Pool, name: str, x: Expr) -> Expr:
     """The slope of a piecewise linear table as a choice by bisection; 0 outside its range."""
     points = pool.tables[name.removeprefix("table:")]
@@ -296,7 +325,7 @@ def _table_slope(pool: Pool, name: str, x: Expr) -> Expr:
 
 
 def partials(pool: Pool, node: Expr) -> list[Expr]:
-    """The derivatives of a node of ADD, MUL, FN or IF with respect to each of its arguments.
+    """The derivatives of a node of ADD, MUL, FN, IF or ROOT with respect to each of its arguments.
 
     Piece by piece: a jump (of a sign, of a condition) has none and counts as zero.
 
@@ -324,6 +353,8 @@ def partials(pool: Pool, node: Expr) -> list[Expr]:
             return [_SLOPES[node.name](pool, node, args[0])]
         case Op.FN:
             return _partials_of_two(pool, node)
+        case Op.ROOT:
+            return [root_slope(pool, node, place) for place in node.root.places]
     return [pool.zero for _ in args]
 
 
@@ -349,4 +380,6 @@ def operations(roots: Iterable[Expr]) -> int:
             total += len(node.args)
         elif node.op in (Op.FN, Op.IF, Op.CMP, Op.LOGIC):
             total += 1
+        elif node.op is Op.ROOT:  # about ten steps of Newton's method
+            total += 10 * operations([node.root.zero])
     return total

@@ -229,6 +229,8 @@ def label(builder: Builder, atom: Expr) -> str:
         return "constant"
     if atom.op is Op.FN:
         return identifier(atom.name.partition(":")[0])
+    if atom.op is Op.ROOT:
+        return identifier(atom.root.name)
     return {Op.MUL: "product", Op.IF: "choice", Op.INT: "integral"}.get(atom.op, "term")
 
 

@@ -71,7 +71,8 @@ class Field:
             for a, e in zip(known, node.exponents, strict=True):
                 out = [o * pow(x, e, PRIME) % PRIME for o, x in zip(out, a, strict=True)]
             return tuple(out)
-        return _draw(node.op.value, node.data, *known)
+        data = node.root.zero.id if node.op is Op.ROOT else node.data
+        return _draw(node.op.value, data, *known)
 
 
 def _draw(*key: object) -> Point:

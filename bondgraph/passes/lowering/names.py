@@ -66,6 +66,8 @@ def _spoken(node: Expr) -> str | None:
     if node.op is Op.SYM and node.symbol.name.startswith(OPTION):
         name, _, at = node.symbol.name.removeprefix(OPTION).partition("@")
         return f"{name}[{at}]" if at else name
+    if node.op is Op.SYM and node.symbol.name.startswith("?"):  # inside the equation of a root
+        return node.symbol.name[1:] if node.symbol.name == "?x" else f"c{node.symbol.name[1:]}"
     if node.op is Op.INT and node.symbol == (ZERO_START, Kind.INITIAL):
         return f"Int({show(node.args[0], _spoken)})"
     return None

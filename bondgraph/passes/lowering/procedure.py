@@ -134,7 +134,7 @@ class Procedure:
                 stack += [
                     a for _, _, fs in piece.terms for a, e in fs for _ in range(min(abs(e), 2))
                 ]
-            elif node.op in (Op.CMP, Op.LOGIC, Op.IF, Op.FN):
+            elif node.op in (Op.CMP, Op.LOGIC, Op.IF, Op.FN, Op.ROOT):
                 stack += _operands(node)
             else:
                 raise ValueError(f"no value for {show(node)}")
@@ -175,6 +175,8 @@ class Procedure:
             return self._sum(piece)
         if node.op is Op.FN:
             return Function(node.name, tuple(self._made[a] for a in node.args))
+        if node.op is Op.ROOT:
+            return Function(f"root:{node.root.name}", tuple(self._made[a] for a in node.args))
         if node.op is Op.IF:
             yes, no = (self._made[a] for a in node.args[1:])
             return Choice(self._condition(node.args[0]), yes, no)

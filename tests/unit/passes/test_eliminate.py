@@ -202,10 +202,10 @@ def test_a_nonlinear_loop_names_its_elements() -> None:
         param L1 = 1
         Se:U -> 1:i
         i { -> I:L1; -> Df:y; -> a }
-        0:a { -> R:r1 { e = f + 0.1*sin(f) }; -> b }
-        1:b { -> R:r2 { e = f + 0.1*sin(f) }; -> c }
-        0:c { -> R:r3 { e = f + 0.1*sin(f) }; -> d }
-        1:d { -> R:r4 { e = f + 0.1*sin(f) } }
+        0:a { -> R:r1 { e = 0.1*f + sin(f) }; -> b }
+        1:b { -> R:r2 { e = 0.1*f + sin(f) }; -> c }
+        0:c { -> R:r3 { e = 0.1*f + sin(f) }; -> d }
+        1:d { -> R:r4 { e = 0.1*f + sin(f) } }
         }"""
     )
     with pytest.raises(CompileError) as caught:
@@ -219,7 +219,7 @@ def test_a_start_inside_a_nonlinear_law_must_be_declared() -> None:
     text = """model M {{
         param m = 2
         Se:F -> 1:v
-        v {{ -> I:m; -> C:s{start} {{ e = 2*q + q^3 }}; -> Df:y }}
+        v {{ -> I:m; -> C:s{start} {{ e = q + 2*sin(q) }}; -> Df:y }}
         }}"""
     with pytest.raises(CompileError) as caught:
         _ = compiled(text.format(start="")).residuals
