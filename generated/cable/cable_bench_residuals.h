@@ -28,7 +28,7 @@ typedef double cable_bench_real;
 /* Version of the structs and functions, and the size of a number. */
 #define CABLE_BENCH_ABI (1u * 256u + (uint32_t)sizeof(cable_bench_real))
 /* Identifies the model and the options that this code was made from. */
-#define CABLE_BENCH_DIGEST "ff7703aaa46fce38"
+#define CABLE_BENCH_DIGEST "c7b9ceb2672df894"
 
 /* What the code was made for: arguments of cable_bench_configure, in s, rad/s and s. */
 #define CABLE_BENCH_SAMPLE_TIME CABLE_BENCH_CONSTANT(0.001)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "ff7703aaa46fce38"
+DIGEST = "c7b9ceb2672df894"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

@@ -28,7 +28,7 @@ typedef double cable_open_real;
 /* Version of the structs and functions, and the size of a number. */
 #define CABLE_OPEN_ABI (1u * 256u + (uint32_t)sizeof(cable_open_real))
 /* Identifies the model and the options that this code was made from. */
-#define CABLE_OPEN_DIGEST "9196509c11d7ed8c"
+#define CABLE_OPEN_DIGEST "d4488e6c0b1dbb48"
 
 /* What the code was made for: arguments of cable_open_configure, in s, rad/s and s. */
 #define CABLE_OPEN_SAMPLE_TIME CABLE_OPEN_CONSTANT(0.001)

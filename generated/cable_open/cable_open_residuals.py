@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "9196509c11d7ed8c"
+DIGEST = "d4488e6c0b1dbb48"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

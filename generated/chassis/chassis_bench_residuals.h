@@ -29,7 +29,7 @@ typedef double chassis_bench_real;
 /* Version of the structs and functions, and the size of a number. */
 #define CHASSIS_BENCH_ABI (1u * 256u + (uint32_t)sizeof(chassis_bench_real))
 /* Identifies the model and the options that this code was made from. */
-#define CHASSIS_BENCH_DIGEST "0dc2fffbb6a6ffb0"
+#define CHASSIS_BENCH_DIGEST "3eb30848db07da3a"
 
 /* What the code was made for: arguments of chassis_bench_configure, in s, rad/s and s. */
 #define CHASSIS_BENCH_SAMPLE_TIME CHASSIS_BENCH_CONSTANT(0.001)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "0dc2fffbb6a6ffb0"
+DIGEST = "3eb30848db07da3a"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

@@ -28,7 +28,7 @@ typedef double motor_real;
 /* Version of the structs and functions, and the size of a number. */
 #define MOTOR_ABI (1u * 256u + (uint32_t)sizeof(motor_real))
 /* Identifies the model and the options that this code was made from. */
-#define MOTOR_DIGEST "0b7ce47fed385d9c"
+#define MOTOR_DIGEST "7888fd5a1d32470a"
 
 /* What the code was made for: arguments of motor_configure, in s, rad/s and s. */
 #define MOTOR_SAMPLE_TIME MOTOR_CONSTANT(0.001)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "0b7ce47fed385d9c"
+DIGEST = "7888fd5a1d32470a"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

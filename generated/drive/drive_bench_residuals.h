@@ -28,7 +28,7 @@ typedef double drive_bench_real;
 /* Version of the structs and functions, and the size of a number. */
 #define DRIVE_BENCH_ABI (1u * 256u + (uint32_t)sizeof(drive_bench_real))
 /* Identifies the model and the options that this code was made from. */
-#define DRIVE_BENCH_DIGEST "5029ae965c67895b"
+#define DRIVE_BENCH_DIGEST "b02fb67375eb6491"
 
 /* What the code was made for: arguments of drive_bench_configure, in s, rad/s and s. */
 #define DRIVE_BENCH_SAMPLE_TIME DRIVE_BENCH_CONSTANT(0.001)

@@ -29,7 +29,7 @@ typedef double drive_as_drawn_real;
 /* Version of the structs and functions, and the size of a number. */
 #define DRIVE_AS_DRAWN_ABI (1u * 256u + (uint32_t)sizeof(drive_as_drawn_real))
 /* Identifies the model and the options that this code was made from. */
-#define DRIVE_AS_DRAWN_DIGEST "20d8600187676e86"
+#define DRIVE_AS_DRAWN_DIGEST "6d68f4e8454e8f73"
 
 /* What the code was made for: arguments of drive_as_drawn_configure, in s, rad/s and s. */
 #define DRIVE_AS_DRAWN_SAMPLE_TIME DRIVE_AS_DRAWN_CONSTANT(0.001)

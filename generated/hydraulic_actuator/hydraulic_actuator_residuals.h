@@ -29,7 +29,7 @@ typedef double hydraulic_actuator_real;
 /* Version of the structs and functions, and the size of a number. */
 #define HYDRAULIC_ACTUATOR_ABI (1u * 256u + (uint32_t)sizeof(hydraulic_actuator_real))
 /* Identifies the model and the options that this code was made from. */
-#define HYDRAULIC_ACTUATOR_DIGEST "f12b4bd97d2e64b7"
+#define HYDRAULIC_ACTUATOR_DIGEST "2257e80d825b4dfc"
 
 /* What the code was made for: arguments of hydraulic_actuator_configure, in s, rad/s and s. */
 #define HYDRAULIC_ACTUATOR_SAMPLE_TIME HYDRAULIC_ACTUATOR_CONSTANT(0.001)

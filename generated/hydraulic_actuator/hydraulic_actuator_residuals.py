@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "f12b4bd97d2e64b7"
+DIGEST = "2257e80d825b4dfc"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

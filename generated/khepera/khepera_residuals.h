@@ -30,7 +30,7 @@ typedef double khepera_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_ABI (1u * 256u + (uint32_t)sizeof(khepera_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_DIGEST "ba56528863ee6204"
+#define KHEPERA_DIGEST "e7502e03693dafb7"
 
 /* What the code was made for: arguments of khepera_configure, in s, rad/s and s. */
 #define KHEPERA_SAMPLE_TIME KHEPERA_CONSTANT(0.001)

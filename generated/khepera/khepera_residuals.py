@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "ba56528863ee6204"
+DIGEST = "e7502e03693dafb7"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

@@ -29,7 +29,7 @@ typedef double khepera_plausible_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_PLAUSIBLE_ABI (1u * 256u + (uint32_t)sizeof(khepera_plausible_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_PLAUSIBLE_DIGEST "0e3e4eea49834b63"
+#define KHEPERA_PLAUSIBLE_DIGEST "24983f6fc5e96968"
 
 /* What the code was made for: arguments of khepera_plausible_configure, in s, rad/s and s. */
 #define KHEPERA_PLAUSIBLE_SAMPLE_TIME KHEPERA_PLAUSIBLE_CONSTANT(0.001)

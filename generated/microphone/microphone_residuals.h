@@ -28,7 +28,7 @@ typedef double microphone_real;
 /* Version of the structs and functions, and the size of a number. */
 #define MICROPHONE_ABI (1u * 256u + (uint32_t)sizeof(microphone_real))
 /* Identifies the model and the options that this code was made from. */
-#define MICROPHONE_DIGEST "79b0c2b7b5331c3c"
+#define MICROPHONE_DIGEST "88496eda2f15fb06"
 
 /* What the code was made for: arguments of microphone_configure, in s, rad/s and s. */
 #define MICROPHONE_SAMPLE_TIME MICROPHONE_CONSTANT(0.001)

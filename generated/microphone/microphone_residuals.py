@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "79b0c2b7b5331c3c"
+DIGEST = "88496eda2f15fb06"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

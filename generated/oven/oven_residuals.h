@@ -28,7 +28,7 @@ typedef double oven_real;
 /* Version of the structs and functions, and the size of a number. */
 #define OVEN_ABI (1u * 256u + (uint32_t)sizeof(oven_real))
 /* Identifies the model and the options that this code was made from. */
-#define OVEN_DIGEST "7d437311248e2876"
+#define OVEN_DIGEST "d93009d6370d5e3a"
 
 /* What the code was made for: arguments of oven_configure, in s, rad/s and s. */
 #define OVEN_SAMPLE_TIME OVEN_CONSTANT(0.001)

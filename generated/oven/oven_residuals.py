@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "7d437311248e2876"
+DIGEST = "d93009d6370d5e3a"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

@@ -28,7 +28,7 @@ typedef double quarter_car_real;
 /* Version of the structs and functions, and the size of a number. */
 #define QUARTER_CAR_ABI (1u * 256u + (uint32_t)sizeof(quarter_car_real))
 /* Identifies the model and the options that this code was made from. */
-#define QUARTER_CAR_DIGEST "ddd27089e9bfff2d"
+#define QUARTER_CAR_DIGEST "a42172de5bcdf2b2"
 
 /* What the code was made for: arguments of quarter_car_configure, in s, rad/s and s. */
 #define QUARTER_CAR_SAMPLE_TIME QUARTER_CAR_CONSTANT(0.001)

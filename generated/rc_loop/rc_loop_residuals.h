@@ -28,7 +28,7 @@ typedef double rc_loop_real;
 /* Version of the structs and functions, and the size of a number. */
 #define RC_LOOP_ABI (1u * 256u + (uint32_t)sizeof(rc_loop_real))
 /* Identifies the model and the options that this code was made from. */
-#define RC_LOOP_DIGEST "089a7e247afbf4ba"
+#define RC_LOOP_DIGEST "fb6aab8f0a2e0d18"
 
 /* What the code was made for: arguments of rc_loop_configure, in s, rad/s and s. */
 #define RC_LOOP_SAMPLE_TIME RC_LOOP_CONSTANT(0.001)

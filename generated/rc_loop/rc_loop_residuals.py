@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "089a7e247afbf4ba"
+DIGEST = "fb6aab8f0a2e0d18"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

@@ -28,7 +28,7 @@ typedef double rigid_gear_real;
 /* Version of the structs and functions, and the size of a number. */
 #define RIGID_GEAR_ABI (1u * 256u + (uint32_t)sizeof(rigid_gear_real))
 /* Identifies the model and the options that this code was made from. */
-#define RIGID_GEAR_DIGEST "511c663095beae98"
+#define RIGID_GEAR_DIGEST "39aebb8dd9e20065"
 
 /* What the code was made for: arguments of rigid_gear_configure, in s, rad/s and s. */
 #define RIGID_GEAR_SAMPLE_TIME RIGID_GEAR_CONSTANT(0.001)

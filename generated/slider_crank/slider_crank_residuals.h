@@ -29,7 +29,7 @@ typedef double slider_crank_real;
 /* Version of the structs and functions, and the size of a number. */
 #define SLIDER_CRANK_ABI (1u * 256u + (uint32_t)sizeof(slider_crank_real))
 /* Identifies the model and the options that this code was made from. */
-#define SLIDER_CRANK_DIGEST "a7f390d281f7c2fc"
+#define SLIDER_CRANK_DIGEST "bac698f08972520d"
 
 /* What the code was made for: arguments of slider_crank_configure, in s, rad/s and s. */
 #define SLIDER_CRANK_SAMPLE_TIME SLIDER_CRANK_CONSTANT(0.001)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "a7f390d281f7c2fc"
+DIGEST = "bac698f08972520d"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001

@@ -28,7 +28,7 @@ typedef double two_tanks_real;
 /* Version of the structs and functions, and the size of a number. */
 #define TWO_TANKS_ABI (1u * 256u + (uint32_t)sizeof(two_tanks_real))
 /* Identifies the model and the options that this code was made from. */
-#define TWO_TANKS_DIGEST "1027e69a8ef92a3f"
+#define TWO_TANKS_DIGEST "03f1ff435bd94b59"
 
 /* What the code was made for: arguments of two_tanks_configure, in s, rad/s and s. */
 #define TWO_TANKS_SAMPLE_TIME TWO_TANKS_CONSTANT(0.001)

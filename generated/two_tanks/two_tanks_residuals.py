@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "1027e69a8ef92a3f"
+DIGEST = "03f1ff435bd94b59"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
