@@ -6,7 +6,7 @@ import argparse
 import tempfile
 from pathlib import Path
 
-from tests.bench import growth, instructions
+from tests.bench import growth, instructions, toolbox
 from tests.bench.clock import in_turn, python
 
 ROOT = Path(__file__).parents[2]
@@ -50,6 +50,8 @@ def main() -> None:
     commands(3 if short else 11)
     print()
     instructions.report()
+    print()
+    toolbox.report(3 if short else 7)
     print()
     growth.report((100, 1000) if short else (100, 1000, 10_000))
 

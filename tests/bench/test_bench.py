@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.bench import growth, instructions
+from tests.bench import growth, instructions, toolbox
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
@@ -28,3 +28,12 @@ def test_growth_measures_the_model_it_names() -> None:
     bonds, seconds = growth.stages(3)
     assert bonds == 8 * 3 + 3
     assert all(s > 0 for s in seconds.values())
+
+
+def test_the_bench_says_what_it_could_not_compare(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("BONDGRAPH_BENCH_PYTHON", "no-such-python")
+    toolbox.report(1)
+    assert "not compared" in capsys.readouterr().out
+    assert all((toolbox.STRUCTURES / f"{name}.csv").is_file() for name in toolbox.NAMES)

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -30,6 +31,7 @@ Progress: TypeAlias = Callable[[float, int], None]
 
 PRIME = (1 << 31) - 1  # products of two numbers below it fit a signed 64-bit integer
 _AT_ONCE = 1 << 19  # numbers in one step of the search
+_ON_ONE_CORE = 200_000  # multiplications of matrices that are not worth a second thread
 _TRIES = 40
 
 
@@ -51,14 +53,17 @@ class MsoSets(NamedTuple):
         """How many sets there are."""
         return int(self.members.shape[0])
 
-    def all(self) -> list[tuple[int, ...]]:
-        """The equations of every set."""
-        return [self.equations(k) for k in range(self.number)]
+    def arrays(self) -> list[Numbers]:
+        """The equations of every set, ascending, as arrays."""
+        pairs = sorted((e, k) for k, own in enumerate(self.classes) for e in own)
+        held = self.members[:, [k for _, k in pairs]]
+        names = np.array([e for e, _ in pairs], dtype=np.int64)[np.nonzero(held)[1]]
+        ends = np.cumsum(np.count_nonzero(held, axis=1)).tolist()
+        return [names[a:b] for a, b in pairwise([0, *ends])]
 
-    def equations(self, k: int) -> tuple[int, ...]:
-        """The equations of one set, ascending."""
-        chosen = np.flatnonzero(self.members[k])
-        return tuple(sorted(e for c in chosen for e in self.classes[c]))
+    def all(self) -> list[tuple[int, ...]]:
+        """The equations of every set, ascending."""
+        return [tuple(found.tolist()) for found in self.arrays()]
 
 
 class _UnluckyError(ArithmeticError):
@@ -85,7 +90,8 @@ def mso_sets(
             _check(rows, classes, members)
         except _UnluckyError:
             continue
-        order = np.argsort(members @ np.array([len(c) for c in classes]), kind="stable")
+        lengths = np.array([len(c) for c in classes], dtype=np.float32)
+        order = np.argsort(members.astype(np.float32) @ lengths, kind="stable")
         named = tuple(tuple(over[e] for e in c) for c in classes)
         return MsoSets(named, members[order], excess, complete)
     raise ArithmeticError("no random numbers were found that do not meet by chance")
@@ -194,27 +200,46 @@ def _hyperplanes(batch: _Batch) -> Bools:
 
 
 def _inverse(numbers: Numbers) -> Numbers:
-    """The inverse of each number of the field (Fermat); of 0 it is 0."""
-    result = np.ones_like(numbers)
-    power, exponent = numbers, PRIME - 2
+    """The inverse of each number of the field, of 0 some number.
+
+    One inversion serves all numbers of a column: it is undone factor by factor (Montgomery,
+    1987). Its own inversions are powers (Fermat).
+    """
+    factors = np.ascontiguousarray(np.where(numbers == 0, 1, numbers).T)
+    products = factors.copy()
+    for i in range(1, len(products)):
+        products[i] = products[i - 1] * factors[i] % PRIME
+    inverse, power, exponent = np.ones_like(factors[0]), products[-1], PRIME - 2
     while exponent:
         if exponent & 1:
-            result = result * power % PRIME
+            inverse = inverse * power % PRIME
         power = power * power % PRIME
         exponent >>= 1
-    return result
+    for i in range(len(products) - 1, 0, -1):
+        products[i] = products[i - 1] * inverse % PRIME
+        inverse = inverse * factors[i] % PRIME
+    products[0] = inverse
+    return products.T
 
 
 def _check(rows: list[list[int]], classes: list[tuple[int, ...]], members: Bools) -> None:
     """Each set must have one equation more than unknowns, by the incidence itself."""
-    columns = {c: i for i, c in enumerate(sorted({c for row in rows for c in row}))}
-    incidence = np.zeros((len(classes), len(columns)), dtype=np.float32)
+    holders: dict[int, list[int]] = {}
     for k, equations in enumerate(classes):
-        for e in equations:
-            incidence[k, [columns[c] for c in rows[e]]] = 1
-    sizes = np.array([len(c) for c in classes])
-    for start in range(0, len(members), 4096):
-        part = members[start : start + 4096]
-        unknowns = (part.astype(np.float32) @ incidence > 0).sum(axis=1)
-        if (unknowns + 1 != part @ sizes).any():
+        for c in sorted({c for e in equations for c in rows[e]}):
+            holders.setdefault(c, []).append(k)
+    shared = [h for h in holders.values() if len(h) > 1]
+    incidence = np.zeros((len(classes), len(shared)), dtype=np.float32)
+    for column, held in enumerate(shared):
+        incidence[held, column] = 1
+    # equations less the unknowns that only one class has: these are there whenever it is
+    excess = np.array([len(c) for c in classes], dtype=np.float32)
+    for held in holders.values():
+        if len(held) == 1:
+            excess[held] -= 1
+    step = max(1, _ON_ONE_CORE // max(1, incidence.size))
+    for start in range(0, len(members), step):
+        part = members[start : start + step].astype(np.float32)
+        unknowns = np.count_nonzero(part @ incidence, axis=1)
+        if (part @ excess != unknowns + 1).any():
             raise _UnluckyError
