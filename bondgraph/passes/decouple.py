@@ -26,6 +26,7 @@ from bondgraph.text.diagnostic import Report
 
 _INTEGRALS = 3  # times a relation is differentiated to bring the fault out of integrals
 _LIMIT = 4000  # nodes of a combined relation
+_GATES = 12  # parts that are tried in place of the fault
 _STEPS = 60  # of Euclid's algorithm
 
 
@@ -132,22 +133,50 @@ class _Decoupling:
 
     def _candidates(self, a: Expr, b: Expr) -> Iterator[Expr]:
         """Combinations of two relations that hold the fault nowhere, the best first."""
-        pool = self.pool
-        unknown = self.signal
-        for value in (unknown, pool.power(unknown, -1)):
-            try:
-                left, right = pool.substitute([a, b], {self.symbol: value})
-            except ZeroDivisionError:
+        pool, unknown = self.pool, self.signal
+        forms = [(self.symbol, unknown), (self.symbol, pool.power(unknown, -1))]
+        forms += [(gate, unknown) for gate in self._gates(a, b)]
+        for place, value in forms:
+            replaced = self._replaced([a, b], place, value)
+            if replaced is None:
                 continue
+            left, right = replaced
             one, two = self._row(left), self._row(right)
             if one is not None and two is not None:
                 free = self._euclid(one, two)
                 if free is not None:
                     yield free
-        for one_expr, two_expr in ((a, b), (b, a)):
-            found = solve(pool, one_expr, self.symbol, self.nominal.vanishes)
-            if found is not None and self.symbol not in symbols(found.value):
-                yield pool.substitute([two_expr], {self.symbol: found.value})[0]
+            for giving, taking in ((left, right), (right, left)):
+                found = solve(pool, giving, unknown, self.nominal.vanishes)
+                if found is not None and unknown not in symbols(found.value):
+                    yield from self._replaced([taking], unknown, found.value) or ()
+
+    def _replaced(self, exprs: list[Expr], place: Expr, value: Expr) -> list[Expr] | None:
+        """The expressions with another value in a place; None where that divides by zero."""
+        try:
+            return self.pool.substitute(exprs, {place: value})
+        except ZeroDivisionError:
+            return None
+
+    def _gates(self, a: Expr, b: Expr) -> list[Expr]:
+        """Parts of both relations through which alone the fault enters them, the largest first.
+
+        The flow into a tank of unknown area, for instance: it can be solved for as a whole.
+        """
+        holding: list[dict[Expr, None]] = []
+        for root in (a, b):
+            found: dict[Expr, None] = {}
+            for node in topological([root]):
+                if node is self.symbol or any(n in found for n in node.args):
+                    found[node] = None
+            holding.append(found)
+        common = [n for n in reversed(holding[0]) if n in holding[1] and n not in (a, b)]
+        gates = []
+        for node in common[:_GATES]:
+            closed = self._replaced([a, b], node, self.signal) or [a]
+            if node is not self.symbol and self.symbol not in symbols(*closed):
+                gates.append(node)
+        return gates
 
     # -------------------------------------------------------------- operators
 
@@ -226,7 +255,8 @@ class _Decoupling:
         raw = expr
         for _ in range(free[1]):
             raw = self.pool.der(raw)
-        if not self._sound(raw, first.expr, other.expr):
+        influence = Reactions(self.plant, self.seed).at_free_signals(free[0]).depends
+        if not any(influence.values()) or not self._sound(raw, first.expr, other.expr):
             return None
         steps = {id(s.variable): s for r in (first, other) for s in r.steps}
         name = f"{other.closing.name} combined with {first.closing.name}, free of {self.fault}"

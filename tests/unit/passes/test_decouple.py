@@ -214,3 +214,25 @@ def test_the_command(tmp_path: object, capsys: pytest.CaptureFixture[str]) -> No
     assert "free of k" in capsys.readouterr().out
     assert main(["compile", path, "--decouple", "kk", *out]) == 2
     assert "did you mean `k`?" in capsys.readouterr().err
+
+
+def test_through_the_flow_that_a_fault_changes() -> None:
+    """A2 enters only by the flow into tank 2, inside the law of the pipe behind it as well."""
+    _, (relation,) = of(
+        """model M { param A1=1; param l3=0; param k12=1; param A2=2; param k23=3; param A3=4
+        param ko=5
+        0:t1 { <- Sf:Q; -> C:A1; -> De:p1 }
+        0:t2 { -> C:A2; -> De:p2 }
+        0:t3 { -> C:A3; -> R:o { f = ko*ssqrt(e) }; -> R:l3 { f = l3*ssqrt(e) }; -> De:p3 }
+        t1 -> 1:v12 -> t2 -> 1:v23 -> t3
+        v12 -> R:r12 { f = k12*ssqrt(e) }
+        v23 -> R:r23 { 0 = e - k23*f*abs(f) } }""",
+        "A2",
+    )
+
+    def by_hand(A1, l3, k12, k23, A3, ko, p2, p3):
+        return ssqrt((p2 - p3) / k23) - A3 * D(p3) - (ko + l3) * ssqrt(p3)
+
+    numbers = {"A1": Q(11), "l3": Q(13), "k12": Q(2), "k23": Q(3), "A3": Q(5), "ko": Q(7)}
+    assert is_multiple(relation, by_hand, numbers, ("p2", "p3"))
+    assert set(relation.faults) == {"k23", "A3", "ko", "l3", "p2", "p3"}
