@@ -284,6 +284,10 @@ class Point:
                 known[a] = row.get(CONSTANT, 0)
             else:
                 open_args.append(a)
+        if node.op is Op.MUL and not value:
+            powers = zip(node.args, node.exponents, strict=True)
+            if any(e > 0 and known.get(a) == 0 for a, e in powers):
+                return True  # one factor is zero, whatever the others are
         if len(open_args) != 1:
             return False
         below = open_args[0]

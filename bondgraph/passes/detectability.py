@@ -87,8 +87,11 @@ class _Point:
 def _point(
     exprs: list[Expr], plant: Plant, number: int, modes: Mapping[Expr, int] | None
 ) -> _Point | None:
-    """A point of steady operation, at rest if there is no other; None if there is not even that."""
-    return _at(exprs, plant, number, modes, steady) or _at(exprs, plant, number, modes, rest)
+    """A point of steady operation; for one relation one at rest if there is no other."""
+    found = _at(exprs, plant, number, modes, steady)
+    if found is None and len(exprs) == 1:
+        found = _at(exprs, plant, number, modes, rest)
+    return found
 
 
 def _at(

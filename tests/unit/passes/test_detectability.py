@@ -77,6 +77,21 @@ CASES: dict[str, tuple[str, set[str], set[str]]] = {
         {"T", "mgl", "s"},
         {"J", "d"},
     ),
+    # a rod that swings has no steady motion: at rest only its weight counts, T = m g l sin(angle);
+    # the wheel beside it has one, F = b s
+    "rod": (
+        """model M { param m=2; param l=3; const g=9.81
+        let a = int(w.f, 1/2)
+        1:w { <- Se:T; -> Df:y }
+        1:x { -> I:mx = m }
+        1:z { -> I:mz = m; <- Se:G = -m*g }
+        w -> MTF:tx { f2 = l*cos(a)*f1 } -> x
+        w -> MTF:tz { f2 = l*sin(a)*f1 } -> z
+        1:c { <- Se:F; -> I:J; -> R:b; -> Df:s }
+        param J = 4; param b = 5 }""",
+        {"m", "l", "T", "y", "F", "b", "s"},
+        {"J"},
+    ),
     # off, the residual is i itself; on, U - R i - L i'
     "switch": (
         """model M { param R=1; param L=2
