@@ -367,11 +367,15 @@ def _undone(
         return _root(value, exponent)
     if node.op is Op.FN and len(node.args) == 1:
         name = INVERSES.get(node.name)
-        if name == "cube":
-            return value * value % P * value % P
-        if name == "square":
-            return value * value % P
-        return None if name is None else setting.functions.value(name, value)
+        if name is None:
+            return None
+        if name in ("cube", "square"):
+            found = pow(value, 3 if name == "cube" else 2, P)
+        else:
+            found = setting.functions.value(name, value)
+        if setting.functions.value(node.name, found) != value % P:
+            raise Undefined("a value that the function does not take")  # atan beyond a right angle
+        return found
     return None
 
 

@@ -132,13 +132,17 @@ def _independent(
 def _continue(
     system: _System, plant: Assembly, setting: Setting, values: list[Series], order: int
 ) -> None:
-    """Extend the series of every variable that is not given to the order."""
+    """Extend the series of every variable that is not given to the order.
+
+    Raises `Singular` also where nothing is to be extended: the point itself may then miss what
+    only further derivatives of the equations say.
+    """
     c, d = system.offsets.equations, system.offsets.variables
     given = set(system.given)
     inner = [j for j in plant.active if j not in given]
     position = {j: at for at, j in enumerate(inner)}
     slack = min((d[j] for j in inner), default=0)
-    if not inner or order - slack < 1:
+    if not inner:
         return
     sample = KnownSample(plant.place, setting, values)
     matrix = []

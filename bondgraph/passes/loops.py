@@ -157,7 +157,10 @@ class Loops:
         self.solved[symbol] = value
         still = []
         for item in self.pending:
-            expr = self.pool.substitute([item.expr], {symbol: value.expr})[0]
+            try:
+                expr = self.pool.substitute([item.expr], {symbol: value.expr})[0]
+            except ZeroDivisionError:
+                continue  # it divides by what the loop makes zero: the count will miss it
             if expr is item.expr:
                 still.append(item)
                 continue

@@ -128,12 +128,25 @@ class Reactions:
             return False
         size = integral_depth([expr]) + 1
 
-        def value(number: int) -> Any:
-            sample = self.plant.sample([expr], number, size, faults=(fault,), modes=self.modes)
+        def value(modes: Mapping[Expr, int] | None, number: int) -> Any:
+            sample = self.plant.sample([expr], number, size, faults=(fault,), modes=modes)
             return evaluate([expr], sample, size)[0]
 
-        found = self.draw(value, 3000 * self.seed)
-        return any(found) if isinstance(found, list) else bool(found.amplitude)
+        free = [] if self.modes is not None else modes_of(self.plant.graph, [expr])
+        failure: ExactUnavailable | None = None
+        met = False
+        for modes in assignments(free) if free else [self.modes]:
+            try:
+                found = self.draw(partial(value, modes), 3000 * self.seed)
+            except ExactUnavailable as reason:
+                failure = reason
+                continue
+            met = True
+            if any(found) if isinstance(found, list) else found.amplitude:
+                return True
+        if not met and failure is not None:
+            raise failure
+        return False
 
     def draw(self, attempt: Callable[[int], T], number: int) -> T:
         """The result at a random point; points where something has no value are drawn again."""

@@ -45,7 +45,9 @@ class _Analysis:
             free = self.reactions.at_free_signals(closing.expr)
             if any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items()):
                 own = pruned(self.pool, closing, free)
-                relations.append((own, upright(self.pool, own.expr), free.orders))
+                expr = upright(self.pool, own.expr)
+                if all(expr is not other for _, other, _ in relations):  # two equal gyrators
+                    relations.append((own, expr, free.orders))
         reacts = self.reactions.on_trajectories(
             [with_moving_parameters(c, e) for c, e, _ in relations]
         )
