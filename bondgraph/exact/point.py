@@ -253,7 +253,7 @@ class Point:
                 continue
             change = -found[0] * inverse(found[1] - found[0]) % P
             values[symbol] = [(first[0] + change) % P, *first[1:]]
-            self.setting.tuned[symbol] = change
+            self.setting.tuned[symbol] = (self.setting.tuned.get(symbol, 0) + change) % P
             return True
         return False
 

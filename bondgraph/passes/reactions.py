@@ -85,12 +85,16 @@ class Reactions:
         reacts: list[set[Expr]] = [set() for _ in exprs]
         failure: ExactUnavailable | None = None
         met = False
+        hopeless: list[Mapping[Expr, int] | None] = []
         for point, modes in enumerate(self.settings(exprs)):
+            if modes in hopeless:
+                continue
             try:
                 attempt = partial(self.at_trajectory, exprs, modes)
                 parts = self.draw(attempt, 1000 * self.seed + point)
             except ExactUnavailable as reason:
                 failure = reason
+                hopeless.append(modes)
                 continue
             met = True
             for seen, part in zip(reacts, parts, strict=True):

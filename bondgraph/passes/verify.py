@@ -93,8 +93,9 @@ class _Check:
                 "verification-unavailable",
                 f"the residuals could not be checked by exact simulation: {reason}",
                 *self.place(),
-                help="The residuals were derived, but nothing independent confirms them. Try "
-                "them on simulated data before use, or write the law named here in another form.",
+                help="The residuals were derived, but nothing independent confirms them, and the "
+                "signatures may list faults that cannot be seen. Try them on simulated data "
+                "before use, or write the law named here in another form.",
             )
             return self.result(f"not verified: {reason}")
         except _Failed as failure:
