@@ -11,6 +11,8 @@ from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.result import Verification
     from bondgraph.ir.artifact import Artifact
@@ -211,6 +213,28 @@ class Compilation:
         from bondgraph.backends.emit import emit
 
         return emit(self.program, self.options.targets)
+
+    def diagnoses(
+        self, fired: Iterable[str], silent: Iterable[str] = (), at_most: int | None = None
+    ) -> tuple[tuple[str, ...], ...]:
+        """The minimal sets of faults that explain the residuals that have `fired`.
+
+        Several faults at once are allowed, up to `at_most`. Residuals named in `silent` clear the
+        faults they see; leave that out where faults may cancel each other. Raises KeyError for an
+        unknown residual.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> c.diagnoses(["r1", "r2"], at_most=1)
+        (('k',), ('current',), ('speed',))
+        >>> c.diagnoses(["r2"], silent=["r1"])
+        (('J',), ('f',), ('load',))
+        """
+        from bondgraph.passes.structure.hitting import diagnoses
+
+        matrix = self.signatures
+        sees = {name: matrix.signature(name) for name in matrix.residuals}
+        return diagnoses(sees, fired, silent, at_most)
 
     def drawing(self, derivative: bool = False) -> str:
         """The bond graph with its causal strokes, as SVG."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.structure import StructuralModel
     from bondgraph.passes.structure.analyse import Analysis, Chosen
 
-LIMIT = 20_000
+LIMIT = 10_000
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -53,7 +53,7 @@ def run(args: Namespace) -> int:
 
         def progress(done: float, found: int) -> None:
             nonlocal shown
-            while shown < done * steps:
+            while shown < min(done, 1) * steps:
                 shown += 1
                 advance(f"{found} sets")
 
@@ -151,7 +151,7 @@ def _counts(analysis: Analysis) -> list[str]:
     if sets.number:
         few = "" if sets.complete else " (the search stopped there: --limit)"
         lines.append(f"{plural(sets.number, 'MSO set')}{few}")
-        lines.append(f"{len(analysis.integral)} of them need no differentiation (low index)")
+        lines.append(f"{len(analysis.integral)} of low index, with nothing to differentiate")
     return lines
 
 

@@ -120,9 +120,8 @@ class _Found:
         count = len(self.model.faults)
         return (
             f"{self._detected(self.now)} of {plural(count, 'fault')} can be detected,"
-            f" in {plural(len(self.now.groups), 'group')}; with all"
-            f" {plural(len(self.candidates), 'candidate')} {self._detected(self.best)},"
-            f" in {plural(len(self.best.groups), 'group')}"
+            f" in {plural(len(self.now.groups), 'group')}; with a sensor at every place"
+            f" {self._detected(self.best)}, in {plural(len(self.best.groups), 'group')}"
         )
 
     def _detected(self, power: Isolability) -> int:

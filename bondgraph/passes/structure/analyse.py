@@ -51,10 +51,21 @@ def analyse(
     Where the limit cuts the search off, sets that are still needed to tell two faults apart are
     built one by one, so that the choice is as good as with all sets, if not as small.
     """
-    sets = mso_sets(model, limit, progress)
+    tell = progress or (lambda _, __: None)
+
+    def searched(done: float, count: int) -> None:
+        tell(max(done, count / limit if limit else 0.0) / 2, count)
+
+    sets = mso_sets(model, limit, searched)
     best = isolability(model)
     found = sets.all()
-    integral = tuple(k for k, mso in enumerate(found) if integral_residuals(model, mso))
+    low_index = []
+    for k, mso in enumerate(found):
+        if integral_residuals(model, mso):
+            low_index.append(k)
+        if k % 100 == 0:
+            tell(0.5 + k / len(found) / 2, len(found))
+    integral = tuple(low_index)
     if not sets.complete:
         found += _missing(model, best, _signatures(model, found))
     signatures = _signatures(model, found)
@@ -89,19 +100,24 @@ def _signatures(model: StructuralModel, sets: list[tuple[int, ...]]) -> Bools:
     return np.array(rows, dtype=np.bool_).reshape(len(sets), len(model.faults))
 
 
-def _missing(model: StructuralModel, best: Isolability, signatures: Bools) -> list[tuple[int, ...]]:
+def _missing(
+    model: StructuralModel, best: Isolability, signatures: Bools
+) -> list[tuple[int, ...]]:
     """Sets for the faults that those found do not see, or do not tell apart."""
     added: list[tuple[int, ...]] = []
     heads = [g[0] for g in best.groups]
     equations = [set(model.holders(f)) for f in heads]
-    seen = [signatures[:, f] for f in heads]
+    #: for each fault the sets that hold it, one bit a set
+    seen = [int.from_bytes(np.packbits(signatures[:, f]).tobytes()) for f in heads]
     for i, own in enumerate(equations):
         for j, other in enumerate(equations):
-            if i != j and (seen[i] & ~seen[j]).any():
+            if seen[i] & ~(0 if i == j else seen[j]):
                 continue
             apart = witness(model, own, set() if i == j else other)
-            if apart is not None and apart not in added and (i != j or not seen[i].any()):
+            if apart is not None:
                 added.append(apart)
+                for k, held in enumerate(equations):
+                    seen[k] = seen[k] << 1 | (not held.isdisjoint(apart))
     return added
 
 

@@ -135,21 +135,22 @@ def _search(columns: Numbers, limit: int | None, progress: Progress) -> tuple[Bo
     if rank == 1:
         return np.ones((1, size), dtype=np.bool_), True
     none = np.zeros((1, size), dtype=np.bool_)
-    stack = [_Batch(columns[np.newaxis], none, none, 1.0)]
+    stack = [iter([_Batch(columns[np.newaxis], none, none, 1.0)])]
     found: list[Bools] = []
     count, done = 0, 0.0
     while stack:
-        batch = stack.pop()
-        if batch.numbers.shape[1] == 2:
+        batch = next(stack[-1], None)
+        if batch is None:
+            stack.pop()
+        elif batch.numbers.shape[1] > 2:
+            stack.append(_larger(batch))
+        else:
             found.append(~_hyperplanes(batch))
             count += len(found[-1])
             done += batch.share
             progress(done, count)
-            if limit is not None and count >= limit:
-                complete = count == limit and not stack
-                return np.concatenate(found)[:limit], complete
-        else:
-            stack += reversed(list(_larger(batch)))
+            if limit is not None and count > limit:
+                return np.concatenate(found)[:limit], False
     return np.concatenate(found), True
 
 
