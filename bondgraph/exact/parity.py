@@ -14,8 +14,9 @@ from typing import Any
 from bondgraph.exact.evaluate import demands, evaluate, pull, values_of
 from bondgraph.exact.field import P, Undefined
 from bondgraph.exact.linear import Row, eliminate
-from bondgraph.exact.plant import Plant, Trajectory
+from bondgraph.exact.plant import Plant
 from bondgraph.exact.point import STRIDE
+from bondgraph.exact.trajectory import Trajectory
 from bondgraph.ir.expr import Expr, Op, Symbol, topological
 
 

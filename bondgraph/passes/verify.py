@@ -15,8 +15,9 @@ from bondgraph.exact.algebra import Mixed, Wave
 from bondgraph.exact.evaluate import Sample, evaluate, integral_depth, sensitivities
 from bondgraph.exact.field import P, Undefined
 from bondgraph.exact.modes import assignments, modes_of
-from bondgraph.exact.plant import ExactUnavailable, Plant, Trajectory
+from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.result import Verification
+from bondgraph.exact.trajectory import Trajectory
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import ResidualSet

@@ -1,0 +1,105 @@
+"""One random exact behaviour of a plant: what a residual is told, and what truly happens."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import TYPE_CHECKING
+
+from bondgraph.exact.algebra import Mixed
+from bondgraph.exact.assembly import Assembly
+from bondgraph.exact.field import P, Undefined
+from bondgraph.exact.known import KnownSample
+from bondgraph.exact.linear import Contradiction, Singular
+from bondgraph.exact.series import Series
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Symbol
+
+if TYPE_CHECKING:
+    from bondgraph.exact.plant import Plant
+
+#: Random points that are tried before a plant is said to have none.
+ATTEMPTS = 60
+
+
+class Trajectory:
+    """One random behaviour: what a residual is told, and what truly happens.
+
+    `faults` are the names of the faults that act. `value` gives what a residual is told: readings
+    and inputs with their errors, parameters without. `truth` gives the true series.
+    """
+
+    def __init__(
+        self,
+        plant: Plant,
+        seed: int,
+        order: int,
+        faults: tuple[str, ...],
+        told: dict[Expr, Series],
+        truth: KnownSample,
+        starts: dict[Symbol, int],
+        part: Assembly,
+    ) -> None:
+        self.plant = plant
+        self.part = part
+        self.seed = seed
+        self.order = order
+        self.faults = faults
+        self.algebra = truth.algebra
+        self._told = told
+        self._truth = truth
+        self._starts = starts
+        self._earlier: dict[int, Trajectory] = {}
+
+    def value(self, symbol: Expr) -> Series:
+        """What a residual is told about a symbol, at least `order` + 1 Taylor coefficients."""
+        found = self._told.get(symbol)
+        if found is None:
+            found = self._told[symbol] = self._truth.value(symbol)
+        return found
+
+    def truth(self, symbol: Expr) -> Series:
+        """The true series of a variable, an input or a parameter."""
+        return self._truth.value(symbol)
+
+    @property
+    def healthy(self) -> bool:
+        """Whether no fault acts."""
+        return not self.faults
+
+    def truly(self, variable: Expr) -> int | None:
+        """The true value of a variable at the point; None for one that the plant has not."""
+        try:
+            return self._truth.value(variable)[0]
+        except Mixed:  # not one of the plant's variables
+            return None
+
+    def start(self, initial: Symbol) -> int:
+        """The value from which integrals with this initial value begin; random if undeclared."""
+        found = self._starts.get(initial)
+        if found is None:
+            draw = Random(f"{self.seed}:{initial.name}")
+            found = self._starts[initial] = draw.randrange(2, P)
+        return found
+
+    def earlier(self, steps: int) -> Trajectory:
+        """The same healthy plant with the same constants at another time.
+
+        Constants (parameters, declared initial values) are the same, all signals different; an
+        integral begins there with its value of that time.
+        """
+        found = self._earlier.get(steps)
+        if found is None:
+            constants = {s: v for s, v in self._told.items() if s.symbol.kind in CONSTANTS}
+            constants.update((s, v) for s, v in self._told.items() if s.symbol.kind is Kind.MODE)
+            found = self._draw_earlier(steps, constants)
+            self._earlier[steps] = found
+        return found
+
+    def _draw_earlier(self, steps: int, constants: dict[Expr, Series]) -> Trajectory:
+        functions = self.algebra.functions
+        for attempt in range(ATTEMPTS):
+            seed = (self.seed * 31 + steps) * ATTEMPTS + attempt
+            try:
+                return self.plant.draw(seed, self.order, (), constants, functions, self.part)
+            except (Undefined, Contradiction, Singular):
+                continue
+        raise Undefined("the plant has no earlier point with the same constants")
