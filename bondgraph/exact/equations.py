@@ -6,6 +6,7 @@ An equation is linear form + rest = 0, where the rest is an expression only if i
 from __future__ import annotations
 
 from collections.abc import Mapping
+from random import Random
 from typing import NamedTuple
 
 from bondgraph.exact.algebra import Mixed
@@ -157,6 +158,39 @@ def made_linear(equation: Equation, sample: FormSample, n: int) -> Equation:
         return equation
     form = sample.algebra.combine([(1, rest), (1, equation.form)], n)
     return equation._replace(form=form, rest=None)
+
+
+def written(
+    plant: Assembly, setting: Setting, readings: Mapping[str, Series], random: Random
+) -> tuple[Assembly, list[Equation]]:
+    """The equations, and the plant that they are about.
+
+    An input that a law uses in a product or a function is drawn here and is a constant of the
+    setting from then on: a law must not be satisfied by the one value of an input that allows it.
+    """
+    equations = Writer(plant, setting).all(readings)
+    given = _modulating(equations, plant)
+    if not given:
+        return plant, equations
+    for symbol in given:
+        setting.values[symbol] = [random.randrange(1, P) for _ in range(setting.n)]
+    place = {s: at for s, at in plant.place.items() if s not in given}
+    plant = plant._replace(place=place)
+    return plant, Writer(plant, setting).all(readings)
+
+
+def _modulating(equations: list[Equation], plant: Assembly) -> list[Expr]:
+    free = frozenset((*plant.free, *plant.unknown))
+    out: dict[Expr, None] = {}
+    for equation in equations:
+        if equation.rest is None:
+            continue
+        rest = equation.rest
+        for node in topological([rest]):
+            if node is not rest or node.op is not Op.ADD:
+                inside = [a for a in node.args if a in plant.place]
+                out.update((a, None) for a in inside if plant.place[a][0] in free)
+    return list(out)
 
 
 def coefficient_row(form: Form, order: int, stride: int) -> dict[int, int]:

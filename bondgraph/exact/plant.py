@@ -13,7 +13,7 @@ from random import Random
 from bondgraph.exact import series
 from bondgraph.exact.algebra import Mixed, Waves
 from bondgraph.exact.assembly import Assembly, Parts, assemble
-from bondgraph.exact.equations import Setting, Writer
+from bondgraph.exact.equations import Setting, Writer, written
 from bondgraph.exact.evaluate import evaluate, highest_order, integral_depth
 from bondgraph.exact.field import Functions, P, Undefined
 from bondgraph.exact.known import KnownSample
@@ -240,7 +240,7 @@ class Plant:
         faults: Sequence[str],
         constants: Mapping[Expr, Series],
         functions: Functions,
-        plant: Assembly,
+        part: Assembly,
         tunable: bool = False,
         solver: Solver = solve,
     ) -> Trajectory:
@@ -260,7 +260,7 @@ class Plant:
                 true[symbol] = series.add(true[symbol], error)
         setting = Setting(true, functions, n, self._private if tunable else frozenset(), {})
         try:
-            equations = Writer(plant, setting).all(readings)
+            plant, equations = written(part, setting, readings, random)
             values = solver(plant, equations, setting, random, order + self._reach)
         except OverDetermined as failure:
             raise ExactUnavailable(self._over(failure.node)) from None
@@ -272,7 +272,7 @@ class Plant:
             told[symbol] = [(constants[symbol][0] + value) % P, *constants[symbol][1:]]
         inside = frozenset(plant.active)
         for name, symbol in self._inputs.items():
-            if name in errors and plant.place[symbol][0] in inside:
+            if name in errors and part.place[symbol][0] in inside:
                 wrong = series.scale(-1, errors[name])
                 told[symbol] = series.add(truth.value(symbol), wrong)
         for name, symbol, reads in self._shown(plant):
@@ -283,7 +283,7 @@ class Plant:
             if plant.place[state][0] in inside:
                 starts[initial.symbol] = truth.value(state)[0]
                 told.setdefault(initial, [starts[initial.symbol]])
-        return Trajectory(self, seed, order, tuple(faults), told, truth, starts, plant)
+        return Trajectory(self, seed, order, tuple(faults), told, truth, starts, part)
 
     def _shown(self, plant: Assembly) -> list[tuple[str, Expr, Expr]]:
         """The sensors of a part of the plant whose readings no law uses: name, symbol, reads."""
