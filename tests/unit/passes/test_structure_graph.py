@@ -69,6 +69,11 @@ def test_structure_bounds_what_the_residuals_tell_apart(name: str) -> None:
         rows = zip(matrix.rows[i], matrix.rows[j], strict=True)
         if any(sees and not other for sees, other in rows):
             assert best.isolable(i, j), (matrix.faults[i], matrix.faults[j])
+    # nor can combinations of the residuals and their derivatives, which know the laws
+    of = {fault: k for k, group in enumerate(compilation.best or ()) for fault in group}
+    for i, j in permutations(range(len(matrix.faults)), 2):
+        known = [of.get(matrix.faults[f]) for f in (i, j)]
+        assert None in known or known[0] == known[1] or best.isolable(i, j)
     sets = mso_sets(structure, 1000)
     assert sets.redundancy == len(matrix.residuals)
     assert sets.complete and sets.number >= sets.redundancy
