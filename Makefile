@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check lint types imports docs wheel bench update fuzz clean
+.PHONY: help run test check lint types imports docs wheel bench update fuzz random clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -67,6 +67,9 @@ update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
 
 fuzz: $(VENV)/dev.stamp ## 100 000 broken models through `check`
 	$(BIN)/python -m tests.fuzz.run --count 100000 --jobs 2
+
+random: $(VENV)/dev.stamp ## 10 000 random bond graphs, each verified or refused with a reason
+	$(BIN)/python -m tests.random.run --count 10000 --jobs 2
 
 clean: ## remove what this file made
 	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

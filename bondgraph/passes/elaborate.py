@@ -156,6 +156,8 @@ class _Elaboration:
             kind = element.kind
             try:
                 found = laws.laws(entry)
+                if kind in ("R", "C", "I"):
+                    laws.hold(entry, found)
                 if kind in ("De", "Df"):
                     value = entry.scope.values[entry.name]
                     sensor = self.sensor(value, entry, laws.values)

@@ -247,6 +247,19 @@ class Laws:
         direction = left if solved and left not in symbols(right) else None
         return Law(expr, direction, equation.origin)
 
+    def hold(self, node: NodeEntry, laws: tuple[Law, ...]) -> None:
+        """Refuse a law that a variable of its own element drops out of: e = e*f says e = 0 too."""
+        own = [v for p in node.ports for v in (p.effort, p.flow, p.state) if v is not None]
+        for law in laws:
+            terms = law.zero.args if law.zero.op is Op.ADD else (law.zero,)
+            for variable in own:
+                if law.zero is not variable and all(_has_factor(t, variable) for t in terms):
+                    name = variable.symbol.name
+                    fail(self.report, "law-cancels", f"The law of `{node.type}:{node.name}` has "
+                         f"`{name}` in each of its terms, so that it cancels.", law.origin,
+                         help=f"It would hold for `{name}` = 0 whatever the rest is. Divide it by "
+                         f"`{name}`, or let another signal be the coefficient.")  # fmt: skip
+
     def two_port(
         self, node: NodeEntry, element: ElementKind, found: list[Law], written: Node
     ) -> tuple[Law, ...]:
@@ -325,3 +338,12 @@ def _degree_one(expr: Expr, pair: tuple[Expr, Expr]) -> bool:
 
 def _is_zero(expr: object) -> bool:
     return isinstance(expr, Number) and expr.value == 0 and expr.unit is None
+
+
+def _has_factor(term: Expr, variable: Expr) -> bool:
+    """Whether a term is the variable times something."""
+    if term.op is Op.ADD and len(term.args) == 1:
+        term = term.args[0]
+    if term.op is not Op.MUL:
+        return term is variable
+    return any(a is variable and e > 0 for a, e in zip(term.args, term.exponents, strict=True))
