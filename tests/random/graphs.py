@@ -132,8 +132,8 @@ class _Drawing:
         else:
             arrow = "->" if style == "in" else "<-"
             parts.line(node)
-            parts.line(f"j{a} {arrow} {bare}")
-            parts.line(f"j{b} {arrow} {bare}")
+            # in one piece: port 1 is the one written first
+            parts.line(f"j{a} {arrow} {bare}\n  j{b} {arrow} {bare}")
 
     def one_port(self, at: int) -> None:
         """An element on a junction, its arrow either way."""
