@@ -198,21 +198,24 @@ class Compilation:
         from bondgraph.passes.lower import LowerOptions, lower
 
         assert self.verification
-        rate, bandwidth, resolution = self.options[:3]
-        return self._stage(
-            lower(
-                self.graph,
-                *self._analysis,
-                LowerOptions(rate=rate, bandwidth=bandwidth, resolution=resolution),
-            )
-        )
+        options = LowerOptions(*self.options[:2], resolution=self.options.resolution)
+        return self._stage(lower(self.graph, *self._analysis, options))
+
+    @cached_property
+    def thresholds(self) -> Program | None:
+        """The program of the adaptive thresholds, None for a model without tolerances."""
+        from bondgraph.passes.lower import LowerOptions
+        from bondgraph.passes.thresholds import thresholds
+
+        options = LowerOptions(*self.options[:2], resolution=self.options.resolution)
+        return thresholds(self.graph, self._analysis[0], self.program, options)
 
     @cached_property
     def artifacts(self) -> tuple[Artifact, ...]:
         """The files, as text."""
         from bondgraph.backends.emit import emit
 
-        return emit(self.program, self.options.targets)
+        return emit(self.program, self.options.targets, self.thresholds)
 
     def diagnoses(
         self, fired: Iterable[str], silent: Iterable[str] = (), at_most: int | None = None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bondgraph.backends import c, python
-from bondgraph.backends.facts import facts
+from bondgraph.backends.facts import Facts, facts
 from bondgraph.backends.golden import golden
 from bondgraph.backends.readme import readme
 from bondgraph.backends.target import load
@@ -15,19 +15,38 @@ _HOLES = {"c": c.holes, "python": python.holes}
 _EXAMPLES = {"c": "example.c", "python": "example.py"}
 
 
-def emit(program: Program, targets: tuple[str, ...]) -> tuple[Artifact, ...]:
+#: Where the thresholds go, and what only the residuals have.
+_THRESHOLD, _ONCE = "threshold", ("example.c", "example.py")
+
+
+def emit(
+    program: Program, targets: tuple[str, ...], thresholds: Program | None = None
+) -> tuple[Artifact, ...]:
     """The files of `program` in the `targets` (`c`, `python`), and a README about them.
 
-    The same program gives the same bytes. Raises ValueError for a target that is not there.
+    The files of `thresholds` go to a folder of their own. The same program gives the same bytes.
+    Raises ValueError for a target that is not there.
     """
     about = facts(program)
+    found = _files(program, targets, about, thresholds is not None)
+    examples = {name: found[_EXAMPLES[name]] for name in dict.fromkeys(targets)}
+    found["README.md"] = fill("README.md.j2", readme(program, about, examples, thresholds))
+    if thresholds is not None:
+        bounds = _files(thresholds, targets, facts(thresholds), False)
+        found |= {f"{_THRESHOLD}/{path}": text for path, text in bounds.items()}
+    return tuple(Artifact(path, text) for path, text in found.items())
+
+
+def _files(
+    program: Program, targets: tuple[str, ...], about: Facts, bounded: bool
+) -> dict[str, str]:
+    """The code of a program in all languages; `bounded` says that thresholds go beside it."""
     vectors = golden(program)
     found: dict[str, str] = {}
     for name in dict.fromkeys(targets):
         target = load(name)
-        holes = _HOLES[name](program, target, about, vectors)
+        holes = _HOLES[name](program, target, about, vectors) | {"bounded": bounded}
         for template, path in target.files:
-            found[path.format(stem=about.stem)] = fill(template, holes)
-    examples = {name: found[_EXAMPLES[name]] for name in dict.fromkeys(targets)}
-    found["README.md"] = fill("README.md.j2", readme(program, about, examples))
-    return tuple(Artifact(path, text) for path, text in found.items())
+            if not (program.bounds and path in _ONCE):
+                found[path.format(file=about.file)] = fill(template, holes)
+    return found

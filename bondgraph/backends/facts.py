@@ -38,11 +38,15 @@ class Facts(NamedTuple):
     """Numbers and texts about a program, ready to be written.
 
     `fastest` is the largest bandwidth * sample_time; `least_sample_time` is 0.0 where no term was
-    left out, and so any rate will do. `laws` are the functions that the code needs, `library` says
+    left out, and so any rate will do. `file` is the name of the module, `noun` what it computes,
+    `headline` both in one sentence. `laws` are the functions that the code needs, `library` says
     that the mathematical library of C has some of them.
     """
 
     stem: str
+    file: str
+    noun: str
+    headline: str
     fastest: float
     least_sample_time: float
     laws: frozenset[str]
@@ -62,8 +66,15 @@ def facts(program: Program) -> Facts:
     numbers += [f.default for f in program.params if f.default is not None]
     beyond = [n for n in numbers if n and not _FLOAT_MIN <= abs(n) <= _FLOAT_MAX]
     laws = functions(run) | (functions(_values(program.configure)) - {"exp"})
+    stem = snake(program.name)
+    headline = f"{program.name}: residuals that are near zero while the machine is well."
+    if program.bounds:
+        headline = f"{program.name}: how far residuals can be from zero while the machine is well."
     return Facts(
-        snake(program.name),
+        stem,
+        stem if program.bounds else f"{stem}_residuals",
+        "thresholds" if program.bounds else "residuals",
+        headline,
         max(3.0, 1.01 * default),
         0.999999 / program.rate if program.dropped else 0.0,
         frozenset(laws),

@@ -55,6 +55,8 @@ class _Module:
         return {
             **self._configure(),
             "stem": self.facts.stem,
+            "file": self.facts.file,
+            "headline": listing.harmless(self.facts.headline, self.target),
             "model": listing.harmless(program.name, self.target),
             "about": self._about(),
             "imports": self._imports(),

@@ -12,7 +12,9 @@ from bondgraph.ir.program import Dropped, Field, Known, Program, ResidualInfo
 _ROW_FAULTS = 200  # a longer matrix is left to the list of each residual
 
 
-def readme(program: Program, facts: Facts, programs: Mapping[str, str]) -> dict[str, object]:
+def readme(
+    program: Program, facts: Facts, programs: Mapping[str, str], thresholds: Program | None = None
+) -> dict[str, object]:
     """The holes of README.md.j2; `programs` has the text of the example by target."""
     stem = facts.stem
     return {
@@ -29,6 +31,7 @@ def readme(program: Program, facts: Facts, programs: Mapping[str, str]) -> dict[
         "usage": _usage(program, facts, tuple(programs)),
         "named": _named(program),
         "dropped": _dropped(program.dropped),
+        "thresholds": [] if thresholds is None else _thresholds(thresholds),
     }
 
 
@@ -46,6 +49,15 @@ def _dropped(terms: Sequence[Dropped]) -> list[str]:
         rows.append((f"`{residual}`", f"`{signal}`", text, f"{share:.1e}"))
     head = ("residual", "signal", "derivatives", "largest share of the leading term")
     return _table(head, rows) if rows else []
+
+
+def _thresholds(program: Program) -> list[str]:
+    """What the threshold of each residual allows for."""
+    rows = (
+        (f"`{r.name}`", ", ".join(f"`{f}`" for f in r.faults) or "-", r.unavailable or "yes")
+        for r in program.residuals
+    )
+    return _table(("residual", "tolerances in its threshold", "in `step`"), rows)
 
 
 def _named(program: Program) -> str:

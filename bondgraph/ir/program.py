@@ -308,3 +308,4 @@ class Program(NamedTuple):
     integrals: tuple[Field, ...] = ()  # what exact takes besides the known signals
     time_unit: float = 1.0  # s, default of configure
     roots: tuple[NewtonBlock, ...] = ()  # each may use those before it
+    bounds: str = ""  # the program whose residuals these results are thresholds of

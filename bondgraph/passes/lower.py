@@ -132,7 +132,7 @@ def lower(
         rate=options.rate,
         bandwidth=options.bandwidth or options.rate / 50,
         warmup=max([low.info.settle for low in lowered], default=0.0),
-        tables=_tables(graph, residuals),
+        tables=tables(graph, [r.expr for r in residuals.residuals]),
         roots=newton_blocks(graph.pool, [r.expr for r in residuals.residuals]),
         integrals=tuple(builder.integrals.values()),
         time_unit=time_unit,
@@ -229,11 +229,11 @@ def _text(graph: BondGraph, residual: Residual) -> str:
     return f"{residual.name}: {residual.closing.name} with everything else inserted"
 
 
-def _tables(
-    graph: BondGraph, residuals: ResidualSet
+def tables(
+    graph: BondGraph, exprs: list[Expr]
 ) -> tuple[tuple[str, tuple[tuple[float, float], ...]], ...]:
+    """The tables that expressions look something up in, with their points."""
     used: dict[str, None] = {}
-    exprs = [r.expr for r in residuals.residuals]
     for node in topological([*exprs, *[r.zero for r in roots_in(exprs)]]):
         if node.op is Op.FN and node.name.startswith("table:"):
             used[node.name.removeprefix("table:")] = None
@@ -246,7 +246,7 @@ def digest(program: Program, text: str) -> str:
     """A hash of the model and of everything that the program computes, in hexadecimal."""
     lines = [text.replace("\r\n", "\n")]
     for name in program._fields:
-        if name not in ("source", "digest"):
+        if name not in ("source", "digest", "bounds"):
             lines.append(f"{name}: {_plain(getattr(program, name))!r}")
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]
 

@@ -67,3 +67,21 @@ def test_no_warning_from_any_compiler(name: str, model: str, tmp_path: Path) -> 
     for source in (a.path for a in artifacts if a.path.endswith(".c")):
         for real in ((), (f"-D{stem.upper()}_FLOAT",)):
             run(*command, *WARNINGS, *real, "-fsyntax-only", source, cwd=tmp_path)
+
+
+_UNCERTAIN = ["dc_motor", "khepera", "two_tanks", "slider_crank"]
+
+
+@pytest.mark.parametrize("model", _UNCERTAIN)
+def test_thresholds_agree_in_every_language(model: str, tmp_path: Path) -> None:
+    """The self-tests compare C, in double and in float, and Python with the same numbers."""
+    stem, artifacts = _artifacts(model)
+    write(artifacts, tmp_path)
+    folder = tmp_path / "threshold"
+    assert run(sys.executable, "selftest.py", cwd=folder).endswith("PASS\n")
+    for real in ((), (f"-D{stem.upper()}_THRESHOLD_FLOAT",)):
+        sources = ("selftest.c", f"{stem}_threshold.c", "-lm", "-o", "selftest")
+        run(*compiler("gcc"), *WARNINGS, "-O1", "-ffp-contract=off", *real, *sources, cwd=folder)
+        told = run(folder / "selftest")
+        assert told.endswith("PASS\n") and "FAIL" not in told
+        assert "PASS step r1" in told

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Container
 from fractions import Fraction
 from functools import cached_property
 from typing import Literal, NamedTuple
@@ -155,10 +156,16 @@ class Builder:
         """What the coefficients are computed from."""
         return [w.value for w in self._wanted]
 
-    def resolve(self, roots: list[Expr]) -> list[Expr]:
-        """The roots with derived constants and initial values replaced by their definitions."""
+    def resolve(self, roots: list[Expr], keep: Container[Expr] = ()) -> list[Expr]:
+        """The roots with derived constants and initial values replaced by their definitions.
+
+        The symbols in `keep` stay.
+        """
+        inlined = self._inlined
+        if keep:
+            inlined = {s: v for s, v in inlined.items() if s not in keep}
         while True:
-            replaced = self.pool.substitute(roots, self._inlined)
+            replaced = self.pool.substitute(roots, inlined)
             if replaced == roots:
                 return roots
             roots = replaced

@@ -1,0 +1,104 @@
+"""By how much the tolerances of parameters can move a residual: first and second order signals.
+
+With theta_i = n_i (1 + d_i), |d_i| <= delta_i, a residual that is affine in each parameter departs
+from the nominal one by sum_i w_i, w_i = d_i n_i dr/dtheta_i: the multiplicative (LFT) form of an
+uncertain element (Djeziri, Merzouki and Ould Bouamama, 2007). Products of uncertain parameters
+and quotients have terms of second order besides, which are signals of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import NamedTuple
+
+from bondgraph.ir.expr import Expr, symbols
+from bondgraph.ir.graph import Value
+from bondgraph.ir.normal import Term
+from bondgraph.passes.lowering.builder import Builder
+from bondgraph.passes.sensitivity import sensitivity
+from bondgraph.passes.zero import is_zero
+
+_FEW = 5  # parameters up to which derivatives of third order are looked at one by one
+
+
+class Share(NamedTuple):
+    """A signal whose amount is a part of the threshold, and the parameters that it is due to."""
+
+    parameters: tuple[str, ...]
+    expr: Expr
+
+
+def shares(builder: Builder, terms: Sequence[Term]) -> list[Share]:
+    """The uncertain signals of a residual with these terms, weights of the tolerances included.
+
+    The sum of their amounts is exact where no more than two uncertain parameters of a term are
+    multiplied. Beyond that the terms of second order are enlarged by 1/(1 - sum delta), which
+    holds for every product of powers +1 and -1: its part of order n in d is at most
+    sum(delta) times the part of order n - 1.
+    """
+    pool = builder.pool
+    uncertain = [v for v in builder.graph.values if v.tolerance]
+    keep = {v.symbol: v for v in uncertain}
+    expr = builder.resolve([_sum(builder, terms)], keep)[0]
+    inside = set(symbols(expr))
+    used = [v for v in uncertain if v.symbol in inside]
+    starts = builder.graph.initial_values()
+
+    def slopes(of: Expr, values: Sequence[Value]) -> list[Expr]:
+        found = sensitivity(pool, of, [v.symbol for v in values], starts)
+        return [found[v.symbol] for v in values]
+
+    first = slopes(expr, used)
+    second: list[tuple[Value, Value, Expr]] = []
+    for at, (value, slope) in enumerate(zip(used, first, strict=True)):
+        for other, bend in zip(used[at:], slopes(slope, used[at:]), strict=True):
+            if not is_zero(bend):
+                second.append((value, other, bend))
+    bent = list(dict.fromkeys(v for one, other, _ in second for v in (one, other)))
+    enlarged = Fraction(1)
+    if second and _third(bent, second, slopes):
+        total = sum((_tolerance(v) for v in bent), Fraction(0))
+        enlarged = 1 / (1 - min(total, Fraction(9, 10)))
+    out = [
+        Share((v.name,), pool.scale(_tolerance(v), pool.mul(v.symbol, slope)))
+        for v, slope in zip(used, first, strict=True)
+        if not is_zero(slope)
+    ]
+    for one, other, bend in second:
+        weight = enlarged * _tolerance(one) * _tolerance(other)
+        if one is other:
+            weight /= 2
+        product = pool.mul(one.symbol, other.symbol, bend)
+        out.append(Share((one.name, other.name), pool.scale(weight, product)))
+    return out
+
+
+def _tolerance(value: Value) -> Fraction:
+    assert value.tolerance is not None
+    return abs(value.tolerance)
+
+
+def _third(
+    bent: Sequence[Value],
+    second: Sequence[tuple[Value, Value, Expr]],
+    slopes: Callable[[Expr, Sequence[Value]], list[Expr]],
+) -> bool:
+    """Whether terms of third order are there."""
+    if len(bent) > _FEW:
+        return True
+    return any(not is_zero(s) for _, _, bend in second for s in slopes(bend, bent))
+
+
+def _sum(builder: Builder, terms: Sequence[Term]) -> Expr:
+    """The terms as one expression."""
+    pool = builder.pool
+    parts: list[Expr] = []
+    for term in terms:
+        signal = term.atom
+        for _ in range(term.order):
+            signal = pool.der(signal)
+        for _ in range(-term.order):
+            signal = pool.integral(signal, builder.zero_start)
+        parts.append(pool.mul(term.coefficient, signal))
+    return pool.add(*[(1, p) for p in parts])

@@ -1,0 +1,2273 @@
+/* khepera_plausible_threshold.c: the thresholds of KheperaPlausible_threshold; generated, see the header. */
+#include "khepera_plausible_threshold.h"
+
+#include <math.h>
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef khepera_plausible_threshold_real real;
+
+#define REAL(x) KHEPERA_PLAUSIBLE_THRESHOLD_CONSTANT(x)
+#if defined KHEPERA_PLAUSIBLE_THRESHOLD_FLOAT && !defined KHEPERA_PLAUSIBLE_THRESHOLD_REAL
+#define SLOWEST REAL(0.0001)
+#define MATH(name) name##f
+#else
+#define SLOWEST REAL(1.0e-09)
+#define MATH(name) name
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
+static real exponential(real value)
+{
+    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
+    const real ln2_low = REAL(1.4286068203094173e-06);
+    real rest;
+    real scale = REAL(1.0);
+    real sum = REAL(1.0);
+    int n = 0;
+    int k;
+
+    if (value > REAL(1000.0)) {
+        value = REAL(1000.0); /* more than enough for infinity */
+    }
+    if (value < REAL(-1000.0)) {
+        value = REAL(-1000.0); /* more than enough for zero */
+    }
+    rest = value;
+    while (rest > REAL(0.35)) {
+        ++n;
+        scale *= REAL(2.0);
+        rest = value - (real)n * ln2_high;
+    }
+    while (rest < REAL(-0.35)) {
+        --n;
+        scale *= REAL(0.5);
+        rest = value - (real)n * ln2_high;
+    }
+    rest -= (real)n * ln2_low;
+    for (k = 14; k > 0; --k) {
+        sum = REAL(1.0) + sum * rest / (real)k;
+    }
+    return sum * scale;
+}
+
+uint32_t khepera_plausible_threshold_abi(void)
+{
+    return KHEPERA_PLAUSIBLE_THRESHOLD_ABI;
+}
+
+const char *khepera_plausible_threshold_digest(void)
+{
+    return KHEPERA_PLAUSIBLE_THRESHOLD_DIGEST;
+}
+
+void khepera_plausible_threshold_nominal(khepera_plausible_threshold_parameters *parameters)
+{
+    parameters->Js__1 = REAL(1.0e-05);                /* kg.m^2 */
+    parameters->Js__2 = REAL(1.0e-05);                /* kg.m^2 */
+    parameters->fe__1 = REAL(1.0e-07);                /* N.m.s/rad */
+    parameters->fe__2 = REAL(1.0e-07);                /* N.m.s/rad */
+    parameters->R__1 = REAL(0.008);                   /* m */
+    parameters->R__2 = REAL(0.008);                   /* m */
+    parameters->robot__m__1__el__L = REAL(0.0003);    /* H */
+    parameters->robot__m__1__el__Re = REAL(17.6);     /* Ohm */
+    parameters->robot__m__1__el__k = REAL(0.00351);   /* N.m/A */
+    parameters->robot__m__1__me__Je = REAL(1.4e-08);  /* kg.m^2 */
+    parameters->robot__m__1__me__K = REAL(0.1);       /* N.m/rad */
+    parameters->robot__m__1__ge__N = REAL(25.0);      /* 1 */
+    parameters->robot__m__1__wh__fs = REAL(0.0003);   /* N.m.s/rad */
+    parameters->robot__m__2__el__L = REAL(0.0003);    /* H */
+    parameters->robot__m__2__el__Re = REAL(17.6);     /* Ohm */
+    parameters->robot__m__2__el__k = REAL(0.00351);   /* N.m/A */
+    parameters->robot__m__2__me__Je = REAL(1.4e-08);  /* kg.m^2 */
+    parameters->robot__m__2__me__K = REAL(0.1);       /* N.m/rad */
+    parameters->robot__m__2__ge__N = REAL(25.0);      /* 1 */
+    parameters->robot__m__2__wh__fs = REAL(0.0003);   /* N.m.s/rad */
+}
+
+/* The coefficients of exact and of the filter, from the parameters. */
+static void compute_coefficients(khepera_plausible_threshold_monitor *monitor,
+        const khepera_plausible_threshold_parameters *p, real sample_time, real bandwidth)
+{
+    khepera_plausible_threshold_coefficients *c = &monitor->c;
+
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* khepera.bg:17: fe[1]*robot.m[1].el.Re/robot.m[1].el.k */
+    const real t = p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: robot.m[1].el.Re*robot.m[1].wh.fs/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real t_2 = p->robot__m__1__el__Re * p->robot__m__1__wh__fs / p->robot__m__1__ge__N
+            / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: R[1]*robot.m[1].el.Re/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real t_3 = p->R__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N
+            / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: fe[2]*robot.m[2].el.Re/robot.m[2].el.k */
+    const real t_4 = p->fe__2 * p->robot__m__2__el__Re / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: robot.m[2].el.Re*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real t_5 = p->robot__m__2__el__Re * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: R[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real t_6 = p->R__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* exp(-x) */
+    const real t_7 = exponential(-x_);
+
+    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
+    const real t_8 = x_ < REAL(0.125)
+        ? x_ * (REAL(0.5)
+            - x_ * (REAL(1.0) / REAL(6.0)
+                - x_ * (REAL(1.0) / REAL(24.0)
+                    - x_ * (REAL(1.0) / REAL(120.0)
+                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
+        : REAL(1.0) - (REAL(1.0) - t_7) / x_;
+
+    /* khepera.bg:17: robot.m[1].el.L*robot.m[1].me.Je*bandwidth^2/robot.m[1].el.k */
+    const real t_9 = p->robot__m__1__el__L * p->robot__m__1__me__Je * bandwidth * bandwidth
+            / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: Js[1]*robot.m[1].el.L*bandwidth^2/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real t_10 = p->Js__1 * p->robot__m__1__el__L * bandwidth * bandwidth
+            / p->robot__m__1__ge__N / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: R[1]*robot.m[1].el.L*bandwidth/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real t_11 = p->R__1 * p->robot__m__1__el__L * bandwidth / p->robot__m__1__ge__N
+            / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: robot.m[2].el.L*robot.m[2].me.Je*bandwidth^2/robot.m[2].el.k */
+    const real t_12 = p->robot__m__2__el__L * p->robot__m__2__me__Je * bandwidth * bandwidth
+            / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: Js[2]*robot.m[2].el.L*bandwidth^2/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real t_13 = p->Js__2 * p->robot__m__2__el__L * bandwidth * bandwidth
+            / p->robot__m__2__ge__N / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: R[2]*robot.m[2].el.L*bandwidth/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real t_14 = p->R__2 * p->robot__m__2__el__L * bandwidth / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: fe[1]*robot.m[1].el.L*bandwidth/robot.m[1].el.k */
+    const real t_15 = p->fe__1 * p->robot__m__1__el__L * bandwidth / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: Js[1]*robot.m[1].el.Re*bandwidth/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real t_16 = p->Js__1 * p->robot__m__1__el__Re * bandwidth / p->robot__m__1__ge__N
+            / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: robot.m[1].el.Re*robot.m[1].me.Je*bandwidth/robot.m[1].el.k */
+    const real t_17 = p->robot__m__1__el__Re * p->robot__m__1__me__Je * bandwidth
+            / p->robot__m__1__el__k;
+
+    /* khepera.bg:17:
+     * robot.m[1].el.k*bandwidth*(robot.m[1].el.Re*robot.m[1].me.Je/robot.m[1].el.k^2 + fe[1] ... */
+    const real t_18 = p->robot__m__1__el__k * bandwidth
+            * (p->robot__m__1__el__Re * p->robot__m__1__me__Je / p->robot__m__1__el__k
+                / p->robot__m__1__el__k
+            + p->fe__1 * p->robot__m__1__el__L / p->robot__m__1__el__k / p->robot__m__1__el__k);
+
+    /* khepera.bg:17:
+     * robot.m[1].el.k*bandwidth*(Js[1]*robot.m[1].el.Re/(robot.m[1].ge.N*robot.m[1].el.k^2) ... */
+    const real t_19 = p->robot__m__1__el__k * bandwidth
+            * (p->Js__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N / p->robot__m__1__el__k
+                / p->robot__m__1__el__k
+            + p->robot__m__1__el__L * p->robot__m__1__wh__fs / p->robot__m__1__ge__N
+                / p->robot__m__1__el__k / p->robot__m__1__el__k);
+
+    /* khepera.bg:17:
+     * robot.m[1].el.L*robot.m[1].wh.fs*bandwidth/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real t_20 = p->robot__m__1__el__L * p->robot__m__1__wh__fs * bandwidth
+            / p->robot__m__1__ge__N / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: robot.m[1].el.k^2*bandwidth*(-2*fe[1]*robot.m[1].el.L/robot.m[1].el.k^3 -
+     * 2*robot.m[1] ... */
+    const real t_21 = p->robot__m__1__el__k * p->robot__m__1__el__k * bandwidth
+            * (-REAL(2.0) * p->fe__1 * p->robot__m__1__el__L / p->robot__m__1__el__k
+                / p->robot__m__1__el__k / p->robot__m__1__el__k
+            - REAL(2.0) * p->robot__m__1__el__Re * p->robot__m__1__me__Je / p->robot__m__1__el__k
+                / p->robot__m__1__el__k / p->robot__m__1__el__k);
+
+    /* khepera.bg:17:
+     * robot.m[1].el.k^2*bandwidth*(-2*robot.m[1].el.L*robot.m[1].wh.fs/(robot.m[1].ge.N*robo ... */
+    const real t_22 = p->robot__m__1__el__k * p->robot__m__1__el__k * bandwidth
+            * (-REAL(2.0) * p->robot__m__1__el__L * p->robot__m__1__wh__fs / p->robot__m__1__ge__N
+                / p->robot__m__1__el__k / p->robot__m__1__el__k / p->robot__m__1__el__k
+            - REAL(2.0) * p->Js__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N
+                / p->robot__m__1__el__k / p->robot__m__1__el__k / p->robot__m__1__el__k);
+
+    /* khepera.bg:17: fe[2]*robot.m[2].el.L*bandwidth/robot.m[2].el.k */
+    const real t_23 = p->fe__2 * p->robot__m__2__el__L * bandwidth / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: Js[2]*robot.m[2].el.Re*bandwidth/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real t_24 = p->Js__2 * p->robot__m__2__el__Re * bandwidth / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: robot.m[2].el.Re*robot.m[2].me.Je*bandwidth/robot.m[2].el.k */
+    const real t_25 = p->robot__m__2__el__Re * p->robot__m__2__me__Je * bandwidth
+            / p->robot__m__2__el__k;
+
+    /* khepera.bg:17:
+     * robot.m[2].el.k*bandwidth*(robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2].el.k^2 + fe[2] ... */
+    const real t_26 = p->robot__m__2__el__k * bandwidth
+            * (p->robot__m__2__el__Re * p->robot__m__2__me__Je / p->robot__m__2__el__k
+                / p->robot__m__2__el__k
+            + p->fe__2 * p->robot__m__2__el__L / p->robot__m__2__el__k / p->robot__m__2__el__k);
+
+    /* khepera.bg:17:
+     * robot.m[2].el.k*bandwidth*(Js[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k^2) ... */
+    const real t_27 = p->robot__m__2__el__k * bandwidth
+            * (p->Js__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N / p->robot__m__2__el__k
+                / p->robot__m__2__el__k
+            + p->robot__m__2__el__L * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
+                / p->robot__m__2__el__k / p->robot__m__2__el__k);
+
+    /* khepera.bg:17:
+     * robot.m[2].el.L*robot.m[2].wh.fs*bandwidth/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real t_28 = p->robot__m__2__el__L * p->robot__m__2__wh__fs * bandwidth
+            / p->robot__m__2__ge__N / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: robot.m[2].el.k^2*bandwidth*(-2*fe[2]*robot.m[2].el.L/robot.m[2].el.k^3 -
+     * 2*robot.m[2] ... */
+    const real t_29 = p->robot__m__2__el__k * p->robot__m__2__el__k * bandwidth
+            * (-REAL(2.0) * p->fe__2 * p->robot__m__2__el__L / p->robot__m__2__el__k
+                / p->robot__m__2__el__k / p->robot__m__2__el__k
+            - REAL(2.0) * p->robot__m__2__el__Re * p->robot__m__2__me__Je / p->robot__m__2__el__k
+                / p->robot__m__2__el__k / p->robot__m__2__el__k);
+
+    /* khepera.bg:17:
+     * robot.m[2].el.k^2*bandwidth*(-2*robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robo ... */
+    const real t_30 = p->robot__m__2__el__k * p->robot__m__2__el__k * bandwidth
+            * (-REAL(2.0) * p->robot__m__2__el__L * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
+                / p->robot__m__2__el__k / p->robot__m__2__el__k / p->robot__m__2__el__k
+            - REAL(2.0) * p->Js__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
+                / p->robot__m__2__el__k / p->robot__m__2__el__k / p->robot__m__2__el__k);
+
+    /* khepera.bg:17: r1_w1: factor of robot.m[1].me.we in stage 2 */
+    c->r1_w1_v2_robot__m__1__me__we = t_15 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w1: factor of robot.m[1].me.we in stage 3 */
+    c->r1_w1_v3_robot__m__1__me__we = t_15 / REAL(10.0) - t / REAL(10.0);
+
+    /* filter: exp(-bandwidth*sample_time) */
+    c->a = t_7;
+
+    /* filter: weight of the new sample */
+    c->b0 = t_8;
+
+    /* filter: weight of the sample before */
+    c->b1 = REAL(1.0) - t_7 - t_8;
+
+    /* filter: 1 - b0, the memory of a constant 1 */
+    c->rest = REAL(1.0) - t_8;
+
+    /* khepera.bg:17: r1_w2: factor of robot.Fx[1] in stage 3 */
+    c->r1_w2_v3_robot__Fx__1 = t_3 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w2: factor of robot.m[1].wh.ws in stage 2 */
+    c->r1_w2_v2_robot__m__1__wh__ws = t_16 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w2: factor of robot.m[1].wh.ws in stage 3 */
+    c->r1_w2_v3_robot__m__1__wh__ws = t_16 / REAL(20.0) - t_2 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w2: factor of robot.m[1].me.we in stage 2 */
+    c->r1_w2_v2_robot__m__1__me__we = t_17 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w2: factor of robot.m[1].me.we in stage 3 */
+    c->r1_w2_v3_robot__m__1__me__we = t_17 / REAL(20.0) - t / REAL(20.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].me.we in stage 1 */
+    c->r1_w3_v1_robot__m__1__me__we = t_9 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].me.we in stage 2 */
+    c->r1_w3_v2_robot__m__1__me__we = t_18 / REAL(50.0) - t_9 / REAL(25.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].me.we in stage 3 */
+    c->r1_w3_v3_robot__m__1__me__we = t_9 / REAL(50.0)
+        + p->robot__m__1__el__k
+            * (p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k / p->robot__m__1__el__k
+            - REAL(1.0)) / REAL(50.0)
+        - t_18 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.Fx[1] in stage 2 */
+    c->r1_w3_v2_robot__Fx__1 = t_11 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.Fx[1] in stage 3 */
+    c->r1_w3_v3_robot__Fx__1 = t_3 / REAL(50.0) - t_11 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws in stage 1 */
+    c->r1_w3_v1_robot__m__1__wh__ws = t_10 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws in stage 2 */
+    c->r1_w3_v2_robot__m__1__wh__ws = t_19 / REAL(50.0) - t_10 / REAL(25.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws in stage 3 */
+    c->r1_w3_v3_robot__m__1__wh__ws = t_2 / REAL(50.0) + t_10 / REAL(50.0) - t_19 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws in stage 2 */
+    c->r1_w4_v2_robot__m__1__wh__ws = t_20 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws in stage 3 */
+    c->r1_w4_v3_robot__m__1__wh__ws = t_20 / REAL(10.0) - t_2 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w5: factor of robot.m[1].me.we in stage 3 */
+    c->r1_w5_v3_robot__m__1__me__we = t / REAL(146.0);
+
+    /* khepera.bg:17: r1_w6: factor of robot.m[1].me.we in stage 2 */
+    c->r1_w6_v2_robot__m__1__me__we = t_15 / REAL(365.0);
+
+    /* khepera.bg:17: r1_w6: factor of robot.m[1].me.we in stage 3 */
+    c->r1_w6_v3_robot__m__1__me__we = t / REAL(365.0) - t_15 / REAL(365.0);
+
+    /* khepera.bg:17: r1_w7: factor of robot.m[1].me.we in stage 2 */
+    c->r1_w7_v2_robot__m__1__me__we = t_17 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w7: factor of robot.m[1].me.we in stage 3 */
+    c->r1_w7_v3_robot__m__1__me__we = t / REAL(730.0) - t_17 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w7: factor of robot.m[1].wh.ws in stage 2 */
+    c->r1_w7_v2_robot__m__1__wh__ws = t_16 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w7: factor of robot.m[1].wh.ws in stage 3 */
+    c->r1_w7_v3_robot__m__1__wh__ws = t_2 / REAL(730.0) - t_16 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w7: factor of robot.Fx[1] in stage 3 */
+    c->r1_w7_v3_robot__Fx__1 = t_3 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w8: factor of robot.m[1].wh.ws in stage 3 */
+    c->r1_w8_v3_robot__m__1__wh__ws = t_2 / REAL(146.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we in stage 1 */
+    c->r1_w9_v1_robot__m__1__me__we = t_9 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we in stage 2 */
+    c->r1_w9_v2_robot__m__1__me__we = REAL(2.0) * t_9 / REAL(1825.0) + t_21 / REAL(3650.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we in stage 3 */
+    c->r1_w9_v3_robot__m__1__me__we = t / REAL(1825.0) + t_9 / REAL(1825.0) + t_21 / REAL(3650.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws in stage 1 */
+    c->r1_w9_v1_robot__m__1__wh__ws = t_10 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws in stage 2 */
+    c->r1_w9_v2_robot__m__1__wh__ws = REAL(2.0) * t_10 / REAL(1825.0) + t_22 / REAL(3650.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws in stage 3 */
+    c->r1_w9_v3_robot__m__1__wh__ws = t_2 / REAL(1825.0) + t_10 / REAL(1825.0)
+        + t_22 / REAL(3650.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.Fx[1] in stage 2 */
+    c->r1_w9_v2_robot__Fx__1 = t_11 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.Fx[1] in stage 3 */
+    c->r1_w9_v3_robot__Fx__1 = t_11 / REAL(1825.0) - t_3 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws in stage 2 */
+    c->r1_w10_v2_robot__m__1__wh__ws = t_20 / REAL(365.0);
+
+    /* khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws in stage 3 */
+    c->r1_w10_v3_robot__m__1__wh__ws = t_2 / REAL(365.0) - t_20 / REAL(365.0);
+
+    /* khepera.bg:41: r2_w1: factor of robot.m[1].wh.ws in stage 2 */
+    c->r2_w1_v2_robot__m__1__wh__ws = p->robot__m__1__wh__fs * bandwidth / REAL(10.0)
+            / p->robot__m__1__ge__N / p->robot__m__1__me__K;
+
+    /* khepera.bg:17: r3_w1: factor of robot.m[2].me.we in stage 2 */
+    c->r3_w1_v2_robot__m__2__me__we = t_23 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w1: factor of robot.m[2].me.we in stage 3 */
+    c->r3_w1_v3_robot__m__2__me__we = t_23 / REAL(10.0) - t_4 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w2: factor of robot.Fx[2] in stage 3 */
+    c->r3_w2_v3_robot__Fx__2 = t_6 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w2: factor of robot.m[2].wh.ws in stage 2 */
+    c->r3_w2_v2_robot__m__2__wh__ws = t_24 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w2: factor of robot.m[2].wh.ws in stage 3 */
+    c->r3_w2_v3_robot__m__2__wh__ws = t_24 / REAL(20.0) - t_5 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w2: factor of robot.m[2].me.we in stage 2 */
+    c->r3_w2_v2_robot__m__2__me__we = t_25 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w2: factor of robot.m[2].me.we in stage 3 */
+    c->r3_w2_v3_robot__m__2__me__we = t_25 / REAL(20.0) - t_4 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].me.we in stage 1 */
+    c->r3_w3_v1_robot__m__2__me__we = t_12 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].me.we in stage 2 */
+    c->r3_w3_v2_robot__m__2__me__we = t_26 / REAL(50.0) - t_12 / REAL(25.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].me.we in stage 3 */
+    c->r3_w3_v3_robot__m__2__me__we = t_12 / REAL(50.0)
+        + p->robot__m__2__el__k
+            * (p->fe__2 * p->robot__m__2__el__Re / p->robot__m__2__el__k / p->robot__m__2__el__k
+            - REAL(1.0)) / REAL(50.0)
+        - t_26 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.Fx[2] in stage 2 */
+    c->r3_w3_v2_robot__Fx__2 = t_14 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.Fx[2] in stage 3 */
+    c->r3_w3_v3_robot__Fx__2 = t_6 / REAL(50.0) - t_14 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws in stage 1 */
+    c->r3_w3_v1_robot__m__2__wh__ws = t_13 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws in stage 2 */
+    c->r3_w3_v2_robot__m__2__wh__ws = t_27 / REAL(50.0) - t_13 / REAL(25.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws in stage 3 */
+    c->r3_w3_v3_robot__m__2__wh__ws = t_5 / REAL(50.0) + t_13 / REAL(50.0) - t_27 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws in stage 2 */
+    c->r3_w4_v2_robot__m__2__wh__ws = t_28 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws in stage 3 */
+    c->r3_w4_v3_robot__m__2__wh__ws = t_28 / REAL(10.0) - t_5 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w5: factor of robot.m[2].me.we in stage 3 */
+    c->r3_w5_v3_robot__m__2__me__we = t_4 / REAL(146.0);
+
+    /* khepera.bg:17: r3_w6: factor of robot.m[2].me.we in stage 2 */
+    c->r3_w6_v2_robot__m__2__me__we = t_23 / REAL(365.0);
+
+    /* khepera.bg:17: r3_w6: factor of robot.m[2].me.we in stage 3 */
+    c->r3_w6_v3_robot__m__2__me__we = t_4 / REAL(365.0) - t_23 / REAL(365.0);
+
+    /* khepera.bg:17: r3_w7: factor of robot.m[2].me.we in stage 2 */
+    c->r3_w7_v2_robot__m__2__me__we = t_25 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w7: factor of robot.m[2].me.we in stage 3 */
+    c->r3_w7_v3_robot__m__2__me__we = t_4 / REAL(730.0) - t_25 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w7: factor of robot.m[2].wh.ws in stage 2 */
+    c->r3_w7_v2_robot__m__2__wh__ws = t_24 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w7: factor of robot.m[2].wh.ws in stage 3 */
+    c->r3_w7_v3_robot__m__2__wh__ws = t_5 / REAL(730.0) - t_24 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w7: factor of robot.Fx[2] in stage 3 */
+    c->r3_w7_v3_robot__Fx__2 = t_6 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w8: factor of robot.m[2].wh.ws in stage 3 */
+    c->r3_w8_v3_robot__m__2__wh__ws = t_5 / REAL(146.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we in stage 1 */
+    c->r3_w9_v1_robot__m__2__me__we = t_12 / REAL(1825.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we in stage 2 */
+    c->r3_w9_v2_robot__m__2__me__we = REAL(2.0) * t_12 / REAL(1825.0) + t_29 / REAL(3650.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we in stage 3 */
+    c->r3_w9_v3_robot__m__2__me__we = t_4 / REAL(1825.0) + t_12 / REAL(1825.0)
+        + t_29 / REAL(3650.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws in stage 1 */
+    c->r3_w9_v1_robot__m__2__wh__ws = t_13 / REAL(1825.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws in stage 2 */
+    c->r3_w9_v2_robot__m__2__wh__ws = REAL(2.0) * t_13 / REAL(1825.0) + t_30 / REAL(3650.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws in stage 3 */
+    c->r3_w9_v3_robot__m__2__wh__ws = t_5 / REAL(1825.0) + t_13 / REAL(1825.0)
+        + t_30 / REAL(3650.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.Fx[2] in stage 2 */
+    c->r3_w9_v2_robot__Fx__2 = t_14 / REAL(1825.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.Fx[2] in stage 3 */
+    c->r3_w9_v3_robot__Fx__2 = t_14 / REAL(1825.0) - t_6 / REAL(1825.0);
+
+    /* khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws in stage 2 */
+    c->r3_w10_v2_robot__m__2__wh__ws = t_28 / REAL(365.0);
+
+    /* khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws in stage 3 */
+    c->r3_w10_v3_robot__m__2__wh__ws = t_5 / REAL(365.0) - t_28 / REAL(365.0);
+
+    /* khepera.bg:41: r4_w1: factor of robot.m[2].wh.ws in stage 2 */
+    c->r4_w1_v2_robot__m__2__wh__ws = p->robot__m__2__wh__fs * bandwidth / REAL(10.0)
+            / p->robot__m__2__ge__N / p->robot__m__2__me__K;
+}
+
+static bool parameters_are_finite(const khepera_plausible_threshold_parameters *p)
+{
+    return finite_number(p->Js__1 + p->Js__2 + p->fe__1 + p->fe__2 + p->R__1 + p->R__2
+            + p->robot__m__1__el__L + p->robot__m__1__el__Re + p->robot__m__1__el__k
+            + p->robot__m__1__me__Je + p->robot__m__1__me__K + p->robot__m__1__ge__N
+            + p->robot__m__1__wh__fs + p->robot__m__2__el__L + p->robot__m__2__el__Re
+            + p->robot__m__2__el__k + p->robot__m__2__me__Je + p->robot__m__2__me__K
+            + p->robot__m__2__ge__N + p->robot__m__2__wh__fs);
+}
+
+static bool coefficients_are_finite(const khepera_plausible_threshold_monitor *monitor)
+{
+    return finite_number(monitor->c.r1_w1_v2_robot__m__1__me__we
+            + monitor->c.r1_w1_v3_robot__m__1__me__we + monitor->c.a + monitor->c.b0 + monitor->c.b1
+            + monitor->c.rest + monitor->c.r1_w2_v3_robot__Fx__1
+            + monitor->c.r1_w2_v2_robot__m__1__wh__ws + monitor->c.r1_w2_v3_robot__m__1__wh__ws
+            + monitor->c.r1_w2_v2_robot__m__1__me__we + monitor->c.r1_w2_v3_robot__m__1__me__we
+            + monitor->c.r1_w3_v1_robot__m__1__me__we + monitor->c.r1_w3_v2_robot__m__1__me__we
+            + monitor->c.r1_w3_v3_robot__m__1__me__we + monitor->c.r1_w3_v2_robot__Fx__1
+            + monitor->c.r1_w3_v3_robot__Fx__1 + monitor->c.r1_w3_v1_robot__m__1__wh__ws
+            + monitor->c.r1_w3_v2_robot__m__1__wh__ws + monitor->c.r1_w3_v3_robot__m__1__wh__ws
+            + monitor->c.r1_w4_v2_robot__m__1__wh__ws + monitor->c.r1_w4_v3_robot__m__1__wh__ws
+            + monitor->c.r1_w5_v3_robot__m__1__me__we + monitor->c.r1_w6_v2_robot__m__1__me__we
+            + monitor->c.r1_w6_v3_robot__m__1__me__we + monitor->c.r1_w7_v2_robot__m__1__me__we
+            + monitor->c.r1_w7_v3_robot__m__1__me__we + monitor->c.r1_w7_v2_robot__m__1__wh__ws
+            + monitor->c.r1_w7_v3_robot__m__1__wh__ws + monitor->c.r1_w7_v3_robot__Fx__1
+            + monitor->c.r1_w8_v3_robot__m__1__wh__ws + monitor->c.r1_w9_v1_robot__m__1__me__we
+            + monitor->c.r1_w9_v2_robot__m__1__me__we + monitor->c.r1_w9_v3_robot__m__1__me__we
+            + monitor->c.r1_w9_v1_robot__m__1__wh__ws + monitor->c.r1_w9_v2_robot__m__1__wh__ws
+            + monitor->c.r1_w9_v3_robot__m__1__wh__ws + monitor->c.r1_w9_v2_robot__Fx__1
+            + monitor->c.r1_w9_v3_robot__Fx__1 + monitor->c.r1_w10_v2_robot__m__1__wh__ws
+            + monitor->c.r1_w10_v3_robot__m__1__wh__ws + monitor->c.r2_w1_v2_robot__m__1__wh__ws
+            + monitor->c.r3_w1_v2_robot__m__2__me__we + monitor->c.r3_w1_v3_robot__m__2__me__we
+            + monitor->c.r3_w2_v3_robot__Fx__2 + monitor->c.r3_w2_v2_robot__m__2__wh__ws
+            + monitor->c.r3_w2_v3_robot__m__2__wh__ws + monitor->c.r3_w2_v2_robot__m__2__me__we
+            + monitor->c.r3_w2_v3_robot__m__2__me__we + monitor->c.r3_w3_v1_robot__m__2__me__we
+            + monitor->c.r3_w3_v2_robot__m__2__me__we + monitor->c.r3_w3_v3_robot__m__2__me__we
+            + monitor->c.r3_w3_v2_robot__Fx__2 + monitor->c.r3_w3_v3_robot__Fx__2
+            + monitor->c.r3_w3_v1_robot__m__2__wh__ws + monitor->c.r3_w3_v2_robot__m__2__wh__ws
+            + monitor->c.r3_w3_v3_robot__m__2__wh__ws + monitor->c.r3_w4_v2_robot__m__2__wh__ws
+            + monitor->c.r3_w4_v3_robot__m__2__wh__ws + monitor->c.r3_w5_v3_robot__m__2__me__we
+            + monitor->c.r3_w6_v2_robot__m__2__me__we + monitor->c.r3_w6_v3_robot__m__2__me__we
+            + monitor->c.r3_w7_v2_robot__m__2__me__we + monitor->c.r3_w7_v3_robot__m__2__me__we
+            + monitor->c.r3_w7_v2_robot__m__2__wh__ws + monitor->c.r3_w7_v3_robot__m__2__wh__ws
+            + monitor->c.r3_w7_v3_robot__Fx__2 + monitor->c.r3_w8_v3_robot__m__2__wh__ws
+            + monitor->c.r3_w9_v1_robot__m__2__me__we + monitor->c.r3_w9_v2_robot__m__2__me__we
+            + monitor->c.r3_w9_v3_robot__m__2__me__we + monitor->c.r3_w9_v1_robot__m__2__wh__ws
+            + monitor->c.r3_w9_v2_robot__m__2__wh__ws + monitor->c.r3_w9_v3_robot__m__2__wh__ws
+            + monitor->c.r3_w9_v2_robot__Fx__2 + monitor->c.r3_w9_v3_robot__Fx__2
+            + monitor->c.r3_w10_v2_robot__m__2__wh__ws + monitor->c.r3_w10_v3_robot__m__2__wh__ws
+            + monitor->c.r4_w1_v2_robot__m__2__wh__ws);
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+khepera_plausible_threshold_status khepera_plausible_threshold_configure(
+    khepera_plausible_threshold_monitor *monitor,
+    const khepera_plausible_threshold_parameters *parameters,
+    khepera_plausible_threshold_real sample_time,
+    khepera_plausible_threshold_real bandwidth,
+    khepera_plausible_threshold_real time_unit)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_PLAUSIBLE_THRESHOLD_RESIDUALS; ++k) {
+        monitor->settle[k] = UINT32_MAX;
+    }
+    khepera_plausible_threshold_reset(monitor);
+    if (!parameters_are_finite(parameters)) {
+        return KHEPERA_PLAUSIBLE_THRESHOLD_BAD_PARAMETER;
+    }
+    if (!(sample_time >= REAL(0.000999999)) || !finite_number(sample_time)) {
+        return KHEPERA_PLAUSIBLE_THRESHOLD_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return KHEPERA_PLAUSIBLE_THRESHOLD_BAD_BANDWIDTH;
+    }
+    if (!(time_unit > REAL(0.0)) || !finite_number(time_unit)) {
+        return KHEPERA_PLAUSIBLE_THRESHOLD_BAD_TIME_UNIT;
+    }
+    compute_coefficients(monitor, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(monitor)) {
+        return KHEPERA_PLAUSIBLE_THRESHOLD_BAD_COEFFICIENT;
+    }
+    monitor->settle[KHEPERA_PLAUSIBLE_THRESHOLD_R1] =
+        samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[KHEPERA_PLAUSIBLE_THRESHOLD_R2] =
+        samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[KHEPERA_PLAUSIBLE_THRESHOLD_R3] =
+        samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[KHEPERA_PLAUSIBLE_THRESHOLD_R4] =
+        samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[KHEPERA_PLAUSIBLE_THRESHOLD_R5] =
+        samples(REAL(6.907755278982138), sample_time, bandwidth);
+    return KHEPERA_PLAUSIBLE_THRESHOLD_OK;
+}
+
+void khepera_plausible_threshold_exact(
+    const khepera_plausible_threshold_monitor *monitor,
+    const khepera_plausible_threshold_derivatives *derivatives,
+    khepera_plausible_threshold_real residuals[KHEPERA_PLAUSIBLE_THRESHOLD_RESIDUALS])
+{
+    real *r = residuals;
+
+    (void)monitor;
+    (void)derivatives;
+
+    /* khepera.bg:17: r1: a threshold is made of filtered signals, only step has it */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R1] = (real)NAN;
+
+    /* khepera.bg:41: r2: a threshold is made of filtered signals, only step has it */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R2] = (real)NAN;
+
+    /* khepera.bg:17: r3: a threshold is made of filtered signals, only step has it */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R3] = (real)NAN;
+
+    /* khepera.bg:41: r4: a threshold is made of filtered signals, only step has it */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R4] = (real)NAN;
+
+    /* khepera.bg:114: r5: a threshold is made of filtered signals, only step has it */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R5] = (real)NAN;
+}
+
+/* r1 on its first sample: the filter as if it had always been so. */
+static void start_r1(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, real *r)
+{
+    const khepera_plausible_threshold_coefficients *c = &monitor->c;
+    khepera_plausible_threshold_memory *x = &monitor->x;
+
+    /* khepera.bg:17: r1_w1: input of stage 3 */
+    const real r1_w1_u3 = c->r1_w1_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: stage 3, at rest */
+    const real r1_w1_y3 = r1_w1_u3;
+
+    /* khepera.bg:17: r1_w1: stage 3: memory */
+    x->r1_w1_s3 = c->rest * r1_w1_u3;
+
+    /* khepera.bg:17: r1_w1: input of stage 2 */
+    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: stage 2, at rest */
+    const real r1_w1_y2 = r1_w1_u2;
+
+    /* khepera.bg:17: r1_w1: stage 2: memory */
+    x->r1_w1_s2 = c->rest * r1_w1_u2;
+
+    /* khepera.bg:17: r1_w1: input of stage 1 */
+    const real r1_w1_u1 = r1_w1_y2;
+
+    /* khepera.bg:17: r1_w1: stage 1, at rest */
+    const real r1_w1_y1 = r1_w1_u1;
+
+    /* khepera.bg:17: r1_w1: stage 1: memory */
+    x->r1_w1_s1 = c->rest * r1_w1_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of fe[1] can do */
+    const real r1_w1 = r1_w1_y1;
+
+    /* khepera.bg:17: r1_w2: input of stage 3 */
+    const real r1_w2_u3 = c->r1_w2_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        + c->r1_w2_v3_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w2_v3_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w2: stage 3, at rest */
+    const real r1_w2_y3 = r1_w2_u3;
+
+    /* khepera.bg:17: r1_w2: stage 3: memory */
+    x->r1_w2_s3 = c->rest * r1_w2_u3;
+
+    /* khepera.bg:17: r1_w2: input of stage 2 */
+    const real r1_w2_u2 = r1_w2_y3 - c->r1_w2_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w2_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w2: stage 2, at rest */
+    const real r1_w2_y2 = r1_w2_u2;
+
+    /* khepera.bg:17: r1_w2: stage 2: memory */
+    x->r1_w2_s2 = c->rest * r1_w2_u2;
+
+    /* khepera.bg:17: r1_w2: input of stage 1 */
+    const real r1_w2_u1 = r1_w2_y2;
+
+    /* khepera.bg:17: r1_w2: stage 1, at rest */
+    const real r1_w2_y1 = r1_w2_u1;
+
+    /* khepera.bg:17: r1_w2: stage 1: memory */
+    x->r1_w2_s1 = c->rest * r1_w2_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re can do */
+    const real r1_w2 = r1_w2_y1;
+
+    /* khepera.bg:17: r1_w3: input of stage 3 */
+    const real r1_w3_u3 = c->r1_w3_v3_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_v3_robot__Fx__1 * s->robot__Fx__1
+        + c->r1_w3_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w3: stage 3, at rest */
+    const real r1_w3_y3 = r1_w3_u3;
+
+    /* khepera.bg:17: r1_w3: stage 3: memory */
+    x->r1_w3_s3 = c->rest * r1_w3_u3;
+
+    /* khepera.bg:17: r1_w3: input of stage 2 */
+    const real r1_w3_u2 = r1_w3_y3 + c->r1_w3_v2_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_v2_robot__Fx__1 * s->robot__Fx__1
+        + c->r1_w3_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w3: stage 2, at rest */
+    const real r1_w3_y2 = r1_w3_u2;
+
+    /* khepera.bg:17: r1_w3: stage 2: memory */
+    x->r1_w3_s2 = c->rest * r1_w3_u2;
+
+    /* khepera.bg:17: r1_w3: input of stage 1 */
+    const real r1_w3_u1 = r1_w3_y2 + c->r1_w3_v1_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w3: stage 1, at rest */
+    const real r1_w3_y1 = r1_w3_u1;
+
+    /* khepera.bg:17: r1_w3: stage 1: memory */
+    x->r1_w3_s1 = c->rest * r1_w3_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do */
+    const real r1_w3 = r1_w3_y1;
+
+    /* khepera.bg:17: r1_w4: input of stage 3 */
+    const real r1_w4_u3 = c->r1_w4_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: stage 3, at rest */
+    const real r1_w4_y3 = r1_w4_u3;
+
+    /* khepera.bg:17: r1_w4: stage 3: memory */
+    x->r1_w4_s3 = c->rest * r1_w4_u3;
+
+    /* khepera.bg:17: r1_w4: input of stage 2 */
+    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: stage 2, at rest */
+    const real r1_w4_y2 = r1_w4_u2;
+
+    /* khepera.bg:17: r1_w4: stage 2: memory */
+    x->r1_w4_s2 = c->rest * r1_w4_u2;
+
+    /* khepera.bg:17: r1_w4: input of stage 1 */
+    const real r1_w4_u1 = r1_w4_y2;
+
+    /* khepera.bg:17: r1_w4: stage 1, at rest */
+    const real r1_w4_y1 = r1_w4_u1;
+
+    /* khepera.bg:17: r1_w4: stage 1: memory */
+    x->r1_w4_s1 = c->rest * r1_w4_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].wh.fs can do */
+    const real r1_w4 = r1_w4_y1;
+
+    /* khepera.bg:17: r1_w5: input of stage 3 */
+    const real r1_w5_u3 = -c->r1_w5_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w5: stage 3, at rest */
+    const real r1_w5_y3 = r1_w5_u3;
+
+    /* khepera.bg:17: r1_w5: stage 3: memory */
+    x->r1_w5_s3 = c->rest * r1_w5_u3;
+
+    /* khepera.bg:17: r1_w5: input of stage 2 */
+    const real r1_w5_u2 = r1_w5_y3;
+
+    /* khepera.bg:17: r1_w5: stage 2, at rest */
+    const real r1_w5_y2 = r1_w5_u2;
+
+    /* khepera.bg:17: r1_w5: stage 2: memory */
+    x->r1_w5_s2 = c->rest * r1_w5_u2;
+
+    /* khepera.bg:17: r1_w5: input of stage 1 */
+    const real r1_w5_u1 = r1_w5_y2;
+
+    /* khepera.bg:17: r1_w5: stage 1, at rest */
+    const real r1_w5_y1 = r1_w5_u1;
+
+    /* khepera.bg:17: r1_w5: stage 1: memory */
+    x->r1_w5_s1 = c->rest * r1_w5_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.Re can do */
+    const real r1_w5 = r1_w5_y1;
+
+    /* khepera.bg:17: r1_w6: input of stage 3 */
+    const real r1_w6_u3 = c->r1_w6_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w6: stage 3, at rest */
+    const real r1_w6_y3 = r1_w6_u3;
+
+    /* khepera.bg:17: r1_w6: stage 3: memory */
+    x->r1_w6_s3 = c->rest * r1_w6_u3;
+
+    /* khepera.bg:17: r1_w6: input of stage 2 */
+    const real r1_w6_u2 = r1_w6_y3 + c->r1_w6_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w6: stage 2, at rest */
+    const real r1_w6_y2 = r1_w6_u2;
+
+    /* khepera.bg:17: r1_w6: stage 2: memory */
+    x->r1_w6_s2 = c->rest * r1_w6_u2;
+
+    /* khepera.bg:17: r1_w6: input of stage 1 */
+    const real r1_w6_u1 = r1_w6_y2;
+
+    /* khepera.bg:17: r1_w6: stage 1, at rest */
+    const real r1_w6_y1 = r1_w6_u1;
+
+    /* khepera.bg:17: r1_w6: stage 1: memory */
+    x->r1_w6_s1 = c->rest * r1_w6_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.k can do */
+    const real r1_w6 = r1_w6_y1;
+
+    /* khepera.bg:17: r1_w7: input of stage 3 */
+    const real r1_w7_u3 = c->r1_w7_v3_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w7_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        + c->r1_w7_v3_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w7: stage 3, at rest */
+    const real r1_w7_y3 = r1_w7_u3;
+
+    /* khepera.bg:17: r1_w7: stage 3: memory */
+    x->r1_w7_s3 = c->rest * r1_w7_u3;
+
+    /* khepera.bg:17: r1_w7: input of stage 2 */
+    const real r1_w7_u2 = r1_w7_y3 + c->r1_w7_v2_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w7_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w7: stage 2, at rest */
+    const real r1_w7_y2 = r1_w7_u2;
+
+    /* khepera.bg:17: r1_w7: stage 2: memory */
+    x->r1_w7_s2 = c->rest * r1_w7_u2;
+
+    /* khepera.bg:17: r1_w7: input of stage 1 */
+    const real r1_w7_u1 = r1_w7_y2;
+
+    /* khepera.bg:17: r1_w7: stage 1, at rest */
+    const real r1_w7_y1 = r1_w7_u1;
+
+    /* khepera.bg:17: r1_w7: stage 1: memory */
+    x->r1_w7_s1 = c->rest * r1_w7_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].el.k can do */
+    const real r1_w7 = r1_w7_y1;
+
+    /* khepera.bg:17: r1_w8: input of stage 3 */
+    const real r1_w8_u3 = -c->r1_w8_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w8: stage 3, at rest */
+    const real r1_w8_y3 = r1_w8_u3;
+
+    /* khepera.bg:17: r1_w8: stage 3: memory */
+    x->r1_w8_s3 = c->rest * r1_w8_u3;
+
+    /* khepera.bg:17: r1_w8: input of stage 2 */
+    const real r1_w8_u2 = r1_w8_y3;
+
+    /* khepera.bg:17: r1_w8: stage 2, at rest */
+    const real r1_w8_y2 = r1_w8_u2;
+
+    /* khepera.bg:17: r1_w8: stage 2: memory */
+    x->r1_w8_s2 = c->rest * r1_w8_u2;
+
+    /* khepera.bg:17: r1_w8: input of stage 1 */
+    const real r1_w8_u1 = r1_w8_y2;
+
+    /* khepera.bg:17: r1_w8: stage 1, at rest */
+    const real r1_w8_y1 = r1_w8_u1;
+
+    /* khepera.bg:17: r1_w8: stage 1: memory */
+    x->r1_w8_s1 = c->rest * r1_w8_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].wh.fs can do */
+    const real r1_w8 = r1_w8_y1;
+
+    /* khepera.bg:17: r1_w9: input of stage 3 */
+    const real r1_w9_u3 = c->r1_w9_v3_robot__Fx__1 * s->robot__Fx__1
+        - c->r1_w9_v3_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w9_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w9: stage 3, at rest */
+    const real r1_w9_y3 = r1_w9_u3;
+
+    /* khepera.bg:17: r1_w9: stage 3: memory */
+    x->r1_w9_s3 = c->rest * r1_w9_u3;
+
+    /* khepera.bg:17: r1_w9: input of stage 2 */
+    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w9_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w9_v2_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w9: stage 2, at rest */
+    const real r1_w9_y2 = r1_w9_u2;
+
+    /* khepera.bg:17: r1_w9: stage 2: memory */
+    x->r1_w9_s2 = c->rest * r1_w9_u2;
+
+    /* khepera.bg:17: r1_w9: input of stage 1 */
+    const real r1_w9_u1 = r1_w9_y2 - c->r1_w9_v1_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w9_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w9: stage 1, at rest */
+    const real r1_w9_y1 = r1_w9_u1;
+
+    /* khepera.bg:17: r1_w9: stage 1: memory */
+    x->r1_w9_s1 = c->rest * r1_w9_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do */
+    const real r1_w9 = r1_w9_y1;
+
+    /* khepera.bg:17: r1_w10: input of stage 3 */
+    const real r1_w10_u3 = c->r1_w10_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: stage 3, at rest */
+    const real r1_w10_y3 = r1_w10_u3;
+
+    /* khepera.bg:17: r1_w10: stage 3: memory */
+    x->r1_w10_s3 = c->rest * r1_w10_u3;
+
+    /* khepera.bg:17: r1_w10: input of stage 2 */
+    const real r1_w10_u2 = r1_w10_y3 + c->r1_w10_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: stage 2, at rest */
+    const real r1_w10_y2 = r1_w10_u2;
+
+    /* khepera.bg:17: r1_w10: stage 2: memory */
+    x->r1_w10_s2 = c->rest * r1_w10_u2;
+
+    /* khepera.bg:17: r1_w10: input of stage 1 */
+    const real r1_w10_u1 = r1_w10_y2;
+
+    /* khepera.bg:17: r1_w10: stage 1, at rest */
+    const real r1_w10_y1 = r1_w10_u1;
+
+    /* khepera.bg:17: r1_w10: stage 1: memory */
+    x->r1_w10_s1 = c->rest * r1_w10_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k and robot.m[1].wh.fs can do */
+    const real r1_w10 = r1_w10_y1;
+
+    /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R1] = MATH(fabs)(r1_w1) + MATH(fabs)(r1_w2) + MATH(fabs)(r1_w3)
+        + MATH(fabs)(r1_w4) + MATH(fabs)(r1_w5) + MATH(fabs)(r1_w6) + MATH(fabs)(r1_w7)
+        + MATH(fabs)(r1_w8) + MATH(fabs)(r1_w9) + MATH(fabs)(r1_w10);
+}
+
+/* r1 on every further sample. */
+static void next_r1(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, real *r)
+{
+    const khepera_plausible_threshold_coefficients *c = &monitor->c;
+    khepera_plausible_threshold_memory *x = &monitor->x;
+
+    /* khepera.bg:17: r1_w1: input of stage 3 */
+    const real r1_w1_u3 = c->r1_w1_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: stage 3 */
+    const real r1_w1_y3 = x->r1_w1_s3 + c->b0 * r1_w1_u3;
+
+    /* khepera.bg:17: r1_w1: stage 3: memory */
+    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b1 * r1_w1_u3;
+
+    /* khepera.bg:17: r1_w1: input of stage 2 */
+    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: stage 2 */
+    const real r1_w1_y2 = x->r1_w1_s2 + c->b0 * r1_w1_u2;
+
+    /* khepera.bg:17: r1_w1: stage 2: memory */
+    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b1 * r1_w1_u2;
+
+    /* khepera.bg:17: r1_w1: input of stage 1 */
+    const real r1_w1_u1 = r1_w1_y2;
+
+    /* khepera.bg:17: r1_w1: stage 1 */
+    const real r1_w1_y1 = x->r1_w1_s1 + c->b0 * r1_w1_u1;
+
+    /* khepera.bg:17: r1_w1: stage 1: memory */
+    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b1 * r1_w1_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of fe[1] can do */
+    const real r1_w1 = r1_w1_y1;
+
+    /* khepera.bg:17: r1_w2: input of stage 3 */
+    const real r1_w2_u3 = c->r1_w2_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        + c->r1_w2_v3_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w2_v3_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w2: stage 3 */
+    const real r1_w2_y3 = x->r1_w2_s3 + c->b0 * r1_w2_u3;
+
+    /* khepera.bg:17: r1_w2: stage 3: memory */
+    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b1 * r1_w2_u3;
+
+    /* khepera.bg:17: r1_w2: input of stage 2 */
+    const real r1_w2_u2 = r1_w2_y3 - c->r1_w2_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w2_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w2: stage 2 */
+    const real r1_w2_y2 = x->r1_w2_s2 + c->b0 * r1_w2_u2;
+
+    /* khepera.bg:17: r1_w2: stage 2: memory */
+    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b1 * r1_w2_u2;
+
+    /* khepera.bg:17: r1_w2: input of stage 1 */
+    const real r1_w2_u1 = r1_w2_y2;
+
+    /* khepera.bg:17: r1_w2: stage 1 */
+    const real r1_w2_y1 = x->r1_w2_s1 + c->b0 * r1_w2_u1;
+
+    /* khepera.bg:17: r1_w2: stage 1: memory */
+    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b1 * r1_w2_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re can do */
+    const real r1_w2 = r1_w2_y1;
+
+    /* khepera.bg:17: r1_w3: input of stage 3 */
+    const real r1_w3_u3 = c->r1_w3_v3_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_v3_robot__Fx__1 * s->robot__Fx__1
+        + c->r1_w3_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w3: stage 3 */
+    const real r1_w3_y3 = x->r1_w3_s3 + c->b0 * r1_w3_u3;
+
+    /* khepera.bg:17: r1_w3: stage 3: memory */
+    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b1 * r1_w3_u3;
+
+    /* khepera.bg:17: r1_w3: input of stage 2 */
+    const real r1_w3_u2 = r1_w3_y3 + c->r1_w3_v2_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_v2_robot__Fx__1 * s->robot__Fx__1
+        + c->r1_w3_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w3: stage 2 */
+    const real r1_w3_y2 = x->r1_w3_s2 + c->b0 * r1_w3_u2;
+
+    /* khepera.bg:17: r1_w3: stage 2: memory */
+    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b1 * r1_w3_u2;
+
+    /* khepera.bg:17: r1_w3: input of stage 1 */
+    const real r1_w3_u1 = r1_w3_y2 + c->r1_w3_v1_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w3: stage 1 */
+    const real r1_w3_y1 = x->r1_w3_s1 + c->b0 * r1_w3_u1;
+
+    /* khepera.bg:17: r1_w3: stage 1: memory */
+    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b1 * r1_w3_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do */
+    const real r1_w3 = r1_w3_y1;
+
+    /* khepera.bg:17: r1_w4: input of stage 3 */
+    const real r1_w4_u3 = c->r1_w4_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: stage 3 */
+    const real r1_w4_y3 = x->r1_w4_s3 + c->b0 * r1_w4_u3;
+
+    /* khepera.bg:17: r1_w4: stage 3: memory */
+    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b1 * r1_w4_u3;
+
+    /* khepera.bg:17: r1_w4: input of stage 2 */
+    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: stage 2 */
+    const real r1_w4_y2 = x->r1_w4_s2 + c->b0 * r1_w4_u2;
+
+    /* khepera.bg:17: r1_w4: stage 2: memory */
+    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b1 * r1_w4_u2;
+
+    /* khepera.bg:17: r1_w4: input of stage 1 */
+    const real r1_w4_u1 = r1_w4_y2;
+
+    /* khepera.bg:17: r1_w4: stage 1 */
+    const real r1_w4_y1 = x->r1_w4_s1 + c->b0 * r1_w4_u1;
+
+    /* khepera.bg:17: r1_w4: stage 1: memory */
+    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b1 * r1_w4_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].wh.fs can do */
+    const real r1_w4 = r1_w4_y1;
+
+    /* khepera.bg:17: r1_w5: input of stage 3 */
+    const real r1_w5_u3 = -c->r1_w5_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w5: stage 3 */
+    const real r1_w5_y3 = x->r1_w5_s3 + c->b0 * r1_w5_u3;
+
+    /* khepera.bg:17: r1_w5: stage 3: memory */
+    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b1 * r1_w5_u3;
+
+    /* khepera.bg:17: r1_w5: input of stage 2 */
+    const real r1_w5_u2 = r1_w5_y3;
+
+    /* khepera.bg:17: r1_w5: stage 2 */
+    const real r1_w5_y2 = x->r1_w5_s2 + c->b0 * r1_w5_u2;
+
+    /* khepera.bg:17: r1_w5: stage 2: memory */
+    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b1 * r1_w5_u2;
+
+    /* khepera.bg:17: r1_w5: input of stage 1 */
+    const real r1_w5_u1 = r1_w5_y2;
+
+    /* khepera.bg:17: r1_w5: stage 1 */
+    const real r1_w5_y1 = x->r1_w5_s1 + c->b0 * r1_w5_u1;
+
+    /* khepera.bg:17: r1_w5: stage 1: memory */
+    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.Re can do */
+    const real r1_w5 = r1_w5_y1;
+
+    /* khepera.bg:17: r1_w6: input of stage 3 */
+    const real r1_w6_u3 = c->r1_w6_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w6: stage 3 */
+    const real r1_w6_y3 = x->r1_w6_s3 + c->b0 * r1_w6_u3;
+
+    /* khepera.bg:17: r1_w6: stage 3: memory */
+    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b1 * r1_w6_u3;
+
+    /* khepera.bg:17: r1_w6: input of stage 2 */
+    const real r1_w6_u2 = r1_w6_y3 + c->r1_w6_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w6: stage 2 */
+    const real r1_w6_y2 = x->r1_w6_s2 + c->b0 * r1_w6_u2;
+
+    /* khepera.bg:17: r1_w6: stage 2: memory */
+    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b1 * r1_w6_u2;
+
+    /* khepera.bg:17: r1_w6: input of stage 1 */
+    const real r1_w6_u1 = r1_w6_y2;
+
+    /* khepera.bg:17: r1_w6: stage 1 */
+    const real r1_w6_y1 = x->r1_w6_s1 + c->b0 * r1_w6_u1;
+
+    /* khepera.bg:17: r1_w6: stage 1: memory */
+    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.k can do */
+    const real r1_w6 = r1_w6_y1;
+
+    /* khepera.bg:17: r1_w7: input of stage 3 */
+    const real r1_w7_u3 = c->r1_w7_v3_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w7_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        + c->r1_w7_v3_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w7: stage 3 */
+    const real r1_w7_y3 = x->r1_w7_s3 + c->b0 * r1_w7_u3;
+
+    /* khepera.bg:17: r1_w7: stage 3: memory */
+    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b1 * r1_w7_u3;
+
+    /* khepera.bg:17: r1_w7: input of stage 2 */
+    const real r1_w7_u2 = r1_w7_y3 + c->r1_w7_v2_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w7_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w7: stage 2 */
+    const real r1_w7_y2 = x->r1_w7_s2 + c->b0 * r1_w7_u2;
+
+    /* khepera.bg:17: r1_w7: stage 2: memory */
+    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b1 * r1_w7_u2;
+
+    /* khepera.bg:17: r1_w7: input of stage 1 */
+    const real r1_w7_u1 = r1_w7_y2;
+
+    /* khepera.bg:17: r1_w7: stage 1 */
+    const real r1_w7_y1 = x->r1_w7_s1 + c->b0 * r1_w7_u1;
+
+    /* khepera.bg:17: r1_w7: stage 1: memory */
+    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].el.k can do */
+    const real r1_w7 = r1_w7_y1;
+
+    /* khepera.bg:17: r1_w8: input of stage 3 */
+    const real r1_w8_u3 = -c->r1_w8_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w8: stage 3 */
+    const real r1_w8_y3 = x->r1_w8_s3 + c->b0 * r1_w8_u3;
+
+    /* khepera.bg:17: r1_w8: stage 3: memory */
+    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b1 * r1_w8_u3;
+
+    /* khepera.bg:17: r1_w8: input of stage 2 */
+    const real r1_w8_u2 = r1_w8_y3;
+
+    /* khepera.bg:17: r1_w8: stage 2 */
+    const real r1_w8_y2 = x->r1_w8_s2 + c->b0 * r1_w8_u2;
+
+    /* khepera.bg:17: r1_w8: stage 2: memory */
+    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b1 * r1_w8_u2;
+
+    /* khepera.bg:17: r1_w8: input of stage 1 */
+    const real r1_w8_u1 = r1_w8_y2;
+
+    /* khepera.bg:17: r1_w8: stage 1 */
+    const real r1_w8_y1 = x->r1_w8_s1 + c->b0 * r1_w8_u1;
+
+    /* khepera.bg:17: r1_w8: stage 1: memory */
+    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].wh.fs can do */
+    const real r1_w8 = r1_w8_y1;
+
+    /* khepera.bg:17: r1_w9: input of stage 3 */
+    const real r1_w9_u3 = c->r1_w9_v3_robot__Fx__1 * s->robot__Fx__1
+        - c->r1_w9_v3_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w9_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w9: stage 3 */
+    const real r1_w9_y3 = x->r1_w9_s3 + c->b0 * r1_w9_u3;
+
+    /* khepera.bg:17: r1_w9: stage 3: memory */
+    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b1 * r1_w9_u3;
+
+    /* khepera.bg:17: r1_w9: input of stage 2 */
+    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w9_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w9_v2_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w9: stage 2 */
+    const real r1_w9_y2 = x->r1_w9_s2 + c->b0 * r1_w9_u2;
+
+    /* khepera.bg:17: r1_w9: stage 2: memory */
+    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b1 * r1_w9_u2;
+
+    /* khepera.bg:17: r1_w9: input of stage 1 */
+    const real r1_w9_u1 = r1_w9_y2 - c->r1_w9_v1_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w9_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w9: stage 1 */
+    const real r1_w9_y1 = x->r1_w9_s1 + c->b0 * r1_w9_u1;
+
+    /* khepera.bg:17: r1_w9: stage 1: memory */
+    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do */
+    const real r1_w9 = r1_w9_y1;
+
+    /* khepera.bg:17: r1_w10: input of stage 3 */
+    const real r1_w10_u3 = c->r1_w10_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: stage 3 */
+    const real r1_w10_y3 = x->r1_w10_s3 + c->b0 * r1_w10_u3;
+
+    /* khepera.bg:17: r1_w10: stage 3: memory */
+    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b1 * r1_w10_u3;
+
+    /* khepera.bg:17: r1_w10: input of stage 2 */
+    const real r1_w10_u2 = r1_w10_y3 + c->r1_w10_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: stage 2 */
+    const real r1_w10_y2 = x->r1_w10_s2 + c->b0 * r1_w10_u2;
+
+    /* khepera.bg:17: r1_w10: stage 2: memory */
+    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b1 * r1_w10_u2;
+
+    /* khepera.bg:17: r1_w10: input of stage 1 */
+    const real r1_w10_u1 = r1_w10_y2;
+
+    /* khepera.bg:17: r1_w10: stage 1 */
+    const real r1_w10_y1 = x->r1_w10_s1 + c->b0 * r1_w10_u1;
+
+    /* khepera.bg:17: r1_w10: stage 1: memory */
+    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
+
+    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k and robot.m[1].wh.fs can do */
+    const real r1_w10 = r1_w10_y1;
+
+    /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R1] = MATH(fabs)(r1_w1) + MATH(fabs)(r1_w2) + MATH(fabs)(r1_w3)
+        + MATH(fabs)(r1_w4) + MATH(fabs)(r1_w5) + MATH(fabs)(r1_w6) + MATH(fabs)(r1_w7)
+        + MATH(fabs)(r1_w8) + MATH(fabs)(r1_w9) + MATH(fabs)(r1_w10);
+}
+
+/* One sample for r1; a number that is not finite makes the next sample the first. */
+static void run_r1(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, khepera_plausible_threshold_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[0];
+
+    if (age == 0u) {
+        start_r1(monitor, s, r);
+    } else {
+        next_r1(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->robot__Fx__1 + s->robot__m__1__me__we + s->robot__m__1__wh__ws
+                + r[KHEPERA_PLAUSIBLE_THRESHOLD_R1])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_PLAUSIBLE_THRESHOLD_R1] = REAL(0.0);
+    }
+    monitor->age[0] = age;
+    residuals->valid[KHEPERA_PLAUSIBLE_THRESHOLD_R1] = age > monitor->settle[KHEPERA_PLAUSIBLE_THRESHOLD_R1];
+}
+
+/* r2 on its first sample: the filter as if it had always been so. */
+static void start_r2(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, real *r)
+{
+    const khepera_plausible_threshold_coefficients *c = &monitor->c;
+    khepera_plausible_threshold_memory *x = &monitor->x;
+
+    /* khepera.bg:41: r2_w1: input of stage 3 */
+    const real r2_w1_u3 = c->r2_w1_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:41: r2_w1: stage 3, at rest */
+    const real r2_w1_y3 = r2_w1_u3;
+
+    /* khepera.bg:41: r2_w1: stage 3: memory */
+    x->r2_w1_s3 = c->rest * r2_w1_u3;
+
+    /* khepera.bg:41: r2_w1: input of stage 2 */
+    const real r2_w1_u2 = r2_w1_y3 - c->r2_w1_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:41: r2_w1: stage 2, at rest */
+    const real r2_w1_y2 = r2_w1_u2;
+
+    /* khepera.bg:41: r2_w1: stage 2: memory */
+    x->r2_w1_s2 = c->rest * r2_w1_u2;
+
+    /* khepera.bg:41: r2_w1: input of stage 1 */
+    const real r2_w1_u1 = r2_w1_y2;
+
+    /* khepera.bg:41: r2_w1: stage 1, at rest */
+    const real r2_w1_y1 = r2_w1_u1;
+
+    /* khepera.bg:41: r2_w1: stage 1: memory */
+    x->r2_w1_s1 = c->rest * r2_w1_u1;
+
+    /* khepera.bg:41: r2: what the tolerance of robot.m[1].wh.fs can do */
+    const real r2_w1 = r2_w1_y1;
+
+    /* khepera.bg:41: r2: how far r2 can be from zero if no parameter is out of tolerance */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R2] = MATH(fabs)(r2_w1);
+}
+
+/* r2 on every further sample. */
+static void next_r2(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, real *r)
+{
+    const khepera_plausible_threshold_coefficients *c = &monitor->c;
+    khepera_plausible_threshold_memory *x = &monitor->x;
+
+    /* khepera.bg:41: r2_w1: input of stage 3 */
+    const real r2_w1_u3 = c->r2_w1_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:41: r2_w1: stage 3 */
+    const real r2_w1_y3 = x->r2_w1_s3 + c->b0 * r2_w1_u3;
+
+    /* khepera.bg:41: r2_w1: stage 3: memory */
+    x->r2_w1_s3 = c->a * r2_w1_y3 + c->b1 * r2_w1_u3;
+
+    /* khepera.bg:41: r2_w1: input of stage 2 */
+    const real r2_w1_u2 = r2_w1_y3 - c->r2_w1_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:41: r2_w1: stage 2 */
+    const real r2_w1_y2 = x->r2_w1_s2 + c->b0 * r2_w1_u2;
+
+    /* khepera.bg:41: r2_w1: stage 2: memory */
+    x->r2_w1_s2 = c->a * r2_w1_y2 + c->b1 * r2_w1_u2;
+
+    /* khepera.bg:41: r2_w1: input of stage 1 */
+    const real r2_w1_u1 = r2_w1_y2;
+
+    /* khepera.bg:41: r2_w1: stage 1 */
+    const real r2_w1_y1 = x->r2_w1_s1 + c->b0 * r2_w1_u1;
+
+    /* khepera.bg:41: r2_w1: stage 1: memory */
+    x->r2_w1_s1 = c->a * r2_w1_y1 + c->b1 * r2_w1_u1;
+
+    /* khepera.bg:41: r2: what the tolerance of robot.m[1].wh.fs can do */
+    const real r2_w1 = r2_w1_y1;
+
+    /* khepera.bg:41: r2: how far r2 can be from zero if no parameter is out of tolerance */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R2] = MATH(fabs)(r2_w1);
+}
+
+/* One sample for r2; a number that is not finite makes the next sample the first. */
+static void run_r2(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, khepera_plausible_threshold_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[1];
+
+    if (age == 0u) {
+        start_r2(monitor, s, r);
+    } else {
+        next_r2(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->robot__m__1__wh__ws + r[KHEPERA_PLAUSIBLE_THRESHOLD_R2])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_PLAUSIBLE_THRESHOLD_R2] = REAL(0.0);
+    }
+    monitor->age[1] = age;
+    residuals->valid[KHEPERA_PLAUSIBLE_THRESHOLD_R2] = age > monitor->settle[KHEPERA_PLAUSIBLE_THRESHOLD_R2];
+}
+
+/* r3 on its first sample: the filter as if it had always been so. */
+static void start_r3(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, real *r)
+{
+    const khepera_plausible_threshold_coefficients *c = &monitor->c;
+    khepera_plausible_threshold_memory *x = &monitor->x;
+
+    /* khepera.bg:17: r3_w1: input of stage 3 */
+    const real r3_w1_u3 = c->r3_w1_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: stage 3, at rest */
+    const real r3_w1_y3 = r3_w1_u3;
+
+    /* khepera.bg:17: r3_w1: stage 3: memory */
+    x->r3_w1_s3 = c->rest * r3_w1_u3;
+
+    /* khepera.bg:17: r3_w1: input of stage 2 */
+    const real r3_w1_u2 = r3_w1_y3 - c->r3_w1_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: stage 2, at rest */
+    const real r3_w1_y2 = r3_w1_u2;
+
+    /* khepera.bg:17: r3_w1: stage 2: memory */
+    x->r3_w1_s2 = c->rest * r3_w1_u2;
+
+    /* khepera.bg:17: r3_w1: input of stage 1 */
+    const real r3_w1_u1 = r3_w1_y2;
+
+    /* khepera.bg:17: r3_w1: stage 1, at rest */
+    const real r3_w1_y1 = r3_w1_u1;
+
+    /* khepera.bg:17: r3_w1: stage 1: memory */
+    x->r3_w1_s1 = c->rest * r3_w1_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of fe[2] can do */
+    const real r3_w1 = r3_w1_y1;
+
+    /* khepera.bg:17: r3_w2: input of stage 3 */
+    const real r3_w2_u3 = c->r3_w2_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        + c->r3_w2_v3_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w2_v3_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w2: stage 3, at rest */
+    const real r3_w2_y3 = r3_w2_u3;
+
+    /* khepera.bg:17: r3_w2: stage 3: memory */
+    x->r3_w2_s3 = c->rest * r3_w2_u3;
+
+    /* khepera.bg:17: r3_w2: input of stage 2 */
+    const real r3_w2_u2 = r3_w2_y3 - c->r3_w2_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w2_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w2: stage 2, at rest */
+    const real r3_w2_y2 = r3_w2_u2;
+
+    /* khepera.bg:17: r3_w2: stage 2: memory */
+    x->r3_w2_s2 = c->rest * r3_w2_u2;
+
+    /* khepera.bg:17: r3_w2: input of stage 1 */
+    const real r3_w2_u1 = r3_w2_y2;
+
+    /* khepera.bg:17: r3_w2: stage 1, at rest */
+    const real r3_w2_y1 = r3_w2_u1;
+
+    /* khepera.bg:17: r3_w2: stage 1: memory */
+    x->r3_w2_s1 = c->rest * r3_w2_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re can do */
+    const real r3_w2 = r3_w2_y1;
+
+    /* khepera.bg:17: r3_w3: input of stage 3 */
+    const real r3_w3_u3 = c->r3_w3_v3_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_v3_robot__Fx__2 * s->robot__Fx__2
+        + c->r3_w3_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w3: stage 3, at rest */
+    const real r3_w3_y3 = r3_w3_u3;
+
+    /* khepera.bg:17: r3_w3: stage 3: memory */
+    x->r3_w3_s3 = c->rest * r3_w3_u3;
+
+    /* khepera.bg:17: r3_w3: input of stage 2 */
+    const real r3_w3_u2 = r3_w3_y3 + c->r3_w3_v2_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_v2_robot__Fx__2 * s->robot__Fx__2
+        + c->r3_w3_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w3: stage 2, at rest */
+    const real r3_w3_y2 = r3_w3_u2;
+
+    /* khepera.bg:17: r3_w3: stage 2: memory */
+    x->r3_w3_s2 = c->rest * r3_w3_u2;
+
+    /* khepera.bg:17: r3_w3: input of stage 1 */
+    const real r3_w3_u1 = r3_w3_y2 + c->r3_w3_v1_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w3: stage 1, at rest */
+    const real r3_w3_y1 = r3_w3_u1;
+
+    /* khepera.bg:17: r3_w3: stage 1: memory */
+    x->r3_w3_s1 = c->rest * r3_w3_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do */
+    const real r3_w3 = r3_w3_y1;
+
+    /* khepera.bg:17: r3_w4: input of stage 3 */
+    const real r3_w4_u3 = c->r3_w4_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: stage 3, at rest */
+    const real r3_w4_y3 = r3_w4_u3;
+
+    /* khepera.bg:17: r3_w4: stage 3: memory */
+    x->r3_w4_s3 = c->rest * r3_w4_u3;
+
+    /* khepera.bg:17: r3_w4: input of stage 2 */
+    const real r3_w4_u2 = r3_w4_y3 - c->r3_w4_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: stage 2, at rest */
+    const real r3_w4_y2 = r3_w4_u2;
+
+    /* khepera.bg:17: r3_w4: stage 2: memory */
+    x->r3_w4_s2 = c->rest * r3_w4_u2;
+
+    /* khepera.bg:17: r3_w4: input of stage 1 */
+    const real r3_w4_u1 = r3_w4_y2;
+
+    /* khepera.bg:17: r3_w4: stage 1, at rest */
+    const real r3_w4_y1 = r3_w4_u1;
+
+    /* khepera.bg:17: r3_w4: stage 1: memory */
+    x->r3_w4_s1 = c->rest * r3_w4_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].wh.fs can do */
+    const real r3_w4 = r3_w4_y1;
+
+    /* khepera.bg:17: r3_w5: input of stage 3 */
+    const real r3_w5_u3 = -c->r3_w5_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w5: stage 3, at rest */
+    const real r3_w5_y3 = r3_w5_u3;
+
+    /* khepera.bg:17: r3_w5: stage 3: memory */
+    x->r3_w5_s3 = c->rest * r3_w5_u3;
+
+    /* khepera.bg:17: r3_w5: input of stage 2 */
+    const real r3_w5_u2 = r3_w5_y3;
+
+    /* khepera.bg:17: r3_w5: stage 2, at rest */
+    const real r3_w5_y2 = r3_w5_u2;
+
+    /* khepera.bg:17: r3_w5: stage 2: memory */
+    x->r3_w5_s2 = c->rest * r3_w5_u2;
+
+    /* khepera.bg:17: r3_w5: input of stage 1 */
+    const real r3_w5_u1 = r3_w5_y2;
+
+    /* khepera.bg:17: r3_w5: stage 1, at rest */
+    const real r3_w5_y1 = r3_w5_u1;
+
+    /* khepera.bg:17: r3_w5: stage 1: memory */
+    x->r3_w5_s1 = c->rest * r3_w5_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.Re can do */
+    const real r3_w5 = r3_w5_y1;
+
+    /* khepera.bg:17: r3_w6: input of stage 3 */
+    const real r3_w6_u3 = c->r3_w6_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w6: stage 3, at rest */
+    const real r3_w6_y3 = r3_w6_u3;
+
+    /* khepera.bg:17: r3_w6: stage 3: memory */
+    x->r3_w6_s3 = c->rest * r3_w6_u3;
+
+    /* khepera.bg:17: r3_w6: input of stage 2 */
+    const real r3_w6_u2 = r3_w6_y3 + c->r3_w6_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w6: stage 2, at rest */
+    const real r3_w6_y2 = r3_w6_u2;
+
+    /* khepera.bg:17: r3_w6: stage 2: memory */
+    x->r3_w6_s2 = c->rest * r3_w6_u2;
+
+    /* khepera.bg:17: r3_w6: input of stage 1 */
+    const real r3_w6_u1 = r3_w6_y2;
+
+    /* khepera.bg:17: r3_w6: stage 1, at rest */
+    const real r3_w6_y1 = r3_w6_u1;
+
+    /* khepera.bg:17: r3_w6: stage 1: memory */
+    x->r3_w6_s1 = c->rest * r3_w6_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.k can do */
+    const real r3_w6 = r3_w6_y1;
+
+    /* khepera.bg:17: r3_w7: input of stage 3 */
+    const real r3_w7_u3 = c->r3_w7_v3_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w7_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        + c->r3_w7_v3_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w7: stage 3, at rest */
+    const real r3_w7_y3 = r3_w7_u3;
+
+    /* khepera.bg:17: r3_w7: stage 3: memory */
+    x->r3_w7_s3 = c->rest * r3_w7_u3;
+
+    /* khepera.bg:17: r3_w7: input of stage 2 */
+    const real r3_w7_u2 = r3_w7_y3 + c->r3_w7_v2_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w7_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w7: stage 2, at rest */
+    const real r3_w7_y2 = r3_w7_u2;
+
+    /* khepera.bg:17: r3_w7: stage 2: memory */
+    x->r3_w7_s2 = c->rest * r3_w7_u2;
+
+    /* khepera.bg:17: r3_w7: input of stage 1 */
+    const real r3_w7_u1 = r3_w7_y2;
+
+    /* khepera.bg:17: r3_w7: stage 1, at rest */
+    const real r3_w7_y1 = r3_w7_u1;
+
+    /* khepera.bg:17: r3_w7: stage 1: memory */
+    x->r3_w7_s1 = c->rest * r3_w7_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].el.k can do */
+    const real r3_w7 = r3_w7_y1;
+
+    /* khepera.bg:17: r3_w8: input of stage 3 */
+    const real r3_w8_u3 = -c->r3_w8_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w8: stage 3, at rest */
+    const real r3_w8_y3 = r3_w8_u3;
+
+    /* khepera.bg:17: r3_w8: stage 3: memory */
+    x->r3_w8_s3 = c->rest * r3_w8_u3;
+
+    /* khepera.bg:17: r3_w8: input of stage 2 */
+    const real r3_w8_u2 = r3_w8_y3;
+
+    /* khepera.bg:17: r3_w8: stage 2, at rest */
+    const real r3_w8_y2 = r3_w8_u2;
+
+    /* khepera.bg:17: r3_w8: stage 2: memory */
+    x->r3_w8_s2 = c->rest * r3_w8_u2;
+
+    /* khepera.bg:17: r3_w8: input of stage 1 */
+    const real r3_w8_u1 = r3_w8_y2;
+
+    /* khepera.bg:17: r3_w8: stage 1, at rest */
+    const real r3_w8_y1 = r3_w8_u1;
+
+    /* khepera.bg:17: r3_w8: stage 1: memory */
+    x->r3_w8_s1 = c->rest * r3_w8_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].wh.fs can do */
+    const real r3_w8 = r3_w8_y1;
+
+    /* khepera.bg:17: r3_w9: input of stage 3 */
+    const real r3_w9_u3 = c->r3_w9_v3_robot__Fx__2 * s->robot__Fx__2
+        - c->r3_w9_v3_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w9_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w9: stage 3, at rest */
+    const real r3_w9_y3 = r3_w9_u3;
+
+    /* khepera.bg:17: r3_w9: stage 3: memory */
+    x->r3_w9_s3 = c->rest * r3_w9_u3;
+
+    /* khepera.bg:17: r3_w9: input of stage 2 */
+    const real r3_w9_u2 = r3_w9_y3 + c->r3_w9_v2_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w9_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w9_v2_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w9: stage 2, at rest */
+    const real r3_w9_y2 = r3_w9_u2;
+
+    /* khepera.bg:17: r3_w9: stage 2: memory */
+    x->r3_w9_s2 = c->rest * r3_w9_u2;
+
+    /* khepera.bg:17: r3_w9: input of stage 1 */
+    const real r3_w9_u1 = r3_w9_y2 - c->r3_w9_v1_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w9_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w9: stage 1, at rest */
+    const real r3_w9_y1 = r3_w9_u1;
+
+    /* khepera.bg:17: r3_w9: stage 1: memory */
+    x->r3_w9_s1 = c->rest * r3_w9_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do */
+    const real r3_w9 = r3_w9_y1;
+
+    /* khepera.bg:17: r3_w10: input of stage 3 */
+    const real r3_w10_u3 = c->r3_w10_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: stage 3, at rest */
+    const real r3_w10_y3 = r3_w10_u3;
+
+    /* khepera.bg:17: r3_w10: stage 3: memory */
+    x->r3_w10_s3 = c->rest * r3_w10_u3;
+
+    /* khepera.bg:17: r3_w10: input of stage 2 */
+    const real r3_w10_u2 = r3_w10_y3 + c->r3_w10_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: stage 2, at rest */
+    const real r3_w10_y2 = r3_w10_u2;
+
+    /* khepera.bg:17: r3_w10: stage 2: memory */
+    x->r3_w10_s2 = c->rest * r3_w10_u2;
+
+    /* khepera.bg:17: r3_w10: input of stage 1 */
+    const real r3_w10_u1 = r3_w10_y2;
+
+    /* khepera.bg:17: r3_w10: stage 1, at rest */
+    const real r3_w10_y1 = r3_w10_u1;
+
+    /* khepera.bg:17: r3_w10: stage 1: memory */
+    x->r3_w10_s1 = c->rest * r3_w10_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k and robot.m[2].wh.fs can do */
+    const real r3_w10 = r3_w10_y1;
+
+    /* khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R3] = MATH(fabs)(r3_w1) + MATH(fabs)(r3_w2) + MATH(fabs)(r3_w3)
+        + MATH(fabs)(r3_w4) + MATH(fabs)(r3_w5) + MATH(fabs)(r3_w6) + MATH(fabs)(r3_w7)
+        + MATH(fabs)(r3_w8) + MATH(fabs)(r3_w9) + MATH(fabs)(r3_w10);
+}
+
+/* r3 on every further sample. */
+static void next_r3(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, real *r)
+{
+    const khepera_plausible_threshold_coefficients *c = &monitor->c;
+    khepera_plausible_threshold_memory *x = &monitor->x;
+
+    /* khepera.bg:17: r3_w1: input of stage 3 */
+    const real r3_w1_u3 = c->r3_w1_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: stage 3 */
+    const real r3_w1_y3 = x->r3_w1_s3 + c->b0 * r3_w1_u3;
+
+    /* khepera.bg:17: r3_w1: stage 3: memory */
+    x->r3_w1_s3 = c->a * r3_w1_y3 + c->b1 * r3_w1_u3;
+
+    /* khepera.bg:17: r3_w1: input of stage 2 */
+    const real r3_w1_u2 = r3_w1_y3 - c->r3_w1_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: stage 2 */
+    const real r3_w1_y2 = x->r3_w1_s2 + c->b0 * r3_w1_u2;
+
+    /* khepera.bg:17: r3_w1: stage 2: memory */
+    x->r3_w1_s2 = c->a * r3_w1_y2 + c->b1 * r3_w1_u2;
+
+    /* khepera.bg:17: r3_w1: input of stage 1 */
+    const real r3_w1_u1 = r3_w1_y2;
+
+    /* khepera.bg:17: r3_w1: stage 1 */
+    const real r3_w1_y1 = x->r3_w1_s1 + c->b0 * r3_w1_u1;
+
+    /* khepera.bg:17: r3_w1: stage 1: memory */
+    x->r3_w1_s1 = c->a * r3_w1_y1 + c->b1 * r3_w1_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of fe[2] can do */
+    const real r3_w1 = r3_w1_y1;
+
+    /* khepera.bg:17: r3_w2: input of stage 3 */
+    const real r3_w2_u3 = c->r3_w2_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        + c->r3_w2_v3_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w2_v3_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w2: stage 3 */
+    const real r3_w2_y3 = x->r3_w2_s3 + c->b0 * r3_w2_u3;
+
+    /* khepera.bg:17: r3_w2: stage 3: memory */
+    x->r3_w2_s3 = c->a * r3_w2_y3 + c->b1 * r3_w2_u3;
+
+    /* khepera.bg:17: r3_w2: input of stage 2 */
+    const real r3_w2_u2 = r3_w2_y3 - c->r3_w2_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w2_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w2: stage 2 */
+    const real r3_w2_y2 = x->r3_w2_s2 + c->b0 * r3_w2_u2;
+
+    /* khepera.bg:17: r3_w2: stage 2: memory */
+    x->r3_w2_s2 = c->a * r3_w2_y2 + c->b1 * r3_w2_u2;
+
+    /* khepera.bg:17: r3_w2: input of stage 1 */
+    const real r3_w2_u1 = r3_w2_y2;
+
+    /* khepera.bg:17: r3_w2: stage 1 */
+    const real r3_w2_y1 = x->r3_w2_s1 + c->b0 * r3_w2_u1;
+
+    /* khepera.bg:17: r3_w2: stage 1: memory */
+    x->r3_w2_s1 = c->a * r3_w2_y1 + c->b1 * r3_w2_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re can do */
+    const real r3_w2 = r3_w2_y1;
+
+    /* khepera.bg:17: r3_w3: input of stage 3 */
+    const real r3_w3_u3 = c->r3_w3_v3_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_v3_robot__Fx__2 * s->robot__Fx__2
+        + c->r3_w3_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w3: stage 3 */
+    const real r3_w3_y3 = x->r3_w3_s3 + c->b0 * r3_w3_u3;
+
+    /* khepera.bg:17: r3_w3: stage 3: memory */
+    x->r3_w3_s3 = c->a * r3_w3_y3 + c->b1 * r3_w3_u3;
+
+    /* khepera.bg:17: r3_w3: input of stage 2 */
+    const real r3_w3_u2 = r3_w3_y3 + c->r3_w3_v2_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_v2_robot__Fx__2 * s->robot__Fx__2
+        + c->r3_w3_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w3: stage 2 */
+    const real r3_w3_y2 = x->r3_w3_s2 + c->b0 * r3_w3_u2;
+
+    /* khepera.bg:17: r3_w3: stage 2: memory */
+    x->r3_w3_s2 = c->a * r3_w3_y2 + c->b1 * r3_w3_u2;
+
+    /* khepera.bg:17: r3_w3: input of stage 1 */
+    const real r3_w3_u1 = r3_w3_y2 + c->r3_w3_v1_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w3: stage 1 */
+    const real r3_w3_y1 = x->r3_w3_s1 + c->b0 * r3_w3_u1;
+
+    /* khepera.bg:17: r3_w3: stage 1: memory */
+    x->r3_w3_s1 = c->a * r3_w3_y1 + c->b1 * r3_w3_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do */
+    const real r3_w3 = r3_w3_y1;
+
+    /* khepera.bg:17: r3_w4: input of stage 3 */
+    const real r3_w4_u3 = c->r3_w4_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: stage 3 */
+    const real r3_w4_y3 = x->r3_w4_s3 + c->b0 * r3_w4_u3;
+
+    /* khepera.bg:17: r3_w4: stage 3: memory */
+    x->r3_w4_s3 = c->a * r3_w4_y3 + c->b1 * r3_w4_u3;
+
+    /* khepera.bg:17: r3_w4: input of stage 2 */
+    const real r3_w4_u2 = r3_w4_y3 - c->r3_w4_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: stage 2 */
+    const real r3_w4_y2 = x->r3_w4_s2 + c->b0 * r3_w4_u2;
+
+    /* khepera.bg:17: r3_w4: stage 2: memory */
+    x->r3_w4_s2 = c->a * r3_w4_y2 + c->b1 * r3_w4_u2;
+
+    /* khepera.bg:17: r3_w4: input of stage 1 */
+    const real r3_w4_u1 = r3_w4_y2;
+
+    /* khepera.bg:17: r3_w4: stage 1 */
+    const real r3_w4_y1 = x->r3_w4_s1 + c->b0 * r3_w4_u1;
+
+    /* khepera.bg:17: r3_w4: stage 1: memory */
+    x->r3_w4_s1 = c->a * r3_w4_y1 + c->b1 * r3_w4_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].wh.fs can do */
+    const real r3_w4 = r3_w4_y1;
+
+    /* khepera.bg:17: r3_w5: input of stage 3 */
+    const real r3_w5_u3 = -c->r3_w5_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w5: stage 3 */
+    const real r3_w5_y3 = x->r3_w5_s3 + c->b0 * r3_w5_u3;
+
+    /* khepera.bg:17: r3_w5: stage 3: memory */
+    x->r3_w5_s3 = c->a * r3_w5_y3 + c->b1 * r3_w5_u3;
+
+    /* khepera.bg:17: r3_w5: input of stage 2 */
+    const real r3_w5_u2 = r3_w5_y3;
+
+    /* khepera.bg:17: r3_w5: stage 2 */
+    const real r3_w5_y2 = x->r3_w5_s2 + c->b0 * r3_w5_u2;
+
+    /* khepera.bg:17: r3_w5: stage 2: memory */
+    x->r3_w5_s2 = c->a * r3_w5_y2 + c->b1 * r3_w5_u2;
+
+    /* khepera.bg:17: r3_w5: input of stage 1 */
+    const real r3_w5_u1 = r3_w5_y2;
+
+    /* khepera.bg:17: r3_w5: stage 1 */
+    const real r3_w5_y1 = x->r3_w5_s1 + c->b0 * r3_w5_u1;
+
+    /* khepera.bg:17: r3_w5: stage 1: memory */
+    x->r3_w5_s1 = c->a * r3_w5_y1 + c->b1 * r3_w5_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.Re can do */
+    const real r3_w5 = r3_w5_y1;
+
+    /* khepera.bg:17: r3_w6: input of stage 3 */
+    const real r3_w6_u3 = c->r3_w6_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w6: stage 3 */
+    const real r3_w6_y3 = x->r3_w6_s3 + c->b0 * r3_w6_u3;
+
+    /* khepera.bg:17: r3_w6: stage 3: memory */
+    x->r3_w6_s3 = c->a * r3_w6_y3 + c->b1 * r3_w6_u3;
+
+    /* khepera.bg:17: r3_w6: input of stage 2 */
+    const real r3_w6_u2 = r3_w6_y3 + c->r3_w6_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w6: stage 2 */
+    const real r3_w6_y2 = x->r3_w6_s2 + c->b0 * r3_w6_u2;
+
+    /* khepera.bg:17: r3_w6: stage 2: memory */
+    x->r3_w6_s2 = c->a * r3_w6_y2 + c->b1 * r3_w6_u2;
+
+    /* khepera.bg:17: r3_w6: input of stage 1 */
+    const real r3_w6_u1 = r3_w6_y2;
+
+    /* khepera.bg:17: r3_w6: stage 1 */
+    const real r3_w6_y1 = x->r3_w6_s1 + c->b0 * r3_w6_u1;
+
+    /* khepera.bg:17: r3_w6: stage 1: memory */
+    x->r3_w6_s1 = c->a * r3_w6_y1 + c->b1 * r3_w6_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.k can do */
+    const real r3_w6 = r3_w6_y1;
+
+    /* khepera.bg:17: r3_w7: input of stage 3 */
+    const real r3_w7_u3 = c->r3_w7_v3_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w7_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        + c->r3_w7_v3_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w7: stage 3 */
+    const real r3_w7_y3 = x->r3_w7_s3 + c->b0 * r3_w7_u3;
+
+    /* khepera.bg:17: r3_w7: stage 3: memory */
+    x->r3_w7_s3 = c->a * r3_w7_y3 + c->b1 * r3_w7_u3;
+
+    /* khepera.bg:17: r3_w7: input of stage 2 */
+    const real r3_w7_u2 = r3_w7_y3 + c->r3_w7_v2_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w7_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w7: stage 2 */
+    const real r3_w7_y2 = x->r3_w7_s2 + c->b0 * r3_w7_u2;
+
+    /* khepera.bg:17: r3_w7: stage 2: memory */
+    x->r3_w7_s2 = c->a * r3_w7_y2 + c->b1 * r3_w7_u2;
+
+    /* khepera.bg:17: r3_w7: input of stage 1 */
+    const real r3_w7_u1 = r3_w7_y2;
+
+    /* khepera.bg:17: r3_w7: stage 1 */
+    const real r3_w7_y1 = x->r3_w7_s1 + c->b0 * r3_w7_u1;
+
+    /* khepera.bg:17: r3_w7: stage 1: memory */
+    x->r3_w7_s1 = c->a * r3_w7_y1 + c->b1 * r3_w7_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].el.k can do */
+    const real r3_w7 = r3_w7_y1;
+
+    /* khepera.bg:17: r3_w8: input of stage 3 */
+    const real r3_w8_u3 = -c->r3_w8_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w8: stage 3 */
+    const real r3_w8_y3 = x->r3_w8_s3 + c->b0 * r3_w8_u3;
+
+    /* khepera.bg:17: r3_w8: stage 3: memory */
+    x->r3_w8_s3 = c->a * r3_w8_y3 + c->b1 * r3_w8_u3;
+
+    /* khepera.bg:17: r3_w8: input of stage 2 */
+    const real r3_w8_u2 = r3_w8_y3;
+
+    /* khepera.bg:17: r3_w8: stage 2 */
+    const real r3_w8_y2 = x->r3_w8_s2 + c->b0 * r3_w8_u2;
+
+    /* khepera.bg:17: r3_w8: stage 2: memory */
+    x->r3_w8_s2 = c->a * r3_w8_y2 + c->b1 * r3_w8_u2;
+
+    /* khepera.bg:17: r3_w8: input of stage 1 */
+    const real r3_w8_u1 = r3_w8_y2;
+
+    /* khepera.bg:17: r3_w8: stage 1 */
+    const real r3_w8_y1 = x->r3_w8_s1 + c->b0 * r3_w8_u1;
+
+    /* khepera.bg:17: r3_w8: stage 1: memory */
+    x->r3_w8_s1 = c->a * r3_w8_y1 + c->b1 * r3_w8_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].wh.fs can do */
+    const real r3_w8 = r3_w8_y1;
+
+    /* khepera.bg:17: r3_w9: input of stage 3 */
+    const real r3_w9_u3 = c->r3_w9_v3_robot__Fx__2 * s->robot__Fx__2
+        - c->r3_w9_v3_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w9_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w9: stage 3 */
+    const real r3_w9_y3 = x->r3_w9_s3 + c->b0 * r3_w9_u3;
+
+    /* khepera.bg:17: r3_w9: stage 3: memory */
+    x->r3_w9_s3 = c->a * r3_w9_y3 + c->b1 * r3_w9_u3;
+
+    /* khepera.bg:17: r3_w9: input of stage 2 */
+    const real r3_w9_u2 = r3_w9_y3 + c->r3_w9_v2_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w9_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w9_v2_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w9: stage 2 */
+    const real r3_w9_y2 = x->r3_w9_s2 + c->b0 * r3_w9_u2;
+
+    /* khepera.bg:17: r3_w9: stage 2: memory */
+    x->r3_w9_s2 = c->a * r3_w9_y2 + c->b1 * r3_w9_u2;
+
+    /* khepera.bg:17: r3_w9: input of stage 1 */
+    const real r3_w9_u1 = r3_w9_y2 - c->r3_w9_v1_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w9_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w9: stage 1 */
+    const real r3_w9_y1 = x->r3_w9_s1 + c->b0 * r3_w9_u1;
+
+    /* khepera.bg:17: r3_w9: stage 1: memory */
+    x->r3_w9_s1 = c->a * r3_w9_y1 + c->b1 * r3_w9_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do */
+    const real r3_w9 = r3_w9_y1;
+
+    /* khepera.bg:17: r3_w10: input of stage 3 */
+    const real r3_w10_u3 = c->r3_w10_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: stage 3 */
+    const real r3_w10_y3 = x->r3_w10_s3 + c->b0 * r3_w10_u3;
+
+    /* khepera.bg:17: r3_w10: stage 3: memory */
+    x->r3_w10_s3 = c->a * r3_w10_y3 + c->b1 * r3_w10_u3;
+
+    /* khepera.bg:17: r3_w10: input of stage 2 */
+    const real r3_w10_u2 = r3_w10_y3 + c->r3_w10_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: stage 2 */
+    const real r3_w10_y2 = x->r3_w10_s2 + c->b0 * r3_w10_u2;
+
+    /* khepera.bg:17: r3_w10: stage 2: memory */
+    x->r3_w10_s2 = c->a * r3_w10_y2 + c->b1 * r3_w10_u2;
+
+    /* khepera.bg:17: r3_w10: input of stage 1 */
+    const real r3_w10_u1 = r3_w10_y2;
+
+    /* khepera.bg:17: r3_w10: stage 1 */
+    const real r3_w10_y1 = x->r3_w10_s1 + c->b0 * r3_w10_u1;
+
+    /* khepera.bg:17: r3_w10: stage 1: memory */
+    x->r3_w10_s1 = c->a * r3_w10_y1 + c->b1 * r3_w10_u1;
+
+    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k and robot.m[2].wh.fs can do */
+    const real r3_w10 = r3_w10_y1;
+
+    /* khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R3] = MATH(fabs)(r3_w1) + MATH(fabs)(r3_w2) + MATH(fabs)(r3_w3)
+        + MATH(fabs)(r3_w4) + MATH(fabs)(r3_w5) + MATH(fabs)(r3_w6) + MATH(fabs)(r3_w7)
+        + MATH(fabs)(r3_w8) + MATH(fabs)(r3_w9) + MATH(fabs)(r3_w10);
+}
+
+/* One sample for r3; a number that is not finite makes the next sample the first. */
+static void run_r3(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, khepera_plausible_threshold_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[2];
+
+    if (age == 0u) {
+        start_r3(monitor, s, r);
+    } else {
+        next_r3(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->robot__Fx__2 + s->robot__m__2__me__we + s->robot__m__2__wh__ws
+                + r[KHEPERA_PLAUSIBLE_THRESHOLD_R3])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_PLAUSIBLE_THRESHOLD_R3] = REAL(0.0);
+    }
+    monitor->age[2] = age;
+    residuals->valid[KHEPERA_PLAUSIBLE_THRESHOLD_R3] = age > monitor->settle[KHEPERA_PLAUSIBLE_THRESHOLD_R3];
+}
+
+/* r4 on its first sample: the filter as if it had always been so. */
+static void start_r4(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, real *r)
+{
+    const khepera_plausible_threshold_coefficients *c = &monitor->c;
+    khepera_plausible_threshold_memory *x = &monitor->x;
+
+    /* khepera.bg:41: r4_w1: input of stage 3 */
+    const real r4_w1_u3 = c->r4_w1_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:41: r4_w1: stage 3, at rest */
+    const real r4_w1_y3 = r4_w1_u3;
+
+    /* khepera.bg:41: r4_w1: stage 3: memory */
+    x->r4_w1_s3 = c->rest * r4_w1_u3;
+
+    /* khepera.bg:41: r4_w1: input of stage 2 */
+    const real r4_w1_u2 = r4_w1_y3 - c->r4_w1_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:41: r4_w1: stage 2, at rest */
+    const real r4_w1_y2 = r4_w1_u2;
+
+    /* khepera.bg:41: r4_w1: stage 2: memory */
+    x->r4_w1_s2 = c->rest * r4_w1_u2;
+
+    /* khepera.bg:41: r4_w1: input of stage 1 */
+    const real r4_w1_u1 = r4_w1_y2;
+
+    /* khepera.bg:41: r4_w1: stage 1, at rest */
+    const real r4_w1_y1 = r4_w1_u1;
+
+    /* khepera.bg:41: r4_w1: stage 1: memory */
+    x->r4_w1_s1 = c->rest * r4_w1_u1;
+
+    /* khepera.bg:41: r4: what the tolerance of robot.m[2].wh.fs can do */
+    const real r4_w1 = r4_w1_y1;
+
+    /* khepera.bg:41: r4: how far r4 can be from zero if no parameter is out of tolerance */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R4] = MATH(fabs)(r4_w1);
+}
+
+/* r4 on every further sample. */
+static void next_r4(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, real *r)
+{
+    const khepera_plausible_threshold_coefficients *c = &monitor->c;
+    khepera_plausible_threshold_memory *x = &monitor->x;
+
+    /* khepera.bg:41: r4_w1: input of stage 3 */
+    const real r4_w1_u3 = c->r4_w1_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:41: r4_w1: stage 3 */
+    const real r4_w1_y3 = x->r4_w1_s3 + c->b0 * r4_w1_u3;
+
+    /* khepera.bg:41: r4_w1: stage 3: memory */
+    x->r4_w1_s3 = c->a * r4_w1_y3 + c->b1 * r4_w1_u3;
+
+    /* khepera.bg:41: r4_w1: input of stage 2 */
+    const real r4_w1_u2 = r4_w1_y3 - c->r4_w1_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:41: r4_w1: stage 2 */
+    const real r4_w1_y2 = x->r4_w1_s2 + c->b0 * r4_w1_u2;
+
+    /* khepera.bg:41: r4_w1: stage 2: memory */
+    x->r4_w1_s2 = c->a * r4_w1_y2 + c->b1 * r4_w1_u2;
+
+    /* khepera.bg:41: r4_w1: input of stage 1 */
+    const real r4_w1_u1 = r4_w1_y2;
+
+    /* khepera.bg:41: r4_w1: stage 1 */
+    const real r4_w1_y1 = x->r4_w1_s1 + c->b0 * r4_w1_u1;
+
+    /* khepera.bg:41: r4_w1: stage 1: memory */
+    x->r4_w1_s1 = c->a * r4_w1_y1 + c->b1 * r4_w1_u1;
+
+    /* khepera.bg:41: r4: what the tolerance of robot.m[2].wh.fs can do */
+    const real r4_w1 = r4_w1_y1;
+
+    /* khepera.bg:41: r4: how far r4 can be from zero if no parameter is out of tolerance */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R4] = MATH(fabs)(r4_w1);
+}
+
+/* One sample for r4; a number that is not finite makes the next sample the first. */
+static void run_r4(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, khepera_plausible_threshold_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[3];
+
+    if (age == 0u) {
+        start_r4(monitor, s, r);
+    } else {
+        next_r4(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->robot__m__2__wh__ws + r[KHEPERA_PLAUSIBLE_THRESHOLD_R4])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_PLAUSIBLE_THRESHOLD_R4] = REAL(0.0);
+    }
+    monitor->age[3] = age;
+    residuals->valid[KHEPERA_PLAUSIBLE_THRESHOLD_R4] = age > monitor->settle[KHEPERA_PLAUSIBLE_THRESHOLD_R4];
+}
+
+/* r5 on its first sample: the filter as if it had always been so. */
+static void start_r5(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, real *r)
+{
+    (void)monitor;
+    (void)s;
+
+    /* khepera.bg:114: r5: how far r5 can be from zero if no parameter is out of tolerance */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R5] = REAL(0.0);
+}
+
+/* r5 on every further sample. */
+static void next_r5(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, real *r)
+{
+    (void)monitor;
+    (void)s;
+
+    /* khepera.bg:114: r5: how far r5 can be from zero if no parameter is out of tolerance */
+    r[KHEPERA_PLAUSIBLE_THRESHOLD_R5] = REAL(0.0);
+}
+
+/* One sample for r5; a number that is not finite makes the next sample the first. */
+static void run_r5(
+    khepera_plausible_threshold_monitor *monitor, const khepera_plausible_threshold_samples *s, khepera_plausible_threshold_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[4];
+
+    if (age == 0u) {
+        start_r5(monitor, s, r);
+    } else {
+        next_r5(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(r[KHEPERA_PLAUSIBLE_THRESHOLD_R5])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_PLAUSIBLE_THRESHOLD_R5] = REAL(0.0);
+    }
+    monitor->age[4] = age;
+    residuals->valid[KHEPERA_PLAUSIBLE_THRESHOLD_R5] = age > monitor->settle[KHEPERA_PLAUSIBLE_THRESHOLD_R5];
+}
+
+void khepera_plausible_threshold_reset(khepera_plausible_threshold_monitor *monitor)
+{
+    int k;
+
+    for (k = 0; k < 5; ++k) {
+        monitor->age[k] = 0u;
+    }
+}
+
+void khepera_plausible_threshold_step(
+    khepera_plausible_threshold_monitor *monitor,
+    const khepera_plausible_threshold_samples *samples,
+    khepera_plausible_threshold_residuals *residuals)
+{
+    run_r1(monitor, samples, residuals);
+    run_r2(monitor, samples, residuals);
+    run_r3(monitor, samples, residuals);
+    run_r4(monitor, samples, residuals);
+    run_r5(monitor, samples, residuals);
+}
