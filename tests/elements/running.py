@@ -1,0 +1,86 @@
+"""Generated C on samples of an exact power series: how far each residual moves, and by what.
+
+The plant is `tests.adversary.plant.Simulator`: physics by hand, Taylor series of 40 digits.
+Nothing of the elimination is used. A first-order stage of bandwidth w that joins samples by
+straight lines errs by h^2*w*p/12 of what passes through it, w*h being small: measured here, the
+healthy level falls with the square of the sample time. A product of a signal and a derivative
+that is no sum of total derivatives adds a bias of the filter, whatever the sample time: measured
+for the boost converter, it falls with the square of the bandwidth.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import bondgraph
+from bondgraph.backends.names import snake
+from bondgraph.backends.spelling import Spelling
+from bondgraph.backends.target import load
+from bondgraph.backends.write import write
+from tests.adversary.plant import HERE, Plant, Simulator, plain
+from tests.unit.backends.compilers import InC
+
+SAMPLE_TIME = 1e-4  # s
+BANDWIDTH = 400.0  # rad/s: the filter forgets its start by exp(-40) in 0.1 s
+FAULT = 1e-3  # of a quantity near 1
+
+
+class Moves(NamedTuple):
+    """The filtered residuals at the end: when healthy, and what each fault adds to them."""
+
+    healthy: list[float]
+    faults: dict[str, list[float]]
+    signatures: list[list[str]]
+
+
+def at(jet: list[float], t: float) -> float:
+    """The value of a power series."""
+    total = 0.0
+    for c in reversed(jet):
+        total = total * t + c
+    return total
+
+
+def run(plant: Plant, answer: dict[str, Any], folder: Path, seconds: float = 0.1) -> Moves:
+    """Configure the code with the plant's parameters, and feed it the plant's signals."""
+    compilation = bondgraph.compile(HERE / "models" / f"{plant.name}.bg")
+    write(compilation.artifacts, folder)
+    program = compilation.program
+    code = InC(program, folder, snake(program.name))
+    spelling = Spelling(program, load("c"))
+
+    def own(name: str) -> str:
+        return plant.alias.get(name, plain(name))
+
+    orders = [o for a in answer["arrs"] for o in a["orders"].values()]
+    modes = dict.fromkeys(plant.modes.split(), True)
+    sim = Simulator(plant, max(orders, default=0) + 16, modes=modes)
+    healthy = sim.solve()
+    params = {
+        spelling.params[f.name]: float(sim.nominal[own(answer["names"].get(f.name, f.name))][0])
+        for f in program.params
+    }
+    members = {spelling.knowns[k.name]: own(k.path) for k in program.knowns}
+
+    def ended(y: dict[str, Any], base: list[float]) -> list[float]:
+        jets = {x: [float(c) for c in sim.signals[x]] for x in sim.inputs}
+        jets |= {x: [float(c) for c in jet] for x, jet in y.items()}
+        assert code.configure(SAMPLE_TIME, BANDWIDTH, 1.0, **params) == 0
+        for k in range(round(seconds / SAMPLE_TIME)):
+            now = {
+                m: modes[x] if x in modes else at(jets[x], k * SAMPLE_TIME)
+                for m, x in members.items()
+            }
+            values, valid = code.step(**now)
+        assert all(valid), f"{plant.name}: a residual is not valid at the end"
+        return [b - a for a, b in zip(base, values, strict=True)]
+
+    level = ended(healthy, [0.0] * len(answer["arrs"]))
+    faults = {}
+    said = [*answer["undetectable"], *[f for g in answer["groups"] for f in g]]
+    for fault in said:
+        y = sim.perturbed(own(fault), FAULT)
+        assert y is not None, f"{plant.name}: the plant cannot have the fault {fault}"
+        faults[fault] = ended(y, level)
+    return Moves(level, faults, [a["signature"] for a in answer["arrs"]])

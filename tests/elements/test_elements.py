@@ -1,0 +1,77 @@
+"""Each line of the table of elements: its C sees what the signature says, and nothing else."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.adversary.plant import HERE
+from tests.adversary.test_adversary import PLANTS, compiled
+from tests.elements.rows import ROWS, Row
+from tests.elements.running import run
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "elements.md"
+SEEN = 5  # a fault adds this many times the healthy level
+UNSEEN = 0.5  # less of the healthy level where it does not
+ROUNDING = 1e-12
+
+INTRODUCTION = """# Elements, sensors and loops: the model that shows each
+
+Every model stands before an independent judge: its physics are written by hand beside it
+(`tests/adversary/plants_*.py`), the trajectories are power series of 40 digits. Each residual
+vanishes on them, moves with exactly the faults of its signature, and the number of residuals and
+the faults that nothing sees are those of a rank computed from the plant. Where the last column
+says so, the generated C was compiled and run on samples of such a trajectory, healthy and with
+every fault in turn (`tests/elements`).
+
+This page is made from `tests/elements/rows.py` by `pytest tests/elements --update`.
+"""
+
+
+def page() -> str:
+    """The text of the page."""
+    parts = [INTRODUCTION]
+    for group in dict.fromkeys(r.group for r in ROWS):
+        parts.append(f"\n## {group}\n\n| Situation | Domain | Model | Residuals | C run |\n")
+        parts.append("|---|---|---|---|---|\n")
+        for r in ROWS:
+            if r.group == group:
+                link = f"[{r.model}](../tests/adversary/models/{r.model}.bg)"
+                ran = f"no: {r.why}" if r.why else "yes"
+                n = PLANTS[r.model].n_arr
+                parts.append(f"| {r.situation} | {r.domain} | {link} | {n} | {ran} |\n")
+    return "".join(parts)
+
+
+def test_the_page_is_what_the_rows_say(update: bool) -> None:
+    if update:
+        PAGE.write_text(page(), encoding="utf-8")
+    assert PAGE.read_text(encoding="utf-8") == page()
+
+
+def test_the_rows_show_many_models_of_many_domains() -> None:
+    assert len({r.model for r in ROWS}) == len(ROWS) >= 40
+    assert len({d for r in ROWS for d in r.domain.split(", ")}) >= 6
+
+
+@pytest.mark.parametrize("row", [r for r in ROWS if not r.why], ids=lambda r: r.model)
+def test_the_code_sees_what_the_signature_says(row: Row, tmp_path: Path) -> None:
+    plant = PLANTS[row.model]
+    answer = compiled(HERE / "models" / f"{row.model}.bg", tmp_path / "answer")
+    assert answer["n_arr"] == plant.n_arr
+    moves = run(plant, answer, tmp_path / "code", row.seconds)
+    for k, (level, signature) in enumerate(zip(moves.healthy, moves.signatures, strict=True)):
+        assert abs(level) < 1e-4, f"r{k + 1} is {level} on a healthy plant"
+        for fault, added in moves.faults.items():
+            if fault not in signature:
+                assert abs(added[k]) <= UNSEEN * abs(level) + ROUNDING, f"r{k + 1} sees {fault}"
+    for fault, added in moves.faults.items():
+        ratios = [
+            abs(added[k]) / (abs(level) + ROUNDING)
+            for k, (level, signature) in enumerate(
+                zip(moves.healthy, moves.signatures, strict=True)
+            )
+            if fault in signature
+        ]
+        assert not ratios or max(ratios) > SEEN, f"nothing sees {fault}: {ratios}"
