@@ -21,7 +21,7 @@ CLOSED = {
     "dc_i": (  # U - R*i - L*i' = k*w, put into J*w' + f*w = k*i - T: the arrow leads out to T
         "J*(D(U,1) - R*D(yi,1) - L*D(yi,2)) + f*(U - R*yi - L*D(yi,1)) - k*(k*yi - T)"
     ),
-    "boost_duty": "U - (1-a)*u - L*D((C*D(u,1) + u/R)/(1-a), 1)",  # Erickson, Maksimovic, ch. 2
+    "boost_duty": "U - (1-a)*u - L*D((C*D(u,1) + u/R)/(1-a), 1)",  # averaged coil and node
     "redundant_df": "U - R*y - L*D(y,1)",  # first of two, Kirchhoff's voltage law
     "stribeck": "F - m*D(y,1) - (Fc + (Fs-Fc)*exp(-(y/vs)**2))*sign(y) - b*y",  # Newton
     "de_on_se": "U - y",
