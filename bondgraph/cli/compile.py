@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from bondgraph import Compilation, Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
+from bondgraph.cli.numbers import bits, positive
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -25,21 +26,21 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--rate",
         metavar="HZ",
-        type=_positive,
+        type=positive,
         default=defaults.rate,
         help=f"samples a second that step is made for (default: {defaults.rate:g})",
     )
     parser.add_argument(
         "--bandwidth",
         metavar="RAD/S",
-        type=_positive,
+        type=positive,
         default=None,
         help="bandwidth of the residual filter (default: chosen from the rate)",
     )
     parser.add_argument(
         "--bits",
         metavar="N",
-        type=_bits,
+        type=bits,
         default=12,
         help="resolution of the samples: step leaves out what is smaller (default: 12)",
     )
@@ -57,26 +58,6 @@ def arguments(parser: ArgumentParser) -> None:
         help="add relations, combined from the others, that are free of this fault; may be"
         " repeated",
     )
-
-
-def _positive(text: str) -> float:
-    value = float(text)
-    if not 0 < value < float("inf"):
-        raise ValueError
-    return value
-
-
-_positive.__name__ = "positive number"
-
-
-def _bits(text: str) -> int:
-    value = int(text)
-    if not 1 <= value <= 52:
-        raise ValueError
-    return value
-
-
-_bits.__name__ = "number of bits from 1 to 52"
 
 
 def run(args: Namespace) -> int:

@@ -14,6 +14,7 @@ COMMANDS = {
     "explain": "explain an error code, or a bond, element, residual or fault of a model",
     "isolate": "count the testable subsets of a model, and what they could tell apart at best",
     "sensors": "rank the places where one more sensor would help",
+    "detect": "tell the smallest change of each fault that the residuals show",
     "draw": "draw a bond graph with half arrows and causal strokes",
 }
 

@@ -1,0 +1,141 @@
+"""`bondgraph detect`: the smallest change of each fault that the residuals show."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bondgraph import Options
+from bondgraph import compile as open_model
+from bondgraph.cli import console
+from bondgraph.cli.layout import width
+from bondgraph.cli.numbers import assigned, bits, noise, positive
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.smallest import Detection, Situation, Smallest
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `detect`."""
+    parser.add_argument("model", metavar="MODEL", help="file.bg or file.bg:Name")
+    parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
+    rate = Options().rate
+    parser.add_argument("--rate", metavar="HZ", type=positive, default=rate,
+                        help=f"samples a second (default: {rate:g})")  # fmt: skip
+    parser.add_argument("--bandwidth", metavar="RAD/S", type=positive, default=None,
+                        help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
+    parser.add_argument("--bits", metavar="N", type=bits, default=12,
+                        help="resolution of the samples (default: 12)")  # fmt: skip
+    parser.add_argument("--noise", metavar="[NAME=]DEVIATION", type=noise, action="append",
+                        default=[], help="standard deviation of the samples of a signal, without"
+                        " a name of every sensor; may be repeated")  # fmt: skip
+    parser.add_argument("--at", metavar="NAME=VALUE", type=assigned, action="append", default=[],
+                        help="what a signal is (default: 0; an encoder: its speed); may be"
+                        " repeated")  # fmt: skip
+    parser.add_argument("--swing", metavar="NAME=AMPLITUDE", type=assigned, action="append",
+                        default=[], help="how far a signal swings around that; may be"
+                        " repeated")  # fmt: skip
+    parser.add_argument("--frequency", metavar="HZ", type=positive, default=1.0,
+                        help="of the swing (default: 1)")  # fmt: skip
+    parser.add_argument("--kappa", metavar="K", type=positive, default=5.0,
+                        help="standard deviations of noise below the threshold"
+                        " (default: 5)")  # fmt: skip
+
+
+def run(args: Namespace) -> int:
+    """Compile, look for the smallest changes, print."""
+    from bondgraph.runtime.smallest import Situation, smallest
+
+    compilation = open_model(
+        args.model, rate=args.rate, bandwidth=args.bandwidth, resolution=2.0**-args.bits
+    )
+    program = compilation.program
+    paths = [k.path for k in program.knowns]
+    for name, _ in (*args.at, *args.swing, *args.noise):
+        if name and name not in paths:
+            return console.unknown(name, "no known signal of the residuals", paths)
+    every = dict(args.noise).get("")
+    deviations = {}
+    if every is not None:
+        deviations = {k.path: every for k in program.knowns if k.kind == "sensor"}
+    deviations |= {name: value for name, value in args.noise if name}
+    situation = Situation(dict(args.at), dict(args.swing), deviations, args.frequency, args.kappa)
+    tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
+    try:
+        found = smallest(program, compilation.thresholds, tolerances, situation)
+    except ValueError as error:
+        raise console.Trouble(f"{error}, and without it nothing has a size") from error
+    if args.json:
+        from bondgraph.text.render import as_json
+
+        console.print_json({"status": "ok", "message": _message(compilation, found),
+                            "diagnostics": as_json(compilation.report.diagnostics),
+                            **_result(compilation, found)})  # fmt: skip
+        return 0
+    console.show(compilation.report.diagnostics)
+    print("\n".join(_lines(compilation, found, situation)))
+    return 0
+
+
+def _message(compilation: Compilation, found: Detection) -> str:
+    shown = {s.fault for s in found.smallest if s.change is not None}
+    every = dict.fromkeys(s.fault for s in found.smallest)
+    return f"{len(shown)} of {len(every)} faults show with these signals"
+
+
+def _result(compilation: Compilation, found: Detection) -> dict[str, object]:
+    units = _units(compilation)
+    return {
+        "model": compilation.graph.name,
+        "rate": compilation.program.rate,
+        "bandwidth": compilation.program.bandwidth,
+        "noise": [{"residual": name, "sigma": sigma} for name, sigma in found.sigma.items()],
+        "faults": [_row(s, units) for s in found.smallest],
+    }
+
+
+def _row(found: Smallest, units: dict[str, str]) -> dict[str, object]:
+    unit = units.get(found.fault, "")
+    return {**found._asdict(), "unit": unit, "reason": found.reason or None}
+
+
+def _units(compilation: Compilation) -> dict[str, str]:
+    graph = compilation.graph
+    units = {v.name: v.unit or "" for v in graph.values}
+    units |= {i.name: i.unit or "" for i in graph.inputs}
+    return units | {s.name: s.unit or "" for s in graph.sensors}
+
+
+def _lines(compilation: Compilation, found: Detection, situation: Situation) -> list[str]:
+    program = compilation.program
+    lines = [
+        f"{compilation.graph.name}: {_message(compilation, found)}",
+        f"{program.rate:g} samples a second, filter of {program.bandwidth:g} rad/s,"
+        f" {situation.kappa:g} sigma of noise",
+        "",
+        "Noise of the filtered residuals",
+    ]
+    for name, sigma in found.sigma.items():
+        lines.append(f"  {name}  " + ("grows for ever" if sigma is None else f"{sigma:.3g}"))
+    units = _units(compilation)
+    rows = [("fault", "residual", "smallest change", "")]
+    rows += [(s.fault, s.residual, *_change(s, units.get(s.fault, ""))) for s in found.smallest]
+    sizes = [max(len(row[k]) for row in rows) for k in range(3)]
+    lines.append("")
+    for row in rows:
+        text = "  ".join(cell.ljust(n) for cell, n in zip(row[:3], sizes, strict=True))
+        lines.append(f"{text}  {row[3]}".rstrip()[: max(width(), sum(sizes) + 50)])
+    if not any((*situation.at.values(), *situation.swing.values())):
+        lines += ["", "All signals are zero: parameters need signals to be seen, give --at or"
+                  " --swing."]  # fmt: skip
+    return lines
+
+
+def _change(found: Smallest, unit: str) -> tuple[str, str]:
+    """The change with its unit, and its share of the nominal value or why there is none."""
+    if found.change is None:
+        return "-", found.reason
+    size = f"{found.change:.3g} {unit}".rstrip()
+    return size, "" if found.relative is None else f"{100 * found.relative:.3g} %"

@@ -1,0 +1,65 @@
+"""`bondgraph detect`: what it prints, and what it says to wrong words."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from bondgraph.cli.main import main
+
+_MODEL = str(Path(__file__).resolve().parents[3] / "models" / "dc_motor.bg")
+
+
+def test_the_table_has_every_fault_with_its_unit(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["detect", _MODEL, "--at", "speed=1000", "--at", "current=0.03"]) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    # (2 (0.0264 + 0.0702) - 0.0264)/0.03 Ohm of 17.6
+    assert ["R", "r1", "5.56", "Ohm", "31.6", "%"] in lines
+    assert ["J", "r2", "-", "not", "moved", "by", "these", "signals"] in lines
+
+
+def test_json_has_the_same_with_all_digits(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["detect", _MODEL, "--json", "--noise", "speed=1", "--kappa", "4"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["status"] == "ok" and found["rate"] == 1000
+    sigma = {row["residual"]: row["sigma"] for row in found["noise"]}
+    row = next(r for r in found["faults"] if (r["fault"], r["residual"]) == ("U", "r1"))
+    assert row["change"] == pytest.approx(4 * sigma["r1"]) and row["unit"] == "V"
+    assert row["relative"] is None and row["reason"] is None
+
+
+def test_zero_signals_are_said_to_be_the_reason(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["detect", _MODEL]) == 0
+    assert "give --at" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "words", [["--at", "sped=1"], ["--noise", "x=1"], ["--noise", "-1"], ["--swing", "speed"]]
+)
+def test_wrong_words_are_wrong_usage(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    try:
+        status = main(["detect", _MODEL, *words])
+    except SystemExit as left:
+        status = int(left.code or 0)
+    assert status == 2
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_a_parameter_without_a_number_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "m.bg"
+    path.write_text("bg 1\nmodel M { param R : Ohm; Se:U -> 1:j -> R:R; j -> Df:i }\n", "utf-8")
+    assert main(["detect", str(path)]) != 0
+    assert "R has no value" in capsys.readouterr().err
+
+
+def test_a_model_without_redundancy_has_nothing_to_detect(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "m.bg"
+    path.write_text("bg 1\nmodel M { param R = 1 Ohm; Se:U -> 1:j -> R:R }\n", "utf-8")
+    assert main(["detect", str(path)]) == 0
+    assert "Traceback" not in capsys.readouterr().err
