@@ -115,7 +115,7 @@ def _threshold(
         name = f"{info.name}_w{number}"
         chain = Chain(builder, filter, residual._replace(name=name), info.stages)
         try:
-            chain.run(form.terms, f"{info.path}: what the tolerance of {_named(share)} can do")
+            chain.run(form.terms, f"{info.path}: {_named(share)}")
         except TooManyOperations:
             return _none(out, f"written out it takes more than {LARGEST} operations")
         out.first += [_local(s, name) for s in chain.first]
@@ -142,7 +142,12 @@ def _none(out: _Threshold, why: str) -> _Threshold:
 
 
 def _named(share: Share) -> str:
-    return " and ".join(dict.fromkeys(share.parameters))
+    if len(share.parameters) == 1:
+        return f"what the tolerance of {share.parameters[0]} can do"
+    first, second = share.parameters
+    if first == second:
+        return f"second order of what the tolerance of {first} can do"
+    return f"what the tolerances of {first} and {second} can do together"
 
 
 def _local(statement: Assign, name: str) -> Assign:

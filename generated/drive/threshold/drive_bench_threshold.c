@@ -532,7 +532,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w5: stage 1: memory */
     x->r1_w5_s1 = c->rest * r1_w5_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.Re and m.el.k can do */
+    /* khepera.bg:17: r1: what the tolerances of m.el.Re and m.el.k can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
@@ -562,7 +562,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w6: stage 1: memory */
     x->r1_w6_s1 = c->rest * r1_w6_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.Re and m.me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of m.el.Re and m.me.fe can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
@@ -592,7 +592,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w7: stage 1: memory */
     x->r1_w7_s1 = c->rest * r1_w7_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.Re and m.wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of m.el.Re and m.wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
 
     /* khepera.bg:17: r1_w8: input of stage 3 */
@@ -625,7 +625,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w8: stage 1: memory */
     x->r1_w8_s1 = c->rest * r1_w8_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.k can do */
+    /* khepera.bg:17: r1: second order of what the tolerance of m.el.k can do */
     const real r1_w8 = r1_w8_y1;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
@@ -655,7 +655,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w9: stage 1: memory */
     x->r1_w9_s1 = c->rest * r1_w9_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.k and m.me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of m.el.k and m.me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
     /* khepera.bg:17: r1_w10: input of stage 3 */
@@ -685,7 +685,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w10: stage 1: memory */
     x->r1_w10_s1 = c->rest * r1_w10_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.k and m.wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of m.el.k and m.wh.fs can do together */
     const real r1_w10 = r1_w10_y1;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
@@ -855,7 +855,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w5: stage 1: memory */
     x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.Re and m.el.k can do */
+    /* khepera.bg:17: r1: what the tolerances of m.el.Re and m.el.k can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
@@ -885,7 +885,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w6: stage 1: memory */
     x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.Re and m.me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of m.el.Re and m.me.fe can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
@@ -915,7 +915,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w7: stage 1: memory */
     x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.Re and m.wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of m.el.Re and m.wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
 
     /* khepera.bg:17: r1_w8: input of stage 3 */
@@ -948,7 +948,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w8: stage 1: memory */
     x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.k can do */
+    /* khepera.bg:17: r1: second order of what the tolerance of m.el.k can do */
     const real r1_w8 = r1_w8_y1;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
@@ -978,7 +978,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w9: stage 1: memory */
     x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.k and m.me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of m.el.k and m.me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
     /* khepera.bg:17: r1_w10: input of stage 3 */
@@ -1008,7 +1008,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w10: stage 1: memory */
     x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m.el.k and m.wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of m.el.k and m.wh.fs can do together */
     const real r1_w10 = r1_w10_y1;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */

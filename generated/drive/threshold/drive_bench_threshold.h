@@ -32,7 +32,7 @@ typedef double drive_bench_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define DRIVE_BENCH_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(drive_bench_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define DRIVE_BENCH_THRESHOLD_DIGEST "a34cfa628b86c0c5"
+#define DRIVE_BENCH_THRESHOLD_DIGEST "ef1e6991462440a5"
 
 /* What the code was made for: arguments of drive_bench_threshold_configure, in s, rad/s and s. */
 #define DRIVE_BENCH_THRESHOLD_SAMPLE_TIME DRIVE_BENCH_THRESHOLD_CONSTANT(0.001)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "a34cfa628b86c0c5"
+DIGEST = "ef1e6991462440a5"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -611,7 +611,7 @@ class Monitor:
         # khepera.bg:17: r1_w5: stage 1: memory
         x.r1_w5_s1 = c.rest * r1_w5_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.Re and m.el.k can do
+        # khepera.bg:17: r1: what the tolerances of m.el.Re and m.el.k can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
@@ -641,7 +641,7 @@ class Monitor:
         # khepera.bg:17: r1_w6: stage 1: memory
         x.r1_w6_s1 = c.rest * r1_w6_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.Re and m.me.fe can do
+        # khepera.bg:17: r1: what the tolerances of m.el.Re and m.me.fe can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
@@ -671,7 +671,7 @@ class Monitor:
         # khepera.bg:17: r1_w7: stage 1: memory
         x.r1_w7_s1 = c.rest * r1_w7_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.Re and m.wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of m.el.Re and m.wh.fs can do together
         r1_w7 = r1_w7_y1
 
         # khepera.bg:17: r1_w8: input of stage 3
@@ -709,7 +709,7 @@ class Monitor:
         # khepera.bg:17: r1_w8: stage 1: memory
         x.r1_w8_s1 = c.rest * r1_w8_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.k can do
+        # khepera.bg:17: r1: second order of what the tolerance of m.el.k can do
         r1_w8 = r1_w8_y1
 
         # khepera.bg:17: r1_w9: input of stage 3
@@ -739,7 +739,7 @@ class Monitor:
         # khepera.bg:17: r1_w9: stage 1: memory
         x.r1_w9_s1 = c.rest * r1_w9_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.k and m.me.fe can do
+        # khepera.bg:17: r1: what the tolerances of m.el.k and m.me.fe can do together
         r1_w9 = r1_w9_y1
 
         # khepera.bg:17: r1_w10: input of stage 3
@@ -769,7 +769,7 @@ class Monitor:
         # khepera.bg:17: r1_w10: stage 1: memory
         x.r1_w10_s1 = c.rest * r1_w10_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.k and m.wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of m.el.k and m.wh.fs can do together
         r1_w10 = r1_w10_y1
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
@@ -948,7 +948,7 @@ class Monitor:
         # khepera.bg:17: r1_w5: stage 1: memory
         x.r1_w5_s1 = c.a * r1_w5_y1 + c.b1 * r1_w5_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.Re and m.el.k can do
+        # khepera.bg:17: r1: what the tolerances of m.el.Re and m.el.k can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
@@ -978,7 +978,7 @@ class Monitor:
         # khepera.bg:17: r1_w6: stage 1: memory
         x.r1_w6_s1 = c.a * r1_w6_y1 + c.b1 * r1_w6_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.Re and m.me.fe can do
+        # khepera.bg:17: r1: what the tolerances of m.el.Re and m.me.fe can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
@@ -1008,7 +1008,7 @@ class Monitor:
         # khepera.bg:17: r1_w7: stage 1: memory
         x.r1_w7_s1 = c.a * r1_w7_y1 + c.b1 * r1_w7_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.Re and m.wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of m.el.Re and m.wh.fs can do together
         r1_w7 = r1_w7_y1
 
         # khepera.bg:17: r1_w8: input of stage 3
@@ -1046,7 +1046,7 @@ class Monitor:
         # khepera.bg:17: r1_w8: stage 1: memory
         x.r1_w8_s1 = c.a * r1_w8_y1 + c.b1 * r1_w8_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.k can do
+        # khepera.bg:17: r1: second order of what the tolerance of m.el.k can do
         r1_w8 = r1_w8_y1
 
         # khepera.bg:17: r1_w9: input of stage 3
@@ -1076,7 +1076,7 @@ class Monitor:
         # khepera.bg:17: r1_w9: stage 1: memory
         x.r1_w9_s1 = c.a * r1_w9_y1 + c.b1 * r1_w9_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.k and m.me.fe can do
+        # khepera.bg:17: r1: what the tolerances of m.el.k and m.me.fe can do together
         r1_w9 = r1_w9_y1
 
         # khepera.bg:17: r1_w10: input of stage 3
@@ -1106,7 +1106,7 @@ class Monitor:
         # khepera.bg:17: r1_w10: stage 1: memory
         x.r1_w10_s1 = c.a * r1_w10_y1 + c.b1 * r1_w10_u1
 
-        # khepera.bg:17: r1: what the tolerance of m.el.k and m.wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of m.el.k and m.wh.fs can do together
         r1_w10 = r1_w10_y1
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance

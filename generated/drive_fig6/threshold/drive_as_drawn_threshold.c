@@ -603,7 +603,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w5: stage 1: memory */
     x->r1_w5_s1 = c->rest * r1_w5_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.Re and el.k can do */
+    /* khepera.bg:17: r1: what the tolerances of el.Re and el.k can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
@@ -633,7 +633,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w6: stage 1: memory */
     x->r1_w6_s1 = c->rest * r1_w6_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.Re and me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of el.Re and me.fe can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
@@ -663,7 +663,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w7: stage 1: memory */
     x->r1_w7_s1 = c->rest * r1_w7_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.Re and wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of el.Re and wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
 
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
@@ -708,7 +708,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w8: stage 1: memory */
     x->r1_w8_s1 = c->rest * r1_w8_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.k can do */
+    /* khepera.bg:17: r1: second order of what the tolerance of el.k can do */
     const real r1_w8 = r1_w8_y1;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
@@ -738,7 +738,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w9: stage 1: memory */
     x->r1_w9_s1 = c->rest * r1_w9_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.k and me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of el.k and me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
     /* khepera.bg:17: r1_w10: input of stage 3 */
@@ -768,7 +768,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w10: stage 1: memory */
     x->r1_w10_s1 = c->rest * r1_w10_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.k and wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of el.k and wh.fs can do together */
     const real r1_w10 = r1_w10_y1;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
@@ -974,7 +974,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w5: stage 1: memory */
     x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.Re and el.k can do */
+    /* khepera.bg:17: r1: what the tolerances of el.Re and el.k can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
@@ -1004,7 +1004,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w6: stage 1: memory */
     x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.Re and me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of el.Re and me.fe can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
@@ -1034,7 +1034,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w7: stage 1: memory */
     x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.Re and wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of el.Re and wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
 
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated */
@@ -1079,7 +1079,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w8: stage 1: memory */
     x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.k can do */
+    /* khepera.bg:17: r1: second order of what the tolerance of el.k can do */
     const real r1_w8 = r1_w8_y1;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
@@ -1109,7 +1109,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w9: stage 1: memory */
     x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.k and me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of el.k and me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
     /* khepera.bg:17: r1_w10: input of stage 3 */
@@ -1139,7 +1139,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w10: stage 1: memory */
     x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of el.k and wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of el.k and wh.fs can do together */
     const real r1_w10 = r1_w10_y1;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */

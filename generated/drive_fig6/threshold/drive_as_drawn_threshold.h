@@ -32,7 +32,7 @@ typedef double drive_as_drawn_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define DRIVE_AS_DRAWN_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(drive_as_drawn_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define DRIVE_AS_DRAWN_THRESHOLD_DIGEST "18c355fcc5fab5a6"
+#define DRIVE_AS_DRAWN_THRESHOLD_DIGEST "cacc599e2fa3b334"
 
 /* What the code was made for: arguments of drive_as_drawn_threshold_configure, in s, rad/s and s. */
 #define DRIVE_AS_DRAWN_THRESHOLD_SAMPLE_TIME DRIVE_AS_DRAWN_THRESHOLD_CONSTANT(0.001)

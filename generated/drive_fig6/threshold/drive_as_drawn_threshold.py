@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "18c355fcc5fab5a6"
+DIGEST = "cacc599e2fa3b334"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -696,7 +696,7 @@ class Monitor:
         # khepera.bg:17: r1_w5: stage 1: memory
         x.r1_w5_s1 = c.rest * r1_w5_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.Re and el.k can do
+        # khepera.bg:17: r1: what the tolerances of el.Re and el.k can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
@@ -726,7 +726,7 @@ class Monitor:
         # khepera.bg:17: r1_w6: stage 1: memory
         x.r1_w6_s1 = c.rest * r1_w6_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.Re and me.fe can do
+        # khepera.bg:17: r1: what the tolerances of el.Re and me.fe can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
@@ -756,7 +756,7 @@ class Monitor:
         # khepera.bg:17: r1_w7: stage 1: memory
         x.r1_w7_s1 = c.rest * r1_w7_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.Re and wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of el.Re and wh.fs can do together
         r1_w7 = r1_w7_y1
 
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated
@@ -804,7 +804,7 @@ class Monitor:
         # khepera.bg:17: r1_w8: stage 1: memory
         x.r1_w8_s1 = c.rest * r1_w8_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.k can do
+        # khepera.bg:17: r1: second order of what the tolerance of el.k can do
         r1_w8 = r1_w8_y1
 
         # khepera.bg:17: r1_w9: input of stage 3
@@ -834,7 +834,7 @@ class Monitor:
         # khepera.bg:17: r1_w9: stage 1: memory
         x.r1_w9_s1 = c.rest * r1_w9_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.k and me.fe can do
+        # khepera.bg:17: r1: what the tolerances of el.k and me.fe can do together
         r1_w9 = r1_w9_y1
 
         # khepera.bg:17: r1_w10: input of stage 3
@@ -864,7 +864,7 @@ class Monitor:
         # khepera.bg:17: r1_w10: stage 1: memory
         x.r1_w10_s1 = c.rest * r1_w10_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.k and wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of el.k and wh.fs can do together
         r1_w10 = r1_w10_y1
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
@@ -1073,7 +1073,7 @@ class Monitor:
         # khepera.bg:17: r1_w5: stage 1: memory
         x.r1_w5_s1 = c.a * r1_w5_y1 + c.b1 * r1_w5_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.Re and el.k can do
+        # khepera.bg:17: r1: what the tolerances of el.Re and el.k can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
@@ -1103,7 +1103,7 @@ class Monitor:
         # khepera.bg:17: r1_w6: stage 1: memory
         x.r1_w6_s1 = c.a * r1_w6_y1 + c.b1 * r1_w6_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.Re and me.fe can do
+        # khepera.bg:17: r1: what the tolerances of el.Re and me.fe can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
@@ -1133,7 +1133,7 @@ class Monitor:
         # khepera.bg:17: r1_w7: stage 1: memory
         x.r1_w7_s1 = c.a * r1_w7_y1 + c.b1 * r1_w7_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.Re and wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of el.Re and wh.fs can do together
         r1_w7 = r1_w7_y1
 
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0), what is integrated
@@ -1181,7 +1181,7 @@ class Monitor:
         # khepera.bg:17: r1_w8: stage 1: memory
         x.r1_w8_s1 = c.a * r1_w8_y1 + c.b1 * r1_w8_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.k can do
+        # khepera.bg:17: r1: second order of what the tolerance of el.k can do
         r1_w8 = r1_w8_y1
 
         # khepera.bg:17: r1_w9: input of stage 3
@@ -1211,7 +1211,7 @@ class Monitor:
         # khepera.bg:17: r1_w9: stage 1: memory
         x.r1_w9_s1 = c.a * r1_w9_y1 + c.b1 * r1_w9_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.k and me.fe can do
+        # khepera.bg:17: r1: what the tolerances of el.k and me.fe can do together
         r1_w9 = r1_w9_y1
 
         # khepera.bg:17: r1_w10: input of stage 3
@@ -1241,7 +1241,7 @@ class Monitor:
         # khepera.bg:17: r1_w10: stage 1: memory
         x.r1_w10_s1 = c.a * r1_w10_y1 + c.b1 * r1_w10_u1
 
-        # khepera.bg:17: r1: what the tolerance of el.k and wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of el.k and wh.fs can do together
         r1_w10 = r1_w10_y1
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance

@@ -756,7 +756,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w5: stage 1: memory */
     x->r1_w5_s1 = c->rest * r1_w5_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].el.k can do */
+    /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].el.k can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
@@ -786,7 +786,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w6: stage 1: memory */
     x->r1_w6_s1 = c->rest * r1_w6_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].me.fe can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
@@ -816,7 +816,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w7: stage 1: memory */
     x->r1_w7_s1 = c->rest * r1_w7_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
 
     /* khepera.bg:17: r1_w8: input of stage 3 */
@@ -849,7 +849,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w8: stage 1: memory */
     x->r1_w8_s1 = c->rest * r1_w8_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.k can do */
+    /* khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do */
     const real r1_w8 = r1_w8_y1;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
@@ -879,7 +879,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w9: stage 1: memory */
     x->r1_w9_s1 = c->rest * r1_w9_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.k and m[1].me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
     /* khepera.bg:17: r1_w10: input of stage 3 */
@@ -909,7 +909,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w10: stage 1: memory */
     x->r1_w10_s1 = c->rest * r1_w10_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.k and m[1].wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].wh.fs can do together */
     const real r1_w10 = r1_w10_y1;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
@@ -1079,7 +1079,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w5: stage 1: memory */
     x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].el.k can do */
+    /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].el.k can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
@@ -1109,7 +1109,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w6: stage 1: memory */
     x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].me.fe can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
@@ -1139,7 +1139,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w7: stage 1: memory */
     x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
 
     /* khepera.bg:17: r1_w8: input of stage 3 */
@@ -1172,7 +1172,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w8: stage 1: memory */
     x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.k can do */
+    /* khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do */
     const real r1_w8 = r1_w8_y1;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
@@ -1202,7 +1202,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w9: stage 1: memory */
     x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.k and m[1].me.fe can do */
+    /* khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
     /* khepera.bg:17: r1_w10: input of stage 3 */
@@ -1232,7 +1232,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w10: stage 1: memory */
     x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of m[1].el.k and m[1].wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].wh.fs can do together */
     const real r1_w10 = r1_w10_y1;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
@@ -1470,7 +1470,7 @@ static void start_r3(
     /* khepera.bg:17: r3_w5: stage 1: memory */
     x->r3_w5_s1 = c->rest * r3_w5_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].el.k can do */
+    /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].el.k can do together */
     const real r3_w5 = r3_w5_y1;
 
     /* khepera.bg:17: r3_w6: input of stage 3 */
@@ -1500,7 +1500,7 @@ static void start_r3(
     /* khepera.bg:17: r3_w6: stage 1: memory */
     x->r3_w6_s1 = c->rest * r3_w6_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].me.fe can do */
+    /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].me.fe can do together */
     const real r3_w6 = r3_w6_y1;
 
     /* khepera.bg:17: r3_w7: input of stage 3 */
@@ -1530,7 +1530,7 @@ static void start_r3(
     /* khepera.bg:17: r3_w7: stage 1: memory */
     x->r3_w7_s1 = c->rest * r3_w7_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].wh.fs can do */
+    /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].wh.fs can do together */
     const real r3_w7 = r3_w7_y1;
 
     /* khepera.bg:17: r3_w8: input of stage 3 */
@@ -1563,7 +1563,7 @@ static void start_r3(
     /* khepera.bg:17: r3_w8: stage 1: memory */
     x->r3_w8_s1 = c->rest * r3_w8_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.k can do */
+    /* khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do */
     const real r3_w8 = r3_w8_y1;
 
     /* khepera.bg:17: r3_w9: input of stage 3 */
@@ -1593,7 +1593,7 @@ static void start_r3(
     /* khepera.bg:17: r3_w9: stage 1: memory */
     x->r3_w9_s1 = c->rest * r3_w9_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.k and m[2].me.fe can do */
+    /* khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].me.fe can do together */
     const real r3_w9 = r3_w9_y1;
 
     /* khepera.bg:17: r3_w10: input of stage 3 */
@@ -1623,7 +1623,7 @@ static void start_r3(
     /* khepera.bg:17: r3_w10: stage 1: memory */
     x->r3_w10_s1 = c->rest * r3_w10_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.k and m[2].wh.fs can do */
+    /* khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].wh.fs can do together */
     const real r3_w10 = r3_w10_y1;
 
     /* khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
@@ -1793,7 +1793,7 @@ static void next_r3(
     /* khepera.bg:17: r3_w5: stage 1: memory */
     x->r3_w5_s1 = c->a * r3_w5_y1 + c->b1 * r3_w5_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].el.k can do */
+    /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].el.k can do together */
     const real r3_w5 = r3_w5_y1;
 
     /* khepera.bg:17: r3_w6: input of stage 3 */
@@ -1823,7 +1823,7 @@ static void next_r3(
     /* khepera.bg:17: r3_w6: stage 1: memory */
     x->r3_w6_s1 = c->a * r3_w6_y1 + c->b1 * r3_w6_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].me.fe can do */
+    /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].me.fe can do together */
     const real r3_w6 = r3_w6_y1;
 
     /* khepera.bg:17: r3_w7: input of stage 3 */
@@ -1853,7 +1853,7 @@ static void next_r3(
     /* khepera.bg:17: r3_w7: stage 1: memory */
     x->r3_w7_s1 = c->a * r3_w7_y1 + c->b1 * r3_w7_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].wh.fs can do */
+    /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].wh.fs can do together */
     const real r3_w7 = r3_w7_y1;
 
     /* khepera.bg:17: r3_w8: input of stage 3 */
@@ -1886,7 +1886,7 @@ static void next_r3(
     /* khepera.bg:17: r3_w8: stage 1: memory */
     x->r3_w8_s1 = c->a * r3_w8_y1 + c->b1 * r3_w8_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.k can do */
+    /* khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do */
     const real r3_w8 = r3_w8_y1;
 
     /* khepera.bg:17: r3_w9: input of stage 3 */
@@ -1916,7 +1916,7 @@ static void next_r3(
     /* khepera.bg:17: r3_w9: stage 1: memory */
     x->r3_w9_s1 = c->a * r3_w9_y1 + c->b1 * r3_w9_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.k and m[2].me.fe can do */
+    /* khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].me.fe can do together */
     const real r3_w9 = r3_w9_y1;
 
     /* khepera.bg:17: r3_w10: input of stage 3 */
@@ -1946,7 +1946,7 @@ static void next_r3(
     /* khepera.bg:17: r3_w10: stage 1: memory */
     x->r3_w10_s1 = c->a * r3_w10_y1 + c->b1 * r3_w10_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of m[2].el.k and m[2].wh.fs can do */
+    /* khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].wh.fs can do together */
     const real r3_w10 = r3_w10_y1;
 
     /* khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */

@@ -32,7 +32,7 @@ typedef double khepera_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(khepera_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_THRESHOLD_DIGEST "e65f0af9abfcad29"
+#define KHEPERA_THRESHOLD_DIGEST "60b73c93aec6ea2d"
 
 /* What the code was made for: arguments of khepera_threshold_configure, in s, rad/s and s. */
 #define KHEPERA_THRESHOLD_SAMPLE_TIME KHEPERA_THRESHOLD_CONSTANT(0.001)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "e65f0af9abfcad29"
+DIGEST = "60b73c93aec6ea2d"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -941,7 +941,7 @@ class Monitor:
         # khepera.bg:17: r1_w5: stage 1: memory
         x.r1_w5_s1 = c.rest * r1_w5_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].el.k can do
+        # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].el.k can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
@@ -971,7 +971,7 @@ class Monitor:
         # khepera.bg:17: r1_w6: stage 1: memory
         x.r1_w6_s1 = c.rest * r1_w6_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].me.fe can do
+        # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].me.fe can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
@@ -1001,7 +1001,7 @@ class Monitor:
         # khepera.bg:17: r1_w7: stage 1: memory
         x.r1_w7_s1 = c.rest * r1_w7_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].wh.fs can do together
         r1_w7 = r1_w7_y1
 
         # khepera.bg:17: r1_w8: input of stage 3
@@ -1040,7 +1040,7 @@ class Monitor:
         # khepera.bg:17: r1_w8: stage 1: memory
         x.r1_w8_s1 = c.rest * r1_w8_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.k can do
+        # khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do
         r1_w8 = r1_w8_y1
 
         # khepera.bg:17: r1_w9: input of stage 3
@@ -1070,7 +1070,7 @@ class Monitor:
         # khepera.bg:17: r1_w9: stage 1: memory
         x.r1_w9_s1 = c.rest * r1_w9_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.k and m[1].me.fe can do
+        # khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].me.fe can do together
         r1_w9 = r1_w9_y1
 
         # khepera.bg:17: r1_w10: input of stage 3
@@ -1100,7 +1100,7 @@ class Monitor:
         # khepera.bg:17: r1_w10: stage 1: memory
         x.r1_w10_s1 = c.rest * r1_w10_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.k and m[1].wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].wh.fs can do together
         r1_w10 = r1_w10_y1
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
@@ -1282,7 +1282,7 @@ class Monitor:
         # khepera.bg:17: r1_w5: stage 1: memory
         x.r1_w5_s1 = c.a * r1_w5_y1 + c.b1 * r1_w5_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].el.k can do
+        # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].el.k can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
@@ -1312,7 +1312,7 @@ class Monitor:
         # khepera.bg:17: r1_w6: stage 1: memory
         x.r1_w6_s1 = c.a * r1_w6_y1 + c.b1 * r1_w6_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].me.fe can do
+        # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].me.fe can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
@@ -1342,7 +1342,7 @@ class Monitor:
         # khepera.bg:17: r1_w7: stage 1: memory
         x.r1_w7_s1 = c.a * r1_w7_y1 + c.b1 * r1_w7_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.Re and m[1].wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].wh.fs can do together
         r1_w7 = r1_w7_y1
 
         # khepera.bg:17: r1_w8: input of stage 3
@@ -1381,7 +1381,7 @@ class Monitor:
         # khepera.bg:17: r1_w8: stage 1: memory
         x.r1_w8_s1 = c.a * r1_w8_y1 + c.b1 * r1_w8_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.k can do
+        # khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do
         r1_w8 = r1_w8_y1
 
         # khepera.bg:17: r1_w9: input of stage 3
@@ -1411,7 +1411,7 @@ class Monitor:
         # khepera.bg:17: r1_w9: stage 1: memory
         x.r1_w9_s1 = c.a * r1_w9_y1 + c.b1 * r1_w9_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.k and m[1].me.fe can do
+        # khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].me.fe can do together
         r1_w9 = r1_w9_y1
 
         # khepera.bg:17: r1_w10: input of stage 3
@@ -1441,7 +1441,7 @@ class Monitor:
         # khepera.bg:17: r1_w10: stage 1: memory
         x.r1_w10_s1 = c.a * r1_w10_y1 + c.b1 * r1_w10_u1
 
-        # khepera.bg:17: r1: what the tolerance of m[1].el.k and m[1].wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].wh.fs can do together
         r1_w10 = r1_w10_y1
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
@@ -1665,7 +1665,7 @@ class Monitor:
         # khepera.bg:17: r3_w5: stage 1: memory
         x.r3_w5_s1 = c.rest * r3_w5_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].el.k can do
+        # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].el.k can do together
         r3_w5 = r3_w5_y1
 
         # khepera.bg:17: r3_w6: input of stage 3
@@ -1695,7 +1695,7 @@ class Monitor:
         # khepera.bg:17: r3_w6: stage 1: memory
         x.r3_w6_s1 = c.rest * r3_w6_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].me.fe can do
+        # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].me.fe can do together
         r3_w6 = r3_w6_y1
 
         # khepera.bg:17: r3_w7: input of stage 3
@@ -1725,7 +1725,7 @@ class Monitor:
         # khepera.bg:17: r3_w7: stage 1: memory
         x.r3_w7_s1 = c.rest * r3_w7_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].wh.fs can do
+        # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].wh.fs can do together
         r3_w7 = r3_w7_y1
 
         # khepera.bg:17: r3_w8: input of stage 3
@@ -1764,7 +1764,7 @@ class Monitor:
         # khepera.bg:17: r3_w8: stage 1: memory
         x.r3_w8_s1 = c.rest * r3_w8_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.k can do
+        # khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do
         r3_w8 = r3_w8_y1
 
         # khepera.bg:17: r3_w9: input of stage 3
@@ -1794,7 +1794,7 @@ class Monitor:
         # khepera.bg:17: r3_w9: stage 1: memory
         x.r3_w9_s1 = c.rest * r3_w9_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.k and m[2].me.fe can do
+        # khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].me.fe can do together
         r3_w9 = r3_w9_y1
 
         # khepera.bg:17: r3_w10: input of stage 3
@@ -1824,7 +1824,7 @@ class Monitor:
         # khepera.bg:17: r3_w10: stage 1: memory
         x.r3_w10_s1 = c.rest * r3_w10_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.k and m[2].wh.fs can do
+        # khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].wh.fs can do together
         r3_w10 = r3_w10_y1
 
         # khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance
@@ -2006,7 +2006,7 @@ class Monitor:
         # khepera.bg:17: r3_w5: stage 1: memory
         x.r3_w5_s1 = c.a * r3_w5_y1 + c.b1 * r3_w5_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].el.k can do
+        # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].el.k can do together
         r3_w5 = r3_w5_y1
 
         # khepera.bg:17: r3_w6: input of stage 3
@@ -2036,7 +2036,7 @@ class Monitor:
         # khepera.bg:17: r3_w6: stage 1: memory
         x.r3_w6_s1 = c.a * r3_w6_y1 + c.b1 * r3_w6_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].me.fe can do
+        # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].me.fe can do together
         r3_w6 = r3_w6_y1
 
         # khepera.bg:17: r3_w7: input of stage 3
@@ -2066,7 +2066,7 @@ class Monitor:
         # khepera.bg:17: r3_w7: stage 1: memory
         x.r3_w7_s1 = c.a * r3_w7_y1 + c.b1 * r3_w7_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.Re and m[2].wh.fs can do
+        # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].wh.fs can do together
         r3_w7 = r3_w7_y1
 
         # khepera.bg:17: r3_w8: input of stage 3
@@ -2105,7 +2105,7 @@ class Monitor:
         # khepera.bg:17: r3_w8: stage 1: memory
         x.r3_w8_s1 = c.a * r3_w8_y1 + c.b1 * r3_w8_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.k can do
+        # khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do
         r3_w8 = r3_w8_y1
 
         # khepera.bg:17: r3_w9: input of stage 3
@@ -2135,7 +2135,7 @@ class Monitor:
         # khepera.bg:17: r3_w9: stage 1: memory
         x.r3_w9_s1 = c.a * r3_w9_y1 + c.b1 * r3_w9_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.k and m[2].me.fe can do
+        # khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].me.fe can do together
         r3_w9 = r3_w9_y1
 
         # khepera.bg:17: r3_w10: input of stage 3
@@ -2165,7 +2165,7 @@ class Monitor:
         # khepera.bg:17: r3_w10: stage 1: memory
         x.r3_w10_s1 = c.a * r3_w10_y1 + c.b1 * r3_w10_u1
 
-        # khepera.bg:17: r3: what the tolerance of m[2].el.k and m[2].wh.fs can do
+        # khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].wh.fs can do together
         r3_w10 = r3_w10_y1
 
         # khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance

@@ -794,7 +794,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w5: stage 1: memory */
     x->r1_w5_s1 = c->rest * r1_w5_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.Re can do */
+    /* khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.Re can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
@@ -824,7 +824,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w6: stage 1: memory */
     x->r1_w6_s1 = c->rest * r1_w6_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.k can do */
+    /* khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.k can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
@@ -857,7 +857,8 @@ static void start_r1(
     /* khepera.bg:17: r1_w7: stage 1: memory */
     x->r1_w7_s1 = c->rest * r1_w7_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].el.k can do */
+    /* khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].el.k can do
+     * together */
     const real r1_w7 = r1_w7_y1;
 
     /* khepera.bg:17: r1_w8: input of stage 3 */
@@ -887,7 +888,8 @@ static void start_r1(
     /* khepera.bg:17: r1_w8: stage 1: memory */
     x->r1_w8_s1 = c->rest * r1_w8_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].wh.fs can do
+     * together */
     const real r1_w8 = r1_w8_y1;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
@@ -922,7 +924,7 @@ static void start_r1(
     /* khepera.bg:17: r1_w9: stage 1: memory */
     x->r1_w9_s1 = c->rest * r1_w9_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do */
+    /* khepera.bg:17: r1: second order of what the tolerance of robot.m[1].el.k can do */
     const real r1_w9 = r1_w9_y1;
 
     /* khepera.bg:17: r1_w10: input of stage 3 */
@@ -952,7 +954,8 @@ static void start_r1(
     /* khepera.bg:17: r1_w10: stage 1: memory */
     x->r1_w10_s1 = c->rest * r1_w10_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k and robot.m[1].wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of robot.m[1].el.k and robot.m[1].wh.fs can do
+     * together */
     const real r1_w10 = r1_w10_y1;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
@@ -1123,7 +1126,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w5: stage 1: memory */
     x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.Re can do */
+    /* khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.Re can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
@@ -1153,7 +1156,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w6: stage 1: memory */
     x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.k can do */
+    /* khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.k can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
@@ -1186,7 +1189,8 @@ static void next_r1(
     /* khepera.bg:17: r1_w7: stage 1: memory */
     x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].el.k can do */
+    /* khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].el.k can do
+     * together */
     const real r1_w7 = r1_w7_y1;
 
     /* khepera.bg:17: r1_w8: input of stage 3 */
@@ -1216,7 +1220,8 @@ static void next_r1(
     /* khepera.bg:17: r1_w8: stage 1: memory */
     x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].wh.fs can do
+     * together */
     const real r1_w8 = r1_w8_y1;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
@@ -1251,7 +1256,7 @@ static void next_r1(
     /* khepera.bg:17: r1_w9: stage 1: memory */
     x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do */
+    /* khepera.bg:17: r1: second order of what the tolerance of robot.m[1].el.k can do */
     const real r1_w9 = r1_w9_y1;
 
     /* khepera.bg:17: r1_w10: input of stage 3 */
@@ -1281,7 +1286,8 @@ static void next_r1(
     /* khepera.bg:17: r1_w10: stage 1: memory */
     x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
 
-    /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k and robot.m[1].wh.fs can do */
+    /* khepera.bg:17: r1: what the tolerances of robot.m[1].el.k and robot.m[1].wh.fs can do
+     * together */
     const real r1_w10 = r1_w10_y1;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
@@ -1581,7 +1587,7 @@ static void start_r3(
     /* khepera.bg:17: r3_w5: stage 1: memory */
     x->r3_w5_s1 = c->rest * r3_w5_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.Re can do */
+    /* khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.Re can do together */
     const real r3_w5 = r3_w5_y1;
 
     /* khepera.bg:17: r3_w6: input of stage 3 */
@@ -1611,7 +1617,7 @@ static void start_r3(
     /* khepera.bg:17: r3_w6: stage 1: memory */
     x->r3_w6_s1 = c->rest * r3_w6_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.k can do */
+    /* khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.k can do together */
     const real r3_w6 = r3_w6_y1;
 
     /* khepera.bg:17: r3_w7: input of stage 3 */
@@ -1644,7 +1650,8 @@ static void start_r3(
     /* khepera.bg:17: r3_w7: stage 1: memory */
     x->r3_w7_s1 = c->rest * r3_w7_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].el.k can do */
+    /* khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].el.k can do
+     * together */
     const real r3_w7 = r3_w7_y1;
 
     /* khepera.bg:17: r3_w8: input of stage 3 */
@@ -1674,7 +1681,8 @@ static void start_r3(
     /* khepera.bg:17: r3_w8: stage 1: memory */
     x->r3_w8_s1 = c->rest * r3_w8_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].wh.fs can do */
+    /* khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].wh.fs can do
+     * together */
     const real r3_w8 = r3_w8_y1;
 
     /* khepera.bg:17: r3_w9: input of stage 3 */
@@ -1709,7 +1717,7 @@ static void start_r3(
     /* khepera.bg:17: r3_w9: stage 1: memory */
     x->r3_w9_s1 = c->rest * r3_w9_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do */
+    /* khepera.bg:17: r3: second order of what the tolerance of robot.m[2].el.k can do */
     const real r3_w9 = r3_w9_y1;
 
     /* khepera.bg:17: r3_w10: input of stage 3 */
@@ -1739,7 +1747,8 @@ static void start_r3(
     /* khepera.bg:17: r3_w10: stage 1: memory */
     x->r3_w10_s1 = c->rest * r3_w10_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k and robot.m[2].wh.fs can do */
+    /* khepera.bg:17: r3: what the tolerances of robot.m[2].el.k and robot.m[2].wh.fs can do
+     * together */
     const real r3_w10 = r3_w10_y1;
 
     /* khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
@@ -1910,7 +1919,7 @@ static void next_r3(
     /* khepera.bg:17: r3_w5: stage 1: memory */
     x->r3_w5_s1 = c->a * r3_w5_y1 + c->b1 * r3_w5_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.Re can do */
+    /* khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.Re can do together */
     const real r3_w5 = r3_w5_y1;
 
     /* khepera.bg:17: r3_w6: input of stage 3 */
@@ -1940,7 +1949,7 @@ static void next_r3(
     /* khepera.bg:17: r3_w6: stage 1: memory */
     x->r3_w6_s1 = c->a * r3_w6_y1 + c->b1 * r3_w6_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.k can do */
+    /* khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.k can do together */
     const real r3_w6 = r3_w6_y1;
 
     /* khepera.bg:17: r3_w7: input of stage 3 */
@@ -1973,7 +1982,8 @@ static void next_r3(
     /* khepera.bg:17: r3_w7: stage 1: memory */
     x->r3_w7_s1 = c->a * r3_w7_y1 + c->b1 * r3_w7_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].el.k can do */
+    /* khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].el.k can do
+     * together */
     const real r3_w7 = r3_w7_y1;
 
     /* khepera.bg:17: r3_w8: input of stage 3 */
@@ -2003,7 +2013,8 @@ static void next_r3(
     /* khepera.bg:17: r3_w8: stage 1: memory */
     x->r3_w8_s1 = c->a * r3_w8_y1 + c->b1 * r3_w8_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].wh.fs can do */
+    /* khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].wh.fs can do
+     * together */
     const real r3_w8 = r3_w8_y1;
 
     /* khepera.bg:17: r3_w9: input of stage 3 */
@@ -2038,7 +2049,7 @@ static void next_r3(
     /* khepera.bg:17: r3_w9: stage 1: memory */
     x->r3_w9_s1 = c->a * r3_w9_y1 + c->b1 * r3_w9_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do */
+    /* khepera.bg:17: r3: second order of what the tolerance of robot.m[2].el.k can do */
     const real r3_w9 = r3_w9_y1;
 
     /* khepera.bg:17: r3_w10: input of stage 3 */
@@ -2068,7 +2079,8 @@ static void next_r3(
     /* khepera.bg:17: r3_w10: stage 1: memory */
     x->r3_w10_s1 = c->a * r3_w10_y1 + c->b1 * r3_w10_u1;
 
-    /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k and robot.m[2].wh.fs can do */
+    /* khepera.bg:17: r3: what the tolerances of robot.m[2].el.k and robot.m[2].wh.fs can do
+     * together */
     const real r3_w10 = r3_w10_y1;
 
     /* khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */

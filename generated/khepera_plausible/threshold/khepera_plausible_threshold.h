@@ -32,7 +32,7 @@ typedef double khepera_plausible_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_PLAUSIBLE_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(khepera_plausible_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_PLAUSIBLE_THRESHOLD_DIGEST "9c8441095d4f4d07"
+#define KHEPERA_PLAUSIBLE_THRESHOLD_DIGEST "61e468f2509f693f"
 
 /* What the code was made for: arguments of khepera_plausible_threshold_configure, in s, rad/s and s. */
 #define KHEPERA_PLAUSIBLE_THRESHOLD_SAMPLE_TIME KHEPERA_PLAUSIBLE_THRESHOLD_CONSTANT(0.001)

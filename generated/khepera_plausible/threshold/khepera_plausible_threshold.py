@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "9c8441095d4f4d07"
+DIGEST = "61e468f2509f693f"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -1005,7 +1005,7 @@ class Monitor:
         # khepera.bg:17: r1_w5: stage 1: memory
         x.r1_w5_s1 = c.rest * r1_w5_u1
 
-        # khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.Re can do
+        # khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.Re can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
@@ -1035,7 +1035,7 @@ class Monitor:
         # khepera.bg:17: r1_w6: stage 1: memory
         x.r1_w6_s1 = c.rest * r1_w6_u1
 
-        # khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.k can do
+        # khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.k can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
@@ -1072,7 +1072,8 @@ class Monitor:
         # khepera.bg:17: r1_w7: stage 1: memory
         x.r1_w7_s1 = c.rest * r1_w7_u1
 
-        # khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].el.k can do
+        # khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].el.k can do
+        # together
         r1_w7 = r1_w7_y1
 
         # khepera.bg:17: r1_w8: input of stage 3
@@ -1102,7 +1103,8 @@ class Monitor:
         # khepera.bg:17: r1_w8: stage 1: memory
         x.r1_w8_s1 = c.rest * r1_w8_u1
 
-        # khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].wh.fs can do
+        # together
         r1_w8 = r1_w8_y1
 
         # khepera.bg:17: r1_w9: input of stage 3
@@ -1143,7 +1145,7 @@ class Monitor:
         # khepera.bg:17: r1_w9: stage 1: memory
         x.r1_w9_s1 = c.rest * r1_w9_u1
 
-        # khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do
+        # khepera.bg:17: r1: second order of what the tolerance of robot.m[1].el.k can do
         r1_w9 = r1_w9_y1
 
         # khepera.bg:17: r1_w10: input of stage 3
@@ -1173,7 +1175,8 @@ class Monitor:
         # khepera.bg:17: r1_w10: stage 1: memory
         x.r1_w10_s1 = c.rest * r1_w10_u1
 
-        # khepera.bg:17: r1: what the tolerance of robot.m[1].el.k and robot.m[1].wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of robot.m[1].el.k and robot.m[1].wh.fs can do
+        # together
         r1_w10 = r1_w10_y1
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
@@ -1352,7 +1355,7 @@ class Monitor:
         # khepera.bg:17: r1_w5: stage 1: memory
         x.r1_w5_s1 = c.a * r1_w5_y1 + c.b1 * r1_w5_u1
 
-        # khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.Re can do
+        # khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.Re can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
@@ -1382,7 +1385,7 @@ class Monitor:
         # khepera.bg:17: r1_w6: stage 1: memory
         x.r1_w6_s1 = c.a * r1_w6_y1 + c.b1 * r1_w6_u1
 
-        # khepera.bg:17: r1: what the tolerance of fe[1] and robot.m[1].el.k can do
+        # khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.k can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
@@ -1419,7 +1422,8 @@ class Monitor:
         # khepera.bg:17: r1_w7: stage 1: memory
         x.r1_w7_s1 = c.a * r1_w7_y1 + c.b1 * r1_w7_u1
 
-        # khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].el.k can do
+        # khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].el.k can do
+        # together
         r1_w7 = r1_w7_y1
 
         # khepera.bg:17: r1_w8: input of stage 3
@@ -1449,7 +1453,8 @@ class Monitor:
         # khepera.bg:17: r1_w8: stage 1: memory
         x.r1_w8_s1 = c.a * r1_w8_y1 + c.b1 * r1_w8_u1
 
-        # khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re and robot.m[1].wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].wh.fs can do
+        # together
         r1_w8 = r1_w8_y1
 
         # khepera.bg:17: r1_w9: input of stage 3
@@ -1490,7 +1495,7 @@ class Monitor:
         # khepera.bg:17: r1_w9: stage 1: memory
         x.r1_w9_s1 = c.a * r1_w9_y1 + c.b1 * r1_w9_u1
 
-        # khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do
+        # khepera.bg:17: r1: second order of what the tolerance of robot.m[1].el.k can do
         r1_w9 = r1_w9_y1
 
         # khepera.bg:17: r1_w10: input of stage 3
@@ -1520,7 +1525,8 @@ class Monitor:
         # khepera.bg:17: r1_w10: stage 1: memory
         x.r1_w10_s1 = c.a * r1_w10_y1 + c.b1 * r1_w10_u1
 
-        # khepera.bg:17: r1: what the tolerance of robot.m[1].el.k and robot.m[1].wh.fs can do
+        # khepera.bg:17: r1: what the tolerances of robot.m[1].el.k and robot.m[1].wh.fs can do
+        # together
         r1_w10 = r1_w10_y1
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
@@ -1809,7 +1815,7 @@ class Monitor:
         # khepera.bg:17: r3_w5: stage 1: memory
         x.r3_w5_s1 = c.rest * r3_w5_u1
 
-        # khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.Re can do
+        # khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.Re can do together
         r3_w5 = r3_w5_y1
 
         # khepera.bg:17: r3_w6: input of stage 3
@@ -1839,7 +1845,7 @@ class Monitor:
         # khepera.bg:17: r3_w6: stage 1: memory
         x.r3_w6_s1 = c.rest * r3_w6_u1
 
-        # khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.k can do
+        # khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.k can do together
         r3_w6 = r3_w6_y1
 
         # khepera.bg:17: r3_w7: input of stage 3
@@ -1876,7 +1882,8 @@ class Monitor:
         # khepera.bg:17: r3_w7: stage 1: memory
         x.r3_w7_s1 = c.rest * r3_w7_u1
 
-        # khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].el.k can do
+        # khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].el.k can do
+        # together
         r3_w7 = r3_w7_y1
 
         # khepera.bg:17: r3_w8: input of stage 3
@@ -1906,7 +1913,8 @@ class Monitor:
         # khepera.bg:17: r3_w8: stage 1: memory
         x.r3_w8_s1 = c.rest * r3_w8_u1
 
-        # khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].wh.fs can do
+        # khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].wh.fs can do
+        # together
         r3_w8 = r3_w8_y1
 
         # khepera.bg:17: r3_w9: input of stage 3
@@ -1947,7 +1955,7 @@ class Monitor:
         # khepera.bg:17: r3_w9: stage 1: memory
         x.r3_w9_s1 = c.rest * r3_w9_u1
 
-        # khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do
+        # khepera.bg:17: r3: second order of what the tolerance of robot.m[2].el.k can do
         r3_w9 = r3_w9_y1
 
         # khepera.bg:17: r3_w10: input of stage 3
@@ -1977,7 +1985,8 @@ class Monitor:
         # khepera.bg:17: r3_w10: stage 1: memory
         x.r3_w10_s1 = c.rest * r3_w10_u1
 
-        # khepera.bg:17: r3: what the tolerance of robot.m[2].el.k and robot.m[2].wh.fs can do
+        # khepera.bg:17: r3: what the tolerances of robot.m[2].el.k and robot.m[2].wh.fs can do
+        # together
         r3_w10 = r3_w10_y1
 
         # khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance
@@ -2156,7 +2165,7 @@ class Monitor:
         # khepera.bg:17: r3_w5: stage 1: memory
         x.r3_w5_s1 = c.a * r3_w5_y1 + c.b1 * r3_w5_u1
 
-        # khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.Re can do
+        # khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.Re can do together
         r3_w5 = r3_w5_y1
 
         # khepera.bg:17: r3_w6: input of stage 3
@@ -2186,7 +2195,7 @@ class Monitor:
         # khepera.bg:17: r3_w6: stage 1: memory
         x.r3_w6_s1 = c.a * r3_w6_y1 + c.b1 * r3_w6_u1
 
-        # khepera.bg:17: r3: what the tolerance of fe[2] and robot.m[2].el.k can do
+        # khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.k can do together
         r3_w6 = r3_w6_y1
 
         # khepera.bg:17: r3_w7: input of stage 3
@@ -2223,7 +2232,8 @@ class Monitor:
         # khepera.bg:17: r3_w7: stage 1: memory
         x.r3_w7_s1 = c.a * r3_w7_y1 + c.b1 * r3_w7_u1
 
-        # khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].el.k can do
+        # khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].el.k can do
+        # together
         r3_w7 = r3_w7_y1
 
         # khepera.bg:17: r3_w8: input of stage 3
@@ -2253,7 +2263,8 @@ class Monitor:
         # khepera.bg:17: r3_w8: stage 1: memory
         x.r3_w8_s1 = c.a * r3_w8_y1 + c.b1 * r3_w8_u1
 
-        # khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re and robot.m[2].wh.fs can do
+        # khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].wh.fs can do
+        # together
         r3_w8 = r3_w8_y1
 
         # khepera.bg:17: r3_w9: input of stage 3
@@ -2294,7 +2305,7 @@ class Monitor:
         # khepera.bg:17: r3_w9: stage 1: memory
         x.r3_w9_s1 = c.a * r3_w9_y1 + c.b1 * r3_w9_u1
 
-        # khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do
+        # khepera.bg:17: r3: second order of what the tolerance of robot.m[2].el.k can do
         r3_w9 = r3_w9_y1
 
         # khepera.bg:17: r3_w10: input of stage 3
@@ -2324,7 +2335,8 @@ class Monitor:
         # khepera.bg:17: r3_w10: stage 1: memory
         x.r3_w10_s1 = c.a * r3_w10_y1 + c.b1 * r3_w10_u1
 
-        # khepera.bg:17: r3: what the tolerance of robot.m[2].el.k and robot.m[2].wh.fs can do
+        # khepera.bg:17: r3: what the tolerances of robot.m[2].el.k and robot.m[2].wh.fs can do
+        # together
         r3_w10 = r3_w10_y1
 
         # khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance

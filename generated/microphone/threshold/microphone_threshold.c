@@ -240,7 +240,7 @@ static void start_r1(
     /* microphone.bg:17: r1_w2: stage 1: memory */
     x->r1_w2_s1 = c->rest * r1_w2_u1;
 
-    /* microphone.bg:17: r1: what the tolerance of R can do */
+    /* microphone.bg:17: r1: second order of what the tolerance of R can do */
     const real r1_w2 = r1_w2_y1;
 
     /* microphone.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
@@ -293,7 +293,7 @@ static void next_r1(
     /* microphone.bg:17: r1_w2: stage 1: memory */
     x->r1_w2_s1 = c->a * r1_w2_y1 + c->b1 * r1_w2_u1;
 
-    /* microphone.bg:17: r1: what the tolerance of R can do */
+    /* microphone.bg:17: r1: second order of what the tolerance of R can do */
     const real r1_w2 = r1_w2_y1;
 
     /* microphone.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */

@@ -32,7 +32,7 @@ typedef double microphone_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define MICROPHONE_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(microphone_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define MICROPHONE_THRESHOLD_DIGEST "e13120bcef8c21c4"
+#define MICROPHONE_THRESHOLD_DIGEST "61af2a906fe9342a"
 
 /* What the code was made for: arguments of microphone_threshold_configure, in s, rad/s and s. */
 #define MICROPHONE_THRESHOLD_SAMPLE_TIME MICROPHONE_THRESHOLD_CONSTANT(0.001)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "e13120bcef8c21c4"
+DIGEST = "61af2a906fe9342a"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -241,7 +241,7 @@ class Monitor:
         # microphone.bg:17: r1_w2: stage 1: memory
         x.r1_w2_s1 = c.rest * r1_w2_u1
 
-        # microphone.bg:17: r1: what the tolerance of R can do
+        # microphone.bg:17: r1: second order of what the tolerance of R can do
         r1_w2 = r1_w2_y1
 
         # microphone.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
@@ -291,7 +291,7 @@ class Monitor:
         # microphone.bg:17: r1_w2: stage 1: memory
         x.r1_w2_s1 = c.a * r1_w2_y1 + c.b1 * r1_w2_u1
 
-        # microphone.bg:17: r1: what the tolerance of R can do
+        # microphone.bg:17: r1: second order of what the tolerance of R can do
         r1_w2 = r1_w2_y1
 
         # microphone.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
+import pytest
 from scipy.integrate import solve_ivp
 
 import bondgraph
@@ -26,6 +27,19 @@ model RC {
     Se:U -> 1:loop -> R:R
     loop -> 0:node -> C:C(q0 = 0 C)
     node -> De:u
+}
+"""
+
+#: The relation has J b/K: products, a quotient, and all orders.
+_SHAFT = """bg 1
+model Shaft {
+    param K = 3 N.m/rad +- 20%
+    param J = 0.05 kg.m^2 +- 10%
+    param b = 0.2 N.m.s/rad +- 10%
+    Se:U -> 1:rotor -> I:J
+    rotor -> 0:twist -> C:spring(q0 = 0 rad) = 1/K
+    twist -> 1:end -> R:b
+    end -> Df:w
 }
 """
 
@@ -85,6 +99,16 @@ def _circuit(R: float, C: float) -> _Samples:
     return {"U": _voltage(_TIME), "u": u}
 
 
+def _shaft(K: float, J: float, b: float) -> _Samples:
+    """A rotor, a spring and a brake, from their balances."""
+
+    def slope(t: float, x: np.ndarray) -> np.ndarray:
+        speed, twist = x
+        return np.array([(_voltage(t) - K * twist) / J, speed - K * twist / b])
+
+    return {"U": _voltage(_TIME), "w": K * _plant(slope, 2)[1] / b}
+
+
 def _ratios(
     compilation: Compilation,
     plant: Callable[..., _Samples],
@@ -127,7 +151,23 @@ def test_outside_of_the_tolerances_the_threshold_is_crossed() -> None:
     assert all(ratio > 1.2 for ratio in found.values()), found
 
 
-def test_quotients_and_products_of_uncertain_parameters_stay_inside(tmp_path: Path) -> None:
-    """With 20 % tolerances a bound of first order would be crossed by a tenth."""
-    found = _ratios(_compiled(tmp_path, _RC), _circuit, (2.0, 0.05), (0.2, 0.2), 1.0)
+@pytest.mark.parametrize("law", ["", " { f = e/R }"])
+def test_products_and_quotients_of_uncertain_parameters_stay_inside(
+    law: str, tmp_path: Path
+) -> None:
+    """With 20 % tolerances a bound of first order would be crossed by a tenth and more."""
+    text = _RC.replace("R:R\n", f"R:R{law}\n")
+    found = _ratios(_compiled(tmp_path, text), _circuit, (2.0, 0.05), (0.2, 0.2), 1.0)
     assert all(0.8 < ratio <= 1.0 for ratio in found.values()), found
+
+
+def test_all_orders_of_three_parameters_stay_inside(tmp_path: Path) -> None:
+    compilation = _compiled(tmp_path, _SHAFT)
+    found = _ratios(compilation, _shaft, (3.0, 0.05, 0.2), (0.2, 0.1, 0.1), 1.0)
+    assert all(0.7 < ratio <= 1.0 for ratio in found.values()), found
+
+
+def test_a_model_without_tolerances_has_no_thresholds(tmp_path: Path) -> None:
+    compilation = _compiled(tmp_path, _RC.replace(" +- 20%", ""))
+    assert compilation.thresholds is None
+    assert not any("threshold" in a.path for a in compilation.artifacts)
