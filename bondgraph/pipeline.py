@@ -215,7 +215,10 @@ class Compilation:
         """The files, as text."""
         from bondgraph.backends.emit import emit
 
-        return emit(self.program, self.options.targets, self.thresholds)
+        bounds = self.thresholds
+        if bounds is not None and all(r.unavailable for r in bounds.residuals):
+            bounds = None  # the report says why
+        return emit(self.program, self.options.targets, bounds)
 
     def diagnoses(
         self, fired: Iterable[str], silent: Iterable[str] = (), at_most: int | None = None

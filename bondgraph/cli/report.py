@@ -109,7 +109,8 @@ def _modes(compilation: Compilation, columns: int) -> list[str]:
 
 def _numerics(compilation: Compilation, columns: int) -> list[str]:
     """What the sampled code cannot see, although the equations do."""
-    program = compilation.program
+    program, bounds = compilation.program, compilation.thresholds
+    unbounded = {} if bounds is None else {r.name: r.unavailable for r in bounds.residuals}
     lines: list[str] = []
     for info in program.residuals:
         notes = []
@@ -121,6 +122,9 @@ def _numerics(compilation: Compilation, columns: int) -> list[str]:
             notes.append([f"  {info.name}  is never valid: {info.unavailable}"])
         if info.unwritten:
             notes.append([f"  {info.name}  has no exact form in the code: {info.unwritten}"])
+        why = unbounded.get(info.name, "")
+        if why and why != info.unavailable:
+            notes.append([f"  {info.name}  has no adaptive threshold: {why}"])
         for note in notes:
             lines += note
     if not lines:

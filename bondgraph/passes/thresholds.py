@@ -28,6 +28,9 @@ from bondgraph.passes.lowering.uncertain import Share, shares
 from bondgraph.passes.lowering.visible import seen
 from bondgraph.passes.normalise import LIMIT, normalise
 
+#: First-order stages that the signals of one threshold may have together.
+_STAGES = 300
+
 _UNWRITTEN = "a threshold is made of filtered signals, only step has it"
 
 
@@ -82,7 +85,10 @@ def thresholds(
         time_unit=1.0,
         bounds=program.name,
     )
-    if not any(one.exprs for one in found):
+    refused = [one.info.unavailable for one in found if one.info.unavailable]
+    if not any(one.exprs for one in found) and set(refused) <= {
+        r.unavailable for r in program.residuals
+    }:
         return None
     made = pruned(made)
     return made._replace(digest=digest(made, graph.source.text))
@@ -106,7 +112,10 @@ def _threshold(
     kept = seen(builder, form.terms, options.rate, options.resolution).kept
     amounts: list[tuple[bool, Expression]] = []
     words: list[str] = []
-    for number, share in enumerate(shares(builder, kept), 1):
+    found = shares(builder, kept, _STAGES // max(info.stages, 1))
+    if found is None:
+        return _none(out, f"its uncertain signals need more than {_STAGES} stages of the filter")
+    for number, share in enumerate(found, 1):
         form = normalise(builder.graph.pool, share.expr, LIMIT, builder.initials)
         if form.tape is not None:
             return _none(out, "its uncertain signals are too long")

@@ -29,13 +29,13 @@ class Share(NamedTuple):
     expr: Expr
 
 
-def shares(builder: Builder, terms: Sequence[Term]) -> list[Share]:
+def shares(builder: Builder, terms: Sequence[Term], most: int) -> list[Share] | None:
     """The uncertain signals of a residual with these terms, weights of the tolerances included.
 
     The sum of their amounts is exact where no more than two uncertain parameters of a term are
     multiplied. Beyond that the terms of second order are enlarged by 1/(1 - sum delta), which
     holds for every product of powers +1 and -1: its part of order n in d is at most
-    sum(delta) times the part of order n - 1.
+    sum(delta) times the part of order n - 1. None if there are more than `most` signals.
     """
     pool = builder.pool
     uncertain = [v for v in builder.graph.values if v.tolerance]
@@ -55,6 +55,8 @@ def shares(builder: Builder, terms: Sequence[Term]) -> list[Share]:
         for other, bend in zip(used[at:], slopes(slope, used[at:]), strict=True):
             if not is_zero(bend):
                 second.append((value, other, bend))
+        if len(second) + len(used) > most:
+            return None
     bent = list(dict.fromkeys(v for one, other, _ in second for v in (one, other)))
     enlarged = Fraction(1)
     if second and _third(bent, second, slopes):

@@ -11,6 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import bondgraph
+from bondgraph.cli.report import report
 from bondgraph.ir.program import Program
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.interpret import Interpreter
@@ -171,3 +172,19 @@ def test_a_model_without_tolerances_has_no_thresholds(tmp_path: Path) -> None:
     compilation = _compiled(tmp_path, _RC.replace(" +- 20%", ""))
     assert compilation.thresholds is None
     assert not any("threshold" in a.path for a in compilation.artifacts)
+
+
+def test_too_many_tolerances_are_refused_with_the_reason(tmp_path: Path) -> None:
+    """Six cells with a tolerance on each of twelve parts: 90 signals of seven stages."""
+    lines = ["Se:U -> 1:a1 -> R:r1 = 1 +- 5%", "a1 -> 0:n1 -> C:c1 = 0.1 +- 5%"]
+    for k in range(2, 7):
+        lines.append(f"n{k - 1} -> 1:a{k} -> R:r{k} = 2 +- 5%")
+        lines.append(f"a{k} -> 0:n{k} -> C:c{k} = 0.{k} +- 5%")
+    lines += ["n6 -> De:y", "0:aside -> R:s = 3 +- 5%", "Sf:I -> aside", "aside -> De:z"]
+    compilation = _compiled(tmp_path, "bg 1\nmodel Ladder {\n" + "\n".join(lines) + "\n}")
+    made = _thresholds(compilation)
+    reasons = {r.path: r.unavailable for r in made.residuals}
+    assert sorted(bool(reason) for reason in reasons.values()) == [False, True]
+    assert any("more than 300 stages" in reason for reason in reasons.values())
+    told = [line for line in report(compilation, []) if "no adaptive threshold" in line]
+    assert len(told) == 1 and "more than 300 stages" in told[0]
