@@ -86,12 +86,15 @@ def _message(compilation: Compilation, found: Detection) -> str:
 
 
 def _result(compilation: Compilation, found: Detection) -> dict[str, object]:
-    units = _units(compilation)
+    units, unbounded = _units(compilation), _unbounded(compilation)
     return {
         "model": compilation.graph.name,
         "rate": compilation.program.rate,
         "bandwidth": compilation.program.bandwidth,
-        "noise": [{"residual": name, "sigma": sigma} for name, sigma in found.sigma.items()],
+        "noise": [
+            {"residual": name, "sigma": sigma, "no_threshold": unbounded.get(name)}
+            for name, sigma in found.sigma.items()
+        ],
         "faults": [_row(s, units) for s in found.smallest],
     }
 
@@ -99,6 +102,13 @@ def _result(compilation: Compilation, found: Detection) -> dict[str, object]:
 def _row(found: Smallest, units: dict[str, str]) -> dict[str, object]:
     unit = units.get(found.fault, "")
     return {**found._asdict(), "unit": unit, "reason": found.reason or None}
+
+
+def _unbounded(compilation: Compilation) -> dict[str, str]:
+    """The residuals whose tolerances make no threshold, with the reason."""
+    bounds = compilation.thresholds
+    return {} if bounds is None else {r.path: r.unavailable for r in bounds.residuals
+                                      if r.unavailable}  # fmt: skip
 
 
 def _units(compilation: Compilation) -> dict[str, str]:
@@ -119,6 +129,8 @@ def _lines(compilation: Compilation, found: Detection, situation: Situation) -> 
     ]
     for name, sigma in found.sigma.items():
         lines.append(f"  {name}  " + ("grows for ever" if sigma is None else f"{sigma:.3g}"))
+    for name, why in _unbounded(compilation).items():
+        lines.append(f"  {name}  has no adaptive threshold, only noise counts: {why}")
     units = _units(compilation)
     rows = [("fault", "residual", "smallest change", "")]
     rows += [(s.fault, s.residual, *_change(s, units.get(s.fault, ""))) for s in found.smallest]

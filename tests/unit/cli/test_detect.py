@@ -63,3 +63,19 @@ def test_a_model_without_redundancy_has_nothing_to_detect(
     path.write_text("bg 1\nmodel M { param R = 1 Ohm; Se:U -> 1:j -> R:R }\n", "utf-8")
     assert main(["detect", str(path)]) == 0
     assert "Traceback" not in capsys.readouterr().err
+
+
+def test_tolerances_that_are_left_out_are_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cells = ["Se:U -> 1:a1 -> R:r1 = 1 +- 5%", "a1 -> 0:n1 -> C:c1 = 0.1 +- 5%"]
+    for k in range(2, 7):
+        cells.append(f"n{k - 1} -> 1:a{k} -> R:r{k} = 2 +- 5%")
+        cells.append(f"a{k} -> 0:n{k} -> C:c{k} = 0.{k} +- 5%")
+    path = tmp_path / "ladder.bg"
+    text = "\n".join([*cells, "n6 -> De:y"])
+    path.write_text(f"bg 1\nmodel Ladder {{\n{text}\n}}\n", encoding="utf-8")
+    assert main(["detect", str(path)]) == 0
+    assert "only noise counts: its uncertain signals need" in capsys.readouterr().out
+    assert main(["detect", str(path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["noise"][0]["no_threshold"]
