@@ -12,6 +12,8 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, Rational, topological, whole
+from bondgraph.passes.branches import in_each_mode
+from bondgraph.passes.zero import is_zero
 
 #: Functions that are one to one on the reals (or where they are defined), with their inverses.
 INVERSE = {
@@ -70,7 +72,7 @@ def solve(
         linear = affine(pool, zero, variable)
     if linear is not None:
         slope, rest = linear
-        if slope is pool.zero or not _dividable(slope) or vanishes(slope):
+        if slope is pool.zero or not _dividable(pool, slope, vanishes):
             return None
         value = pool.neg(rest) if slope is pool.one else _quotient(pool, rest, slope)
         return Solution(value, int(not constant(slope)), False)
@@ -199,18 +201,26 @@ def _holders(node: Expr, variable: Expr) -> dict[Expr, None]:
     return found
 
 
-def _dividable(slope: Expr) -> bool:
+def _dividable(pool: Pool, slope: Expr, vanishes: Callable[[Expr], bool]) -> bool:
     """Whether it is right to divide by a coefficient: not where it is zero in some mode."""
-    return not any(
-        n.op in (Op.IF, Op.CMP, Op.LOGIC)
-        or (n.op is Op.SYM and n.symbol.kind is Kind.MODE)
-        or (n.op is Op.FN and n.data in ("sign", "min", "max"))
-        for n in topological([slope])
-    )
+    nodes = topological([slope])
+    if any(n.op is Op.FN and n.data in ("sign", "min", "max") for n in nodes):
+        return False
+    switches = (Op.IF, Op.CMP, Op.LOGIC)
+    if any(n.op in switches or (n.op is Op.SYM and n.symbol.kind is Kind.MODE) for n in nodes):
+        each = in_each_mode(pool, slope)
+        return each is not None and not any(is_zero(s) or vanishes(s) for s in each)
+    return not vanishes(slope)
 
 
 def _quotient(pool: Pool, rest: Expr, slope: Expr) -> Expr:
     """-rest/slope, with the sign taken into a sum and single factors divided out of it."""
+    if slope.op is Op.IF:  # a switch: its own quotient in each position
+        condition, *slopes = slope.args
+        same = rest.op is Op.IF and rest.args[0] is condition
+        rests = rest.args[1:] if same else (rest, rest)
+        yes, no = (_quotient(pool, r, s) for r, s in zip(rests, slopes, strict=True))
+        return pool.choose(condition, yes, no)
     if slope.op is Op.NUM:
         factor = whole(-1 / slope.number)
         if rest.op is Op.ADD:
@@ -250,7 +260,7 @@ def _peel(
                 for a, e in zip(node.args, node.exponents, strict=True)
                 if a is not inner
             ]
-            if not all(_dividable(o) and not vanishes(pool.power(o, -1)) for o in others):
+            if not all(_dividable(pool, pool.power(o, -1), vanishes) for o in others):
                 return None
             root = _root(pool, pool.mul(target, *others), power)
             if root is None:

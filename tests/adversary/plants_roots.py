@@ -1,4 +1,4 @@
-"""Equations without a closed solution, solved by iteration; the physics by hand."""
+"""Equations solved by iteration, or in each mode of a switch; the physics by hand."""
 
 from __future__ import annotations
 
@@ -51,5 +51,17 @@ PLANTS = [
         n_arr=1,
         params="a g R C",
         inputs="U",
+    ),
+    Plant(
+        "parallel_switches",
+        model("parallel_switches"),
+        equations=(
+            "where(a, f - (U - z)/R1, f); where(b, g - (U - z)/R2, g); f + g - D(q); q - C*z"
+        ),
+        sensors={"v": "z"},
+        n_arr=1,
+        params="R1 R2 C",
+        inputs="U",
+        modes="a b",
     ),
 ]
