@@ -41,9 +41,10 @@ def _set(pool: Pool, expr: Expr, setting: dict[Expr, bool]) -> Expr:
     for node in topological([expr]):
         if node.op is Op.LOGIC:
             held = [truth[a] for a in node.args]
-            truth[node] = (
-                not held[0] if node.name == "not" else all(held) if node.name == "and" else any(held)
-            )
+            if node.name == "not":
+                truth[node] = not held[0]
+            else:
+                truth[node] = all(held) if node.name == "and" else any(held)
         if node in truth:  # as a number
             new[node] = pool.one if truth[node] else pool.zero
         elif node.op is Op.IF and node.args[0] in truth:

@@ -14,15 +14,16 @@ import heapq
 from contextlib import suppress
 from typing import NamedTuple
 
-from bondgraph.ir.equations import Equation, EquationSystem
+from bondgraph.ir.equations import EquationSystem
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
 from bondgraph.ir.residuals import Closing, How, ReducedSystem, Step
 from bondgraph.passes.colour import colours
 from bondgraph.passes.initial import without_free_integrals
+from bondgraph.passes.linear_block import linear_equation, solve_block
 from bondgraph.passes.loops import Loops
-from bondgraph.passes.matching import decompose, match
+from bondgraph.passes.matching import decompose
 from bondgraph.passes.nominal import Nominal
-from bondgraph.passes.rank import relations as independent
+from bondgraph.passes.shortfall import initial_value_needed, loop_unsolvable, relations_missing
 from bondgraph.passes.solve import ITERATED, Solution, solve
 from bondgraph.text.diagnostic import Report
 
@@ -42,6 +43,10 @@ class Cost(NamedTuple):
 
 #: What an iteration, and an integration from an undeclared start, count in integrations.
 _ITERATED, _FREE = 10, 1000
+
+
+#: A block of so many variables is solved by sparse elimination, a smaller one by tearing.
+_LARGE = 30
 
 
 class _Offer(NamedTuple):
@@ -245,7 +250,14 @@ class Chain:
         solvable = {*parts.over_columns, *(() if stubborn else parts.square_columns)}
         names = list(columns)
         chosen = []
+        done = False
         for block in _components(graph, [*parts.over_rows, *parts.square_rows], solvable):
+            if len(block) >= _LARGE and not stubborn:
+                inside = set(block)
+                near = (*parts.over_rows, *parts.square_rows)
+                if self.block([rows[r] for r in near if any(c in inside for c in graph[r])]):
+                    done = True
+                    continue
             degree = {c: 0 for c in block}
             for r in (*parts.over_rows, *parts.square_rows):
                 for c in graph[r]:
@@ -261,7 +273,30 @@ class Chain:
             holder = self.system.equations[row]
             tear = self.loops.tear(variable)
             self.settle(variable, Step(variable, tear, tear, holder, "loop"), Cost(0, 1, 0, 1))
-        return bool(chosen)
+        return done or bool(chosen)
+
+    def block(self, rows: list[int]) -> bool:
+        """Solve a large linear block as a whole; False if it is none."""
+        lines = []
+        for row in rows:
+            equation = self.system.equations[row]
+            free = [v for v in equation.variables if v not in self.closed]
+            line = linear_equation(self.pool, row, equation.zero, free, self.substituted)
+            if line is None:
+                return False
+            lines.append(line)
+        found = solve_block(self.pool, lines, self.nominal.size)
+        if found is None:
+            return False
+        for row in rows:
+            self.used[row] = True
+        for item in found.solved:
+            equation = self.system.equations[item.equation]
+            step = Step(item.variable, item.value, item.value, equation, "solved")
+            self.settle(item.variable, step, Cost(0, 1, 0, 1))
+        for row, expr in found.left:
+            self.loops.row(row, expr)
+        return True
 
     # ------------------------------------------------------------------ result
 
@@ -295,7 +330,7 @@ class Chain:
             found = without_free_integrals(self.pool, expr)
             equation = self.system.equations[rows[-1]]
             if found is None:
-                self.initial_missing(equation, expr, steps)
+                initial_value_needed(self.report, equation, expr, steps)
                 lost += 1
             elif found[0] is not self.pool.zero:
                 raw = expr
@@ -304,76 +339,17 @@ class Chain:
                 closings.append(Closing(equation, found[0], steps, found[1], raw))
         unsolved = tuple(v for v in self.system.unknowns if v not in self.closed)
         unmonitored = tuple(e for r, e in enumerate(self.system.equations) if not self.used[r])
-        self.report_loops()
-        self.report_count(self.loops.identities + len(closings) + lost)
+        self.report_shortfall(self.loops.identities + len(closings) + lost)
         return ReducedSystem(self.system, tuple(closings), unsolved, unmonitored, lost)
 
-    def initial_missing(self, equation: Equation, expr: Expr, steps: tuple[Step, ...]) -> None:
-        """Say which storage needs an initial value."""
-        free = {
-            n.symbol.name.removesuffix(".0")
-            for n in topological([expr])
-            if n.op is Op.INT and n.symbol.kind is Kind.FREE
-        }
-        for step in steps:
-            if step.variable.symbol.name in free:
-                name = "q0" if step.variable.symbol.name.endswith(".q") else "p0"
-                self.report.error(
-                    "initial-value-needed",
-                    f"The relation at `{equation.name}` needs the initial value of"
-                    f" `{step.equation.name}`, which the model does not declare.",
-                    step.equation.origin,
-                    help="The storage enters it nonlinearly, so differentiating does not remove"
-                    f" the initial value: declare it, for example `({name} = 0)` after the"
-                    " element's name.",
-                )
-                return
-
-    def report_loops(self) -> None:
-        """Say which loops cost a relation, by the elements that they run through."""
+    def report_shortfall(self, found: int) -> None:
+        """Say which loops cost a relation, and hold the number of relations to theory."""
         for rows in self.loops.refused():
             steps = [s for s in self.resting_on(rows) if self.loops.open_in(s.closed)]
-            equations = [s.equation for s in steps] + [self.system.equations[r] for r in rows]
-            laws = [e for e in equations if e.kind in ("law", "sensor")] or equations
-            names = ", ".join(dict.fromkeys(f"`{e.name}`" for e in laws))
-            self.report.error(
-                "loop-unsolvable",
-                f"The loop of nonlinear equations through {names} cannot be solved with certainty:"
-                " it has no closed solution, and may have several.",
-                *dict.fromkeys(e.origin for e in laws),
-                help="Measure a variable inside the loop, give one of its laws in the other"
-                " direction, or a law that rises everywhere, which iteration can invert.",
-            )
-
-    def report_count(self, found: int) -> None:
-        """Hold the number of relations to theory: equations less what they can determine.
-
-        For a model whose unknown inputs all act this is sensors minus the rank of the unknown
-        inputs (Staroswiecki and Comtet-Varga, 2001). The matching knows nothing of costs, loops
-        or solvability.
-        """
-        equations = self.system.equations
-        row_of = {id(e): r for r, e in enumerate(equations)}
-        pairs = [
-            (row_of[id(s.equation)], self.position[v])
-            for v, s in self.steps.items()
-            if s.how != "loop"
-        ]
-        rows = [[self.position[v] for v in e.variables] for e in equations]
-        _, column_of = match(rows, len(self.position), pairs)
-        expected = sum(c < 0 for c in column_of)
+            loop_unsolvable(self.report, steps, [self.system.equations[r] for r in rows])
         stuck = any(n == 1 and not u for n, u in zip(self.waiting, self.used, strict=True))
-        if found != expected or stuck or self.loops.pending:  # loops that cancel mislead the count
-            expected = independent(self.system)
-        if found != expected:
-            self.report.warning(
-                "relations-missing",
-                f"The structure of the model has {expected} independent relations, of which"
-                f" {found} could be derived.",
-                self.system.graph.nodes[0].origin,
-                help="Measure one more variable in the part that the relations found leave out;"
-                " `bondgraph dump --stage residuals` shows it.",
-            )
+        certain = not stuck and not self.loops.pending  # loops that cancel mislead the matching
+        relations_missing(self.report, self.system, self.steps.values(), found, certain)
 
 
 def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:

@@ -34,12 +34,17 @@ _FUNCTIONS = {
     "ssq": lambda x: x * abs(x),
 }
 
+#: How far off one operation may be, next to its largest term: some roundings of double precision,
+#: as parameters are often rounded decimals of one another.
+_ROUNDING = 1e-15
+
 
 class Nominal:
     """Nominal values of expressions of parameters, in SI units."""
 
     def __init__(self, graph: BondGraph) -> None:
         self._known: dict[Expr, float | None] = {}
+        self._doubts: dict[Expr, float] = {}
         self._given = {v.symbol: v.value for v in graph.values}
         self._given |= {
             p.initial: p.initial_value
@@ -75,13 +80,39 @@ class Nominal:
         value = self.value(expr)
         if value is None:
             return False
-        size = abs(value)
-        for node in topological([expr]):
-            if node.op is Op.ADD:
-                for c, arg in zip(node.coefficients, node.args, strict=True):
-                    size = max(size, abs(float(c) * (self._known.get(arg) or 0.0)))
-        return abs(value) <= 1e-12 * size
+        return abs(value) <= self._doubt(expr)
 
+    def size(self, coefficient: Expr) -> float:
+        """The nominal value of a coefficient: zero if it vanishes, one if the model gives none."""
+        if self.vanishes(coefficient):
+            return 0.0
+        value = self.value(coefficient)
+        return 1.0 if value is None else value
+
+    def _doubt(self, expr: Expr) -> float:
+        """A bound on the rounding error of `value` (running error analysis, Wilkinson 1963)."""
+        for node in topological([expr], stop=self._doubts.__contains__):
+            if node not in self._doubts:
+                self._doubts[node] = self._rounding(node)
+        return self._doubts[expr]
+
+    def _rounding(self, node: Expr) -> float:
+        own = abs(self._known.get(node) or 0.0)
+        if node.op is Op.ADD:
+            size, inherited = own, 0.0
+            for c, arg in zip(node.coefficients, node.args, strict=True):
+                weight = abs(float(c))
+                size = max(size, weight * abs(self._known.get(arg) or 0.0))
+                inherited += weight * self._doubts[arg]
+            return inherited + _ROUNDING * size
+        if node.op is Op.MUL:
+            inherited = 0.0
+            for exponent, arg in zip(node.exponents, node.args, strict=True):
+                factor = abs(self._known.get(arg) or 0.0)
+                if factor:
+                    inherited += abs(exponent) * self._doubts[arg] / factor
+            return own * (inherited + _ROUNDING)
+        return _ROUNDING * own
 
 def defined(expr: Expr, variable: Expr, at: float) -> bool:
     """Whether an expression has a value when the variable has one, and all else is one."""
