@@ -3,7 +3,8 @@
 A term c p**k y is seen if at some frequency up to w = pi rate / 5 (a tenth of the rate in Hz) its
 size |c| w**k reaches a given part of the largest term of the same signal there (METHOD 4.5). To
 look at the highest frequency alone would be wrong: there a small friction hides behind a large
-inertia, but at constant speed it is all there is.
+inertia, but at constant speed it is all there is. A parameter that is nominally zero, a leak say,
+counts with the size one: the fault is that it does not stay zero.
 """
 
 from __future__ import annotations
@@ -97,21 +98,42 @@ def seen(builder: Builder, terms: tuple[Term, ...], rate: float, resolution: flo
         if not math.isfinite(size):
             return Seen(terms, (), None, effect)
         sizes.append(size)
-    return split(terms, sizes, resolution, effect)
+    return split(terms, sizes, rate, resolution, effect, absent(builder))
 
 
-def split(terms: tuple[Term, ...], sizes: list[float], resolution: float, effect: Effect) -> Seen:
-    """The visible terms, given the size of every term at the highest frequency."""
+def absent(builder: Builder) -> tuple[str, ...]:
+    """The faults that are nominally zero."""
+    return tuple(
+        v.name for v in builder.graph.values if v.fault and builder.floats.get(v.name) == 0.0
+    )
+
+
+def split(
+    terms: tuple[Term, ...],
+    sizes: list[float],
+    rate: float,
+    resolution: float,
+    effect: Effect,
+    zero: tuple[str, ...],
+) -> Seen:
+    """The visible terms, given the size of every term at the highest frequency.
+
+    A term is visible too if one of the parameters `zero` would make it so.
+    """
     logs: dict[Expr, dict[int, float]] = {}
     for term, size in zip(terms, sizes, strict=True):
         own = logs.setdefault(term.atom, {})
         if size:
             own[term.order] = math.log(size)
     spectra = {atom: Spectrum(own) for atom, own in logs.items()}
+    w = frequency(rate)
     kept: list[Term] = []
     dropped: list[tuple[Term, float]] = []
     for term, size in zip(terms, sizes, strict=True):
         share = spectra[term.atom].share(term.order, size)
+        if share < resolution and zero:
+            would = [_share(effect(term, name), spectra[term.atom], term.order, w) for name in zero]
+            share = max(share, *would)
         # a coefficient that happens to be zero now may be set to another value later
         if share < resolution and (size or len(logs[term.atom])):
             dropped.append((term, share))
@@ -132,12 +154,19 @@ def unseen_faults(
     def acts(name: str) -> bool:
         if builder.graph.fault_symbol(name) in inside:
             return True
-        for term in result.kept:
-            effect = result.effect(term, name)
-            if effect is None:
-                return True
-            if spectra[term.atom].share(term.order, abs(effect) * w**term.order) >= resolution:
-                return True
-        return False
+        return any(
+            _share(result.effect(t, name), spectra[t.atom], t.order, w) >= resolution
+            for t in result.kept
+        )
 
     return tuple(f for f in faults if not acts(f))
+
+
+def _share(effect: float | None, spectrum: Spectrum, order: int, w: float) -> float:
+    """The largest ratio of what a parameter does to a term to the largest term of its signal."""
+    if effect is None:
+        return math.inf
+    try:
+        return spectrum.share(order, abs(effect) * w**order)
+    except OverflowError:
+        return math.inf

@@ -207,6 +207,48 @@ def test_a_small_term_is_kept_where_it_is_all_there_is() -> None:
     assert program.residuals[0].invisible == ()
 
 
+def test_a_leak_that_is_nominally_zero_is_kept() -> None:
+    # a tank whose other terms could do without p: without its leak the filter takes p' alone
+    bench = Bench()
+    pool = bench.pool
+    p, flow = bench.sensor("p"), bench.input("Q")
+    area, leak = bench.param("A", "1"), bench.param("leak", "0")
+    balance = pool.add((1, flow), (-1, pool.mul(leak, p)), (-1, pool.mul(area, pool.der(p))))
+    program = bench.program(balance)
+    assert program.dropped == ()
+    assert program.residuals[0].invisible == ()
+    # of what is too small beside it, neither the leak nor a constant that is zero makes more
+    pool = (bench := Bench()).pool
+    p, flow = bench.sensor("p"), bench.input("Q")
+    area, leak = bench.param("A", "1"), bench.param("leak", "0")
+    inertia, none = bench.param("I", "1e-20"), bench.param("z", "0", fault=False)
+    small = pool.mul(pool.mul(inertia, leak), pool.der(pool.der(p)))
+    nothing = pool.mul(none, pool.der(pool.der(pool.der(p))))
+    balance = pool.add((1, flow), (-1, pool.mul(area, pool.der(p))), (-1, small), (-1, nothing))
+    program = bench.program(balance)
+    assert [d.order for d in program.dropped] == [2, 3]
+    assert program.residuals[0].invisible == ("leak", "I")
+
+
+@pytest.mark.parametrize("limit", [10**6, 10])
+def test_a_leak_in_a_long_line_is_kept(limit: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A ladder of capacitors that leak, nominally nothing, written out and by its table."""
+    monkeypatch.setattr("bondgraph.passes.lower.LIMIT", limit)
+    bench = Bench()
+    pool = bench.pool
+    r, c, g = bench.param("R", "1"), bench.param("C", "0.1"), bench.param("G", "0")
+    u, y = bench.input("u"), bench.sensor("y")
+    voltage, current = y, pool.zero
+    for _ in range(3):
+        leaks = (1, pool.mul(c, pool.der(voltage))), (1, pool.mul(g, voltage))
+        current = pool.add((1, current), *leaks)
+        voltage = pool.add((1, voltage), (1, pool.mul(r, current)))
+    program = bench.program(pool.add((1, u), (-1, current)))
+    assert any(isinstance(s, PolynomialTape) for s in program.configure) == (limit == 10)
+    assert program.dropped == ()  # the sum of the leaks is all there is at rest
+    assert program.residuals[0].invisible == ()
+
+
 def test_symbolic_models_drop_nothing() -> None:
     bench = Bench()
     p = bench.pool
