@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from bondgraph.ir.graph import BondGraph
+from bondgraph.text.diagnostic import Diagnostic
 from bondgraph.text.tuples import NamedTuple
 
 Preference = Literal["integral", "derivative"]
@@ -36,6 +37,22 @@ class Storage(NamedTuple):
     node: int
     port: int
     integral: bool
+
+
+class Conflict(NamedTuple):
+    """Nodes that contradict each other; without any one of them the rest would agree.
+
+    `nodes` are the junctions and two-ports, then the sources and detectors, `bonds` those between
+    them; `meet` is the node at which it shows. `strokes` are the (bond, stroke) that follow from
+    the sources and detectors alone: where two of them belong to one bond, or one junction has two
+    strong ones, they clash. `finding` is what to say about it.
+    """
+
+    nodes: tuple[int, ...]
+    bonds: tuple[int, ...]
+    meet: int
+    strokes: tuple[tuple[int, Literal["head", "tail"]], ...]
+    finding: Diagnostic
 
 
 class CausalGraph(NamedTuple):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from bondgraph.ir.causal import CausalGraph, Preference, Reason, Storage, Stroke
 from bondgraph.ir.graph import BondGraph
-from bondgraph.passes.causal.conflict import oblige, report_conflicts
+from bondgraph.passes.causal.conflict import oblige
 from bondgraph.passes.causal.findings import report_findings
 from bondgraph.passes.causal.matching import Matching
 from bondgraph.passes.causal.network import Network, Wish, demands, network
@@ -34,12 +34,12 @@ def assign(graph: BondGraph, preference: Preference, report: Report) -> CausalGr
     free = _free_choices(graph, at)
     strokes = Strokes(net)
     if oblige(strokes, musts) is not None:
-        report_conflicts(graph, net, musts, report)
+        _refuse(graph, report)
         return None
     if not _greedy(strokes, wishes + free):
         repaired = _exact(net, musts, wishes, free, hint=strokes.value)
         if repaired is None:
-            report_conflicts(graph, net, musts, report)
+            _refuse(graph, report)
             return None
         strokes = repaired
     for b, bond in enumerate(graph.bonds):
@@ -51,6 +51,13 @@ def assign(graph: BondGraph, preference: Preference, report: Report) -> CausalGr
     if preference == "integral":
         report_findings(result, paths, report)
     return result
+
+
+def _refuse(graph: BondGraph, report: Report) -> None:
+    from bondgraph.passes.conflicts import conflicts  # sound models do not wait for it
+
+    for conflict in conflicts(graph):
+        report.add(conflict.finding)
 
 
 def _free_choices(graph: BondGraph, at: list[list[int]]) -> list[Wish]:

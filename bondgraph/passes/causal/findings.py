@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from bondgraph.ir.causal import CausalGraph, Storage
 from bondgraph.ir.graph import Node
-from bondgraph.passes.causal.conflict import listing, name, sentence
 from bondgraph.passes.causal.paths import Paths
+from bondgraph.passes.causal.words import listing, name, sentence
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
 

@@ -71,20 +71,41 @@ class Network:
 
 def network(graph: BondGraph) -> tuple[Network, list[list[int]]]:
     """The rules of the graph, and for every node the bond ends that stand at it."""
-    at: list[list[int]] = [[] for _ in graph.nodes]
-    for b, bond in enumerate(graph.bonds):
-        at[bond.tail.node].append(2 * b)
-        at[bond.head.node].append(2 * b + 1)
-    net = Network(len(graph.bonds))
-    for n, node in enumerate(graph.nodes):
+    kinds = [node.kind for node in graph.nodes]
+    return rules(kinds, [(bond.tail.node, bond.head.node) for bond in graph.bonds])
+
+
+def rules(kinds: list[str], bonds: list[tuple[int, int]]) -> tuple[Network, list[list[int]]]:
+    """The same for nodes of these kinds and bonds from a tail to a head."""
+    at: list[list[int]] = [[] for _ in kinds]
+    for b, (tail, head) in enumerate(bonds):
+        at[tail].append(2 * b)
+        at[head].append(2 * b + 1)
+    net = Network(len(bonds))
+    for n, kind in enumerate(kinds):
         ends = at[n]
-        if node.kind in ("0", "1"):
-            net.add(n, ends, [node.kind == "0"] * len(ends))
-        elif node.kind == "TF" and len(ends) == 2:
+        if kind in ("0", "1"):
+            net.add(n, ends, [kind == "0"] * len(ends))
+        elif kind == "TF" and len(ends) == 2:
             net.add(n, ends, [True, True])
-        elif node.kind == "GY" and len(ends) == 2:
+        elif kind == "GY" and len(ends) == 2:
             net.add(n, ends, [True, False])
     return net, at
+
+
+def must(kind: str, end: int, integral: bool) -> int | None:
+    """The stroke that a source or a detector demands of its bond; None for other kinds.
+
+    A detector is an ideal one with `integral` preference, else it is dualised to a source.
+    """
+    takes = end & 1  # the stroke with which the element receives effort
+    match kind:
+        case "Se" | "Sf":
+            return 1 - takes if kind == "Se" else takes
+        case "De" | "Df":
+            return takes if (kind == "De") == integral else 1 - takes
+        case _:
+            return None
 
 
 def demands(
@@ -95,7 +116,7 @@ def demands(
     In derivative preference a detector is wanted dualised (SSe, SSf) before any storage is
     considered, and is a plain detector only where that is impossible.
     """
-    must: list[Wish] = []
+    musts: list[Wish] = []
     detectors: list[Wish] = []
     storages: list[Wish] = []
     laws: list[Wish] = []
@@ -108,14 +129,13 @@ def demands(
             port = (bond.head if end & 1 else bond.tail).port
             takes = end & 1  # the stroke with which the element receives effort
             gives = 1 - takes
+            value = must(node.kind, end, integral)
+            if value is not None:
+                source = node.kind in ("Se", "Sf")
+                group = musts if source or integral else detectors
+                group.append(Wish(end >> 1, value, n, port, "source" if source else "sensor"))
+                continue
             match node.kind:
-                case "Se" | "Sf":
-                    value = gives if node.kind == "Se" else takes
-                    must.append(Wish(end >> 1, value, n, port, "source"))
-                case "De" | "Df":
-                    value = takes if (node.kind == "De") == integral else gives
-                    group = must if integral else detectors
-                    group.append(Wish(end >> 1, value, n, port, "sensor"))
                 case "C" | "I":
                     value = gives if (node.kind == "C") == integral else takes
                     storages.append(Wish(end >> 1, value, n, port, "preferred"))
@@ -124,7 +144,7 @@ def demands(
                     if gives_effort is not None:
                         value = gives if gives_effort else takes
                         laws.append(Wish(end >> 1, value, n, port, "law"))
-    return must, detectors + storages + laws
+    return musts, detectors + storages + laws
 
 
 def one_way(node: Node, port: int) -> bool | None:

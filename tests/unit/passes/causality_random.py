@@ -30,7 +30,8 @@ class Drawing:
 
     def bond(self, a: int, b: int) -> None:
         pair = (a, b) if self.random.random() < 0.5 else (b, a)
-        self.bonds.append((*pair, Span(self.source, 0, 1)))
+        at = len(self.bonds)
+        self.bonds.append((*pair, Span(self.source, at, at + 1)))
 
     def link(self, a: int, b: int, what: str = "") -> None:
         what = what or self.random.choice(["bond", "bond", "bond", "TF", "GY"])

@@ -1,0 +1,168 @@
+"""What is said about conflicts: who, which way, and changes that a SAT solver finds to mend it."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from bondgraph.ir.expr import Pool
+from bondgraph.ir.graph import BondGraph
+from bondgraph.passes.causal.conflict import cores
+from bondgraph.passes.causal.mends import Change, mends
+from bondgraph.passes.causal.network import demands, network
+from bondgraph.passes.causal.story import story
+from bondgraph.passes.conflicts import conflicts
+from bondgraph.pipeline import Compilation
+from bondgraph.text.diagnostic import CompileError, Diagnostic
+from bondgraph.text.source import Source, Span
+from tests.unit.passes.causality_graphs import assemble, build
+from tests.unit.passes.causality_random import SHAPES, random_graph
+from tests.unit.passes.causality_sat import hard, most
+
+
+def changed(graph: BondGraph, change: Change) -> BondGraph:
+    """The graph after a change, drawn anew."""
+    span = Span(Source("changed.bg", " "), 0, 1)
+    kinds = [(node.kind, f"n{n}", False, span) for n, node in enumerate(graph.nodes)]
+    bonds = [(bond.tail.node, bond.head.node, span) for bond in graph.bonds]
+    if change.drop >= 0:
+        bonds = [bond for bond in bonds if change.drop not in bond[:2]]
+    elif change.cut >= 0:
+        del bonds[change.cut]
+    elif change.turn >= 0:
+        kind = {"0": "1", "1": "0", "Se": "Sf", "Sf": "Se"}[graph.nodes[change.turn].kind]
+        kinds[change.turn] = (kind, *kinds[change.turn][1:])
+    elif change.splice is not None:
+        at, kind = change.splice
+        tail, head, _ = bonds.pop(at)
+        new = len(kinds)
+        kinds += [(kind, "junction", False, span), ("R", "loss", False, span)]
+        bonds += [(tail, new, span), (new, head, span), (new, new + 1, span)]
+    else:
+        bonds.append((change.grow, len(kinds), span))
+        kinds.append(("R", "more", False, span))
+    return assemble(span.source, Pool(), kinds, bonds)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_every_proposed_change_mends(shape: str) -> None:
+    proposed = 0
+    for seed in range(60):
+        graph = random_graph(seed, shape)
+        net, at = network(graph)
+        found = cores(net, demands(graph, at, "integral")[0])
+        if len(found) != 1:  # others would still be there
+            continue
+        nodes = found[0].nodes(net)
+        alike = list(range(len(graph.nodes)))
+        told = story(graph, net, found[0])
+        for change, text in mends(graph, nodes, told, set(), alike):
+            proposed += 1
+            assert most(hard(changed(graph, change)), []) is not None, text
+    assert proposed > 10
+
+
+def findings(text: str) -> list[Diagnostic]:
+    """The errors of a model given by the lines between its braces."""
+    with pytest.raises(CompileError) as caught:
+        _ = Compilation(Source("m.bg", f"bg 1\nmodel M {{\n{text}\n}}\n")).integral
+    errors = [d for d in caught.value.diagnostics if d.severity == "error"]
+    assert {d.code for d in errors} == {"causality-conflict"}
+    return errors
+
+
+CASES = {
+    "pumps": ("Sf:a -> 1:line; Sf:b -> line; line -> R:hose = 2; line -> Df:y", {"a", "b", "line"}),
+    "chain": (
+        "Se:a -> TF:s { e1 = 2*e2 } -> TF:t { e1 = 3*e2 } -> 0:bus; Se:b -> bus; bus -> C:c = 1; "
+        "bus -> De:y",
+        {"a", "s", "t", "b", "bus"},
+    ),
+    "gyrators": (
+        "Se:u -> 1:arm -> GY:m = 2 -> 1:shaft -> GY:g = 3 -> 0:bus; Sf:w -> shaft; Se:grid -> bus; "
+        "arm -> R:r = 1; bus -> R:s = 1",
+        {"shaft", "g", "bus", "w", "grid"},
+    ),
+    "ring": (
+        "Se:tx -> 1:x; Se:ty -> 1:y; Se:tz -> 1:z; x -> GY:a = 1 -> y; y -> GY:b = 2 -> z; "
+        "z -> GY:c = 3 -> x; x -> Df:wx",
+        {"x", "y", "z", "a", "b", "c", "tx", "ty", "tz", "wx"},
+    ),
+    "detectors": (
+        "Sf:q -> 0:tank; tank -> De:p1; tank -> 1:pipe -> 0:out; out -> De:p2; out -> Sf:leak",
+        {"tank", "pipe", "out", "q", "p1", "p2", "leak"},
+    ),
+    "field": (
+        "C:f { port x; port y; x.e = x.q + y.q; y.e = x.q + 2*y.q }; Se:a -> TF:t { e1 = 2*e2 } "
+        "-> 0:n; n -> f.x; 0:m -> f.y; n -> TF:s { e1 = 2*e2 } -> m; Se:b -> m; m -> De:y",
+        {"a", "t", "n", "s", "m", "b"},
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_all_members_are_named_and_shown(case: str) -> None:
+    text, members = CASES[case]
+    (error,) = findings(text)
+    spoken = set(re.findall(r"\b\w+:(\w+)", error.message + error.help))
+    shown = {re.split(r"[ :=]", label.span.text)[1] for label in error.labels if label.text}
+    assert members <= spoken | shown
+    assert members >= shown
+    assert len({label.span for label in error.labels}) == len(error.labels)
+    assert error.help.count("\n- ") >= 2
+
+
+def test_the_lines_proposed_can_be_written_into_the_model() -> None:
+    text = CASES["pumps"][0].replace("; ", "\n")
+    (error,) = findings(text)
+    (first, *_) = re.findall(r"\n    (.*)", error.help)
+    bond = first.split(" -> ")[0]  # the name of the source whose bond gets the junction
+    mended = re.sub(rf"Sf:{bond} -> [^\n]*", f"Sf:{bond}\n{first}", text)
+    assert mended != text
+    source = Source("m.bg", f"bg 1\nmodel M {{\n{mended}\n}}\n")
+    assert Compilation(source).integral.strokes
+
+
+def test_a_ring_of_like_junctions_is_told_from_where_it_forks() -> None:
+    (error,) = findings("Se:u -> 1:i -> 0:a -> 0:b -> 0:c -> a; c -> R:r = 1; i -> Df:y")
+    assert error.message == (
+        "The effort of 0:c is imposed twice, by 0:a and 0:a (through 0:b); the effort of 0:a is "
+        "fixed by Se:u and Df:y (through 1:i)."
+    )
+    assert "- leave out the bond between 0:c and 0:a\n" in error.help
+
+
+def test_a_loop_is_proved_by_two_cases() -> None:
+    (error,) = findings(CASES["ring"][0])
+    assert error.message.startswith("1:x, 1:y and 1:z cannot all get their flow beside ")
+    assert error.help.startswith(
+        "If GY:a imposes the flow of 1:x, 1:y gets two flows, by GY:a and GY:b; if not, 1:y gets "
+        "no flow. Each of these mends it:\n"
+    )
+
+
+def test_what_instances_repeat_is_told_once_and_mended_in_all() -> None:
+    source = Source(
+        "m.bg",
+        "bg 1\nmodel Cell { port a : in electrical; a -> 0:n <- Se:inner; n -> R:r = 1 }\n"
+        "model M { Se:u -> 0:bus; Cell:cell[5]; for j in 1..5 { bus -> cell[j].a } }\n",
+    )
+    with pytest.raises(CompileError) as caught:
+        _ = Compilation(source).integral
+    (error,) = caught.value.diagnostics
+    assert "Se:cell[" in error.message
+    assert "(and the 4 like it)" in error.help
+
+
+def test_a_sound_graph_has_no_conflict() -> None:
+    assert conflicts(build("Se:u -> 1:i -> I:l; i -> R:r")) == ()
+
+
+def test_the_strokes_that_clash_are_kept() -> None:
+    graph = build("Se:a -> 0:n <- Se:b; n -> R:r")
+    (conflict,) = conflicts(graph)
+    assert conflict.nodes == (1, 0, 2)
+    assert conflict.bonds == (0, 1)
+    assert conflict.meet == 1
+    assert conflict.strokes == ((0, "head"), (1, "head"))  # both bonds bring their effort to 0:n
