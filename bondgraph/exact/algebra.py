@@ -100,6 +100,10 @@ class Algebra(Values[V], Protocol[V, A]):
         """The highest derivative that an adjoint which is not zero belongs to."""
         ...
 
+    def lasting(self, adjoint: A) -> bool:
+        """Whether a constant change of a parameter with this adjoint shows."""
+        ...
+
 
 class Taylor:
     """Power series around the point; an adjoint has one number a coefficient."""
@@ -192,6 +196,10 @@ class Taylor:
         """The highest derivative with an influence."""
         return max(k for k, x in enumerate(adjoint) if x)
 
+    def lasting(self, adjoint: Series) -> bool:
+        """Whether the value itself has an influence, not only its derivatives."""
+        return bool(adjoint[0])
+
 
 class Wave(NamedTuple):
     """amplitude * e^(degree s t); a constant has degree 0."""
@@ -204,10 +212,11 @@ class Impulse(NamedTuple):
     """An adjoint of a wave: its number `value` for changes that grow like e^(sigma t).
 
     As a polynomial in sigma its coefficients from `degree` down to `floor` are `leading`; those
-    below `floor` are not kept.
+    below `floor` are not kept. `still` is the number for changes that are constant, sigma = 0.
     """
 
     value: int
+    still: int
     degree: int
     floor: int
     leading: Series
@@ -298,7 +307,7 @@ class Waves:
 
     def seed(self, x: int) -> Impulse:
         """The adjoint of the result, times a number."""
-        return Impulse(x % P, 0, 0, [x % P])
+        return Impulse(x % P, x % P, 0, 0, [x % P])
 
     def join(self, a: Impulse, b: Impulse) -> Impulse:
         """The sum of two adjoints."""
@@ -311,7 +320,8 @@ class Waves:
             degree -= 1
         floor = max(floor, degree - self.terms + 1)
         leading = leading[: max(0, degree - floor + 1)]
-        return Impulse((a.value + b.value) % P, degree, floor, leading)
+        still = (a.still + b.still) % P
+        return Impulse((a.value + b.value) % P, still, degree, floor, leading)
 
     def vanishes(self, a: Impulse) -> bool:
         """Whether an adjoint is zero."""
@@ -320,18 +330,20 @@ class Waves:
     def back(self, adjoint: Impulse, slope: Wave, n: int) -> Impulse:
         """The adjoint of an argument."""
         c = slope.amplitude
-        value, degree, floor, leading = adjoint
-        return Impulse(value * c % P, degree, floor, series.scale(c, leading))
+        value, still, degree, floor, leading = adjoint
+        leading = series.scale(c, leading)
+        return Impulse(value * c % P, still * c % P, degree, floor, leading)
 
     def back_der(self, adjoint: Impulse, argument: Wave) -> Impulse:
         """The adjoint of what was differentiated."""
         own = argument.degree * self.s % P
-        value, degree, floor, leading = adjoint
+        value, still, degree, floor, leading = adjoint
         # times (sigma + own); the lowest coefficient is complete only if nothing was cut off
         leading = series.add([*leading, 0], [0, *series.scale(own, leading)])
         floor = max(floor + 1 if floor else 0, degree + 2 - self.terms)
         leading = leading[: max(0, degree + 2 - floor)]
-        return Impulse(value * (self.sigma + own) % P, degree + 1, floor, leading)
+        value = value * (self.sigma + own) % P
+        return Impulse(value, still * own % P, degree + 1, floor, leading)
 
     def back_integral(self, adjoint: Impulse) -> Impulse:
         """The adjoint of what was integrated."""
@@ -347,6 +359,10 @@ class Waves:
             if x:
                 return adjoint.degree - k
         raise Mixed("leading coefficients cancel")
+
+    def lasting(self, adjoint: Impulse) -> bool:
+        """Whether a constant change has an influence."""
+        return bool(adjoint.still)
 
 
 def compare(op: str, left: int, right: int) -> bool:

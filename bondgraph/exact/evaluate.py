@@ -53,13 +53,14 @@ class Sensitivity(NamedTuple):
     (as a function of time, the past included) is not zero. `orders[signal]` for the known signals
     with dependence: the highest derivative, -1 where only the past of the signal matters. `dead`
     are the nodes below the root that do not influence it. `starts` are the initial values of the
-    integrals that influence it.
+    integrals that influence it, `lasting` the symbols of which a constant change shows, too.
     """
 
     depends: dict[Expr, bool]
     orders: dict[Expr, int]
     dead: frozenset[Expr]
     starts: tuple[Symbol, ...]
+    lasting: frozenset[Expr]
 
 
 def demands(nodes: Sequence[Expr], roots: Sequence[Expr], n: int) -> dict[Expr, int]:
@@ -93,6 +94,22 @@ def integral_depth(roots: Sequence[Expr]) -> int:
         below = max([depth[a] for a in node.args], default=0)
         depth[node] = below + (node.op is Op.INT)
     return max([depth[r] for r in roots], default=0)
+
+
+def holds_root(roots: Sequence[Expr]) -> bool:
+    """Whether iteration has to find a value below the roots."""
+    return any(node.op is Op.ROOT for node in topological(roots))
+
+
+def telling(roots: Sequence[Expr]) -> int:
+    """How many coefficients of the roots say whether they vanish on a plant, faulty or not.
+
+    A fault that meets an iteration sets in only at the point (see `Plant.sample`).
+    """
+    return integral_depth(roots) + (_ONSET if holds_root(roots) else 1)
+
+
+_ONSET = 4  # the fault, its square and one more
 
 
 def evaluate(roots: Sequence[Expr], sample: Assignment, n: int = 1) -> list[Any]:
@@ -324,6 +341,7 @@ def _sensitivities(root: Expr, sample: Sample) -> Sensitivity:
     orders: dict[Expr, int] = {}
     memory: dict[Expr, int] = {}  # weight with which the past of an integral enters
     starts: dict[Symbol, None] = {}
+    lasting: set[Expr] = set()
     for back in range(depth + 1):
         point = sample.earlier(back) if back else sample
         top = [root] if back == 0 else [v.args[0] for v in integrals if memory.get(v)]
@@ -349,6 +367,8 @@ def _sensitivities(root: Expr, sample: Sample) -> Sensitivity:
             if algebra.vanishes(adjoint):
                 continue
             alive[node] = seen[node] = None
+            if node.op is Op.SYM and algebra.lasting(adjoint):
+                lasting.add(node)
             if node.op is Op.INT and algebra.start_of(adjoint):
                 share = algebra.start_of(adjoint) * (7919 + 2 * back) % P
                 memory[node] = (memory.get(node, 0) + share) % P
@@ -359,6 +379,5 @@ def _sensitivities(root: Expr, sample: Sample) -> Sensitivity:
                 alive.update(dict.fromkeys(topological(node.args)))
     depends = {v: v in seen for v in nodes if v.op is Op.SYM}
     orders = {v: orders[v] for v in nodes if v in orders}
-    return Sensitivity(
-        depends, orders, frozenset(v for v in nodes if v not in alive), tuple(starts)
-    )
+    dead = frozenset(v for v in nodes if v not in alive)
+    return Sensitivity(depends, orders, dead, tuple(starts), frozenset(lasting))

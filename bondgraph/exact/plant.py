@@ -14,7 +14,7 @@ from bondgraph.exact import series
 from bondgraph.exact.algebra import Mixed, Waves
 from bondgraph.exact.assembly import Assembly, Parts, assemble
 from bondgraph.exact.equations import Setting, Writer, written
-from bondgraph.exact.evaluate import evaluate, highest_order, integral_depth
+from bondgraph.exact.evaluate import evaluate, highest_order, holds_root, integral_depth
 from bondgraph.exact.field import Functions, P, Undefined
 from bondgraph.exact.known import KnownSample
 from bondgraph.exact.linear import Contradiction, Singular
@@ -31,6 +31,17 @@ _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked fo
 
 class ExactUnavailable(Exception):
     """The oracle has no exact trajectory of this plant; the message is a reason for people."""
+
+
+class Contradictory(ExactUnavailable):
+    """No plant could behave like this: the equations are more than what they could determine.
+
+    `node` is the number of the node at which one is too many, -1 if it is nobody's.
+    """
+
+    def __init__(self, message: str, node: int) -> None:
+        super().__init__(message)
+        self.node = node
 
 
 class Plant:
@@ -75,6 +86,8 @@ class Plant:
                 self._starts[item.initial] = item.symbol
         self.constants = [n for n in found if n.symbol.kind in constant and n not in self._starts]
         self._samples: dict[object, Trajectory | WaveSample] = {}
+        #: Parts whose laws no second point was found for once their constants were drawn.
+        self.momentary: list[Assembly] = []
 
     @cached_property
     def _private(self) -> frozenset[Expr]:
@@ -95,13 +108,14 @@ class Plant:
         modes: Mapping[Expr, int] | None = None,
         part: Assembly | None = None,
         solver: Solver = solve,
+        onset: bool = False,
     ) -> Trajectory:
         """A random trajectory to Taylor coefficient `order`; the same for equal arguments.
 
         `fault` and `faults` name faults that act at once, each as a random function of time.
         `modes` fixes known booleans, the others are random. With a `part` (see `part_for`) only
-        that part of the plant is simulated. Raises `ExactUnavailable`, KeyError for an unknown
-        fault.
+        that part of the plant is simulated. At the `onset` faults are zero still. Raises
+        `ExactUnavailable`, KeyError for an unknown fault.
         """
         acting = (*faults, *([] if fault is None else [fault]))
         for name in acting:
@@ -120,6 +134,7 @@ class Plant:
                     part or self.assembly,
                     tunable=True,
                     solver=solver,
+                    onset=onset,
                 )
             except (Undefined, Contradiction, Singular) as found:
                 failure = found
@@ -192,7 +207,9 @@ class Plant:
         """A point on which `n` coefficients of all roots can be evaluated.
 
         A trajectory where that is affordable; exponentials where the orders are many and the
-        plant and the roots are linear. A healthy point is remembered. Raises `ExactUnavailable`.
+        plant and the roots are linear. A healthy point is remembered. Faults set in at the point
+        where iteration has to find a value: of several solutions in the field it is to find the
+        one that was there before. Raises `ExactUnavailable`.
         """
         acting = tuple(faults)
         if acting or modes:
@@ -219,7 +236,8 @@ class Plant:
                 return found
             except (Mixed, Undefined):
                 pass  # a trajectory can be had where exponentials cannot
-        return self.trajectory(seed, order, faults=faults, modes=modes, part=part)
+        onset = bool(faults) and holds_root(roots)
+        return self.trajectory(seed, order, faults=faults, modes=modes, part=part, onset=onset)
 
     def draw_constants(
         self, seed: int, attempt: int, modes: Mapping[Expr, int]
@@ -243,6 +261,7 @@ class Plant:
         part: Assembly,
         tunable: bool = False,
         solver: Solver = solve,
+        onset: bool = False,
     ) -> Trajectory:
         """A trajectory with these constants; raises `Undefined` and others if there is none.
 
@@ -252,6 +271,8 @@ class Plant:
         random = Random(seed * 7 + 3)
         n = order + self._reach + 1 + _EXTRA
         errors = {name: [random.randrange(1, P) for _ in range(n)] for name in faults}
+        if onset:
+            errors = {name: [0, *error[1:]] for name, error in errors.items()}
         true = dict(constants)
         readings = {name: x for name, x in errors.items() if name in self._read}
         for name, error in errors.items():
@@ -263,7 +284,7 @@ class Plant:
             plant, equations = written(part, setting, readings, random)
             values = solver(plant, equations, setting, random, order + self._reach)
         except OverDetermined as failure:
-            raise ExactUnavailable(self._over(failure.node)) from None
+            raise Contradictory(self._over(failure.node), failure.node) from None
         except Mixed as failure:
             raise ExactUnavailable(f"a law of the model holds {failure}") from None
         truth = KnownSample(plant.place, setting, values)

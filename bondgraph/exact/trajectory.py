@@ -84,22 +84,25 @@ class Trajectory:
         """The same healthy plant with the same constants at another time.
 
         Constants (parameters, declared initial values) are the same, all signals different; an
-        integral begins there with its value of that time.
+        integral begins there with its value of that time. Where no other point can be found that
+        satisfies the nonlinear laws with these constants, the present one stands for it: what
+        cancels at any two times does so there, too.
         """
         found = self._earlier.get(steps)
         if found is None:
             constants = {s: v for s, v in self._told.items() if s.symbol.kind in CONSTANTS}
             constants.update((s, v) for s, v in self._told.items() if s.symbol.kind is Kind.MODE)
-            found = self._draw_earlier(steps, constants)
+            found = self._draw_earlier(steps, constants) or self
             self._earlier[steps] = found
         return found
 
-    def _draw_earlier(self, steps: int, constants: dict[Expr, Series]) -> Trajectory:
+    def _draw_earlier(self, steps: int, constants: dict[Expr, Series]) -> Trajectory | None:
         functions = self.algebra.functions
-        for attempt in range(ATTEMPTS):
+        for attempt in range(0 if any(p is self.part for p in self.plant.momentary) else ATTEMPTS):
             seed = (self.seed * 31 + steps) * ATTEMPTS + attempt
             try:
                 return self.plant.draw(seed, self.order, (), constants, functions, self.part)
             except (Undefined, Contradiction, Singular):
                 continue
-        raise Undefined("the plant has no earlier point with the same constants")
+        self.plant.momentary.append(self.part)
+        return None

@@ -317,16 +317,19 @@ class Chain:
                 stack.extend(v for r in rows_of for v in self.system.equations[r].variables)
         return tuple(self.steps[v] for v in sorted(seen, key=self.sequence.__getitem__))
 
+    def finished(self, step: Step, final: dict[Expr, Expr]) -> Step:
+        """A step in known signals alone, as far as the loops that it rests on have a value."""
+        with suppress(ZeroDivisionError):
+            return step._replace(closed=self.pool.substitute([step.closed], final)[0])
+        return step
+
     def result(self) -> ReducedSystem:
         """The relations that were found, and what no sensor reaches."""
         relations, lost = self.loops.relations()
         final = self.loops.solutions()
         closings = []
         for rows, expr in sorted(relations, key=lambda r: r[0][-1]):
-            steps = tuple(
-                s._replace(closed=self.pool.substitute([s.closed], final)[0]) if final else s
-                for s in self.resting_on(rows)
-            )
+            steps = tuple(self.finished(s, final) for s in self.resting_on(rows))
             found = without_free_integrals(self.pool, expr)
             equation = self.system.equations[rows[-1]]
             if found is None:

@@ -8,15 +8,20 @@ drops out (a differential loop). What is left without torn variables is a relati
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.passes.fractions import monomials, without_common_divisor
 from bondgraph.passes.implicit import invert
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.solve import ITERATED, Solution, affine, constant, solve
 from bondgraph.passes.zero import is_zero, share_factor
 
 Polynomial = list[Expr]  # coefficients of D**0, D**1, ...
+
+#: Parameters, and terms, up to which two polynomials are divided in expanded form.
+_FEW, _SHORT = 5, 60
 
 
 class _Row(NamedTuple):
@@ -60,7 +65,10 @@ class Loops:
         solved = [t for t in self._tears(expr) if t in self.solved]
         rows = [r for t in solved for r in self.solved[t].rows]
         if solved:
-            expr = self.pool.substitute([expr], self.solutions())[0]
+            values = self.solutions()
+            if any(t not in values for t in solved):
+                raise ZeroDivisionError  # by what the loop makes zero: the count will miss it
+            expr = self.pool.substitute([expr], values)[0]
         item = _Row((*dict.fromkeys(rows), row), expr)
         (self.pending if self._tears(expr) else self.plain).append(item)
 
@@ -80,10 +88,11 @@ class Loops:
         return self.lost
 
     def solutions(self) -> dict[Expr, Expr]:
-        """The value of each solved tear, free of solved tears."""
+        """The value of each solved tear, free of solved tears; none where it divides by zero."""
         final: dict[Expr, Expr] = {}
         for symbol in reversed(self.solved):  # a value holds only tears that were solved later
-            final[symbol] = self.pool.substitute([self.solved[symbol].expr], final)[0]
+            with suppress(ZeroDivisionError):
+                final[symbol] = self.pool.substitute([self.solved[symbol].expr], final)[0]
         return final
 
     def _tears(self, expr: Expr) -> list[Expr]:
@@ -288,6 +297,8 @@ class Loops:
     def _reduced(self, a: Polynomial, b: Polynomial) -> tuple[Polynomial, Polynomial]:
         """Both polynomials without a common factor in D."""
         if len(a) > 1 and len(b) > 1 and share_factor(a, b):
+            if len(symbols(*a, *b)) > _FEW or monomials([*a, *b]) > _SHORT:
+                return without_common_divisor(self.pool, a, b, self.nominal.vanishes)
             from bondgraph.passes.solve_symbolic import without_common_factor
 
             return without_common_factor(self.pool, a, b)

@@ -6,7 +6,7 @@ functions of time here, so that a fault is found whatever its course.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any, TypeVar
 
@@ -14,8 +14,8 @@ from bondgraph.exact.evaluate import (
     Sensitivity,
     evaluate,
     highest_order,
-    integral_depth,
     sensitivities,
+    telling,
 )
 from bondgraph.exact.field import Undefined
 from bondgraph.exact.free import FreeSample
@@ -43,7 +43,7 @@ class Reactions:
 
     def at_free_signals(self, expr: Expr) -> Sensitivity:
         """What the relation depends on when its signals are independent of each other."""
-        found = Sensitivity(dict.fromkeys(symbols(expr), False), {}, frozenset(), ())
+        found = Sensitivity(dict.fromkeys(symbols(expr), False), {}, frozenset(), (), frozenset())
         for point in range(_points([expr], None)):
             try:
                 here = self.draw(
@@ -54,19 +54,24 @@ class Reactions:
             found = _union(found, here) if point else here
         return found
 
-    def on_trajectories(self, exprs: list[Expr]) -> list[set[Expr]]:
+    def on_trajectories(
+        self, exprs: list[Expr], lost: Sequence[Sequence[Expr]] = ()
+    ) -> list[set[Expr]]:
         """The symbols that each relation reacts to in the healthy plant.
 
         One trajectory serves all relations; where the plant as a whole has none, each relation is
-        tried on the part of the plant that it is about.
+        tried on the part of the plant that it is about. `lost` are for each relation symbols that
+        have cancelled out of it.
         """
         if not exprs:
             return []
+        lost = lost or [()] * len(exprs)
         try:
-            return self.sensed(exprs)
+            return self.sensed(exprs, lost)
         except ExactUnavailable:
             if len(exprs) > 1:
-                return [self.on_trajectories([e])[0] for e in exprs]
+                both = zip(exprs, lost, strict=True)
+                return [self.on_trajectories([e], [gone])[0] for e, gone in both]
             return [self.without_slopes(exprs[0])]
 
     def without_slopes(self, expr: Expr) -> set[Expr]:
@@ -76,13 +81,14 @@ class Reactions:
         except ExactUnavailable:
             return {s for s, hit in self.at_free_signals(expr).depends.items() if hit}
 
-    def sensed(self, exprs: list[Expr]) -> list[set[Expr]]:
+    def sensed(self, exprs: list[Expr], lost: Sequence[Sequence[Expr]] = ()) -> list[set[Expr]]:
         """The symbols that each relation reacts to, over enough points to meet every branch.
 
         Where the modes are not given, they take all their values in turn; one in which the plant
         has no behaviour is passed over.
         """
         reacts: list[set[Expr]] = [set() for _ in exprs]
+        lasting: list[set[Expr]] = [set() for _ in exprs]
         failure: ExactUnavailable | None = None
         met = False
         hopeless: list[Mapping[Expr, int] | None] = []
@@ -97,19 +103,34 @@ class Reactions:
                 hopeless.append(modes)
                 continue
             met = True
-            for seen, part in zip(reacts, parts, strict=True):
+            for seen, sure, part in zip(reacts, lasting, parts, strict=True):
                 seen.update(s for s, hit in part.depends.items() if hit)
+                sure.update(part.lasting)
         if not met and failure is not None:
             raise failure
-        for seen, expr in zip(reacts, exprs, strict=True):
-            seen.update(s for s in symbols(expr) if s not in seen and self.moves(expr, s))
+        gone = lost or [()] * len(exprs)
+        for seen, sure, expr, others in zip(reacts, lasting, exprs, gone, strict=True):
+            unseen = [s for s in dict.fromkeys((*symbols(expr), *others)) if s not in seen]
+            seen.update(self.movers(expr, [s for s in unseen if s in self.faults]))
+            # told a parameter that moves, a relation may show what no plant would make it show
+            doubtful = [s for s in seen if s.symbol.kind is Kind.PARAM and s not in sure]
+            seen.difference_update(s for s in doubtful if not self.moves(expr, s))
         return reacts
+
+    def movers(self, expr: Expr, candidates: list[Expr]) -> list[Expr]:
+        """Those of the faults that move a relation; asked one by one only if all together do."""
+        try:
+            if len(candidates) > 1 and not self.moves(expr, *candidates):
+                return []
+        except ExactUnavailable:
+            pass  # so many faults at once leave no plant to speak of
+        return [s for s in candidates if self.moves(expr, s)]
 
     def at_trajectory(
         self, exprs: list[Expr], modes: Mapping[Expr, int] | None, number: int
     ) -> list[Sensitivity]:
         """Derivatives of all relations at one healthy trajectory."""
-        sample = self.plant.sample(exprs, number, integral_depth(exprs) + 1, modes=modes)
+        sample = self.plant.sample(exprs, number, telling(exprs), modes=modes)
         return [sensitivities(expr, sample) for expr in exprs]
 
     def settings(self, exprs: list[Expr]) -> list[Mapping[Expr, int] | None]:
@@ -121,19 +142,20 @@ class Reactions:
         rounds = -(-_POINTS_WITH_BRANCHES // len(tried))
         return [*tried] * rounds
 
-    def moves(self, expr: Expr, symbol: Expr) -> bool:
-        """Whether a fault that is not small moves a relation that small ones leave alone.
+    def moves(self, expr: Expr, *acting: Expr) -> bool:
+        """Whether faults of the plant that act at once, none of them small, move a relation.
 
         A machine at rest, without any input, hides a parameter from the derivative that a change
-        of finite size shows.
+        of finite size shows; and a parameter may cancel out of a relation only while it is
+        constant.
         """
-        fault = self.faults.get(symbol)
-        if fault is None:
+        faults = tuple(self.faults[s] for s in acting if s in self.faults)
+        if not faults:
             return False
-        size = integral_depth([expr]) + 1
+        size = telling([expr])
 
         def value(modes: Mapping[Expr, int] | None, number: int) -> Any:
-            sample = self.plant.sample([expr], number, size, faults=(fault,), modes=modes)
+            sample = self.plant.sample([expr], number, size, faults=faults, modes=modes)
             return evaluate([expr], sample, size)[0]
 
         free = [] if self.modes is not None else modes_of(self.plant.graph, [expr])
@@ -167,7 +189,9 @@ def _by_presence(expr: Expr) -> Sensitivity:
     inside = symbols(expr)
     signals = [s for s in inside if s.symbol.kind in (Kind.INPUT, Kind.SENSOR)]
     order = highest_order([expr])
-    return Sensitivity(dict.fromkeys(inside, True), dict.fromkeys(signals, order), frozenset(), ())
+    orders = dict.fromkeys(signals, order)
+    everything = frozenset(inside)
+    return Sensitivity(dict.fromkeys(inside, True), orders, frozenset(), (), everything)
 
 
 def _points(exprs: list[Expr], modes: Mapping[Expr, int] | None) -> int:
@@ -193,4 +217,5 @@ def _union(a: Sensitivity, b: Sensitivity) -> Sensitivity:
         {s: max(a.orders.get(s, -2), b.orders.get(s, -2)) for s in {**a.orders, **b.orders}},
         a.dead & b.dead,
         tuple(dict.fromkeys((*a.starts, *b.starts))),
+        a.lasting | b.lasting,
     )

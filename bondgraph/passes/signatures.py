@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from bondgraph.exact.evaluate import Sensitivity
 from bondgraph.exact.plant import Plant
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.passes.present import upright
@@ -49,7 +49,8 @@ class _Analysis:
                 if all(expr is not other for _, other, _ in relations):  # two equal gyrators
                     relations.append((own, expr, free.orders))
         reacts = self.reactions.on_trajectories(
-            [with_moving_parameters(c, e) for c, e, _ in relations]
+            [with_moving_parameters(c, e) for c, e, _ in relations],
+            [symbols(c.raw) for c, _, _ in relations],
         )
         names = [f"r{i + 1}" for i in range(len(relations))]
         residuals = tuple(
@@ -91,9 +92,12 @@ def pruned(pool: Pool, closing: Closing, free: Sensitivity) -> Closing:
 
     A part cancels when the relation's derivative with respect to it vanishes; the relation keeps
     its value when the part is put to zero. (What decides between branches counts as influence.)
+    What the equation of an iteration holds stays: its root is then still the variable it is of.
     """
     nodes = topological([closing.expr])
-    dead = {n: pool.zero for n in nodes if n in free.dead and n.op is not Op.NUM}
+    kept = set(topological([a for n in nodes if n.op is Op.ROOT for a in n.args]))
+    dead = {n: pool.zero for n in nodes if n in free.dead and n not in kept}
+    dead = {n: zero for n, zero in dead.items() if n.op is not Op.NUM}
     if not dead:
         return closing
     try:

@@ -8,7 +8,10 @@ from typing import Any
 import sympy as sp
 
 from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.passes.fractions import monomials, only_root
 from bondgraph.passes.symbolic import from_sympy, to_sympy
+
+_EXPANDED = 500  # terms that SymPy may make of an equation
 
 
 def solve_symbolic(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
@@ -30,6 +33,8 @@ def solve_symbolic(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
             if arg not in holding and arg not in leaves:
                 leaves[arg] = sp.Symbol(f"c{len(leaves)}", real=True)
                 names[leaves[arg]] = arg
+    if monomials([zero], {n for n in leaves if n not in holding}) > _EXPANDED:
+        return only_root(pool, zero, variable)
     x = leaves[variable]
     numerator = sp.fraction(sp.together(to_sympy(zero, leaves)))[0]
     if not numerator.is_polynomial(x) or numerator.has(sp.Function):

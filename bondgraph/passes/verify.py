@@ -12,15 +12,24 @@ from random import Random
 from typing import Any
 
 from bondgraph.exact.algebra import Mixed, Wave
-from bondgraph.exact.evaluate import Sample, evaluate, integral_depth, sensitivities
+from bondgraph.exact.evaluate import (
+    Sample,
+    demands,
+    evaluate,
+    holds_root,
+    sensitivities,
+    telling,
+    values_of,
+)
 from bondgraph.exact.field import P, Undefined
 from bondgraph.exact.modes import assignments, modes_of
-from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.plant import Contradictory, ExactUnavailable, Plant
 from bondgraph.exact.result import Verification
 from bondgraph.exact.trajectory import Trajectory
-from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, topological
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, symbols, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import ResidualSet
+from bondgraph.ir.show import show
 from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
@@ -56,6 +65,15 @@ class _Failed(Exception):
         self.fault = fault
 
 
+class _Resting(ExactUnavailable):
+    """A residual that divides by what is always zero on the healthy plant."""
+
+    def __init__(self, residual: int, divisor: Expr) -> None:
+        super().__init__(f"a residual divides by {show(divisor)}, which is zero")
+        self.residual = residual
+        self.divisor = divisor
+
+
 class _Check:
     def __init__(
         self,
@@ -73,7 +91,7 @@ class _Check:
         self.report = report
         self.seed = seed
         self.plant = plant
-        self.depth = integral_depth(self.exprs)
+        self.terms = telling(self.exprs)
         self.trajectories = 0
         self.tried: dict[str, None] = {}
         self.waves = False
@@ -84,11 +102,24 @@ class _Check:
 
     def run(self) -> Verification:
         """Everything, in the order of cost; the first thing found wrong is reported."""
+        for residual in self.residuals:
+            if all(s.symbol.kind is not Kind.SENSOR for s in symbols(residual.expr)):
+                closing = residual.closing  # what the sources alone must satisfy is no residual
+                self.contradictory(closing.name, closing.origin)
+                return self.result("not verified: a relation without a sensor")
         try:
             if self.exprs:
                 points = self.healthy()
                 self.unmoved()
                 self.moved(points)
+        except Contradictory as reason:
+            node = self.graph.nodes[reason.node] if reason.node >= 0 else None
+            where = (node.path, node.origin) if node else ("", self.place()[0])
+            self.contradictory(*where)
+            return self.result(f"not verified: {reason}")
+        except _Resting as reason:
+            self.resting(reason)
+            return self.result(f"not verified: {reason}")
         except ExactUnavailable as reason:
             self.report.warning(
                 "verification-unavailable",
@@ -109,6 +140,32 @@ class _Check:
             )
             return self.result("failed")
         return self.result(self.method())
+
+    def contradictory(self, name: str, origin: Span) -> None:
+        """Say that the model allows no behaviour at all."""
+        where = f" at `{name}`" if name else ""
+        self.report.error(
+            "sources-contradict",
+            f"The sources contradict each other: even without sensors, the equations{where} are "
+            "more than the variables they could determine.",
+            origin,
+            help="A loop of bonds, or transformers between the same junctions, fix already what a "
+            "source is to fix: remove one of them, or put the resistance or the storage between "
+            "them that every real connection has.",
+        )
+
+    def resting(self, reason: _Resting) -> None:
+        """Say that a residual never has a value."""
+        residual = self.residuals[reason.residual]
+        self.report.error(
+            "residual-undefined",
+            f"Residual {residual.name} divides by {show(reason.divisor)}, which is zero as long "
+            "as the machine is healthy: it never has a value.",
+            residual.closing.origin,
+            help="Nothing drives this part of the machine, or its bonds hold it at rest. Add the "
+            "source that moves it, or measure a variable by itself instead of its product with "
+            "one that rests.",
+        )
 
     def result(self, method: str) -> Verification:
         done = len(self.exprs) if method != "failed" and not method.startswith("not") else 0
@@ -137,7 +194,8 @@ class _Check:
             try:
                 point, values = self.at(self.exprs, number, (), modes)
             except ExactUnavailable as reason:
-                failure = reason  # not every combination of switches leaves a plant to speak of
+                if failure is None or isinstance(failure, Contradictory):
+                    failure = reason  # not every combination of switches leaves a plant
                 continue
             for at, value in enumerate(values):
                 if _moves(value):
@@ -205,9 +263,9 @@ class _Check:
         step = 1 + work // _WORK
         self.sampled = step > 1
         for fault, at in entries[::step]:
-            if not any(self.told_moves(at, fault, p) for p in points) and not (
-                self.inclined(at, fault, points) or self.acts(at, fault)
-            ):
+            rooted = holds_root([self.exprs[at]])
+            shows = self.inclined if rooted else self.told_moves
+            if not (any(shows(at, fault, p) for p in points) or self.acts(at, fault)):
                 name = self.residuals[at].name
                 raise _Failed(at, fault, f"residual {name} does not see {fault}, as it should")
             self.tried[fault] = None
@@ -222,19 +280,20 @@ class _Check:
         symbol = self.graph.fault_symbol(fault)
         told = _Told(point, symbol, self.seed)
         try:
-            return _moves(evaluate([self.exprs[at]], told, self.depth + 1)[0])
+            return _moves(evaluate([self.exprs[at]], told, self.terms)[0])
         except (Undefined, Mixed):
             return False
 
-    def inclined(self, at: int, fault: str, points: list[Sample]) -> bool:
+    def inclined(self, at: int, fault: str, point: Sample) -> bool:
         """Whether a small error of a fault moves a residual that holds roots of equations.
 
-        With the error its equations may have no solution in the field.
+        With an error of any size its equations may have another solution in the field, or none.
         """
-        expr, symbol = self.exprs[at], self.graph.fault_symbol(fault)
-        if not any(n.op is Op.ROOT for n in topological([expr])):
+        symbol = self.graph.fault_symbol(fault)
+        try:
+            return sensitivities(self.exprs[at], point).depends.get(symbol, False)
+        except (Undefined, Mixed):
             return False
-        return any(sensitivities(expr, p).depends.get(symbol, False) for p in points)
 
     def acts(self, at: int, fault: str) -> bool:
         """Whether a fault in the plant, any function of time, moves a residual."""
@@ -251,18 +310,31 @@ class _Check:
             point: Sample = self.plant.sample(
                 exprs,
                 self.seed * 1000 + number + 5000 * turn,
-                self.depth + 1,
+                self.terms,
                 faults=faults,
                 modes=modes,
             )
             try:
-                values = evaluate(exprs, point, self.depth + 1)
+                values = evaluate(exprs, point, self.terms)
             except Undefined:
                 continue
             self.trajectories += 1
             self.waves = self.waves or not isinstance(values[0], list)
             return point, values
+        if not faults:
+            self.blame(exprs, point)
         raise ExactUnavailable("no random point was found where all residuals have a value")
+
+    def blame(self, exprs: list[Expr], point: Sample) -> None:
+        """Raise `_Resting` if a residual divides by what is zero with all its derivatives."""
+        nodes = topological(exprs)
+        values, _ = values_of(nodes, demands(nodes, exprs, self.terms), point)
+        for at, expr in enumerate(exprs):
+            for node in topological([expr]):
+                if node.op is Op.MUL:
+                    for base, power in zip(node.args, node.exponents, strict=True):
+                        if power < 0 and base in values and not _moves(values[base]):
+                            raise _Resting(at, base)
 
     def assignments(self) -> list[dict[Expr, int] | None]:
         """Modes to try, all of them if they are few."""

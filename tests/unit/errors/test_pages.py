@@ -57,7 +57,7 @@ def _diagnostics(text: str, code: str) -> tuple[Diagnostic, ...]:
     """What the compiler says about a model, as far as it takes to meet `code`."""
     compilation = Compilation(Source("page.bg", text))
     try:
-        for stage in ("integral", "derivative", "reduced", "signatures"):
+        for stage in ("integral", "derivative", "reduced", "signatures", "verification"):
             getattr(compilation, stage)
             if any(d.code == code for d in compilation.report.diagnostics):
                 break

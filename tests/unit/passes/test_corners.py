@@ -1,0 +1,82 @@
+"""Models at the edge of what a signature means, each with the answer that was derived by hand."""
+
+from __future__ import annotations
+
+import pytest
+
+from bondgraph.exact.plant import Plant
+from bondgraph.ir.expr import Expr, symbols
+from bondgraph.passes.reactions import Reactions
+from bondgraph.pipeline import Compilation
+from bondgraph.text.diagnostic import CompileError
+from bondgraph.text.source import Source
+
+
+def compiled(body: str) -> Compilation:
+    return Compilation(Source("test.bg", f"bg 1\nmodel M {{\n{body}\n}}\n"))
+
+
+def code(body: str) -> str:
+    with pytest.raises(CompileError) as caught:
+        assert compiled(body).verification
+    (error,) = [d for d in caught.value.diagnostics if d.severity == "error"]
+    assert error.labels
+    assert error.help
+    return error.code
+
+
+def test_a_parameter_that_only_a_wrong_tale_of_it_would_show() -> None:
+    # R i + L i' = 0 by itself, so that G R i + L (G i)' = L G' i: zero as long as G is told as a
+    # constant, whatever G is in the plant
+    c = compiled(
+        "param G = 1; param R = 2; param L = 3\n"
+        "1:j { -> R:R; -> I:L; -> Df:i }\n"
+        "0:other { <- Sf:Q; -> R:R2 = G; -> De:y }"
+    )
+    pool = c.graph.pool
+    G, R, L = (next(v.symbol for v in c.graph.values if v.name == n) for n in "GRL")
+    i = next(s.symbol for s in c.graph.sensors if s.name == "i")
+    relation = pool.add((1, pool.mul(G, R, i)), (1, pool.mul(L, pool.der(pool.mul(G, i)))))
+    (seen,) = Reactions(Plant(c.graph), 1).on_trajectories([relation])
+    assert seen == {R, L, i}
+
+
+def test_a_parameter_that_cancels_only_while_it_is_constant() -> None:
+    # q' = f; the current f through C and the gyrator: f1 = a f/R + b a f', e = a f1 + q/k = 0.
+    # So a b a q'' + a a/R q' + q/k = 0, and f1 + 2 g f, a combination of q'' and q' with constant
+    # coefficients, satisfies the same. With g(t) it does not: 2 (g q')'' and so on is left.
+    c = compiled(
+        "param a = 3; param g = 2; param k = 0.25; param R = 1.7; param b = 1\n"
+        "0:open -> GY:g -> 1:j2 { <- C:x3 = k }\n"
+        "1:j0 -> GY:a -> 1:j1; j2 -> j0; 0:j3 -> j1\n"
+        "j3 { <- R:R; -> C:x5 = b }\n"
+        "sensor y = j1.f + 2*open.e"
+    )
+    (r,) = c.residuals
+    held = {s.symbol.name for s in symbols(_expr(c))}
+    assert "g" not in held
+    assert c.signatures.signature(r.name) == ("a", "g", "k", "R", "b", "y")
+    assert c.verification.faults == 6
+
+
+def _expr(c: Compilation) -> Expr:
+    (residual,) = c._analysis[0].residuals
+    return residual.expr
+
+
+def test_sources_that_cancelling_bonds_constrain() -> None:
+    # what flows out of the node flows back into it: Q = 0 is left
+    ring = "0:node -> 1:ring -> node\nring { -> R:R1 = 2; -> Df:y }\n"
+    assert code(ring + "Sf:Q -> node") == "sources-contradict"
+    # the efforts of the ring cancel: U + w = 0, so that the unknown w is none
+    ring = "0:node { <- 1:ring; -> ring; -> C:c = 1 }\ninput w unknown\n"
+    ring += "ring { -> Df:i1; -> Df:i2 }\n"
+    assert code(ring + "Se:U -> ring\n Se:w -> ring") == "sources-contradict"
+
+
+def test_a_residual_that_never_has_a_value() -> None:
+    # no current flows through R1, so that e = 0 and product/e never exists
+    body = "0:node -> R:R1 { f = 2*(exp(e) - 1) }; 1:shaft -> I:J(p0 = 0) = 3\n"
+    assert code(body + "sensor product = node.e*shaft.f") == "residual-undefined"
+    c = compiled(body + "sensor product = node.e*shaft.f\nSf:I -> node")
+    assert c.verification.residuals == len(c.residuals) == 1
