@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.result import Verification
     from bondgraph.ir.artifact import Artifact
-    from bondgraph.ir.causal import CausalGraph
+    from bondgraph.ir.causal import CausalGraph, Conflict
     from bondgraph.ir.equations import EquationSystem
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.program import Program
@@ -242,8 +242,22 @@ class Compilation:
         sees = {name: matrix.signature(name) for name in matrix.residuals}
         return diagnoses(sees, fired, silent, at_most)
 
+    @cached_property
+    def conflicts(self) -> tuple[Conflict, ...]:
+        """Why strokes cannot be placed; empty where they can."""
+        from bondgraph.passes.conflicts import conflicts
+
+        return conflicts(self.graph)
+
     def drawing(self, derivative: bool = False) -> str:
-        """The bond graph with its causal strokes, as SVG."""
+        """The bond graph with its causal strokes, or with what keeps them from being placed.
+
+        As SVG, one self-contained text.
+        """
+        if self.conflicts:
+            from bondgraph.backends.draw_conflicts import draw_conflicts
+
+            return draw_conflicts(self.graph, self.conflicts, self.graph.name)
         from bondgraph.backends.draw import draw
 
         causal = self.derivative if derivative else self.integral

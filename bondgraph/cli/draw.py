@@ -30,22 +30,27 @@ def arguments(parser: ArgumentParser) -> None:
 
 
 def run(args: Namespace) -> int:
-    """Write the figure."""
+    """Write the figure; where strokes cannot be placed, one that shows why, with the status 1."""
     compilation = compile(args.model)
     compilation.open_ports = True
-    causal = compilation.derivative if args.derivative else compilation.integral
-    from bondgraph.backends.draw import draw
-
-    svg = draw(causal, causal.graph.name)
+    conflicts = compilation.conflicts
+    svg = compilation.drawing(args.derivative)
+    found = [*compilation.report.diagnostics, *[conflict.finding for conflict in conflicts]]
     stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
     output = args.output or f"{stem}.svg"
-    console.show(compilation.report.diagnostics)
+    console.show(found)
     if output == "-":
         sys.stdout.write(svg)
-        return 0
+        return 1 if conflicts else 0
     folder = os.path.dirname(output)
     if folder:
         os.makedirs(folder, exist_ok=True)
     console.write_whole(output, svg)
-    print(f"{output}: {causal.graph.name} in preferred {causal.preference} causality")
+    name = compilation.graph.name
+    if conflicts:
+        many = "conflict" if len(conflicts) == 1 else f"{len(conflicts)} conflicts"
+        print(f"{output}: {name} with its {many} marked")
+        return 1
+    preference = "derivative" if args.derivative else "integral"
+    print(f"{output}: {name} in preferred {preference} causality")
     return 0

@@ -45,13 +45,15 @@ class Conflict(NamedTuple):
     `nodes` are the junctions and two-ports, then the sources and detectors, `bonds` those between
     them; `meet` is the node at which it shows. `strokes` are the (bond, stroke) that follow from
     the sources and detectors alone: where two of them belong to one bond, or one junction has two
-    strong ones, they clash. `finding` is what to say about it.
+    strong ones, they clash. `roles` say in a few words what happens at a node, `finding` is what
+    to say about it all.
     """
 
     nodes: tuple[int, ...]
     bonds: tuple[int, ...]
     meet: int
     strokes: tuple[tuple[int, Literal["head", "tail"]], ...]
+    roles: tuple[tuple[int, str], ...]
     finding: Diagnostic
 
 

@@ -51,6 +51,7 @@ def _conflict(graph: BondGraph, nodes: list[int], what: Story, changes: list[Men
         bonds,
         what.meet,
         tuple((bond, "head" if value else "tail") for bond, value in what.strokes),
+        what.roles,
         finding,
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from typing import NamedTuple
 
 from bondgraph.backends.drawing.canvas import Box, Canvas, Point, around
@@ -59,6 +60,22 @@ def arrange(scene: Scene) -> tuple[Figure, frozenset[Path]]:
     labels = _labels(scene, centre, tags, wires, frames)
     size = (right, down)
     return Figure(centre, tuple(wires), tags, labels, tuple(frames), size), frozenset(unframed)
+
+
+def framed(make: Callable[[frozenset[Path]], Scene]) -> tuple[Scene, Figure]:
+    """The figure with the frames that can be drawn; names say what the others would have said.
+
+    `make` gives the scene without the frames of some submodels.
+    """
+    unframed: frozenset[Path] = frozenset()
+    for _ in range(3):
+        view = make(unframed)
+        figure, more = arrange(view)
+        if more <= unframed:
+            return view, figure
+        unframed |= more
+    view = make(unframed | frozenset(view.frames))
+    return view, arrange(view)[0]
 
 
 def _moved(p: Point, dx: float, dy: float) -> Point:

@@ -7,6 +7,7 @@ from typing import Literal
 FONT = 13.0  # px, element labels
 BIG = 17.0  # px, junctions
 SMALL = 10.0  # px, bond labels, names of junctions, titles of submodels
+NOTE = 12.0  # px, what is said below the figure
 HEIGHT = 18.0  # of a label box, px
 SEPARATOR = "  ·  "
 GAP = 3.0  # between a label and the end of a bond, px
@@ -35,6 +36,7 @@ _DARK = {
     "box": "#4a515c",
     "paper": "#16181c",
 }
+_CLASH = {"clash": "#b8004e"}, {"clash": "#ff8fb3"}  # on white, on black
 KINDS = {
     "0": "ink",
     "1": "ink",
@@ -62,10 +64,14 @@ def width(text: str, size: float = FONT, bold: bool = False) -> float:
     return em * size * (1.1 if bold else 1.0)
 
 
-def style() -> str:
-    """The style sheet, with a second set of colours for dark surroundings."""
+def style(conflict: bool = False) -> str:
+    """The style sheet, with a second set of colours for dark surroundings.
+
+    `conflict` adds what stands out where strokes cannot be placed.
+    """
+    light, dark = ({**_LIGHT, **_CLASH[0]}, {**_DARK, **_CLASH[1]}) if conflict else (_LIGHT, _DARK)
     return (
-        f"{_rules(_LIGHT)}\n"
+        f"{_rules(light)}\n"
         "text{font-family:'DejaVu Sans',Verdana,Arial,sans-serif;text-anchor:middle}\n"
         f".label{{font-size:{FONT:g}px}}.junction{{font-size:{BIG:g}px;font-weight:bold}}"
         f".small{{font-size:{SMALL:g}px}}.kind{{font-weight:bold}}"
@@ -73,7 +79,15 @@ def style() -> str:
         ".bond{fill:none;stroke-width:1.3;stroke-linejoin:round}.stroke{stroke-width:2.2}"
         ".hit{fill:none;stroke:transparent;stroke-width:12}"
         ".frame{fill:none;stroke-width:1}.derived{fill:none;stroke-dasharray:3 2}\n"
-        f"@media (prefers-color-scheme:dark){{\n{_rules(_DARK)}\n}}"
+        f"{_conflict() if conflict else ''}"
+        f"@media (prefers-color-scheme:dark){{\n{_rules(dark)}\n}}"
+    )
+
+
+def _conflict() -> str:
+    return (
+        f".note{{font-size:{NOTE:g}px}}.core{{fill:none;stroke-width:1.6}}"
+        ".thick{stroke-width:2.8}.badge{font-weight:bold}\n"
     )
 
 

@@ -19,7 +19,7 @@ class Story(NamedTuple):
 
     `over` says whether there is too much (True) or too little (False) at that place; None where
     only the junctions together show it. `ring` says that what meets came from one place, along
-    two ways. `strokes` are (bond of the graph, stroke) as forced.
+    two ways. `strokes` are (bond of the graph, stroke) as forced, `roles` what happens at a node.
     """
 
     message: str
@@ -29,6 +29,7 @@ class Story(NamedTuple):
     over: bool | None
     ring: bool
     strokes: tuple[tuple[int, int], ...]
+    roles: tuple[tuple[int, str], ...]
 
 
 class Side(NamedTuple):
@@ -117,6 +118,7 @@ class _Teller:
         self.wish = refutation.wish
         self.labels: list[Label] = []
         self.seen: set[Span] = set()
+        self.roles: dict[int, str] = {}
 
     def node(self, n: int) -> Node:
         return self.graph.nodes[n]
@@ -149,6 +151,18 @@ class _Teller:
         over = bool(reason.because) and self.strokes.taken[rule] >> 1 == reason.because[0]
         last = ((self.bonds[bond], wish.value),)
         return self.junction(reason.node, over, list(reason.because), [wish.node], last)
+
+    def told(
+        self,
+        message: str,
+        physics: str,
+        meet: int,
+        over: bool | None,
+        ring: bool,
+        strokes: tuple[tuple[int, int], ...],
+    ) -> Story:
+        labels, roles = tuple(self.labels[:_LABELS]), tuple(self.roles.items())
+        return Story(message, physics, labels, meet, over, ring, strokes, roles)
 
     # ------------------------------------------------------------- at a junction
 
@@ -186,8 +200,7 @@ class _Teller:
                 self.step(bond)
         used = sorted({b for trace in traces for b in trace})
         strokes = tuple((self.bonds[b], self.strokes.value[b]) for b in used)
-        labels = tuple(self.labels[:_LABELS])
-        return Story(text, physics, labels, where, over, bool(forks), strokes + last)
+        return self.told(text, physics, where, over, bool(forks), strokes + last)
 
     def trace(self, start: int) -> list[int]:
         """The bonds from which the stroke of `start` follows, nearest first."""
@@ -265,6 +278,7 @@ class _Teller:
         return (ends.head if self.strokes.value[bond] else ends.tail).node == n
 
     def label(self, n: int, text: str) -> None:
+        self.roles.setdefault(n, text)
         span = self.node(n).origin
         if span not in self.seen:
             self.seen.add(span)
@@ -279,10 +293,9 @@ class _Teller:
         self.label(second, role(b))
         self.label(first, role(a))
         at = last[0][0]
-        return Story(
+        return self.told(
             f"the {what} of one bond is imposed at both ends, by {name(a)} and {name(b)}",
             f"One end of a bond gives the {what}, the other answers.",
-            tuple(self.labels),
             first,
             True,
             False,
@@ -305,7 +318,7 @@ class _Teller:
             told = {"TF": "passes effort or flow on", "GY": "makes flow of effort"}.get(kind)
             common = "effort" if kind == "0" else "flow"
             self.label(n, (told or f"needs one {common}") if n not in fixed else role(self.node(n)))
-        return Story(text, physics, tuple(self.labels[:_LABELS]), meet, None, True, strokes)
+        return self.told(text, physics, meet, None, True, strokes)
 
     def cases(self) -> tuple[int, str]:
         """The proof, and the junction at which it starts."""

@@ -210,6 +210,16 @@ def test_explain_suggests_a_name(bondgraph: Command) -> None:
     assert done.status == 2 and "armature" in done.err
 
 
+def test_draw_marks_a_conflict_and_fails(bondgraph: Command, tmp_path: Path) -> None:
+    model, path = tmp_path / "m.bg", tmp_path / "m.svg"
+    model.write_text("bg 1\nmodel M {\n    Se:a -> 0:n <- Se:b\n    n -> R:r = 1\n}\n")
+    drawn = bondgraph("draw", model, "-o", path)
+    assert drawn.status == 1
+    assert "error[causality-conflict]: The effort of 0:n is imposed twice" in drawn.err
+    assert drawn.out == f"{path}: M with its conflict marked\n"
+    assert "Conflict: The effort of 0:n is imposed twice" in path.read_text()
+
+
 def test_draw_writes_a_figure(bondgraph: Command, tmp_path: Path) -> None:
     path = tmp_path / "figures" / "motor.svg"
     assert bondgraph("draw", MOTOR, "-o", path).status == 0
