@@ -271,7 +271,7 @@ class _Decoupling:
         reactions = Reactions(self.plant, self.seed)
         gone = [s for s in symbols(*sources) if s not in set(symbols(expr))]
         try:
-            return not any(reactions.moves(expr, s) for s in [*gone, self.symbol])
+            return not reactions.movers(expr, [*gone, self.symbol])
         except ExactUnavailable:
             return True
 

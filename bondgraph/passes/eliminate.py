@@ -14,36 +14,23 @@ import heapq
 from contextlib import suppress
 from typing import NamedTuple
 
+from bondgraph.exact.evaluate import highest_order
 from bondgraph.ir.equations import EquationSystem
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
 from bondgraph.ir.residuals import Closing, How, ReducedSystem, Step
 from bondgraph.passes.colour import colours
+from bondgraph.passes.cost import FREE_START, ITERATION, LOOP, Cost, after
 from bondgraph.passes.initial import without_free_integrals
 from bondgraph.passes.linear_block import linear_equation, solve_block
 from bondgraph.passes.loops import Loops
-from bondgraph.passes.matching import decompose
+from bondgraph.passes.matching import components, decompose
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.shortfall import initial_value_needed, loop_unsolvable, relations_missing
 from bondgraph.passes.solve import ITERATED, Solution, solve
 from bondgraph.text.diagnostic import Report
 
-
-class Cost(NamedTuple):
-    """What it takes to compute a variable, in the order of what is to be avoided.
-
-    `late` counts what is taken only where nothing else goes on: integrations of a storage, and
-    iterations, each as much as `_ITERATED` integrations.
-    """
-
-    late: int
-    hard: int
-    order: int
-    depth: int
-
-
-#: What an iteration, and an integration from an undeclared start, count in integrations.
-_ITERATED, _FREE = 10, 1000
-
+#: Relations are tangled that rest on every step so many times, few steps not counted.
+_TANGLED, _FEW = 4, 1000
 
 #: A block of so many variables is solved by sparse elimination, a smaller one by tearing.
 _LARGE = 30
@@ -62,10 +49,14 @@ class _Offer(NamedTuple):
 
 
 class Chain:
-    """The state of one elimination."""
+    """The state of one elimination.
 
-    def __init__(self, system: EquationSystem, report: Report) -> None:
+    Derivatives up to the order `free` are not avoided: shorter paths count more.
+    """
+
+    def __init__(self, system: EquationSystem, report: Report, free: int = 0) -> None:
         self.system = system
+        self.free = free
         self.pool = system.graph.pool
         self.report = report
         self.colour, self.variable_colour = colours(system)
@@ -152,16 +143,11 @@ class Chain:
         others = [self.cost[v] for v in equation.variables if v is not variable]
         late = 0
         if equation.kind == "state" and how == "integrated":
-            late = _FREE if free else 1
+            late = FREE_START if free else 1
         elif solution.hard == ITERATED:
-            late = _ITERATED
-        cost = Cost(
-            max((c.late for c in others), default=0) + late,
-            max((c.hard for c in others), default=0) + solution.hard,
-            max((c.order for c in others), default=0)
-            + (equation.kind != "balance" and _differentiates(solution.value)),
-            max((c.depth for c in others), default=0) + 1,
-        )
+            late = ITERATION
+        derived = equation.kind != "balance" and _differentiates(solution.value)
+        cost = after(others, late, solution.hard, derived, self.free)
         offer = _Offer(
             cost, self.colour[row], self.variable_colour[variable], row,
             self.position[variable], solution, how,
@@ -251,7 +237,7 @@ class Chain:
         names = list(columns)
         chosen = []
         done = False
-        for block in _components(graph, [*parts.over_rows, *parts.square_rows], solvable):
+        for block in components(graph, [*parts.over_rows, *parts.square_rows], solvable):
             if len(block) >= _LARGE and not stubborn:
                 inside = set(block)
                 near = (*parts.over_rows, *parts.square_rows)
@@ -272,7 +258,7 @@ class Chain:
             row = next(r for r, members in zip(rows, graph, strict=True) if column in members)
             holder = self.system.equations[row]
             tear = self.loops.tear(variable)
-            self.settle(variable, Step(variable, tear, tear, holder, "loop"), Cost(0, 1, 0, 1))
+            self.settle(variable, Step(variable, tear, tear, holder, "loop"), LOOP)
         return done or bool(chosen)
 
     def block(self, rows: list[int]) -> bool:
@@ -293,7 +279,7 @@ class Chain:
         for item in found.solved:
             equation = self.system.equations[item.equation]
             step = Step(item.variable, item.value, item.value, equation, "solved")
-            self.settle(item.variable, step, Cost(0, 1, 0, 1))
+            self.settle(item.variable, step, LOOP)
         for row, expr in found.left:
             self.loops.row(row, expr)
         return True
@@ -322,6 +308,18 @@ class Chain:
         with suppress(ZeroDivisionError):
             return step._replace(closed=self.pool.substitute([step.closed], final)[0])
         return step
+
+    def tangled(self) -> bool:
+        """Whether the relations rest on the same steps again and again.
+
+        As where the voltage of every branch of a tree is had through the root.
+        """
+        budget = _TANGLED * len(self.steps) + _FEW
+        for item in self.loops.plain:
+            budget -= len(self.resting_on(item.rows))
+            if budget < 0:
+                return True
+        return False
 
     def result(self) -> ReducedSystem:
         """The relations that were found, and what no sensor reaches."""
@@ -358,36 +356,29 @@ class Chain:
 def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
     """Compute every variable that sensors and sources reach, and keep what is left over.
 
-    Near-linear in the number of bonds. Reports `loop-unsolvable` for a nonlinear loop without a
-    closed solution, `initial-value-needed` where a relation needs an undeclared initial value.
+    Near-linear in the number of bonds. Derivatives are avoided as far as possible; where that makes
+    long detours, relations of the same order with shorter paths are taken. Reports
+    `loop-unsolvable` for a nonlinear loop without a closed solution, `initial-value-needed` where
+    a relation needs an undeclared initial value.
     """
-    chain = Chain(system, report)
-    chain.start()
-    chain.run()
-    while chain.stalled():
-        chain.run()
+    chain = _chained(system, report)
+    if chain.tangled():
+        order = highest_order([row.expr for row in chain.loops.plain])
+        near = _chained(system, report, free=order)
+        if len(near.loops.plain) >= len(chain.loops.plain):
+            chain = near
     result = chain.result()
     return None if report.failed else result
 
 
-def _differentiates(value: Expr) -> int:
-    return int(any(n.op is Op.DER for n in topological([value])))
+def _chained(system: EquationSystem, report: Report, free: int = 0) -> Chain:
+    chain = Chain(system, report, free)
+    chain.start()
+    chain.run()
+    while chain.stalled():
+        chain.run()
+    return chain
 
 
-def _components(graph: list[list[int]], rows: list[int], columns: set[int]) -> list[list[int]]:
-    """Connected components of the given rows and columns, as sorted lists of columns."""
-    parent = {c: c for c in sorted(columns)}
-
-    def find(c: int) -> int:
-        while parent[c] != c:
-            parent[c] = c = parent[parent[c]]
-        return c
-
-    for r in rows:
-        inside = [c for c in graph[r] if c in parent]
-        for c in inside[1:]:
-            parent[find(c)] = find(inside[0])
-    groups: dict[int, list[int]] = {}
-    for c in parent:
-        groups.setdefault(find(c), []).append(c)
-    return [g for g in groups.values() if any(c in columns for c in g)]
+def _differentiates(value: Expr) -> bool:
+    return any(n.op is Op.DER for n in topological([value]))

@@ -108,3 +108,22 @@ def decompose(rows: list[list[int]], columns: int) -> Parts:
         row_of,
         column_of,
     )
+
+
+def components(graph: list[list[int]], rows: list[int], columns: set[int]) -> list[list[int]]:
+    """Connected components of the given rows and columns, as sorted lists of columns."""
+    parent = {c: c for c in sorted(columns)}
+
+    def find(c: int) -> int:
+        while parent[c] != c:
+            parent[c] = c = parent[parent[c]]
+        return c
+
+    for r in rows:
+        inside = [c for c in graph[r] if c in parent]
+        for c in inside[1:]:
+            parent[find(c)] = find(inside[0])
+    groups: dict[int, list[int]] = {}
+    for c in parent:
+        groups.setdefault(find(c), []).append(c)
+    return [g for g in groups.values() if any(c in columns for c in g)]

@@ -35,7 +35,7 @@ from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
 _BRANCHES = 6  # healthy plants where a law or a residual decides something, else one
-_WORK = 200_000  # nodes that may be evaluated to try single faults, before they are sampled
+_WORK = 200_000  # nodes or variables that may be computed for faults, before they are sampled
 _TRIES = 20  # points at which a residual or a law may have no value, drawn again
 
 
@@ -217,7 +217,13 @@ class _Check:
             )
             if blind:
                 groups.setdefault(blind, []).append(at)
-        for faults, members in groups.items():
+        work = sum(
+            len(self.plant.part_for([self.exprs[at] for at in members]).active)
+            for members in groups.values()
+        )
+        step = 1 + work // _WORK
+        self.sampled = step > 1
+        for faults, members in [*groups.items()][::step]:
             exprs = [self.exprs[at] for at in members]
             for modes, values in self.faulty(exprs, faults):
                 for at, value in zip(members, values, strict=True):
@@ -261,7 +267,7 @@ class _Check:
         ]
         work = sum(size[at] for _, at in entries)
         step = 1 + work // _WORK
-        self.sampled = step > 1
+        self.sampled = self.sampled or step > 1
         for fault, at in entries[::step]:
             rooted = holds_root([self.exprs[at]])
             shows = self.inclined if rooted else self.told_moves

@@ -227,3 +227,30 @@ def test_a_start_inside_a_nonlinear_law_must_be_declared() -> None:
         "initial-value-needed"
     ]
     assert len(compiled(text.format(start="(q0 = 1)")).residuals) == 1
+
+
+def binary_tree(depth: int) -> str:
+    """A supply that branches into 2**depth motors over wires, the speed of each measured."""
+    lines = ["param R = 2; param L = 1e-3; param k = 0.05; param J = 1e-4; param Rw = 0.1",
+             "Se:U -> 0:n1"]  # fmt: skip
+    for i in range(2, 2 ** (depth + 1)):
+        lines.append(f"0:n{i}; 1:w{i} {{ <- n{i // 2}; -> R:r{i} = Rw; -> n{i} }}")
+        if i >= 2**depth:
+            lines.append(f"1:a{i} {{ <- n{i}; -> R:R{i} = R; -> I:L{i} = L }}")
+            lines.append(f"a{i} -> GY:k{i} = k -> 1:s{i} {{ -> I:J{i} = J; -> Df:y{i} }}")
+    return "model Tree {\n" + "\n".join(lines) + "\n}"
+
+
+def test_relations_of_a_tree_are_local() -> None:
+    """Two motors on one node have the same voltage: half of the relations need no other motor.
+
+    A quarter compares two nodes and so four motors, and so on. Each is of second order whichever
+    way it is made, as the voltage of a motor holds J L w''/k.
+    """
+    depth = 7
+    c = compiled(binary_tree(depth))
+    assert len(c.residuals) == 2**depth
+    sensors = sorted(sum(name.startswith("y") for name in r.orders) for r in c.residuals)
+    inner = [2 ** (k + 1) for k in range(depth - 1) for _ in range(2 ** (depth - 1 - k))]
+    assert sensors == [*inner, 2 ** (depth - 1), 2 ** (depth - 1)]  # the supply is known
+    assert all(max(r.orders.values()) == 2 for r in c.residuals)
