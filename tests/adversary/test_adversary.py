@@ -14,13 +14,20 @@ from typing import Any
 import pytest
 
 from bondgraph.cli.main import main
-from tests.adversary import plants_laws, plants_mechanical, plants_other, plants_power, plants_roots
+from tests.adversary import (
+    plants_domains,
+    plants_laws,
+    plants_mechanical,
+    plants_other,
+    plants_power,
+    plants_roots,
+)
 from tests.adversary.fuzz import generate
 from tests.adversary.judge import judge, judge_all_modes
 from tests.adversary.plant import HERE, Plant, Simulator, counts
 from tests.adversary.verdicts import VERDICTS
 
-FILES = (plants_power, plants_mechanical, plants_other, plants_laws, plants_roots)
+FILES = (plants_power, plants_mechanical, plants_other, plants_laws, plants_roots, plants_domains)
 PLANTS = {p.name: p for file in FILES for p in file.PLANTS}
 SLOW = {"double_mtf"}
 EXIT = {"ok": 0, "no_arr": 0, "error": 1, "refused": 1}

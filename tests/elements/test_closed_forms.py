@@ -19,13 +19,21 @@ from tests.adversary.test_adversary import compiled
 from tests.elements import (
     forms_circuits,
     forms_devices,
+    forms_domains,
     forms_machines,
     forms_mechanical,
     forms_processes,
 )
 from tests.elements.forms import Form
 
-FILES = (forms_circuits, forms_devices, forms_machines, forms_mechanical, forms_processes)
+FILES = (
+    forms_circuits,
+    forms_devices,
+    forms_machines,
+    forms_mechanical,
+    forms_processes,
+    forms_domains,
+)
 FORMS = [form for file in FILES for form in file.FORMS]
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "closed_forms.md"
