@@ -65,6 +65,7 @@ PLANTS = [
         n_arr=1,
         params="C a b",
         inputs="U",
+        values={"U": 2.5, "i": 1.2},
     ),
     Plant(
         "cubic_parallel",

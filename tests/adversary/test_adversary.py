@@ -25,7 +25,7 @@ from tests.adversary import (
 from tests.adversary.fuzz import generate
 from tests.adversary.judge import judge, judge_all_modes
 from tests.adversary.plant import HERE, Plant, Simulator, counts
-from tests.adversary.verdicts import VERDICTS
+from tests.adversary.verdicts import VERDICTS, Verdict
 
 FILES = (plants_power, plants_mechanical, plants_other, plants_laws, plants_roots, plants_domains)
 PLANTS = {p.name: p for file in FILES for p in file.PLANTS}
@@ -95,12 +95,13 @@ def test_the_judge_sees_a_wrong_answer(tmp_path: Path) -> None:
     assert any("orders" in text for text in judge(plant, answer))
 
 
-@pytest.mark.parametrize(("name", "status", "n_arr"), VERDICTS)
-def test_a_verdict(name: str, status: str, n_arr: int, tmp_path: Path) -> None:
-    answer = compiled(HERE / "models" / f"{name}.bg", tmp_path)
-    assert (answer["status"], answer["n_arr"]) == (status, n_arr)
-    if status in ("error", "refused"):
-        assert any(d["severity"] == "error" for d in answer["diagnostics"])
+@pytest.mark.parametrize("verdict", VERDICTS, ids=lambda v: v.name)
+def test_a_verdict(verdict: Verdict, tmp_path: Path) -> None:
+    answer = compiled(HERE / "models" / f"{verdict.name}.bg", tmp_path)
+    assert (answer["status"], answer["n_arr"]) == (verdict.status, verdict.n_arr)
+    errors = {d["code"] for d in answer["diagnostics"] if d["severity"] == "error"}
+    assert errors == ({verdict.code} if verdict.status in ("error", "refused") else set())
+    assert not verdict.code or verdict.code in {d["code"] for d in answer["diagnostics"]}
 
 
 @pytest.mark.parametrize("words", WORDS)

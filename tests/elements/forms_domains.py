@@ -1,4 +1,4 @@
-"""Magnetic, acoustic, thermal and chemical models, and machines with one thing to show; balances."""
+"""Magnetic, acoustic, thermal and chemical models, machines with one thing to show; balances."""
 
 from __future__ import annotations
 

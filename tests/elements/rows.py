@@ -8,7 +8,8 @@ from typing import NamedTuple
 class Row(NamedTuple):
     """One line of the table; its C is run for `seconds` of the plant's time.
 
-    `why` says, where it is not run, what stands in the way.
+    `why` says, where it is not run on a power series, what stands in the way. The filter of
+    `bandwidth` in rad/s forgets its start by exp(-40) in the time that is run.
     """
 
     group: str
@@ -17,7 +18,11 @@ class Row(NamedTuple):
     model: str
     why: str = ""
     seconds: float = 0.1
+    sample_time: float = 1e-4
+    bandwidth: float = 400.0
 
+
+FAST = 0.012, 1e-5, 4000.0  # where products of signals and derivatives bias the filter
 
 ROWS = [
     Row("Elements", "Se, I, R, GY, two ports of one motor", "electrical, rotation", "dc_iw"),
@@ -32,23 +37,73 @@ ROWS = [
         "MTF by a duty cycle that the flow returns to",
         "electrical",
         "boost_duty",
-        "a product of a signal and a derivative keeps the bias of the filter",
+        "",
+        *FAST,
     ),
+    Row("Elements", "the same, seen from the current", "electrical", "boost_duty_i", "", *FAST),
+    Row("Elements", "MTF by a switch that is on or off", "electrical", "buck_bool"),
     Row("Elements", "MGY, ring of gyrators of a rigid body", "rotation", "rigid_body"),
+    Row("Elements", "the same, one speed not measured", "rotation", "rigid_body1", "", *FAST),
     Row(
         "Elements",
         "MTF by an integrated signal (slider-crank)",
         "rotation, translation",
         "slider_theta",
     ),
+    Row(
+        "Elements",
+        "MTF by a known input: dependent inertia, modulated ratio",
+        "rotation",
+        "variable_gear",
+    ),
+    Row(
+        "Elements",
+        "MSe by an integrated signal: weight of a pendulum",
+        "rotation",
+        "pendulum",
+        "samples are counts, not a series",
+    ),
+    Row("Elements", "MSe by a sensor: controller", "electrical", "alias_sensor"),
+    Row(
+        "Elements",
+        "MSf by other bond variables: stirred reactor",
+        "chemical, thermal",
+        "stirred_reactor",
+    ),
     Row("Elements", "values that are expressions of parameters and signals", "electrical", "alias"),
     Row("Elements", "parameters without a value", "electrical", "symbolic"),
     Row("Elements", "R field of two ports", "electrical", "r_field"),
     Row("Elements", "I field: coupled coils", "electrical", "mutual"),
+    Row("Elements", "the same, one current measured", "electrical", "mutual1"),
     Row("Elements", "C field: stiffness matrix", "translation", "springs_matrix"),
+    Row(
+        "Elements",
+        "the same from an unknown start: fourth derivative",
+        "translation",
+        "springs_matrix_free",
+        "",
+        0.2,
+        1e-4,
+        200.0,
+    ),
     Row(
         "Elements", "C field, mixed causality (condenser microphone)", "electrical, acoustic", "mic"
     ),
+    Row("Elements", "C field of mass and energy of a gas, inverted", "thermofluid", "gas_tank"),
+    Row(
+        "Elements",
+        "windings as GY, reluctances as C, iron that saturates",
+        "electrical, magnetic",
+        "magnetic_core",
+    ),
+    Row("Elements", "core of three legs", "electrical, magnetic", "magnetic_tee"),
+    Row(
+        "Elements",
+        "GY and TF from coil to cone to air",
+        "electrical, translation, acoustic",
+        "loudspeaker",
+    ),
+    Row("Elements", "acoustic mass and compliance", "acoustic", "helmholtz"),
     Row(
         "Elements",
         "modulated valve, two chambers, piston, leak",
@@ -56,21 +111,41 @@ ROWS = [
         "cylinder",
     ),
     Row("Elements", "friction law with the fall of Stribeck", "translation", "stribeck"),
+    Row("Elements", "friction by sign", "translation", "friction_sign"),
+    Row("Elements", "drag by abs", "translation", "drag_abs"),
+    Row("Elements", "resistor of third order", "electrical", "cubic_law"),
     Row("Elements", "saturation by min and max", "electrical", "saturation"),
     Row("Elements", "backlash by tanh", "rotation", "backlash_tanh", seconds=0.4),
     Row("Elements", "table lookup", "electrical", "table_law"),
     Row("Elements", "law in one direction: diode in series", "electrical", "diode_series_r"),
+    Row("Elements", "exponential law inverted: voltage from current", "electrical", "diode_i"),
     Row("Elements", "implicit law", "hydraulic", "three_tanks_implicit"),
     Row("Elements", "nonlinear storage, momentum by a root", "translation", "hard_momentum"),
     Row("Elements", "nonlinear storage with a closed inverse", "translation", "relativistic"),
+    Row(
+        "Elements", "momentum and length from declared starts", "translation", "inverse_and_spring"
+    ),
+    Row("Elements", "hardening spring from a declared start", "translation", "spring_hard_q0"),
     Row("Elements", "pseudo bond graph: temperature and heat flow", "thermal", "heat_exchanger"),
+    Row("Elements", "heat conducted along a rod", "thermal", "heated_rod"),
     Row("Elements", "pseudo bond graph: level and enthalpy", "thermofluid", "thermofluid"),
     Row("Elements", "reaction: R with two ports, exponentials", "chemical", "chemical"),
     Row("Elements", "enzyme by Michaelis and Menten", "chemical", "michaelis"),
+    Row("Elements", "chain of reactions", "chemical", "reaction_chain"),
     Row("Elements", "dependent storage: C across Se", "electrical", "c_se_dependent"),
+    Row("Elements", "leak that is nominally zero, linear", "hydraulic", "tank_leak"),
+    Row(
+        "Elements",
+        "leaks of two laws, one sensor for three tanks",
+        "hydraulic",
+        "three_tanks_level3",
+    ),
+    Row("Elements", "leak of a machine in SI units", "hydraulic", "two_tanks"),
     Row("Elements", "switched element", "electrical", "switch_r"),
     Row("Elements", "switched 1-junction", "electrical", "switched_junction"),
     Row("Elements", "switched 0-junction", "electrical", "switched_zero"),
+    Row("Elements", "two switched branches in parallel", "electrical", "parallel_switches"),
+    Row("Elements", "source that a thermostat switches", "thermal", "oven"),
     Row("Elements", "clutch", "rotation", "clutch"),
     Row("Sensors", "one of two detectors: speed from current", "electrical, rotation", "dc_i"),
     Row("Sensors", "angle, the integral of a flow", "electrical, rotation", "dc_angle"),
@@ -85,6 +160,7 @@ ROWS = [
     Row("Sensors", "acceleration", "electrical, rotation", "dc_acc"),
     Row("Sensors", "products, energies and charges together", "electrical", "sensors_odd"),
     Row("Sensors", "two on one junction, and one instrument twice", "electrical", "redundant_df"),
+    Row("Sensors", "three on one junction: each bias is isolated", "thermal", "three_thermometers"),
     Row("Sensors", "De that a source fixes: cannot be dualised", "electrical", "de_on_se"),
     Row("Sensors", "three around a junction without storage", "electrical", "three_df"),
     Row("Sensors", "both sides of a rigid transformer", "rotation", "rigid_both"),
@@ -92,6 +168,9 @@ ROWS = [
     Row(
         "Sensors", "two unknown inputs at one place count once", "electrical", "unknown_same_place"
     ),
+    Row("Sensors", "unknown inputs that use up one of three sensors", "electrical", "two_unknown"),
+    Row("Sensors", "unknown road under one wheel of two", "translation, rotation", "half_car"),
+    Row("Sensors", "part without any sensor", "electrical, rotation", "two_motors"),
     Row(
         "Sensors",
         "all redundancy used up by unknown inputs",
@@ -101,13 +180,17 @@ ROWS = [
     ),
     Row("Sensors", "no sensor", "electrical, rotation", "dc_none", "no relation"),
     Row("Loops", "linear algebraic loop: bridge", "electrical", "wheatstone"),
+    Row("Loops", "the same with three sensors", "electrical", "wheatstone2"),
     Row("Loops", "bridge whose balance hides the supply", "electrical", "wheatstone_balanced"),
     Row("Loops", "grid of resistors", "electrical", "grid3"),
+    Row("Loops", "larger grid", "electrical", "grid5"),
     Row("Loops", "linear differential loop", "electrical", "rlc_loop"),
+    Row("Loops", "three coils in parallel", "electrical", "rl_parallel"),
     Row("Loops", "odd cycle of gyrators", "electrical", "gyrator_cycle3"),
     Row("Loops", "odd cycle of gyrators with resistors", "electrical", "gyrator_cycle3_res"),
     Row("Loops", "nonlinear loop, one Newton block", "electrical", "cubic_parallel"),
     Row("Loops", "nonlinear node of diodes", "electrical", "node_of_diodes"),
     Row("Loops", "root inside a root", "electrical", "nested_roots"),
+    Row("Loops", "two laws without inverse at one node", "hydraulic", "two_tanh"),
     Row("Loops", "diode and storage behind one node", "electrical", "diode_loop"),
 ]
