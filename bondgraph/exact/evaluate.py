@@ -106,10 +106,11 @@ def telling(roots: Sequence[Expr]) -> int:
 
     A fault that meets an iteration sets in only at the point (see `Plant.sample`).
     """
-    return integral_depth(roots) + (_ONSET if holds_root(roots) else 1)
+    return integral_depth(roots) + (ONSET + 2 if holds_root(roots) else 1)
 
 
-_ONSET = 4  # the fault, its square and one more
+#: The power of time with which a fault sets in: its square and its cubic root are power series.
+ONSET = 6
 
 
 def evaluate(roots: Sequence[Expr], sample: Assignment, n: int = 1) -> list[Any]:

@@ -67,7 +67,7 @@ def root_value(node: Expr, args: Sequence[Any], sample: Any, n: int) -> Any:
 
     lead = _lead(node, [a[0] for a in args], sample, lambda x: zero([x], 1)[0][0])
     series = [lead]
-    if n > 1:
+    if n > 1 and any(len(a) > 1 for a in args):
         steep = tangent(root.zero, root.unknown, zero(series, 1)[1], algebra, 1)[0]
         factor = -inverse(steep)
         for k in range(1, n):

@@ -14,7 +14,13 @@ from bondgraph.exact import series
 from bondgraph.exact.algebra import Mixed, Waves
 from bondgraph.exact.assembly import Assembly, Parts, assemble
 from bondgraph.exact.equations import Setting, Writer, written
-from bondgraph.exact.evaluate import evaluate, highest_order, holds_root, integral_depth
+from bondgraph.exact.evaluate import (
+    ONSET,
+    evaluate,
+    highest_order,
+    holds_root,
+    integral_depth,
+)
 from bondgraph.exact.field import Functions, P, Undefined
 from bondgraph.exact.known import KnownSample
 from bondgraph.exact.linear import Contradiction, Singular
@@ -272,7 +278,7 @@ class Plant:
         n = order + self._reach + 1 + _EXTRA
         errors = {name: [random.randrange(1, P) for _ in range(n)] for name in faults}
         if onset:
-            errors = {name: [0, *error[1:]] for name, error in errors.items()}
+            errors = {name: [0] * ONSET + error[ONSET:] for name, error in errors.items()}
         true = dict(constants)
         readings = {name: x for name, x in errors.items() if name in self._read}
         for name, error in errors.items():

@@ -171,21 +171,38 @@ def _sign_of(a: Series) -> int:
     return s
 
 
+def _side_of(a: Series) -> int:
+    """The sign just after the point, for functions that are continuous at zero."""
+    return sign(next((x for x in a if x), 0))
+
+
+def _root_from_rest(a: Series, exponent: Fraction, n: int) -> Series:
+    """A root of a signal that is positive just after the point, and may be zero there.
+
+    Raises `Undefined` where the root is no power series.
+    """
+    start = next(k for k, x in enumerate(a) if x)
+    if start * exponent.numerator % exponent.denominator:
+        raise Undefined("the root of a signal that passes zero")
+    shift = start * exponent.numerator // exponent.denominator
+    return ([0] * shift + rational_power(a[start:], exponent, n))[:n]
+
+
 def function(f: Functions, name: str, a: Series, n: int) -> Series:
     """A function of one argument; raises `Undefined` where it has no value."""
     match name:
         case "abs":
-            return scale(_sign_of(a), a)
+            return scale(_side_of(a), a)
         case "sign":
             return [_sign_of(a) % P]
         case "ssq":
-            return scale(_sign_of(a), mul(a, a, n))
+            return scale(_side_of(a), mul(a, a, n))
         case "sqrt":
             return rational_power(a, _HALF, n)
         case "ssqrt" | "cbrt":
-            s = _sign_of(a)
+            s = _side_of(a)
             exponent = _HALF if name == "ssqrt" else Fraction(1, 3)
-            return scale(s, rational_power(scale(s, a), exponent, n)) if s else [0]
+            return scale(s, _root_from_rest(scale(s, a), exponent, n)) if s else [0]
         case "exp":
             return exponential(a, f.exp(a[0]), n)
         case "cos" | "sin":
@@ -208,15 +225,15 @@ def slope_of(f: Functions, name: str, a: Series, value: Series, n: int) -> Serie
     """The derivative of a function at the series a, where the function is `value`."""
     match name:
         case "abs":
-            return [sign(a[0]) % P]
+            return [_side_of(a) % P]
         case "sign":
             return [0]
         case "ssq":
-            return scale(2 * sign(a[0]), a)
+            return scale(2 * _side_of(a), a)
         case "sqrt":
             return reciprocal(scale(2, value), n)
         case "ssqrt":
-            return reciprocal(scale(2 * sign(value[0]), value), n)
+            return reciprocal(scale(2 * _side_of(value), value), n)
         case "cbrt":
             return reciprocal(scale(3, mul(value, value, n)), n)
         case "exp":

@@ -203,12 +203,18 @@ def _points(exprs: list[Expr], modes: Mapping[Expr, int] | None) -> int:
             branches = n.symbol.kind is Kind.MODE and not decided[n]
         else:
             decided[n] = all(decided[a] for a in n.args)
-            branches = (n.op is Op.IF and not decided[n.args[0]]) or (
-                n.op is Op.FN and n.name in ("sign", "min", "max", "abs")
-            )
+            branches = (n.op is Op.IF and not decided[n.args[0]]) or _branching(n)
         if branches:
             return _POINTS_WITH_BRANCHES
     return _POINTS
+
+
+def _branching(node: Expr) -> bool:
+    """Whether a node is a function of several branches, or iteration goes through one."""
+    if node.op is Op.ROOT:
+        inside = topological([node.root.zero])
+        return any(n.op is Op.IF or _branching(n) for n in inside)
+    return node.op is Op.FN and node.name in ("sign", "min", "max", "abs")
 
 
 def _union(a: Sensitivity, b: Sensitivity) -> Sensitivity:

@@ -8,19 +8,12 @@ is said to see must move it (translation validation: Pnueli, Siegel and Singerma
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from random import Random
 from typing import Any
 
 from bondgraph.exact.algebra import Mixed, Wave
-from bondgraph.exact.evaluate import (
-    Sample,
-    demands,
-    evaluate,
-    holds_root,
-    sensitivities,
-    telling,
-    values_of,
-)
+from bondgraph.exact.evaluate import Sample, evaluate, holds_root, sensitivities, telling
 from bondgraph.exact.field import P, Undefined
 from bondgraph.exact.modes import assignments, modes_of
 from bondgraph.exact.plant import Contradictory, ExactUnavailable, Plant
@@ -29,12 +22,13 @@ from bondgraph.exact.trajectory import Trajectory
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, symbols, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import ResidualSet
-from bondgraph.ir.show import show
 from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.passes import unanswerable
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
 _BRANCHES = 6  # healthy plants where a law or a residual decides something, else one
+_ELSEWHERE = 40  # more of them, for an entry of the matrix that these do not confirm
 _WORK = 200_000  # nodes or variables that may be computed for faults, before they are sampled
 _TRIES = 20  # points at which a residual or a law may have no value, drawn again
 
@@ -65,15 +59,6 @@ class _Failed(Exception):
         self.fault = fault
 
 
-class _Resting(ExactUnavailable):
-    """A residual that divides by what is always zero on the healthy plant."""
-
-    def __init__(self, residual: int, divisor: Expr) -> None:
-        super().__init__(f"a residual divides by {show(divisor)}, which is zero")
-        self.residual = residual
-        self.divisor = divisor
-
-
 class _Check:
     def __init__(
         self,
@@ -95,6 +80,7 @@ class _Check:
         self.trajectories = 0
         self.tried: dict[str, None] = {}
         self.waves = False
+        self.further: list[Sample | None] = []
         self.sampled = False
         self.modes = modes_of(graph, self.exprs)
         laws = [law.zero for node in graph.nodes for law in node.laws]
@@ -105,7 +91,7 @@ class _Check:
         for residual in self.residuals:
             if all(s.symbol.kind is not Kind.SENSOR for s in symbols(residual.expr)):
                 closing = residual.closing  # what the sources alone must satisfy is no residual
-                self.contradictory(closing.name, closing.origin)
+                unanswerable.contradictory(self.report, closing.name, closing.origin)
                 return self.result("not verified: a relation without a sensor")
         try:
             if self.exprs:
@@ -115,20 +101,13 @@ class _Check:
         except Contradictory as reason:
             node = self.graph.nodes[reason.node] if reason.node >= 0 else None
             where = (node.path, node.origin) if node else ("", self.place()[0])
-            self.contradictory(*where)
+            unanswerable.contradictory(self.report, *where)
             return self.result(f"not verified: {reason}")
-        except _Resting as reason:
-            self.resting(reason)
+        except unanswerable.Resting as reason:
+            unanswerable.resting(self.report, self.residuals[reason.residual], reason.divisor)
             return self.result(f"not verified: {reason}")
         except ExactUnavailable as reason:
-            self.report.warning(
-                "verification-unavailable",
-                f"the residuals could not be checked by exact simulation: {reason}",
-                *self.place(),
-                help="The residuals were derived, but nothing independent confirms them, and the "
-                "signatures may list faults that cannot be seen. Try them on simulated data "
-                "before use, or write the law named here in another form.",
-            )
+            unanswerable.unavailable(self.report, str(reason), *self.place())
             return self.result(f"not verified: {reason}")
         except _Failed as failure:
             self.report.error(
@@ -140,32 +119,6 @@ class _Check:
             )
             return self.result("failed")
         return self.result(self.method())
-
-    def contradictory(self, name: str, origin: Span) -> None:
-        """Say that the model allows no behaviour at all."""
-        where = f" at `{name}`" if name else ""
-        self.report.error(
-            "sources-contradict",
-            f"The sources contradict each other: even without sensors, the equations{where} are "
-            "more than the variables they could determine.",
-            origin,
-            help="A loop of bonds, or transformers between the same junctions, fix already what a "
-            "source is to fix: remove one of them, or put the resistance or the storage between "
-            "them that every real connection has.",
-        )
-
-    def resting(self, reason: _Resting) -> None:
-        """Say that a residual never has a value."""
-        residual = self.residuals[reason.residual]
-        self.report.error(
-            "residual-undefined",
-            f"Residual {residual.name} divides by {show(reason.divisor)}, which is zero as long "
-            "as the machine is healthy: it never has a value.",
-            residual.closing.origin,
-            help="Nothing drives this part of the machine, or its bonds hold it at rest. Add the "
-            "source that moves it, or measure a variable by itself instead of its product with "
-            "one that rests.",
-        )
 
     def result(self, method: str) -> Verification:
         done = len(self.exprs) if method != "failed" and not method.startswith("not") else 0
@@ -271,12 +224,30 @@ class _Check:
         for fault, at in entries[::step]:
             rooted = holds_root([self.exprs[at]])
             shows = self.inclined if rooted else self.told_moves
-            if not (any(shows(at, fault, p) for p in points) or self.acts(at, fault)):
+            if not (
+                any(shows(at, fault, p) for p in points)
+                or self.acts(at, fault)
+                or any(shows(at, fault, p) for p in self.elsewhere())
+            ):
                 name = self.residuals[at].name
                 raise _Failed(at, fault, f"residual {name} does not see {fault}, as it should")
             self.tried[fault] = None
         if not self.sampled:
             self.tried.update(dict.fromkeys(self.signatures.faults))
+
+    def elsewhere(self) -> Iterator[Sample]:
+        """More healthy plants, for a branch that none of those before has met."""
+        for number in range(_ELSEWHERE if self.decides else 0):
+            while len(self.further) <= number:
+                modes = self.assignments()
+                at = len(self.further)
+                point: Sample | None = None
+                with suppress(ExactUnavailable):
+                    point = self.at(self.exprs, 200 + at, (), modes[at % len(modes)])[0]
+                self.further.append(point)
+            found = self.further[number]
+            if found is not None:
+                yield found
 
     def told_moves(self, at: int, fault: str, point: Sample) -> bool:
         """Whether a constant error moves a residual: the healthy plant, and a wrong value told.
@@ -328,19 +299,8 @@ class _Check:
             self.waves = self.waves or not isinstance(values[0], list)
             return point, values
         if not faults:
-            self.blame(exprs, point)
+            unanswerable.blame(exprs, point, self.terms)
         raise ExactUnavailable("no random point was found where all residuals have a value")
-
-    def blame(self, exprs: list[Expr], point: Sample) -> None:
-        """Raise `_Resting` if a residual divides by what is zero with all its derivatives."""
-        nodes = topological(exprs)
-        values, _ = values_of(nodes, demands(nodes, exprs, self.terms), point)
-        for at, expr in enumerate(exprs):
-            for node in topological([expr]):
-                if node.op is Op.MUL:
-                    for base, power in zip(node.args, node.exponents, strict=True):
-                        if power < 0 and base in values and not _moves(values[base]):
-                            raise _Resting(at, base)
 
     def assignments(self) -> list[dict[Expr, int] | None]:
         """Modes to try, all of them if they are few."""
@@ -383,6 +343,8 @@ class _Told:
 def _decides(node: Expr) -> bool:
     """Whether a node takes one of several branches."""
     branching = ("abs", "sign", "min", "max", "ssq", "ssqrt")
+    if node.op is Op.ROOT:
+        return any(map(_decides, topological([node.root.zero])))
     return node.op is Op.IF or (node.op is Op.FN and node.name in branching)
 
 

@@ -18,7 +18,23 @@ _MONOTONE = [
     "0 = e - {a}*f*abs(f)",
     "0 = {a}*f + sinh(f) - e",
     "f = {a}*atan(e)",
+    "e = {a}*f + {b}*f*abs(f)",
+    "e = {a}*f + max(f, 0)",
+    "e = {a}*f + min(max(f, -1), 1)",
+    "e = if(f < 0, {a}*f, {b}*f)",
+    "f = {a}*e + {b}*(exp(e) - 1)",
+    "0 = {a}*e + e^3 - {b}*f - tanh(f)",
+    "e = {a}*f/sqrt(1 + f^2)",
 ]
+#: Laws that another signal modulates: an input, or the integral {th} of a signal.
+_MODULATED = [
+    "e = ({a} + {th}^2)*f",
+    "f = {a}*(1 + {th})*ssqrt(e)",
+    "e = {a}*exp({th})*f",
+    "f = {a}*{th}*e",
+]
+_STORED = ["{s}/{a} + {s}^3", "{a}*sinh({s})", "{a}*{s}*abs({s})", "{s} + {a}*tanh({s})"]
+_RATIOS = ["{p}*cos({th})", "({p} + {th}^2)", "{p}*{th}", "({p} + sin({th}))"]
 _OTHER = ["e = {a}*f^3 - {b}*f", "f = {a}*e*(e - 1)", "e = {a}*f*exp(f)", "f = {a}*sin(e) + e"]
 
 
@@ -49,8 +65,12 @@ class Elements:
         self.sensors: list[str] = []
         self.inputs: list[str] = []
         self.generic = True
+        self.spiced = random.random() < 0.5
+        self.common: Callable[[], tuple[str, str]] = lambda: ("", "")
+        self.states: list[tuple[str, str]] = []
         self.s = self.number()
         self._bonds = 0
+        self._integrals = 0
         self._elements = 0
 
     def number(self) -> int:
@@ -91,6 +111,22 @@ class Elements:
                 row[c] = row.get(c, 0) + x
         self.rows.append({c: x for c, x in row.items() if x % P})
 
+    def spice(self, chance: float) -> bool:
+        """Whether to draw something rarer; half of the graphs are without."""
+        return self.spiced and self.random.random() < chance
+
+    def integral(self) -> tuple[str, str]:
+        """The column and the text of the integral of a signal."""
+        column, text = self.common()
+        self._integrals += 1
+        name = f"h{self._integrals}"
+        self.equation({name: self.s}, {column: -1})
+        start = self.random.choice(["", "", ", 0.5"])
+        if self.random.random() < 0.5:
+            return name, f"int({text}{start})"
+        self.lines.append(f"let {name} = int({text}{start})")
+        return name, name
+
     # --------------------------------------------------------------------------- two-ports
 
     def two_port(self, what: str, number: int, first: Port, second: Port) -> str:
@@ -101,14 +137,23 @@ class Elements:
         if self.random.random() < 0.08:
             self.generic = False
             text = f"({name} + {self.input()})"
+        bent: list[Row] = [{}, {}]
+        if text == name and self.spice(0.15):
+            self.generic = False
+            if self.random.random() < 0.3:
+                text = f"if({self.input(': bool')}, {name}, {self.param()})"
+            else:
+                column, th = self.integral()
+                text = self.random.choice(_RATIOS).format(p=name, th=th)
+                bent = [{column: self.number()}, {column: self.number()}]
         if what == "GY":
-            self.equation(first.effort(), second.flow(-m))
-            self.equation(second.effort(), first.flow(-m))
+            self.equation(first.effort(), second.flow(-m), bent[0])
+            self.equation(second.effort(), first.flow(-m), bent[1])
             return f"{'GY' if text == name else 'MGY'}:g{number} = {text}"
         law = self.random.choice(["f1 = {}*f2", "f2 = {}*f1", "e1 = {}*e2", "e2 = {}*e1"])
         turn = m if law[:2] in ("f1", "e2") else pow(m, -1, P)
-        self.equation(first.flow(), second.flow(-turn))
-        self.equation(second.effort(), first.effort(-turn))
+        self.equation(first.flow(), second.flow(-turn), bent[0])
+        self.equation(second.effort(), first.effort(-turn), bent[1])
         return f"{'TF' if text == name else 'MTF'}:t{number} {{ {law.format(text)} }}"
 
     # --------------------------------------------------------------------------- one-ports
@@ -125,8 +170,13 @@ class Elements:
             other = "Sf" if junction == "1" else "Se"
             return into, self.source(fits if random.random() < 0.85 else other, name, port(into))
         at = port(into)
+        if kind == "R" and self.spice(0.15):
+            return into, self.modulated(name, at)
         if kind == "R":
             value = self.param(shared=True, zero=True)
+            if self.spice(0.3):  # a leak
+                self.equation(at.flow(), at.effort(-self.values[value]))
+                return into, f"R:{name} {{ f = {value}*e }}"
             self.equation(at.effort(), at.flow(-self.values[value]))
             return into, f"R:{name} = {value}"
         if kind == "law":
@@ -140,9 +190,27 @@ class Elements:
             return into, f"R:{name} {{ 0 = if({self.input(': bool')}, e, f) }}"
         return into, self.storage(random.choice("CI"), kind == "store", name, at)
 
+    def modulated(self, name: str, at: Port) -> str:
+        """A resistor that an input or an integrated signal modulates."""
+        column, th = (self.input(),) * 2 if self.random.random() < 0.4 else self.integral()
+        self.generic = False
+        law = self.random.choice(_MODULATED).format(a=self.param(), th=th)
+        self.equation(at.effort(), at.flow(self.number()), {column: self.number()})
+        return f"R:{name} {{ {law} }}"
+
     def source(self, kind: str, name: str, at: Port) -> str:
-        """A known or unknown input, or a number."""
+        """A known or unknown input, a number, or a function of signals."""
         own = {at.e: 1} if kind == "Se" else {at.f: 1}
+        if self.spice(0.2):
+            column, text = self.common()
+            value = self.param()
+            if self.random.random() < 0.6:
+                self.equation(own, {column: -self.values[value]})
+                return f"M{kind}:{name} = {value}*{text}"
+            other, th = self.integral()
+            self.generic = False
+            self.equation(own, {column: self.number()}, {other: self.number()})
+            return f"M{kind}:{name} = {value}*{text}*{th}"
         draw = self.random.random()
         if draw < 0.1:
             self.equation(own)
@@ -158,9 +226,10 @@ class Elements:
         start = f"({state}0 = {self.random.choice(['0', '0.5'])})"
         start = start if self.random.random() < 0.4 else ""
         self.equation({name: self.s}, rate(-1))
+        self.states.append((name, f"{name}.{state}"))
         if bent:
             self.equation(out(), {name: self.number()})
-            law = self.random.choice(["{s}/{a} + {s}^3", "{a}*sinh({s})", "{a}*{s}*abs({s})"])
+            law = self.random.choice(_STORED)
             return f"{kind}:{name}{start} {{ {left} = {law.format(s=state, a=self.param())} }}"
         value = self.param(shared=True)
         self.equation({name: 1}, out(-self.values[value]))
@@ -171,9 +240,12 @@ class Elements:
     def field(self, ports: list[Port]) -> list[str]:
         """A linear field with a full symmetric matrix, or a nonlinear C of two ports."""
         self._elements += 1
-        kind = self.random.choice("RCI")
         name = f"x{self._elements}"
         names = [f"a{k}" for k in range(len(ports))]
+        if len(ports) == 2 and self.spice(0.4):
+            self.movable_plate(name, *ports)
+            return [f"{name}.{n}" for n in names]
+        kind = self.random.choice("RCI")
         state, left = {"R": ("f", "e"), "C": ("q", "e"), "I": ("p", "f")}[kind]
         matrix: dict[tuple[int, int], str] = {}
         laws = []
@@ -195,6 +267,17 @@ class Elements:
         self.line(f"{kind}:{name} {{ {declared} }}")
         return [f"{name}.{n}" for n in names]
 
+    def movable_plate(self, name: str, one: Port, two: Port) -> None:
+        """A capacitor whose plates move: W = q0^2 q1/(2 p)."""
+        slope = self.number()
+        for number, at in enumerate((one, two)):
+            self.equation({f"{name}.{number}": self.s}, at.flow(-1))
+        self.equation(one.effort(), {f"{name}.0": self.number(), f"{name}.1": slope})
+        self.equation(two.effort(), {f"{name}.0": slope})
+        p = self.param()
+        laws = f"a0.e = a0.q*a1.q/{p}; a1.e = a0.q^2/(2*{p})"
+        self.line(f"C:{name} {{ port a0; port a1; {laws} }}")
+
     def reads(self, name: str, row: Row) -> None:
         """A sensor."""
         self.sensors.append(name)
@@ -203,7 +286,16 @@ class Elements:
     def signal(self, name: str, one: tuple[str, str], two: tuple[str, str]) -> None:
         """A measured sum, integral or product of two signals."""
         what = self.random.choice(["sum", "integral", "product", "function"])
-        if what == "sum":
+        if self.states and self.spice(0.3):
+            column, text = self.random.choice(self.states)
+            self.lines.append(f"sensor {name} = {text}")
+            row = {column: 1}
+        elif self.spice(0.2):
+            self.generic = False
+            column, th = self.integral()
+            self.lines.append(f"sensor {name} = {one[1]}*{th}")
+            row = {one[0]: self.number(), column: self.number()}
+        elif what == "sum":
             self.lines.append(f"sensor {name} = {one[1]} + 2*{two[1]}")
             row = {one[0]: 1}
             row[two[0]] = row.get(two[0], 0) + 2

@@ -41,6 +41,7 @@ class _Drawing:
         self.kinds: list[str] = []
         self.links: list[tuple[int, int, str]] = []  # from, to, what: bond, TF, GY or any
         self.sums: list[list[tuple[int, str, str]]] = []
+        self.whens: list[str] = []
         self.parts = Elements(random)
 
     def graph(self) -> Graph:
@@ -48,6 +49,11 @@ class _Drawing:
         random = self.random
         shape = random.choice(["tree", "tree", "loops", "loops", "grid", "ring", "ladder"])
         getattr(self, shape)()
+        self.parts.common = self.any_common
+        self.whens = ["" for _ in self.kinds]
+        if self.parts.spice(0.15):
+            self.parts.generic = False
+            self.whens[random.randrange(len(self.kinds))] = f" when {self.parts.input(': bool')} {{ }}"
         self.sums = [[] for _ in self.kinds]
         for number, (a, b, what) in enumerate(self.links):
             self.link(number, a, b, what)
@@ -167,11 +173,18 @@ class _Drawing:
             name = f"y{len(parts.sensors)}"
             if random.random() < 0.75:
                 detector = "De" if self.kinds[at] == "0" else "Df"
+                if parts.spice(0.1):  # the same instrument behind another detector
+                    parts.line(f"j{at} -> {detector}:{name}twice = {name}")
                 parts.line(f"j{at} {random.choice(['->', '<-'])} {detector}:{name}")
                 parts.reads(name, {f"w{at}": 1})
             else:
                 other = random.randrange(len(self.kinds))
                 parts.signal(name, *[(f"w{k}", self.common(k)) for k in (at, other)])
+
+    def any_common(self) -> tuple[str, str]:
+        """The column and the text of the common variable of some junction."""
+        at = self.random.randrange(len(self.kinds))
+        return f"w{at}", self.common(at)
 
     def common(self, at: int) -> str:
         return f"j{at}.{'e' if self.kinds[at] == '0' else 'f'}"
@@ -194,7 +207,8 @@ class _Drawing:
                 balance[other] = balance.get(other, 0) + sign
             if any(balance.values()):
                 rows.append(balance)
-        lines = [f"{kind}:j{at}" for at, kind in enumerate(self.kinds)] + parts.lines
+        lines = [f"{kind}:j{at}{self.whens[at]}" for at, kind in enumerate(self.kinds)]
+        lines += parts.lines
         if self.random.random() < 0.3:
             self.random.shuffle(lines)
         body = "\n".join(f"  {line}" for line in parts.head + lines)
