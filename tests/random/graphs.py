@@ -53,7 +53,8 @@ class _Drawing:
         self.whens = ["" for _ in self.kinds]
         if self.parts.spice(0.15):
             self.parts.generic = False
-            self.whens[random.randrange(len(self.kinds))] = f" when {self.parts.input(': bool')} {{ }}"
+            when = f" when {self.parts.input(': bool')} {{ }}"
+            self.whens[random.randrange(len(self.kinds))] = when
         self.sums = [[] for _ in self.kinds]
         for number, (a, b, what) in enumerate(self.links):
             self.link(number, a, b, what)
