@@ -35,7 +35,8 @@ class Setting(NamedTuple):
     """Constants of one trajectory: params, consts and modes as series, `n` coefficients.
 
     `private` are those that one law alone uses and that may be changed to satisfy it; `tuned`
-    collects by how much they were.
+    collects by how much they were. With `still` a law may be satisfied by a factor that is zero
+    at all times, see `bondgraph.exact.rest`.
     """
 
     values: dict[Expr, Series]
@@ -43,6 +44,7 @@ class Setting(NamedTuple):
     n: int
     private: frozenset[Expr]
     tuned: dict[Expr, int]
+    still: bool = False
 
 
 def constant(values: Mapping[Expr, Series], symbol: Expr) -> Series:

@@ -31,6 +31,7 @@ from bondgraph.exact.waves import WaveSample, amplitudes, linear, tell
 from bondgraph.ir.expr import Expr, Kind, Op, Symbol, topological
 from bondgraph.ir.graph import BondGraph
 
+_STILL = 5  # points that are tried with factors at rest, where there are no others
 _LARGE = 4000  # coefficients of a trajectory that are many
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
 
@@ -127,7 +128,7 @@ class Plant:
         for name in acting:
             self._names[name]
         failure: Exception | None = None
-        for attempt in range(ATTEMPTS):
+        for attempt in range(ATTEMPTS + _STILL):
             functions = Functions(seed * ATTEMPTS + attempt)
             try:
                 constants = self.draw_constants(seed, attempt, modes or {})
@@ -141,6 +142,7 @@ class Plant:
                     tunable=True,
                     solver=solver,
                     onset=onset,
+                    still=attempt >= ATTEMPTS,
                 )
             except (Undefined, Contradiction, Singular) as found:
                 failure = found
@@ -268,6 +270,7 @@ class Plant:
         tunable: bool = False,
         solver: Solver = solve,
         onset: bool = False,
+        still: bool = False,
     ) -> Trajectory:
         """A trajectory with these constants; raises `Undefined` and others if there is none.
 
@@ -285,7 +288,8 @@ class Plant:
             symbol = self._names[name]
             if symbol in true:
                 true[symbol] = series.add(true[symbol], error)
-        setting = Setting(true, functions, n, self._private if tunable else frozenset(), {})
+        private = self._private if tunable else frozenset()
+        setting = Setting(true, functions, n, private, {}, still)
         try:
             plant, equations = written(part, setting, readings, random)
             values = solver(plant, equations, setting, random, order + self._reach)
@@ -310,7 +314,7 @@ class Plant:
             if plant.place[state][0] in inside:
                 starts[initial.symbol] = truth.value(state)[0]
                 told.setdefault(initial, [starts[initial.symbol]])
-        return Trajectory(self, seed, order, tuple(faults), told, truth, starts, part)
+        return Trajectory(self, seed, order, tuple(faults), told, truth, starts, part, still)
 
     def _shown(self, plant: Assembly) -> list[tuple[str, Expr, Expr]]:
         """The sensors of a part of the plant whose readings no law uses: name, symbol, reads."""

@@ -7,6 +7,8 @@ random point would ever satisfy such a law, so that it is replaced by what it sa
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.equations import Equation, FormSample, Setting, made_linear, reach
@@ -36,7 +38,36 @@ def settled(
     for number, form in found.items():
         out[number] = out[number]._replace(form=form, rest=None)
     changed = any(a is not b for a, b in zip(out, equations, strict=True))
+    if not changed and setting.still:
+        return _without_factor(plant, equations, point)
     return out if changed else equations
+
+
+def _without_factor(plant: Assembly, equations: list[Equation], point: Point) -> list[Equation]:
+    """The equations, the first law that is a product with one signal replaced by its rest.
+
+    A transformer of changing ratio beside a bond asks for (1 - m(x)) e = 0: the effort rests, as
+    the ratio cannot be the same at all times.
+    """
+    for number, equation in enumerate(equations):
+        if equation.rest is None or equation.form:
+            continue
+        alike: dict[tuple[tuple[int, int], ...], list[Expr]] = {}  # multiples of one another
+        for symbol in symbols(equation.rest):
+            if symbol in plant.place:
+                row = point.reduce({plant.place[symbol][0] * STRIDE: 1})
+                if row and CONSTANT not in row:
+                    factor = inverse(row[min(row)])
+                    key = tuple(sorted((c, x * factor % P) for c, x in row.items()))
+                    alike.setdefault(key, []).append(symbol)
+        for factors in alike.values():
+            zero = dict.fromkeys(factors, plant.pool.zero)
+            with suppress(ZeroDivisionError):
+                if plant.pool.substitute([equation.rest], zero)[0] is plant.pool.zero:
+                    at = plant.place[factors[0]][0]
+                    replaced = Equation(equation.node, {at * ORDERS: [1]}, None, {at: 0})
+                    return [*equations[:number], replaced, *equations[number + 1 :]]
+    return equations
 
 
 def _nonlinear_symbols(equations: list[Equation]) -> list[Expr]:

@@ -24,7 +24,8 @@ class Trajectory:
     """One random behaviour: what a residual is told, and what truly happens.
 
     `faults` are the names of the faults that act. `value` gives what a residual is told: readings
-    and inputs with their errors, parameters without. `truth` gives the true series.
+    and inputs with their errors, parameters without. `truth` gives the true series. On a `still`
+    one a law is satisfied by a factor that rests, which need not be the only way.
     """
 
     def __init__(
@@ -37,9 +38,11 @@ class Trajectory:
         truth: KnownSample,
         starts: dict[Symbol, int],
         part: Assembly,
+        still: bool = False,
     ) -> None:
         self.plant = plant
         self.part = part
+        self.still = still
         self.seed = seed
         self.order = order
         self.faults = faults
@@ -101,7 +104,9 @@ class Trajectory:
         for attempt in range(0 if any(p is self.part for p in self.plant.momentary) else ATTEMPTS):
             seed = (self.seed * 31 + steps) * ATTEMPTS + attempt
             try:
-                return self.plant.draw(seed, self.order, (), constants, functions, self.part)
+                return self.plant.draw(
+                    seed, self.order, (), constants, functions, self.part, still=self.still
+                )
             except (Undefined, Contradiction, Singular):
                 continue
         self.plant.momentary.append(self.part)

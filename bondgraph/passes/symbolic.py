@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 import sympy as sp
+from sympy.logic.boolalg import Boolean
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, Symbol, topological
 
@@ -102,7 +103,7 @@ def _convert(node: Expr, args: list[Any]) -> Any:
 
 def _truth(value: Any) -> Any:
     """A mode signal stands for a condition: on is 1."""
-    return value if getattr(value, "is_Boolean", False) else sp.Eq(value, 1)
+    return value if isinstance(value, Boolean) else sp.Eq(value, 1)
 
 
 def from_sympy(pool: Pool, value: Any, names: Mapping[Any, Expr]) -> Expr | None:

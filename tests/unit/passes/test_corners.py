@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import sympy as sp
 
 from bondgraph.exact.plant import Plant
 from bondgraph.ir.expr import Expr, symbols
@@ -80,3 +81,17 @@ def test_a_residual_that_never_has_a_value() -> None:
     assert code(body + "sensor product = node.e*shaft.f") == "residual-undefined"
     c = compiled(body + "sensor product = node.e*shaft.f\nSf:I -> node")
     assert c.verification.residuals == len(c.residuals) == 1
+
+
+def test_a_law_of_two_branches_keeps_both_in_its_closed_form() -> None:
+    # f = y measured, so that 0 = U - k y on one side and U - m y on the other
+    c = compiled(
+        "param k = 2; param m = 3\n"
+        "1:j { <- Se:U; -> R:valve { e = if(f < 0, k*f, m*f) }; -> Df:y }"
+    )
+    (r,) = c.residuals
+    t, U, y = sp.Symbol("t", real=True), sp.Function("U", real=True), sp.Function("y", real=True)
+    k, m = sp.symbols("k m", real=True)
+    for speed, slope in ((-5, k), (5, m)):
+        found = r.expr.subs({y(t): speed, U(t): 7})
+        assert sp.simplify(found - (7 - slope * speed)) * sp.simplify(found + 7 - slope * speed) == 0
