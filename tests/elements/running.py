@@ -14,12 +14,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import bondgraph
+import numpy as np
+from numpy.polynomial.polynomial import polyval
+
 from bondgraph.backends.names import snake
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
 from bondgraph.backends.write import write
-from tests.adversary.plant import HERE, Plant, Simulator, plain
+from tests.adversary.plant import Plant, Simulator, plain
+from tests.elements.answers import answer, compilation
 from tests.elements.rows import Row
 from tests.unit.backends.compilers import InC
 
@@ -34,53 +37,52 @@ class Moves(NamedTuple):
     signatures: list[list[str]]
 
 
-def at(jet: list[float], t: float) -> float:
-    """The value of a power series."""
-    total = 0.0
-    for c in reversed(jet):
-        total = total * t + c
-    return total
+def code_of(model: str, folder: Path) -> tuple[InC, Spelling]:
+    """The generated code as a library, and what its structures call the signals."""
+    found = compilation(model)
+    write(found.artifacts, folder)
+    program = found.program
+    return InC(program, folder, snake(program.name)), Spelling(program, load("c"))
 
 
-def run(plant: Plant, answer: dict[str, Any], folder: Path, row: Row) -> Moves:
+def run(plant: Plant, folder: Path, row: Row) -> Moves:
     """Configure the code with the plant's parameters, and feed it the plant's signals."""
-    compilation = bondgraph.compile(HERE / "models" / f"{plant.name}.bg")
-    write(compilation.artifacts, folder)
-    program = compilation.program
-    code = InC(program, folder, snake(program.name))
-    spelling = Spelling(program, load("c"))
+    found = answer(plant.name)
+    code, spelling = code_of(plant.name, folder)
+    program = code.program
 
     def own(name: str) -> str:
         return plant.alias.get(name, plain(name))
 
-    orders = [o for a in answer["arrs"] for o in a["orders"].values()]
+    orders = [o for a in found["arrs"] for o in a["orders"].values()]
     modes = dict.fromkeys(plant.modes.split(), True)
     sim = Simulator(plant, max(orders, default=0) + 16, modes=modes)
     healthy = sim.solve()
     params = {
-        spelling.params[f.name]: float(sim.nominal[own(answer["names"].get(f.name, f.name))][0])
+        spelling.params[f.name]: float(sim.nominal[own(found["names"].get(f.name, f.name))][0])
         for f in program.params
     }
     members = {spelling.knowns[k.name]: own(k.path) for k in program.knowns}
 
+    t = np.arange(round(row.seconds / row.sample_time)) * row.sample_time
+
     def ended(y: dict[str, Any], base: list[float]) -> list[float]:
-        jets = {x: [float(c) for c in sim.signals[x]] for x in sim.inputs}
-        jets |= {x: [float(c) for c in jet] for x, jet in y.items()}
+        jets = {x: sim.signals[x] for x in sim.inputs} | y
+        told = {
+            m: [modes[x]] * len(t) if x in modes else polyval(t, np.array(jets[x], float)).tolist()
+            for m, x in members.items()
+        }
         assert code.configure(row.sample_time, row.bandwidth, 1.0, **params) == 0
-        for k in range(round(row.seconds / row.sample_time)):
-            now = {
-                m: modes[x] if x in modes else at(jets[x], k * row.sample_time)
-                for m, x in members.items()
-            }
-            values, valid = code.step(**now)
+        for now in zip(*told.values(), strict=True):
+            values, valid = code.step(**dict(zip(told, now, strict=True)))
         assert all(valid), f"{plant.name}: a residual is not valid at the end"
         return [b - a for a, b in zip(base, values, strict=True)]
 
-    level = ended(healthy, [0.0] * len(answer["arrs"]))
+    level = ended(healthy, [0.0] * len(found["arrs"]))
     faults = {}
-    said = [*answer["undetectable"], *[f for g in answer["groups"] for f in g]]
+    said = [*found["undetectable"], *[f for g in found["groups"] for f in g]]
     for fault in said:
         y = sim.perturbed(own(fault), FAULT)
         assert y is not None, f"{plant.name}: the plant cannot have the fault {fault}"
         faults[fault] = ended(y, level)
-    return Moves(level, faults, [a["signature"] for a in answer["arrs"]])
+    return Moves(level, faults, [a["signature"] for a in found["arrs"]])

@@ -14,8 +14,6 @@ from mpmath import mpf
 
 from tests.adversary.jets import Evaluator, Jet
 from tests.adversary.judge import parse
-from tests.adversary.plant import HERE
-from tests.adversary.test_adversary import compiled
 from tests.elements import (
     forms_circuits,
     forms_devices,
@@ -24,6 +22,7 @@ from tests.elements import (
     forms_mechanical,
     forms_processes,
 )
+from tests.elements.answers import ROOT, answer, path
 from tests.elements.forms import Form
 
 FILES = (
@@ -35,7 +34,6 @@ FILES = (
     forms_domains,
 )
 FORMS = [form for file in FILES for form in file.FORMS]
-ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "closed_forms.md"
 STARTS = 1.4, 0.3, -1.6  # of the integrals at the points, besides their own
 SAME = mpf(10) ** -28
@@ -53,12 +51,6 @@ sign(x)*sqrt(|x|); a step `x = ...;` names what the next ones use.
 
 This page is made from `tests/elements/forms_*.py` by `pytest tests/elements --update`.
 """
-
-
-def path(model: str) -> Path:
-    """The model, of the adversary or of `models/`."""
-    here = HERE / "models" / f"{model}.bg"
-    return here if here.is_file() else ROOT / "models" / f"{model}.bg"
 
 
 def page() -> str:
@@ -102,14 +94,14 @@ def later(e: Any) -> Any:
     return e.replace(integral, lambda x, start: integral(x, start + sympy.Symbol(LATER)))
 
 
-def points(form: Form, answer: dict[str, Any], n: int) -> list[list[dict[str, Any]]]:
+def points(form: Form, found: dict[str, Any], n: int) -> list[list[dict[str, Any]]]:
     """Random series for all signals; for each draw of the parameters and modes, some points."""
     draw = random.Random(3)
-    told = {path for arr in answer["arrs"] for path in arr["orders"]}
-    moving = [x for x, path in answer["names"].items() if path in told - set(form.modes.split())]
+    told = {path for arr in found["arrs"] for path in arr["orders"]}
+    moving = [x for x, path in found["names"].items() if path in told - set(form.modes.split())]
     sets = []
     for modes in product([True, False], repeat=len(form.modes.split())):
-        fixed: dict[str, Any] = {x: mpf(draw.random()) + 1 for x in answer["symbols"]}
+        fixed: dict[str, Any] = {x: mpf(draw.random()) + 1 for x in found["symbols"]}
         fixed |= form.values | dict(zip(form.modes.split(), modes, strict=True))
         some = []
         for since in STARTS:
@@ -155,15 +147,15 @@ def spoiled(by_hand: Any, seen: set[str]) -> list[Any]:
 
 
 @pytest.mark.parametrize("form", FORMS, ids=lambda f: f.model)
-def test_the_relations_are_those_by_hand(form: Form, tmp_path: Path) -> None:
-    answer = compiled(path(form.model), tmp_path)
-    assert answer["n_arr"] == len(form.relations)
-    assert sorted(answer["undetectable"]) == sorted(form.undetectable.split())
-    left = list(answer["arrs"])
-    n = 2 + max(o for a in answer["arrs"] for o in a["orders"].values())
-    sets = points(form, answer, n)
+def test_the_relations_are_those_by_hand(form: Form) -> None:
+    found = answer(form.model)
+    assert found["n_arr"] == len(form.relations)
+    assert sorted(found["undetectable"]) == sorted(form.undetectable.split())
+    left = list(found["arrs"])
+    n = 2 + max(o for a in found["arrs"] for o in a["orders"].values())
+    sets = points(form, found, n)
     for relation in form.relations:
-        by_hand = read(relation.form, answer["symbols"])
+        by_hand = read(relation.form, found["symbols"])
         told = set(relation.signature.split())
         for arr in left:
             if set(arr["signature"]) == told and holds(arr, by_hand, sets, n):
@@ -172,7 +164,7 @@ def test_the_relations_are_those_by_hand(form: Form, tmp_path: Path) -> None:
             said = [f"{a['expr']} with {a['signature']}" for a in left]
             pytest.fail(f"{relation.form} with {sorted(told)} is none of {said}")
         left.remove(arr)
-        seen = {x for x, fault in answer["names"].items() if fault in told}
+        seen = {x for x, fault in found["names"].items() if fault in told}
         wrongs = spoiled(by_hand, seen)
         for wrong in wrongs[:: 1 + len(wrongs) // SPOILED]:
             assert not holds(arr, wrong, sets, n), f"{wrong} would do as well"

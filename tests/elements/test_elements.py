@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.adversary.plant import HERE
-from tests.adversary.test_adversary import PLANTS, compiled
+from tests.adversary.test_adversary import PLANTS
 from tests.adversary.verdicts import VERDICTS
+from tests.elements.answers import ROOT, answer, path
 from tests.elements.rows import ROWS, Row
 from tests.elements.running import run
 from tests.elements.simulated import MACHINES
-from tests.elements.test_closed_forms import FORMS, ROOT, path
+from tests.elements.test_closed_forms import FORMS
 
 PAGE = ROOT / "docs" / "elements.md"
 COUNTS = {form.model: len(form.relations) for form in FORMS}
@@ -90,9 +90,8 @@ def test_the_rows_show_many_models_of_many_domains() -> None:
 )
 def test_the_code_sees_what_the_signature_says(row: Row, tmp_path: Path) -> None:
     plant = PLANTS[row.model]
-    answer = compiled(HERE / "models" / f"{row.model}.bg", tmp_path / "answer")
-    assert answer["n_arr"] == plant.n_arr
-    moves = run(plant, answer, tmp_path / "code", row)
+    assert answer(row.model)["n_arr"] == plant.n_arr
+    moves = run(plant, tmp_path, row)
     for k, (level, signature) in enumerate(zip(moves.healthy, moves.signatures, strict=True)):
         assert abs(level) < 1e-4, f"r{k + 1} is {level} on a healthy plant"
         for fault, added in moves.faults.items():

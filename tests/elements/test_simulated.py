@@ -7,14 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import bondgraph
-from bondgraph.backends.names import snake
-from bondgraph.backends.spelling import Spelling
-from bondgraph.backends.target import load
-from bondgraph.backends.write import write
-from tests.adversary.test_adversary import compiled
+from tests.elements.answers import answer
+from tests.elements.running import code_of
 from tests.elements.simulated import MACHINES, Machine, Row, watched
-from tests.unit.backends.compilers import InC
 
 SEEN, UNSEEN = 5, 2  # times the healthy level
 
@@ -22,15 +17,10 @@ SEEN, UNSEEN = 5, 2  # times the healthy level
 class Watch:
     """The code of a model, compiled once; it starts anew for each set of samples."""
 
-    def __init__(self, machine: Machine, folder: Path) -> None:
-        compilation = bondgraph.compile(machine.model)
-        write(compilation.artifacts, folder)
-        program = compilation.program
-        spelling = Spelling(program, load("c"))
+    def __init__(self, name: str, machine: Machine, folder: Path) -> None:
         self.machine = machine
-        self.code = InC(program, folder, snake(program.name))
-        self.members = {spelling.knowns[k.name]: k.path for k in program.knowns}
-        self.flags = {k.path for k in program.knowns if k.path == "on"}
+        self.code, spelling = code_of(name, folder)
+        self.members = {spelling.knowns[k.name]: k.path for k in self.code.program.knowns}
 
     def __call__(self, fault: str = "") -> Row:
         """The residuals that are valid, a row for each sample."""
@@ -39,10 +29,7 @@ class Watch:
         assert self.code.configure(m.sample_time, m.bandwidth, 1.0) == 0
         rows = []
         for k in range(len(told[next(iter(told))])):
-            now = {
-                member: bool(told[path][k]) if path in self.flags else told[path][k]
-                for member, path in self.members.items()
-            }
+            now = {member: told[path][k] for member, path in self.members.items()}
             values, valid = self.code.step(**now)
             if all(valid):
                 rows.append(values)
@@ -59,15 +46,15 @@ def level(rows: Row) -> Row:
 @pytest.mark.parametrize("name", MACHINES)
 def test_the_code_sees_what_the_signature_says(name: str, tmp_path: Path) -> None:
     machine = MACHINES[name]
-    answer = compiled(machine.model, tmp_path / "answer")
-    watch = Watch(machine, tmp_path / "code")
+    said = answer(name)
+    watch = Watch(name, machine, tmp_path)
     healthy = watch()
     quiet = level(healthy)
-    faults = [*answer["undetectable"], *[f for g in answer["groups"] for f in g]]
+    faults = [*said["undetectable"], *[f for g in said["groups"] for f in g]]
     assert set(faults) == {*machine.params, *machine.inputs, *machine.read} - {"on"}
     for fault in faults:
         added = level(watch(fault) - healthy)
-        for k, arr in enumerate(answer["arrs"]):
+        for k, arr in enumerate(said["arrs"]):
             if fault in arr["signature"]:
                 assert added[k] > SEEN * quiet[k], f"{arr['name']} does not see {fault}"
             else:
