@@ -80,6 +80,9 @@ def _wire(causal: CausalGraph, wire: Wire) -> str:
             f'<polygon class="detector" points="{tip}"/></g>'
         )
     way = rounded(wire.points) + barb(wire.points[-2], wire.points[-1])
+    if stroke.reason.cause == "ring":
+        dashed = f'<path class="bond line-faint" stroke-dasharray="4 3" d="{way}"/>'
+        return f"<g>{hint}{hit}{dashed}</g>"
     ends = wire.points if stroke.at == "head" else wire.points[::-1]
     return (
         f'<g>{hint}{hit}<path class="bond line-ink" d="{way}"/>'
@@ -97,6 +100,8 @@ def _reads(causal: CausalGraph, node: int) -> bool:
 def _told(graph: BondGraph, number: int, stroke: Stroke) -> str:
     bond = graph.bonds[number]
     tail, head = graph.nodes[bond.tail.node], graph.nodes[bond.head.node]
+    if stroke.reason.cause == "ring":
+        return f"{bond_name(graph, number)}\n{_why(graph, stroke.reason)}"
     receives, answers = (head, tail) if stroke.at == "head" else (tail, head)
     return (
         f"{bond_name(graph, number)}\n{spoken(receives)} receives the effort, "
@@ -115,6 +120,8 @@ def _why(graph: BondGraph, reason: Reason) -> str:
             return f"so that the law of {node} is used as it is written"
         case "preferred":
             return f"preferred by {node}"
+        case "ring":
+            return f"closes a ring of like junctions at {node}: leave this bond out"
         case "chosen":
             return f"a free choice at {node}"
         case _:

@@ -9,14 +9,15 @@ from bondgraph.text.diagnostic import Diagnostic
 from bondgraph.text.tuples import NamedTuple
 
 Preference = Literal["integral", "derivative"]
-Cause = Literal["source", "sensor", "law", "propagated", "preferred", "chosen"]
+Cause = Literal["source", "sensor", "law", "propagated", "preferred", "chosen", "ring"]
 
 
 class Reason(NamedTuple):
     """Why a stroke stands where it stands.
 
     `source`/`sensor`/`law` fixed by that node; `propagated` forced at `node` by the strokes of
-    the bonds `because`; `preferred` by a storage; `chosen` freely (an algebraic loop variable).
+    the bonds `because`; `preferred` by a storage; `chosen` freely (an algebraic loop variable);
+    `ring` for a bond that closes a ring of like junctions, whose stroke means nothing.
     """
 
     cause: Cause

@@ -226,6 +226,8 @@ def reason(causal: CausalGraph, why: Reason) -> str:
             return f"preferred by {node.path}"
         case "chosen":
             return f"chosen at {node.path}"
+        case "ring":
+            return f"closes a ring at {node.path}"
         case "propagated":
             through = ", ".join(str(b) for b in why.because)
             return f"forced at {node.path}" + (f" by {through}" if through else "")

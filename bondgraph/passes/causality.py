@@ -44,8 +44,10 @@ def assign(graph: BondGraph, preference: Preference, report: Report) -> CausalGr
         strokes = repaired
     for b, bond in enumerate(graph.bonds):
         if strokes.value[b] < 0:  # a bond that no rule and no wish speaks of
+            later = max(bond.head.node, bond.tail.node)
+            ring = graph.nodes[later].kind in ("0", "1")
             value = int(bond.head.node > bond.tail.node)
-            strokes.put(b, value, Reason("chosen", max(bond.head.node, bond.tail.node)))
+            strokes.put(b, value, Reason("ring" if ring else "chosen", later))
     paths = Paths(graph, at, strokes)
     result = _result(graph, preference, strokes, wishes, tuple(paths.loops()))
     if preference == "integral":

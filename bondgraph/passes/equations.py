@@ -19,6 +19,7 @@ class _Builder:
         self.pool = graph.pool
         self.alias: dict[Expr, Expr] = {}  # a port or junction variable to what stands for it
         self.common: dict[Expr, Expr] = {}  # union-find over the junctions' common variables
+        self.idle: set[int] = set()  # bonds that close a ring of like junctions
         self.effort: list[Expr] = []
         self.flow: list[Expr] = []
         self.equations: list[Equation] = []
@@ -40,12 +41,17 @@ class _Builder:
             a, b = nodes[bond.tail.node], nodes[bond.head.node]
             if a.common is not None and b.common is not None and a.kind == b.kind:
                 one, other = self.find(a.common), self.find(b.common)
-                if one is not other:
+                if one is other:
+                    self.idle.add(bond.number)
+                else:
                     older, newer = sorted((one, other), key=lambda v: v.id)
                     self.common[newer] = older
 
     def bond_variable(self, bond: Bond, junction: str, name: str) -> Expr:
-        """The effort (junction "0") or flow (junction "1") of a bond as a signed variable."""
+        """The effort (junction "0") or flow (junction "1") of a bond as a signed variable.
+
+        What goes around a ring of like junctions is not determined and matters to nothing: zero.
+        """
         nodes = self.graph.nodes
         for end in (bond.tail, bond.head):
             node = nodes[end.node]
@@ -57,6 +63,8 @@ class _Builder:
                 if junction == "0":
                     return self.pool.scale(end.effort, port.effort)
                 return self.pool.scale(end.flow, port.flow)
+        if bond.number in self.idle:
+            return self.pool.zero
         kind = Kind.EFFORT if name == "e" else Kind.FLOW
         between = f"{nodes[bond.tail.node].path}->{nodes[bond.head.node].path}.{name}"
         return self.pool.symbol(f"{between}#{bond.number}", kind)

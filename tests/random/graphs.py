@@ -32,23 +32,25 @@ class Graph(NamedTuple):
 
 def generate(random: Random) -> Graph:
     """A graph of a random kind: junctions and what links them, elements on them, sensors."""
-    return _Drawing(random).graph()
+    return Drawing(random).graph()
 
 
-class _Drawing:
+class Drawing:
+    """Draws a graph as text and, at the same time, as rows; `drawn` are its links."""
+
     def __init__(self, random: Random) -> None:
         self.random = random
         self.kinds: list[str] = []
         self.links: list[tuple[int, int, str]] = []  # from, to, what: bond, TF, GY or any
         self.sums: list[list[tuple[int, str, str]]] = []
         self.whens: list[str] = []
+        self.drawn: list[tuple[int, int, str]] = []
         self.parts = Elements(random)
 
     def graph(self) -> Graph:
         """Structure first, then what sits on it."""
         random = self.random
-        shape = random.choice(["tree", "tree", "loops", "loops", "grid", "ring", "ladder"])
-        getattr(self, shape)()
+        self.structure()
         self.parts.common = self.any_common
         self.whens = ["" for _ in self.kinds]
         if self.parts.spice(0.15):
@@ -67,6 +69,11 @@ class _Drawing:
         return self.written()
 
     # ------------------------------------------------------------------------- structures
+
+    def structure(self) -> None:
+        """Junctions and links of one of the shapes."""
+        shapes = ["tree", "tree", "loops", "loops", "grid", "ring", "ladder"]
+        getattr(self, self.random.choice(shapes))()
 
     def tree(self) -> None:
         """Each junction hangs on an earlier one."""
@@ -119,6 +126,7 @@ class _Drawing:
             a, b = b, a
         if what == "any":
             what = random.choice(["bond", "bond", "bond", "TF", "GY"])
+        self.drawn.append((a, b, what))
         if what == "bond":
             e, f = parts.bond()
             parts.line(f"j{a} -> j{b}" if random.random() < 0.5 else f"j{b} <- j{a}")

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from tests.random.graphs import Graph, generate
 from tests.random.judge import judge
 from tests.random.rank import P, rank, relations
+from tests.random.rings import rings, surplus
 from tests.random.run import of_seed
 
 _BATCH = 20
@@ -38,6 +39,20 @@ def test_the_answers_stand(first: int) -> None:
 def test_the_smallest_wrong_answer(random: Random) -> None:
     graph = generate(random)
     assert judge(graph).wrong == "", graph.text
+
+
+@pytest.mark.parametrize("first", range(0, 100, 25))
+def test_rings_and_parallel_bonds_are_one_junction(first: int) -> None:
+    for seed in range(first, first + 25):
+        graph, closing = rings(seed)
+        verdict = judge(graph)
+        assert verdict.wrong == "", (seed, graph.text)
+        assert ("junction-ring" in verdict.notes) <= (closing > 0), (seed, graph.text)
+        if verdict.outcome == "refused: causality-conflict":
+            # more is wrong than that a ring says one thing twice
+            assert surplus(graph) > closing, (seed, graph.text)
+        elif not verdict.outcome.startswith("refused"):
+            assert ("junction-ring" in verdict.notes) == (closing > 0), (seed, graph.text)
 
 
 _ONCE = sorted((Path(__file__).parent / "once").glob("*.bg"))

@@ -12,8 +12,30 @@ from bondgraph.text.source import Span
 
 def report_findings(causal: CausalGraph, paths: Paths, report: Report) -> None:
     """Dependent storages and algebraic loops as information, equal ones counted together."""
+    _rings(causal, report)
     _dependent(causal, paths, report)
     _loops(causal, report)
+
+
+def _rings(causal: CausalGraph, report: Report) -> None:
+    """Bonds between junctions that are one junction without them."""
+    nodes = causal.graph.nodes
+    for bond, stroke in zip(causal.graph.bonds, causal.strokes, strict=True):
+        if stroke.reason.cause == "ring":
+            a, b = nodes[bond.tail.node], nodes[bond.head.node]
+            what = "flow" if a.kind == "0" else "effort"
+            report.warning(
+                "junction-ring",
+                sentence(
+                    f"{name(a)} and {name(b)} are one junction even without this bond: "
+                    f"what {what} it carries is not determined"
+                ),
+                Label(bond.origin, "closes a ring"),
+                Label(a.origin, "one end"),
+                Label(b.origin, "the other end"),
+                help="Leave this bond out; nothing else changes. Or put the R, C or I that lies on "
+                "this way into the model.",
+            )
 
 
 def _dependent(causal: CausalGraph, paths: Paths, report: Report) -> None:

@@ -76,7 +76,12 @@ def network(graph: BondGraph) -> tuple[Network, list[list[int]]]:
 
 
 def rules(kinds: list[str], bonds: list[tuple[int, int]]) -> tuple[Network, list[list[int]]]:
-    """The same for nodes of these kinds and bonds from a tail to a head."""
+    """The same for nodes of these kinds and bonds from a tail to a head.
+
+    A bond that closes a ring of like junctions obeys no rule: they are one junction already, and
+    what flows around the ring is not determined and matters to nothing.
+    """
+    idle = set(closing(kinds, bonds))
     at: list[list[int]] = [[] for _ in kinds]
     for b, (tail, head) in enumerate(bonds):
         at[tail].append(2 * b)
@@ -85,12 +90,36 @@ def rules(kinds: list[str], bonds: list[tuple[int, int]]) -> tuple[Network, list
     for n, kind in enumerate(kinds):
         ends = at[n]
         if kind in ("0", "1"):
+            ends = [end for end in ends if end >> 1 not in idle]
             net.add(n, ends, [kind == "0"] * len(ends))
         elif kind == "TF" and len(ends) == 2:
             net.add(n, ends, [True, True])
         elif kind == "GY" and len(ends) == 2:
             net.add(n, ends, [True, False])
     return net, at
+
+
+def closing(kinds: list[str], bonds: list[tuple[int, int]]) -> list[int]:
+    """The bonds between junctions of one kind that earlier such bonds have made one junction."""
+    parent: dict[int, int] = {}
+
+    def find(n: int) -> int:
+        root = n
+        while root in parent:
+            root = parent[root]
+        while n != root:
+            parent[n], n = root, parent[n]
+        return root
+
+    found = []
+    for b, (tail, head) in enumerate(bonds):
+        if kinds[tail] == kinds[head] and kinds[tail] in ("0", "1"):
+            one, other = find(tail), find(head)
+            if one == other:
+                found.append(b)
+            else:
+                parent[max(one, other)] = min(one, other)
+    return found
 
 
 def must(kind: str, end: int, integral: bool) -> int | None:

