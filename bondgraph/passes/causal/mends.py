@@ -92,6 +92,9 @@ def _candidates(graph: BondGraph, core: list[int], told: Story) -> Iterator[tupl
     ]
     if told.ring:
         yield from [(Change(cut=b), "cut") for b in inner if _closes(graph, b)]
+        if told.over:
+            close = [b for b in at[told.meet] if b in inner]
+            yield from [(Change(splice=(b, k)), "splice") for b in close for k in "10"]
     yield from lossy if told.over else growing
     yield from [(Change(turn=n), "junction") for n in junctions[:1] if n == told.meet]
     yield from lossy
