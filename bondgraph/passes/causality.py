@@ -52,6 +52,10 @@ def assign(graph: BondGraph, preference: Preference, report: Report) -> CausalGr
     result = _result(graph, preference, strokes, wishes, tuple(paths.loops()))
     if preference == "integral":
         report_findings(result, paths, report)
+        if any(node.when is not None for node in graph.nodes):
+            from bondgraph.passes.causal.switches import report_switches
+
+            report_switches(graph, net, musts, report)
     return result
 
 

@@ -11,7 +11,6 @@ from bondgraph.text.tuples import NamedTuple
 
 #: Beyond this size a core is the chain of forced strokes as it was found, not tested link by link.
 _LARGE = 400
-_MOST = 10
 
 
 class Core(NamedTuple):
@@ -96,8 +95,10 @@ def restrict(net: Network, rules: list[int], musts: list[Wish]) -> tuple[Network
     return small, [must._replace(bond=place[must.bond]) for must in musts]
 
 
-def cores(net: Network, musts: list[Wish], alike: Sequence[int] | None = None) -> list[Core]:
-    """Contradictions that have no rule and no demand in common, each irreducible.
+def cores(
+    net: Network, musts: list[Wish], alike: Sequence[int] | None = None, most: int = 10
+) -> list[Core]:
+    """Contradictions that have no rule and no demand in common, each irreducible, `most` of them.
 
     `alike[node]` is the same number for nodes that come from the same place of the text (None: no
     two do): a contradiction is then told once, however many instances of a submodel repeat it.
@@ -106,7 +107,7 @@ def cores(net: Network, musts: list[Wish], alike: Sequence[int] | None = None) -
     kind: Sequence[int] = own if alike is None else alike
     rules = list(range(len(net.ends)))
     found: list[Core] = []
-    while len(found) < _MOST:
+    while len(found) < most:
         core = _core(net, rules, musts)
         if core is None:
             break

@@ -287,9 +287,9 @@ class _Teller:
     # -------------------------------------------------- at a bond, and in a loop
 
     def bond(self, first: int, second: int, last: tuple[tuple[int, int], ...]) -> Story:
-        """Two sources or detectors on one bond."""
+        """Two on one bond that both impose."""
         a, b = self.node(first), self.node(second)
-        what = "effort" if {a.kind, b.kind} <= {"Se", "Df"} else "flow"
+        what = "effort" if {a.kind, b.kind} <= {"Se", "Df", "0"} else "flow"
         self.label(second, role(b))
         self.label(first, role(a))
         at = last[0][0]
@@ -365,7 +365,7 @@ class _Teller:
 
 
 def role(node: Node) -> str:
-    """What a source or detector imposes."""
+    """What a source, a detector or a junction that is switched off imposes."""
     match node.kind:
         case "Se":
             return "imposes an effort"
@@ -373,5 +373,7 @@ def role(node: Node) -> str:
             return "imposes a flow"
         case "De":
             return "an ideal De takes no flow: it imposes the flow zero"
+        case "0" | "1":
+            return f"off, it imposes the {'effort' if node.kind == '0' else 'flow'} zero"
         case _:
             return "an ideal Df takes no effort: it imposes the effort zero"

@@ -174,3 +174,46 @@ def test_the_strokes_that_clash_are_kept() -> None:
     assert conflict.bonds == (0, 1)
     assert conflict.meet == 1
     assert conflict.strokes == ((0, "head"), (1, "head"))  # both bonds bring their effort to 0:n
+
+
+def warnings(text: str) -> list[Diagnostic]:
+    """What is said about the switches of a sound model."""
+    model = Compilation(Source("m.bg", f"bg 1\nmodel M {{\ninput on : bool\n{text}\n}}\n"))
+    _ = model.integral
+    return [d for d in model.report.diagnostics if d.code == "switch-conflict"]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "1:sw when on { <- Sf:pump; -> R:r = 1 }",
+            "While `on` does not hold, 1:sw lets no flow through, but then the flow of one bond is "
+            "imposed at both ends, by 1:sw and Sf:pump.",
+        ),
+        (
+            "Se:u -> 1:in\n 0:bus when not on { <- in; -> R:r = 1 }\n in -> I:l = 1",
+            "",  # the coil carries what the short asks for
+        ),
+        (
+            "Se:u -> TF:t { e1 = 2*e2 } -> bus\n 0:bus when not on { -> R:r = 1 }",
+            "While `on` holds, 0:bus has no effort, but then TF:t receives effort from "
+            "both sides, by 0:bus and Se:u.",
+        ),
+        (
+            "Sf:q -> 0:tank\n 1:valve when on { <- tank; -> R:r = 1 }\n tank -> De:y",
+            "While `on` does not hold, 1:valve lets no flow through, but then nothing imposes the "
+            "effort of 0:tank: Sf:q, 1:valve and De:y all take the effort from it.",
+        ),
+        ("Sf:q -> 0:tank\n 1:valve when on { <- tank; -> R:r = 1 }\n tank -> C:c = 1", ""),
+        ("1:sw when on { <- Sf:pump = if(on, 2, 0); -> R:r = 1 }", ""),
+        # two ways, one of which may be open while the other is closed
+        (
+            "input up : bool\n Sf:q -> 0:n\n 1:a when on { <- n; -> R:r = 1 }\n"
+            "1:b when up { <- n; -> R:s = 1 }",
+            "",
+        ),
+    ],
+)
+def test_a_switch_that_cannot_be_off_is_told(text: str, message: str) -> None:
+    assert [d.message for d in warnings(text)] == ([message] if message else [])
