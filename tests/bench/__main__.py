@@ -6,7 +6,7 @@ import argparse
 import tempfile
 from pathlib import Path
 
-from tests.bench import growth, instructions, toolbox
+from tests.bench import growth, instructions, peers, toolbox
 from tests.bench.clock import in_turn, python
 
 ROOT = Path(__file__).parents[2]
@@ -53,7 +53,9 @@ def main() -> None:
     print()
     toolbox.report(3 if short else 7)
     print()
-    growth.report((100, 1000) if short else (100, 1000, 10_000))
+    peers.report((1, 5, 20, 100) if short else (1, 2, 5, 10, 20, 50, 200, 1000))
+    print()
+    growth.report(short)
 
 
 if __name__ == "__main__":

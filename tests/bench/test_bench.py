@@ -8,7 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.bench import growth, instructions, toolbox
+from bondgraph.pipeline import Compilation
+from bondgraph.text.source import Source
+from tests.bench import families, growth, instructions, peers, toolbox
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
@@ -24,16 +26,43 @@ def test_hand_and_generated_step_agree(tmp_path: Path) -> None:
         assert settled == valid == "1"
 
 
-def test_growth_measures_the_model_it_names() -> None:
-    bonds, seconds = growth.stages(3)
-    assert bonds == 8 * 3 + 3
+@pytest.mark.parametrize(
+    ("text", "bonds", "sensors"),
+    [
+        (families.cable(3), 8 * 3 + 3, 1),
+        (families.chain(20), 5 * 20 + 1 + 10, 10),
+        (families.tree(4), 1 + 6 * 3 + 4 * 8, 4),
+        (families.grid(3), 9 + 12 * 3 + 1 + 2, 2),
+    ],
+)
+def test_growth_measures_the_models_it_names(text: str, bonds: int, sensors: int) -> None:
+    """The bonds counted by hand from the drawing of a cell; as many relations as sensors."""
+    count, seconds = growth.stages(text)
+    assert count == bonds
+    assert list(seconds) == list(growth.STAGES)
     assert all(s > 0 for s in seconds.values())
+    model = Compilation(Source(str(growth.MODELS / "growth.bg"), text))
+    assert len(model.residuals) == sensors
+
+
+@pytest.mark.parametrize("power", [0.5, 1.0, 2.0])
+def test_the_exponent_of_a_power_law_is_its_power(power: float) -> None:
+    points = [(x, 3 * x**power) for x in (10.0, 50.0, 700.0)]
+    assert growth.exponent(points) == pytest.approx(power)
+
+
+def test_the_ladder_of_the_comparison_has_two_states_a_cell() -> None:
+    model = Compilation(Source("ladder.bg", peers.ladder(5)))
+    assert sum(n.kind in ("C", "I") for n in model.graph.nodes) == 10
+    assert len(model.graph.bonds) == 1 + 5 * 5 + 1
 
 
 def test_the_bench_says_what_it_could_not_compare(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("BONDGRAPH_BENCH_PYTHON", "no-such-python")
+    monkeypatch.setenv("BONDGRAPH_BENCH_PEERS", "no-such-folder")
     toolbox.report(1)
-    assert "not compared" in capsys.readouterr().out
+    peers.report((1,))
+    assert capsys.readouterr().out.count("not compared") == 3
     assert all((toolbox.STRUCTURES / f"{name}.csv").is_file() for name in toolbox.NAMES)
