@@ -17,6 +17,7 @@ from bondgraph.cli.main import main
 from tests.adversary import (
     plants_domains,
     plants_laws,
+    plants_machines,
     plants_mechanical,
     plants_other,
     plants_power,
@@ -27,7 +28,15 @@ from tests.adversary.judge import judge, judge_all_modes
 from tests.adversary.plant import HERE, Plant, Simulator, counts
 from tests.adversary.verdicts import VERDICTS, Verdict
 
-FILES = (plants_power, plants_mechanical, plants_other, plants_laws, plants_roots, plants_domains)
+FILES = (
+    plants_power,
+    plants_mechanical,
+    plants_other,
+    plants_laws,
+    plants_roots,
+    plants_domains,
+    plants_machines,
+)
 PLANTS = {p.name: p for file in FILES for p in file.PLANTS}
 SLOW = {"double_mtf"}
 EXIT = {"ok": 0, "no_arr": 0, "error": 1, "refused": 1}

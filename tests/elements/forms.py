@@ -72,6 +72,8 @@ class Form(NamedTuple):
 
     `positive` names the signals that the random points must keep above zero, `modes` those that
     are on or off, `values` those of parameters that a law binds (a speed below that of light).
+    `starts` is added to the start of every integral, a number for each point: where most start, at
+    0, too much vanishes.
     """
 
     model: str
@@ -82,3 +84,4 @@ class Form(NamedTuple):
     positive: str = ""
     modes: str = ""
     values: Mapping[str, float] = NOTHING
+    starts: tuple[float, ...] = (1.4, 0.3, -1.6)

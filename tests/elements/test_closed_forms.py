@@ -20,6 +20,7 @@ from tests.elements import (
     forms_domains,
     forms_machines,
     forms_mechanical,
+    forms_plants,
     forms_processes,
 )
 from tests.elements.answers import ROOT, answer, path
@@ -32,13 +33,13 @@ FILES = (
     forms_mechanical,
     forms_processes,
     forms_domains,
+    forms_plants,
 )
 FORMS = [form for file in FILES for form in file.FORMS]
 PAGE = ROOT / "docs" / "closed_forms.md"
-STARTS = 1.4, 0.3, -1.6  # of the integrals at the points, besides their own
 SAME = mpf(10) ** -28
 SPOILED = 12  # of the terms of a relation are turned round, to see that the comparison is not blind
-LATER = "_later"  # the symbol of STARTS: most integrals start at 0, where too much vanishes
+LATER = "_later"  # the symbol of what is added to the start of every integral
 
 INTRODUCTION = """# Relations by hand: what is expected of each model, and from which law
 
@@ -104,7 +105,7 @@ def points(form: Form, found: dict[str, Any], n: int) -> list[list[dict[str, Any
         fixed: dict[str, Any] = {x: mpf(draw.random()) + 1 for x in found["symbols"]}
         fixed |= form.values | dict(zip(form.modes.split(), modes, strict=True))
         some = []
-        for since in STARTS:
+        for since in form.starts:
             signals = fixed | {LATER: mpf(since)}
             for x in moving:
                 lead = mpf(draw.random() * 2 + 0.1)
