@@ -14,6 +14,7 @@ from bondgraph.exact.plant import Plant
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.passes.cleared import cleared, moduli
 from bondgraph.passes.present import upright
 from bondgraph.passes.reactions import Reactions
 from bondgraph.text.diagnostic import Report
@@ -45,7 +46,8 @@ class _Analysis:
             free = self.reactions.at_free_signals(closing.expr)
             if any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items()):
                 own = pruned(self.pool, closing, free)
-                expr = upright(self.pool, own.expr)
+                expr = cleared(self.pool, own.expr, moduli(self.reduced.system, own.steps))
+                expr = upright(self.pool, expr)
                 if all(expr is not other for _, other, _ in relations):  # two equal gyrators
                     relations.append((own, expr, free.orders))
         reacts = self.reactions.on_trajectories(
