@@ -157,8 +157,8 @@ FORMS = [
         CONVERTER,
         [
             Relation(
-                "voltage law of the coil, its current from the current law of the capacitor",
-                "i = (C*D(u, 1) + u/R)/(1 - a); U - (1 - a)*u - L*D(i, 1)",
+                "voltage law of the coil, its current times 1 - a from that of the capacitor",
+                "m = 1 - a; w = C*D(u, 1) + u/R; m**2*U - m**3*u - L*(m*D(w, 1) - w*D(m, 1))",
                 "L C R U a u",
             )
         ],
@@ -169,8 +169,8 @@ FORMS = [
         CONVERTER,
         [
             Relation(
-                "current law of the capacitor, its voltage from the voltage law of the coil",
-                "u = (U - L*D(i, 1))/(1 - a); (1 - a)*i - u/R - C*D(u, 1)",
+                "current law of the capacitor, its voltage times 1 - a from that of the coil",
+                "m = 1 - a; w = U - L*D(i, 1); m**3*i - m*w/R - C*(m*D(w, 1) - w*D(m, 1))",
                 "L C R U a i",
             )
         ],

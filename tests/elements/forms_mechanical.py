@@ -127,12 +127,13 @@ FORMS = [
         [
             Relation(
                 "about y, the third speed from the equation about x",
-                "wz = (Jx*D(wx, 1) + c*wx - Tx)/((Jy - Jz)*wy); Jy*D(wy, 1) - (Jz - Jx)*wz*wx",
+                "T = Jx*D(wx, 1) + c*wx - Tx; (Jy - Jz)*wy*Jy*D(wy, 1) - (Jz - Jx)*T*wx",
                 "Jx Jy Jz c Tx wx wy",
             ),
             Relation(
                 "about z, the third speed from the equation about x",
-                "wz = (Jx*D(wx, 1) + c*wx - Tx)/((Jy - Jz)*wy); Jz*D(wz, 1) - (Jx - Jy)*wx*wy",
+                "m = (Jy - Jz)*wy; T = Jx*D(wx, 1) + c*wx - Tx;"
+                " Jz*(D(T, 1)*m - T*D(m, 1)) - (Jx - Jy)*wx*wy*m**2",
                 "Jx Jy Jz c Tx wx wy",
             ),
         ],

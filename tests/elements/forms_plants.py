@@ -33,14 +33,14 @@ FORMS = [
         CONVERTER,
         [
             Relation(
-                "current of the capacitor between, its voltage from the first coil",
-                "m = (U - L1*D(i1, 1))/(1 - d); k = C2*D(u, 1) + u/R; "
-                "(1 - d)*i1 - C1*D(m, 1) - d*k",
+                "current of the capacitor between, its voltage times 1 - d from the first coil",
+                "m = 1 - d; w = U - L1*D(i1, 1); k = C2*D(u, 1) + u/R; "
+                "m**3*i1 - C1*(m*D(w, 1) - w*D(m, 1)) - m**2*d*k",
                 "L1 C1 C2 R d U i1 u",
             ),
             Relation(
                 "voltage law of the second coil",
-                "m = (U - L1*D(i1, 1))/(1 - d); k = C2*D(u, 1) + u/R; d*m - L2*D(k, 1) - u",
+                "w = U - L1*D(i1, 1); k = C2*D(u, 1) + u/R; d*w - (1 - d)*(L2*D(k, 1) + u)",
                 "L1 L2 C2 R d U i1 u",
             ),
         ],

@@ -193,7 +193,7 @@ ROWS = [
     Row("Loops", "root inside a root", "electrical", "nested_roots"),
     Row("Loops", "two laws without inverse at one node", "hydraulic", "two_tanh"),
     Row("Loops", "diode and storage behind one node", "electrical", "diode_loop"),
-    Row("Machines", "Cuk's converter by its duty cycle", "electrical", "cuk"),
+    Row("Machines", "Cuk's converter by its duty cycle", "electrical", "cuk", "", *FAST),
     Row("Machines", "motor on an H bridge", "electrical, rotation", "h_bridge"),
     Row("Machines", "synchronous motor with magnets", "electrical, rotation", "pmsm"),
     Row("Machines", "motor with every arrow reversed", "electrical, rotation", "motor_reversed"),
