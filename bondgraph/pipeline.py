@@ -104,8 +104,12 @@ class Compilation:
     def equations(self) -> EquationSystem:
         """The acausal equations."""
         from bondgraph.passes.equations import equations
+        from bondgraph.passes.nominal_loops import nominal_loops
 
-        return self._stage(equations(self.integral.graph))
+        system = equations(self.integral.graph)
+        if self.integral.loops:
+            nominal_loops(system, self.report)
+        return self._stage(system)
 
     @cached_property
     def structure(self) -> StructuralModel:
