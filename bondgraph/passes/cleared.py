@@ -60,7 +60,7 @@ def cleared(pool: Pool, expr: Expr, bases: Iterable[Expr]) -> Expr:
     >>> cleared(p, p.sub(U, p.div(y, m)), [m])
     U*m - y
     >>> cleared(p, p.sub(U, p.der(p.div(y, m))), [m])
-    U*m^2 - m*D(y) + y*D(m)
+    U*m^2 - (m*D(y) - y*D(m))
     """
     work = _Fractions(pool, dict.fromkeys(bases))
     for node in topological([expr]):

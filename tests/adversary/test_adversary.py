@@ -142,7 +142,9 @@ def test_a_random_graph(seed: int, tmp_path: Path) -> None:
     sim = Simulator(plant, 6)
     anywhere = [sim.poly(sim.lead(v), True, 0.3) for v in sim.variables]
     if not counts(sim, anywhere).regular:
-        assert answer["status"] == "error"
+        # Something runs in a ring that nothing determines: refused, or told of by name.
+        codes = {d["code"] for d in answer["diagnostics"]}
+        assert answer["status"] == "error" or codes & {"junction-ring", "loop-gain-one"}
         return
     try:
         sim.solve()

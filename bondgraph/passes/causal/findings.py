@@ -22,7 +22,8 @@ def _rings(causal: CausalGraph, report: Report) -> None:
     nodes = causal.graph.nodes
     for bond, stroke in zip(causal.graph.bonds, causal.strokes, strict=True):
         if stroke.reason.cause == "ring":
-            a, b = nodes[bond.tail.node], nodes[bond.head.node]
+            # in the order of the model, so that turning the bond changes no word
+            a, b = (nodes[n] for n in sorted((bond.tail.node, bond.head.node)))
             what = "flow" if a.kind == "0" else "effort"
             report.warning(
                 "junction-ring",
