@@ -110,8 +110,15 @@ class _Builder:
         return found[0]
 
     def connect(self, final: list[int]) -> None:
-        """Say where the symbols of ports and junctions are."""
+        """Say where the symbols of ports, junctions and the bonds between them are."""
+        nodes, pool = self.graph.nodes, self.graph.pool
         for number, bond in enumerate(self.graph.bonds):
+            if bond.tail.port < 0 and bond.head.port < 0:  # the names that the equations use
+                between = f"{nodes[bond.tail.node].path}->{nodes[bond.head.node].path}"
+                effort = pool.symbol(f"{between}.e#{bond.number}", Kind.EFFORT)
+                flow = pool.symbol(f"{between}.f#{bond.number}", Kind.FLOW)
+                self.place[effort] = (final[2 * number], 1)
+                self.place[flow] = (final[2 * number + 1], 1)
             for end in (bond.tail, bond.head):
                 node = self.graph.nodes[end.node]
                 if end.port >= 0 and node.ports:

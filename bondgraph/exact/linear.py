@@ -19,11 +19,15 @@ CONSTANT = -1
 
 
 class Contradiction(ArithmeticError):
-    """The equations cannot all hold; `row` is the number of one that does not."""
+    """The equations cannot all hold; `row` is the number of one that does not.
 
-    def __init__(self, row: int) -> None:
+    `node` is the node of a nonlinear law that no number could be found for, -1 for none.
+    """
+
+    def __init__(self, row: int, node: int = -1) -> None:
         super().__init__(f"equation {row} contradicts the others")
         self.row = row
+        self.node = node
 
 
 class Singular(ArithmeticError):

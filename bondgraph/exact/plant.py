@@ -32,6 +32,7 @@ from bondgraph.ir.expr import Expr, Kind, Op, Symbol, topological
 from bondgraph.ir.graph import BondGraph
 
 _STILL = 5  # points that are tried with factors at rest, where there are no others
+_LOOSE = 6  # nonlinear elements that are left out, one after the other, where these fail too
 _LARGE = 4000  # coefficients of a trajectory that are many
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
 
@@ -121,14 +122,22 @@ class Plant:
 
         `fault` and `faults` name faults that act at once, each as a random function of time.
         `modes` fixes known booleans, the others are random. With a `part` (see `part_for`) only
-        that part of the plant is simulated. At the `onset` faults are zero still. Raises
-        `ExactUnavailable`, KeyError for an unknown fault.
+        that part of the plant is simulated. At the `onset` faults are zero still. Where no point
+        satisfies all laws, elements of laws that contradict the others are left out: what holds
+        without them holds with them. Raises `ExactUnavailable`, KeyError for an unknown fault.
         """
         acting = (*faults, *([] if fault is None else [fault]))
         for name in acting:
             self._names[name]
         failure: Exception | None = None
-        for attempt in range(ATTEMPTS + _STILL):
+        plant, left_out = part or self.assembly, 0
+        for attempt in range(ATTEMPTS + _STILL * (1 + _LOOSE)):
+            if attempt >= ATTEMPTS + _STILL * (1 + left_out):
+                node = failure.node if isinstance(failure, Contradiction) else -1
+                if node < 0:
+                    break
+                plant = plant._replace(laws=tuple(law for law in plant.laws if law[0] != node))
+                left_out += 1
             functions = Functions(seed * ATTEMPTS + attempt)
             try:
                 constants = self.draw_constants(seed, attempt, modes or {})
@@ -138,7 +147,7 @@ class Plant:
                     acting,
                     constants,
                     functions,
-                    part or self.assembly,
+                    plant,
                     tunable=True,
                     solver=solver,
                     onset=onset,

@@ -17,7 +17,7 @@ from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.field import P, inverse
 from bondgraph.exact.forms import ORDERS
 from bondgraph.exact.known import KnownSample, gradient
-from bondgraph.exact.linear import CONSTANT, Factors, Singular
+from bondgraph.exact.linear import CONSTANT, Contradiction, Factors, Singular
 from bondgraph.exact.point import STRIDE, Point
 from bondgraph.exact.rest import settled
 from bondgraph.exact.series import Series
@@ -64,7 +64,10 @@ def solve(
     system, point = _begun(plant, equations, setting, random)
     equations = system.equations
     c, d = system.offsets.equations, system.offsets.variables
-    point.nonlinear(equations, c)
+    try:
+        point.nonlinear(equations, c)
+    except Contradiction as failure:
+        raise Contradiction(failure.row, equations[failure.row].node) from None
     given = set(system.given)
     found = point.complete(
         [j * STRIDE + k for j in plant.active for k in range(order + 1 if j in given else d[j] + 1)]

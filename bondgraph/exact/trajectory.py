@@ -25,7 +25,8 @@ class Trajectory:
 
     `faults` are the names of the faults that act. `value` gives what a residual is told: readings
     and inputs with their errors, parameters without. `truth` gives the true series. On a `still`
-    one a law is satisfied by a factor that rests, which need not be the only way.
+    one a law is satisfied by a factor that rests, or left out: what does not vanish there may
+    still vanish on the plant.
     """
 
     def __init__(

@@ -250,18 +250,15 @@ class _Decoupling:
         if is_zero(expr) or len(topological([expr])) > _LIMIT:
             return None
         free = without_free_integrals(self.pool, expr)
-        if free is None or is_zero(free[0]):
+        if free is None or is_zero(free.expr):
             return None
-        raw = expr
-        for _ in range(free[1]):
-            raw = self.pool.der(raw)
-        influence = Reactions(self.plant, self.seed).at_free_signals(free[0]).depends
-        if not any(influence.values()) or not self._sound(raw, first.expr, other.expr):
+        influence = Reactions(self.plant, self.seed).at_free_signals(free.expr).depends
+        if not any(influence.values()) or not self._sound(free.raw, first.expr, other.expr):
             return None
         steps = {id(s.variable): s for r in (first, other) for s in r.steps}
         name = f"{other.closing.name} combined with {first.closing.name}, free of {self.fault}"
         equation = other.closing._replace(name=name)
-        return Closing(equation, free[0], tuple(steps.values()), free[1], raw, self.fault)
+        return Closing(equation, free.expr, tuple(steps.values()), free.order, free.raw, self.fault)
 
     def _sound(self, expr: Expr, *sources: Expr) -> bool:
         """Whether no fault that the new relation does not hold moves it all the same.

@@ -48,6 +48,10 @@ class _Offer(NamedTuple):
     how: How
 
 
+#: Equations up to which the rank of those that no sensor reaches is taken as well.
+_CHECKED = 2000
+
+
 class Chain:
     """The state of one elimination.
 
@@ -333,11 +337,8 @@ class Chain:
             if found is None:
                 initial_value_needed(self.report, equation, expr, steps)
                 lost += 1
-            elif found[0] is not self.pool.zero:
-                raw = expr
-                for _ in range(found[1]):
-                    raw = self.pool.der(raw)
-                closings.append(Closing(equation, found[0], steps, found[1], raw))
+            elif found.expr is not self.pool.zero:
+                closings.append(Closing(equation, found.expr, steps, found.order, found.raw))
         unsolved = tuple(v for v in self.system.unknowns if v not in self.closed)
         unmonitored = tuple(e for r, e in enumerate(self.system.equations) if not self.used[r])
         self.report_shortfall(self.loops.identities + len(closings) + lost)
@@ -349,7 +350,8 @@ class Chain:
             steps = [s for s in self.resting_on(rows) if self.loops.open_in(s.closed)]
             loop_unsolvable(self.report, steps, [self.system.equations[r] for r in rows])
         stuck = any(n == 1 and not u for n, u in zip(self.waiting, self.used, strict=True))
-        certain = not stuck and not self.loops.pending  # loops that cancel mislead the matching
+        hidden = len(self.used) <= _CHECKED and not all(self.used)  # what cancels out of sight
+        certain = not stuck and not self.loops.pending and not hidden  # misleads the matching
         relations_missing(self.report, self.system, self.steps.values(), found, certain)
 
 

@@ -3,27 +3,123 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
-from bondgraph.passes.solve import constant
+from bondgraph.passes.solve import affine, constant
+from bondgraph.passes.zero import is_zero
 
 _Value = Callable[[Expr, int], Expr]
 _MOST = 12  # no relation worth having rests on more nested integrals
+_SIGNALS = 4  # integrals that signals multiply, which grow the relation more
+_LARGE = 400  # nodes
 
 
-def without_free_integrals(pool: Pool, expr: Expr) -> tuple[Expr, int] | None:
-    """The relation, differentiated as often as its integrals of unknown start require; how often.
+class Freed(NamedTuple):
+    """`expr` is the relation without undeclared initial values, `raw` what was done to it.
+
+    `raw` is made of the relation as it was, its integrals included; `order` is how often it was
+    differentiated.
+    """
+
+    expr: Expr
+    raw: Expr
+    order: int
+
+
+def without_free_integrals(pool: Pool, expr: Expr) -> Freed | None:
+    """The relation, differentiated as often as its integrals of unknown start require.
 
     None where such an integral stands inside a nonlinear function, so that no derivative of the
     relation is free of it. Parameters are constant in time here.
     """
+    raw = expr
     for order in range(_MOST):
         pushed = _push(pool, expr, order)
         if pushed is None:
-            return None
+            return _one_by_one(pool, expr)
         if not _holding(pushed):
-            return pushed, order
+            return Freed(pushed, raw, order)
+        raw = pool.der(raw)
     return None
+
+
+def _one_by_one(pool: Pool, expr: Expr) -> Freed | None:
+    """The relation without integrals that signals multiply, as the fluxes of a turning machine.
+
+    From c I + b = 0 follows c b' - c' b + c^2 I' = 0, which is c^2 times the derivative of the
+    relation divided by c, and divides by nothing.
+    """
+    raw = expr
+    for order in range(_SIGNALS + 1):
+        pushed = _inside_out(pool, expr)
+        if pushed is None:
+            return None
+        expr = pushed
+        holding = _holding(expr)
+        if not holding:
+            return Freed(expr, raw, order)
+        parts = None
+        for node in holding:
+            if node.op is Op.INT:
+                found = affine(pool, expr, node)
+                if found is not None and not _holding(found[0]) and not is_zero(found[0]):
+                    parts = node, *found
+                    break
+        if parts is None:
+            return None
+        integral, c, b = parts
+        change = pool.der(c)
+        terms = [pool.mul(c, pool.der(b)), pool.neg(pool.mul(change, b))]
+        terms.append(pool.mul(c, c, integral.args[0]))
+        expr = pool.add(*[(1, term) for term in terms])
+        raw = pool.sub(pool.mul(c, pool.der(raw)), pool.mul(change, raw))
+    return None
+
+
+def _inside_out(pool: Pool, expr: Expr) -> Expr | None:
+    """The expression with no free integral below a derivative; None where a function is between."""
+    nodes = topological([expr])
+    if len(nodes) > _LARGE:
+        return None
+    new: dict[Expr, Expr] = {}
+    for node in nodes:
+        args = tuple(new[a] for a in node.args)
+        if node.op is Op.DER:
+            changed = _change(pool, args[0])
+            if changed is None:
+                return None
+            new[node] = changed
+        else:
+            new[node] = pool.rebuild(node, args)
+    return new[expr]
+
+
+def _change(pool: Pool, expr: Expr) -> Expr | None:
+    """The derivative by the rules of sums and products, as far as free integrals are inside."""
+    holding = _holding(expr)
+    changed: dict[Expr, Expr] = {}
+    for node in holding:
+        if node.op is Op.INT:
+            changed[node] = node.args[0]
+        elif node.op is Op.ADD:
+            terms = zip(node.coefficients, node.args, strict=True)
+            changed[node] = pool.add(*[(c, changed.get(a) or pool.der(a)) for c, a in terms])
+        elif node.op is Op.MUL and all(
+            e == 1 for a, e in zip(node.args, node.exponents, strict=True) if a in holding
+        ):
+            factors = [pool.power(a, e) for a, e in zip(node.args, node.exponents, strict=True)]
+            slopes = [
+                changed.get(a) or pool.der(f) for a, f in zip(node.args, factors, strict=True)
+            ]
+            products = [
+                pool.mul(slope, *factors[:at], *factors[at + 1 :])
+                for at, slope in enumerate(slopes)
+            ]
+            changed[node] = pool.add(*[(1, p) for p in products])
+        else:
+            return None
+    return changed[expr] if expr in holding else pool.der(expr)
 
 
 def _holding(expr: Expr) -> dict[Expr, None]:

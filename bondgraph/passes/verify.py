@@ -150,12 +150,13 @@ class _Check:
                 if failure is None or isinstance(failure, Contradictory):
                     failure = reason  # not every combination of switches leaves a plant
                 continue
-            for at, value in enumerate(values):
-                if _moves(value):
-                    name = self.residuals[at].name
-                    if isinstance(point, Trajectory) and point.still:
-                        raise ExactUnavailable("only points at rest were found for its laws")
-                    raise _Failed(at, None, f"residual {name} is not zero on the healthy model")
+            moving = [self.residuals[at].name for at, v in enumerate(values) if _moves(v)]
+            if moving and isinstance(point, Trajectory) and point.still:
+                failure = ExactUnavailable("no point was found at which all its laws hold")
+                continue
+            if moving:
+                at = next(at for at, v in enumerate(values) if _moves(v))
+                raise _Failed(at, None, f"residual {moving[0]} is not zero on the healthy model")
             points.append(point)
         if not points:
             raise failure or ExactUnavailable("no mode of the model has a trajectory")

@@ -6,8 +6,10 @@ import pytest
 import sympy as sp
 
 from bondgraph.exact.plant import Plant
-from bondgraph.ir.expr import Expr, symbols
+from bondgraph.ir.expr import Expr, Kind, Pool, symbols
+from bondgraph.passes.initial import without_free_integrals
 from bondgraph.passes.reactions import Reactions
+from bondgraph.passes.zero import is_zero
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.source import Source
@@ -95,3 +97,41 @@ def test_a_law_of_two_branches_keeps_both_in_its_closed_form() -> None:
     for speed, slope in ((-5, k), (5, m)):
         found = r.expr.subs({y(t): speed, U(t): 7})
         assert sp.simplify(found**2 - (7 - slope * speed) ** 2) == 0
+
+
+def test_an_unknown_flux_that_the_speed_multiplies() -> None:
+    # y = w p, p' = u: the start of p drops out of (y/w)' = u, that is w y' - w' y - w^2 u = 0
+    pool = Pool()
+    w, y, u = (pool.symbol(name, Kind.SENSOR) for name in "wyu")
+    flux = pool.integral(u, pool.symbol("p.0", Kind.FREE))
+    found = without_free_integrals(pool, pool.sub(y, pool.mul(w, flux)))
+    assert found is not None
+    by_hand = pool.sub(pool.mul(w, pool.der(y)), pool.mul(y, pool.der(w)))
+    by_hand = pool.sub(by_hand, pool.mul(w, w, u))
+    assert is_zero(pool.add((1, found.expr), (1, by_hand)))  # the factor of the flux is -w
+    assert found.order == 1
+
+
+INDUCTION = """
+    param G = 5; param H = -4; param K = 6; param Rs = 1; param Rr = 0.8
+    param J = 0.05; param n = 2
+    input load unknown
+    1:sa { <- Se:ua; -> R:Rsa = Rs; -> Df:ia; -> A.s }
+    1:sb { <- Se:ub; -> R:Rsb = Rs; -> Df:ib; -> B.s }
+    1:ra { -> R:Rra = Rr; -> A.r }
+    1:rb { -> R:Rrb = Rr; -> B.r }
+    I:A { port s; port r; s.f = G*s.p + H*r.p; r.f = H*s.p + K*r.p }
+    I:B { port s; port r; s.f = G*s.p + H*r.p; r.f = H*s.p + K*r.p }
+    1:rot { -> I:J; <- Se:shaft = load; -> Df:w }
+    ra -> MGY:ga = n*B.r.p -> rot
+    rb -> MGY:gb = -n*A.r.p -> rot
+"""
+
+
+def test_an_induction_machine_of_unknown_fluxes() -> None:
+    # three sensors less one unknown torque, which hides all that is on the shaft alone
+    c = compiled(INDUCTION)
+    assert len(c.residuals) == 2
+    assert c.verification.method.startswith("exact")
+    unseen = [f for f in c.signatures.faults if not any(c.signatures.row(f))]
+    assert unseen == ["J"]
