@@ -57,11 +57,15 @@ def _strong(
     left = [dict.fromkeys(faults) for _, faults in items]
     found: list[list[str]] = [[] for _ in items]
     decided = False
+    hopeless: list[Mapping[Expr, int] | None] = []  # many choices have been tried there already
     for number, modes in enumerate(Reactions(plant, seed).settings(exprs)):
         if not any(left):
             break
+        if modes in hopeless:
+            continue
         point = _point(exprs, plant, 1000 * seed + number, modes)
         if point is None:
+            hopeless.append(modes)
             continue
         decided = True
         for at, expr in enumerate(exprs):
