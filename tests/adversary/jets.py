@@ -133,6 +133,12 @@ def function(name: str, args: Sequence[Jet]) -> Jet:
         case "asinh":
             root = power(add(one, mul(a, a)), 0.5)
             return _of_argument(a, mpmath.asinh(a[0]), div(one, root))
+        case "acosh":
+            root = power(add(mul(a, a), scale(-1, one)), 0.5)
+            return _of_argument(a, mpmath.acosh(a[0]), div(one, root))
+        case "atanh":
+            slope = div(one, add(one, scale(-1, mul(a, a))))
+            return _of_argument(a, mpmath.atanh(a[0]), slope)
         case "Abs" | "myabs":
             return scale(sign_of(a), a)
         case "sign" | "mysign":

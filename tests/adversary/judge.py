@@ -8,6 +8,7 @@ move exactly where its signature says when one parameter, input or sensor is per
 
 from __future__ import annotations
 
+import itertools
 import random
 from typing import Any, NamedTuple
 
@@ -24,7 +25,10 @@ def judge_all_modes(plant: Plant, answer: dict[str, Any]) -> list[str]:
     modes = plant.modes.split()
     if not modes:
         return judge(plant, answer)
-    found = [judge(plant, answer, dict.fromkeys(modes, value)) for value in (True, False)]
+    found = [
+        judge(plant, answer, dict(zip(modes, values, strict=True)))
+        for values in itertools.product((True, False), repeat=len(modes))
+    ]
     weak = ("does not move", "orders", "by ranks")
     return [
         text
