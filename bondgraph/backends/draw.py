@@ -124,6 +124,8 @@ def _why(graph: BondGraph, reason: Reason) -> str:
             return f"closes a ring of like junctions at {node}: leave this bond out"
         case "chosen":
             return f"a free choice at {node}"
+        case "switched":
+            return f"for the mode in which {node} is off"
         case _:
             bonds = [str(graph.bonds[b].label or graph.bonds[b].number) for b in reason.because]
             if len(bonds) > 6:

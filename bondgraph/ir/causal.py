@@ -9,7 +9,7 @@ from bondgraph.text.diagnostic import Diagnostic
 from bondgraph.text.tuples import NamedTuple
 
 Preference = Literal["integral", "derivative"]
-Cause = Literal["source", "sensor", "law", "propagated", "preferred", "chosen", "ring"]
+Cause = Literal["source", "sensor", "law", "propagated", "preferred", "chosen", "ring", "switched"]
 
 
 class Reason(NamedTuple):
@@ -17,7 +17,8 @@ class Reason(NamedTuple):
 
     `source`/`sensor`/`law` fixed by that node; `propagated` forced at `node` by the strokes of
     the bonds `because`; `preferred` by a storage; `chosen` freely (an algebraic loop variable);
-    `ring` for a bond that closes a ring of like junctions, whose stroke means nothing.
+    `ring` for a bond that closes a ring of like junctions, whose stroke means nothing; `switched`
+    by a switched junction that is off in the mode that the strokes are for.
     """
 
     cause: Cause

@@ -226,6 +226,8 @@ def reason(causal: CausalGraph, why: Reason) -> str:
             return f"preferred by {node.path}"
         case "chosen":
             return f"chosen at {node.path}"
+        case "switched":
+            return f"while {node.path} is off"
         case "ring":
             return f"closes a ring at {node.path}"
         case "propagated":

@@ -32,16 +32,14 @@ def assign(graph: BondGraph, preference: Preference, report: Report) -> CausalGr
     net, at = network(graph)
     musts, wishes = demands(graph, at, preference)
     free = _free_choices(graph, at)
-    strokes = Strokes(net)
-    if oblige(strokes, musts) is not None:
+    strokes = _placed(net, musts, wishes, free)
+    switched = any(node.when is not None for node in graph.nodes)
+    together = strokes is not None  # all switched junctions can be on at once
+    if strokes is None and switched:
+        strokes = _in_a_mode(graph, net, musts, wishes, free)
+    if strokes is None:
         _refuse(graph, report)
         return None
-    if not _greedy(strokes, wishes + free):
-        repaired = _exact(net, musts, wishes, free, hint=strokes.value)
-        if repaired is None:
-            _refuse(graph, report)
-            return None
-        strokes = repaired
     for b, bond in enumerate(graph.bonds):
         if strokes.value[b] < 0:  # a bond that no rule and no wish speaks of
             later = max(bond.head.node, bond.tail.node)
@@ -52,11 +50,41 @@ def assign(graph: BondGraph, preference: Preference, report: Report) -> CausalGr
     result = _result(graph, preference, strokes, wishes, tuple(paths.loops()))
     if preference == "integral":
         report_findings(result, paths, report)
-        if any(node.when is not None for node in graph.nodes):
-            from bondgraph.passes.causal.switches import report_switches
+        if switched:
+            from bondgraph.passes.causal.switches import report_settings, report_switches
 
-            report_switches(graph, net, musts, report)
+            (report_switches if together else report_settings)(graph, net, musts, report)
     return result
+
+
+def _placed(
+    net: Network, musts: list[Wish], wishes: list[Wish], free: list[Wish]
+) -> Strokes | None:
+    """The best assignment under the demands `musts`, None where there is no assignment."""
+    strokes = Strokes(net)
+    if oblige(strokes, musts) is not None:
+        return None
+    if _greedy(strokes, wishes + free):
+        return strokes
+    return _exact(net, musts, wishes, free, hint=strokes.value)
+
+
+def _in_a_mode(
+    graph: BondGraph, net: Network, musts: list[Wish], wishes: list[Wish], free: list[Wish]
+) -> Strokes | None:
+    """An assignment for the first setting of the switches that allows one.
+
+    Ideal switches take turns: the transistor and the diode of a converter are never on together,
+    and no assignment serves both.
+    """
+    from bondgraph.passes.causal.switches import held, settings
+
+    for _, off in settings(graph):
+        part, imposed = held(net, off)
+        strokes = _placed(part, [*imposed, *musts], wishes, free)
+        if strokes is not None:
+            return strokes
+    return None
 
 
 def _refuse(graph: BondGraph, report: Report) -> None:

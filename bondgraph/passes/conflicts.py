@@ -8,6 +8,7 @@ from bondgraph.passes.causal.conflict import cores
 from bondgraph.passes.causal.mends import Mend, mends
 from bondgraph.passes.causal.network import demands, network
 from bondgraph.passes.causal.story import Story, story
+from bondgraph.passes.causal.switches import sound_in_a_mode
 from bondgraph.passes.causal.words import sentence
 from bondgraph.text.diagnostic import Diagnostic
 
@@ -20,6 +21,8 @@ def conflicts(graph: BondGraph) -> tuple[Conflict, ...]:
     """
     net, at = network(graph)
     musts, _ = demands(graph, at, "integral")
+    if sound_in_a_mode(graph, net, musts):
+        return ()
     classes: dict[tuple[str, int, int, str], int] = {}
     alike = [
         classes.setdefault((o.source.path, o.start, o.end, node.kind), n)

@@ -20,6 +20,7 @@ from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
 from bondgraph.ir.residuals import Closing, How, ReducedSystem, Step
 from bondgraph.passes.colour import colours
 from bondgraph.passes.cost import FREE_START, ITERATION, LOOP, Cost, after
+from bondgraph.passes.each_mode import each_mode
 from bondgraph.passes.initial import without_free_integrals
 from bondgraph.passes.linear_block import linear_equation, solve_block
 from bondgraph.passes.loops import Loops
@@ -359,10 +360,23 @@ def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
     """Compute every variable that sensors and sources reach, and keep what is left over.
 
     Near-linear in the number of bonds. Derivatives are avoided as far as possible; where that makes
-    long detours, relations of the same order with shorter paths are taken. Reports
+    long detours, relations of the same order with shorter paths are taken. A loop that no one
+    order of elimination solves in all modes is solved in each. Reports
     `loop-unsolvable` for a nonlinear loop without a closed solution, `initial-value-needed` where
     a relation needs an undeclared initial value.
     """
+    said = Report()
+    result = _eliminated(system, said)
+    if result is None:
+        result = each_mode(system, _eliminated)
+        if result is not None:
+            return result
+    for diagnostic in said.diagnostics:
+        report.add(diagnostic)
+    return result
+
+
+def _eliminated(system: EquationSystem, report: Report) -> ReducedSystem | None:
     chain = _chained(system, report)
     if chain.tangled():
         order = highest_order([row.expr for row in chain.loops.plain])

@@ -22,6 +22,7 @@ from tests.adversary import (
     plants_other,
     plants_power,
     plants_roots,
+    plants_unseen,
 )
 from tests.adversary.fuzz import generate
 from tests.adversary.judge import judge, judge_all_modes
@@ -36,6 +37,7 @@ FILES = (
     plants_roots,
     plants_domains,
     plants_machines,
+    plants_unseen,
 )
 PLANTS = {p.name: p for file in FILES for p in file.PLANTS}
 SLOW = {"double_mtf"}

@@ -217,3 +217,35 @@ def warnings(text: str) -> list[Diagnostic]:
 )
 def test_a_switch_that_cannot_be_off_is_told(text: str, message: str) -> None:
     assert [d.message for d in warnings(text)] == ([message] if message else [])
+
+
+_TURNS = """1:a when {0} {{ <- Se:E; -> x }}
+1:b when {1} {{ <- Se:G; -> x }}
+0:x -> 1:i
+i -> I:L = 1"""
+
+
+def test_ideal_switches_may_take_turns() -> None:
+    """Never on together, the two are no conflict, and there is no mode to warn of."""
+    text = _TURNS.format("on", "not on")
+    assert warnings(text) == []
+    model = Compilation(Source("m.bg", f"bg 1\nmodel M {{\ninput on : bool\n{text}\n}}\n"))
+    assert model.conflicts == ()
+    imposed = [s.reason.cause for s in model.integral.strokes]
+    assert imposed.count("switched") == 2  # both bonds of the junction that is off
+
+
+def test_switches_that_may_meet_are_warned_of_in_the_mode_in_which_they_do() -> None:
+    found = warnings("input up : bool\n" + _TURNS.format("on", "up"))
+    assert [d.message for d in found] == [
+        "While `on` holds and `up` holds, nothing imposes the flow of 1:b: Se:E (through 1:a and "
+        "0:x) and Se:G both take the flow from it."
+    ]
+    assert "Where the machine never is in it" in str(found[0].help)
+
+
+def test_a_conflict_in_every_mode_is_an_error() -> None:
+    text = "input on : bool\n1:s when on { <- Se:a; -> R:r = 1 }\nSe:b -> 0:n <- Se:c; n -> De:y"
+    model = Compilation(Source("m.bg", f"bg 1\nmodel M {{\n{text}\n}}\n"))
+    names = [[model.graph.nodes[n].path for n in c.nodes] for c in model.conflicts]
+    assert names == [["n", "b", "c"]]

@@ -1,0 +1,67 @@
+"""Plants that no one order of elimination serves: every mode by itself, and what stays refused."""
+
+from __future__ import annotations
+
+import pytest
+
+from bondgraph.ir.expr import Op, topological
+from bondgraph.ir.show import show
+from bondgraph.pipeline import Compilation
+from bondgraph.text.diagnostic import CompileError
+from bondgraph.text.source import Source
+
+CONVERTER = """
+1:tr when {0} {{ <- Se:E; -> x }}
+1:fw when {1} {{ <- Se:gnd = 0; -> x }}
+0:x -> 1:coil
+coil {{ -> I:L = 0.3; -> R:r = 0.5; -> Df:i }}
+"""
+
+
+SIX = "on and m0 and m1 and m2 and m3 and m4"
+
+
+def compiled(text: str) -> Compilation:
+    """A model around some statements."""
+    return Compilation(Source("m.bg", f"bg 1\nmodel M {{\ninput on : bool\n{text}\n}}\n"))
+
+
+def shown(model: Compilation) -> list[str]:
+    """The relations."""
+    return [show(r.expr) for r in model.residuals.residuals]
+
+
+def test_what_the_modes_share_stays_outside_the_choice() -> None:
+    """Kirchhoff: E or nothing, less R i and L di/dt in either mode."""
+    (relation,) = shown(compiled(CONVERTER.format("on", "not on")))
+    assert relation.count("D(") == 1
+    assert "if(on, E, 0)" in relation
+
+
+def test_a_mode_without_current_has_a_relation_of_its_own() -> None:
+    """Both switches open: the coil carries nothing. Both closed: there is no such machine."""
+    model = compiled("input d : bool\n" + CONVERTER.format("on", "d"))
+    (relation,) = model.residuals.residuals
+    choices = [n for n in topological([relation.expr]) if n.op is Op.IF]
+    assert {show(c.args[0]) for c in choices} == {"on", "d"}
+    inner = next(c for c in choices if show(c.args[0]) == "d")
+    assert show(inner.args[2]) in ("i", "-i")
+    none = [m for m in model.modes.modes if m.matrix is None]
+    assert [m.modes for m in none] == [{"on": True, "d": True}]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        # six modes are more than are looked at
+        "".join(f"input m{k} : bool\n" for k in range(5))
+        + CONVERTER.format(SIX, f"not ({SIX})"),
+        # the charge that flowed while the switch was closed: no mode knows what others added
+        CONVERTER.format("on", "not on") + "sensor q = int(tr.f)^2",
+    ],
+)
+def test_what_no_mode_by_itself_decides_is_refused(text: str) -> None:
+    model = compiled(text)
+    with pytest.raises(CompileError):
+        _ = model.reduced
+    assert [d.code for d in model.report.diagnostics] == ["loop-unsolvable"]
