@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from bondgraph.ir.equations import EquationSystem
-from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, symbols, topological
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, topological
 from bondgraph.ir.residuals import Step
 
 Denominator = dict[Expr, int]
@@ -36,10 +36,19 @@ def moduli(system: EquationSystem, steps: Sequence[Step]) -> list[Expr]:
             bases = pool.substitute([d for d in own if d not in written], closed)
         else:
             continue
-        for base in bases:
-            if any(s.symbol.kind in KNOWN_SIGNALS for s in symbols(base)):
-                found[base] = None
-    return [*found]
+        found.update(dict.fromkeys(bases))
+    known = _in_known_signals(found)
+    return [base for base in found if base in known]
+
+
+def _in_known_signals(exprs: Iterable[Expr]) -> set[Expr]:
+    """The nodes below the expressions that hold a known signal, in one pass over all of them."""
+    holding: set[Expr] = set()
+    for node in topological(exprs):
+        own = node.op is Op.SYM and node.symbol.kind in KNOWN_SIGNALS
+        if own or any(a in holding for a in node.args):
+            holding.add(node)
+    return holding
 
 
 def _divisors(nodes: Iterable[Expr]) -> list[Expr]:
