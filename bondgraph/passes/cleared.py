@@ -23,20 +23,21 @@ def moduli(system: EquationSystem, steps: Sequence[Step]) -> list[Expr]:
     Constant ones are left out: a transformer whose ratio is zero is none.
     """
     pool = system.graph.pool
-    closed = {s.variable: s.closed for s in steps}
-    found: dict[Expr, None] = {}
+    top: dict[Expr, None] = {}
+    inside: dict[Expr, None] = {}
+    seen: set[Expr] = set()  # values of a loop share nearly all that they are made of
     for step in steps:
         equation = step.equation
         kind = system.graph.nodes[equation.node].kind if equation.node >= 0 else ""
         if step.how == "loop":
-            bases = _divisors([step.closed])
+            top.update(dict.fromkeys(_divisors([step.closed])))
         elif equation.kind == "balance" or kind in ("TF", "GY"):
-            own = _divisors(topological([step.value]))
-            written = _divisors(topological([equation.zero]))  # no work of the elimination
-            bases = pool.substitute([d for d in own if d not in written], closed)
-        else:
-            continue
-        found.update(dict.fromkeys(bases))
+            written = {*_divisors(topological([equation.zero]))}  # no work of the elimination
+            nodes = topological([step.value], stop=seen.__contains__)
+            own = _divisors(n for n in nodes if n not in seen)
+            inside.update(dict.fromkeys(d for d in own if d not in written))
+            seen.update(nodes)
+    found = dict.fromkeys([*top, *pool.substitute(inside, {s.variable: s.closed for s in steps})])
     known = _in_known_signals(found)
     return [base for base in found if base in known]
 
