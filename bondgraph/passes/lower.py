@@ -109,7 +109,9 @@ def lower(
         else:
             info = low.info._replace(order=order)
         lowered.append(low._replace(info=info))
-    configure: list[Statement] = [t.statement for t in tapes if t is not None]
+    configure: list[Statement] = []
+    for tape in tapes:
+        configure += [] if tape is None else [*tape.before, tape.statement]
     own = builder.configure()
     wanted = builder.used
     for tape in tapes:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from bondgraph.ir.expr import Expr, Kind, Op, topological
+from bondgraph.ir.expr import Expr, Kind, Op
 from bondgraph.ir.show import show
 
 OPTION = "@"  # begins the names of the options of configure: no name of a model has it
@@ -46,17 +46,18 @@ class Names:
         return name
 
 
-def written_size(node: Expr) -> int:
-    """How many nodes the expression has when it is written out, shared parts as often as used."""
-    sizes: dict[Expr, int] = {}
-    for n in topological([node]):
-        sizes[n] = 1 + sum(sizes[a] for a in n.args)
-    return sizes[node]
+def _longer(node: Expr, most: int) -> bool:
+    """Whether an expression that is written out, shared parts as often as used, has more nodes."""
+    stack = [node]
+    while stack and most >= 0:
+        stack.extend(stack.pop().args)
+        most -= 1
+    return most < 0
 
 
 def brief(node: Expr, most: int = 90) -> str:
     """An expression for a comment: at most so many characters, `Int(x)` where it starts at 0."""
-    if written_size(node) > 2 * most:
+    if _longer(node, 2 * most):
         return "..."
     text = show(node, _spoken)
     return text if len(text) <= most else text[: most - 4] + " ..."

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from bondgraph.ir.expr import Expr, symbols
+import math
+
+from bondgraph.ir.expr import Expr
 from bondgraph.ir.normal import Tape, Term
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.numeric import evaluate, sensitivity
+from bondgraph.passes.lowering.numeric import evaluate_all, sensitivities
 from bondgraph.passes.lowering.visible import frequency
 
 
@@ -30,13 +32,11 @@ def low_orders(
 
 def _factors(builder: Builder, tape: Tape) -> dict[Expr, float] | None:
     scales = list(dict.fromkeys(e.scale for e in tape.edges))
-    found: dict[Expr, float] = {}
-    for scale, resolved in zip(scales, builder.resolve(scales), strict=True):
-        value = evaluate(resolved, builder.floats)
-        if value is None:
-            return None
-        found[scale] = float(value)
-    return found
+    resolved = builder.resolve(scales)
+    values = evaluate_all(resolved, builder.floats)
+    if values is None:
+        return None
+    return {scale: float(values[r]) for scale, r in zip(scales, resolved, strict=True)}
 
 
 class Effects:
@@ -59,7 +59,8 @@ class Effects:
         key = term.atom, term.order
         if key not in self._found:
             self._found[key] = self._effects(term)
-        return self._found[key].get(name, 0.0) * self.unit**term.order
+        own = self._found[key].get(name, 0.0) * self.unit**term.order
+        return None if math.isnan(own) else own
 
     def _effects(self, term: Term) -> dict[str, float]:
         """By parameter, for the coefficient times unit**-order."""
@@ -85,11 +86,8 @@ class Effects:
             below = adjoint.setdefault(edge.source, [0.0] * size)
             for i, value in enumerate(above[edge.shift :]):
                 below[i] += factor * value
-        found: dict[str, float] = {}
+        weights: dict[Expr, float] = {}
         scales = list(slopes)
         for scale, resolved in zip(scales, builder.resolve(scales), strict=True):
-            for symbol in symbols(resolved):
-                name = symbol.symbol.name
-                own = sensitivity(resolved, name, builder.floats)
-                found[name] = found.get(name, 0.0) + slopes[scale] * (own or 0.0)
-        return found
+            weights[resolved] = weights.get(resolved, 0.0) + slopes[scale]
+        return sensitivities(weights, builder.floats) or {}

@@ -46,7 +46,6 @@ class Procedure:
 
     `leaf` gives the values that are there already (None: look inside); `hoist` takes a constant
     expression and gives the coefficient that holds it; without it constants are computed here.
-    `name_shared` False writes every value out, without statements.
     """
 
     def __init__(
@@ -58,7 +57,6 @@ class Procedure:
         prefix: str,
         hoist: Callable[[Expr], Expression] | None = None,
         constant: Callable[[Expr], bool] = lambda _: False,
-        name_shared: bool = True,
     ) -> None:
         self.pool = pool
         self.leaf = leaf
@@ -67,7 +65,6 @@ class Procedure:
         self.prefix = prefix
         self.hoist = hoist
         self.constant = constant
-        self.name_shared = name_shared
         self._made: dict[Expr, Expression] = {}
         self._users: dict[Expr, int] = {}
 
@@ -93,7 +90,7 @@ class Procedure:
             if value is None:
                 value = self._value(node, pieces.get(node))
                 depth[node] = 1 + max((depth.get(a, 0) for a in node.args), default=0)
-                if self.name_shared and (uses[node] > 1 or depth[node] > _DEEPEST):
+                if uses[node] > 1 or depth[node] > _DEEPEST:
                     if not isinstance(value, Ref | Const):
                         target = Ref("local", self.names.new(self.prefix))
                         place = origin.get(node) if isinstance(origin, Mapping) else origin

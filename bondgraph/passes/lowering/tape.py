@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.normal import Tape, Term
-from bondgraph.ir.program import PolynomialTape, TapeOp, TapeOutput
+from bondgraph.ir.program import Assign, PolynomialTape, TapeOp, TapeOutput
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import label
@@ -24,9 +24,13 @@ _ENOUGH = 64  # orders that the time unit is judged by
 
 
 class Large(NamedTuple):
-    """A large residual: the statement for configure and the coefficient arrays by atom."""
+    """A large residual: the table for configure and the coefficient arrays by atom.
+
+    `before` computes what the factors of the table have in common.
+    """
 
     tape: Tape
+    before: list[Assign]
     statement: PolynomialTape
     arrays: dict[Expr, tuple[str, int]]
     scales: list[Expr]
@@ -82,13 +86,9 @@ def large(builder: Builder, residual: Residual, tape: Tape, rate: float) -> Larg
         at = scales.setdefault(value, len(scales))
         table.append(TapeOp(target, source, edge.shift, at, length_, fresh))
     resolved = builder.resolve(list(scales))
-    # every factor stands alone: the table has no temporaries of its own
-    values = [
-        Procedure(
-            builder.pool, builder.leaf, _no_statement, builder.names, "t", name_shared=False
-        ).value(root, origin)
-        for root in resolved
-    ]
+    before: list[Assign] = []
+    work = Procedure(builder.pool, builder.leaf, before.append, builder.names, "t")
+    values = work.values(resolved, origin)
     outputs = [TapeOutput(arrays[f.atom][0], where[f.node], f.degree + 1) for f in tape.leaves]
     statement = PolynomialTape(
         name,
@@ -100,11 +100,7 @@ def large(builder: Builder, residual: Residual, tape: Tape, rate: float) -> Larg
         f"{residual.name}: factors of all derivatives",
         origin,
     )
-    return Large(tape, statement, arrays, list(scales), _time_unit(builder, tape, rate))
-
-
-def _no_statement(statement: object) -> None:
-    raise AssertionError("a factor of a tape needs no statement of its own")
+    return Large(tape, before, statement, arrays, list(scales), _time_unit(builder, tape, rate))
 
 
 def _allocate(

@@ -16,7 +16,7 @@ from typing import NamedTuple
 from bondgraph.ir.expr import Expr, symbols
 from bondgraph.ir.normal import Term
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.numeric import evaluate, sensitivity
+from bondgraph.passes.lowering.numeric import evaluate, sensitivities
 
 #: theta dc/dtheta of a term for a parameter, None where that has no number
 Effect = Callable[[Term, str], float | None]
@@ -82,11 +82,15 @@ def seen(builder: Builder, terms: tuple[Term, ...], rate: float, resolution: flo
     resolved = builder.resolve([t.coefficient for t in terms])
     coefficients = {(t.atom, t.order): c for t, c in zip(terms, resolved, strict=True)}
 
+    effects: dict[Expr, dict[str, float] | None] = {}
+
     def effect(term: Term, name: str) -> float | None:
         coefficient = coefficients[term.atom, term.order]
-        if not any(s.symbol.name == name for s in symbols(coefficient)):
-            return 0.0
-        return sensitivity(coefficient, name, builder.floats)
+        if coefficient not in effects:
+            effects[coefficient] = sensitivities({coefficient: 1.0}, builder.floats)
+        found = effects[coefficient]
+        own = None if found is None else found.get(name, 0.0)
+        return None if own is None or math.isnan(own) else own
 
     sizes: list[float] = []
     for term in terms:
