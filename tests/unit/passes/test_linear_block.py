@@ -10,6 +10,7 @@ import pytest
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.passes.linear_block import LinearEquation, linear_equation, solve_block
+from bondgraph.runtime.interpret import Interpreter
 from tests.unit.passes.relations import compiled
 
 
@@ -167,3 +168,23 @@ def test_grid_of_resistors_is_nodal_analysis() -> None:
             wrong = floats([relation], {**given, name: given[name] * 1.1})[0]
             alone = name.startswith("y") and name not in {x.symbol.name for x in symbols(relation)}
             assert alone or abs(wrong) > 1e-9 * sum(terms)
+
+
+def test_program_of_a_grid_is_nodal_analysis() -> None:
+    """What step computes is zero at the voltages of the nodal matrix, and moves with a fault."""
+    size = 7
+    text, nodal = grid(size)
+    voltages = np.concatenate([[5.0], np.linalg.solve(nodal[1:, 1:], -nodal[1:, 0] * 5.0)])
+    program = compiled(text).program
+    machine = Interpreter(program)
+    healthy = {"u": 5.0, **{f"y{k}": voltages[k] for k in (24, 48)}}
+    for _ in range(2000):
+        calm = machine.step(healthy).residuals
+    assert len(calm) == 2
+    for name in ("y24", "y48"):
+        moved = Interpreter(program)
+        for _ in range(2000):
+            faulty = moved.step({**healthy, name: healthy[name] * 1.01}).residuals
+        told = [r.name for r in program.residuals if name in r.faults]
+        assert told
+        assert all(abs(faulty[r]) > 1e9 * abs(calm[r]) for r in told)
