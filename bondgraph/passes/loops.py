@@ -3,25 +3,23 @@
 Equations that hold torn variables are rows of a linear system whose entries are polynomials in
 D = d/dt with constant coefficients. A row that holds a torn variable without derivative gives it
 (an algebraic loop); rows that hold only derivatives are combined crosswise, so that the variable
-drops out (a differential loop). What is left without torn variables is a relation.
+drops out (a differential loop, `crosswise`); where neither goes on, a row that gives a derivative
+takes it out of another (`descent`). What is left without torn variables is a relation.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from typing import NamedTuple
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
-from bondgraph.passes.fractions import monomials, without_common_divisor
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.passes.crosswise import Crosswise, LinearRow
+from bondgraph.passes.descent import Descent
 from bondgraph.passes.implicit import invert
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.solve import ITERATED, Solution, affine, constant, solve
-from bondgraph.passes.zero import is_zero, share_factor
-
-Polynomial = list[Expr]  # coefficients of D**0, D**1, ...
-
-#: Parameters, and terms, up to which two polynomials are divided in expanded form.
-_FEW, _SHORT = 5, 60
+from bondgraph.passes.zero import is_zero
 
 
 class _Row(NamedTuple):
@@ -31,26 +29,44 @@ class _Row(NamedTuple):
     expr: Expr
 
 
-class _LinearRow(NamedTuple):
-    """sum of polynomial(D) tear + rest = 0."""
+class _Pivot(NamedTuple):
+    """A row, a torn variable of it, its value, and how many signals that is divided by."""
 
-    rows: tuple[int, ...]
-    entries: dict[Expr, Polynomial]
-    rest: Expr
+    item: _Row
+    symbol: Expr
+    value: Expr
+    divisors: int = 0
+
+
+class _Knot(NamedTuple):
+    """Places of pending rows that torn variables tie to a nonlinear one.
+
+    `surplus` is how many relations they would give if these variables could be computed.
+    """
+
+    members: list[int]
+    surplus: int
 
 
 class Loops:
-    """The torn variables of one elimination and the rows that hold them."""
+    """The torn variables of one elimination and the rows that hold them.
 
-    def __init__(self, pool: Pool, nominal: Nominal) -> None:
+    If `patient`, no row is divided by a signal while another one can be freed of a derivative.
+    """
+
+    def __init__(self, pool: Pool, nominal: Nominal, patient: bool = False) -> None:
         self.pool = pool
         self.nominal = nominal
+        self.patient = patient
+        self.crosswise = Crosswise(pool, nominal)
+        self.descent = Descent(pool, nominal.vanishes)
         self.variable: dict[Expr, Expr] = {}  # tear symbol to the variable it stands for
         self.solved: dict[Expr, _Row] = {}  # tear symbol to its value and rows
-        self.spent: dict[Expr, tuple[int, ...]] = {}  # tear symbol to the rows it dropped out of
         self.pending: list[_Row] = []
         self.plain: list[_Row] = []
         self.lost: list[tuple[int, ...]] = []
+        self.tears: dict[Expr, list[Expr]] = {}  # expression to the torn variables in it
+        self.gentle: dict[Expr, _Pivot | None] = {}  # row to the pivot that it offers
         self.unsolvable: set[tuple[Expr, Expr]] = set()
         self.identities = 0  # relations that hold whatever the machine does
 
@@ -81,7 +97,7 @@ class Loops:
         symbol = self.pool.symbol(f"{variable.symbol.name}?", Kind.TEAR)
         if symbol in self.solved:
             return self.solved[symbol].rows
-        return self.spent.get(symbol, ())
+        return self.crosswise.spent.get(symbol, ())
 
     def refused(self) -> list[tuple[int, ...]]:
         """The equations of each loop that could not be solved and so cost a relation."""
@@ -98,25 +114,53 @@ class Loops:
     def _tears(self, expr: Expr) -> list[Expr]:
         if not self.variable:
             return []
-        return [s for s in symbols(expr) if s.symbol.kind is Kind.TEAR]
+        if expr not in self.tears:
+            self.tears[expr] = [s for s in symbols(expr) if s.symbol.kind is Kind.TEAR]
+        return self.tears[expr]
 
     # -------------------------------------------------------- algebraic loops
 
     def solve_algebraic(self) -> None:
         """Give a value to every torn variable that some row holds without derivative."""
         while self.pending:
-            pivots = (
-                (item, pivot)
-                for attempt in (self._pivot, self._nested)
-                for item in self.pending
-                if (pivot := attempt(item)) is not None
-            )
-            found = next(pivots, None)
+            gentle = self._gentlest() if self.patient else None
+            harsh = self.patient and (gentle is None or gentle.divisors)
+            if harsh and self._lower(self._knots()[0]):
+                continue
+            found = gentle or self._first(self._pivot) or self._first(self._nested)
             if found is None:
                 return
-            item, (symbol, value) = found
-            self.pending.remove(item)
-            self._record(symbol, _Row(item.rows, value))
+            self.pending.remove(found.item)
+            self._record(found.symbol, _Row(found.item.rows, found.value))
+
+    def _first(self, attempt: Callable[[_Row], tuple[Expr, Expr] | None]) -> _Pivot | None:
+        pivots = ((item, attempt(item)) for item in self.pending)
+        return next((_Pivot(item, *pivot) for item, pivot in pivots if pivot is not None), None)
+
+    def _gentlest(self) -> _Pivot | None:
+        """The row that gives a torn variable while it is divided by the fewest signals."""
+        best: _Pivot | None = None
+        for item in self.pending:
+            if item.expr not in self.gentle:
+                self.gentle[item.expr] = self._gentle(item)
+            found = self.gentle[item.expr]
+            if found is not None and (best is None or found.divisors < best.divisors):
+                best = found._replace(item=item)
+                if not best.divisors:
+                    return best
+        return best
+
+    def _gentle(self, item: _Row) -> _Pivot | None:
+        """The torn variable that a row linear in it gives with the fewest signals as divisors."""
+        pivots = []
+        for symbol in self._tears(item.expr):
+            parts = affine(self.pool, item.expr, symbol)
+            if parts is None or self._tears(parts[0]) or is_zero(parts[0]):
+                continue
+            found = solve(self.pool, item.expr, symbol, self.nominal.vanishes)
+            if found is not None:
+                pivots.append(_Pivot(item, symbol, found.value, _signals(parts[0])))
+        return min(pivots, key=lambda p: p.divisors, default=None)
 
     def _nested(self, item: _Row) -> tuple[Expr, Expr] | None:
         """A torn variable that a nonlinear row gives in terms of other torn ones."""
@@ -166,13 +210,13 @@ class Loops:
         self.solved[symbol] = value
         still = []
         for item in self.pending:
+            if symbol not in self._tears(item.expr):
+                still.append(item)
+                continue
             try:
                 expr = self.pool.substitute([item.expr], {symbol: value.expr})[0]
             except ZeroDivisionError:
                 continue  # it divides by what the loop makes zero: the count will miss it
-            if expr is item.expr:
-                still.append(item)
-                continue
             combined = _Row(tuple(dict.fromkeys((*value.rows, *item.rows))), expr)
             (still if self._tears(expr) else self.plain).append(combined)
         self.pending = still
@@ -185,163 +229,68 @@ class Loops:
         The second value counts relations that exist but were lost in a nonlinear loop.
         """
         self.solve_algebraic()
-        found = [(item.rows, item.expr) for item in self.plain]
-        linear: list[_LinearRow] = []
-        nonlinear: list[_Row] = []
-        for item in self.pending:
-            row = self._linear(item)
-            if row is None:
-                nonlinear.append(item)
-            else:
-                linear.append(row)
-        stuck, free = self._stuck(nonlinear, linear)
-        held = [item.rows for item in nonlinear] + [r.rows for r in linear if r not in free]
-        found += self._cross(free)
-        lost = max(0, len(held) - len(stuck))
-        if lost:
-            self.lost.append(tuple(r for rows in held for r in rows))
+        knots, linear = self._knots()
+        while self._lower([knot for knot in knots if knot.surplus]):
+            self.solve_algebraic()
+            knots, linear = self._knots()
+        found = [(item.rows, item.expr) for item in self.plain] + self.crosswise.relations(linear)
+        for knot in knots:
+            if knot.surplus:
+                self.lost.append(tuple(r for at in knot.members for r in self.pending[at].rows))
         telling = [(rows, expr) for rows, expr in found if not is_zero(expr)]
         self.identities = len(found) - len(telling)
-        return telling, lost
+        return telling, sum(knot.surplus for knot in knots)
 
-    def _stuck(
-        self, nonlinear: list[_Row], linear: list[_LinearRow]
-    ) -> tuple[set[Expr], list[_LinearRow]]:
-        """The torn variables tied to a nonlinear row, and the linear rows free of them."""
-        stuck = {t for item in nonlinear for t in self._tears(item.expr)}
-        free = list(linear)
-        while tied := [r for r in free if any(t in stuck for t in r.entries)]:
-            stuck.update(t for r in tied for t in r.entries)
-            free = [r for r in free if r not in tied]
-        return stuck, free
-
-    def _linear(self, item: _Row) -> _LinearRow | None:
-        """The row as polynomials in D; None if it is not linear in its torn variables."""
-        pool = self.pool
-        tears = set(self._tears(item.expr))
-        forms: dict[Expr, tuple[dict[tuple[Expr, int], Expr], Expr]] = {
-            t: ({(t, 0): pool.one}, pool.zero) for t in tears
-        }
-        for node in topological([item.expr]):
-            inside = [a for a in node.args if a in forms]
-            if node in forms or not inside:
+    def _knots(self) -> tuple[list[_Knot], list[LinearRow]]:
+        """Pending rows that are tied to a nonlinear one by torn variables, and the linear rest."""
+        forms = [self.crosswise.linear(item.rows, item.expr) for item in self.pending]
+        tears = [
+            self._tears(item.expr) if form is None else list(form.entries)  # what has not cancelled
+            for item, form in zip(self.pending, forms, strict=True)
+        ]
+        holders: dict[Expr, list[int]] = {}
+        for at, names in enumerate(tears):
+            for symbol in names:
+                holders.setdefault(symbol, []).append(at)
+        knots = []
+        held: set[int] = set()
+        for start, form in enumerate(forms):
+            if form is not None or start in held:
                 continue
-            if node.op is Op.ADD:
-                entries: dict[tuple[Expr, int], list[Expr]] = {}
-                rests = []
-                for c, arg in zip(node.coefficients, node.args, strict=True):
-                    part, rest = forms.get(arg, ({}, arg))
-                    rests.append((c, rest))
-                    for key, value in part.items():
-                        entries.setdefault(key, []).append(pool.scale(c, value))
-                total = {k: pool.add(*[(1, v) for v in vs]) for k, vs in entries.items()}
-                forms[node] = total, pool.add(*rests)
-            elif node.op is Op.MUL and len(inside) == 1:
-                others = pool.mul(
-                    *[
-                        pool.power(a, e)
-                        for a, e in zip(node.args, node.exponents, strict=True)
-                        if a is not inside[0]
-                    ]
-                )
-                if node.exponents[node.args.index(inside[0])] != 1:
-                    return None
-                part, rest = forms[inside[0]]
-                forms[node] = (
-                    {k: pool.mul(v, others) for k, v in part.items()},
-                    pool.mul(rest, others),
-                )
-            elif node.op is Op.DER:
-                part, rest = forms[inside[0]]
-                if not all(constant(v) for v in part.values()):
-                    return None
-                forms[node] = {(t, k + 1): v for (t, k), v in part.items()}, pool.der(rest)
-            else:
-                return None
-        part, rest = forms[item.expr]
-        if not all(constant(v) for v in part.values()):
-            return None
-        polynomials: dict[Expr, Polynomial] = {}
-        for (t, k), value in part.items():
-            polynomial = polynomials.setdefault(t, [])
-            polynomial.extend([pool.zero] * (k + 1 - len(polynomial)))
-            polynomial[k] = pool.add((1, polynomial[k]), (1, value))
-        return _LinearRow(item.rows, _trim(polynomials), rest)
+            members = [start]
+            held.add(start)
+            variables = 0
+            for at in members:  # grows on the way
+                for symbol in tears[at]:
+                    if symbol in holders:
+                        variables += 1
+                        tied = [r for r in holders.pop(symbol) if r not in held]
+                        held.update(tied)
+                        members += tied
+            knots.append(_Knot(sorted(members), max(0, len(members) - variables)))
+        return knots, [f for at, f in enumerate(forms) if f is not None and at not in held]
 
-    def _cross(self, rows: list[_LinearRow]) -> list[tuple[tuple[int, ...], Expr]]:
-        """Combine rows crosswise until each torn variable has dropped out of the others."""
-        found = []
-        while rows:
-            rows.sort(key=lambda r: (len(r.entries), max(map(len, r.entries.values()), default=0)))
-            pivot = rows.pop(0)
-            if not pivot.entries:
-                found.append((pivot.rows, pivot.rest))
-                continue
-            symbol = min(pivot.entries, key=lambda t: (len(pivot.entries[t]), t.id))
-            self.spent[symbol] = pivot.rows
-            rows = [self._combine(r, pivot, symbol) if symbol in r.entries else r for r in rows]
-        return found
-
-    def _combine(self, row: _LinearRow, pivot: _LinearRow, symbol: Expr) -> _LinearRow:
-        """pivot's polynomial times `row` minus row's polynomial times `pivot`."""
-        own, other = self._reduced(row.entries[symbol], pivot.entries[symbol])
-        entries: dict[Expr, Polynomial] = {}
-        for t in dict.fromkeys([*row.entries, *pivot.entries]):
-            if t is not symbol:
-                left = self._times(other, row.entries.get(t, []))
-                right = self._times(own, pivot.entries.get(t, []))
-                entries[t] = self._minus(left, right)
-        rest = self.pool.sub(self._apply(other, row.rest), self._apply(own, pivot.rest))
-        return _LinearRow((*pivot.rows, *row.rows), _trim(entries), rest)
-
-    def _reduced(self, a: Polynomial, b: Polynomial) -> tuple[Polynomial, Polynomial]:
-        """Both polynomials without a common factor in D."""
-        if len(a) > 1 and len(b) > 1 and share_factor(a, b):
-            if len(symbols(*a, *b)) > _FEW or monomials([*a, *b]) > _SHORT:
-                return without_common_divisor(self.pool, a, b, self.nominal.vanishes)
-            from bondgraph.passes.solve_symbolic import without_common_factor
-
-            return without_common_factor(self.pool, a, b)
-        shift = min(_lowest(a), _lowest(b))
-        return a[shift:], b[shift:]
-
-    def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        if not a or not b:
-            return []
-        terms: list[list[Expr]] = [[] for _ in range(len(a) + len(b) - 1)]
-        for i, x in enumerate(a):
-            for j, y in enumerate(b):
-                terms[i + j].append(self.pool.mul(x, y))
-        return [self.pool.add(*[(1, t) for t in ts]) for ts in terms]
-
-    def _minus(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        zero = self.pool.zero
-        size = max(len(a), len(b))
-        a, b = a + [zero] * (size - len(a)), b + [zero] * (size - len(b))
-        return [self.pool.sub(x, y) for x, y in zip(a, b, strict=True)]
-
-    def _apply(self, polynomial: Polynomial, expr: Expr) -> Expr:
-        terms = []
-        for coefficient in polynomial:
-            terms.append((1, self.pool.mul(coefficient, expr)))
-            expr = self.pool.der(expr)
-        return self.pool.add(*terms)
+    def _lower(self, knots: list[_Knot]) -> bool:
+        """Take a derivative out of a row of each knot; False if there is none to take."""
+        done = False
+        for knot in knots:
+            items = [self.pending[at] for at in knot.members]
+            found = self.descent.lowered([item.expr for item in items])
+            if found is not None:
+                rows = tuple(dict.fromkeys((*items[found.by].rows, *items[found.row].rows)))
+                self.pending[knot.members[found.row]] = _Row(rows, found.expr)
+                done = True
+        self.plain += [item for item in self.pending if not self._tears(item.expr)]
+        self.pending = [item for item in self.pending if self._tears(item.expr)]
+        return done
 
 
-def _trim(entries: dict[Expr, Polynomial]) -> dict[Expr, Polynomial]:
-    """Without leading coefficients, and without entries, that are identically zero."""
-    kept = {}
-    for t, polynomial in entries.items():
-        size = len(polynomial)
-        while size and is_zero(polynomial[size - 1]):
-            size -= 1
-        if size:
-            kept[t] = polynomial[:size]
-    return kept
-
-
-def _lowest(polynomial: Polynomial) -> int:
-    return next(k for k, c in enumerate(polynomial) if not is_zero(c))
+def _signals(expr: Expr) -> int:
+    """How many signals and derivatives an expression holds."""
+    return sum(
+        n.op is Op.DER or (n.op is Op.SYM and n.symbol.kind not in CONSTANTS)
+        for n in topological([expr])
+    )
 
 
 def _differentiated(expr: Expr, symbol: Expr) -> bool:

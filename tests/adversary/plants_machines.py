@@ -100,6 +100,31 @@ PLANTS = [
         inputs="delta u",
     ),
     Plant(
+        "bicycle_neutral",
+        model("bicycle_neutral"),
+        equations=(
+            "sf + Cf*((v + a*w)/u - delta); sr + Cr*(v - b*w)/u; m*D(v) + m*u*w - sf - sr; "
+            "Jz*D(w) - a*sf + b*sr; q - D(v) - u*w"
+        ),
+        sensors={"r": "w", "ay": "q"},
+        n_arr=2,
+        params="m Jz a b Cf Cr",
+        inputs="delta u",
+    ),
+    Plant(
+        "induction",
+        model("induction"),
+        equations=(
+            "ua - Rs*sa - D(xa); ub - Rs*sb - D(xb); xa - Ls*sa - M*ra; xb - Ls*sb - M*rb; "
+            "ya - M*sa - Lr*ra; yb - M*sb - Lr*rb; Rr*ra + D(ya) + yb*v; Rr*rb + D(yb) - ya*v; "
+            "yb*ra - ya*rb - J*D(v) - f*v - load"
+        ),
+        sensors={"ia": "sa", "ib": "sb", "w": "v"},
+        n_arr=3,
+        params="Rs Rr Ls Lr M J f",
+        inputs="ua ub load",
+    ),
+    Plant(
         "wind_turbine",
         model("wind_turbine"),
         equations=(

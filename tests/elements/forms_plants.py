@@ -25,6 +25,13 @@ TANK = (
     "Process Supervision"
 )
 SLIP = "v = (a*Cf*delta*u - Jz*u*D(r, 1) - (a**2*Cf + b**2*Cr)*r)/(a*Cf - b*Cr)"
+# rates h, k of the rotor's currents by the stator; the currents solve Rr*x + w*Lr*y = A and
+# Rr*y - w*Lr*x = B, whose determinant Q is never zero
+ROTOR = (
+    "h = (ua - Rs*ia - Ls*D(ia, 1))/M; k = (ub - Rs*ib - Ls*D(ib, 1))/M; "
+    "A = -M*D(ia, 1) - Lr*h - w*M*ib; B = -M*D(ib, 1) - Lr*k + w*M*ia; "
+    "Q = Rr**2 + (w*Lr)**2; x = (Rr*A - w*Lr*B)/Q; y = (Rr*B + w*Lr*A)/Q"
+)
 
 FORMS = [
     Form(
@@ -141,6 +148,47 @@ FORMS = [
                 "the accelerometer",
                 f"{SLIP}; ay - D(v, 1) - u*r",
                 "Jz a b Cf Cr delta u r ay",
+            ),
+        ],
+    ),
+    Form(
+        "bicycle_neutral",
+        "translation, rotation",
+        VEHICLE,
+        [
+            Relation(
+                "the accelerometer; side speed from the front tyre, its force from forces and "
+                "torques on the car",
+                "F = (b*m*ay + Jz*D(r, 1))/(a + b); v = u*(delta - F/Cf) - a*r; ay - u*r - D(v, 1)",
+                "m Jz a b Cf delta u r ay",
+            ),
+            Relation(
+                "law of the rear tyre",
+                "F = (b*m*ay + Jz*D(r, 1))/(a + b); v = u*(delta - F/Cf) - a*r; "
+                "m*ay - F + Cr*(v - b*r)/u",
+                "m Jz a b Cf Cr delta u r ay",
+            ),
+        ],
+    ),
+    Form(
+        "induction",
+        "electrical, rotation",
+        "voltage laws in the frame of the stator: Fitzgerald, Kingsley & Umans, Electric Machinery",
+        [
+            Relation(
+                "rate of the rotor's first current: by its voltage law and by the stator's",
+                f"{ROTOR}; Q**2*(D(x, 1) - h)",
+                "Rs Rr Ls Lr M ua ub ia ib w",
+            ),
+            Relation(
+                "rate of its second current likewise",
+                f"{ROTOR}; Q**2*(D(y, 1) - k)",
+                "Rs Rr Ls Lr M ua ub ia ib w",
+            ),
+            Relation(
+                "torque of fluxes and currents of the rotor",
+                f"{ROTOR}; Q**2*((M*ib + Lr*y)*x - (M*ia + Lr*x)*y - J*D(w, 1) - f*w - load)",
+                "Rs Rr Ls Lr M J f load ua ub ia ib w",
             ),
         ],
     ),

@@ -194,6 +194,7 @@ ROWS = [
     Row("Machines", "Cuk's converter by its duty cycle", "electrical", "cuk", "", *FAST),
     Row("Machines", "motor on an H bridge", "electrical, rotation", "h_bridge"),
     Row("Machines", "synchronous motor with magnets", "electrical, rotation", "pmsm"),
+    Row("Machines", "induction motor, fluxes not known", "electrical, rotation", "induction"),
     Row("Machines", "motor with every arrow reversed", "electrical, rotation", "motor_reversed"),
     Row("Machines", "battery, charge counted", "electrical, chemical", "battery"),
     Row("Machines", "solar cell under unknown light", "electrical", "solar_cell"),
@@ -202,5 +203,6 @@ ROWS = [
     Row("Machines", "load under a crane", "translation, rotation", "crane"),
     Row("Machines", "planetary gear", "rotation", "planetary"),
     Row("Machines", "car in the plane", "translation, rotation", "bicycle"),
+    Row("Machines", "the same, front and rear alike", "translation, rotation", "bicycle_neutral"),
     Row("Machines", "wind turbine in unknown wind", "rotation", "wind_turbine"),
 ]
