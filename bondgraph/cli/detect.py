@@ -92,7 +92,8 @@ def _result(compilation: Compilation, found: Detection) -> dict[str, object]:
         "rate": compilation.program.rate,
         "bandwidth": compilation.program.bandwidth,
         "noise": [
-            {"residual": name, "sigma": sigma, "no_threshold": unbounded.get(name)}
+            {"residual": name, "sigma": sigma, "no_threshold": unbounded.get(name),
+             "undefined": name in found.undefined}
             for name, sigma in found.sigma.items()
         ],
         "faults": [_row(s, units) for s in found.smallest],
@@ -128,7 +129,10 @@ def _lines(compilation: Compilation, found: Detection, situation: Situation) -> 
         "Noise of the filtered residuals",
     ]
     for name, sigma in found.sigma.items():
-        lines.append(f"  {name}  " + ("grows for ever" if sigma is None else f"{sigma:.3g}"))
+        what = "grows for ever" if sigma is None else f"{sigma:.3g}"
+        if name in found.undefined:
+            what = "has no value at these signals: give --at what the machine does"
+        lines.append(f"  {name}  {what}")
     for name, why in _unbounded(compilation).items():
         lines.append(f"  {name}  has no adaptive threshold, only noise counts: {why}")
     units = _units(compilation)

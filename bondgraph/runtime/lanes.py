@@ -71,7 +71,7 @@ class Lanes(Interpreter):
             "total": dict(totals),
         }
         self.states = dict(states or {})
-        known = {name: {0: value} for name, value in signals.items()}
+        known = {name: {0: np.asarray(value, float)[()]} for name, value in signals.items()}
         with np.errstate(all="ignore"):
             for statement in self.program.first if states is None else self.program.step:
                 self._assign(statement, spaces, known, modes)
@@ -105,9 +105,11 @@ class Lanes(Interpreter):
                 return join.reduce(np.broadcast_arrays(*parts))
 
     def _root(self, block: NewtonBlock, args: list[Any]) -> Any:
-        lanes = [np.atleast_1d(a) for a in np.broadcast_arrays(*args)]
-        found = [super(Lanes, self)._root(block, list(lane)) for lane in zip(*lanes, strict=True)]
-        return np.array(found) if found else super()._root(block, args)
+        wide = np.broadcast_arrays(*args)
+        if not wide or not wide[0].shape:
+            return super()._root(block, args)
+        found = [super(Lanes, self)._root(block, list(lane)) for lane in zip(*wide, strict=True)]
+        return np.array(found)
 
     def _lookup(self, name: str, x: Any) -> Any:
         points = self.tables[name]

@@ -50,10 +50,14 @@ class Smallest(NamedTuple):
 
 
 class Detection(NamedTuple):
-    """The noise of each filtered residual (None where it grows for ever), and every fault."""
+    """The noise of each filtered residual (None where it grows for ever), and every fault.
+
+    `undefined` are the residuals that have no value at these signals; their noise is None too.
+    """
 
     sigma: dict[str, float | None]
     smallest: tuple[Smallest, ...]
+    undefined: tuple[str, ...] = ()
 
 
 class _Fault(NamedTuple):
@@ -90,6 +94,7 @@ def smallest(
     if thresholds is not None:
         bound = {n: r[:, 0] for n, r in _simulated(thresholds, {}, {}, 1, situation)[0].items()}
     sigma = noise(program, situation)
+    undefined = [i for i in program.residuals if i.name not in sigma]
     rows = []
     for fault in faults:
         for info in program.residuals:
@@ -100,10 +105,14 @@ def smallest(
                 why = info.unavailable or f"not visible at {program.rate:g} samples a second"
                 rows.append(Smallest(*base, None, None, 0.0, 0.0, why))
                 continue
+            if info in undefined:
+                rows.append(Smallest(*base, None, None, 0.0, 0.0, "no value at these signals"))
+                continue
             slope = np.abs(moved[fault.path][info.name])
             a = bound.get(info.name, np.zeros(len(slope)))
             rows.append(_row(base, fault, slope, a, sigma[info.name], situation.kappa))
-    return Detection({i.path: sigma[i.name] for i in program.residuals}, tuple(rows))
+    own = {i.path: sigma.get(i.name) for i in program.residuals}
+    return Detection(own, tuple(rows), tuple(i.path for i in undefined))
 
 
 def _row(
@@ -238,9 +247,11 @@ def noise(program: Program, situation: Situation) -> dict[str, float | None]:
     """The standard deviation of each filtered residual for white noise of the samples.
 
     Each sample of a signal has the noise of `situation`; an encoder besides that of its counts,
-    evenly spread over one count. None where the residual integrates noise, and so never settles.
+    evenly spread over one count. None where the residual integrates noise, and so never settles;
+    left out where it has no value at these signals.
     """
-    a, b, c, d = _linear(program, situation)
+    with np.errstate(all="ignore"):
+        a, b, c, d = _linear(program, situation)
     found: dict[str, float | None] = {}
     for k, info in enumerate(program.residuals):
         used = _reached(c[k] != 0, a)
@@ -248,6 +259,8 @@ def noise(program: Program, situation: Situation) -> dict[str, float | None]:
         own = a[np.ix_(used, used)]
         if info.unavailable:
             found[info.name] = None
+        elif not all(np.isfinite(m).all() for m in (own, b[used], c[k], d[k])):
+            continue
         elif not used.any():
             found[info.name] = float(np.sqrt(np.sum(d[k] ** 2)))
         elif np.max(np.abs(np.linalg.eigvals(own))) > 1 - 1e-12:
@@ -284,7 +297,7 @@ def _linear(program: Program, situation: Situation) -> tuple[Array, Array, Array
 
     def spread(value: float) -> Array:
         """The value with one pair of lanes of its own, a little above and below."""
-        k, step = len(steps), _STEP * (abs(value) or 1.0)
+        k, step = len(steps), _STEP * ((abs(value) or 1.0) if math.isfinite(value) else 1.0)
         steps.append(step)
         out = np.full(lanes, value, dtype=float)
         out[2 * k] += step

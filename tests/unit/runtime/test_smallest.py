@@ -175,3 +175,35 @@ def test_a_lasting_error_of_a_signal_that_is_differentiated_does_not_show(tmp_pa
     for situation in (Situation(), Situation(at={"angle": 1.0, "torque": 2.0})):
         rows = [s for s in _found(compilation, situation).smallest if s.fault == "torque"]
         assert [s.reason for s in rows] == ["not moved by these signals"]
+
+
+def test_where_a_relation_has_no_value_it_is_said_and_the_others_stay(tmp_path: Path) -> None:
+    """r1 = P - k log(T) has no value at T = 0; at T = 2 an error of T counts half."""
+    path = tmp_path / "m.bg"
+    path.write_text(
+        "bg 1\nmodel M {\nparam k = 1; param R = 1\n"
+        "Sf:P -> 0:n\nn -> R:loss { f = k*log(e) }\nn -> De:T\n"
+        "Se:U -> 1:a\na -> R:R\na -> Df:i\n}\n"
+    )
+    model = bondgraph.compile(path)
+    noise = {"T": 0.01, "i": 0.01}
+    cold = _found(model, Situation(noise=noise))
+    (gone,) = cold.undefined
+    (other,) = set(cold.sigma) - {gone}
+    assert cold.sigma[gone] is None and cold.sigma[other]
+    reasons = {s.reason for s in cold.smallest if s.residual == gone}
+    assert reasons == {"no value at these signals"}
+    warm = _found(model, Situation(at={"T": 2.0}, noise=noise))
+    assert warm.undefined == ()
+    assert _change(warm, "T", gone) == pytest.approx(2 * _change(warm, "P", gone), rel=1e-6)
+
+
+def test_a_relation_with_an_iteration_inside(tmp_path: Path) -> None:
+    """From y = e + exp(e) - 1 follows de/dy = 1/2 at rest, dr/dy = -(1/2)/R - 1/2 - 1 = -2."""
+    path = tmp_path / "m.bg"
+    path.write_text(
+        "bg 1\nmodel M {\nparam R = 1\nSe:U -> 1:a -> 0:n\na -> R:R\n"
+        "n -> R:d { f = exp(e) - 1 }\nn -> 1:b\nb -> R:x { f = e + exp(e) - 1 }\nb -> Df:y\n}\n"
+    )
+    found = _found(bondgraph.compile(path), Situation(noise={"y": 0.01}))
+    assert _change(found, "U", "r1") == pytest.approx(2 * _change(found, "y", "r1"), rel=1e-4)
