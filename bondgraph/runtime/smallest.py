@@ -179,7 +179,8 @@ def _moved(
     for k, fault in enumerate(faults):
         own = found[fault.path] = {}
         for name, r in result.items():
-            change = r[:, 2 * k] - r[:, 2 * k + 1]
+            with np.errstate(invalid="ignore"):  # of a residual without a value
+                change = r[:, 2 * k] - r[:, 2 * k + 1]
             felt = np.abs(change) > _ROUNDING * max(sizes[name][2 * k : 2 * k + 2])
             own[name] = np.where(felt, change / (2 * fault.step), 0.0)
     return found
