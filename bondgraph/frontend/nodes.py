@@ -69,6 +69,13 @@ class Nodes(Declarations):
             help = "Equations and statements are separated by a line end or `;`."
         elif word == "(" or self.after_number(at):
             help = "End the statement with a line end or `;`; a product needs its sign `*`."
+        elif (word, self.words[at + 1]) in (("-", ">"), ("<", "-")):
+            help = "An arrow is written without a space: `->` or `<-`."
+        elif word == ".":
+            help = (
+                "A node is declared by its name alone: write it in a statement of its own, "
+                "`Model:part`, and then its port, `part.port`."
+            )
         raise self.unexpected("the end of the statement", help)
 
     # --------------------------------------------------------- nodes and arrows

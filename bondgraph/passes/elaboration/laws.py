@@ -16,6 +16,9 @@ from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
+#: The variables that the relations of a two-port relate: those of one, those of the other.
+_Pairs = tuple[tuple[Expr, Expr], tuple[Expr, Expr]]
+
 
 class Coefficient(NamedTuple):
     """A written coefficient with a tolerance: a constant of its own."""
@@ -50,10 +53,26 @@ class Laws:
                 fail(self.report, "law-twice", f"`{written.type}:{node.name}` has a coefficient "
                      "and a law.", Label(written.value.origin, "the coefficient"),
                      Label(written.law.origin, "the law"), help="Keep one of them.")  # fmt: skip
-            return self.written(node, element, written)
-        if not element.coefficient:
-            self.no_relation(node, written)
-        return self.linear(node, element, written)
+            laws = self.written(node, element, written)
+        else:
+            if not element.coefficient:
+                self.no_relation(node, written)
+            laws = self.linear(node, element, written)
+        if element.modulated:
+            self.modulation(node, element, laws, written.origin)
+        return laws
+
+    def modulation(
+        self, node: NodeEntry, element: ElementKind, laws: tuple[Law, ...], origin: Span
+    ) -> None:
+        """Say where an M stands for nothing: no law holds a signal of another element."""
+        own = {v for p in node.ports for v in (p.effort, p.flow, p.state)}
+        others = [s for law in laws for s in symbols(law.zero) if s not in own]
+        if all(self.values.constant(s) for s in others):
+            self.report.info(
+                "not-modulated", f"`{node.type}:{node.name}` is driven by no signal.", origin,
+                help=f"`{element.kind}` says the same of what does not change.",
+            )  # fmt: skip
 
     def no_relation(self, node: NodeEntry, written: Node) -> None:
         """A transformer must say in which direction its modulus goes."""
@@ -150,11 +169,6 @@ class Laws:
         fixed, own = (port.effort, e) if element.kind == "Se" else (port.flow, f)
         self.agree(own, term, origin, f"source `{node.local}` gives an {element.coefficient}"
                    if element.kind == "Se" else f"source `{node.local}` gives a flow")  # fmt: skip
-        if element.modulated and self.values.constant(value):
-            self.report.info(
-                "not-modulated", f"`{node.type}:{node.name}` is driven by no signal.", origin,
-                help=f"`{element.kind}` says the same of a constant.",
-            )  # fmt: skip
         return Law(self.pool.sub(fixed, value), fixed, origin)
 
     def pair(self, port: PortVariables) -> tuple[Term, Term]:
@@ -269,32 +283,52 @@ class Laws:
             fail(self.report, "wrong-law-count", f"`{written.type}:{node.name}` needs one relation "
                  f"(the other follows from power conservation), not {len(found)}.",
                  written.law.origin, help=f"Write `{{ {element.law} }}`.")  # fmt: skip
-        if len(found) == 2:
-            return tuple(found)
         one, two = node.ports
         if element.kind == "TF":
             pairs = ((one.flow, two.flow), (one.effort, two.effort))
         else:
             pairs = ((one.effort, two.flow), (one.flow, two.effort))
         law = found[0]
+        other = self.follows(node, law, pairs)
+        if other is None:
+            names = ("f1 = m*f2", "e1 = m*e2") if element.kind == "TF" else (
+                "e1 = k*f2", "e2 = k*f1")  # fmt: skip
+            fail(self.report, "not-a-relation", "This does not relate the two sides of "
+                 f"`{written.type}:{node.name}` by a factor.", law.origin, help="Write "
+                 f"`{{ {names[0]} }}` or `{{ {names[1]} }}`, with any expression for the factor; a "
+                 "general two-port is an `R` field with two named ports.")  # fmt: skip
+        if len(found) == 2 and not self.same(other, found[1], pairs):
+            fail(self.report, "power-not-conserved", f"The two relations of `{written.type}:"
+                 f"{node.name}` do not conserve power: the second does not follow from the first.",
+                 found[1].origin, Label(law.origin, "the first"), help="Leave the second one out, "
+                 "it follows from e1*f1 = e2*f2. What gains or loses power is an `R` field with "
+                 "two named ports.")  # fmt: skip
+        return law, found[1] if len(found) == 2 else other
+
+    def follows(self, node: NodeEntry, law: Law, pairs: _Pairs) -> Law | None:
+        """The relation that follows from a stated one by e1*f1 = e2*f2; None for no relation."""
         present = [v for v in symbols(law.zero) if v in (*pairs[0], *pairs[1])]
         for (a, b), (c, d) in (pairs, pairs[::-1]):
             if all(v in (a, b) for v in present) and len(present) == 2:
                 parts = linear(self.pool, law.zero, (a, b))
                 if parts is None:
-                    break
+                    return None
                 # A a + B b = 0 with power a c' = b d' gives A d + B c = 0 (roles exchanged)
                 self.conserve(node, law)
                 zero = self.pool.add(
                     (1, self.pool.mul(parts[0], d)), (1, self.pool.mul(parts[1], c))
                 )
                 direction = d if law.direction is a else c if law.direction is b else None
-                return law, Law(zero, direction, law.origin)
-        names = ("f1 = m*f2", "e1 = m*e2") if element.kind == "TF" else ("e1 = k*f2", "e2 = k*f1")
-        fail(self.report, "not-a-relation", f"This does not relate the two sides of `{written.type}"
-             f":{node.name}` by a factor.", law.origin, help=f"Write `{{ {names[0]} }}` or "
-             f"`{{ {names[1]} }}`, with any expression for the factor; a general two-port is an "
-             "`R` field with two named ports.")  # fmt: skip
+                return Law(zero, direction, law.origin)
+        return None
+
+    def same(self, one: Law, other: Law, pairs: _Pairs) -> bool:
+        """Whether two relations relate the same two variables by the same factor."""
+        for pair in pairs:
+            a, b = (linear(self.pool, law.zero, pair) for law in (one, other))
+            if a is not None and b is not None:
+                return self.pool.mul(a[0], b[1]) is self.pool.mul(a[1], b[0])
+        return False
 
     def conserve(self, node: NodeEntry, law: Law) -> None:
         """The units of the relation that follows: e1*f1 = e2*f2 in power."""

@@ -144,3 +144,16 @@ def test_every_wrong_statement_gets_one_error(body: str) -> None:
     _, report = read("bg 1\nmodel M {\n    " + body + "\n}\n")
     assert len(report.diagnostics) == 1, [(d.code, d.message) for d in report.diagnostics]
     assert errors.page(report.diagnostics[0].code) is not None
+
+
+@pytest.mark.parametrize(
+    ("line", "remedy"),
+    [
+        ("Se:U - > 1:a", "An arrow is written without a space"),
+        ("R:r < - 1:a", "An arrow is written without a space"),
+        ("Se:U -> Motor:m.el", "`Model:part`, and then its port"),
+    ],
+)
+def test_what_was_meant_is_proposed(line: str, remedy: str) -> None:
+    _, said = read(f"bg 1\nmodel M {{\n{line}\n}}\n")
+    assert remedy in str(said.diagnostics[0].help)

@@ -105,6 +105,9 @@ ONE = [
     ("j -> TF:x { port a; port b; a.e = b.e; a.f = b.f } -> R:z = 1", "ports-not-allowed"),
     ("Se:V { f = 2 } -> j", "wrong-variable"),
     ("j -> TF:x { f1 = f2^2 } -> R:z = 1", "not-a-relation"),
+    ("j -> TF:x { f1 = 2*f2; f2 = f1/3 } -> R:z = 1", "power-not-conserved"),
+    ("j -> TF:x { f1 = 2*f2; e1 = 2*e2 } -> R:z = 1", "power-not-conserved"),
+    ("j -> GY:x { e1 = 2*f2; f1 = 2*e2 } -> R:z = 1", "power-not-conserved"),
     ("Df:z = j.f; j -> z", "not-a-sensor"),
     ("param R : Ohm; j -> C:c = 1 F; let a = R + c.q/c.e", "unit-mismatch"),
 ]
@@ -278,3 +281,34 @@ def test_any_words_give_a_model_or_a_diagnostic(words: list[str]) -> None:
     if file is not None:
         found = elaborate(file, source, None, lambda _, __: None, report, False)
         assert (found is None) == report.failed
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        "f1 = 2*f2; e2 = 2*e1",
+        "e1 = 2*e2; f2 = 2*f1",
+        "f2 = f1/2; 0 = e2 - 2*e1",
+        "f1 = (1-a)*f2; e2 = (1-a)*e1",
+        "e1 = e2/(1-a); f1 = (1-a)*f2",
+    ],
+)
+def test_both_relations_of_a_transformer_may_stand_where_they_agree(law: str) -> None:
+    said = run(f"model M {{\n{BASE}input a\nj -> TF:x {{ {law} }} -> R:z = 1\n}}")[1]
+    assert said == []
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("j -> MR:z = 2", True),
+        ("param k = 2; j -> MTF:x { f1 = k*f2 } -> R:z = 1", True),
+        ("j -> MR:z { e = f*abs(f) }", True),
+        ("input a; j -> MR:z = a", False),
+        ("j -> MTF:x { f1 = r.e*f2 } -> R:z = 1", False),
+        ("j -> MGY:x = int(j.f) -> R:z = 1", False),
+    ],
+)
+def test_an_m_without_a_signal_is_told(line: str, told: bool) -> None:
+    codes = [d.code for d in run(f"model M {{\n{BASE}{line}\n}}")[1]]
+    assert codes == (["not-modulated"] if told else [])
