@@ -37,7 +37,7 @@ def print_json(value: object) -> None:
 
 
 #: Findings about a model that is sound, but that the compiler cannot solve.
-_REFUSALS = frozenset({"initial-value-needed", "loop-unsolvable"})
+_REFUSALS = frozenset({"initial-value-needed", "loop-too-large", "loop-unsolvable"})
 
 
 def status(error: CompileError) -> str:

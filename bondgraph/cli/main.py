@@ -43,8 +43,15 @@ def parsed(words: list[str]) -> SimpleNamespace | argparse.Namespace:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit status is 0 (done), 1 (wrong model) or 2 (wrong usage)."""
-    words = list(sys.argv[1:] if argv is None else argv)
-    args = parsed(words)
+    try:
+        return _run(parsed(list(sys.argv[1:] if argv is None else argv)))
+    except BrokenPipeError:
+        # The reader has gone (`bondgraph dump ... | head`): not an error of anybody.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def _run(args: SimpleNamespace | argparse.Namespace) -> int:
     command = import_module(f"bondgraph.cli.{args.command}")
     as_json = bool(getattr(args, "json", False))
     try:
@@ -52,11 +59,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
         return status
     except CompileError as error:
-        return console.failed(error, as_json)
+        status = console.failed(error, as_json)
+        sys.stdout.flush()
+        return status
     except BrokenPipeError:
-        # The reader has gone (`bondgraph dump ... | head`): not an error of anybody.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
+        raise
     except KeyboardInterrupt:
         print("interrupted, nothing half written", file=sys.stderr)
         return 130

@@ -14,17 +14,22 @@ import heapq
 from contextlib import suppress
 from typing import NamedTuple
 
-from bondgraph.ir.equations import EquationSystem
+from bondgraph.ir.equations import Equation, EquationSystem
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
 from bondgraph.ir.residuals import Closing, How, ReducedSystem, Step
 from bondgraph.passes.colour import colours
 from bondgraph.passes.cost import FREE_START, ITERATION, LOOP, Cost, after
 from bondgraph.passes.initial import without_free_integrals
-from bondgraph.passes.linear_block import linear_equation, solve_block
+from bondgraph.passes.linear_block import LARGEST, linear_equations, products, solve_block
 from bondgraph.passes.loops import Loops
 from bondgraph.passes.matching import components, decompose
 from bondgraph.passes.nominal import Nominal
-from bondgraph.passes.shortfall import initial_value_needed, loop_unsolvable, relations_missing
+from bondgraph.passes.shortfall import (
+    initial_value_needed,
+    loop_too_large,
+    loop_unsolvable,
+    relations_missing,
+)
 from bondgraph.passes.solve import ITERATED, Solution, solve
 from bondgraph.text.diagnostic import Report
 
@@ -82,6 +87,7 @@ class Chain:
         self.later: list[_Offer] = []
         self.nominal = Nominal(system.graph)
         self.loops = Loops(self.pool, self.nominal, patient=not starts)
+        self.oversized: list[list[Equation]] = []  # linear loops too large to be written out
 
     # ---------------------------------------------------------------- chaining
 
@@ -273,14 +279,15 @@ class Chain:
 
     def block(self, rows: list[int]) -> bool:
         """Solve a large linear block as a whole; False if it is none."""
-        lines = []
-        for row in rows:
-            equation = self.system.equations[row]
-            free = [v for v in equation.variables if v not in self.closed]
-            line = linear_equation(self.pool, row, equation.zero, free, self.substituted)
-            if line is None:
-                return False
-            lines.append(line)
+        equations = {row: self.system.equations[row] for row in rows}
+        lines = linear_equations(self.pool, equations, self.closed, self.substituted)
+        if lines is None:
+            return False
+        if products(lines, LARGEST) > LARGEST:
+            self.oversized.append([*equations.values()])
+            for row in rows:
+                self.used[row] = True
+            return True
         found = solve_block(self.pool, lines, self.nominal.size)
         if found is None:
             return False
@@ -352,6 +359,10 @@ class Chain:
 
     def report_shortfall(self, found: int) -> None:
         """Say which loops cost a relation, and hold the number of relations to theory."""
+        for loop in self.oversized:
+            loop_too_large(self.report, loop)
+        if self.oversized:
+            return
         for rows in self.loops.refused():
             steps = [s for s in self.resting_on(rows) if self.loops.open_in(s.closed)]
             loop_unsolvable(self.report, steps, [self.system.equations[r] for r in rows])

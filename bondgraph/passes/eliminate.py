@@ -20,7 +20,8 @@ def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
     long detours, relations of the same order with shorter paths are taken, and where it misses an
     initial value, no integral without one is used. A loop that no one order of elimination solves
     in all modes is solved in each. Reports `loop-unsolvable` for a nonlinear loop without a closed
-    solution, `initial-value-needed` where a relation needs an undeclared initial value.
+    solution, `loop-too-large` for a linear one of ten thousand bonds, `initial-value-needed` where
+    a relation needs an undeclared initial value.
     """
     said = Report()
     result = _eliminated(system, said)

@@ -51,6 +51,20 @@ def loop_unsolvable(report: Report, steps: Sequence[Step], closing: Sequence[Equ
     )
 
 
+def loop_too_large(report: Report, loop: Sequence[Equation]) -> None:
+    """Say which linear loop has a solution that is too long to be written out."""
+    laws = {e.name: e.origin for e in loop if e.kind == "law"}
+    names = [f"`{name}`" for name in laws]
+    report.error(
+        "loop-too-large",
+        f"The linear loop through {', '.join(names[:3])} and {len(names) - 3} more has a solution"
+        " that takes more than a million products to write out.",
+        *list(laws.values())[:3],
+        help="Measure inside it: sensors along a line through the loop cut it into parts that are"
+        " solved alone. Or describe what is far from every sensor by fewer elements.",
+    )
+
+
 def relations_missing(
     report: Report, system: EquationSystem, steps: Iterable[Step], found: int, certain: bool
 ) -> None:

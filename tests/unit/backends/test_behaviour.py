@@ -58,9 +58,7 @@ def test_c_and_python_give_the_same_digits(make: programs.Maker, tmp_path: Path)
         assert [getattr(found, n) for n in names] == pytest.approx(numbers, rel=1e-13, abs=1e-13)
         assert [n in found.valid for n in names] == valid
         given = _given(list(derivatives(program, ours)), values)
-        exact = monitor.exact(
-            module.Derivatives(**_named(list(derivatives(program, ours)), given))
-        )
+        exact = monitor.exact(module.Derivatives(**_named(list(derivatives(program, ours)), given)))
         numbers = in_c.exact(**_named(list(derivatives(program, theirs)), given))
         same = pytest.approx(numbers, rel=1e-12, abs=1e-13, nan_ok=True)
         assert [getattr(exact, n) for n in names] == same

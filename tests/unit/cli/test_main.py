@@ -115,16 +115,30 @@ def test_a_failure_of_the_compiler_is_called_so(
     assert done.status == 1 and "gremlins" in done.err and "bug in bondgraph" in done.err
 
 
-def test_a_reader_that_leaves_is_no_error() -> None:
+@pytest.mark.parametrize(
+    ("words", "first"),
+    [("dump --stage syntax models/khepera.bg", "File"), ("check no_such_model.bg --json", "{")],
+)
+def test_a_reader_that_leaves_is_no_error(words: str, first: str) -> None:
+    """Where there is a result to print, and where there is an error."""
     done = subprocess.run(
-        f"{sys.executable} -m bondgraph dump --stage syntax models/khepera.bg | head -n 1",
+        f"{sys.executable} -m bondgraph {words} | head -n 1",
         shell=True,
         cwd=ROOT,
         capture_output=True,
         text=True,
         check=False,
     )
-    assert done.stderr == "" and done.stdout.startswith("File")
+    assert done.stderr == "" and done.stdout.startswith(first)
+    gone = subprocess.run(
+        f"{sys.executable} -m bondgraph {words} | true",
+        shell=True,
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert "Traceback" not in gone.stderr and "Broken" not in gone.stderr
 
 
 #: Modules that would make `check` start too late; see docs/decisions/light-nouns.md.

@@ -88,8 +88,7 @@ def test_a_residual_that_never_has_a_value() -> None:
 def test_a_law_of_two_branches_keeps_both_in_its_closed_form() -> None:
     # f = y measured, so that 0 = U - k y on one side and U - m y on the other
     c = compiled(
-        "param k = 2; param m = 3\n"
-        "1:j { <- Se:U; -> R:valve { e = if(f < 0, k*f, m*f) }; -> Df:y }"
+        "param k = 2; param m = 3\n1:j { <- Se:U; -> R:valve { e = if(f < 0, k*f, m*f) }; -> Df:y }"
     )
     (r,) = c.residuals
     t, U, y = sp.Symbol("t", real=True), sp.Function("U", real=True), sp.Function("y", real=True)

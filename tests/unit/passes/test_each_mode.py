@@ -54,8 +54,7 @@ def test_a_mode_without_current_has_a_relation_of_its_own() -> None:
     "text",
     [
         # six modes are more than are looked at
-        "".join(f"input m{k} : bool\n" for k in range(5))
-        + CONVERTER.format(SIX, f"not ({SIX})"),
+        "".join(f"input m{k} : bool\n" for k in range(5)) + CONVERTER.format(SIX, f"not ({SIX})"),
         # the charge that flowed while the switch was closed: no mode knows what others added
         CONVERTER.format("on", "not on") + "sensor q = int(tr.f)^2",
     ],

@@ -4,13 +4,21 @@ from __future__ import annotations
 
 import math
 import random
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
-from bondgraph.passes.linear_block import LinearEquation, linear_equation, solve_block
+from bondgraph.passes import chain, linear_block
+from bondgraph.passes.linear_block import (
+    LinearEquation,
+    linear_equation,
+    products,
+    solve_block,
+)
 from bondgraph.runtime.interpret import Interpreter
+from bondgraph.text.diagnostic import CompileError
 from tests.unit.passes.relations import compiled
 
 
@@ -188,3 +196,37 @@ def test_program_of_a_grid_is_nodal_analysis() -> None:
         told = [r.name for r in program.residuals if name in r.faults]
         assert told
         assert all(abs(faulty[r]) > 1e9 * abs(calm[r]) for r in told)
+
+
+@pytest.mark.parametrize("size", [4, 6])
+def test_products_are_counted_before_they_are_formed(
+    size: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A count on the pattern is that of the elimination, but for the choice among equal pivots."""
+    formed = [0]
+    take = linear_block._Elimination.take
+
+    def counted(self: linear_block._Elimination, at: int, variable: Expr) -> None:
+        formed[0] += (len(self.holders[variable]) - 1) * (len(self.rows[at].entries) - 1)
+        take(self, at, variable)
+
+    lines: list[Sequence[LinearEquation]] = []
+    monkeypatch.setattr(linear_block._Elimination, "take", counted)
+    monkeypatch.setattr(
+        chain, "products", lambda found, most: lines.append(found) or products(found, most)
+    )
+    compiled(grid(size)[0]).reduced  # noqa: B018
+    (block,) = lines
+    assert 0.7 < products(block, 10**6) / formed[0] < 1.3
+    assert products(block, 20) in range(21, 21 + 4 * size * size)
+
+
+def test_a_loop_too_large_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(chain, "LARGEST", 50)
+    c = compiled(grid(7)[0])
+    with pytest.raises(CompileError) as caught:
+        c.reduced  # noqa: B018
+    found = [d for d in caught.value.diagnostics if d.severity == "error"]
+    assert [d.code for d in found] == ["loop-too-large"]
+    # 49 + 84 resistors, but those to ground whose voltage is given or measured
+    assert "`l1`, `l2`, `l3` and 127 more" in found[0].message

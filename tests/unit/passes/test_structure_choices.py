@@ -113,11 +113,7 @@ der_5,   ,    ,    ,    ,    I,   ,    ,    ,    ,    D
 def _minimal(placing: Placing) -> list[tuple[int, ...]]:
     """Choices that reach what all candidates do, none of them with a needless sensor."""
     best = placing.isolability(range(len(placing.candidates)))
-    enough = [
-        set(c)
-        for c in subsets(range(len(placing.candidates)))
-        if placing.reaches(c, best)
-    ]
+    enough = [set(c) for c in subsets(range(len(placing.candidates))) if placing.reaches(c, best)]
     return sorted(tuple(sorted(c)) for c in enough if not any(d < c for d in enough))
 
 
