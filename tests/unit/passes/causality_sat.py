@@ -6,12 +6,14 @@ Nothing of the compiler is used but the nouns of the graph. Literals are those o
 
 from __future__ import annotations
 
-from itertools import combinations
+from collections.abc import Container
+from itertools import combinations, product
 
 from pysat.examples.rc2 import RC2
 from pysat.formula import WCNF
 from pysat.solvers import Cadical153
 
+from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 from tests.unit.passes.causality_graphs import superfluous
 
@@ -53,15 +55,46 @@ def _exactly_one(literals: list[int]) -> list[Clause]:
     return [literals, *[[-a, -b] for a, b in combinations(literals, 2)]]
 
 
-def hard(graph: BondGraph, free: frozenset[str] = frozenset()) -> list[Clause]:
-    """What all nodes demand, but for nodes of the `free` kinds."""
+def hard(
+    graph: BondGraph, free: frozenset[str] = frozenset(), off: Container[int] = ()
+) -> list[Clause]:
+    """What all nodes demand, but for nodes of the `free` kinds.
+
+    A junction that is `off` is a source of zero to all its bonds.
+    """
     literals = received(graph)
+    zero = {"1": "Sf", "0": "Se"}
     return [
         clause
         for n, node in enumerate(graph.nodes)
         if node.kind not in free
-        for clause in law_of(node.kind, literals[n])
+        for clause in law_of(zero[node.kind] if n in off else node.kind, literals[n])
     ]
+
+
+def modes(graph: BondGraph) -> list[set[int]]:
+    """The junctions that are off, for every combination of the conditions that switch them."""
+    whens = {n: node.when for n, node in enumerate(graph.nodes) if node.when is not None}
+    atoms = {x for when in whens.values() for x in topological([when]) if x.op is Op.SYM}
+    names = sorted(atoms, key=lambda x: x.id)
+    found = []
+    for values in product((True, False), repeat=len(names)):
+        truth = dict(zip(names, values, strict=True))
+        found.append({n for n, when in whens.items() if not _holds(when, truth)})
+    return found
+
+
+def _holds(when: Expr, truth: dict[Expr, bool]) -> bool:
+    match when.op, when.data:
+        case Op.SYM, _:
+            return truth[when]
+        case Op.LOGIC, "not":
+            return not _holds(when.args[0], truth)
+        case Op.LOGIC, "and":
+            return all(_holds(a, truth) for a in when.args)
+        case Op.LOGIC, "or":
+            return any(_holds(a, truth) for a in when.args)
+    raise ValueError(f"a condition that no mode decides: {when}")
 
 
 def satisfiable(graph: BondGraph, nodes: list[int]) -> bool:
