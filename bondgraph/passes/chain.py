@@ -60,15 +60,22 @@ class Chain:
     """The state of one elimination.
 
     Derivatives up to the order `free` are not avoided: shorter paths count more. Without `starts`
-    no integral is used whose initial value is not declared.
+    no integral is used whose initial value is not declared. An `eager` one takes the integrals of
+    declared starts before it tears a loop, which they may untie.
     """
 
     def __init__(
-        self, system: EquationSystem, report: Report, free: int = 0, starts: bool = True
+        self,
+        system: EquationSystem,
+        report: Report,
+        free: int = 0,
+        starts: bool = True,
+        eager: bool = False,
     ) -> None:
         self.system = system
         self.free = free
         self.starts = starts
+        self.eager = eager
         self.pool = system.graph.pool
         self.report = report
         self.colour, self.variable_colour = colours(system)
@@ -216,19 +223,34 @@ class Chain:
     def stalled(self) -> bool:
         """Make progress where chaining has stopped; False when there is none to be made."""
         self.loops.solve_algebraic()
-        if self.tear(states=False):
+        if self.eager and self.take_late(integrals=True):
             return True
-        while self.later:
+        if self.tear(states=False) or self.take_late():
+            return True
+        return self.tear(states=True) or self.tear(states=True, stubborn=True)
+
+    def take_late(self, integrals: bool = False) -> bool:
+        """Accept the best offer that waits; only one of a declared start with `integrals`."""
+        held = []
+        taken = False
+        while self.later and not taken:
             offer = heapq.heappop(self.later)
             variable = self.system.unknowns[offer.variable]
             if self.used[offer.equation] or variable in self.closed:
+                continue
+            if integrals and (
+                offer.how != "integrated" or self.system.equations[offer.equation].initial is None
+            ):
+                held.append(offer)
                 continue
             with suppress(ZeroDivisionError):  # by what is always zero: `take` knows what to do
                 if self.loops.open_in(self.substituted(offer.solution.value)):
                     continue
             self.take(offer, variable)
-            return True
-        return self.tear(states=True) or self.tear(states=True, stubborn=True)
+            taken = True
+        for offer in held:
+            heapq.heappush(self.later, offer)
+        return taken
 
     def tear(self, states: bool, stubborn: bool = False) -> bool:
         """Take one variable of each remaining solvable block as if it were known.

@@ -84,11 +84,24 @@ class Crosswise:
                 if not all(constant(v) for v in part.values()):
                     return None
                 forms[node] = {(t, k + 1): v for (t, k), v in part.items()}, pool.der(rest)
+            elif node.op is Op.INT:  # of the torn variable from zero, of the rest from its start
+                part, rest = forms[inside[0]]
+                if not all(constant(v) for v in part.values()):
+                    return None
+                forms[node] = (
+                    {(t, k - 1): v for (t, k), v in part.items()},
+                    pool.rebuild(node, (rest,)),
+                )
             else:
                 return None
         part, rest = forms[expr]
         if not all(constant(v) for v in part.values()):
             return None
+        lowest = min((k for _, k in part), default=0)
+        if lowest < 0:  # differentiated until no integral holds a torn variable
+            part = {(t, k - lowest): v for (t, k), v in part.items()}
+            for _ in range(-lowest):
+                rest = pool.der(rest)
         polynomials: dict[Expr, Polynomial] = {}
         for (t, k), value in part.items():
             polynomial = polynomials.setdefault(t, [])
@@ -109,6 +122,49 @@ class Crosswise:
             self.spent[symbol] = pivot.rows
             rows = [self._combine(r, pivot, symbol) if symbol in r.entries else r for r in rows]
         return found
+
+    def remainder(self, rows: list[LinearRow | None]) -> tuple[int, LinearRow] | None:
+        """A row of lower degree for one of two rows in the same torn variable: where, and what.
+
+        One step of Euclid's algorithm. Repeated, it gives the variable itself where the two
+        polynomials have no common factor. None where no two rows hold one and the same variable
+        alone, or the step divides by what is zero at the nominal parameters.
+        """
+        alone: dict[Expr, list[int]] = {}
+        for at, row in enumerate(rows):
+            if row is not None and len(row.entries) == 1:
+                (symbol,) = row.entries
+                alone.setdefault(symbol, []).append(at)
+        for symbol, places in alone.items():
+            degrees = sorted((len(row.entries[symbol]), at) for at in places if (row := rows[at]))
+            if len(degrees) < 2 or degrees[0][0] < 2:
+                continue
+            at = degrees[1][1]
+            low, high = rows[degrees[0][1]], rows[at]
+            assert low is not None and high is not None
+            lead = low.entries[symbol][-1]
+            if not self.nominal.vanishes(lead):
+                return at, self._divided(high, low, symbol)
+        return None
+
+    def _divided(self, high: LinearRow, low: LinearRow, symbol: Expr) -> LinearRow:
+        """The higher row less the lower one, differentiated and scaled so that the top goes."""
+        pool = self.pool
+        a, b = high.entries[symbol], low.entries[symbol]
+        shift = len(a) - len(b)
+        factor = pool.div(a[-1], b[-1])
+        scaled = [pool.zero] * shift + [pool.mul(factor, c) for c in b]
+        rest = low.rest
+        for _ in range(shift):
+            rest = pool.der(rest)
+        entries = _trim({symbol: self._minus(a[:-1], scaled[:-1])})
+        rows = tuple(dict.fromkeys((*low.rows, *high.rows)))
+        return LinearRow(rows, entries, pool.sub(high.rest, pool.mul(factor, rest)))
+
+    def written(self, row: LinearRow) -> Expr:
+        """The row as one expression."""
+        parts = [self._apply(polynomial, t) for t, polynomial in row.entries.items()]
+        return self.pool.add(*[(1, part) for part in (*parts, row.rest)])
 
     def _combine(self, row: LinearRow, pivot: LinearRow, symbol: Expr) -> LinearRow:
         """pivot's polynomial times `row` minus row's polynomial times `pivot`."""

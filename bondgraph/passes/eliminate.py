@@ -18,10 +18,11 @@ def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
 
     Near-linear in the number of bonds. Derivatives are avoided as far as possible; where that makes
     long detours, relations of the same order with shorter paths are taken, and where it misses an
-    initial value, no integral without one is used. A loop that no one order of elimination solves
-    in all modes is solved in each. Reports `loop-unsolvable` for a nonlinear loop without a closed
-    solution, `loop-too-large` for a linear one of ten thousand bonds, `initial-value-needed` where
-    a relation needs an undeclared initial value.
+    initial value, no integral without one is used; where a loop cannot be solved, integrals come
+    before loops. A loop that no one order of elimination solves in all modes is solved in each.
+    Reports `loop-unsolvable` for a nonlinear loop without a closed solution, `loop-too-large` for a
+    linear one of ten thousand bonds, `initial-value-needed` where a relation needs an undeclared
+    initial value.
     """
     said = Report()
     result = _eliminated(system, said)
@@ -36,25 +37,27 @@ def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
 
 def _eliminated(system: EquationSystem, report: Report) -> ReducedSystem | None:
     said = Report()
-    chain = _chained(system, said)
+    chain = _chained(Chain(system, said))
     if chain.tangled():
         order = highest_order([row.expr for row in chain.loops.plain])
-        near = _chained(system, said, free=order)
+        near = _chained(Chain(system, said, free=order))
         if len(near.loops.plain) >= len(chain.loops.plain):
             chain = near
     result = chain.result()
-    if any(d.code == "initial-value-needed" for d in said.diagnostics):
-        other = Report()
-        without = _chained(system, other, starts=False).result()
-        if not other.failed and len(without.closings) >= len(result.closings) + result.missing:
-            result, said = without, other
+    codes = {d.code for d in said.diagnostics}
+    for code in ("initial-value-needed", "loop-unsolvable"):
+        if code in codes and said.failed:
+            starts = code == "loop-unsolvable"
+            other = Report()
+            anew = _chained(Chain(system, other, starts=starts, eager=starts)).result()
+            if not other.failed and len(anew.closings) >= len(result.closings) + result.missing:
+                result, said = anew, other
     for diagnostic in said.diagnostics:
         report.add(diagnostic)
     return None if said.failed else result
 
 
-def _chained(system: EquationSystem, report: Report, free: int = 0, starts: bool = True) -> Chain:
-    chain = Chain(system, report, free, starts)
+def _chained(chain: Chain) -> Chain:
     chain.start()
     chain.run()
     while chain.stalled():

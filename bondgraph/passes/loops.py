@@ -280,6 +280,12 @@ class Loops:
                 rows = tuple(dict.fromkeys((*items[found.by].rows, *items[found.row].rows)))
                 self.pending[knot.members[found.row]] = _Row(rows, found.expr)
                 done = True
+                continue
+            left = self.crosswise.remainder([self.crosswise.linear(*item) for item in items])
+            if left is not None:
+                at, row = left
+                self.pending[knot.members[at]] = _Row(row.rows, self.crosswise.written(row))
+                done = True
         self.plain += [item for item in self.pending if not self._tears(item.expr)]
         self.pending = [item for item in self.pending if self._tears(item.expr)]
         return done
