@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, overload
 
-from bondgraph.ir.expr import Expr, Kind
+from bondgraph.ir.expr import ZERO_START, Expr, Kind
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
@@ -83,7 +83,6 @@ class Relation:
         >>> bondgraph.compile("models/dc_motor.bg").residuals["r1"].sensitivity("L")
         -Derivative(current(t), t)
         """
-        from bondgraph.passes.lowering.names import ZERO_START
         from bondgraph.passes.symbolic import to_sympy
 
         pool = self._graph.pool

@@ -81,6 +81,8 @@ class WaveSample:
         constant = self._constants.get(symbol)
         if constant is not None:
             return Wave(constant[0], 0)
+        if symbol not in self._place:
+            raise Mixed("the initial value of a state")
         variable, sign = self._place[symbol]
         return Wave(self._found[variable] * sign % P, 1)
 

@@ -58,6 +58,7 @@ class Kind(Enum):
 
 
 KNOWN_SIGNALS = frozenset({Kind.INPUT, Kind.SENSOR, Kind.MODE})
+ZERO_START = "0"  # the initial value of an integral that starts at zero
 CONSTANTS = frozenset({Kind.PARAM, Kind.CONST, Kind.INITIAL, Kind.FREE})
 VARIABLES = frozenset({Kind.UNKNOWN, Kind.EFFORT, Kind.FLOW, Kind.STATE, Kind.INTEGRAL, Kind.TEAR})
 
@@ -321,7 +322,12 @@ class Pool:
         return self._make(Op.DER, (node,), None)
 
     def integral(self, node: Expr, initial: Expr) -> Expr:
-        """The integral of `node` from the start, plus the symbol of its initial value."""
+        """The integral of `node` from the start, plus the symbol of its initial value.
+
+        The integral of nothing stays where it starts: it is the initial value, if one is declared.
+        """
+        if node is self.zero and initial.symbol.kind is Kind.INITIAL:
+            return self.zero if initial.symbol.name == ZERO_START else initial
         return self._make(Op.INT, (node,), initial.symbol)
 
     def root(self, root: Root, *args: Expr) -> Expr:
@@ -363,7 +369,9 @@ class Pool:
                 return self.compare(node.name, *args)
             case Op.LOGIC:
                 return self.logic(node.name, *args)
-            case Op.INT | Op.ROOT:
+            case Op.INT:
+                return self.integral(args[0], self.symbol(node.symbol.name, node.symbol.kind))
+            case Op.ROOT:
                 return self._make(node.op, args, node.data)
             case _:
                 return node

@@ -13,6 +13,7 @@ _Value = Callable[[Expr, int], Expr]
 _MOST = 12  # no relation worth having rests on more nested integrals
 _SIGNALS = 4  # integrals that signals multiply, which grow the relation more
 _LARGE = 400  # nodes
+_SWITCHES = 4  # conditions that are taken apart, each of which may double the relation
 
 
 class Freed(NamedTuple):
@@ -31,17 +32,56 @@ def without_free_integrals(pool: Pool, expr: Expr) -> Freed | None:
     """The relation, differentiated as often as its integrals of unknown start require.
 
     None where such an integral stands inside a nonlinear function, so that no derivative of the
-    relation is free of it. Parameters are constant in time here.
+    relation is free of it. Parameters are constant in time here. A switch is never differentiated:
+    where one multiplies such an integral, the relation of each position is differentiated alone.
     """
+    return _freed(pool, expr, _SWITCHES)
+
+
+def _freed(pool: Pool, expr: Expr, switches: int) -> Freed | None:
     raw = expr
     for order in range(_MOST):
         pushed = _push(pool, expr, order)
         if pushed is None:
-            return _one_by_one(pool, expr)
+            return _in_each_position(pool, expr, switches) or _one_by_one(pool, expr)
         if not _holding(pushed):
             return Freed(pushed, raw, order)
         raw = pool.der(raw)
     return None
+
+
+def _in_each_position(pool: Pool, expr: Expr, switches: int) -> Freed | None:
+    """The relation, in each position of a switch without undeclared initial values."""
+    decided: dict[Expr, bool] = {}
+    for node in topological([expr]):
+        known = node.op in (Op.NUM, Op.LOGIC) and all(decided[a] for a in node.args)
+        decided[node] = known or (node.op is Op.SYM and node.symbol.kind is Kind.MODE)
+    choices = [n for n in decided if n.op is Op.IF and decided[n.args[0]]]
+    if not choices or not switches:
+        return None
+    condition = choices[-1].args[0]
+    found = []
+    for position in (1, 2):
+        there = {n: n.args[position] for n in choices if n.args[0] is condition}
+        own = _freed(pool, _chosen(pool, expr, there), switches - 1)
+        if own is None:
+            return None
+        found.append(own)
+    yes, no = found
+    return Freed(
+        pool.choose(condition, yes.expr, no.expr),
+        pool.choose(condition, yes.raw, no.raw),
+        max(yes.order, no.order),
+    )
+
+
+def _chosen(pool: Pool, expr: Expr, choices: dict[Expr, Expr]) -> Expr:
+    """The expression with choices replaced by one of their branches."""
+    new: dict[Expr, Expr] = {}
+    for node in topological([expr]):
+        branch = choices.get(node)
+        new[node] = new[branch] if branch else pool.rebuild(node, tuple(new[a] for a in node.args))
+    return new[expr]
 
 
 def _one_by_one(pool: Pool, expr: Expr) -> Freed | None:

@@ -52,6 +52,7 @@ class Nominal:
             for p in n.ports
             if p.initial is not None
         }
+        self._given |= {i.initial: i.initial_value for i in graph.integrals}
 
     def value(self, expr: Expr) -> float | None:
         """The nominal value; None where a part has none (a symbolic parameter, a signal)."""

@@ -13,11 +13,10 @@ from math import comb
 from types import MappingProxyType
 from typing import TypeAlias
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, topological
+from bondgraph.ir.expr import CONSTANTS, ZERO_START, Expr, Kind, Op, Pool, topological
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.passes.lowering.derivative import differentiate
 from bondgraph.passes.lowering.modular import Field
-from bondgraph.passes.lowering.names import ZERO_START
 from bondgraph.passes.lowering.record import record
 
 #: A linear form: coefficient by (atom, order of p).

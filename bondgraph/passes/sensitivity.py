@@ -10,9 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, Symbol, topological
+from bondgraph.ir.expr import ZERO_START, Expr, Kind, Op, Pool, Symbol, topological
 from bondgraph.passes.lowering.derivative import partials
-from bondgraph.passes.lowering.names import ZERO_START
 from bondgraph.passes.present import tidy
 
 

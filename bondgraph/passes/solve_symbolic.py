@@ -54,6 +54,8 @@ def simplified_slope(
     `positive` says which parameters are. `p/sqrt(1 + p^2)` has the slope (1 + p^2)^(-3/2), which
     shows its sign; the quotient rule does not.
     """
+    if monomials([zero]) > _EXPANDED:
+        return None
     leaves: dict[Expr, Any] = {}
     for node in topological([zero]):
         if node.op is Op.FN and node.name not in ("sqrt", "pow"):

@@ -7,8 +7,11 @@ from collections.abc import Sequence
 from bondgraph.exact.evaluate import Sample, demands, values_of
 from bondgraph.exact.plant import ExactUnavailable
 from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual
 from bondgraph.ir.show import show
+from bondgraph.passes.nominal import Nominal
+from bondgraph.passes.solve import constant
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
@@ -32,6 +35,21 @@ def blame(exprs: Sequence[Expr], point: Sample, terms: int) -> None:
                 for base, power in zip(node.args, node.exponents, strict=True):
                     value = values.get(base)
                     if power < 0 and isinstance(value, list) and not any(value):
+                        raise Resting(at, base)
+
+
+def divides_by_nothing(graph: BondGraph, exprs: Sequence[Expr]) -> None:
+    """Raise `Resting` if an expression divides by a constant that the model says is zero.
+
+    As an integral from zero of what never moves is, though not for any other initial value.
+    """
+    nominal = Nominal(graph)
+    for at, expr in enumerate(exprs):
+        known: dict[Expr, bool] = {}
+        for node in topological([expr]):
+            if node.op is Op.MUL:
+                for base, power in zip(node.args, node.exponents, strict=True):
+                    if power < 0 and constant(base, known) and nominal.vanishes(base):
                         raise Resting(at, base)
 
 

@@ -95,6 +95,7 @@ class _Check:
                 return self.result("not verified: a relation without a sensor")
         try:
             if self.exprs:
+                unanswerable.divides_by_nothing(self.graph, self.exprs)
                 points = self.healthy()
                 self.unmoved()
                 self.moved(points)

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Literal, NamedTuple
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.expr import ZERO_START, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph, Input, Sensor, Value
 from bondgraph.ir.program import (
     Assign,
@@ -21,7 +21,7 @@ from bondgraph.ir.program import (
     Ref,
 )
 from bondgraph.passes.lowering.derivative import Jets
-from bondgraph.passes.lowering.names import OPTION, ZERO_START, Names, brief, identifier
+from bondgraph.passes.lowering.names import OPTION, Names, brief, identifier
 from bondgraph.passes.lowering.numeric import evaluate, nominal
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure
 from bondgraph.passes.normalise import constant

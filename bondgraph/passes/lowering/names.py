@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 
-from bondgraph.ir.expr import Expr, Kind, Op
+from bondgraph.ir.expr import ZERO_START, Expr, Kind, Op
 from bondgraph.ir.show import show
 
 OPTION = "@"  # begins the names of the options of configure: no name of a model has it
-ZERO_START = "0"  # the initial value of an integral that starts at zero
 
 _INDEX = re.compile(r"\[(\d+)\]")
 _FOREIGN = re.compile(r"[^A-Za-z0-9_]")

@@ -134,3 +134,30 @@ def test_an_induction_machine_of_unknown_fluxes() -> None:
     assert c.verification.method.startswith("exact")
     unseen = [f for f in c.signatures.faults if not any(c.signatures.row(f))]
     assert unseen == ["J"]
+
+
+def test_what_never_moves_from_zero_is_no_divisor() -> None:
+    # no flow leaves `open`, so that the angle stays 0 and y = 0 tells nothing of the effort, which
+    # is to be known for the ratio to be
+    body = "0:open -> 1:still; still -> MGY:g = 3*cos(int(open.e)) -> 1:shaft\n"
+    body += "shaft { -> I:J = 2; -> Df:w }\nsensor y = open.e*int(still.f)"
+    assert code(body) == "residual-undefined"
+
+
+def test_a_switch_is_not_differentiated() -> None:
+    # on: U - R i - (q(0) + int i)/C = 0 with q(0) unknown, differentiated; off: i = 0, as it is
+    body = "param R = 2; param C = 3; input U; input on : bool\n"
+    body += "1:a { <- Se:u = U; -> R:R; -> C:C; -> Df:i; -> R:s { 0 = if(on, e, f) } }"
+    c = compiled(body)
+    (r,) = c.residuals
+    t = sp.Symbol("t", real=True)
+    on, U, i = (sp.Function(name, real=True)(t) for name in ("on", "U", "i"))
+    R, C = sp.symbols("R C", real=True)
+    closed = U.diff(t) - R * i.diff(t) - i / C
+    assert sp.simplify(r.expr.subs(on, 1).doit() - closed) == 0
+    assert sp.simplify(r.expr.subs(on, 0).doit() - i) == 0
+    assert c.verification.method.startswith("exact")
+    off, closed_ = [[any(row) for row in m.matrix.rows] for m in c.modes.modes]
+    assert c.signatures.faults == ("R", "C", "U", "i")
+    assert off == [False, False, False, True]
+    assert all(closed_)
