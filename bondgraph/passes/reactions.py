@@ -28,6 +28,7 @@ T = TypeVar("T")
 #: Points at which a relation is tried: one is enough for a rational relation (it errs with a
 #: probability of about its degree / 2**61), a branch not taken at one point is taken at another.
 _POINTS, _POINTS_WITH_BRANCHES = 1, 12
+_TURNS = 5  # points at which faults act, where laws of the plant have branches
 _TRIES = 40  # a point where a square root has no value is drawn again
 
 
@@ -39,6 +40,8 @@ class Reactions:
         self.seed = seed
         self.modes = modes
         graph = plant.graph
+        laws = [law for _, law in plant.assembly.laws]
+        self.turns = _TURNS if _points(laws, dict.fromkeys(plant.modes, 0)) > 1 else 1
         self.faults = {graph.fault_symbol(f): f for f in graph.faults}
 
     def at_free_signals(self, expr: Expr) -> Sensitivity:
@@ -161,9 +164,10 @@ class Reactions:
         free = [] if self.modes is not None else modes_of(self.plant.graph, [expr])
         failure: ExactUnavailable | None = None
         met = False
-        for modes in assignments(free) if free else [self.modes]:
+        known = assignments(free) if free else [self.modes]
+        for turn, modes in [(turn, modes) for turn in range(self.turns) for modes in known]:
             try:
-                found = self.draw(partial(value, modes), 3000 * self.seed)
+                found = self.draw(partial(value, modes), 3000 * self.seed + turn)
             except ExactUnavailable as reason:
                 failure = reason
                 continue

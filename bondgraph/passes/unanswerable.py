@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
-from bondgraph.exact.evaluate import Sample, demands, values_of
+from bondgraph.exact.algebra import Mixed
+from bondgraph.exact.evaluate import Assignment, Sample, demands, values_of
 from bondgraph.exact.plant import ExactUnavailable
+from bondgraph.exact.trajectory import Trajectory
 from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual
@@ -15,6 +18,8 @@ from bondgraph.passes.solve import constant
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
+_TERMS = 2  # coefficients of a divisor that are looked at
+
 
 class Resting(ExactUnavailable):
     """A residual, by its position, that divides by what is always zero on the healthy plant."""
@@ -23,6 +28,62 @@ class Resting(ExactUnavailable):
         super().__init__(f"a residual divides by {show(divisor)}, which is zero")
         self.residual = residual
         self.divisor = divisor
+
+
+class _Truth:
+    """What truly happens on a trajectory, known or not."""
+
+    def __init__(self, point: Trajectory) -> None:
+        self.algebra = point.algebra
+        self._point = point
+
+    def value(self, symbol: Expr) -> Any:
+        try:
+            return self._point.truth(symbol)
+        except Mixed:
+            return self._point.value(symbol)
+
+    def start(self, _: Any) -> int:
+        raise Mixed("an integral in a step")
+
+
+def divided_away(points: Sequence[Sample], residual: Residual) -> Expr | None:
+    """What a step behind a residual divides by, if it rests at all healthy points; else None.
+
+    What is left of the relation may have a value all the same: it then tells of a machine in which
+    that variable does not rest, and there is none.
+    """
+    known = [p for p in points if isinstance(p, Trajectory)]
+    truths = [_Truth(p) for p in known]
+    for step in residual.steps:
+        found = _resting(step.value, truths) or _resting(step.closed, known)
+        if found is not None:
+            return found
+    return None
+
+
+def _resting(expr: Expr, points: Sequence[Assignment]) -> Expr | None:
+    """A divisor in an expression that is zero at all points."""
+    nodes = topological([expr])
+    bases = [
+        base
+        for node in nodes
+        if node.op is Op.MUL
+        for base, power in zip(node.args, node.exponents, strict=True)
+        if power < 0
+    ]
+    if not bases or not points:
+        return None
+    need = demands(nodes, [expr, *bases], _TERMS)
+    try:
+        values = [values_of(nodes, need, point)[0] for point in points]
+    except KeyError:  # a torn variable, which the plant does not know
+        return None
+    for base in bases:
+        own = [v.get(base) for v in values]
+        if all(isinstance(value, list) and not any(value[:_TERMS]) for value in own):
+            return base
+    return None
 
 
 def blame(exprs: Sequence[Expr], point: Sample, terms: int) -> None:

@@ -78,6 +78,7 @@ class _Check:
         self.plant = plant
         self.terms = telling(self.exprs)
         self.trajectories = 0
+        self.points: list[Sample] = []  # healthy ones
         self.tried: dict[str, None] = {}
         self.waves = False
         self.further: list[Sample | None] = []
@@ -111,10 +112,15 @@ class _Check:
             unanswerable.unavailable(self.report, str(reason), *self.place())
             return self.result(f"not verified: {reason}")
         except _Failed as failure:
+            residual = self.residuals[failure.residual]
+            divisor = unanswerable.divided_away(self.points, residual)
+            if divisor is not None:
+                unanswerable.resting(self.report, residual, divisor)
+                return self.result("not verified: a step divides by zero")
             self.report.error(
                 "verification-failed",
                 str(failure),
-                self.residuals[failure.residual].closing.origin,
+                residual.closing.origin,
                 help="This is a mistake of the compiler, not of the model: nothing was written. "
                 "Please report it with the model.",
             )
@@ -142,7 +148,7 @@ class _Check:
 
     def healthy(self) -> list[Sample]:
         """Every residual vanishes on healthy plants; returns these."""
-        points: list[Sample] = []
+        points = self.points
         failure: ExactUnavailable | None = None
         for number, modes in enumerate(self.assignments()):
             try:
@@ -155,10 +161,10 @@ class _Check:
             if moving and isinstance(point, Trajectory) and point.still:
                 failure = ExactUnavailable("no point was found at which all its laws hold")
                 continue
+            points.append(point)
             if moving:
                 at = next(at for at, v in enumerate(values) if _moves(v))
                 raise _Failed(at, None, f"residual {moving[0]} is not zero on the healthy model")
-            points.append(point)
         if not points:
             raise failure or ExactUnavailable("no mode of the model has a trajectory")
         return points
