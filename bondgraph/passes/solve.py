@@ -221,6 +221,8 @@ def _quotient(pool: Pool, rest: Expr, slope: Expr) -> Expr:
         rests = rest.args[1:] if same else (rest, rest)
         yes, no = (_quotient(pool, r, s) for r, s in zip(rests, slopes, strict=True))
         return pool.choose(condition, yes, no)
+    if slope is pool.zero:  # in a position that no setting of the switches reaches
+        return pool.zero
     if slope.op is Op.NUM:
         factor = whole(-1 / slope.number)
         if rest.op is Op.ADD:

@@ -12,6 +12,7 @@ from bondgraph.passes.fractions import monomials, only_root
 from bondgraph.passes.symbolic import from_sympy, to_sympy
 
 _EXPANDED = 500  # terms that SymPy may make of an equation
+_FACTORED = 60  # and of one that it has to factor
 
 
 def solve_symbolic(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
@@ -51,18 +52,24 @@ def simplified_slope(
 ) -> Expr | None:
     """The derivative of an algebraic equation with respect to a variable, factored, or None.
 
-    `positive` says which parameters are. `p/sqrt(1 + p^2)` has the slope (1 + p^2)^(-3/2), which
-    shows its sign; the quotient rule does not.
+    `positive` says which parts without the variable are. `p/sqrt(1 + p^2)` has the slope
+    (1 + p^2)^(-3/2), which shows its sign; the quotient rule does not.
     """
-    if monomials([zero]) > _EXPANDED:
-        return None
-    leaves: dict[Expr, Any] = {}
+    holding = {variable}
+    leaves: dict[Expr, Any] = {variable: sp.Symbol("x", real=True)}
     for node in topological([zero]):
-        if node.op is Op.FN and node.name not in ("sqrt", "pow"):
-            return None  # factoring sums of functions may take for ever
-        if node.op is Op.SYM:
-            sign = True if node is not variable and positive(node) else None
-            leaves[node] = sp.Symbol(f"c{len(leaves)}", real=True, positive=sign)
+        if any(a in holding for a in node.args):
+            power = node.op is Op.FN and node.name in ("sqrt", "pow")
+            if not power and node.op not in (Op.ADD, Op.MUL):
+                return None  # factoring sums of functions may take for ever
+            holding.add(node)
+    for node in sorted(holding, key=lambda n: n.id):
+        for arg in node.args:
+            if arg not in holding and arg not in leaves and arg.op is not Op.NUM:
+                sign = True if positive(arg) else None
+                leaves[arg] = sp.Symbol(f"c{len(leaves)}", real=True, positive=sign)
+    if monomials([zero], {n for n in leaves if n is not variable}) > _FACTORED:
+        return None
     names = {s: n for n, s in leaves.items()}
     slope = sp.factor(sp.together(sp.diff(to_sympy(zero, leaves), leaves[variable])))
     return from_sympy(pool, slope, names)

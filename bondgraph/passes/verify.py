@@ -194,14 +194,17 @@ class _Check:
                         self.single_out(at, faults, modes)
 
     def faulty(
-        self, exprs: list[Expr], faults: Sequence[str]
+        self, exprs: list[Expr], faults: Sequence[str], first: int = 100
     ) -> Iterator[tuple[dict[Expr, int] | None, list[Any]]]:
-        """The values of the expressions under faults, in each mode that has a trajectory."""
+        """The values of the expressions under faults, in each mode that has a trajectory.
+
+        Random points are numbered from `first`.
+        """
         failure: ExactUnavailable | None = None
         found = False
         for number, modes in enumerate(self.assignments() if self.modes else [None]):
             try:
-                values = self.at(exprs, 100 + number, faults, modes)[1]
+                values = self.at(exprs, first + number, faults, modes)[1]
             except ExactUnavailable as reason:
                 failure = reason
                 continue
@@ -284,7 +287,11 @@ class _Check:
 
     def acts(self, at: int, fault: str) -> bool:
         """Whether a fault in the plant, any function of time, moves a residual."""
-        return any(_moves(values[0]) for _, values in self.faulty([self.exprs[at]], (fault,)))
+        return any(
+            _moves(values[0])
+            for turn in range(_BRANCHES if self.decides else 1)
+            for _, values in self.faulty([self.exprs[at]], (fault,), 100 + 300 * turn)
+        )
 
     # --------------------------------------------------------------------------- helpers
 

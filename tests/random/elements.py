@@ -25,6 +25,10 @@ _MONOTONE = [
     "f = {a}*e + {b}*(exp(e) - 1)",
     "0 = {a}*e + e^3 - {b}*f - tanh(f)",
     "e = {a}*f/sqrt(1 + f^2)",
+    "f = {a}*e/(1 + abs(e))",
+    "e = {a}*sign(f)*sqrt(abs(f))",
+    "0 = f*abs(f)/{a} - e",
+    "e = {a}*f + {b}*tanh(f/0.1)",
 ]
 #: Laws that another signal modulates: an input, or the integral {th} of a signal.
 _MODULATED = [
@@ -33,9 +37,28 @@ _MODULATED = [
     "e = {a}*exp({th})*f",
     "f = {a}*{th}*e",
 ]
-_STORED = ["{s}/{a} + {s}^3", "{a}*sinh({s})", "{a}*{s}*abs({s})", "{s} + {a}*tanh({s})"]
+_STORED = [
+    "{s}/{a} + {s}^3",
+    "{a}*sinh({s})",
+    "{a}*{s}*abs({s})",
+    "{s} + {a}*tanh({s})",
+    "{a}*(max({s} - 1, 0) + min({s} + 1, 0))",
+]
 _RATIOS = ["{p}*cos({th})", "({p} + {th}^2)", "{p}*{th}", "({p} + sin({th}))"]
 _OTHER = ["e = {a}*f^3 - {b}*f", "f = {a}*e*(e - 1)", "e = {a}*f*exp(f)", "f = {a}*sin(e) + e"]
+_OTHER += ["e = {a}*sign(f)", "e = {a}*(max(f - 1, 0) + min(f + 1, 0))"]
+#: Fields of two ports that are not linear: a transistor, the entropy flows of a heat conductor,
+#: a joint with friction that the force in it loads.
+#: Each with the signals that its two laws hold.
+_FIELDS = [
+    ("a0.f = {a}*(exp(a0.e) - 1); a1.f = {b}*a1.e - {a}*(exp(a0.e) - 1)", ("e0 f0", "e0 e1 f1")),
+    ("a0.f = {a}*(a0.e - a1.e)/a0.e; a1.f = {b}*(a1.e - a0.e)/a1.e", ("e0 e1 f0", "e0 e1 f1")),
+    ("a0.e = {a}*tanh(a0.f)*a1.e; a1.f = {b}*a1.e", ("e0 f0 e1", "e1 f1")),
+]
+
+
+def _times(factor: int, row: Row) -> Row:
+    return {c: factor * x for c, x in row.items()}
 
 
 class Port(NamedTuple):
@@ -68,6 +91,8 @@ class Elements:
         self.spiced = random.random() < 0.5
         self.common: Callable[[], tuple[str, str]] = lambda: ("", "")
         self.states: list[tuple[str, str]] = []
+        self.ports: list[tuple[str, Port]] = []
+        self.modes: list[str] = []
         self.s = self.number()
         self._bonds = 0
         self._integrals = 0
@@ -103,6 +128,13 @@ class Elements:
             self.inputs.append(name)
         return name
 
+    def mode(self) -> str:
+        """A condition on a known boolean, now and then one that switches something else, too."""
+        if not self.modes or self.random.random() < 0.6:
+            self.modes.append(self.input(": bool"))
+        name = self.random.choice(self.modes)
+        return f"not {name}" if self.random.random() < 0.25 else name
+
     def equation(self, *parts: Row) -> None:
         """The sum of the parts is zero."""
         row: dict[str, int] = {}
@@ -129,8 +161,22 @@ class Elements:
 
     # --------------------------------------------------------------------------- two-ports
 
-    def two_port(self, what: str, number: int, first: Port, second: Port) -> str:
-        """A transformer or gyrator; (rarely) an input modulates it."""
+    def two_port(
+        self,
+        what: str,
+        number: int,
+        first: Port,
+        second: Port,
+        spun: tuple[str, str] | None = None,
+    ) -> str:
+        """A transformer or gyrator; (rarely) an input or an integral modulates it, or what `spun`
+        is the column and the text of."""
+        if spun:
+            self.generic = False
+            bends = [{spun[0]: self.number()} for _ in range(2)]
+            self.equation(first.effort(), second.flow(self.number()), bends[0])
+            self.equation(second.effort(), first.flow(self.number()), bends[1])
+            return f"MGY:g{number} = {spun[1]}"
         name = self.param(shared=True)
         m = self.values[name]
         text = name
@@ -141,7 +187,7 @@ class Elements:
         if text == name and self.spice(0.15):
             self.generic = False
             if self.random.random() < 0.3:
-                text = f"if({self.input(': bool')}, {name}, {self.param()})"
+                text = f"if({self.mode()}, {name}, {self.param()})"
             else:
                 column, th = self.integral()
                 text = self.random.choice(_RATIOS).format(p=name, th=th)
@@ -170,6 +216,7 @@ class Elements:
             other = "Sf" if junction == "1" else "Se"
             return into, self.source(fits if random.random() < 0.85 else other, name, port(into))
         at = port(into)
+        self.ports.append((name, at))
         if kind == "R" and self.spice(0.15):
             return into, self.modulated(name, at)
         if kind == "R":
@@ -182,12 +229,12 @@ class Elements:
         if kind == "law":
             laws = _MONOTONE if random.random() < 0.85 else _OTHER
             law = random.choice(laws)
-            text = law.format(a=self.param(), b=self.param() if "{b}" in law else "")
+            text = law.format(a=self.param(), b=self.param(zero=True) if "{b}" in law else "")
             self.equation(at.effort(), at.flow(self.number()))
             return into, f"R:{name} {{ {text} }}"
         if kind == "switch" and random.random() < 0.3:
             self.generic = False
-            return into, f"R:{name} {{ 0 = if({self.input(': bool')}, e, f) }}"
+            return into, f"R:{name} {{ 0 = if({self.mode()}, e, f) }}"
         return into, self.storage(random.choice("CI"), kind == "store", name, at)
 
     def modulated(self, name: str, at: Port) -> str:
@@ -246,6 +293,9 @@ class Elements:
             self.movable_plate(name, *ports)
             return [f"{name}.{n}" for n in names]
         kind = self.random.choice("RCI")
+        if len(ports) == 2 and self.spice(0.5):
+            self.mixed(kind, name, *ports)
+            return [f"{name}.{n}" for n in names]
         state, left = {"R": ("f", "e"), "C": ("q", "e"), "I": ("p", "f")}[kind]
         matrix: dict[tuple[int, int], str] = {}
         laws = []
@@ -267,6 +317,35 @@ class Elements:
         self.line(f"{kind}:{name} {{ {declared} }}")
         return [f"{name}.{n}" for n in names]
 
+    def mixed(self, kind: str, name: str, one: Port, two: Port) -> None:
+        """A field whose second port answers the other way round, or (an R) one of the devices."""
+        if kind == "R" and self.random.random() < 0.5:
+            self.device(name, one, two)
+            return
+        a, b, c = (self.param() for _ in range(3))
+        x, y, z = (self.values[v] for v in (a, b, c))
+        out, state = {"R": "ef", "C": "eq", "I": "fp"}[kind]
+        outs = [p.flow() if kind == "I" else p.effort() for p in (one, two)]
+        states: list[Row] = [p.flow() for p in (one, two)]
+        if kind != "R":
+            states = [{f"{name}.{k}": 1} for k in (0, 1)]
+            for k, p in enumerate((one, two)):
+                self.equation({f"{name}.{k}": self.s}, p.flow(-1) if kind == "C" else p.effort(-1))
+        self.equation(outs[0], _times(-x, states[0]), _times(-y, outs[1]))
+        self.equation(states[1], _times(y, states[0]), _times(-z, outs[1]))
+        laws = f"a0.{out} = {a}*a0.{state} + {b}*a1.{out}"
+        laws += f"; a1.{state} = {c}*a1.{out} - {b}*a0.{state}"
+        self.line(f"{kind}:{name} {{ port a0; port a1; {laws} }}")
+
+    def device(self, name: str, one: Port, two: Port) -> None:
+        """A resistive field of two ports that is not linear."""
+        law, signals = self.random.choice(_FIELDS)
+        columns = {"e0": one.effort(), "f0": one.flow(), "e1": two.effort(), "f1": two.flow()}
+        for held in signals:
+            self.equation(*[_times(self.number(), columns[s]) for s in held.split()])
+        text = law.format(a=self.param(), b=self.param())
+        self.line(f"R:{name} {{ port a0; port a1; {text} }}")
+
     def movable_plate(self, name: str, one: Port, two: Port) -> None:
         """A capacitor whose plates move: W = q0^2 q1/(2 p)."""
         slope = self.number()
@@ -285,7 +364,7 @@ class Elements:
 
     def signal(self, name: str, one: tuple[str, str], two: tuple[str, str]) -> None:
         """A measured sum, integral or product of two signals."""
-        what = self.random.choice(["sum", "integral", "product", "function"])
+        what = self.random.choice(["sum", "integral", "product", "function", "rate", "port"])
         if self.states and self.spice(0.3):
             column, text = self.random.choice(self.states)
             self.lines.append(f"sensor {name} = {text}")
@@ -302,10 +381,19 @@ class Elements:
         elif what == "integral":
             self.lines.append(f"sensor {name} = int({one[1]})")
             row = {one[0]: pow(self.s, -1, P)}
+        elif what == "rate":  # an acceleration
+            self.lines.append(f"sensor {name} = der({one[1]})")
+            row = {one[0]: self.s}
+        elif what == "port" and self.ports:
+            element, at = self.random.choice(self.ports)
+            variable = self.random.choice("ef")
+            self.lines.append(f"sensor {name} = {element}.{variable}")
+            row = dict(at.effort() if variable == "e" else at.flow())
         elif what == "product":
             self.generic = False
             self.lines.append(f"sensor {name} = {one[1]}*{two[1]}")
-            row = {one[0]: self.number(), two[0]: self.number()}
+            row = {one[0]: self.number()}
+            row[two[0]] = row.get(two[0], 0) + self.number()
         else:
             self.lines.append(f"sensor {name} = {one[1]} + {one[1]}^3")
             row = {one[0]: self.number()}

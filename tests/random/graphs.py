@@ -45,6 +45,8 @@ class Drawing:
         self.sums: list[list[tuple[int, str, str]]] = []
         self.whens: list[str] = []
         self.drawn: list[tuple[int, int, str]] = []
+        self.turning: dict[str, tuple[str, str]] = {}
+        self.count = 0  # of sensors
         self.parts = Elements(random)
 
     def graph(self) -> Graph:
@@ -55,9 +57,11 @@ class Drawing:
         self.whens = ["" for _ in self.kinds]
         if self.parts.spice(0.15):
             self.parts.generic = False
-            when = f" when {self.parts.input(': bool')} {{ }}"
-            self.whens[random.randrange(len(self.kinds))] = when
+            for at in random.choices(range(len(self.kinds)), k=random.choice([1, 1, 2])):
+                self.whens[at] = f" when {self.parts.mode()} {{ }}"
+        self.count = random.choice([0, 1, 1, 2, 2, 3, 4])
         self.sums = [[] for _ in self.kinds]
+        self.turning = {what: self.momentum(int(what)) for *_, what in self.links if what in "012"}
         for number, (a, b, what) in enumerate(self.links):
             self.link(number, a, b, what)
         for at in range(len(self.kinds)):
@@ -72,7 +76,7 @@ class Drawing:
 
     def structure(self) -> None:
         """Junctions and links of one of the shapes."""
-        shapes = ["tree", "tree", "loops", "loops", "grid", "ring", "ladder"]
+        shapes = ["tree", "tree", "loops", "loops", "grid", "ring", "body", "ladder"]
         getattr(self, self.random.choice(shapes))()
 
     def tree(self) -> None:
@@ -110,6 +114,14 @@ class Drawing:
             self.kinds.append(self.random.choice("01"))
             self.links.append((self.random.randrange(size), size, "any"))
 
+    def body(self) -> None:
+        """A rigid body: a ring of gyrators that the angular momenta of the others modulate."""
+        self.kinds = ["1"] * 3
+        self.links = [(0, 1, "2"), (1, 2, "0"), (2, 0, "1")]  # the axis whose momentum it is
+        for _ in range(self.random.choice([0, 0, 1, 2])):
+            self.kinds.append(self.random.choice("01"))
+            self.links.append((self.random.randrange(3), len(self.kinds) - 1, "any"))
+
     def ladder(self) -> None:
         """0 and 1 in turn, now and then through a transformer."""
         for at in range(self.random.randint(2, 9)):
@@ -118,6 +130,12 @@ class Drawing:
                 self.links.append((at - 1, at, self.random.choice(["bond", "bond", "TF"])))
 
     # --------------------------------------------------------------------------- contents
+
+    def momentum(self, at: int) -> tuple[str, str]:
+        """The column and the text of the momentum of a new inertia at a 1-junction."""
+        name = f"J{at}"
+        self.parts.line(f"j{at} -> {self.parts.storage('I', False, name, self.port(at, True))}")
+        return self.parts.states[-1]
 
     def link(self, number: int, a: int, b: int, what: str) -> None:
         """A bond or a two-port between junctions."""
@@ -140,7 +158,8 @@ class Drawing:
         self.join(b, -1 if style == "in" else 1, e2, f2)
         first = Port(e1, f1, 1, -1 if style == "out" else 1)
         second = Port(e2, f2, 1, -1 if style == "in" else 1)
-        node = parts.two_port(what, number, first, second)
+        spun = self.turning.get(what)
+        node = parts.two_port("GY" if spun else what, number, first, second, spun)
         bare = node.split("{")[0].split("=")[0].split(":")[1].strip()
         if style == "through":
             parts.line(f"j{a} -> {node} -> j{b}")
@@ -177,7 +196,7 @@ class Drawing:
     def sensors(self) -> None:
         """Detectors and measured signals, some of them twice."""
         random, parts = self.random, self.parts
-        for _ in range(random.choice([0, 1, 1, 2, 2, 3, 4])):
+        for _ in range(self.count):
             at = random.randrange(len(self.kinds))
             name = f"y{len(parts.sensors)}"
             if random.random() < 0.75:
@@ -191,7 +210,10 @@ class Drawing:
                 parts.signal(name, *[(f"w{k}", self.common(k)) for k in (at, other)])
 
     def any_common(self) -> tuple[str, str]:
-        """The column and the text of the common variable of some junction."""
+        """The column and the text of the common variable of some junction, or of a reading."""
+        if self.count and self.random.random() < 0.3:
+            name = f"y{self.random.randrange(self.count)}"
+            return name, name
         at = self.random.randrange(len(self.kinds))
         return f"w{at}", self.common(at)
 

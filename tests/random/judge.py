@@ -29,9 +29,9 @@ class Slow(Exception):
 
 
 def judge(graph: Graph) -> Verdict:
-    """Compile a graph as far as the residual program, under a time limit."""
-    signal.signal(signal.SIGALRM, _too_slow)
-    signal.setitimer(signal.ITIMER_REAL, _SECONDS)
+    """Compile a graph as far as the residual program, under a limit of processor time."""
+    signal.signal(signal.SIGPROF, _too_slow)
+    signal.setitimer(signal.ITIMER_PROF, _SECONDS)
     compilation = Compilation(Source("random.bg", graph.text))
     try:
         return _answered(graph, compilation)
@@ -45,7 +45,7 @@ def judge(graph: Graph) -> Verdict:
         where = f"{Path(ours.filename).name}:{ours.lineno}"
         return Verdict("exception", (), f"{type(error).__name__}: {error} ({where})")
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.setitimer(signal.ITIMER_PROF, 0)
 
 
 def _answered(graph: Graph, compilation: Compilation) -> Verdict:
