@@ -142,10 +142,10 @@ class _Join:
         """One relation, chosen by the mode; zero where a mode has none."""
         exprs: list[Expr | None] = []
         raws: list[Expr | None] = []
-        like = _summands(next(c.expr for c in column if c))
+        like = summands(next(c.expr for c in column if c))
         for answer, closing in zip(self.answers, column, strict=True):
             missing = None if answer is None else self.pool.zero
-            turned = closing is not None and _opposed(_summands(closing.expr), like)
+            turned = closing is not None and opposed(summands(closing.expr), like)
             for told, own in ((exprs, closing and closing.expr), (raws, closing and closing.raw)):
                 told.append(missing if own is None else self.pool.neg(own) if turned else own)
         return Closing(
@@ -178,7 +178,7 @@ class _Join:
 
         What all of them add stays outside the choice, so that it can be filtered as it is.
         """
-        sums = [None if leaf is None else _summands(leaf) for leaf in leaves]
+        sums = [None if leaf is None else summands(leaf) for leaf in leaves]
         told = [own for own in sums if own is not None]
         common = {t: c for t, c in told[0].items() if all(own.get(t) == c for own in told)}
         if len(told) == 1 or not common:
@@ -202,7 +202,7 @@ class _Join:
         return self.pool.choose(self.modes[depth], yes, no)
 
 
-def _summands(expr: Expr) -> dict[Expr, Fraction]:
+def summands(expr: Expr) -> dict[Expr, Fraction]:
     """What an expression adds up, sums inside of sums included, each with its coefficient."""
     found: dict[Expr, Fraction] = {}
     stack = [(Fraction(1), expr)]
@@ -216,7 +216,7 @@ def _summands(expr: Expr) -> dict[Expr, Fraction]:
     return {node: c for node, c in found.items() if c}
 
 
-def _opposed(one: dict[Expr, Fraction], other: dict[Expr, Fraction]) -> bool:
+def opposed(one: dict[Expr, Fraction], other: dict[Expr, Fraction]) -> bool:
     """Whether two sums, each of which vanishes, share more when one of them is negated."""
     shared = [other[t] == c for t, c in one.items() if abs(other.get(t, 0)) == abs(c)]
     return 2 * sum(shared) < len(shared)

@@ -10,6 +10,7 @@ from bondgraph.ir.equations import EquationSystem
 from bondgraph.ir.residuals import ReducedSystem
 from bondgraph.passes.chain import Chain
 from bondgraph.passes.each_mode import each_mode
+from bondgraph.passes.regroup import regroup
 from bondgraph.text.diagnostic import Report
 
 
@@ -29,10 +30,10 @@ def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
     if result is None:
         result = each_mode(system, _eliminated)
         if result is not None:
-            return result
+            return regroup(result)
     for diagnostic in said.diagnostics:
         report.add(diagnostic)
-    return result
+    return None if result is None else regroup(result)
 
 
 def _eliminated(system: EquationSystem, report: Report) -> ReducedSystem | None:
