@@ -47,7 +47,7 @@ def each_mode(system: EquationSystem, eliminate: _Eliminate) -> ReducedSystem | 
     surplus = [_surplus(own) for own in held]
     answers: list[ReducedSystem | None] = []
     for own, more in zip(held, surplus, strict=True):
-        if more > min(surplus):  # the sources contradict each other
+        if more > min(surplus) and _contradictory(own, eliminate):
             answers.append(None)
             continue
         said = Report()
@@ -83,9 +83,23 @@ def _held(system: EquationSystem, setting: Mapping[Expr, bool]) -> EquationSyste
 
 
 def _surplus(system: EquationSystem) -> int:
-    """How many relations the equations have without any sensor."""
+    """How many relations the equations have without any sensor, identities included."""
+    return relations(_blind(system))
+
+
+def _blind(system: EquationSystem) -> EquationSystem:
     blind = tuple(e for e in system.equations if e.kind != "sensor")
-    return relations(system._replace(equations=blind))
+    return system._replace(equations=blind)
+
+
+def _contradictory(system: EquationSystem, eliminate: _Eliminate) -> bool:
+    """Whether the equations without sensors say more than one thing of their sources.
+
+    They may say the same thing twice, as of the flow of a junction that is off and has no other
+    bond than to a junction with nothing on it.
+    """
+    found = eliminate(_blind(system), Report())
+    return found is None or bool(found.closings)
 
 
 class _Join:
