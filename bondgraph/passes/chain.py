@@ -11,6 +11,7 @@ loop (`loops`) or a storage whose only access is through its integral.
 from __future__ import annotations
 
 import heapq
+import math
 from contextlib import suppress
 from typing import NamedTuple
 
@@ -60,8 +61,8 @@ class Chain:
     """The state of one elimination.
 
     Derivatives up to the order `free` are not avoided: shorter paths count more. Without `starts`
-    no integral is used whose initial value is not declared. An `eager` one takes the integrals of
-    declared starts before it tears a loop, which they may untie.
+    no integral is used whose initial value is not declared; what is less late than `eager` is taken
+    before a loop is looked for.
     """
 
     def __init__(
@@ -70,7 +71,7 @@ class Chain:
         report: Report,
         free: int = 0,
         starts: bool = True,
-        eager: bool = False,
+        eager: int = 0,
     ) -> None:
         self.system = system
         self.free = free
@@ -223,34 +224,25 @@ class Chain:
     def stalled(self) -> bool:
         """Make progress where chaining has stopped; False when there is none to be made."""
         self.loops.solve_algebraic()
-        if self.eager and self.take_late(integrals=True):
+        if self.postponed(self.eager) or self.tear(states=False):
             return True
-        if self.tear(states=False) or self.take_late():
+        if self.postponed():
             return True
         return self.tear(states=True) or self.tear(states=True, stubborn=True)
 
-    def take_late(self, integrals: bool = False) -> bool:
-        """Accept the best offer that waits; only one of a declared start with `integrals`."""
-        held = []
-        taken = False
-        while self.later and not taken:
+    def postponed(self, most: float = math.inf) -> bool:
+        """Take the cheapest integral or iteration that is possible, if it is less late."""
+        while self.later and self.later[0].cost.late < most:
             offer = heapq.heappop(self.later)
             variable = self.system.unknowns[offer.variable]
             if self.used[offer.equation] or variable in self.closed:
-                continue
-            if integrals and (
-                offer.how != "integrated" or self.system.equations[offer.equation].initial is None
-            ):
-                held.append(offer)
                 continue
             with suppress(ZeroDivisionError):  # by what is always zero: `take` knows what to do
                 if self.loops.open_in(self.substituted(offer.solution.value)):
                     continue
             self.take(offer, variable)
-            taken = True
-        for offer in held:
-            heapq.heappush(self.later, offer)
-        return taken
+            return True
+        return False
 
     def tear(self, states: bool, stubborn: bool = False) -> bool:
         """Take one variable of each remaining solvable block as if it were known.

@@ -9,6 +9,7 @@ from bondgraph.exact.evaluate import highest_order
 from bondgraph.ir.equations import EquationSystem
 from bondgraph.ir.residuals import ReducedSystem
 from bondgraph.passes.chain import Chain
+from bondgraph.passes.cost import FREE_START, ITERATION
 from bondgraph.passes.each_mode import each_mode
 from bondgraph.passes.regroup import regroup
 from bondgraph.text.diagnostic import Report
@@ -38,27 +39,32 @@ def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
 
 def _eliminated(system: EquationSystem, report: Report) -> ReducedSystem | None:
     said = Report()
-    chain = _chained(Chain(system, said))
+    chain = _run(Chain(system, said))
     if chain.tangled():
         order = highest_order([row.expr for row in chain.loops.plain])
-        near = _chained(Chain(system, said, free=order))
+        near = _run(Chain(system, said, free=order))
         if len(near.loops.plain) >= len(chain.loops.plain):
             chain = near
     result = chain.result()
     codes = {d.code for d in said.diagnostics}
-    for code in ("initial-value-needed", "loop-unsolvable"):
-        if code in codes and said.failed:
-            starts = code == "loop-unsolvable"
-            other = Report()
-            anew = _chained(Chain(system, other, starts=starts, eager=starts)).result()
-            if not other.failed and len(anew.closings) >= len(result.closings) + result.missing:
-                result, said = anew, other
+    others = []
+    if "initial-value-needed" in codes:
+        others.append(Chain(system, Report(), starts=False))
+    if "loop-unsolvable" in codes:
+        others += [Chain(system, Report(), eager=late) for late in (ITERATION, 2 * FREE_START)]
+    for other in others:
+        another = _run(other).result()
+        if not other.report.failed and (
+            len(another.closings) >= len(result.closings) + result.missing
+        ):
+            result, said = another, other.report
+            break
     for diagnostic in said.diagnostics:
         report.add(diagnostic)
     return None if said.failed else result
 
 
-def _chained(chain: Chain) -> Chain:
+def _run(chain: Chain) -> Chain:
     chain.start()
     chain.run()
     while chain.stalled():

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
+from fractions import Fraction
 from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
@@ -43,7 +45,8 @@ def _freed(pool: Pool, expr: Expr, switches: int) -> Freed | None:
     for order in range(_MOST):
         pushed = _push(pool, expr, order)
         if pushed is None:
-            return _in_each_position(pool, expr, switches) or _one_by_one(pool, expr)
+            each = _in_each_position(pool, expr, switches)
+            return each or _one_by_one(pool, _telling(pool, expr))
         if not _holding(pushed):
             return Freed(pushed, raw, order)
         raw = pool.der(raw)
@@ -81,6 +84,43 @@ def _chosen(pool: Pool, expr: Expr, choices: dict[Expr, Expr]) -> Expr:
     for node in topological([expr]):
         branch = choices.get(node)
         new[node] = new[branch] if branch else pool.rebuild(node, tuple(new[a] for a in node.args))
+    return new[expr]
+
+
+def _telling(pool: Pool, expr: Expr) -> Expr:
+    """The expression without the integrals of unknown start that cancel in it.
+
+    One cancels if the value is the same whatever signal stands in its place.
+    """
+    if len(topological([expr])) > _LARGE:
+        return expr
+    one, other = (pool.symbol(name, Kind.TEAR) for name in ("?one", "?other"))
+    for node in [n for n in _holding(expr) if n.op is Op.INT]:
+        at = [pool.substitute([expr], {node: x})[0] for x in (one, other)]
+        if is_zero(pool.sub(*at)):
+            for number in (pool.zero, pool.one):  # zero may stand below a fraction
+                with suppress(ZeroDivisionError):
+                    expr = _flat(pool, pool.substitute([expr], {node: number})[0])
+                    break
+    return expr
+
+
+def _flat(pool: Pool, expr: Expr) -> Expr:
+    """The expression with sums inside sums written as one, so that V - (V - x) becomes x."""
+    new: dict[Expr, Expr] = {}
+    for node in topological([expr]):
+        args = [new[a] for a in node.args]
+        if node.op is not Op.ADD:
+            new[node] = pool.rebuild(node, tuple(args))
+            continue
+        terms: list[tuple[Fraction | int, Expr]] = []
+        for outer, arg in zip(node.coefficients, args, strict=True):
+            if arg.op is Op.ADD:
+                inner = zip(arg.coefficients, arg.args, strict=True)
+                terms += [(outer * c, a) for c, a in inner]
+            else:
+                terms.append((outer, arg))
+        new[node] = pool.add(*terms)
     return new[expr]
 
 
