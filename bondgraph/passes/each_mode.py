@@ -19,7 +19,7 @@ from bondgraph.passes.branches import in_mode
 from bondgraph.passes.rank import relations
 from bondgraph.text.diagnostic import Report
 
-_MOST = 5  # modes; each doubles the work and the relations
+_MOST = 6  # modes; each doubles the work and the relations
 
 _Setting = dict[Expr, bool]
 _Leaves = Sequence[Expr | None]

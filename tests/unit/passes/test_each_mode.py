@@ -18,7 +18,8 @@ coil {{ -> I:L = 0.3; -> R:r = 0.5; -> Df:i }}
 """
 
 
-SIX = "on and m0 and m1 and m2 and m3 and m4"
+INPUTS = "".join(f"input m{k} : bool\n" for k in range(6))
+SEVEN = "on and m0 and m1 and m2 and m3 and m4 and m5"
 
 
 def compiled(text: str) -> Compilation:
@@ -53,8 +54,8 @@ def test_a_mode_without_current_has_a_relation_of_its_own() -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        # six modes are more than are looked at
-        "".join(f"input m{k} : bool\n" for k in range(5)) + CONVERTER.format(SIX, f"not ({SIX})"),
+        # seven modes are more than are looked at
+        INPUTS + CONVERTER.format(SEVEN, f"not ({SEVEN})"),
         # the charge that flowed while the switch was closed: no mode knows what others added
         CONVERTER.format("on", "not on") + "sensor q = int(tr.f)^2",
     ],
