@@ -1,8 +1,9 @@
 """Multiply a relation through with the moduli it divides by, so that it holds where they are zero.
 
 A two-port that a known signal modulates is read backwards by dividing by its modulus: by 1 - a of
-a duty cycle a, by a speed of a rotating body. Both may be zero while the machine runs. The
-relation is kept as a fraction and only its numerator is left: (N/m)' becomes N' m - N m'.
+a duty cycle a, by a speed of a rotating body. Both may be zero while the machine runs, and a leak,
+or the difference of two moments of inertia, is zero all the time. The relation is kept as a
+fraction and only its numerator is left: (N/m)' becomes N' m - N m'.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ from collections.abc import Iterable, Sequence
 from bondgraph.ir.equations import EquationSystem
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, topological
 from bondgraph.ir.residuals import Step
+from bondgraph.passes.nominal import Nominal
+from bondgraph.passes.solve import constant
 
 Denominator = dict[Expr, int]
 
@@ -40,6 +43,14 @@ def moduli(system: EquationSystem, steps: Sequence[Step]) -> list[Expr]:
     found = dict.fromkeys([*top, *pool.substitute(inside, {s.variable: s.closed for s in steps})])
     known = _in_known_signals(found)
     return [base for base in found if base in known]
+
+
+def nothings(nominal: Nominal, expr: Expr) -> list[Expr]:
+    """The constants below an expression that it divides by and that are nominally zero."""
+    nodes = topological([expr])
+    known: dict[Expr, bool] = {}
+    found = dict.fromkeys(_divisors(nodes))
+    return [base for base in found if constant(base, known) and nominal.vanishes(base)]
 
 
 def _in_known_signals(exprs: Iterable[Expr]) -> set[Expr]:

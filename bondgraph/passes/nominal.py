@@ -45,6 +45,7 @@ class Nominal:
     def __init__(self, graph: BondGraph) -> None:
         self._known: dict[Expr, float | None] = {}
         self._doubts: dict[Expr, float] = {}
+        self._nothing: dict[Expr, bool] = {}
         self._given = {v.symbol: v.value for v in graph.values}
         self._given |= {
             p.initial: p.initial_value
@@ -74,14 +75,24 @@ class Nominal:
         """Whether a coefficient is zero at the nominal values, next to the size of its terms.
 
         A leak that is nominally zero, or a bridge that is nominally in balance: dividing by it
-        gives a relation that has no value on the healthy machine.
+        gives a relation that has no value on the healthy machine. So does a signal times a leak.
         """
         if expr.op is Op.NUM:
             return not expr.number
-        value = self.value(expr)
-        if value is None:
-            return False
-        return abs(value) <= self._doubt(expr)
+        for node in topological([expr], stop=self._nothing.__contains__):
+            if node not in self._nothing:
+                self._nothing[node] = self._vanishes(node)
+        return self._nothing[expr]
+
+    def _vanishes(self, node: Expr) -> bool:
+        """`vanishes` of a node whose arguments are known."""
+        value = self.value(node)
+        if value is not None:
+            return abs(value) <= self._doubt(node)
+        if node.op is Op.MUL:
+            factors = zip(node.args, node.exponents, strict=True)
+            return any(exponent > 0 and self._nothing[a] for a, exponent in factors)
+        return node.op in (Op.ADD, Op.DER) and all(self._nothing[a] for a in node.args)
 
     def size(self, coefficient: Expr) -> float:
         """The nominal value of a coefficient: zero if it vanishes, one if the model gives none."""

@@ -14,7 +14,8 @@ from bondgraph.exact.plant import Plant
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
-from bondgraph.passes.cleared import cleared, moduli
+from bondgraph.passes.cleared import cleared, moduli, nothings
+from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.present import upright
 from bondgraph.passes.reactions import Reactions
 from bondgraph.text.diagnostic import Report
@@ -39,6 +40,7 @@ class _Analysis:
         self.graph = reduced.system.graph
         self.pool = self.graph.pool
         self.reactions = Reactions(plant, seed)
+        self.nominal = Nominal(self.graph)
 
     def run(self) -> tuple[ResidualSet, SignatureMatrix]:
         relations: list[tuple[Closing, Expr, dict[Expr, int]]] = []
@@ -46,13 +48,15 @@ class _Analysis:
             free = self.reactions.at_free_signals(closing.expr)
             if any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items()):
                 own = pruned(self.pool, closing, free)
-                expr = cleared(self.pool, own.expr, moduli(self.reduced.system, own.steps))
+                bases = moduli(self.reduced.system, own.steps)
+                bases += [b for b in nothings(self.nominal, own.expr) if symbols(b)]
+                expr = cleared(self.pool, own.expr, bases)
                 expr = upright(self.pool, expr)
                 if all(expr is not other for _, other, _ in relations):  # two equal gyrators
                     relations.append((own, expr, free.orders))
         reacts = self.reactions.on_trajectories(
             [with_moving_parameters(c, e) for c, e, _ in relations],
-            [symbols(c.raw) for c, _, _ in relations],
+            [_behind(c) for c, _, _ in relations],
         )
         names = [f"r{i + 1}" for i in range(len(relations))]
         residuals = tuple(
@@ -70,6 +74,17 @@ class _Analysis:
             ResidualSet(reduced.system, residuals, reduced.unsolved, reduced.unmonitored),
             SignatureMatrix(tuple(names), faults, tuple(rows), orders),
         )
+
+
+def _behind(closing: Closing) -> list[Expr]:
+    """The symbols that a relation was made of, those included that have dropped out of it.
+
+    A parameter may drop out only because it is constant: that of a storage whose flow is zero.
+    """
+    if len(closing.steps) > _LONG:
+        return symbols(closing.raw)
+    zeros = [s.equation.zero for s in closing.steps]
+    return symbols(closing.raw, closing.equation.zero, *zeros)
 
 
 def with_moving_parameters(closing: Closing, expr: Expr) -> Expr:

@@ -13,8 +13,8 @@ from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual
 from bondgraph.ir.show import show
+from bondgraph.passes.cleared import nothings
 from bondgraph.passes.nominal import Nominal
-from bondgraph.passes.solve import constant
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
@@ -48,7 +48,7 @@ class _Truth:
 
 
 def divided_away(points: Sequence[Sample], residual: Residual) -> Expr | None:
-    """What a step behind a residual divides by, if it rests at all healthy points; else None.
+    """What a step behind a residual divides by, if it rests at all of the points; else None.
 
     What is left of the relation may have a value all the same: it then tells of a machine in which
     that variable does not rest, and there is none.
@@ -106,12 +106,8 @@ def divides_by_nothing(graph: BondGraph, exprs: Sequence[Expr]) -> None:
     """
     nominal = Nominal(graph)
     for at, expr in enumerate(exprs):
-        known: dict[Expr, bool] = {}
-        for node in topological([expr]):
-            if node.op is Op.MUL:
-                for base, power in zip(node.args, node.exponents, strict=True):
-                    if power < 0 and constant(base, known) and nominal.vanishes(base):
-                        raise Resting(at, base)
+        for base in nothings(nominal, expr):
+            raise Resting(at, base)
 
 
 def contradictory(report: Report, name: str, origin: Span) -> None:

@@ -113,7 +113,8 @@ class _Check:
             return self.result(f"not verified: {reason}")
         except _Failed as failure:
             residual = self.residuals[failure.residual]
-            divisor = unanswerable.divided_away(self.points, residual)
+            points = self.points if failure.fault else self.points[-1:]
+            divisor = unanswerable.divided_away(points, residual)
             if divisor is not None:
                 unanswerable.resting(self.report, residual, divisor)
                 return self.result("not verified: a step divides by zero")
@@ -241,6 +242,7 @@ class _Check:
                 any(shows(at, fault, p) for p in points)
                 or self.acts(at, fault)
                 or any(shows(at, fault, p) for p in self.elsewhere())
+                or any(self.inclined(at, fault, p) for p in points)
             ):
                 name = self.residuals[at].name
                 raise _Failed(at, fault, f"residual {name} does not see {fault}, as it should")

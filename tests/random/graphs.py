@@ -16,8 +16,8 @@ from tests.random.rank import P, Row, relations
 class Graph(NamedTuple):
     """A model; `rows` are its equations, `known` the columns of sensors and known inputs.
 
-    `generic` says that the rows speak for the model: no product of signals, no mode, which have
-    slopes that depend on each other.
+    `generic` says that no product of signals has slopes that depend on each other: where a factor
+    rests, there are more relations than the rows say.
     """
 
     text: str
@@ -56,7 +56,6 @@ class Drawing:
         self.parts.common = self.any_common
         self.whens = ["" for _ in self.kinds]
         if self.parts.spice(0.15):
-            self.parts.generic = False
             for at in random.choices(range(len(self.kinds)), k=random.choice([1, 1, 2])):
                 self.whens[at] = f" when {self.parts.mode()} {{ }}"
         self.count = random.choice([0, 1, 1, 2, 2, 3, 4])
@@ -236,6 +235,8 @@ class Drawing:
                 common, other = (e, f) if kind == "0" else (f, e)
                 rows.append({common: 1, f"w{at}": -1})
                 balance[other] = balance.get(other, 0) + sign
+            if self.whens[at]:  # on and off at once
+                balance[f"w{at}"] = balance.get(f"w{at}", 0) + self.parts.number()
             if any(balance.values()):
                 rows.append(balance)
         lines = [f"{kind}:j{at}{self.whens[at]}" for at, kind in enumerate(self.kinds)]

@@ -7,7 +7,9 @@ import sympy as sp
 
 from bondgraph.exact.plant import Plant
 from bondgraph.ir.expr import Expr, Kind, Pool, symbols
+from bondgraph.passes.cleared import nothings
 from bondgraph.passes.initial import without_free_integrals
+from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.reactions import Reactions
 from bondgraph.passes.zero import is_zero
 from bondgraph.pipeline import Compilation
@@ -161,3 +163,36 @@ def test_a_switch_is_not_differentiated() -> None:
     assert c.signatures.faults == ("R", "C", "U", "i")
     assert off == [False, False, False, True]
     assert all(closed_)
+
+
+def test_what_is_nothing_whatever_the_signals() -> None:
+    graph = compiled("param a = 0; param b = 2; param c = 2; 1:j { <- Se:u; -> R:r = 1 }").graph
+    pool, nominal = graph.pool, Nominal(graph)
+    a, b, c = (v.symbol for v in graph.values)
+    u = graph.inputs[0].symbol
+    leak, balanced = pool.mul(a, u), pool.mul(u, pool.sub(b, c))
+    assert nominal.vanishes(leak)
+    assert nominal.vanishes(pool.add((1, leak), (2, pool.der(balanced))))
+    assert not nominal.vanishes(pool.add((1, leak), (1, pool.mul(b, u))))
+    assert not nominal.vanishes(pool.div(u, pool.add((1, a), (1, b))))
+
+
+def test_two_equal_moments_of_inertia_are_no_divisor() -> None:
+    # (J1 - J2) w1 w2 = J3 w3' + torque: with J1 = J2 the torque alone says what w3 does
+    axes = "1:x { -> I:Jx; -> Df:wx; <- Se:tx }; 1:y { -> I:Jy; <- Se:ty }; 1:z { -> I:Jz; <- Se:tz"
+    rings = "x -> MGY:c = Jz*z.f -> y; y -> MGY:a = Jx*x.f -> z; z -> MGY:b = Jy*y.f -> x"
+    text = f"param Jx = 1; param Jy = 2; param Jz = 2\n{axes}; -> Df:wz }}\n{rings}"
+    c = compiled(text)
+    assert len(c.residuals) == 2
+    assert c.verification.method.startswith("exact")
+    nominal = Nominal(c.graph)
+    assert not [d for r in c.residuals for d in nothings(nominal, r.residual.expr)]
+
+
+def test_a_product_with_a_factor_at_rest_is_one_relation_more() -> None:
+    # nothing drives `still`: its flow is zero, so that the product is, though both are unknown
+    c = compiled("1:still { -> R:a = 2 }; 0:n { -> R:b = 3; <- Sf:z = q }; input q unknown\n"
+                 "sensor y = still.f*n.e")  # fmt: skip
+    assert len(c.residuals) == 1
+    assert c.verification.method.startswith("exact")
+    assert not [d for d in c.report.diagnostics if d.code == "relations-missing"]
