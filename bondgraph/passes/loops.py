@@ -18,6 +18,7 @@ from bondgraph.passes.crosswise import Crosswise, LinearRow
 from bondgraph.passes.descent import Descent
 from bondgraph.passes.implicit import invert
 from bondgraph.passes.nominal import Nominal
+from bondgraph.passes.rates import Rates
 from bondgraph.passes.solve import ITERATED, Solution, affine, constant, solve
 from bondgraph.passes.zero import is_zero
 
@@ -59,6 +60,7 @@ class Loops:
         self.nominal = nominal
         self.patient = patient
         self.crosswise = Crosswise(pool, nominal)
+        self.rates = Rates(pool, nominal.vanishes)
         self.descent = Descent(pool, nominal.vanishes)
         self.variable: dict[Expr, Expr] = {}  # tear symbol to the variable it stands for
         self.solved: dict[Expr, _Row] = {}  # tear symbol to its value and rows
@@ -285,6 +287,12 @@ class Loops:
             if left is not None:
                 at, row = left
                 self.pending[knot.members[at]] = _Row(row.rows, self.crosswise.written(row))
+                done = True
+                continue
+            freed = self.rates.lowered([item.expr for item in items])
+            if freed is not None:
+                rows = tuple(dict.fromkeys((*items[freed.by].rows, *items[freed.row].rows)))
+                self.pending[knot.members[freed.row]] = _Row(rows, freed.expr)
                 done = True
         self.plain += [item for item in self.pending if not self._tears(item.expr)]
         self.pending = [item for item in self.pending if self._tears(item.expr)]

@@ -155,4 +155,40 @@ PLANTS = [
         unknown="pump",
         undetectable="",
     ),
+    Plant(
+        "boost_esr",
+        model("boost_esr"),
+        equations="E - L*D(i) - rl*i - (1-d)*u; (1-d)*i - j - u/R; u - x - rc*j; C*D(x) - j",
+        sensors={"u": "u"},
+        n_arr=1,
+        params="L rl C rc R",
+        inputs="E d",
+        values={"d": 0.4},
+        undetectable="",
+    ),
+    Plant(
+        "exchanger_wall",
+        model("exchanger_wall"),
+        equations=(
+            "cp*mh*(Th - x) - Ch*D(x) - G*(x - w); G*(x - w) - Cw*D(w) - Gw*mc*(w - c); "
+            "Gw*mc*(w - c) + cp*mc*(Tc - c) - Cc*D(c)"
+        ),
+        sensors={"Tco": "c"},
+        n_arr=1,
+        params="Ch Cw Cc G Gw cp",
+        inputs="mh mc Th Tc",
+        undetectable="",
+    ),
+    Plant(
+        "lossy_trafo",
+        model("lossy_trafo"),
+        equations=(
+            "U - R1*i - L1*D(i) - n*cos(al)*v; n*cos(al)*i - v/Rl - j; v - Rs*j - x; Cs*D(x) - j"
+        ),
+        sensors={"i": "i"},
+        n_arr=1,
+        params="R1 L1 n Cs Rs Rl",
+        inputs="U al",
+        undetectable="",
+    ),
 ]
