@@ -57,26 +57,30 @@ class _Offer(NamedTuple):
 _CHECKED = 2000
 
 
-class Chain:
-    """The state of one elimination.
+class Way(NamedTuple):
+    """How to eliminate.
 
     Derivatives up to the order `free` are not avoided: shorter paths count more. Without `starts`
     no integral is used whose initial value is not declared; what is less late than `eager` is taken
-    before a loop is looked for.
+    before a loop is looked for. With `rates` the rate of a torn variable may be put into other
+    rows.
     """
 
-    def __init__(
-        self,
-        system: EquationSystem,
-        report: Report,
-        free: int = 0,
-        starts: bool = True,
-        eager: int = 0,
-    ) -> None:
+    free: int = 0
+    starts: bool = True
+    eager: int = 0
+    rates: bool = False
+
+
+class Chain:
+    """The state of one elimination."""
+
+    def __init__(self, system: EquationSystem, report: Report, way: Way | None = None) -> None:
+        way = way or Way()
         self.system = system
-        self.free = free
-        self.starts = starts
-        self.eager = eager
+        self.free = way.free
+        self.starts = way.starts
+        self.eager = way.eager
         self.pool = system.graph.pool
         self.report = report
         self.colour, self.variable_colour = colours(system)
@@ -94,7 +98,7 @@ class Chain:
         self.heap: list[_Offer] = []
         self.later: list[_Offer] = []
         self.nominal = Nominal(system.graph)
-        self.loops = Loops(self.pool, self.nominal, patient=not starts)
+        self.loops = Loops(self.pool, self.nominal, patient=not way.starts, rates=way.rates)
         self.oversized: list[list[Equation]] = []  # linear loops too large to be written out
 
     # ---------------------------------------------------------------- chaining

@@ -8,11 +8,19 @@ from __future__ import annotations
 from bondgraph.exact.evaluate import highest_order
 from bondgraph.ir.equations import EquationSystem
 from bondgraph.ir.residuals import ReducedSystem
-from bondgraph.passes.chain import Chain
+from bondgraph.passes.chain import Chain, Way
 from bondgraph.passes.cost import FREE_START, ITERATION
 from bondgraph.passes.each_mode import each_mode
 from bondgraph.passes.regroup import regroup
 from bondgraph.text.diagnostic import Report
+
+#: What is tried where the first elimination misses a relation for the reason given, in this order.
+_OTHER_WAYS = (
+    ("initial-value-needed", Way(starts=False)),
+    ("loop-unsolvable", Way(eager=ITERATION)),
+    ("loop-unsolvable", Way(rates=True)),
+    ("loop-unsolvable", Way(eager=2 * FREE_START)),
+)
 
 
 def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
@@ -21,10 +29,10 @@ def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
     Near-linear in the number of bonds. Derivatives are avoided as far as possible; where that makes
     long detours, relations of the same order with shorter paths are taken, and where it misses an
     initial value, no integral without one is used; where a loop cannot be solved, integrals come
-    before loops. A loop that no one order of elimination solves in all modes is solved in each.
-    Reports `loop-unsolvable` for a nonlinear loop without a closed solution, `loop-too-large` for a
-    linear one of ten thousand bonds, `initial-value-needed` where a relation needs an undeclared
-    initial value.
+    before loops, or the rates of hidden states go into other rows. A loop that no one order of
+    elimination solves in all modes is solved in each. Reports `loop-unsolvable` for a nonlinear
+    loop without a closed solution, `loop-too-large` for a linear one of ten thousand bonds,
+    `initial-value-needed` where a relation needs an undeclared initial value.
     """
     said = Report()
     result = _eliminated(system, said)
@@ -42,22 +50,16 @@ def _eliminated(system: EquationSystem, report: Report) -> ReducedSystem | None:
     chain = _run(Chain(system, said))
     if chain.tangled():
         order = highest_order([row.expr for row in chain.loops.plain])
-        near = _run(Chain(system, said, free=order))
+        near = _run(Chain(system, said, Way(free=order)))
         if len(near.loops.plain) >= len(chain.loops.plain):
             chain = near
     result = chain.result()
     codes = {d.code for d in said.diagnostics}
-    others = []
-    if "initial-value-needed" in codes:
-        others.append(Chain(system, Report(), starts=False))
-    if "loop-unsolvable" in codes:
-        others += [Chain(system, Report(), eager=late) for late in (ITERATION, 2 * FREE_START)]
-    for other in others:
-        another = _run(other).result()
-        if not other.report.failed and (
-            len(another.closings) >= len(result.closings) + result.missing
-        ):
-            result, said = another, other.report
+    for way in [way for code, way in _OTHER_WAYS if code in codes]:
+        other = Report()
+        anew = _run(Chain(system, other, way)).result()
+        if not other.failed and len(anew.closings) >= len(result.closings) + result.missing:
+            result, said = anew, other
             break
     for diagnostic in said.diagnostics:
         report.add(diagnostic)

@@ -55,12 +55,14 @@ class Loops:
     If `patient`, no row is divided by a signal while another one can be freed of a derivative.
     """
 
-    def __init__(self, pool: Pool, nominal: Nominal, patient: bool = False) -> None:
+    def __init__(
+        self, pool: Pool, nominal: Nominal, patient: bool = False, rates: bool = False
+    ) -> None:
         self.pool = pool
         self.nominal = nominal
         self.patient = patient
         self.crosswise = Crosswise(pool, nominal)
-        self.rates = Rates(pool, nominal.vanishes)
+        self.rates = Rates(pool, nominal.vanishes) if rates else None
         self.descent = Descent(pool, nominal.vanishes)
         self.variable: dict[Expr, Expr] = {}  # tear symbol to the variable it stands for
         self.solved: dict[Expr, _Row] = {}  # tear symbol to its value and rows
@@ -289,7 +291,9 @@ class Loops:
                 self.pending[knot.members[at]] = _Row(row.rows, self.crosswise.written(row))
                 done = True
                 continue
-            freed = self.rates.lowered([item.expr for item in items])
+            freed = None
+            if self.rates is not None:
+                freed = self.rates.lowered([item.expr for item in items])
             if freed is not None:
                 rows = tuple(dict.fromkeys((*items[freed.by].rows, *items[freed.row].rows)))
                 self.pending[knot.members[freed.row]] = _Row(rows, freed.expr)
