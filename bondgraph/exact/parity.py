@@ -71,7 +71,8 @@ class _Rows:
         self.active = frozenset(self.part.active)
         self.truth = _Truth(trajectory)
         self.times = times
-        self.fault = {plant.graph.fault_symbol(f): at for at, f in enumerate(faults)}
+        symbols = plant.graph.fault_symbols()
+        self.fault = {symbols[f]: at for at, f in enumerate(faults)}
         self.rows: list[Row] = []
 
     def all(self) -> list[Row]:

@@ -192,9 +192,13 @@ class BondGraph(NamedTuple):
     @property
     def faults(self) -> tuple[str, ...]:
         """The fault candidates in the order of the model: params, known inputs, sensors."""
-        params = [v.name for v in self.values if v.fault]
-        inputs = [i.name for i in self.inputs if i.known and not i.mode]
-        return (*params, *inputs, *[s.name for s in self.sensors if s.same_as is None])
+        return tuple(self.fault_symbols())
+
+    def fault_symbols(self) -> dict[str, Expr]:
+        """The symbol of each fault candidate, in the order of `faults`."""
+        found = {v.name: v.symbol for v in self.values if v.fault}
+        found |= {i.name: i.symbol for i in self.inputs if i.known and not i.mode}
+        return found | {s.name: s.symbol for s in self.sensors if s.same_as is None}
 
     def to_networkx(self) -> nx.MultiDiGraph:
         """The graph for networkx: nodes by path (`kind`, `keyword`, `doc`), one edge a bond from

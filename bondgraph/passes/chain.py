@@ -321,8 +321,8 @@ class Chain:
 
     # ------------------------------------------------------------------ result
 
-    def resting_on(self, rows: tuple[int, ...]) -> tuple[Step, ...]:
-        """The steps behind the variables of some equations, in the order they were taken."""
+    def resting_on(self, rows: tuple[int, ...]) -> list[Expr]:
+        """What the variables of some equations rest on, in the order it was computed."""
         seen: set[Expr] = set()
         stack = [v for r in rows for v in self.system.equations[r].variables]
         while stack:
@@ -336,13 +336,16 @@ class Chain:
             else:
                 rows_of = self.loops.rows_for(variable)
                 stack.extend(v for r in rows_of for v in self.system.equations[r].variables)
-        return tuple(self.steps[v] for v in sorted(seen, key=self.sequence.__getitem__))
+        return sorted(seen, key=self.sequence.__getitem__)
 
-    def finished(self, step: Step, final: dict[Expr, Expr]) -> Step:
+    def finished(self, variable: Expr, final: dict[Expr, Expr], done: dict[Expr, Step]) -> Step:
         """A step in known signals alone, as far as the loops that it rests on have a value."""
-        with suppress(ZeroDivisionError):
-            return step._replace(closed=self.pool.substitute([step.closed], final)[0])
-        return step
+        if variable not in done:
+            step = done[variable] = self.steps[variable]
+            with suppress(ZeroDivisionError):
+                closed = self.pool.substitute([step.closed], final)[0]
+                done[variable] = step._replace(closed=closed)
+        return done[variable]
 
     def tangled(self) -> bool:
         """Whether the relations rest on the same steps again and again.
@@ -361,8 +364,9 @@ class Chain:
         relations, lost = self.loops.relations()
         final = self.loops.solutions()
         closings = []
+        done: dict[Expr, Step] = {}
         for rows, expr in sorted(relations, key=lambda r: r[0][-1]):
-            steps = tuple(self.finished(s, final) for s in self.resting_on(rows))
+            steps = tuple(self.finished(v, final, done) for v in self.resting_on(rows))
             found = without_free_integrals(self.pool, expr)
             equation = self.system.equations[rows[-1]]
             if found is None:
@@ -382,7 +386,8 @@ class Chain:
         if self.oversized:
             return
         for rows in self.loops.refused():
-            steps = [s for s in self.resting_on(rows) if self.loops.open_in(s.closed)]
+            steps = [self.steps[v] for v in self.resting_on(rows)]
+            steps = [s for s in steps if self.loops.open_in(s.closed)]
             loop_unsolvable(self.report, steps, [self.system.equations[r] for r in rows])
         stuck = any(n == 1 and not u for n, u in zip(self.waiting, self.used, strict=True))
         hidden = len(self.used) <= _CHECKED and not all(self.used)  # what cancels out of sight

@@ -56,6 +56,7 @@ def _strong(
     exprs = [expr for expr, _ in items]
     left = [dict.fromkeys(faults) for _, faults in items]
     found: list[list[str]] = [[] for _ in items]
+    symbols = plant.graph.fault_symbols()
     decided = False
     hopeless: list[Mapping[Expr, int] | None] = []  # many choices have been tried there already
     for number, modes in enumerate(Reactions(plant, seed).settings(exprs)):
@@ -70,7 +71,7 @@ def _strong(
         decided = True
         for at, expr in enumerate(exprs):
             for fault in list(left[at]):
-                if _held(expr, plant.graph.fault_symbol(fault), point):
+                if _held(expr, symbols[fault], point):
                     found[at].append(fault)
                     del left[at][fault]
     if decided or not any(left):

@@ -42,7 +42,7 @@ class Reactions:
         graph = plant.graph
         laws = [law for _, law in plant.assembly.laws]
         self.turns = _TURNS if _points(laws, dict.fromkeys(plant.modes, 0)) > 1 else 1
-        self.faults = {graph.fault_symbol(f): f for f in graph.faults}
+        self.faults = {symbol: name for name, symbol in graph.fault_symbols().items()}
 
     def at_free_signals(self, expr: Expr) -> Sensitivity:
         """What the relation depends on when its signals are independent of each other."""

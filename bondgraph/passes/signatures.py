@@ -63,16 +63,13 @@ class _Analysis:
             Residual(name, expr, c.equation, c.steps, c.differentiated, c.free_of)
             for name, (c, expr, _) in zip(names, relations, strict=True)
         )
-        faults = self.graph.faults
-        rows = []
-        for fault in faults:
-            symbol = self.graph.fault_symbol(fault)
-            rows.append(tuple(symbol in seen for seen in reacts))
+        faults = self.graph.fault_symbols()
+        rows = [tuple(symbol in seen for seen in reacts) for symbol in faults.values()]
         orders = tuple({s.symbol.name: k for s, k in own.items()} for _, _, own in relations)
         reduced = self.reduced
         return (
             ResidualSet(reduced.system, residuals, reduced.unsolved, reduced.unmonitored),
-            SignatureMatrix(tuple(names), faults, tuple(rows), orders),
+            SignatureMatrix(tuple(names), tuple(faults), tuple(rows), orders),
         )
 
 

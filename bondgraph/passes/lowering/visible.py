@@ -154,9 +154,10 @@ def unseen_faults(
         return ()
     spectra, w = result.spectra, frequency(rate)
     inside = {s for t in result.kept for s in symbols(*builder.resolve([t.atom]))}
+    symbol = builder.graph.fault_symbols()
 
     def acts(name: str) -> bool:
-        if builder.graph.fault_symbol(name) in inside:
+        if symbol[name] in inside:
             return True
         return any(
             _share(result.effect(t, name), spectra[t.atom], t.order, w) >= resolution

@@ -16,7 +16,7 @@ def extract(system: EquationSystem) -> StructuralModel:
     integrated (I), the others are or make up its derivative (D).
     """
     graph = system.graph
-    fault_of = {graph.fault_symbol(f): i for i, f in enumerate(graph.faults)}
+    fault_of = {s: i for i, s in enumerate(graph.fault_symbols().values())}
     known: dict[Expr, int] = {}
     column = {v: i for i, v in enumerate(system.unknowns)}
     rows = []
