@@ -9,6 +9,10 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+# The matrices here are small: threads of a numeric library would only wait for each other. Set
+# before any test imports it.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 ROOT = Path(__file__).resolve().parent.parent
 NO_SKIP = os.environ.get("BONDGRAPH_NO_SKIP") == "1"
 
