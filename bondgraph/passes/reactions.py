@@ -21,6 +21,7 @@ from bondgraph.exact.field import Undefined
 from bondgraph.exact.free import FreeSample
 from bondgraph.exact.modes import assignments, modes_of
 from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.trajectory import Trajectory
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
 
 T = TypeVar("T")
@@ -159,7 +160,10 @@ class Reactions:
 
         def value(modes: Mapping[Expr, int] | None, number: int) -> Any:
             sample = self.plant.sample([expr], number, size, faults=faults, modes=modes)
-            return evaluate([expr], sample, size)[0]
+            found = evaluate([expr], sample, size)[0]
+            if isinstance(sample, Trajectory) and sample.still and any(found):
+                raise ExactUnavailable("no point was found at which all its laws hold")
+            return found
 
         free = [] if self.modes is not None else modes_of(self.plant.graph, [expr])
         failure: ExactUnavailable | None = None

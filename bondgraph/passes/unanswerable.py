@@ -9,12 +9,13 @@ from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.evaluate import Assignment, Sample, demands, values_of
 from bondgraph.exact.plant import ExactUnavailable
 from bondgraph.exact.trajectory import Trajectory
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.expr import Expr, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph
-from bondgraph.ir.residuals import Residual
+from bondgraph.ir.residuals import Residual, Step
 from bondgraph.ir.show import show
 from bondgraph.passes.cleared import nothings
 from bondgraph.passes.nominal import Nominal
+from bondgraph.passes.solve import affine
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
@@ -47,7 +48,7 @@ class _Truth:
         raise Mixed("an integral in a step")
 
 
-def divided_away(points: Sequence[Sample], residual: Residual) -> Expr | None:
+def divided_away(pool: Pool, points: Sequence[Sample], residual: Residual) -> Expr | None:
     """What a step behind a residual divides by, if it rests at all of the points; else None.
 
     What is left of the relation may have a value all the same: it then tells of a machine in which
@@ -57,9 +58,17 @@ def divided_away(points: Sequence[Sample], residual: Residual) -> Expr | None:
     truths = [_Truth(p) for p in known]
     for step in residual.steps:
         found = _resting(step.value, truths) or _resting(step.closed, known)
+        if found is None and step.equation.state is None:
+            found = _resting(_slope(pool, step), truths)  # what has been cancelled in the value
         if found is not None:
             return found
     return None
+
+
+def _slope(pool: Pool, step: Step) -> Expr:
+    """One over what stands before the variable of a step in its equation, where it is linear."""
+    parts = affine(pool, step.equation.zero, step.variable)
+    return pool.one if parts is None or parts[0] is pool.zero else pool.power(parts[0], -1)
 
 
 def _resting(expr: Expr, points: Sequence[Assignment]) -> Expr | None:

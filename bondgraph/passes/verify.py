@@ -114,7 +114,7 @@ class _Check:
         except _Failed as failure:
             residual = self.residuals[failure.residual]
             points = self.points if failure.fault else self.points[-1:]
-            divisor = unanswerable.divided_away(points, residual)
+            divisor = unanswerable.divided_away(self.graph.pool, points, residual)
             if divisor is not None:
                 unanswerable.resting(self.report, residual, divisor)
                 return self.result("not verified: a step divides by zero")
@@ -158,14 +158,11 @@ class _Check:
                 if failure is None or isinstance(failure, Contradictory):
                     failure = reason  # not every combination of switches leaves a plant
                 continue
-            moving = [self.residuals[at].name for at, v in enumerate(values) if _moves(v)]
-            if moving and isinstance(point, Trajectory) and point.still:
-                failure = ExactUnavailable("no point was found at which all its laws hold")
-                continue
             points.append(point)
-            if moving:
-                at = next(at for at, v in enumerate(values) if _moves(v))
-                raise _Failed(at, None, f"residual {moving[0]} is not zero on the healthy model")
+            for at, value in enumerate(values):
+                if _moves(value):
+                    name = self.residuals[at].name
+                    raise _Failed(at, None, f"residual {name} is not zero on the healthy model")
         if not points:
             raise failure or ExactUnavailable("no mode of the model has a trajectory")
         return points
@@ -314,6 +311,8 @@ class _Check:
                 values = evaluate(exprs, point, self.terms)
             except Undefined:
                 continue
+            if isinstance(point, Trajectory) and point.still and any(map(_moves, values)):
+                raise ExactUnavailable("no point was found at which all its laws hold")
             self.trajectories += 1
             self.waves = self.waves or not isinstance(values[0], list)
             return point, values

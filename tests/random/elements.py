@@ -233,6 +233,7 @@ class Elements:
             self.equation(at.effort(), at.flow(self.number()))
             return into, f"R:{name} {{ {text} }}"
         if kind == "switch" and random.random() < 0.3:
+            self.generic = False
             self.equation(at.effort(), at.flow(self.number()))  # of both positions at once
             return into, f"R:{name} {{ 0 = if({self.mode()}, e, f) }}"
         return into, self.storage(random.choice("CI"), kind == "store", name, at)

@@ -16,8 +16,8 @@ from tests.random.rank import P, Row, relations
 class Graph(NamedTuple):
     """A model; `rows` are its equations, `known` the columns of sensors and known inputs.
 
-    `generic` says that no product of signals has slopes that depend on each other: where a factor
-    rests, there are more relations than the rows say.
+    `generic` says that no product of signals has slopes that depend on each other, and no switch
+    turns: where a factor rests, and in some modes, there are more relations than the rows say.
     """
 
     text: str
@@ -56,6 +56,7 @@ class Drawing:
         self.parts.common = self.any_common
         self.whens = ["" for _ in self.kinds]
         if self.parts.spice(0.15):
+            self.parts.generic = False
             for at in random.choices(range(len(self.kinds)), k=random.choice([1, 1, 2])):
                 self.whens[at] = f" when {self.parts.mode()} {{ }}"
         self.count = random.choice([0, 1, 1, 2, 2, 3, 4])

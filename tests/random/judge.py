@@ -62,7 +62,7 @@ def _answered(graph: Graph, compilation: Compilation) -> Verdict:
     if expected > count and "relations-missing" in codes:
         return Verdict("fewer than there are, and says so", notes, wrong)
     if expected != count and not graph.generic:
-        return Verdict("other than by rank, where signals multiply", notes, wrong)
+        return Verdict("other count than by rank, with products or switches", notes, wrong)
     if expected != count:
         wrong = f"{count} relations, by rank there are {expected}"
     return Verdict("ok" if count else "no_arr", notes, wrong)
