@@ -66,7 +66,10 @@ def _in_each_position(pool: Pool, expr: Expr, switches: int) -> Freed | None:
     found = []
     for position in (1, 2):
         there = {n: n.args[position] for n in choices if n.args[0] is condition}
-        own = _freed(pool, _chosen(pool, expr, there), switches - 1)
+        try:
+            own = _freed(pool, _chosen(pool, expr, there), switches - 1)
+        except ZeroDivisionError:  # a position in which the relation has no value
+            return None
         if own is None:
             return None
         found.append(own)

@@ -169,7 +169,8 @@ class Reactions:
         failure: ExactUnavailable | None = None
         met = False
         known = assignments(free) if free else [self.modes]
-        for turn, modes in [(turn, modes) for turn in range(self.turns) for modes in known]:
+        turns = max(1, self.turns // len(known))
+        for turn, modes in [(turn, modes) for turn in range(turns) for modes in known]:
             try:
                 found = self.draw(partial(value, modes), 3000 * self.seed + turn)
             except ExactUnavailable as reason:

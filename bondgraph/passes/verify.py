@@ -286,9 +286,10 @@ class _Check:
 
     def acts(self, at: int, fault: str) -> bool:
         """Whether a fault in the plant, any function of time, moves a residual."""
+        turns = max(1, _BRANCHES // len(self.assignments())) if self.decides else 1
         return any(
             _moves(values[0])
-            for turn in range(_BRANCHES if self.decides else 1)
+            for turn in range(turns)
             for _, values in self.faulty([self.exprs[at]], (fault,), 100 + 300 * turn)
         )
 

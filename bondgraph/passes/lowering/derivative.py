@@ -55,7 +55,7 @@ _SLOPES: dict[str, _Slope] = {
     "sinh": lambda p, f, x: p.fn("cosh", x),
     "cosh": lambda p, f, x: p.fn("sinh", x),
     "tanh": lambda p, f, x: p.sub(p.one, p.power(f, 2)),
-    "asinh": lambda p, f, x: _root(p, p.add((1, p.one), (1, p.power(x, 2)))),
+    "asinh": lambda p, f, x: p.power(p.fn("cosh", f), -1),
     "acosh": lambda p, f, x: _root(p, p.sub(p.power(x, 2), p.one)),
     "atanh": lambda p, f, x: p.power(p.sub(p.one, p.power(x, 2)), -1),
 }
