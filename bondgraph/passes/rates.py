@@ -38,7 +38,7 @@ class Rates:
         >>> p = Pool(); x, y = p.symbol("x", Kind.TEAR), p.symbol("y", Kind.SENSOR)
         >>> rows = [p.add((1, p.der(x)), (3, x)), p.add((1, p.der(p.mul(y, x))), (-1, y))]
         >>> Rates(p).lowered(rows).expr
-        -y - 3*x*y + x*D(y)
+        x*D(y) - y - 3*x*y
         """
         inward = [self._inward(row) for row in rows]
         for plain in (True, False):
