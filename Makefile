@@ -57,8 +57,9 @@ wheel: $(VENV)/dev.stamp ## build the wheel, install it elsewhere, compile a mod
 $(VENV)/bench.stamp: tests/bench/toolbox_requirements.txt tests/bench/newer_requirements.txt $(VENV)/dev.stamp
 	$(BIN)/python -m venv $(VENV)/toolbox
 	-$(VENV)/toolbox/bin/python -m pip --disable-pip-version-check --quiet install -r $<
-	-newer=$$(command -v python3.14 || command -v python3.13) && $$newer -m venv $(VENV)/newer && \
-	$(VENV)/newer/bin/python -m pip --disable-pip-version-check --quiet install -r tests/bench/newer_requirements.txt
+	-for p in python3.14 python3.13; do $$p -c '' 2>/dev/null || continue; $$p -m venv $(VENV)/newer && \
+	$(VENV)/newer/bin/python -m pip --disable-pip-version-check --quiet install \
+	-r tests/bench/newer_requirements.txt; break; done
 	@touch $@
 
 bench: $(VENV)/bench.stamp ## medians of the times that matter, with their ratios
