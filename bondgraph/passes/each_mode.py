@@ -164,10 +164,10 @@ class _Join:
                 told.append(missing if own is None else self.pool.neg(own) if turned else own)
         return Closing(
             self.system.equations[row],
-            self.chosen(exprs),
+            self._chosen(exprs),
             self.steps(column),
             max(c.differentiated for c in column if c),
-            self.chosen(raws),
+            self._chosen(raws),
         )
 
     def steps(self, column: list[Closing | None]) -> tuple[Step, ...]:
@@ -180,40 +180,44 @@ class _Join:
             first = next(s for s in each if s is not None)
             joined.append(
                 first._replace(
-                    value=self.chosen([s and s.value for s in each]),
-                    closed=self.chosen([s and s.closed for s in each]),
+                    value=self._chosen([s and s.value for s in each]),
+                    closed=self._chosen([s and s.closed for s in each]),
                     equation=self.system.equations[self.number[id(first.equation)]],
                 )
             )
         return tuple(joined)
 
-    def chosen(self, leaves: _Leaves) -> Expr:
-        """The expression that is each of the leaves in its mode; some leaf is given.
+    def _chosen(self, leaves: _Leaves) -> Expr:
+        return chosen(self.pool, self.modes, leaves)
 
-        What all of them add stays outside the choice, so that it can be filtered as it is.
-        """
-        sums = [None if leaf is None else summands(leaf) for leaf in leaves]
-        told = [own for own in sums if own is not None]
-        common = {t: c for t, c in told[0].items() if all(own.get(t) == c for own in told)}
-        if len(told) == 1 or not common:
-            return self.tree(leaves, 0) or self.pool.zero
-        rest = [None if own is None else self.without(own, common) for own in sums]
-        choice = self.tree(rest, 0) or self.pool.zero
-        return self.pool.add(*[(c, t) for t, c in common.items()], (1, choice))
 
-    def without(self, total: dict[Expr, Fraction], common: dict[Expr, Fraction]) -> Expr:
-        """What is left of a sum."""
-        return self.pool.add(*[(c, t) for t, c in total.items() if t not in common])
+def chosen(pool: Pool, modes: Sequence[Expr], leaves: _Leaves) -> Expr:
+    """The expression that is each of the leaves in its combination of modes; some leaf is given.
 
-    def tree(self, leaves: _Leaves, depth: int) -> Expr | None:
-        """The choice by one mode after the other; modes that cannot be are like the others."""
-        if len(leaves) == 1:
-            return leaves[0]
-        half = len(leaves) // 2
-        yes, no = self.tree(leaves[:half], depth + 1), self.tree(leaves[half:], depth + 1)
-        if yes is None or no is None:
-            return yes or no
-        return self.pool.choose(self.modes[depth], yes, no)
+    What all of them add stays outside the choice, so that it can be filtered as it is.
+    """
+    sums = [None if leaf is None else summands(leaf) for leaf in leaves]
+    told = [own for own in sums if own is not None]
+    common = {t: c for t, c in told[0].items() if all(own.get(t) == c for own in told)}
+    if len(told) == 1 or not common:
+        return _tree(pool, modes, leaves) or pool.zero
+    rest = [
+        None if own is None else pool.add(*[(c, t) for t, c in own.items() if t not in common])
+        for own in sums
+    ]
+    choice = _tree(pool, modes, rest) or pool.zero
+    return pool.add(*[(c, t) for t, c in common.items()], (1, choice))
+
+
+def _tree(pool: Pool, modes: Sequence[Expr], leaves: _Leaves) -> Expr | None:
+    """The choice by one mode after the other; modes that cannot be are like the others."""
+    if len(leaves) == 1:
+        return leaves[0]
+    half = len(leaves) // 2
+    yes, no = _tree(pool, modes[1:], leaves[:half]), _tree(pool, modes[1:], leaves[half:])
+    if yes is None or no is None:
+        return yes or no
+    return pool.choose(modes[0], yes, no)
 
 
 def summands(expr: Expr) -> dict[Expr, Fraction]:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Step
 from bondgraph.passes.branches import in_mode
-from bondgraph.passes.each_mode import opposed, summands
+from bondgraph.passes.each_mode import chosen, opposed, summands
 
 _MOST = 5  # relations whose halves are tried in every order
 _MODES = 8  # switches that are looked at
@@ -102,13 +102,8 @@ def _held(expr: Expr) -> frozenset[Expr]:
 
 
 def _joined(pool: Pool, mode: Expr, yes: Expr, no: Expr, turned: bool) -> Expr:
-    """The choice between two halves, with what both of them add outside of it."""
-    one, other = summands(yes), summands(pool.neg(no) if turned else no)
-    common = {t: c for t, c in one.items() if other.get(t) == c}
-    left = [
-        pool.add(*[(c, t) for t, c in own.items() if t not in common]) for own in (one, other)
-    ]
-    return pool.add(*[(c, t) for t, c in common.items()], (1, pool.choose(mode, *left)))
+    """The choice between two halves, either of which vanishes."""
+    return chosen(pool, [mode], [yes, pool.neg(no) if turned else no])
 
 
 def _steps(steps: Iterable[Step]) -> tuple[Step, ...]:
