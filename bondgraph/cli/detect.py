@@ -92,8 +92,12 @@ def _result(compilation: Compilation, found: Detection) -> dict[str, object]:
         "rate": compilation.program.rate,
         "bandwidth": compilation.program.bandwidth,
         "noise": [
-            {"residual": name, "sigma": sigma, "no_threshold": unbounded.get(name),
-             "undefined": name in found.undefined}
+            {
+                "residual": name,
+                "sigma": sigma,
+                "no_threshold": unbounded.get(name),
+                "undefined": name in found.undefined,
+            }
             for name, sigma in found.sigma.items()
         ],
         "faults": [_row(s, units) for s in found.smallest],

@@ -126,6 +126,7 @@ class Nominal:
             return own * (inherited + _ROUNDING)
         return _ROUNDING * own
 
+
 def defined(expr: Expr, variable: Expr, at: float) -> bool:
     """Whether an expression has a value when the variable has one, and all else is one."""
     values: dict[Expr, float] = {}

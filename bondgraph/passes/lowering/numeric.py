@@ -51,9 +51,7 @@ def evaluate(root: Expr, values: Mapping[str, Number]) -> Number | None:
     return None if found is None else found[root]
 
 
-def evaluate_all(
-    roots: Sequence[Expr], values: Mapping[str, Number]
-) -> dict[Expr, Number] | None:
+def evaluate_all(roots: Sequence[Expr], values: Mapping[str, Number]) -> dict[Expr, Number] | None:
     """The values of constant expressions and of all that they are made of; None as `evaluate`."""
     found: dict[Expr, Number] = {}
     try:

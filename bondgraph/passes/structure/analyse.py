@@ -100,9 +100,7 @@ def _signatures(model: StructuralModel, sets: list[tuple[int, ...]]) -> Bools:
     return np.array(rows, dtype=np.bool_).reshape(len(sets), len(model.faults))
 
 
-def _missing(
-    model: StructuralModel, best: Isolability, signatures: Bools
-) -> list[tuple[int, ...]]:
+def _missing(model: StructuralModel, best: Isolability, signatures: Bools) -> list[tuple[int, ...]]:
     """Sets for the faults that those found do not see, or do not tell apart."""
     added: list[tuple[int, ...]] = []
     heads = [g[0] for g in best.groups]
