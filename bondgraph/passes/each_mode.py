@@ -17,6 +17,7 @@ from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological, variables
 from bondgraph.ir.residuals import Closing, ReducedSystem, Step
 from bondgraph.passes.branches import in_mode
 from bondgraph.passes.rank import relations
+from bondgraph.passes.summands import summands
 from bondgraph.text.diagnostic import Report
 
 _MOST = 6  # modes; each doubles the work and the relations
@@ -218,20 +219,6 @@ def _tree(pool: Pool, modes: Sequence[Expr], leaves: _Leaves) -> Expr | None:
     if yes is None or no is None:
         return yes or no
     return pool.choose(modes[0], yes, no)
-
-
-def summands(expr: Expr) -> dict[Expr, Fraction]:
-    """What an expression adds up, sums inside of sums included, each with its coefficient."""
-    found: dict[Expr, Fraction] = {}
-    stack = [(Fraction(1), expr)]
-    while stack:
-        factor, node = stack.pop()
-        if node.op is Op.ADD:
-            pairs = zip(node.coefficients, node.args, strict=True)
-            stack.extend((factor * c, a) for c, a in pairs)
-        else:
-            found[node] = found.get(node, Fraction(0)) + factor
-    return {node: c for node, c in found.items() if c}
 
 
 def opposed(one: dict[Expr, Fraction], other: dict[Expr, Fraction]) -> bool:

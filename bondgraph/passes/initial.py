@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from fractions import Fraction
 from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.passes.solve import affine, constant
+from bondgraph.passes.summands import summands
 from bondgraph.passes.zero import is_zero
 
 _Value = Callable[[Expr, int], Expr]
@@ -112,18 +112,10 @@ def _flat(pool: Pool, expr: Expr) -> Expr:
     """The expression with sums inside sums written as one, so that V - (V - x) becomes x."""
     new: dict[Expr, Expr] = {}
     for node in topological([expr]):
-        args = [new[a] for a in node.args]
-        if node.op is not Op.ADD:
-            new[node] = pool.rebuild(node, tuple(args))
-            continue
-        terms: list[tuple[Fraction | int, Expr]] = []
-        for outer, arg in zip(node.coefficients, args, strict=True):
-            if arg.op is Op.ADD:
-                inner = zip(arg.coefficients, arg.args, strict=True)
-                terms += [(outer * c, a) for c, a in inner]
-            else:
-                terms.append((outer, arg))
-        new[node] = pool.add(*terms)
+        made = pool.rebuild(node, tuple(new[a] for a in node.args))
+        if made.op is Op.ADD:
+            made = pool.add(*[(c, term) for term, c in summands(made).items()])
+        new[node] = made
     return new[expr]
 
 

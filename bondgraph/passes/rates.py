@@ -9,12 +9,12 @@ is the reduction of the index by one, a state at a time (Gear, 1988).
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.passes.descent import Lowered
 from bondgraph.passes.lowering.derivative import Jets, TooManyOperations
 from bondgraph.passes.solve import affine, constant
+from bondgraph.passes.summands import summands
 from bondgraph.passes.zero import is_zero
 
 _LARGE = 3000  # new nodes that one row is worth
@@ -93,23 +93,15 @@ class Rates:
 
 def _whole(pool: Pool, row: Expr) -> Expr:
     """The row times what divides its terms, so that nothing has to be divided by a modulus."""
-    terms: list[tuple[Fraction, Expr]] = []
-    stack = [(Fraction(1), row)]
-    while stack:
-        coefficient, node = stack.pop()
-        if node.op is Op.ADD:
-            pairs = zip(node.coefficients, node.args, strict=True)
-            stack += [(coefficient * c, a) for c, a in pairs]
-        else:
-            terms.append((coefficient, node))
+    terms = summands(row)
     divisors: dict[Expr, int] = {}
-    for _, term in terms:
+    for term in terms:
         if term.op is Op.MUL:
             for base, power in zip(term.args, term.exponents, strict=True):
                 if power < 0 and not constant(base) and not _torn(base):
                     divisors[base] = max(divisors.get(base, 0), -power)
     factor = pool.mul(*[pool.power(base, power) for base, power in divisors.items()])
-    return pool.add(*[(c, pool.mul(term, factor)) for c, term in terms])
+    return pool.add(*[(c, pool.mul(term, factor)) for term, c in terms.items()])
 
 
 def _torn(expr: Expr) -> bool:

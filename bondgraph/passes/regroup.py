@@ -15,7 +15,8 @@ from typing import NamedTuple
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Step
 from bondgraph.passes.branches import in_mode
-from bondgraph.passes.each_mode import chosen, opposed, summands
+from bondgraph.passes.each_mode import chosen, opposed
+from bondgraph.passes.summands import summands
 
 _MOST = 5  # relations whose halves are tried in every order
 _MODES = 8  # switches that are looked at
