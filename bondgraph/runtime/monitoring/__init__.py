@@ -1,0 +1,1 @@
+"""What watches a running machine: samples in, verdicts out."""

@@ -1,0 +1,145 @@
+"""How a broker of MQTT is named and reached, for samples and for verdicts."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
+
+from bondgraph.runtime.log import LogError
+from bondgraph.text.tuples import NamedTuple
+
+if TYPE_CHECKING:
+    from paho.mqtt.client import Client
+
+#: Where the password of the user in an address is looked up; an argument can be seen by others.
+PASSWORD = "BONDGRAPH_MQTT_PASSWORD"
+
+#: For how long a broker keeps what comes while the monitor is away, in s.
+SESSION = 7 * 24 * 3600
+
+_ALIVE = 15  # s without a word after which a connection counts as lost
+_FIRST, _LONGEST = 1, 30  # s between attempts to connect
+
+
+class Address(NamedTuple):
+    """A topic at a broker; `secure` through TLS."""
+
+    host: str
+    port: int
+    topic: str
+    user: str | None
+    secure: bool
+
+    @property
+    def name(self) -> str:
+        """Where the broker is, for people."""
+        host = f"[{self.host}]" if ":" in self.host else self.host
+        return f"{host}:{self.port}"
+
+
+def address(text: str) -> Address:
+    """`[mqtts://][USER@]HOST[:PORT]/TOPIC`; raises ValueError for anything else.
+
+    >>> address("localhost/robot/samples")
+    Address(host='localhost', port=1883, topic='robot/samples', user=None, secure=False)
+    >>> address("mqtts://ann@broker.lan:8884/robot").name
+    'broker.lan:8884'
+    """
+    full = text if "://" in text else f"mqtt://{text}"
+    parts = urlsplit(full, allow_fragments=False)
+    topic = parts.path[1:] + (f"?{parts.query}" if parts.query else "")
+    if parts.scheme not in ("mqtt", "mqtts") or not parts.hostname or not topic:
+        raise ValueError(f"`{text}` is not HOST[:PORT]/TOPIC")
+    secure = parts.scheme == "mqtts"
+    port = parts.port or (8883 if secure else 1883)
+    return Address(parts.hostname, port, topic, parts.username, secure)
+
+
+class Link:
+    """A client that connects again whenever the broker is back; `say` hears of it.
+
+    `keep` is for how many s the broker keeps the session while nobody is connected; without it
+    every connection starts anew. `joined` is called after each connection.
+    """
+
+    def __init__(
+        self,
+        at: Address,
+        identity: str,
+        say: Callable[[str], None],
+        joined: Callable[[Client], None],
+        keep: int = 0,
+        at_once: int = 0,
+    ) -> None:
+        try:
+            from paho.mqtt.client import Client, MQTTv5
+            from paho.mqtt.enums import CallbackAPIVersion
+            from paho.mqtt.packettypes import PacketTypes
+            from paho.mqtt.properties import Properties
+        except ImportError as error:
+            remedy = "install it (pip install 'bondgraph-arr[robot]')"
+            raise LogError(at.name, None, "MQTT needs paho-mqtt", remedy) from error
+        self.connections = 0
+        self._at, self._say, self._joined = at, say, joined
+        self._away = False
+        self.client = Client(
+            CallbackAPIVersion.VERSION2, identity, protocol=MQTTv5, manual_ack=True
+        )
+        if at.user is not None:
+            self.client.username_pw_set(at.user, os.environ.get(PASSWORD))
+        if at.secure:
+            self.client.tls_set()
+        self.client.reconnect_delay_set(_FIRST, _LONGEST)
+        self.client.on_connect = self._connected
+        self.client.on_connect_fail = self._failed
+        self.client.on_disconnect = self._lost
+        self._properties = Properties(PacketTypes.CONNECT)
+        self._properties.SessionExpiryInterval = keep
+        if at_once:
+            self._properties.ReceiveMaximum = at_once
+        self._clean = not keep
+
+    def start(self) -> None:
+        """Connect, now and whenever the connection is lost; in a thread."""
+        self.client.connect_async(
+            self._at.host,
+            self._at.port,
+            keepalive=_ALIVE,
+            clean_start=self._clean,
+            properties=self._properties,
+        )
+        self.client.loop_start()
+
+    def stop(self) -> None:
+        """Say goodbye to the broker and end the thread."""
+        self.client.disconnect()
+        self.client.loop_stop()
+
+    def _connected(
+        self, client: Client, data: object, flags: object, code: object, properties: object
+    ) -> None:
+        if getattr(code, "is_failure", False):
+            self._tell(f"the broker {self._at.name} refuses the monitor ({code})")
+            return
+        self.connections += 1
+        if self._away:
+            self._say(f"the broker {self._at.name} is back")
+        self._away = False
+        self._joined(client)
+
+    def _failed(self, client: Client, data: object) -> None:
+        self._tell(f"the broker {self._at.name} cannot be reached")
+
+    def _lost(
+        self, client: Client, data: object, flags: object, code: object, properties: object
+    ) -> None:
+        if getattr(code, "is_failure", False):
+            self._tell(f"the broker {self._at.name} is gone ({code})")
+
+    def _tell(self, what: str) -> None:
+        """Say that the broker is away, once for each time."""
+        if not self._away:
+            self._say(f"{what}; it is tried again")
+        self._away = True

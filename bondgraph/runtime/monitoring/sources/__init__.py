@@ -1,0 +1,1 @@
+"""Where samples come from: files, standard input, a serial port, an MQTT broker."""

@@ -1,0 +1,162 @@
+"""Samples from a file, in blocks; a CSV file can be followed while it grows."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Iterator
+from threading import Event
+from typing import IO, Any
+
+from bondgraph.runtime.log import LogError, read_log
+from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
+from bondgraph.runtime.monitoring.sources.source import IDLE, Chunk, Cutter, News
+
+_BLOCK = 1 << 20  # bytes read at a time
+_ROWS = 20_000  # of a table, given at a time
+_HEAD = 512  # bytes by which a file is known again
+
+
+class TableFile:
+    """A file that is read as a whole, such as Parquet; a place is the number of a row."""
+
+    replays = True
+    decoder = None
+
+    def __init__(self, path: str, form: Form) -> None:
+        self.name = os.path.abspath(path)
+        self._log = read_log(path, time=form.time, rate=form.rate)
+        self._row = 0
+
+    def chunks(self, stop: Event) -> Iterator[Chunk]:
+        """All rows, some thousand at a time."""
+        while self._row < self._log.rows and not stop.is_set():
+            part = self._log.part(self._row, self._row + _ROWS)
+            self._row += part.rows
+            yield Chunk(part, place={"row": self._row})
+
+    def go(self, place: dict[str, Any]) -> str:
+        """Go on from a row."""
+        row = place.get("row", 0)
+        if row > self._log.rows:
+            return f"the file has only {self._log.rows} samples now"
+        self._row = row
+        return ""
+
+    def close(self) -> None:
+        """Nothing to let go of."""
+
+
+class LinesFile:
+    """A file of lines; a place is a number of bytes, and what the file began with.
+
+    With `follow` its end is waited at, as `tail -F` does: what is added is read, and a file that
+    was cut or replaced is read from its start.
+    """
+
+    replays = True
+
+    def __init__(self, path: str, form: Form, follow: bool = False) -> None:
+        self.name = os.path.abspath(path)
+        self.decoder: Decoder | None = Decoder(form)
+        self._lines = self.decoder
+        self._path, self._follow = path, follow
+        self._file = self._open()
+        self._cutter = Cutter()
+        self._offset = 0  # of the first byte behind the lines that were taken
+
+    def chunks(self, stop: Event) -> Iterator[Chunk]:
+        """All lines, and those that are added until `stop` is set."""
+        while not stop.is_set():
+            piece = self._file.read(_BLOCK)
+            if piece:
+                yield from self._taken(piece)
+            elif not self._follow:
+                if self._cutter.rest:  # the last line has no line feed
+                    yield from self._taken(b"\n", added=0)
+                return
+            else:
+                yield from self._waited(stop)
+
+    def go(self, place: dict[str, Any]) -> str:
+        """Go on from a number of bytes, after reading the header again."""
+        offset = int(place.get("offset", 0))
+        if os.fstat(self._file.fileno()).st_size < offset or self._head(offset) != place.get(
+            "head"
+        ):
+            return f"{self._path} is another file now"
+        self._file.seek(0)
+        while self._file.tell() < min(offset, _BLOCK):  # comments and the header come first
+            line = self._file.readline()
+            self._lines.feed(line)
+            if self._lines.rows or self._lines.garbage:
+                break
+        self._lines.garbage = self._lines.rows = 0
+        self._file.seek(offset)
+        self._lines.rows = int(place.get("rows", 0))
+        self._offset, self._cutter = offset, Cutter()
+        return ""
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def _open(self) -> IO[bytes]:
+        try:
+            return open(self._path, "rb")
+        except OSError as error:
+            raise LogError(self._path, None, f"cannot be read: {error.strerror}") from error
+
+    def _taken(self, piece: bytes, added: int | None = None) -> Iterator[Chunk]:
+        block = self._cutter.cut(piece)
+        if block is None:
+            return
+        self._offset += len(block.lines) if added is None else len(block.lines) - 1
+        logs = self._lines.feed(block.lines, block.whole)
+        for log in logs[:-1]:
+            yield Chunk(log)
+        yield Chunk(logs[-1] if logs else None, place=self._place())
+
+    def _waited(self, stop: Event) -> Iterator[Chunk]:
+        """Wait for more; begin again with a file that was cut or replaced."""
+        yield Chunk()
+        stop.wait(IDLE / 2)
+        try:
+            now = os.stat(self._path)
+        except FileNotFoundError:
+            return  # between two files
+        old = os.fstat(self._file.fileno())
+        if now.st_size < self._file.tell() and os.path.samestat(now, old):
+            what = "was cut"
+        elif not os.path.samestat(now, old):
+            rest = self._file.read()
+            if rest:  # came in the last moment
+                yield from self._taken(rest)
+            what = "was replaced"
+        else:
+            return
+        self._file.close()
+        self._file = self._open()
+        self._offset, self._cutter = 0, Cutter()
+        yield Chunk(news=(News("gap", f"{self._path} {what}, read from its start"),))
+
+    def _place(self) -> dict[str, Any]:
+        place = {"offset": self._offset, "rows": self._lines.rows}
+        return place | {"head": self._head(self._offset)}
+
+    def _head(self, offset: int) -> str:
+        """By what the file is known again: its first bytes, of those before `offset`."""
+        at = self._file.tell()
+        self._file.seek(0)
+        head = self._file.read(min(_HEAD, offset))
+        self._file.seek(at)
+        return hashlib.sha256(head).hexdigest()[:16]
+
+
+def file_source(path: str, form: Form, follow: bool = False) -> TableFile | LinesFile:
+    """The samples in a file, by its suffix."""
+    if path.lower().endswith(".parquet"):
+        if follow:
+            raise LogError(path, None, "a Parquet file cannot be followed", "follow a CSV file")
+        return TableFile(path, form)
+    return LinesFile(path, form, follow)

@@ -1,0 +1,217 @@
+"""What every source of samples gives: chunks of a log, and news of the line they come by."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from threading import Condition, Event
+from typing import Any, Protocol
+
+import numpy as np
+
+from bondgraph.runtime.log import Log
+from bondgraph.runtime.monitoring.sources.lines import Decoder
+from bondgraph.text.tuples import NamedTuple
+
+#: How long a source that has nothing waits before it says so, in s.
+IDLE = 0.2
+
+_LONGEST = 1 << 20  # bytes of a line that may be one
+
+
+class News(NamedTuple):
+    """Something to tell about the line itself: `event` as in a verdict, and a sentence."""
+
+    event: str
+    message: str
+
+
+class Chunk(NamedTuple):
+    """Samples that came together; none where there is only news, or nothing at all.
+
+    `place` says where to go on after them, for sources that can go back (`Source.go`).
+    `done` is called once the samples and what follows from them are safe.
+    """
+
+    log: Log | None = None
+    news: tuple[News, ...] = ()
+    place: dict[str, Any] | None = None
+    done: Callable[[], None] | None = None
+
+
+class Source(Protocol):
+    """Where samples come from.
+
+    `name` is told to people and kept in the journal. `replays` says that it can go back, so that
+    nothing is missed while nobody watches.
+    """
+
+    name: str
+    replays: bool
+    decoder: Decoder | None
+
+    def chunks(self, stop: Event) -> Iterator[Chunk]:
+        """All there is, until the end or until `stop` is set; an empty chunk if nothing comes.
+
+        Raises LogError where no samples can be read at all.
+        """
+        ...
+
+    def go(self, place: dict[str, Any]) -> str:
+        """Go on from a place that a chunk told; "", or why that cannot be (then from the start)."""
+        ...
+
+    def close(self) -> None:
+        """Let go of the line."""
+        ...
+
+
+class Block(NamedTuple):
+    """Whole lines as they came in. `whole` is false after a line was joined in the middle,
+    `again` true for what may have come before; `done` as for a chunk."""
+
+    lines: bytes
+    whole: bool = True
+    again: bool = False
+    done: Callable[[], None] | None = None
+
+
+class Intake:
+    """Blocks between the thread that receives and the one that computes, at most so many bytes.
+
+    What is too much waits (`waits`: the sender can be held up), or else the oldest is dropped,
+    and the next news says how much.
+    """
+
+    def __init__(self, most: int = 1 << 22, waits: bool = False) -> None:
+        self._most, self._waits = most, waits
+        self._items: deque[Block | News] = deque()
+        self._size = self._dropped = 0
+        self._ended = False
+        self._changed = Condition()
+
+    def put(self, block: Block) -> None:
+        """Add what has come."""
+        with self._changed:
+            while self._waits and self._size >= self._most and not self._ended:
+                self._changed.wait()
+            self._items.append(block)
+            self._size += len(block.lines)
+            while self._size > self._most and self._size > len(block.lines):
+                self._drop()
+            self._changed.notify_all()
+
+    def say(self, event: str, message: str) -> None:
+        """Add news, in their place between the samples."""
+        with self._changed:
+            self._items.append(News(event, message))
+            self._changed.notify_all()
+
+    def end(self) -> None:
+        """Say that nothing more comes, or that nobody takes it any more."""
+        with self._changed:
+            self._ended = True
+            self._changed.notify_all()
+
+    def take(self, patience: float = IDLE) -> list[Block | News] | None:
+        """All that has come, perhaps nothing after `patience` s; None at the end."""
+        with self._changed:
+            if not self._items and not self._ended:
+                self._changed.wait(patience)
+            if not self._items:
+                return None if self._ended else []
+            items = list(self._items)
+            if self._dropped:
+                lines = "1 line was" if self._dropped == 1 else f"{self._dropped} lines were"
+                message = f"samples come faster than they are computed: {lines} dropped"
+                items.insert(0, News("gap", message))
+            self._items.clear()
+            self._size = self._dropped = 0
+            self._changed.notify_all()
+            return items
+
+    def _drop(self) -> None:
+        """Forget the oldest block; news stay."""
+        for k, item in enumerate(self._items):
+            if isinstance(item, Block):
+                self._dropped += item.lines.count(b"\n")
+                self._size -= len(item.lines)
+                del self._items[k]
+                return
+
+
+def decoded(
+    intake: Intake, decoder: Decoder, stop: Event, last: float = float("-inf")
+) -> Iterator[Chunk]:
+    """The chunks of what a thread puts into an intake, until its end or until `stop` is set.
+
+    `last` is the time in s of the newest sample that is known: of a block that may have come
+    before, only what is newer counts.
+    """
+    while not stop.is_set() and (items := intake.take()) is not None:
+        if not items:
+            yield Chunk()
+        for item in _together(items):
+            if isinstance(item, News):
+                yield Chunk(news=(item,))
+                continue
+            logs = decoder.feed(item.lines, item.whole)
+            for log in logs:
+                new = log.part(int(np.argmax(log.time > last))) if item.again else log
+                if not item.again or log.time.max() > last:
+                    last = float(log.time[-1])
+                    yield Chunk(new)
+            if item.done is not None:
+                yield Chunk(done=item.done)
+
+
+def _together(items: list[Block | News]) -> Iterator[Block | News]:
+    """Blocks that can be read as one, joined: fewer steps where many small ones have come."""
+    waiting: list[Block] = []
+    for item in items:
+        plain = isinstance(item, Block) and item.whole and not item.again
+        if waiting and not plain:
+            yield _joined(waiting)
+            waiting = []
+        if isinstance(item, Block) and plain:
+            waiting.append(item)
+        else:
+            yield item
+    if waiting:
+        yield _joined(waiting)
+
+
+def _joined(blocks: list[Block]) -> Block:
+    if len(blocks) == 1:
+        return blocks[0]
+
+    def done() -> None:
+        for block in blocks:
+            if block.done is not None:
+                block.done()
+
+    return Block(b"".join([b.lines for b in blocks]), done=done)
+
+
+class Cutter:
+    """Cuts what comes in pieces of any size into whole lines."""
+
+    def __init__(self, whole: bool = True) -> None:
+        self._rest = b""
+        self._whole = whole
+
+    def cut(self, piece: bytes) -> Block | None:
+        """The lines that are complete with this piece, if there are any."""
+        text = self._rest + piece
+        lines, feed, self._rest = text.rpartition(b"\n")
+        whole = self._whole
+        if len(self._rest) > _LONGEST:  # no line is that long: noise
+            self._rest, self._whole = b"", False
+        elif feed:
+            self._whole = True
+        return Block(lines + feed, whole) if feed else None
+
+    @property
+    def rest(self) -> bytes:
+        """The beginning of a line that is not complete."""
+        return self._rest

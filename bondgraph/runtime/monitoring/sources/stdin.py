@@ -1,0 +1,52 @@
+"""Samples from standard input, or from any pipe."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from threading import Event, Thread
+from typing import Any
+
+from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
+from bondgraph.runtime.monitoring.sources.source import Chunk, Cutter, Intake, decoded
+
+
+class Pipe:
+    """Lines from a descriptor; who writes too fast is held up by the pipe, nothing is dropped."""
+
+    name = "standard input"
+    replays = False
+
+    def __init__(self, form: Form, descriptor: int = 0) -> None:
+        self.decoder: Decoder | None = Decoder(form)
+        self._lines = self.decoder
+        self._descriptor = descriptor
+        self._intake = Intake(waits=True)
+
+    def chunks(self, stop: Event) -> Iterator[Chunk]:
+        """All lines, until the writer closes the pipe."""
+        # Reading blocks, and nothing wakes it up: the thread is left behind at the end.
+        Thread(target=self._read, daemon=True).start()
+        yield from decoded(self._intake, self._lines, stop)
+
+    def go(self, place: dict[str, Any]) -> str:
+        """A pipe cannot go back."""
+        return "what came through a pipe is gone"
+
+    def close(self) -> None:
+        """Let the thread end."""
+        self._intake.end()
+
+    def _read(self) -> None:
+        cutter = Cutter()
+        try:
+            while piece := os.read(self._descriptor, 1 << 16):
+                block = cutter.cut(piece)
+                if block is not None:
+                    self._intake.put(block)
+        except OSError as error:
+            self._intake.say("gap", f"standard input: {error.strerror}")
+        last = cutter.cut(b"\n") if cutter.rest else None
+        if last is not None:
+            self._intake.put(last)
+        self._intake.end()

@@ -1,0 +1,158 @@
+"""What a monitor says: a verdict, as a line of JSON and as a line of text for people."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from bondgraph.text.tuples import NamedTuple
+
+#: What a verdict can be about, in the order of a watch.
+EVENTS = ("start", "resumed", "warm-up", "fault", "update", "cleared", "invalid", "gap", "stop")
+
+
+class Candidate(NamedTuple):
+    """A fault that may be the one, with the change that would explain the residuals.
+
+    `size` is the estimated change in `unit`, None where it cannot be estimated; `probability` is
+    0 to 1, and that of all candidates of a verdict together is 1.
+    """
+
+    fault: str
+    size: float | None
+    unit: str
+    probability: float
+
+
+class Verdict(NamedTuple):
+    """One thing that a monitor says.
+
+    `time` is the time of the stream in s at which it is said, `since` the estimated onset.
+    `residuals` tells by how much of its threshold each fired residual is out (|r|/threshold).
+    `group` are the faults of the class that is named, which the structure does not tell apart;
+    `candidates` has the most probable one first; `message` is one sentence for people.
+    """
+
+    event: str
+    time: float
+    since: float | None = None
+    residuals: dict[str, float] = {}  # noqa: RUF012 (never changed)
+    group: tuple[str, ...] = ()
+    candidates: tuple[Candidate, ...] = ()
+    message: str = ""
+
+
+def to_json(verdict: Verdict, number: int) -> str:
+    """The verdict as one line of JSON, without the line feed; keys and order never change.
+
+    `number` counts the verdicts of a watch from 1, so that a receiver knows one that comes twice.
+
+    >>> to_json(Verdict("stop", 12.5, message="stopped"), 7)
+    '{"number": 7, "event": "stop", "time": 12.5, "since": null, "residuals": {}, "group": [], \
+"candidates": [], "message": "stopped"}'
+    """
+    line = {
+        "number": number,
+        **verdict._asdict(),
+        "time": _finite(verdict.time),
+        "residuals": {name: _finite(value) for name, value in verdict.residuals.items()},
+        "group": list(verdict.group),
+        "candidates": [
+            {**c._asdict(), "size": None if c.size is None else _finite(c.size)}
+            for c in verdict.candidates
+        ],
+    }
+    return json.dumps(line, ensure_ascii=False, allow_nan=False)
+
+
+def from_json(line: str) -> tuple[int, Verdict]:
+    """The number and the verdict of such a line; raises ValueError for any other text.
+
+    >>> from_json(to_json(Verdict("stop", 12.5), 7)) == (7, Verdict("stop", 12.5))
+    True
+    """
+    try:
+        return from_record(json.loads(line))
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"not a verdict: {line[:60]}") from error
+
+
+def from_record(record: dict[str, Any]) -> tuple[int, Verdict]:
+    """The same from what a JSON reader made of the line."""
+    since = record["since"]
+    verdict = Verdict(
+        str(record["event"]),
+        math.nan if record["time"] is None else float(record["time"]),
+        None if since is None else float(since),
+        {n: math.inf if v is None else float(v) for n, v in record["residuals"].items()},
+        tuple(record["group"]),
+        tuple(
+            Candidate(str(c["fault"]), c["size"], str(c["unit"]), float(c["probability"]))
+            for c in record["candidates"]
+        ),
+        str(record["message"]),
+    )
+    return int(record["number"]), verdict
+
+
+def to_text(verdict: Verdict) -> str:
+    """The verdict as one line for people.
+
+    >>> print(to_text(Verdict("warm-up", 0.46, message="r1 and r2 are watched from now on")))
+           0.460 s  warm-up  r1 and r2 are watched from now on
+    """
+    message = verdict.message or described(verdict)
+    return f"{verdict.time:>12.3f} s  {verdict.event:<7}  {message}"
+
+
+def described(verdict: Verdict) -> str:
+    """One sentence: what is faulty, since when, by what residuals, what else it could be.
+
+    >>> print(described(Verdict("fault", 5.2, 5.03, {"r2": 3.14}, ("J", "f"), (
+    ...     Candidate("f", 2.38e-6, "N.m.s/rad", 0.8), Candidate("J", None, "kg.m^2", 0.2)))))
+    f or J since 5.030 s: f (80 %, +2.38e-06 N.m.s/rad), J (20 %); r2 at 3.1 times its threshold
+    """
+    first = [c.fault for c in verdict.candidates]
+    names = first or list(verdict.group)
+    text = listed(names, "or") if names else "an unknown fault"
+    if verdict.since is not None:
+        text += f" since {verdict.since:.3f} s"
+    if len(verdict.candidates) > 1 or any(c.size is not None for c in verdict.candidates):
+        text += ": " + ", ".join(_candidate(c) for c in verdict.candidates)
+    if verdict.residuals:
+        parts = [f"{n} at {_times(v)} its threshold" for n, v in verdict.residuals.items()]
+        text += "; " + listed(parts, "and")
+    return text
+
+
+def listed(names: Sequence[str], word: str, most: int = 8) -> str:
+    """`a, b or c`; of more than `most` names the first ones and how many more there are.
+
+    >>> listed(["a", "b", "c"], "or"), listed(["a", "b", "c", "d"], "and", 3)
+    ('a, b or c', 'a, b and 2 more')
+    """
+    shown = list(names)
+    if len(shown) > most:
+        shown = shown[: most - 1] + [f"{len(shown) - most + 1} more"]
+        word = "and"
+    if len(shown) < 2:
+        return "".join(shown)
+    return f"{', '.join(shown[:-1])} {word} {shown[-1]}"
+
+
+def _candidate(candidate: Candidate) -> str:
+    words = f"{100 * candidate.probability:.0f} %"
+    if candidate.size is not None:
+        words += f", {candidate.size:+.3g} {candidate.unit}".rstrip()
+    return f"{candidate.fault} ({words})"
+
+
+def _times(ratio: float) -> str:
+    return "infinitely many times" if math.isinf(ratio) else f"{ratio:.2g} times"
+
+
+def _finite(value: float) -> float | None:
+    """The value, or None for what JSON has no number for."""
+    return float(value) if math.isfinite(value) else None

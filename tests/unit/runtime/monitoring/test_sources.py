@@ -1,0 +1,215 @@
+"""Files, pipes and the queue before the monitor: nothing is lost without being told."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from threading import Event, Thread
+
+import numpy as np
+import pytest
+
+from bondgraph.runtime.log import Log, LogError, write_log
+from bondgraph.runtime.monitoring.sources.file import LinesFile, TableFile, file_source
+from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
+from bondgraph.runtime.monitoring.sources.source import Block, Chunk, Cutter, Intake, News, decoded
+from bondgraph.runtime.monitoring.sources.stdin import Pipe
+
+
+@pytest.fixture
+def lines_file() -> Iterator[Callable[..., LinesFile]]:
+    opened: list[LinesFile] = []
+
+    def open_file(path: object, follow: bool = False) -> LinesFile:
+        opened.append(LinesFile(str(path), Form("x"), follow))
+        return opened[-1]
+
+    yield open_file
+    for source in opened:
+        source.close()
+
+
+def times(chunks: Iterator[Chunk]) -> list[float]:
+    return [t for chunk in chunks if chunk.log is not None for t in chunk.log.time.tolist()]
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+def test_a_file_goes_on_from_any_place(suffix: str, tmp_path: Path) -> None:
+    path = str(tmp_path / f"log{suffix}")
+    count = 50_000
+    write_log(Log(np.arange(count) / 1000, {"a": np.arange(count) / 7}, {}, {}), path)
+    source = file_source(path, Form(path))
+    chunks = list(source.chunks(Event()))
+    assert len(chunks) > 1
+    assert times(iter(chunks)) == (np.arange(count) / 1000).tolist()
+    seen = 0
+    for chunk in chunks[:-1]:
+        assert chunk.log is not None and chunk.place is not None
+        seen += chunk.log.rows
+        again = file_source(path, Form(path))
+        assert again.go(chunk.place) == ""
+        rest = [c.log for c in again.chunks(Event()) if c.log is not None]
+        assert rest[0].time[0] == seen / 1000
+        assert sum(log.rows for log in rest) == count - seen
+        assert rest[0].columns["a"][0] == seen / 7
+        again.close()
+    source.close()
+
+
+def test_another_file_is_known_by_what_it_begins_with(
+    tmp_path: Path, lines_file: Callable[..., LinesFile]
+) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text("t,a\n1,2\n2,3\n")
+    (chunk,) = lines_file(path).chunks(Event())
+    assert chunk.place is not None
+    path.write_text("t,a\n7,2\n8,3\n9,3\n")
+    source = lines_file(path)
+    assert "another file" in source.go(chunk.place)
+    assert times(source.chunks(Event())) == [7, 8, 9]
+    path.write_text("t,a\n1,2\n")
+    assert "another file" in lines_file(path).go(chunk.place)
+
+
+def test_a_table_that_became_shorter_is_told(tmp_path: Path) -> None:
+    path = str(tmp_path / "log.parquet")
+    write_log(Log(np.arange(5.0), {"a": np.arange(5.0)}, {}, {}), path)
+    assert "5 samples" in TableFile(path, Form(path)).go({"row": 6})
+
+
+def test_a_last_line_without_an_end_counts_once(
+    tmp_path: Path, lines_file: Callable[..., LinesFile]
+) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text("t,a\n1,2\n2,3")
+    chunks = list(lines_file(path).chunks(Event()))
+    assert times(iter(chunks)) == [1, 2]
+    source = lines_file(path)
+    assert chunks[-1].place is not None
+    assert source.go(chunks[-1].place) == "" and times(source.chunks(Event())) == []
+
+
+def test_a_missing_file_and_a_followed_table_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(LogError, match="cannot be read"):
+        file_source(str(tmp_path / "none.csv"), Form("x"))
+    with pytest.raises(LogError, match="followed"):
+        file_source(str(tmp_path / "none.parquet"), Form("x"), follow=True)
+
+
+def test_a_growing_file_is_followed_through_cut_and_replacement(
+    tmp_path: Path, lines_file: Callable[..., LinesFile]
+) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text("t,a\n1,2\n2,")
+    stop = Event()
+    chunks = lines_file(path, follow=True).chunks(stop)
+    seen: list[float] = []
+    told: list[str] = []
+
+    def until(count: int) -> None:
+        for chunk in chunks:
+            if chunk.log is not None:
+                seen.extend(chunk.log.time.tolist())
+            told.extend(news.message for news in chunk.news)
+            if len(seen) >= count:
+                return
+
+    until(1)
+    with path.open("a") as file:  # the line goes on
+        file.write("3\n3,4\n")
+    until(3)
+    path.write_text("t,a\n0,1\n")  # cut
+    until(4)
+    (tmp_path / "new.csv").write_text("t,a\n0.5,1\n")
+    with path.open("a") as file:  # one more line in the last moment
+        file.write("1,1\n")
+    os.replace(tmp_path / "new.csv", path)
+    until(6)
+    stop.set()
+    assert seen == [1, 2, 3, 0, 1, 0.5]
+    assert ["was cut" in text for text in told] == [True, False]
+    assert "was replaced" in told[1]
+    assert times(chunks) == []
+
+
+def test_a_pipe_gives_all_lines_and_ends() -> None:
+    reading, writing = os.pipe()
+    text = b"t,a\n" + b"".join(b"%d,%d\n" % (k, 2 * k) for k in range(20_000)) + b"20000,1"
+
+    def write() -> None:
+        with os.fdopen(writing, "wb") as file:
+            file.write(text)
+
+    thread = Thread(target=write)
+    thread.start()
+    source = Pipe(Form("x"), reading)
+    assert times(source.chunks(Event())) == list(range(20_001))
+    thread.join()
+    os.close(reading)
+
+
+def test_what_is_too_much_drops_the_oldest_and_is_told() -> None:
+    intake = Intake(most=100)
+    for k in range(50):
+        intake.put(Block(b"%09d\n" % k))
+    intake.say("gap", "gone")
+    intake.put(Block(b"%09d\n" % 50))
+    items = intake.take(0)
+    assert items is not None
+    lines = b"".join(item.lines for item in items if isinstance(item, Block))
+    assert lines == b"".join(b"%09d\n" % k for k in range(41, 51))
+    assert isinstance(items[0], News) and "41 lines were dropped" in items[0].message
+    assert items[-2] == News("gap", "gone")
+    assert intake.take(0) == []
+
+
+def test_a_sender_that_can_wait_waits() -> None:
+    intake = Intake(most=100, waits=True)
+
+    def send() -> None:
+        for k in range(50):
+            intake.put(Block(b"%09d\n" % k))
+        intake.end()
+
+    thread = Thread(target=send)
+    thread.start()
+    found: list[bytes] = []
+    while (items := intake.take()) is not None:
+        size = sum(len(item.lines) for item in items if isinstance(item, Block))
+        assert size <= 110
+        found += [item.lines for item in items if isinstance(item, Block)]
+    thread.join()
+    assert b"".join(found) == b"".join(b"%09d\n" % k for k in range(50))
+
+
+def test_what_may_have_come_before_counts_once() -> None:
+    intake, done = Intake(), []
+    decoder = Decoder(Form("x", columns=("t", "a")))
+    blocks = [
+        (b"1,0\n2,0\n", False),
+        (b"1,0\n2,0\n", True),
+        (b"2,0\n3,0\n", True),
+        (b"4,0\n", False),
+    ]
+    for k, (lines, again) in enumerate(blocks):
+        intake.put(Block(lines, again=again, done=lambda k=k: done.append(k)))  # type: ignore[misc]
+    intake.end()
+    chunks = list(decoded(intake, decoder, Event(), last=0.0))
+    assert times(iter(chunks)) == [1, 2, 3, 4]
+    assert done == []
+    for chunk in chunks:
+        if chunk.done is not None:
+            chunk.done()
+    assert done == [0, 1, 2, 3]
+
+
+def test_pieces_are_cut_into_lines_and_noise_without_end_is_forgotten() -> None:
+    cutter = Cutter(whole=False)
+    assert cutter.cut(b"half") is None
+    assert cutter.cut(b" a line\nnext") == Block(b"half a line\n", whole=False)
+    assert cutter.cut(b" one\n") == Block(b"next one\n")
+    assert cutter.cut(b"x" * (1 << 20)) is None
+    assert cutter.cut(b"x") is None
+    assert cutter.rest == b""
+    assert cutter.cut(b"x\n1,2\n") == Block(b"x\n1,2\n", whole=False)

@@ -1,0 +1,75 @@
+"""Verdicts as lines: nothing is lost on the way, and people can read them."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bondgraph.runtime.monitoring.verdict import (
+    EVENTS,
+    Candidate,
+    Verdict,
+    from_json,
+    listed,
+    to_json,
+    to_text,
+)
+
+_numbers = st.floats(allow_nan=False, allow_infinity=False)
+_verdicts = st.builds(
+    Verdict,
+    st.sampled_from(EVENTS),
+    _numbers,
+    st.none() | _numbers,
+    st.dictionaries(st.text(), _numbers | st.just(math.inf), max_size=3),
+    st.lists(st.text(), max_size=3).map(tuple),
+    st.lists(
+        st.builds(Candidate, st.text(), st.none() | _numbers, st.text(), _numbers), max_size=3
+    ).map(tuple),
+    st.text(),
+)
+
+
+@given(_verdicts, st.integers(min_value=1))
+def test_a_line_gives_back_the_verdict(verdict: Verdict, number: int) -> None:
+    line = to_json(verdict, number)
+    assert "\n" not in line
+    assert from_json(line) == (number, verdict)
+
+
+def test_a_line_is_strict_json_with_the_keys_in_their_order() -> None:
+    verdict = Verdict("fault", 1.0, 0.5, {"r1": math.inf}, ("a",), (Candidate("a", None, "", 1.0),))
+    found = json.loads(to_json(verdict, 3), parse_constant=pytest.fail)
+    assert list(found) == [
+        *("number", "event", "time", "since", "residuals", "group", "candidates", "message")
+    ]
+    assert found["residuals"] == {"r1": None}
+    assert found["candidates"] == [{"fault": "a", "size": None, "unit": "", "probability": 1.0}]
+
+
+@pytest.mark.parametrize("line", ["", "{}", "[1]", '{"number": 1}', "null", '"text"'])
+def test_other_lines_are_no_verdicts(line: str) -> None:
+    with pytest.raises(ValueError):
+        from_json(line)
+
+
+def test_text_says_what_since_when_how_sure_and_what_else() -> None:
+    candidates = (
+        Candidate("m[1].el.Re", 4.4, "Ohm", 0.712),
+        Candidate("m[1].el.k", None, "N.m/A", 0.288),
+    )
+    residuals = {"r1": 12.34, "r2": 1.26}
+    line = to_text(Verdict("fault", 5.21, 5.034, residuals, ("m[1].el.Re",), candidates))
+    assert line.split("fault", 1)[1].strip() == (
+        "m[1].el.Re or m[1].el.k since 5.034 s: m[1].el.Re (71 %, +4.4 Ohm), m[1].el.k (29 %);"
+        " r1 at 12 times its threshold and r2 at 1.3 times its threshold"
+    )
+    assert "\n" not in line
+
+
+def test_long_lists_are_cut_with_what_is_left_out() -> None:
+    assert listed([str(k) for k in range(20)], "or") == "0, 1, 2, 3, 4, 5, 6 and 13 more"
