@@ -11,7 +11,7 @@ from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.result import Verification
@@ -22,8 +22,12 @@ if TYPE_CHECKING:
     from bondgraph.ir.program import Program
     from bondgraph.ir.residuals import ReducedSystem, ResidualSet
     from bondgraph.ir.signatures import Detectability, ModeSignatures, SignatureMatrix
+    from bondgraph.ir.state import StateEquations
     from bondgraph.ir.structure import StructuralModel
     from bondgraph.ir.syntax import File
+    from bondgraph.passes.state_equations import Wanted
+    from bondgraph.runtime.simulation.run import Run
+    from bondgraph.runtime.simulation.scenario import Scenario
     from bondgraph.views import Relations
 
 T = TypeVar("T")
@@ -110,6 +114,49 @@ class Compilation:
         if self.integral.loops:
             nominal_loops(system, self.report)
         return self._stage(system)
+
+    def state_equations(self, wanted: Wanted | None = None) -> StateEquations:
+        """The state equations for simulation, in one mode of the switches (None: all on)."""
+        from bondgraph.passes.state_equations import Wanted, state_equations
+
+        chosen = wanted or Wanted({i.name: True for i in self.graph.inputs if i.mode})
+        return self._stage(state_equations(self.equations, self.integral, chosen, self.report))
+
+    def scenario(self, path: str | os.PathLike[str]) -> Scenario:
+        """Read a scenario file for this model; raises `CompileError` if it is wrong."""
+        from bondgraph.frontend.read import read
+        from bondgraph.runtime.simulation.read_scenario import read_scenario
+
+        report = Report()
+        source = read(os.fspath(path), report)
+        found = None if source is None else read_scenario(source, self.graph, report)
+        report.stop_on_error()
+        assert found is not None
+        return found
+
+    def simulate(
+        self,
+        scenario: Scenario | str | os.PathLike[str],
+        progress: Callable[[float], None] = lambda _: None,
+    ) -> Run:
+        """Run a scenario (or the file of one) on the virtual machine.
+
+        Raises `CompileError` where scenario or model are wrong, `SimulationError` where the
+        machine has no motion beyond some moment.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> from bondgraph.runtime.simulation.scenario import Course, Scenario
+        >>> twelve = {"U": Course(None, ((0.0, 12.0),))}
+        >>> run = c.simulate(Scenario("step", duration=2.0, inputs=twelve))
+        >>> f"{run.truth.columns['speed'][-1]:.1f} rad/s"
+        '189.9 rad/s'
+        """
+        from bondgraph.runtime.simulation.run import simulate
+        from bondgraph.runtime.simulation.scenario import Scenario
+
+        chosen = scenario if isinstance(scenario, Scenario) else self.scenario(scenario)
+        return simulate(self.equations, self.integral, chosen, progress)
 
     @cached_property
     def structure(self) -> StructuralModel:

@@ -104,6 +104,22 @@ def plural(number: int, noun: str) -> str:
 
 
 @contextmanager
+def progress_bar(word: str, patience: float = 1.0) -> Iterator[Callable[[float], None]]:
+    """Gives a function that says which share, 0 to 1, is done; a bar as of `progress`."""
+    parts = 24
+    with progress(parts, patience) as advance:
+        shown = 0
+
+        def share(done: float) -> None:
+            nonlocal shown
+            while shown <= done * parts:
+                advance(word)
+                shown += 1
+
+        yield share
+
+
+@contextmanager
 def progress(steps: int, patience: float = 1.0) -> Iterator[Callable[[str], None]]:
     """Gives a function that says what is being done now.
 

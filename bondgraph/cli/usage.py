@@ -15,6 +15,7 @@ COMMANDS = {
     "isolate": "count the testable subsets of a model, and what they could tell apart at best",
     "sensors": "rank the places where one more sensor would help",
     "detect": "tell the smallest change of each fault that the residuals show",
+    "simulate": "run a model as a virtual machine, with faults if the scenario has some",
     "draw": "draw a bond graph with half arrows and causal strokes",
 }
 

@@ -35,7 +35,8 @@ class EquationSystem(NamedTuple):
     """All equations; variables aliased by junctions are already one.
 
     `efforts` and `flows` give the two variables of each bond, with a sign where a port's variable
-    stands for it. A variable's name is the one a person knows it by (`m[1].el.i.f`).
+    stands for it. A variable's name is the one a person knows it by (`m[1].el.i.f`). `shared` says
+    what stands for a variable of a port or junction that is not in the equations itself.
     """
 
     graph: BondGraph
@@ -43,3 +44,4 @@ class EquationSystem(NamedTuple):
     unknowns: tuple[Expr, ...]
     efforts: tuple[Expr, ...]
     flows: tuple[Expr, ...]
+    shared: dict[Expr, Expr]

@@ -169,6 +169,7 @@ class _Builder:
             tuple(unknowns),
             tuple(self.effort),
             tuple(self.flow),
+            self.alias,
         )
 
 

@@ -23,19 +23,23 @@ class Parts(NamedTuple):
 
 
 def match(
-    rows: list[list[int]], columns: int, pairs: Iterable[tuple[int, int]] = ()
+    rows: list[list[int]],
+    columns: int,
+    pairs: Iterable[tuple[int, int]] = (),
+    in_order: bool = False,
 ) -> tuple[list[int], list[int]]:
     """A maximum matching as (row of each column, column of each row), -1 where there is none.
 
     Greedy first, after the given (row, column) `pairs`; then one breadth-first augmenting search
-    a free row.
+    a free row. With `in_order` there is no greedy pass, and a row is matched if it can be beside
+    the matched ones before it: the rows of an optimum where earlier ones count more.
     """
     row_of = [-1] * columns
     column_of = [-1] * len(rows)
     for r, c in pairs:
         row_of[c], column_of[r] = r, c
     for r, members in enumerate(rows):
-        if column_of[r] >= 0:
+        if in_order or column_of[r] >= 0:
             continue
         for c in members:
             if row_of[c] < 0:

@@ -77,7 +77,7 @@ class Bench:
         residuals = tuple(
             Residual(n, e, equation, (), 0) for n, e in zip(names, exprs, strict=True)
         )
-        system = EquationSystem(graph, (equation,), (), (), ())
+        system = EquationSystem(graph, (equation,), (), (), (), {})
         rows = tuple((True,) * len(exprs) for _ in graph.faults)
         matrix = SignatureMatrix(names, graph.faults, rows, tuple({} for _ in exprs))
         return lower(

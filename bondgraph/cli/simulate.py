@@ -1,0 +1,160 @@
+"""`bondgraph simulate`: run a model as a virtual machine, with faults if the scenario has some."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from bondgraph import compile as open_model
+from bondgraph.cli import console
+from bondgraph.cli.numbers import assigned, positive
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.simulation.run import Run
+    from bondgraph.runtime.simulation.scenario import Scenario
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `simulate`."""
+    parser.add_argument("model", metavar="MODEL", help="file.bg or file.bg:Name")
+    parser.add_argument("scenario", metavar="SCENARIO", nargs="?",
+                        help="a .toml file that says what happens (docs/simulation.md); without one"
+                        " all inputs are zero")  # fmt: skip
+    parser.add_argument("-o", "--output", metavar="FILE",
+                        help="the log, .csv or .parquet (default: scenario.csv)")  # fmt: skip
+    parser.add_argument("--truth", metavar="FILE",
+                        help="also write states and true values, without noise")  # fmt: skip
+    parser.add_argument("--duration", metavar="S", type=positive, default=None,
+                        help="seconds (default: as the scenario says, or 10)")  # fmt: skip
+    parser.add_argument("--seed", metavar="N", type=int, default=None,
+                        help="seed of all that is drawn at random")  # fmt: skip
+    parser.add_argument("--set", metavar="NAME=VALUE", type=assigned, action="append", default=[],
+                        help="another value of a parameter, in SI; may be repeated")  # fmt: skip
+    parser.add_argument("--input", metavar="NAME=VALUE", type=assigned, action="append",
+                        default=[], help="a constant input, in SI; may be repeated")  # fmt: skip
+    parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
+
+
+def run(args: Namespace) -> int:
+    """Simulate, write the log, say how it ended."""
+    from bondgraph.runtime.log import LogError, write_log
+    from bondgraph.runtime.simulation.integrate import SimulationError
+
+    compilation = open_model(args.model)
+    chosen = _scenario(args, compilation)
+    with console.progress_bar("simulating") as progress:
+        try:
+            found = compilation.simulate(chosen, progress)
+        except SimulationError as error:
+            raise console.Trouble(f"{error}") from error
+        except KeyError as error:
+            raise console.Trouble(
+                f"`{error.args[0]}` has no value: give it under [parameters], or --set"
+                f" {error.args[0]}=..."
+            ) from error
+    files = [args.output or f"{_stem(chosen.name)}.csv"]
+    try:
+        write_log(found.log, files[0])
+        if args.truth:
+            write_log(found.truth, args.truth)
+            files.append(args.truth)
+    except LogError as error:
+        raise console.Trouble(f"{error}") from error
+    if args.json:
+        from bondgraph.text.render import as_json
+
+        console.print_json({"status": "ok", "message": _message(compilation, found),
+                            "diagnostics": as_json(compilation.report.diagnostics),
+                            "files": files, **_result(found)})  # fmt: skip
+        return 0
+    console.show(compilation.report.diagnostics)
+    print("\n".join(_lines(compilation, found, files)))
+    return 0
+
+
+def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
+    from bondgraph.runtime.simulation.scenario import Course, Scenario
+
+    stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
+    chosen = compilation.scenario(args.scenario) if args.scenario else Scenario(stem)
+    graph = compilation.graph
+    parameters, inputs = dict(chosen.parameters), dict(chosen.inputs)
+    for name, value in args.set:
+        _known(name, "parameter", [v.name for v in graph.values])
+        parameters[name] = value
+    modes = dict(chosen.modes)
+    for name, value in args.input:
+        _known(name, "input", [i.name for i in graph.inputs])
+        mode = any(i.name == name and i.mode for i in graph.inputs)
+        (modes if mode else inputs)[name] = Course(None, ((0.0, value),))
+    driven = {c.input for c in chosen.controllers} & {name for name, _ in args.input}
+    if driven:
+        raise console.Trouble(f"`{min(driven)}` is driven by a controller of the scenario")
+    return chosen._replace(
+        duration=args.duration or chosen.duration,
+        seed=chosen.seed if args.seed is None else args.seed,
+        parameters=parameters,
+        inputs=inputs,
+        modes=modes,
+    )
+
+
+def _known(name: str, what: str, names: list[str]) -> None:
+    if name not in names:
+        from difflib import get_close_matches
+
+        close = get_close_matches(name, names, 3, 0.5)
+        hint = f"; did you mean {' or '.join(f'`{c}`' for c in close)}?" if close else ""
+        raise console.Trouble(f"the model has no {what} `{name}`{hint}")
+
+
+def _stem(name: str) -> str:
+    """A scenario's name as the name of a file."""
+    return "".join(c if c.isalnum() or c in "-_." else "_" for c in name) or "run"
+
+
+def _message(compilation: Compilation, found: Run) -> str:
+    log = found.log
+    return (
+        f"{compilation.graph.name}: {log.time[-1]:g} s, {len(log.time)} samples of"
+        f" {len(log.columns)} signals"
+    )
+
+
+def _result(found: Run) -> dict[str, object]:
+    last = {n: float(c[-1]) for n, c in found.truth.columns.items()}
+    return {
+        "scenario": found.scenario.name,
+        "seed": found.scenario.seed,
+        "duration": float(found.log.time[-1]),
+        "samples": len(found.log.time),
+        "signals": list(found.log.columns),
+        "parameters": found.parameters,
+        "quasi_static": list(found.static),
+        "dependent": list(found.dependent),
+        "from_zero": list(found.undeclared),
+        "end": {n: v if v == v else None for n, v in last.items()},
+    }
+
+
+def _lines(compilation: Compilation, found: Run, files: list[str]) -> list[str]:
+    scenario = found.scenario
+    lines = [_message(compilation, found)]
+    for fault in scenario.faults:
+        until = "" if fault.until > scenario.duration else f" to {fault.until:g} s"
+        lines.append(f"fault from {fault.at:g} s{until}: {fault.label}")
+    if found.static:
+        lines.append(f"at rest (quasi-static): {_listed(found.static)}")
+    if found.dependent:
+        lines.append(f"dependent storages: {_listed(found.dependent)}")
+    if found.undeclared:
+        lines.append(f"started from zero, as nothing is declared: {_listed(found.undeclared)}")
+    return [*lines, *[f"wrote {name}" for name in files]]
+
+
+def _listed(names: tuple[str, ...], most: int = 4) -> str:
+    shown = ", ".join(names[:most])
+    return shown if len(names) <= most else f"{shown} and {len(names) - most} more"

@@ -1,0 +1,399 @@
+"""Turn the acausal equations into state equations: which variables are states, what gives which.
+
+Storages that depend on each other and constraints on derivatives are no special case: equations
+are differentiated as often as the structure asks for (Pryce, 2001), and of the variables that then
+appear with their derivatives those that others determine are no states (Mattsson and Soderlind,
+1993). Storages in integral causality are preferred as states, so that what is left over is what
+the causality of the bond graph says. What stays in a loop is one block.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from bondgraph.ir.causal import CausalGraph
+from bondgraph.ir.equations import Equation, EquationSystem
+from bondgraph.ir.expr import VARIABLES, Expr, Kind, Op, Pool, topological
+from bondgraph.ir.state import Block, Disturbance, State, StateEquations
+from bondgraph.passes.branches import in_mode
+from bondgraph.passes.lowering.derivative import Jets
+from bondgraph.passes.matching import decompose, match
+from bondgraph.passes.nominal import Nominal
+from bondgraph.passes.sensitivity import sensitivity
+from bondgraph.passes.solve import solve
+from bondgraph.text.diagnostic import Report
+
+_UNKNOWN = (VARIABLES | {Kind.SENSOR}) - {Kind.UNKNOWN}
+_MOST_DERIVATIVES = 12  # of one equation: physics needs two or three
+
+_Column = tuple[Expr, int]  # a variable and the order of its derivative
+
+
+class Wanted(NamedTuple):
+    """What a simulation needs beyond the model.
+
+    `modes` gives each boolean input its value; storages whose path is one of `static` or lies
+    below one are taken as being at rest (quasi-static); values, inputs and sensors named in
+    `disturbed` may be wrong; `numbers` are parameters that have another value than the model says.
+    """
+
+    modes: Mapping[str, bool] = {}
+    static: tuple[str, ...] = ()
+    disturbed: tuple[str, ...] = ()
+    numbers: Mapping[str, float] = {}
+
+
+def state_equations(
+    system: EquationSystem, integral: CausalGraph, wanted: Wanted, report: Report
+) -> StateEquations | None:
+    """The state equations of a bond graph in one mode; None with a diagnostic if there are none.
+
+    Every variable, effort, flow and sensor that the equations determine is given by a block. What
+    is left undetermined (a loop of flows in a junction structure without any element) is left out.
+    Time is linear in the equations but for large loops.
+    """
+    return _Causaliser(system, integral, wanted, report).run()
+
+
+def disturbance(pool: Pool, name: str) -> Disturbance:
+    """The two signals by which something may be other than it is told."""
+    gain = pool.symbol(f"gain of {name}", Kind.INPUT)
+    return Disturbance(name, gain, pool.symbol(f"bias of {name}", Kind.INPUT))
+
+
+class _Row(NamedTuple):
+    equation: Equation
+    zero: Expr  # with derivatives of variables as they stand, inside out
+    orders: dict[Expr, int]  # highest derivative of each unknown
+
+
+class _Causaliser:
+    def __init__(
+        self, system: EquationSystem, integral: CausalGraph, wanted: Wanted, report: Report
+    ) -> None:
+        self.system = system
+        self.graph = system.graph
+        self.pool = system.graph.pool
+        self.wanted = wanted
+        self.report = report
+        self.jets = Jets(self.pool)
+        self.static: list[str] = []
+        self.disturbances = tuple(disturbance(self.pool, name) for name in wanted.disturbed)
+        self.rows = self._rows()
+        self.preferred = _preferred(system, integral)
+
+    def run(self) -> StateEquations | None:
+        offsets = self._offsets() if self._without_surplus() else None
+        if offsets is None:
+            return None
+        states = self._states(*offsets)
+        blocks = self._blocks(*offsets, states)
+        if blocks is None:
+            return None
+        initial = {e.state: e.initial for e in self.system.equations if e.state is not None}
+        made = []
+        for variable, order in states:
+            own = self._symbol(variable, order)
+            rate = self._symbol(variable, order + 1)
+            name = own.symbol.name
+            start = initial.get(variable) if order == 0 else None
+            made.append(State(name, own, rate, start, self._capacity(variable, order)))
+        stored = [e for e in self.system.equations if e.kind == "state" and e.state is not None]
+        alive = {variable for variable, _ in states}
+        rest = frozenset(self.static)
+        dependent = [e.name for e in stored if e.state not in alive and e.name not in rest]
+        modes = tuple(sorted(self.wanted.modes.items()))
+        return StateEquations(
+            self.graph,
+            tuple(made),
+            tuple(blocks),
+            tuple(dict.fromkeys(dependent)),
+            tuple(self.static),
+            self.disturbances,
+            modes,
+        )
+
+    def _capacity(self, variable: Expr, order: int) -> Expr | None:
+        """How much of a state goes with a unit of its effort or flow, by its law."""
+        pool = self.pool
+        for node in self.graph.nodes if order == 0 else ():
+            for port in node.ports:
+                if port.state is not variable:
+                    continue
+                other = port.effort if node.kind == "C" else port.flow
+                for law in node.laws:
+                    own, pair = sensitivity(pool, law.zero, [variable, other]).values()
+                    if own is not pool.zero and pair is not pool.zero:
+                        return pool.neg(pool.div(pair, own))
+        return None
+
+    # ---------------------------------------------------------------- equations
+
+    def _rows(self) -> list[_Row]:
+        """The equations of the mode, with what may be wrong and without what is nothing."""
+        pool, system = self.pool, self.system
+        replaced = self._disturbed() | self._nothings()
+        truth = {i.symbol: self.wanted.modes[i.name] for i in self.graph.inputs if i.mode}
+        errors = {d.name: d for d in self.disturbances}
+        rows = []
+        for equation in system.equations:
+            zero = equation.zero
+            if equation.kind == "state" and self._at_rest(equation.name):
+                assert equation.rate is not None
+                zero = equation.rate
+                self.static.append(equation.name)
+            if equation.kind == "sensor" and equation.name in errors:
+                sensor = next(s for s in self.graph.sensors if s.name == equation.name)
+                reads = pool.sub(sensor.symbol, zero)
+                own = errors[equation.name]
+                zero = pool.add((1, sensor.symbol), (-1, pool.mul(own.gain, reads)), (-1, own.bias))
+            zero = pool.substitute([zero], replaced)[0]
+            zero = in_mode(pool, [zero], truth)[0] if truth else zero
+            zero = self.jets.of(zero)
+            rows.append(_Row(equation, zero, _orders(zero)))
+        return rows
+
+    def _at_rest(self, name: str) -> bool:
+        return any(
+            name == path or (name.startswith(path) and name[len(path)] in ".[")
+            for path in self.wanted.static
+        )
+
+    def _disturbed(self) -> dict[Expr, Expr]:
+        """Values and inputs that may be wrong, each replaced by what acts."""
+        pool = self.pool
+        symbols = {v.name: v.symbol for v in self.graph.values}
+        symbols |= {i.name: i.symbol for i in self.graph.inputs}
+        return {
+            symbols[d.name]: pool.add((1, pool.mul(d.gain, symbols[d.name])), (1, d.bias))
+            for d in self.disturbances
+            if d.name in symbols
+        }
+
+    def _nothings(self) -> dict[Expr, Expr]:
+        """Parameters that are zero: an inertia of nothing stores nothing."""
+        nominal = Nominal(self.graph)
+        disturbed = set(self.wanted.disturbed)
+        numbers = self.wanted.numbers
+        zero = {}
+        for value in self.graph.values:
+            number = numbers[value.name] if value.name in numbers else nominal.value(value.symbol)
+            if number == 0 and value.name not in disturbed:
+                zero[value.symbol] = self.pool.zero
+        return zero
+
+    def _without_surplus(self) -> bool:
+        """Drop what nothing determines, and refuse what contradicts itself."""
+        self.rows = [r for r in self.rows if r.zero is not self.pool.zero]
+        columns = self._columns()
+        parts = decompose([[columns[v] for v in r.orders] for r in self.rows], len(columns))
+        if parts.over_rows:
+            rows = [self.rows[r] for r in parts.over_rows]
+            _tell_over(self.report, [r.equation for r in rows])
+            return False
+        square = set(parts.square_rows)
+        self.rows = [r for k, r in enumerate(self.rows) if k in square]
+        return True
+
+    def _columns(self) -> dict[Expr, int]:
+        found: dict[Expr, int] = {}
+        for row in self.rows:
+            for variable in row.orders:
+                found.setdefault(variable, len(found))
+        return found
+
+    # ------------------------------------------------------------------ offsets
+
+    def _offsets(self) -> tuple[list[int], dict[Expr, int]] | None:
+        """How often each equation is differentiated, and to which order each variable appears.
+
+        The smallest offsets with d_j - c_i >= sigma_ij, equality on a transversal of highest
+        value (Pryce, 2001).
+        """
+        from scipy.sparse import csr_array
+        from scipy.sparse.csgraph import min_weight_full_bipartite_matching
+
+        columns = list(self._columns())
+        place = {v: k for k, v in enumerate(columns)}
+        if not columns:
+            return [], {}
+        top = max(o for r in self.rows for o in r.orders.values())
+        at, to, cost = [], [], []
+        for k, row in enumerate(self.rows):
+            for variable, order in row.orders.items():
+                at.append(k)
+                to.append(place[variable])
+                cost.append(float(top + 1 - order))
+        size = len(self.rows)
+        weights = csr_array((cost, (at, to)), shape=(size, size))
+        matched_rows, matched = min_weight_full_bipartite_matching(weights)
+        column_of = dict(zip(matched_rows.tolist(), matched.tolist(), strict=True))
+        own = [row.orders[columns[column_of[k]]] for k, row in enumerate(self.rows)]
+        c = [0] * size
+        while True:
+            d = [0] * size
+            for k, row in enumerate(self.rows):
+                for variable, order in row.orders.items():
+                    d[place[variable]] = max(d[place[variable]], order + c[k])
+            after = [d[column_of[k]] - own[k] for k in range(size)]
+            if after == c:
+                return c, {v: d[k] for k, v in enumerate(columns)}
+            c = after
+            if max(c) > _MOST_DERIVATIVES:
+                rows = [r.equation for r, n in zip(self.rows, c, strict=True) if n]
+                _tell_over(self.report, rows)
+                return None
+
+    def _states(self, c: list[int], d: Mapping[Expr, int]) -> list[_Column]:
+        """The derivatives that integration carries: those that no equation determines."""
+        chosen: list[Expr] = []
+        found: set[_Column] = set()
+        for stage in range(1, max(c, default=0) + 1):
+            rows = [k for k, n in enumerate(c) if n >= stage]
+            among = [v for v, n in d.items() if n >= stage] if stage == 1 else chosen
+            among = sorted((v for v in among if d[v] >= stage), key=self._wish)
+            holds = [[at for at, k in enumerate(rows) if self._leads(k, v, c, d)] for v in among]
+            _, row_of = match(holds, len(rows), in_order=True)
+            chosen = [v for v, k in zip(among, row_of, strict=True) if k >= 0]
+            found |= {(v, d[v] - stage) for v in chosen}
+        columns = [(v, m) for v, n in d.items() for m in range(n)]
+        order = {v: k for k, v in enumerate(self.system.unknowns)}
+        free = [column for column in columns if column not in found]
+        return sorted(free, key=lambda x: (order.get(x[0], len(order)), x[1]))
+
+    def _leads(self, row: int, variable: Expr, c: list[int], d: Mapping[Expr, int]) -> bool:
+        order = self.rows[row].orders.get(variable)
+        return order is not None and order == d[variable] - c[row]
+
+    def _wish(self, variable: Expr) -> tuple[int, int]:
+        """How much a variable is to be computed rather than integrated: the least first."""
+        return self.preferred.get(variable, 0), variable.id
+
+    # ------------------------------------------------------------------- blocks
+
+    def _blocks(
+        self, c: list[int], d: Mapping[Expr, int], states: Sequence[_Column]
+    ) -> list[Block] | None:
+        import networkx as nx
+
+        pool = self.pool
+        integrated = set(states)
+        unknown = [(v, m) for v, n in d.items() for m in range(n + 1) if (v, m) not in integrated]
+        plain = {
+            self._derivative(v, m): self._symbol(v, m)
+            for v, n in d.items()
+            for m in range(1, n + 1)
+        }
+        place = {self._symbol(v, m): k for k, (v, m) in enumerate(unknown)}
+        zeros: list[Expr] = []
+        origin: list[Equation] = []
+        for row, most in zip(self.rows, c, strict=True):
+            for order in range(most + 1):
+                zeros.append(self.jets.of(row.zero, order))
+                origin.append(row.equation)
+        zeros = pool.substitute(zeros, plain)
+        rows = [[place[s] for s in topological([z]) if s in place] for z in zeros]
+        row_of, column_of = match(rows, len(place))
+        if -1 in column_of or -1 in row_of:
+            _tell_over(self.report, [e for e, k in zip(origin, column_of, strict=True) if k < 0])
+            return None
+        graph = nx.DiGraph()
+        graph.add_nodes_from(range(len(zeros)))
+        for r, members in enumerate(rows):
+            graph.add_edges_from((row_of[m], r) for m in members if row_of[m] != r)
+        condensed = nx.condensation(graph)
+        symbols = list(place)
+        first = {n: min(condensed.nodes[n]["members"]) for n in condensed}
+        blocks = []
+        for n in nx.lexicographical_topological_sort(condensed, key=first.__getitem__):
+            members = sorted(condensed.nodes[n]["members"])
+            blocks.append(
+                self._block(
+                    [zeros[r] for r in members],
+                    [symbols[column_of[r]] for r in members],
+                    [origin[r] for r in members],
+                )
+            )
+        return blocks
+
+    def _block(self, zeros: list[Expr], unknowns: list[Expr], equations: list[Equation]) -> Block:
+        pool = self.pool
+        if len(zeros) == 1:
+            found = solve(pool, zeros[0], unknowns[0])
+            if found is not None:
+                return Block(tuple(unknowns), found.value)
+        slopes = [list(sensitivity(pool, zero, unknowns).values()) for zero in zeros]
+        inside = set(unknowns)
+        linear = not any(
+            s in inside for row in slopes for slope in row for s in topological([slope])
+        )
+        laws = [e for e in equations if e.kind in ("law", "sensor")] or equations
+        return Block(
+            tuple(unknowns),
+            None,
+            tuple(zeros),
+            tuple(tuple(row) for row in slopes),
+            linear,
+            tuple(dict.fromkeys(e.name for e in laws)),
+            tuple(dict.fromkeys(e.origin for e in laws)),
+        )
+
+    def _derivative(self, variable: Expr, order: int) -> Expr:
+        for _ in range(order):
+            variable = self.pool.der(variable)
+        return variable
+
+    def _symbol(self, variable: Expr, order: int) -> Expr:
+        """The variable itself, or a symbol of its own for its derivative."""
+        if not order:
+            return variable
+        return self.pool.symbol(variable.symbol.name + "'" * order, Kind.EFFORT)
+
+
+def _orders(zero: Expr) -> dict[Expr, int]:
+    """The highest derivative of each unknown in an equation."""
+    found: dict[Expr, int] = {}
+    seen = {zero}
+    stack = [zero]
+    while stack:
+        node = stack.pop()
+        order = 0
+        while node.op is Op.DER:
+            order, node = order + 1, node.args[0]
+        if node.op is Op.SYM:
+            if node.symbol.kind in _UNKNOWN:
+                found[node] = max(found.get(node, 0), order)
+            continue
+        for arg in node.args:
+            if arg not in seen:
+                seen.add(arg)
+                stack.append(arg)
+    return dict(sorted(found.items(), key=lambda item: item[0].id))
+
+
+def _preferred(system: EquationSystem, integral: CausalGraph) -> dict[Expr, int]:
+    """How much each variable is wanted as a state: not at all, dependent, storage, integral."""
+    wish: dict[Expr, int] = {}
+    for storage in integral.storages:
+        state = system.graph.nodes[storage.node].ports[storage.port].state
+        if state is not None:
+            wish[state] = 2 if storage.integral else 1
+    for equation in system.equations:
+        if equation.kind == "integral" and equation.state is not None:
+            wish[equation.state] = 3
+    return wish
+
+
+def _tell_over(report: Report, equations: Iterable[Equation]) -> None:
+    """Say which equations contradict each other, by their elements."""
+    found = list(equations)
+    names = list(dict.fromkeys(f"`{e.name}`" for e in found))
+    shown = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+    report.error(
+        "no-state-equations",
+        f"The plant has no motion that satisfies {shown}: these equations leave no freedom.",
+        *list(dict.fromkeys(e.origin for e in found))[:4],
+        help="Look for two sources that fix the same effort or flow, or an element that is missing"
+        " between them; a switch may do so in one mode only.",
+    )

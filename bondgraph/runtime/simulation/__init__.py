@@ -1,0 +1,1 @@
+"""The virtual machine: a bond graph that runs, with inputs, controllers, instruments and faults."""

@@ -1,0 +1,324 @@
+"""Read a scenario file (TOML) for a model: every name checked, every number in SI units."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
+
+from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.units import Dimension, over
+from bondgraph.passes.elaboration.outside import Outside
+from bondgraph.runtime.simulation.observed import named
+from bondgraph.runtime.simulation.places import places
+from bondgraph.runtime.simulation.scenario import (
+    Change,
+    Controller,
+    Course,
+    Fault,
+    Instrument,
+    Plane,
+    Sampling,
+    Scenario,
+)
+from bondgraph.runtime.simulation.table import HERTZ, PURE, SECOND, Document, Table
+from bondgraph.runtime.simulation.values import Values
+from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.source import Source, Span
+
+METHODS = ("auto", "LSODA", "Radau", "BDF", "DOP853", "RK45", "RK23")
+
+
+def read_scenario(source: Source, graph: BondGraph, report: Report) -> Scenario | None:
+    """The scenario in a TOML text; None, and errors in the report, if something in it is wrong.
+
+    `docs/simulation.md` describes the file.
+    """
+    try:
+        content = tomllib.loads(source.text)
+    except tomllib.TOMLDecodeError as error:
+        message = re.sub(r" \(at .*\)$", "", str(error))
+        report.error("scenario-syntax", f"This is no TOML: {message}.",
+                     Label(_where(source, str(error))),
+                     help="A scenario is made of lines `name = value` and of [tables]; a text"
+                     " stands in quotes.")  # fmt: skip
+        return None
+    found = _Reader(source, graph, report).read(content)
+    return None if report.failed else found
+
+
+def _where(source: Source, message: str) -> Span:
+    match = re.search(r"line (\d+), column (\d+)", message)
+    if match is None:
+        return Span(source, len(source.text), len(source.text))
+    lines = source.text.splitlines(keepends=True)
+    start = sum(map(len, lines[: int(match[1]) - 1])) + int(match[2]) - 1
+    start = min(start, len(source.text))
+    return Span(source, start, min(start + 1, len(source.text)))
+
+
+class _Reader:
+    def __init__(self, source: Source, graph: BondGraph, report: Report) -> None:
+        self.graph = graph
+        self.document = Document(source, places(source.text), Outside(graph, report), Values(graph))
+        self.sensors = {s.name: s for s in graph.sensors if s.same_as is None}
+        self.inputs = {i.name: i for i in graph.inputs}
+        self.values = {v.name: v for v in graph.values}
+        self.lets = {x.name: x for x in graph.lets}
+
+    def read(self, content: Mapping[str, object]) -> Scenario:
+        top = Table(self.document, (), content)
+        path = self.document.source.path
+        name = top.text("name", os.path.splitext(os.path.basename(path))[0])
+        doc = top.text("doc")
+        top.text("model")
+        parameters = self._parameters(top.table("parameters"))
+        self.document.values = Values(self.graph, parameters)
+        sampling = self._sampling(top.table("sampling"))
+        inputs, modes = self._inputs(top.table("inputs"))
+        controllers = tuple(self._controller(t, sampling) for t in top.tables("controller"))
+        faults = tuple(f for t in top.tables("fault") for f in self._fault(t))
+        scenario = Scenario(
+            name=name,
+            doc=doc,
+            duration=top.number("duration", SECOND, 10.0, 0.0, 1e7, above=True),
+            seed=top.whole("seed", 1),
+            spread="uniform" if top.text("spread", "none", ("none", "uniform")) == "uniform"
+            else "none",
+            method=top.text("method", "auto", METHODS),
+            static=self._static(top),
+            parameters=parameters,
+            initial=self._initial(top.table("initial")),
+            inputs=inputs,
+            modes=modes,
+            controllers=controllers,
+            instruments=self._instruments(top.table("sensors")),
+            sampling=sampling,
+            faults=faults,
+            plane=self._plane(top.table("plane")),
+            desired=self._desired(top.table("desired")),
+            record=self._record(top),
+        )  # fmt: skip
+        top.finish()
+        driven = [c.input for c in controllers]
+        for k, one in enumerate(driven):
+            if one in driven[:k] or one in inputs:
+                self.document.wrong(("controller", k, "input"), f"`{one}` is given twice.",
+                                    "A controller drives it: leave it out of"
+                                    " [inputs].")  # fmt: skip
+        return scenario
+
+    # ---------------------------------------------------------------------- parts
+
+    def _known(self, table: Table, key: str, name: str, what: str, known: Iterable[str]) -> bool:
+        names = list(known)
+        if name in names:
+            return True
+        close = get_close_matches(name, names, 3, 0.5)
+        shown = close or names[:6]
+        more = "" if close or len(names) <= 6 else f" and {len(names) - 6} more"
+        help = f"It has {', '.join(f'`{n}`' for n in shown)}{more}." if shown else "It has none."
+        if close:
+            help = f"Did you mean {' or '.join(f'`{n}`' for n in close)}?"
+        self.document.no_name((*table.path, key), f"The model has no {what} `{name}`.", help)
+        return False
+
+    def _parameters(self, table: Table) -> dict[str, float]:
+        found = {}
+        for key in table.keys:
+            if self._known(table, key, key, "parameter", self.values):
+                found[key] = table.number(key, self.values[key].dimension, 0.0)
+        return found
+
+    def _initial(self, table: Table) -> dict[str, float]:
+        states = {}
+        for node in self.graph.nodes:
+            for port in node.ports:
+                if port.state is not None:
+                    states[port.state.symbol.name] = port
+        found = {}
+        for key in table.keys:
+            if self._known(table, key, key, "state", states):
+                found[key] = table.number(key, None, 0.0)
+        return found
+
+    def _inputs(self, table: Table) -> tuple[dict[str, Course], dict[str, Course]]:
+        inputs: dict[str, Course] = {}
+        modes: dict[str, Course] = {}
+        for key in table.keys:
+            if self._known(table, key, key, "input", self.inputs):
+                item = self.inputs[key]
+                course = table.course(key, PURE if item.mode else item.dimension, item.mode)
+                if course is not None:
+                    (modes if item.mode else inputs)[key] = course
+        return inputs, modes
+
+    def _controller(self, table: Table, sampling: Sampling) -> Controller:
+        driven, measures = table.text("input"), table.text("measures")
+        speed = table.flag("speed")
+        dimension: Dimension | None = None
+        effort: Dimension | None = None
+        if self._known(table, "input", driven, "input", self.inputs):
+            effort = self.inputs[driven].dimension
+        if self._known(table, "measures", measures, "sensor", self.sensors):
+            dimension = self.sensors[measures].dimension
+            if speed and dimension is not None:
+                dimension = over(dimension, SECOND)
+        setpoint = table.course("setpoint", dimension)
+        if setpoint is None:
+            setpoint = Course(None, ((0.0, 0.0),))
+            if "setpoint" not in table:
+                self.document.no_key(
+                    table.path,
+                    "The controller has no `setpoint`.",
+                    'Write for instance setpoint = "20 rad/s".',
+                )
+        step = 1.0 / sampling.rate
+        period = table.number("period", SECOND, step, 0.0, above=True)
+        if abs(period / step - round(period / step)) > 1e-6:
+            table.wrong("period", f"`period` is no multiple of the sample time, {step:g} s.",
+                        "A controller reads samples: let it run at some of them.")  # fmt: skip
+        gain = None if effort is None or dimension is None else over(effort, dimension)
+        kp = table.number("kp", gain, 0.0)
+        ki = table.number("ki", None if gain is None else over(gain, SECOND), 0.0)
+        kd = table.number("kd", None, 0.0)
+        limits = table.limits("limits", effort)
+        table.finish()
+        return Controller(driven, measures, setpoint, kp, ki, kd, period, limits, speed)
+
+    def _instruments(self, table: Table) -> dict[str, Instrument]:
+        found = {}
+        every = None
+        for key in table.keys:
+            own = table.table(key)
+            if key != "all" and not self._known(table, key, key, "sensor", self.sensors):
+                continue
+            dimension = None if key == "all" else self.sensors[key].dimension
+            instrument = Instrument(
+                own.number("noise", dimension, 0.0, 0.0),
+                own.number("step", dimension, 0.0, 0.0),
+                own.number("rate", HERTZ, 0.0, 0.0) or None,
+                own.number("bias", dimension, 0.0),
+            )
+            own.finish()
+            if key == "all":
+                every = instrument
+            else:
+                found[key] = instrument
+        if every is not None:
+            found = {name: found.get(name, every) for name in self.sensors}
+        return found
+
+    def _sampling(self, table: Table) -> Sampling:
+        sampling = Sampling(
+            table.number("rate", HERTZ, 1000.0, 0.0, 1e9, above=True),
+            table.number("jitter", PURE, 0.0, 0.0, 0.9),
+            table.number("lost", PURE, 0.0, 0.0, 0.9),
+        )
+        table.finish()
+        return sampling
+
+    def _fault(self, table: Table) -> list[Fault]:
+        event, of = table.text("event"), table.text("of")
+        label = table.text("label")
+        at = table.number("at", SECOND, 0.0, 0.0)
+        until = table.number("until", SECOND, math.inf, at, above=True)
+        ramp = table.number("ramp", SECOND, 0.0, 0.0)
+        period = table.number("period", SECOND, 0.0, 0.0)
+        duty = table.number("duty", PURE, 0.5, 0.0, 1.0)
+        op: Change = "+="
+        value, target = 0.0, of
+        if event:
+            events = {e.name: e for e in self.graph.events}
+            if not self._known(table, "event", event, "fault", events):
+                return []
+            found = events[event]
+            number = self.document.values.constant(found.value)
+            if number is None:
+                table.wrong("event", f"The fault `{event}` has no number.",
+                            "Give its parameters a value under [parameters].")  # fmt: skip
+                return []
+            op = "+=" if found.op == "+=" else "*=" if found.op == "*=" else "="
+            value, target = number, found.target
+        else:
+            targets = [*self.values, *[n for n, i in self.inputs.items() if not i.mode],
+                       *self.sensors]  # fmt: skip
+            if not self._known(table, "of", of, "parameter, input or sensor", targets):
+                return []
+            changed = self._change(table, of)
+            if changed is None:
+                return []
+            op, value = changed
+        table.finish()
+        span = self.document.span(table.path)
+        said = label or event or f"{target} {op} {value:g}".strip()
+        return [Fault(target, op, value, at, until, ramp, period, duty, said, span)]
+
+    def _change(self, table: Table, of: str) -> tuple[Change, float] | None:
+        """The operator and value of a change: `+= 100 Ohm`, `*= 0.5`, `= 3 V`, stuck, missing."""
+        text = table.text("change")
+        if text == "stuck":
+            return "stuck", 0.0
+        if text == "missing":
+            if of not in self.sensors:
+                table.wrong("change", f"`{of}` is no sensor: it cannot be missing.",
+                            'Write change = "*= 0" for a source that gives nothing.')  # fmt: skip
+                return None
+            return "missing", 0.0
+        match = re.match(r"(\+=|\*=|-=|=)\s*(.+)", text)
+        if match is None:
+            what = f"`{text}` is no change." if text else "The fault has no `change`."
+            table.wrong("change", what,
+                        'Write "+= 100 Ohm", "*= 0.5", "= 3 V", "stuck", or, for a sensor,'
+                        ' "missing".')  # fmt: skip
+            return None
+        item = self.values.get(of) or self.inputs.get(of) or self.sensors[of]
+        dimension = PURE if match[1] == "*=" else item.dimension
+        path = (*table.path, "change")
+        where = self.document.span(path)
+        at = where.start + match.start(2)
+        place = Span(where.source, at, at + len(match[2]))
+        if place.text != match[2]:
+            place = Span(Source(where.source.path, match[2]), 0, len(match[2]))
+        expr = self.document.terms.read(place, dimension, "the change", timely=False)
+        number = None if expr is None else self.document.values.constant(expr)
+        if number is None:
+            return None
+        if match[1] == "-=":
+            return "+=", -number
+        op: Change = "+=" if match[1] == "+=" else "*=" if match[1] == "*=" else "="
+        return op, number
+
+    def _plane(self, table: Table) -> Plane | None:
+        if not table.keys:
+            return None
+        names = {key: table.text(key) for key in ("x", "y", "heading")}
+        for key, name in names.items():
+            if (name or key != "heading") and not self._known(table, key, name, "let", self.lets):
+                return None
+        table.finish()
+        return Plane(names["x"], names["y"], names["heading"] or None)
+
+    def _desired(self, table: Table) -> dict[str, Course]:
+        found = {}
+        for key in table.keys:
+            if self._known(table, key, key, "sensor", self.sensors):
+                course = table.course(key, self.sensors[key].dimension)
+                if course is not None:
+                    found[key] = course
+        return found
+
+    def _record(self, top: Table) -> tuple[str, ...]:
+        known = named(self.graph)
+        names = top.names("record")
+        return tuple(n for n in names if self._known(top, "record", n, "effort or flow", known))
+
+    def _static(self, top: Table) -> tuple[str, ...]:
+        paths = [n.path for n in self.graph.nodes if n.kind in ("C", "I")]
+        inside = {p[:k] for p in paths for k, c in enumerate(p) if c in ".["} | set(paths)
+        names = top.names("quasi_static")
+        shown = sorted(inside)
+        return tuple(n for n in names if self._known(top, "quasi_static", n, "storage", shown))
