@@ -300,19 +300,19 @@ class Compilation:
 
         return conflicts(self.graph)
 
-    def drawing(self, derivative: bool = False) -> str:
+    def drawing(self, derivative: bool = False, bare: bool = False) -> str:
         """The bond graph with its causal strokes, or with what keeps them from being placed.
 
-        As SVG, one self-contained text.
+        As SVG, one self-contained text; a `bare` one for inside of a page that has its colours.
         """
         if self.conflicts:
             from bondgraph.backends.draw_conflicts import draw_conflicts
 
-            return draw_conflicts(self.graph, self.conflicts, self.graph.name)
+            return draw_conflicts(self.graph, self.conflicts, self.graph.name, bare)
         from bondgraph.backends.draw import draw
 
         causal = self.derivative if derivative else self.integral
-        return draw(causal, self.graph.name)
+        return draw(causal, self.graph.name, bare)
 
     def _repr_html_(self) -> str:
         """The drawing, the relations and the signatures, for a notebook."""

@@ -26,18 +26,19 @@ from bondgraph.ir.graph import BondGraph
 TOO_MANY = 20_000
 
 
-def draw(causal: CausalGraph, title: str) -> str:
+def draw(causal: CausalGraph, title: str, bare: bool = False) -> str:
     """The SVG of a bond graph with its causality, as one self-contained text.
 
     Junctions and two-ports run from left to right along the power, one-ports stand around them,
     submodels have frames; the reason of every stroke is its tooltip. The same graph gives the
-    same bytes. A graph of more than 20000 nodes gives a picture that says so.
+    same bytes. `bare`: for inside of a page that has a title and the colours (`style.inside`).
+    A graph of more than 20000 nodes gives a picture that says so.
     """
     nodes = causal.graph.nodes
     sensors = any(_reads(causal, n) for n in range(len(nodes)))
     signs = legend(causal.preference, bool(causal.dependent), sensors)
     if len(nodes) > TOO_MANY:
-        return page(title, [excuse(len(nodes))], (560, 40), [], signs)
+        return page(title, [excuse(len(nodes))], (560, 40), [], signs, bare)
     view, figure = framed(lambda unframed: scene(causal, unframed))
     body = [
         *frames(view, figure),
@@ -49,7 +50,7 @@ def draw(causal: CausalGraph, title: str) -> str:
             for b, (x, y) in sorted(figure.labels.items())
         ],
     ]
-    return page(title, body, figure.size, [], signs)
+    return page(title, body, figure.size, [], signs, bare)
 
 
 def excuse(nodes: int) -> str:

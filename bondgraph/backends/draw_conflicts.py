@@ -37,19 +37,21 @@ _SIGNS = SEPARATOR.join(
 )
 
 
-def draw_conflicts(graph: BondGraph, conflicts: tuple[Conflict, ...], title: str) -> str:
+def draw_conflicts(
+    graph: BondGraph, conflicts: tuple[Conflict, ...], title: str, bare: bool = False
+) -> str:
     """The SVG of a bond graph in which the strokes cannot be placed.
 
     The members of each conflict are boxed and numbered, its bonds are thick and have the strokes
     that are forced; everything else is grey. What is wrong is said below the figure. The shapes
-    say what the colour says.
+    say what the colour says. `bare`: as for `draw`, without the words below the figure.
     """
     notes = [
         f"Conflict{f' {number}' if len(conflicts) > 1 else ''}: {conflict.finding.message}"
         for number, conflict in enumerate(conflicts, 1)
     ]
     if len(graph.nodes) > TOO_MANY:
-        return page(title, [excuse(len(graph.nodes))], (560, 40), notes, _SIGNS)
+        return page(title, [excuse(len(graph.nodes))], (560, 40), notes, _SIGNS, bare)
     sheet = _Sheet(graph, conflicts)
     view, figure = framed(sheet.scene)
     body = [
@@ -59,7 +61,7 @@ def draw_conflicts(graph: BondGraph, conflicts: tuple[Conflict, ...], title: str
         *[small(*at, view.items[n].tag) for n, at in sorted(figure.tags.items())],
         *[small(x, y, graph.bonds[b].label or "") for b, (x, y) in sorted(figure.labels.items())],
     ]
-    return page(title, body, figure.size, notes, _SIGNS)
+    return page(title, body, figure.size, notes, _SIGNS, bare)
 
 
 class _Sheet:

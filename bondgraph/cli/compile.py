@@ -89,7 +89,7 @@ def run(args: Namespace) -> int:
 
         console.print_json(result(compilation, files))
         return 0
-    from bondgraph.cli.report import report
+    from bondgraph.cli.summary import report
 
     console.show(compilation.report.diagnostics)
     print("\n".join(report(compilation, files)))

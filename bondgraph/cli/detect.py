@@ -13,6 +13,7 @@ from bondgraph.cli.numbers import assigned, bits, noise, positive
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
+    from bondgraph.ir.program import Program
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.smallest import Detection, Situation, Smallest
 
@@ -21,6 +22,12 @@ def arguments(parser: ArgumentParser) -> None:
     """The arguments of `detect`."""
     parser.add_argument("model", metavar="MODEL", help="file.bg or file.bg:Name")
     parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
+    sampling(parser)
+    signals(parser)
+
+
+def sampling(parser: ArgumentParser) -> None:
+    """The arguments that say how the machine is sampled."""
     rate = Options().rate
     parser.add_argument("--rate", metavar="HZ", type=positive, default=rate,
                         help=f"samples a second (default: {rate:g})")  # fmt: skip
@@ -28,6 +35,10 @@ def arguments(parser: ArgumentParser) -> None:
                         help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
     parser.add_argument("--bits", metavar="N", type=bits, default=12,
                         help="resolution of the samples (default: 12)")  # fmt: skip
+
+
+def signals(parser: ArgumentParser) -> None:
+    """The arguments that say what the machine does and how well it is measured."""
     parser.add_argument("--noise", metavar="[NAME=]DEVIATION", type=noise, action="append",
                         default=[], help="standard deviation of the samples of a signal, without"
                         " a name of every sensor; may be repeated")  # fmt: skip
@@ -44,24 +55,38 @@ def arguments(parser: ArgumentParser) -> None:
                         " (default: 5)")  # fmt: skip
 
 
-def run(args: Namespace) -> int:
-    """Compile, look for the smallest changes, print."""
-    from bondgraph.runtime.smallest import Situation, smallest
-
-    compilation = open_model(
-        args.model, rate=args.rate, bandwidth=args.bandwidth, resolution=2.0**-args.bits
-    )
-    program = compilation.program
+def no_signal(args: Namespace, program: Program) -> str | None:
+    """A name among the arguments that no known signal of the residuals has."""
     paths = [k.path for k in program.knowns]
-    for name, _ in (*args.at, *args.swing, *args.noise):
-        if name and name not in paths:
-            return console.unknown(name, "no known signal of the residuals", paths)
+    given = (*args.at, *args.swing, *args.noise)
+    return next((name for name, _ in given if name and name not in paths), None)
+
+
+def situation_of(args: Namespace, program: Program) -> Situation:
+    """What the arguments say."""
+    from bondgraph.runtime.smallest import Situation
+
     every = dict(args.noise).get("")
     deviations = {}
     if every is not None:
         deviations = {k.path: every for k in program.knowns if k.kind == "sensor"}
     deviations |= {name: value for name, value in args.noise if name}
-    situation = Situation(dict(args.at), dict(args.swing), deviations, args.frequency, args.kappa)
+    return Situation(dict(args.at), dict(args.swing), deviations, args.frequency, args.kappa)
+
+
+def run(args: Namespace) -> int:
+    """Compile, look for the smallest changes, print."""
+    from bondgraph.runtime.smallest import smallest
+
+    compilation = open_model(
+        args.model, rate=args.rate, bandwidth=args.bandwidth, resolution=2.0**-args.bits
+    )
+    program = compilation.program
+    name = no_signal(args, program)
+    if name is not None:
+        paths = [k.path for k in program.knowns]
+        return console.unknown(name, "no known signal of the residuals", paths)
+    situation = situation_of(args, program)
     tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
     try:
         found = smallest(program, compilation.thresholds, tolerances, situation)

@@ -158,7 +158,7 @@ def _stroke(causal: CausalGraph, bond: Bond) -> str:
 
 def _residual(compilation: Compilation, relation: Relation) -> list[str]:
     from bondgraph.cli.layout import formula, width
-    from bondgraph.cli.report import closed_form
+    from bondgraph.cli.summary import closed_form
     from bondgraph.ir.dump import place
     from bondgraph.ir.show import show
     from bondgraph.passes.path import path

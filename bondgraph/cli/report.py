@@ -1,133 +1,88 @@
-"""What a person reads after a compilation: residuals, signatures, what cannot be seen, files."""
+"""`bondgraph report`: all that is known of a model as one HTML page."""
 
 from __future__ import annotations
 
 import os
+import sys
 from typing import TYPE_CHECKING
 
-from bondgraph.cli.console import plural
-from bondgraph.cli.layout import formula, names, signature_table, width
-from bondgraph.cli.reasons import message, reasons
-from bondgraph.ir.dump import equation_name
-from bondgraph.ir.expr import topological
+from bondgraph import compile
+from bondgraph.cli import console
+from bondgraph.cli.detect import no_signal, sampling, signals
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from argparse import ArgumentParser, Namespace
 
-    from bondgraph.pipeline import Compilation
-    from bondgraph.views import Relation
-
-_LONGEST = 24  # lines of one residual in a report; more than that nobody reads
+    from bondgraph.cli.reporting.seen import Assumed
+    from bondgraph.ir.program import Program
 
 
-def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
-    """The lines of the report."""
-    matrix = compilation.signatures
-    columns = width()
-    lines = [f"{compilation.graph.name}: {message(compilation)}"]
-    if matrix.residuals:
-        lines.append(_checked(compilation))
-    for relation in compilation.residuals:
-        lines += ["", *closed_form(compilation, relation, columns)]
-    if matrix.faults and matrix.residuals:
-        lines += ["", "Fault signatures", *signature_table(matrix)]
-    lines += _modes(compilation, columns)
-    if matrix.undetectable:
-        lines += ["", "Undetectable"]
-        for reason, faults in reasons(compilation).items():
-            lines += names(faults, columns, "  ")
-            lines.append(f"    {reason}")
-    if matrix.residuals:
-        lines += _numerics(compilation, columns)
-    if files:
-        folder = os.path.commonpath([os.path.dirname(path) for path in files])
-        inside = [os.path.relpath(path, folder) for path in files]
-        lines += ["", f"Written to {folder}", *names(inside, columns, "  ")]
-    return lines
-
-
-def _checked(compilation: Compilation) -> str:
-    done = compilation.verification
-    return (
-        f"checked exactly: {plural(done.residuals, 'residual')} on the healthy model,"
-        f" {plural(done.faults, 'fault')} one at a time"
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `report`."""
+    parser.add_argument("model", metavar="MODEL", help="file.bg or file.bg:Name")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE.html",
+        help="where to write the page, - for stdout (default: beside you, named like the file)",
+    )
+    sampling(parser)
+    signals(parser)
+    parser.add_argument(
+        "--decouple",
+        metavar="FAULT",
+        action="append",
+        default=[],
+        help="add relations that are free of this fault; may be repeated",
     )
 
 
-def closed_form(
-    compilation: Compilation, relation: Relation, columns: int, longest: int | None = _LONGEST
-) -> list[str]:
-    """One residual as nested formulas under a line that says where it comes from.
+def run(args: Namespace) -> int:
+    """Collect, write the page; status 1 where it tells why there are no relations."""
+    from bondgraph.backends.report.page import page
+    from bondgraph.cli.reporting.assumed import assumed
+    from bondgraph.cli.reporting.collect import collect
 
-    At most `longest` lines (None: all).
-    """
-    source = compilation.source
-    lines = [f"{relation.name}  {equation_name(relation.residual.closing, source)}"]
-    indent = " " * (len(relation.name) + 2)
-    nodes = len(topological([relation.residual.expr]))
-    if longest is not None and nodes > 40 * longest:  # not worth the time it takes to write
-        more = f"bondgraph explain {source.path} {relation.name}"
-        return [*lines, f"{indent}too long to be read here ({nodes} operations): {more}"]
-    form = relation.closed_form
-    lines += formula(form.text, columns, f"{indent}0 = ", f"{indent}    ")
-    for name, text in form.where:
-        lines += formula(text, columns, f"{indent}{name} = ", f"{indent}    ")
-    if longest is not None and len(lines) > longest:
-        rest = len(lines) - longest
-        lines = [
-            *lines[:longest],
-            f"{indent}... {plural(rest, 'line')} more: bondgraph explain"
-            f" {compilation.source.path} {relation.name}",
-        ]
-    return lines
+    compilation = compile(
+        args.model,
+        rate=args.rate,
+        bandwidth=args.bandwidth,
+        resolution=2.0**-args.bits,
+        decouple=tuple(dict.fromkeys(args.decouple)),
+    )
+    for fault in args.decouple:
+        if fault not in compilation.graph.faults:
+            return console.unknown(fault, "no fault of the model", compilation.graph.faults)
 
+    def assume(program: Program) -> Assumed:
+        name = no_signal(args, program)
+        if name is not None:
+            raise UnknownSignal(name, [k.path for k in program.knowns])
+        return assumed(args, program)
 
-def _modes(compilation: Compilation, columns: int) -> list[str]:
-    """What can be detected in each mode of a switched machine, one mode a line."""
-    matrix, found = compilation.signatures, compilation.modes
-    if not found.modes or not matrix.residuals:
-        return []
-    lines = ["", "While the machine stays in one mode"]
-    for mode in found.modes:
-        lead = "  " + ", ".join(f"{n} {'on' if on else 'off'}" for n, on in mode.modes.items())
-        if mode.matrix is None:
-            lines.append(f"{lead}: no behaviour, {mode.reason}")
-        elif mode.matrix.rows == matrix.rows:
-            lines.append(f"{lead}: the same signatures")
-        else:
-            lost = [f for f in mode.matrix.undetectable if f not in matrix.undetectable]
-            blind = [r for r in matrix.residuals if not mode.matrix.signature(r)]
-            lines.append(f"{lead}: {plural(len(mode.matrix.groups), 'group')}")
-            if lost:
-                lines += names(lost, columns, "    undetectable here: ")
-            if blind:
-                lines += names(blind, columns, "    sees nothing: ")
-    if len(found.modes) < found.total:
-        lines.append(f"  and {found.total - len(found.modes)} modes more")
-    return lines
+    try:
+        content = collect(compilation, assume)
+    except UnknownSignal as error:
+        return console.unknown(error.name, "no known signal of the residuals", error.paths)
+    stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
+    output = args.output or f"{stem}.html"
+    console.show(content.findings)
+    text = page(content)
+    if output == "-":
+        sys.stdout.write(text)
+    else:
+        folder = os.path.dirname(output)
+        if folder:
+            os.makedirs(folder, exist_ok=True)
+        console.write_whole(output, text)
+        print(f"{output}: {content.title}: {content.message}")
+    return 0 if content.status in ("ok", "no_arr") else 1
 
 
-def _numerics(compilation: Compilation, columns: int) -> list[str]:
-    """What the sampled code cannot see, although the equations do."""
-    program, bounds = compilation.program, compilation.thresholds
-    unbounded = {} if bounds is None else {r.name: r.unavailable for r in bounds.residuals}
-    lines: list[str] = []
-    for info in program.residuals:
-        notes = []
-        if info.invisible:
-            notes.append(names(info.invisible, columns, f"  {info.name}  cannot see "))
-        if info.approximate:
-            notes.append([f"  {info.name}  is approximate: {info.approximate}"])
-        if info.unavailable:
-            notes.append([f"  {info.name}  is never valid: {info.unavailable}"])
-        if info.unwritten:
-            notes.append([f"  {info.name}  has no exact form in the code: {info.unwritten}"])
-        why = unbounded.get(info.name, "")
-        if why and why != info.unavailable:
-            notes.append([f"  {info.name}  has no adaptive threshold: {why}"])
-        for note in notes:
-            lines += note
-    if not lines:
-        return []
-    rate = f"{program.rate:g} samples a second, bandwidth {program.bandwidth:g} rad/s"
-    return ["", f"In step ({rate})", *lines]
+class UnknownSignal(Exception):
+    """An argument names a signal that no residual uses."""
+
+    def __init__(self, name: str, paths: list[str]) -> None:
+        self.name = name
+        self.paths = paths
+        super().__init__(name)

@@ -24,8 +24,9 @@ _WORDS = {
 class PathStep(NamedTuple):
     """One line of a path: `variable = value`, why, where in the source.
 
-    `leaves` says that the step runs against the strokes of the derivative-causality drawing, as
-    the inversion of a gyrator or of a source does (bicausal, Gawthrop 1995).
+    `node` and `expr` are the two sides of `variable` = `value` as nodes. `leaves` says that the
+    step runs against the strokes of the derivative-causality drawing, as the inversion of a gyrator
+    or of a source does (bicausal, Gawthrop 1995).
     """
 
     variable: str
@@ -33,6 +34,8 @@ class PathStep(NamedTuple):
     why: str
     origin: Span
     leaves: bool
+    node: Expr
+    expr: Expr
 
 
 def path(residual: Residual, system: EquationSystem, derivative: CausalGraph) -> list[PathStep]:
@@ -47,8 +50,9 @@ def _line(pool: Pool, step: Step, imposed: dict[tuple[Expr, int], bool]) -> Path
     if step.how in ("differentiated", "integrated", "inverted", "loop"):
         why += f", {step.how if step.how != 'loop' else 'closed by the loop'}"
     leaves = not imposed.get((step.variable, equation.node), True)
-    value = show(tidy(pool, step.value)[0])
-    return PathStep(step.variable.symbol.name, value, why, equation.origin, leaves)
+    value = tidy(pool, step.value)[0]
+    name = step.variable.symbol.name
+    return PathStep(name, show(value), why, equation.origin, leaves, step.variable, value)
 
 
 def _imposed(system: EquationSystem, causal: CausalGraph) -> dict[tuple[Expr, int], bool]:

@@ -104,15 +104,39 @@ def _opens(node: Expr, uses: Counter[Expr]) -> bool:
     return node.op is Op.ADD and (uses[node] <= 1 or len(node.args) == 1)
 
 
-def closed_form(graph: BondGraph, residual: Residual) -> ClosedForm:
-    """The relation as nested text; what occurs more than once is named and written once."""
-    pool, starts = graph.pool, graph.initial_values()
+class Parts(NamedTuple):
+    """A relation as nodes: `named` are its shared parts, each with the name that stands for it.
+
+    `order` has all nodes, arguments first; `variables` names every node that is the value of a
+    variable of the model.
+    """
+
+    root: Expr
+    order: tuple[Expr, ...]
+    named: dict[Expr, str]
+    variables: dict[Expr, str]
+
+
+def parts(graph: BondGraph, residual: Residual) -> Parts:
+    """The relation, tidied, with the parts that occur more than once."""
     known = [s for s in residual.steps if s.closed.args]
-    root, *values = tidy(pool, residual.expr, *[s.closed for s in known])
+    root, *values = tidy(graph.pool, residual.expr, *[s.closed for s in known])
     names: dict[Expr, str] = {}
     for step, value in zip(known, values, strict=True):
         if value.args:
             names.setdefault(value, step.variable.symbol.name)
+    return shared(root, names)
+
+
+def shared(root: Expr, variables: dict[Expr, str]) -> Parts:
+    """The parts of an expression that occur more than once, named by `variables` or x1, x2, ...
+
+    >>> from bondgraph.ir.expr import Kind
+    >>> p = Pool(); x, y = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR)
+    >>> s = p.add((1, p.mul(x, y)), (1, x)); e = p.mul(s, p.fn("sin", s))
+    >>> shared(e, {}).named
+    {x + x*y: 'x1'}
+    """
     order = topological([root])
     uses: dict[Expr, int] = dict.fromkeys(order, 0)
     size: dict[Expr, int] = {}
@@ -123,7 +147,14 @@ def closed_form(graph: BondGraph, residual: Residual) -> ClosedForm:
     chosen: dict[Expr, str] = {}
     for node in order:
         if uses[node] > 1 and size[node] > _SHORT and node.op is not Op.NUM:
-            chosen[node] = names.get(node) or f"x{len(chosen) + 1}"
+            chosen[node] = variables.get(node) or f"x{len(chosen) + 1}"
+    return Parts(root, tuple(order), chosen, variables)
+
+
+def closed_form(graph: BondGraph, residual: Residual) -> ClosedForm:
+    """The relation as nested text; what occurs more than once is named and written once."""
+    root, order, chosen, _ = parts(graph, residual)
+    starts = graph.initial_values()
     where = [
         (chosen[node], show(node, _others(chosen, node), starts))
         for node in reversed(order)

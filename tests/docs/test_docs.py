@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import bondgraph
-from bondgraph.cli.report import report
+from bondgraph.cli.summary import report
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 

@@ -11,14 +11,22 @@ from bondgraph.backends.drawing.style import NOTE, SEPARATOR, SMALL, style, widt
 from bondgraph.ir.graph import BondGraph, Node
 
 _MARGIN = 26.0
+_EDGE = 12.0  # around a bare figure
 _HEAD = 34.0
 _FOOT = 34.0
 _BARB = (9.0, 5.5)
 _BAR = 6.5
 
 
-def page(title: str, body: list[str], size: Point, notes: list[str], signs: str) -> str:
-    """The SVG around a figure: the title above, below it `notes` and what the signs mean."""
+def page(
+    title: str, body: list[str], size: Point, notes: list[str], signs: str, bare: bool = False
+) -> str:
+    """The SVG around a figure: the title above, below it `notes` and what the signs mean.
+
+    A `bare` one has neither title nor colours of its own: the page that it stands in has both.
+    """
+    if bare:
+        return _bare(title, body, size, signs)
     words = _wrapped(signs, max(size[0], 460.0))
     wide = max([size[0], width(title, 14, True), *[width(w, SMALL) for w in words]])
     said = [line for note in notes for line in _lines(note, max(wide, 460.0))]
@@ -47,6 +55,21 @@ def page(title: str, body: list[str], size: Point, notes: list[str], signs: str)
             f"{escape(w)}</text>"
             for i, w in enumerate(words)
         ],
+        "</svg>",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _bare(title: str, body: list[str], size: Point, signs: str) -> str:
+    wide, high = px(size[0] + 2 * _EDGE), px(size[1] + 2 * _EDGE)
+    lines = [
+        f'<svg class="bondgraph" width="{wide}" height="{high}" viewBox="0 0 {wide} {high}" '
+        'role="img">',
+        f"<title>{escape(title)}</title>",
+        f"<desc>{escape(signs)}</desc>",
+        f'<g transform="translate({px(_EDGE)} {px(_EDGE)})">',
+        *body,
+        "</g>",
         "</svg>",
     ]
     return "\n".join(lines) + "\n"
@@ -81,10 +104,14 @@ def node_label(node: Node, item: Item, at: Point, faint: bool = False, more: str
     told = "\n".join([spoken(node), *[line for line in (node.doc, more) if line]])
     hint = f"<title>{escape(told)}</title>"
     ink = "faint" if faint else "ink"
+    of = f'data-node="{escape(node.path)}"'
     if not item.name:
-        return f'<text class="junction {ink}" x="{px(x)}" y="{px(y + 6)}">{hint}{item.kind}</text>'
+        return (
+            f'<text class="junction {ink}" {of} x="{px(x)}" y="{px(y + 6)}">{hint}{item.kind}'
+            "</text>"
+        )
     text = (
-        f'<text class="label" x="{px(x)}" y="{px(y + 4.6)}">{hint}'
+        f'<text class="label" {of} x="{px(x)}" y="{px(y + 4.6)}">{hint}'
         f'<tspan class="kind {"faint" if faint else item.colour}">{item.kind}</tspan>'
         f'<tspan class="{ink}">:{escape(item.name)}</tspan></text>'
     )

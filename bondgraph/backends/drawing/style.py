@@ -71,17 +71,38 @@ def style(conflict: bool = False) -> str:
     """
     light, dark = ({**_LIGHT, **_CLASH[0]}, {**_DARK, **_CLASH[1]}) if conflict else (_LIGHT, _DARK)
     return (
-        f"{_rules(light)}\n"
-        "text{font-family:'DejaVu Sans',Verdana,Arial,sans-serif;text-anchor:middle}\n"
-        f".label{{font-size:{FONT:g}px}}.junction{{font-size:{BIG:g}px;font-weight:bold}}"
-        f".small{{font-size:{SMALL:g}px}}.kind{{font-weight:bold}}"
-        ".start{text-anchor:start}.head{font-size:14px;font-weight:bold}\n"
-        ".bond{fill:none;stroke-width:1.3;stroke-linejoin:round}.stroke{stroke-width:2.2}"
-        ".hit{fill:none;stroke:transparent;stroke-width:12}"
-        ".frame{fill:none;stroke-width:1}.derived{fill:none;stroke-dasharray:3 2}\n"
+        f"{_rules(light)}\n{_SHAPES}\n"
         f"{_conflict() if conflict else ''}"
         f"@media (prefers-color-scheme:dark){{\n{_rules(dark)}\n}}"
     )
+
+
+_SHAPES = (
+    "text{font-family:'DejaVu Sans',Verdana,Arial,sans-serif;text-anchor:middle}\n"
+    f".label{{font-size:{FONT:g}px}}.junction{{font-size:{BIG:g}px;font-weight:bold}}"
+    f".small{{font-size:{SMALL:g}px}}.kind{{font-weight:bold}}"
+    ".start{text-anchor:start}.head{font-size:14px;font-weight:bold}\n"
+    ".bond{fill:none;stroke-width:1.3;stroke-linejoin:round}.stroke{stroke-width:2.2}"
+    ".hit{fill:none;stroke:transparent;stroke-width:12}"
+    ".frame{fill:none;stroke-width:1}.derived{fill:none;stroke-dasharray:3 2}"
+)
+
+
+def inside(scope: str) -> str:
+    """The rules for drawings inside a page, below the selector `scope`.
+
+    The page defines the colours, as `colours` gives them.
+    """
+    names = dict.fromkeys([*_LIGHT, *_CLASH[0]])
+    rules = _rules({name: f"var(--{name})" for name in names}) + _SHAPES + _conflict()
+    rows = [f"{scope} {rule.strip()}}}" for rule in rules.split("}") if rule.strip()]
+    return "\n".join(rows)
+
+
+def colours(dark: bool) -> str:
+    """The colours of drawings as CSS variables, for light or dark surroundings."""
+    found = {**_DARK, **_CLASH[1]} if dark else {**_LIGHT, **_CLASH[0]}
+    return ";".join(f"--{name}:{value}" for name, value in found.items())
 
 
 def _conflict() -> str:

@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import bondgraph
-from bondgraph.cli.report import report
+from bondgraph.cli.summary import report
 from bondgraph.ir.program import Program
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.interpret import Interpreter

@@ -1,0 +1,1 @@
+"""What the report of a model says, collected from its compilation."""

@@ -1,0 +1,173 @@
+"""All that a report says of a model, as far as the model can be compiled."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bondgraph.backends.report.content import Content, Drawing, Quantity
+from bondgraph.backends.report.formulas import Typesetter
+from bondgraph.cli.console import plural, status
+from bondgraph.cli.reasons import message
+from bondgraph.cli.reporting.matrix import matrix
+from bondgraph.cli.reporting.relations import relations
+from bondgraph.cli.reporting.seen import Assumed, seen
+from bondgraph.ir.expr import symbols
+from bondgraph.passes.nominal import Nominal
+from bondgraph.text.diagnostic import CompileError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from bondgraph.ir.graph import BondGraph
+    from bondgraph.ir.program import Program
+    from bondgraph.pipeline import Compilation
+    from bondgraph.text.diagnostic import Diagnostic
+
+_QUANTITIES = 500  # of a list that is still one
+
+
+def collect(compilation: Compilation, assume: Callable[[Program], Assumed]) -> Content:
+    """The content of the report; `assume` says what the signals of the residual program are.
+
+    A model without strokes, or one whose relations cannot be derived, gives the content up to
+    there with the findings. Raises CompileError where there is not even a bond graph.
+    """
+    graph = compilation.graph
+    known = _bare(compilation)
+    try:
+        _ = compilation.derivative
+        if compilation.conflicts:
+            said = tuple(c.finding for c in compilation.conflicts)
+            return known._replace(status="error", message=said[0].message, findings=said)
+        known = known._replace(drawings=tuple(_drawings(compilation)))
+        _ = compilation.verification
+    except CompileError as error:
+        if not known.drawings:
+            known = known._replace(drawings=tuple(_drawings(compilation)))
+        return known._replace(
+            status=status(error), message=str(error), findings=tuple(error.diagnostics)
+        )
+    program, trouble = _program(compilation)
+    names = [*_names(graph), *[v.symbol.name for e in compilation.equations.equations
+                               for v in e.variables]]  # fmt: skip
+    typesetter = Typesetter(names, graph.initial_values())
+    found = compilation.signatures
+    situation = assume(program) if program is not None and found.residuals else None
+    return known._replace(
+        status="ok" if found.residuals else "no_arr",
+        message=message(compilation),
+        facts=tuple(_facts(compilation, program)),
+        relations=relations(compilation, typesetter, program),
+        signatures=matrix(compilation, program),
+        seen=seen(compilation, typesetter, program, situation) if found.residuals else None,
+        quantities=tuple(_quantities(graph, typesetter)),
+        findings=(*compilation.report.diagnostics, *trouble),
+    )
+
+
+def _bare(compilation: Compilation) -> Content:
+    graph = compilation.graph
+    source = graph.source.path.replace("\\", "/").rpartition("/")[2]
+    return Content(graph.name, graph.doc, source, "ok", "", (), (), _links(graph), (), None, None,
+                   (), ())  # fmt: skip
+
+
+def _program(compilation: Compilation) -> tuple[Program | None, tuple[Diagnostic, ...]]:
+    """The residual program; None with the findings where there is none."""
+    if not compilation.residuals:
+        return None, ()
+    try:
+        return compilation.program, ()
+    except CompileError as error:
+        return None, tuple(d for d in error.diagnostics if d not in compilation.report.diagnostics)
+
+
+def _drawings(compilation: Compilation) -> Iterator[Drawing]:
+    if compilation.conflicts:
+        yield Drawing(
+            "Why no strokes can be placed",
+            "Boxed: the conflict; without any one of its members the rest agrees.",
+            compilation.drawing(bare=True),
+        )
+        return
+    yield Drawing(
+        "In preferred integral causality",
+        "As a simulation computes it. The half arrow is the direction of positive power, the bar"
+        " is at the end that receives the effort."
+        + (" Dashed: a storage in derivative causality." if compilation.integral.dependent else ""),
+        compilation.drawing(bare=True),
+    )
+    yield Drawing(
+        "In preferred derivative causality, the sensors dualised",
+        "As the relations are computed: what is measured is imposed (SSe, SSf), and the storages"
+        " differentiate.",
+        compilation.drawing(derivative=True, bare=True),
+    )
+
+
+def _links(graph: BondGraph) -> dict[str, tuple[str, ...]]:
+    """The faults of each element: the parameters and signals of its laws, what it measures."""
+    faults = {symbol: name for name, symbol in graph.fault_symbols().items()}
+    found = {}
+    for node in graph.nodes:
+        inside = symbols(*[law.zero for law in node.laws])
+        own = [faults[s] for s in inside if s in faults]
+        own += [s.name for s in graph.sensors if s.node is not None
+                and graph.nodes[s.node] is node and s.name in faults.values()]  # fmt: skip
+        if own:
+            found[node.path] = tuple(dict.fromkeys(own))
+    return found
+
+
+def _facts(compilation: Compilation, program: Program | None) -> Iterator[tuple[str, str]]:
+    graph = compilation.graph
+    kinds = [f"{plural(len(graph.nodes), 'node')}", f"{plural(len(graph.bonds), 'bond')}",
+             plural(sum(s.same_as is None for s in graph.sensors), "sensor")]  # fmt: skip
+    yield "Model", ", ".join(kinds)
+    if not compilation.residuals:
+        return
+    done = compilation.verification
+    yield (
+        "Verified",
+        f"exactly, against a simulation that shares no code with the derivation: "
+        f"{plural(done.residuals, 'residual')} on the healthy model, "
+        f"{plural(done.faults, 'fault')} one at a time",
+    )
+    if program is not None:
+        wait = program.warmup / program.bandwidth
+        yield (
+            "Code",
+            f"{program.rate:g} samples a second, filter of {program.bandwidth:g} rad/s,"
+            f" valid {wait:.2g} s after the first sample",
+        )
+
+
+def _names(graph: BondGraph) -> Iterator[str]:
+    for items in (graph.values, graph.inputs, graph.sensors):
+        for item in items:
+            yield item.name
+
+
+def _quantities(graph: BondGraph, typesetter: Typesetter) -> Iterator[Quantity]:
+    nominal = Nominal(graph)
+    rows: list[Quantity] = []
+    for v in graph.values:
+        number = nominal.value(v.symbol)
+        value = "free" if number is None else f"{number:g}"
+        if v.tolerance is not None:
+            value += f" ± {100 * float(v.tolerance):g} %"
+        kind = "parameter" if v.fault else "constant"
+        rows.append(_quantity(typesetter, v.name, kind, value, v.unit, v.doc))
+    for i in graph.inputs:
+        kind = "mode" if i.mode else "input" if i.known else "unknown input"
+        rows.append(_quantity(typesetter, i.name, kind, "", i.unit, i.doc))
+    for s in graph.sensors:
+        doc = s.doc if s.same_as is None else f"the same instrument as {s.same_as}"
+        rows.append(_quantity(typesetter, s.name, "sensor", "", s.unit, doc))
+    yield from rows[:_QUANTITIES]
+
+
+def _quantity(
+    typesetter: Typesetter, name: str, kind: str, value: str, unit: str | None, doc: str
+) -> Quantity:
+    return Quantity(typesetter.inline(name), name, kind, value, unit or "", doc)

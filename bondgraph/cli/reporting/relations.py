@@ -1,0 +1,131 @@
+"""The relations of a model for its report: formulas, the causal path, what each sees."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bondgraph.backends.report.content import PathLine, RelationPart
+from bondgraph.backends.report.formulas import operations
+from bondgraph.ir.dump import equation_name, place
+from bondgraph.passes.path import path
+from bondgraph.passes.present import parts
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from bondgraph.backends.report.formulas import Typesetter
+    from bondgraph.ir.program import Program
+    from bondgraph.pipeline import Compilation
+    from bondgraph.views import Relation
+
+LONGEST = 600  # operations of a formula that is worth its ink
+_STEPS = 80  # of a causal path
+
+
+def relations(
+    compilation: Compilation, typesetter: Typesetter, program: Program | None
+) -> tuple[RelationPart, ...]:
+    """All relations, in order; `program` knows what `step` cannot see (None: there is none)."""
+    budget = 20 * LONGEST  # of the page: with hundreds of relations the first are enough
+    found = []
+    for relation in compilation.residuals:
+        part = _relation(compilation, typesetter, relation, program, budget)
+        budget -= operations(relation.residual.expr)
+        found.append(part)
+    return tuple(found)
+
+
+def _relation(
+    compilation: Compilation,
+    typesetter: Typesetter,
+    relation: Relation,
+    program: Program | None,
+    budget: int,
+) -> RelationPart:
+    residual, source = relation.residual, compilation.source
+    size = operations(residual.expr)
+    html: tuple[str, ...] = ()
+    too_long = ""
+    if size <= min(LONGEST, budget):
+        form = parts(compilation.graph, residual)
+        html = tuple(typesetter.equations(typesetter.name(relation.name).xml, form))
+    else:
+        too_long = (
+            f"{size} operations are too many to be read here;"
+            f" bondgraph explain {source.path.rpartition('/')[2]} {relation.name} prints them."
+        )
+    lines, longer = _path(compilation, typesetter, relation)
+    weak = compilation.detectability.weak(relation.name) or ()
+    closing = residual.closing.zero
+    return RelationPart(
+        relation.name,
+        equation_name(residual.closing, source),
+        html,
+        too_long,
+        lines,
+        typesetter.vanishing(closing) if operations(closing) <= LONGEST else "",
+        longer,
+        tuple(f for f in relation.faults if f not in weak),
+        weak,
+        tuple(_orders(typesetter, relation.orders)),
+        tuple(_notes(compilation, relation, program)),
+    )
+
+
+def _orders(
+    typesetter: Typesetter, orders: Mapping[str, int]
+) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """The signals by their highest derivative, the highest first."""
+    words = {-1: "only integrated", 0: "none of", 1: "first of", 2: "second of", 3: "third of"}
+    for order in sorted(set(orders.values()), reverse=True):
+        signals = tuple(typesetter.inline(s) for s, n in orders.items() if n == order)
+        yield words.get(order, f"{order}th of"), signals
+
+
+def _path(
+    compilation: Compilation, typesetter: Typesetter, relation: Relation
+) -> tuple[tuple[PathLine, ...], int]:
+    steps = path(relation.residual, compilation.equations, compilation.derivative)
+    shown = steps if len(steps) <= _STEPS else steps[: _STEPS // 2] + steps[-_STEPS // 2 :]
+    lines = []
+    for step in shown:
+        if operations(step.expr) <= LONGEST // 2:
+            html = typesetter.assigned(step.variable, step.expr)
+        else:
+            html = typesetter.inline(step.variable)
+        where = place(step.origin, compilation.source)
+        lines.append(PathLine(html, step.why, where, step.leaves))
+    return tuple(lines), len(steps) - len(shown)
+
+
+def _notes(compilation: Compilation, relation: Relation, program: Program | None) -> list[str]:
+    """Sentences on what limits a relation, and its code."""
+    residual = relation.residual
+    notes = []
+    if residual.free_of is not None:
+        notes.append(f"Combined from two others so that {residual.free_of} does not move it.")
+    if residual.differentiated:
+        notes.append("Differentiated, because an initial value is not declared.")
+    if compilation.detectability.weak(relation.name) is None and relation.faults:
+        notes.append(
+            "Whether a fault shows as long as it lasts is not known: the machine has no steady"
+            " operation to tell by."
+        )
+    if program is None:
+        return notes
+    info = next(r for r in program.residuals if r.path == relation.name)
+    if info.invisible:
+        names = ", ".join(info.invisible)
+        notes.append(f"At {program.rate:g} samples a second its code cannot see {names}.")
+    if info.approximate:
+        notes.append(f"Its code is an approximation: {info.approximate}.")
+    if info.unavailable:
+        notes.append(f"Its code never has a value: {info.unavailable}.")
+    if info.unwritten:
+        notes.append(f"It has no exact form in the code: {info.unwritten}.")
+    bounds = compilation.thresholds
+    others = () if bounds is None else bounds.residuals
+    why = next((b.unavailable for b in others if b.path == info.path), "")
+    if why and why != info.unavailable:
+        notes.append(f"It has no adaptive threshold: {why}.")
+    return notes
