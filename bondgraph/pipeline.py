@@ -21,11 +21,13 @@ if TYPE_CHECKING:
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.program import Program
     from bondgraph.ir.residuals import ReducedSystem, ResidualSet
+    from bondgraph.ir.runnable import Runnable
     from bondgraph.ir.signatures import Detectability, ModeSignatures, SignatureMatrix
     from bondgraph.ir.state import StateEquations
     from bondgraph.ir.structure import StructuralModel
     from bondgraph.ir.syntax import File
     from bondgraph.passes.state_equations import Wanted
+    from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
     from bondgraph.views import Relations
@@ -266,10 +268,35 @@ class Compilation:
         """The files, as text."""
         from bondgraph.backends.emit import emit
 
-        bounds = self.thresholds
-        if bounds is not None and all(r.unavailable for r in bounds.residuals):
-            bounds = None  # the report says why
-        return emit(self.program, self.options.targets, bounds)
+        return emit(self.program, self.options.targets, self._bounds)
+
+    @cached_property
+    def runnables(self) -> tuple[Runnable, Runnable | None]:
+        """The code of residuals and thresholds, to be loaded and run here; None without these."""
+        from bondgraph.backends.runnable import runnable
+
+        bounds = self._bounds
+        return runnable(self.program), None if bounds is None else runnable(bounds)
+
+    def engine(
+        self, native: bool | None = None, tell: Callable[[str], None] | None = None
+    ) -> Engine:
+        """What runs the residuals and thresholds over arrays of samples, at nominal parameters.
+
+        In C compiled here, or in Python (`native` False, or None and no compiler, which is told
+        in one line to `tell`). Raises NativeError if it must be C and cannot be.
+
+        >>> import bondgraph
+        >>> engine = bondgraph.compile("models/dc_motor.bg").engine()
+        >>> [k.path for k in engine.signals]
+        ['load', 'U', 'current', 'speed']
+        >>> batch = engine.run([[0.0, 6.0, 2.0, 0.0]] * 1000)  # 6 V and 2 A at rest
+        >>> batch.valid[-1].tolist(), batch.value.shape
+        ([True, True], (1000, 2))
+        """
+        from bondgraph.runtime.monitoring.native import start
+
+        return start(*self.runnables, native=native, tell=tell)
 
     def diagnoses(
         self, fired: Iterable[str], silent: Iterable[str] = (), at_most: int | None = None
@@ -320,6 +347,14 @@ class Compilation:
         return "\n".join(parts)
 
     # ------------------------------------------------------------------------- helpers
+
+    @property
+    def _bounds(self) -> Program | None:
+        """The thresholds if any residual has one; the report says why if none has."""
+        bounds = self.thresholds
+        if bounds is not None and all(r.unavailable for r in bounds.residuals):
+            return None
+        return bounds
 
     def _stage(self, value: T | None) -> T:
         self.report.stop_on_error()

@@ -1,0 +1,281 @@
+"""The generated C as an engine: compiled by the system's compiler, kept in a cache, loaded."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import os
+import platform
+import shlex
+import subprocess
+import sys
+import tempfile
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from bondgraph.ir.runnable import Runnable
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.engine import (
+    Batch,
+    Engine,
+    PythonEngine,
+    Setting,
+    checked,
+    one_by_one,
+    setting,
+)
+
+#: One rounding for each operation, as in Python; nothing of the residuals is seen from outside.
+_FLAGS = "-std=c99 -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden".split()
+_KEPT = 100  # libraries in the cache
+
+_STATUS = (
+    "no finite number for a parameter",
+    "a sample time that it was not made for",
+    "a bandwidth that does not go with the sample time",
+    "a unit of time that is not positive",
+    "parameters that make a coefficient which is not finite",
+)
+
+
+class NativeError(Exception):
+    """Why the generated C cannot be run here: no compiler, or one that fails."""
+
+
+def start(
+    residuals: Runnable,
+    thresholds: Runnable | None = None,
+    *,
+    native: bool | None = None,
+    tell: Callable[[str], None] | None = None,
+) -> Engine:
+    """An engine with nominal parameters: C where it can be compiled, else Python.
+
+    `native` True insists on C and raises NativeError, False takes Python. What goes wrong
+    otherwise is told once, in one line, to `tell` (a RuntimeWarning if there is none). Raises
+    ValueError for a model whose parameters have no values.
+    """
+    made = setting(residuals, thresholds)
+    if native is False:
+        return PythonEngine(made)
+    try:
+        return NativeEngine(made, Library(made.programs))
+    except NativeError as error:
+        if native:
+            raise
+        message = f"{error}; the residuals are run in Python, some hundred times slower"
+        if tell is not None:
+            tell(message)
+        else:
+            warnings.warn(message, RuntimeWarning, stacklevel=2)
+        return PythonEngine(made)
+
+
+class Library:
+    """The compiled code of programs, loaded; raises NativeError where that cannot be done."""
+
+    def __init__(self, programs: Sequence[Runnable]) -> None:
+        compiler = shlex.split(os.environ.get("CC", "")) or ["cc"]
+        name = _digest(programs, [*compiler, *_FLAGS], _version(compiler))
+        folder = _cache()
+        path = folder / f"{name}.so" if folder else None
+        library = _load(path, programs) if path else None
+        if library is None:
+            with tempfile.TemporaryDirectory(prefix="bondgraph-") as temporary:
+                built = Path(temporary) / f"{name}.so"
+                _compile(programs, compiler, Path(temporary), built)
+                library = _load(_kept(built, path) if path else built, programs)
+                if library is None:
+                    library = _load(built, programs)
+        if library is None:
+            raise NativeError(f"what {compiler[0]} made cannot be loaded")
+        self.functions = {runnable.stem: Functions(library, runnable) for runnable in programs}
+
+
+class Functions:
+    """The functions of one program in a library."""
+
+    def __init__(self, library: ctypes.CDLL, runnable: Runnable) -> None:
+        def function(name: str, result: object, *arguments: object) -> ctypes._NamedFuncPointer:
+            found = getattr(library, f"{runnable.stem}_batch{name}")
+            found.restype, found.argtypes = result, arguments
+            return found  # type: ignore[no-any-return]
+
+        pointer, size, real = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_double
+        results = [pointer] * (3 if runnable.program.bounds else 2)
+        self.size = int(function("_size", size)())
+        self.configure = function("_configure", ctypes.c_int, pointer, pointer, real, real)
+        self.reset = function("_reset", None, pointer)
+        self.run = function("", None, pointer, size, pointer, size, size, pointer, *results)
+
+
+class NativeEngine:
+    """An `Engine` of compiled code.
+
+    Raises ValueError for values of parameters that the model cannot take.
+    """
+
+    def __init__(self, setting: Setting, library: Library) -> None:
+        self._setting, self._library = setting, library
+        self.residuals = tuple(r.name for r in setting.residuals.program.residuals)
+        self.signals = setting.signals
+        self.sample_time = 1.0 / setting.residuals.program.rate
+        self.bandwidth, self.warm_up = setting.bandwidth, setting.warm_up
+        self.parameters: Mapping[str, float] = setting.parameters
+        self._monitors = [
+            _Monitor(runnable, library.functions[runnable.stem], setting)
+            for runnable in setting.programs
+        ]
+
+    def reset(self) -> None:
+        """Forget all samples: the next one is the first."""
+        for monitor in self._monitors:
+            monitor.functions.reset(monitor.address)
+
+    def configured(
+        self,
+        parameters: Mapping[str, float] | None = None,
+        *,
+        bandwidth: float | None = None,
+        bounds: bool = True,
+    ) -> NativeEngine:
+        """See `Engine`; costs some microseconds, the library is shared."""
+        return NativeEngine(self._setting.changed(parameters, bandwidth, bounds), self._library)
+
+    def run(self, samples: Array) -> Batch:
+        """See `Engine`."""
+        return Batch(*[array[0] for array in _run([self], samples)])
+
+    def run_with(self, others: Sequence[Engine], samples: Array) -> Batch:
+        """See `Engine`; one call where all are of the same library, with thresholds or without."""
+        engines = [self]
+        for other in others:
+            if not isinstance(other, NativeEngine) or not self._is_like(other):
+                return one_by_one([self, *others], samples)
+            engines.append(other)
+        return _run(engines, samples)
+
+    def _is_like(self, other: NativeEngine) -> bool:
+        return self._library is other._library and len(self._monitors) == len(other._monitors)
+
+
+class _Monitor:
+    """The memory of one program."""
+
+    def __init__(self, runnable: Runnable, functions: Functions, setting: Setting) -> None:
+        self.functions = functions
+        self.memory = np.zeros(functions.size, dtype=np.uint8)
+        self.address = self.memory.ctypes.data
+        self.columns: npt.NDArray[np.int32] = np.array(setting.columns(runnable), dtype=np.int32)
+        values = np.array(setting.values(runnable), dtype=np.float64)
+        sample_time = 1.0 / runnable.program.rate
+        status = functions.configure(
+            self.address, values.ctypes.data, sample_time, setting.bandwidth
+        )
+        if status:
+            raise ValueError(f"{runnable.stem} refuses {_STATUS[status - 1]}")
+
+
+def _run(engines: list[NativeEngine], samples: Array) -> Batch:
+    """All engines over the same samples, in one call for each program."""
+    first = engines[0]
+    taken = checked(samples, len(first.signals))
+    shape = (len(engines), len(taken), len(first.residuals))
+    value = np.empty(shape)
+    valid = np.empty(shape, dtype=np.bool_)
+    bound = np.empty(shape) if len(first._monitors) > 1 else np.zeros(shape)
+    results = [value.ctypes.data, valid.ctypes.data, bound.ctypes.data]
+    for k, monitor in enumerate(first._monitors):
+        addresses = (ctypes.c_void_p * len(engines))(*[e._monitors[k].address for e in engines])
+        monitor.functions.run(
+            addresses,
+            len(engines),
+            taken.ctypes.data,
+            *taken.shape,
+            monitor.columns.ctypes.data,
+            *results[: 2 + k],
+        )
+    return Batch(value, valid, bound)
+
+
+# ------------------------------------------------------------------------ compiler and cache
+
+
+def _version(compiler: list[str]) -> str:
+    try:
+        done = subprocess.run([*compiler, "--version"], capture_output=True, check=False)
+    except OSError as error:
+        raise NativeError(f"no C compiler `{compiler[0]}` ({error.strerror})") from error
+    return done.stdout.decode("utf-8", "replace")
+
+
+def _digest(programs: Sequence[Runnable], *facts: Sequence[str] | str) -> str:
+    """Identifies what would come out: all texts, the compiler, its flags, the machine."""
+    texts = [[(a.path, a.text) for a in runnable.c] for runnable in programs]
+    everything = repr((texts, facts, sys.platform, platform.machine()))
+    return hashlib.sha256(everything.encode("utf-8", "surrogatepass")).hexdigest()[:32]
+
+
+def _cache() -> Path | None:
+    """The folder of compiled libraries; None where there can be none."""
+    own = os.environ.get("XDG_CACHE_HOME", "")
+    try:
+        base = Path(own) if os.path.isabs(own) else Path.home() / ".cache"
+        folder = base / "bondgraph"
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except (OSError, RuntimeError):
+        return None
+    return folder
+
+
+def _compile(
+    programs: Sequence[Runnable], compiler: list[str], folder: Path, library: Path
+) -> None:
+    for artifact in (a for runnable in programs for a in runnable.c):
+        (folder / artifact.path).write_text(artifact.text, encoding="utf-8")
+    sources = [runnable.main for runnable in programs]
+    command = [*compiler, *_FLAGS, "-o", str(library), *sources, "-lm"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
+    if done.returncode:
+        told = done.stderr.decode("utf-8", "replace").splitlines()
+        why = next((line for line in told if "error" in line), told[0] if told else "no reason")
+        raise NativeError(f"{compiler[0]} does not compile the residuals: {why.strip()}")
+
+
+def _kept(built: Path, path: Path) -> Path:
+    """Put a library into the cache, whole or not at all; where it is then."""
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        temporary.write_bytes(built.read_bytes())
+        temporary.replace(path)
+        kept = sorted(path.parent.glob("*.so"), key=lambda p: p.stat().st_mtime)
+        for old in kept[:-_KEPT]:
+            old.unlink()
+    except OSError:
+        temporary.unlink(missing_ok=True)
+        return built
+    return path
+
+
+def _load(path: Path, programs: Sequence[Runnable]) -> ctypes.CDLL | None:
+    """The library in a file; None if it is not there, damaged or of other programs."""
+    try:
+        os.utime(path)  # it is used: others are older
+    except OSError:
+        if not path.exists():
+            return None
+    try:
+        library = ctypes.CDLL(str(path))
+        for runnable in programs:
+            abi = getattr(library, f"{runnable.stem}_batch_abi")
+            digest = getattr(library, f"{runnable.stem}_batch_digest")
+            abi.restype, digest.restype = ctypes.c_uint32, ctypes.c_char_p
+            if abi() != runnable.abi or digest().decode() != runnable.program.digest:
+                return None
+    except (OSError, AttributeError):
+        return None
+    return library

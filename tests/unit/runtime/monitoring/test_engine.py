@@ -1,0 +1,185 @@
+"""Residuals over arrays: C and Python alike, in any pieces, with other parameters, after gaps."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bondgraph.backends.runnable import runnable
+from bondgraph.ir.program import Program
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.monitoring.engine import Engine, PythonEngine, setting
+from bondgraph.runtime.monitoring.native import Library, NativeEngine, start
+from bondgraph.text.source import Source
+from tests.unit.backends import programs
+
+_MOTOR = """bg 1
+model Motor {
+    param R = 2 Ohm +- 5%
+    param L = 1 mH
+    param k = 0.05 N.m/A
+    param J = 1e-4 kg.m^2
+    param f = 1e-3 N.m.s/rad
+    input U : V
+    input on : bool
+    1:coil { <- Se:U = if(on, 1, 0)*U; -> I:L; -> R:R; -> Df:i }
+    coil -> GY:k -> 1:rotor
+    rotor { -> I:J; -> R:f }
+    sensor angle : rad = int(rotor.f) counts 1000/turn
+}
+"""
+
+
+@cache
+def _motor() -> Compilation:
+    return Compilation(Source("motor.bg", _MOTOR))
+
+
+def _engines() -> list[Engine]:
+    return [_motor().engine(native=True), _motor().engine(native=False)]
+
+
+def _samples(rows: int, seed: int = 1) -> np.ndarray:
+    """U, on, i, angle in counts beyond 32 bits, for the engine of the motor."""
+    random = np.random.default_rng(seed)
+    by_path = {
+        "U": random.normal(6.0, 1.0, rows),
+        "on": random.integers(0, 2, rows).astype(float),
+        "i": random.normal(1.0, 0.1, rows),
+        "angle": 2.0**31 - 500 + np.cumsum(random.integers(-3, 40, rows)),
+    }
+    return np.column_stack([by_path[k.path] for k in _engines()[1].signals])
+
+
+def _column(path: str) -> int:
+    return [k.path for k in _motor().engine(native=False).signals].index(path)
+
+
+def _with_defaults(program: Program) -> Program:
+    fields = tuple(f._replace(default=f.default or 1.5) for f in program.params)
+    return program._replace(params=fields)
+
+
+@pytest.mark.parametrize("make", programs.ALL, ids=lambda m: m.__name__)
+def test_c_and_python_give_the_same_for_every_kind_of_program(make: programs.Maker) -> None:
+    made = setting(runnable(_with_defaults(make())))
+    random = np.random.default_rng(3)
+    samples = random.normal(1.0, 0.4, (400, len(made.signals)))
+    for at, known in enumerate(made.signals):
+        if known.kind == "mode":
+            samples[:, at] = samples[:, at] > 1.0
+        elif known.counts is not None:
+            samples[:, at] = np.cumsum(random.integers(-5, 9, 400)) - 2.0**31
+    for row in (90, 250, 251, 380):
+        samples[row, row % max(1, len(made.signals)) :] = (math.nan, math.inf)[row % 2]
+    fast = NativeEngine(made, Library(made.programs)).run(samples)
+    slow = PythonEngine(made).run(samples)
+    np.testing.assert_array_equal(fast.valid, slow.valid)
+    np.testing.assert_allclose(fast.value, slow.value, rtol=1e-9, atol=1e-12)
+    assert np.all(fast.value[~fast.valid] == 0.0)
+
+
+def test_bounds_and_values_agree_across_a_counter_that_runs_over() -> None:
+    fast, slow = [engine.run(_samples(1500)) for engine in _engines()]
+    for ours, other in zip(fast, slow, strict=True):
+        np.testing.assert_allclose(ours, other, rtol=1e-9, atol=1e-12)
+    assert fast.valid[-1].all() and (fast.bound[-1] > 0).any()
+
+
+@given(st.lists(st.integers(0, 400), max_size=6), st.booleans())
+def test_samples_may_come_in_any_pieces(cuts: list[int], bad: bool) -> None:
+    samples = _samples(400)
+    samples[200, _column("i")] = math.nan if bad else 1.0
+    whole = _engines()[0].run(samples)
+    engine = _engines()[0]
+    bounds = [0, *sorted(cuts), 400]
+    parts = [engine.run(samples[a:b]) for a, b in pairwise(bounds)]
+    for at, array in enumerate(whole):
+        np.testing.assert_array_equal(np.concatenate([p[at] for p in parts]), array)
+
+
+@pytest.mark.parametrize("path", ["angle", "on"])
+@pytest.mark.parametrize("native", [True, False])
+def test_a_count_or_a_mode_without_value_restarts_what_reads_it(path: str, native: bool) -> None:
+    """The rest goes on; what restarts does as if it had begun behind the gap."""
+    make = lambda: _motor().engine(native=native)  # noqa: E731
+    samples = _samples(1600)
+    clean = make().run(samples)
+    samples[800, _column(path)] = math.nan
+    gap, late = make().run(samples), make().run(samples[801:])
+    assert not gap.valid[800].all()
+    for at in range(len(make().residuals)):
+        reads = not gap.valid[800, at]
+        np.testing.assert_array_equal(gap.valid[:800, at], clean.valid[:800, at])
+        after = late if reads else clean
+        np.testing.assert_array_equal(gap.value[-799:, at], after.value[-799:, at])
+        np.testing.assert_array_equal(gap.valid[-799:, at], after.valid[-799:, at])
+
+
+@pytest.mark.parametrize("native", [True, False])
+def test_a_changed_resistance_moves_the_residual_by_the_voltage_it_takes(native: bool) -> None:
+    """At rest with current i: U - R i - L di/dt - k w, with R larger by 0.5 Ohm, is -0.5 i."""
+    engine = _motor().engine(native=native)
+    row = {"U": 6.0, "on": 1.0, "i": 3.0, "angle": 77.0}
+    still = np.tile([row[k.path] for k in engine.signals], (2000, 1))
+    other = engine.configured({"R": 2.5})
+    assert other.parameters["R"] == 2.5 and engine.parameters["R"] == 2.0
+    own, moved = engine.run(still), other.run(still)
+    size = np.abs(moved.value[-1] - own.value[-1])
+    assert np.min(np.abs(size - 0.5 * 3.0)) < 1e-9  # the relation of the coil, in V
+    assert np.min(np.abs(own.bound[-1] - 0.05 * 2.0 * 3.0)) < 1e-9  # 5 % of R at 3 A
+    with pytest.raises(KeyError):
+        engine.configured({"no": 1.0})
+    with pytest.raises(ValueError):
+        engine.configured({"R": math.nan})
+    with pytest.raises(ValueError):
+        engine.configured(bandwidth=1e9)
+
+
+@pytest.mark.parametrize("native", [True, False])
+def test_many_engines_over_the_same_samples(native: bool) -> None:
+    engine = _motor().engine(native=native)
+    values = [1.0 + 0.1 * k for k in range(4)]
+    for bounds in (True, False):
+        samples = _samples(300)
+        fleet = [engine.configured({"R": v}, bounds=bounds) for v in values]
+        alone = [engine.configured({"R": v}, bounds=bounds).run(samples) for v in values]
+        first = fleet[0].run_with(fleet[1:], samples[:111])
+        second = fleet[0].run_with(fleet[1:], samples[111:])
+        for at in range(3):
+            np.testing.assert_array_equal(
+                np.concatenate([first[at], second[at]], axis=1), np.stack([a[at] for a in alone])
+            )
+        assert bounds or not second.bound.any()
+    mixed = engine.configured().run_with([_motor().engine(native=not native)], _samples(200))
+    np.testing.assert_allclose(mixed.value[0], mixed.value[1], rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("native", [True, False])
+def test_reset_and_bandwidth_and_warm_up(native: bool) -> None:
+    engine = _motor().engine(native=native)
+    samples = _samples(1200)
+    first = engine.run(samples)
+    engine.reset()
+    np.testing.assert_array_equal(engine.run(samples).value, first.value)
+    quick = engine.configured(bandwidth=2 * engine.bandwidth)
+    assert quick.warm_up == pytest.approx(engine.warm_up / 2, abs=engine.sample_time)
+    for one in (engine.configured(), quick):
+        settled = int(np.argmax(one.run(samples).valid.all(axis=1)))
+        assert settled * one.sample_time == pytest.approx(one.warm_up)
+    with pytest.raises(ValueError, match="samples of shape"):
+        engine.run(samples[:, :2])
+
+
+def test_a_model_without_values_says_which_are_missing() -> None:
+    program = programs.encoder()
+    unset = [f.path for f in program.params if f.default is None]
+    assert unset
+    with pytest.raises(ValueError, match=unset[0]):
+        start(runnable(program), native=False)
