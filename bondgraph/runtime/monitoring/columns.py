@@ -1,0 +1,240 @@
+"""Columns of a log matched with the signals that the residuals read: by name or by a map file."""
+
+from __future__ import annotations
+
+import os
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bondgraph.ir.program import Known
+from bondgraph.library.units import parse_unit
+from bondgraph.runtime.log import LEFT_OUT, Array, Log, LogError
+
+_KEYS = {"column", "scale", "offset", "unit"}
+_TEMPERATURES = re.compile(r"(deg|°)[CF]")
+
+
+class Mapped(NamedTuple):
+    """Where a signal is: `scale` times the column plus `offset`, or the column in a `unit`.
+
+    Without scale and offset the unit of the log, or `unit` in its place, decides what to do.
+    """
+
+    column: str
+    scale: float | None = None
+    offset: float | None = None
+    unit: str | None = None
+
+
+class _Taken(NamedTuple):
+    """What is done with one column; without a name there is nothing to read."""
+
+    name: str | None
+    scale: float
+    offset: float
+    whole: bool
+
+
+class Columns:
+    """Picks the samples of `signals` out of logs, in SI units.
+
+    A column belongs to a signal if it has its path (`U0[1]`), else its name in C (`U0__1`), unless
+    the `mapping` says otherwise. `name` is that of the log, for messages.
+
+    >>> import numpy as np
+    >>> volts = Known("U0__1", "U0[1]", "V", "", "input", 0, False, None, None)
+    >>> log = Log(np.arange(2.0), {"U0__1": np.array([1500.0, 1600.0])}, {"U0__1": "mV"}, {})
+    >>> Columns([volts])(log).tolist()
+    [[1.5], [1.6]]
+    """
+
+    def __init__(
+        self,
+        signals: Iterable[Known],
+        mapping: Mapping[str, Mapped] | None = None,
+        name: str = "log",
+    ) -> None:
+        self._signals = tuple(signals)
+        self._mapping = dict(mapping or {})
+        self._name = name
+        self._found: tuple[tuple[str, ...], dict[str, str], list[_Taken]] | None = None
+
+    def __call__(self, log: Log) -> Array:
+        """The samples, (n, signals); NaN for signals that no step reads and the log does not have.
+
+        Encoders come as whole counts, modes as 0 and 1. Raises LogError with the names of all
+        signals that are missing, or for a unit that is not one of the signal.
+        """
+        names = tuple(log.columns)
+        if self._found is None or self._found[:2] != (names, log.units):
+            self._found = names, dict(log.units), self._match(log)
+        samples = np.empty((log.rows, len(self._signals)))
+        for k, taken in enumerate(self._found[2]):
+            values: Any = np.nan if taken.name is None else log.columns[taken.name]
+            if (taken.scale, taken.offset) != (1.0, 0.0):
+                with np.errstate(over="ignore", invalid="ignore"):  # the clock leaves such out
+                    values = values * taken.scale + taken.offset
+            samples[:, k] = np.rint(values) if taken.whole else values
+        return samples
+
+    def used(self, log: Log) -> dict[str, str]:
+        """The column of each signal, by path; without signals that are not there."""
+        found = zip(self._signals, self._match(log), strict=True)
+        return {known.path: taken.name for known, taken in found if taken.name is not None}
+
+    def _match(self, log: Log) -> list[_Taken]:
+        sources = [self._source(known, log) for known in self._signals]
+        missing = [
+            known
+            for known, source in zip(self._signals, sources, strict=True)
+            if source is None and known.sampled
+        ]
+        if missing:
+            raise self._missing(missing, log)
+        return [
+            _Taken(None, 1.0, 0.0, False) if source is None else self._taken(known, source, log)
+            for known, source in zip(self._signals, sources, strict=True)
+        ]
+
+    def _source(self, known: Known, log: Log) -> Mapped | None:
+        mapped = self._mapping.get(known.path)
+        if mapped is not None:
+            return mapped if mapped.column in log.columns else None
+        for name in (known.path, known.name, _identifier(known.path)):
+            if name in log.columns:
+                return Mapped(name)
+        return None
+
+    def _missing(self, missing: list[Known], log: Log) -> LogError:
+        names = list(log.columns)
+        parts = []
+        for known in missing:
+            wanted = self._mapping.get(known.path)
+            told = [known.unit] if known.unit and known.counts is None else []
+            told += ["counts"] if known.counts is not None else []
+            told += [f"`{wanted.column}` in the map file"] if wanted else []
+            close = _close(wanted.column if wanted else known.path, names)
+            told += [f"perhaps {' or '.join(f'`{c}`' for c in close)}"] if close else []
+            parts.append(f"{known.path} ({', '.join(told)})" if told else known.path)
+        message = f"no column for {', '.join(parts)}"
+        help = "name the columns so, or say in a map file which they are"
+        help += f"; there is {', '.join(names) or 'no column'}"
+        if LEFT_OUT in log.meta:
+            help += f"; columns without numbers: {log.meta[LEFT_OUT]}"
+        return LogError(self._name, None, message, help)
+
+    def _taken(self, known: Known, source: Mapped, log: Log) -> _Taken:
+        if known.kind == "mode":
+            return _Taken(source.column, 1.0, 0.0, False)
+        whole = known.counts is not None
+        if source.scale is not None or source.offset is not None:
+            scale = 1.0 if source.scale is None else source.scale
+            return _Taken(source.column, scale, source.offset or 0.0, whole)
+        unit = log.units.get(source.column, "") if source.unit is None else source.unit
+        return _Taken(source.column, self._factor(known, source.column, unit), 0.0, whole)
+
+    def _factor(self, known: Known, column: str, unit: str) -> float:
+        """What a number in `unit` is multiplied with to be one of the signal."""
+        own = "count" if known.counts is not None else known.unit
+        if unit in ("", own) or not own:
+            return 1.0
+        scale = f'give scale and offset in a map file: "{known.path}" = {{ column = "{column}", ...'
+        if known.counts is not None:
+            if unit in ("counts", "1"):
+                return 1.0
+            message = f"{known.path} is read in counts, its column {column} is in {unit}"
+            raise LogError(self._name, None, message, scale)
+        ours, theirs = parse_unit(own), parse_unit(unit)
+        if ours is None or theirs is None:
+            message = f"the column {column} of {known.path} is in `{unit}`, an unknown unit"
+            raise LogError(self._name, None, message, scale)
+        if ours.dimension != theirs.dimension:
+            message = f"{known.path} is in {own}, its column {column} is in {unit}"
+            raise LogError(self._name, None, message, "see that it is the right column")
+        if _TEMPERATURES.fullmatch(unit):
+            message = f"{known.path} is in {own}, {unit} may count from another zero"
+            raise LogError(self._name, None, message, scale)
+        return float(theirs.factor / ours.factor)
+
+
+def read_map(path: str | os.PathLike[str], signals: Iterable[Known]) -> dict[str, Mapped]:
+    """Which column each signal is in, by path, from a map file (TOML).
+
+    Lines like `"U0[1]" = "volt_left"`, `"Us" = { column = "supply", unit = "mV" }` or
+    `"m[1].me.we" = { column = "rpm", scale = 0.10472, offset = 0.0 }`; signals by path or by their
+    name in C. Raises LogError for a file that is wrong or names a signal that is not there.
+    """
+    name = os.fspath(path)
+    try:
+        with open(name, "rb") as file:
+            data = tomllib.load(file)
+    except OSError as error:
+        raise LogError(name, None, f"cannot be read: {error.strerror or error}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        place = re.search(r"at line (\d+)", str(error))
+        line = int(place[1]) if place else None
+        help = 'a line is like "U0[1]" = "volt_left"'
+        raise LogError(name, line, f"not TOML: {error}", help) from error
+    known = {k.path: k for k in signals}
+    paths = {alias: k.path for k in known.values() for alias in (_identifier(k.path), k.name)}
+    paths |= {path: path for path in known}
+    found: dict[str, Mapped] = {}
+    for key, value in _flat(data):
+        if key not in paths:
+            close = _close(key, list(known))
+            help = f"perhaps {' or '.join(close)}" if close else f"there is {', '.join(known)}"
+            raise LogError(name, None, f"the residuals read no signal `{key}`", help)
+        found[paths[key]] = _mapped(name, key, value)
+    return found
+
+
+def _flat(data: Mapping[str, Any], before: str = "") -> Iterable[tuple[str, Any]]:
+    """The entries, those of dotted keys (`coil.i = ...`) under one name."""
+    for key, value in data.items():
+        leaf = not isinstance(value, dict) or isinstance(value.get("column"), str)
+        if leaf or not value:
+            yield before + key, value
+        else:
+            yield from _flat(value, f"{before}{key}.")
+
+
+def _mapped(path: str, key: str, value: object) -> Mapped:
+    example = f'write "{key}" = {{ column = "name", scale = 1.0, offset = 0.0 }}'
+    if isinstance(value, str):
+        return Mapped(value)
+    if not isinstance(value, dict):
+        raise LogError(path, None, f"{key} is no name of a column", example)
+    odd = next((k for k in value if k not in _KEYS), None)
+    if odd is not None:
+        raise LogError(path, None, f"{key} has an unknown `{odd}`", example)
+    for number in (value.get("scale"), value.get("offset")):
+        good = number is None or (isinstance(number, int | float) and np.isfinite(number))
+        if not good or isinstance(number, bool):
+            raise LogError(path, None, f"scale and offset of {key} must be numbers", example)
+    unit = value.get("unit")
+    if unit is not None and not isinstance(unit, str):
+        raise LogError(path, None, f"the unit of {key} must be a text", example)
+    if unit is not None and ("scale" in value or "offset" in value):
+        message = f"{key} has a unit and a scale or an offset"
+        raise LogError(path, None, message, "give one of them: scale and offset lead to SI units")
+    if not isinstance(value.get("column"), str):
+        raise LogError(path, None, f"{key} has no column", example)
+    return Mapped(value["column"], value.get("scale"), value.get("offset"), unit)
+
+
+def _identifier(path: str) -> str:
+    """A path as C has it."""
+    return re.sub(r"\[(\d+)\]", r"__\1", path).replace(".", "__")
+
+
+def _close(name: str, names: list[str]) -> list[str]:
+    """Names that may be meant."""
+    plain = {n: re.sub(r"[\W_]+", " ", n).strip().lower() for n in names}
+    wanted = re.sub(r"[\W_]+", " ", name).strip().lower()
+    close = get_close_matches(wanted, list(plain.values()), 2, 0.6)
+    return [n for n in names if plain[n] in close][:2]
