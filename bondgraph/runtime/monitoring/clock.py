@@ -1,0 +1,287 @@
+"""Time-stamped samples on the uniform grid that `step` wants: gaps, jitter, missing values, wraps.
+
+A filter that takes samples as uniform when they are not sees motion that is not there, and one
+value that is no number stays in it for ever. So every signal is taken between its neighbours in
+time, over gaps of up to one time constant of the filter; beyond that nobody knows what the machine
+has done, and the filters start anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from bondgraph.ir.program import Known
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.engine import Engine
+
+#: The period of a clock that counts microseconds in 32 bits, in s.
+WRAP_32 = 2.0**32 / 1e6
+
+_EXACT = 1e-6  # of the sample time: nearer to a point of the grid a sample is taken as it is
+_COUNTER, _LARGEST = 2.0**32, 2.0**53
+_BLOCK = 8192  # samples taken at a time
+_WINDOW = 256  # samples in which a break is looked for first
+
+_Mask = npt.NDArray[np.bool_]
+
+
+class Gap(NamedTuple):
+    """Why the filters start anew: `start` and `end` are the times of the samples before and after.
+
+    `lost` is how many samples of the grid are missing between them; 0 where the clock went back.
+    """
+
+    start: float
+    end: float
+    lost: int
+
+    @property
+    def text(self) -> str:
+        """One sentence for people."""
+        if self.end < self.start:
+            back = self.start - self.end
+            return f"the clock went back by {back:.6g} s at {self.start:.6g} s"
+        missing = f"{self.lost} sample{'s' if self.lost != 1 else ''}"
+        return f"{missing} lost from {self.start:.6g} s to {self.end:.6g} s"
+
+
+class Piece(NamedTuple):
+    """Samples on the grid, (n,) in s and (n, signals), NaN where a signal is not known.
+
+    `anew` says why the filters have to start anew with them, "" where they go on; then `gap` says
+    the same in numbers.
+    """
+
+    time: Array
+    samples: Array
+    anew: str = ""
+    gap: Gap | None = None
+
+
+class Clock:
+    """Brings samples to a grid of `sample_time` s, the same for whatever blocks they come in.
+
+    Gaps of up to `most` s are bridged: signals as straight lines, encoders rounded to whole counts
+    (a counter of 32 bits may run over), modes as they were. A value that is not finite counts as
+    missing, in its own signal only; over a longer time it is NaN. A longer gap of all signals, and
+    a clock that goes back by more than `most`, make a new piece. A sample that comes twice or late
+    is dropped. `wraps` is the period of a clock that runs over, in s.
+    """
+
+    def __init__(
+        self, signals: Iterable[Known], sample_time: float, most: float, wraps: float | None = None
+    ) -> None:
+        known = tuple(signals)
+        self.sample_time, self.most, self.wraps = sample_time, most, wraps
+        self.dropped = 0  # samples that came twice, late, without time or without any value
+        self._modes: _Mask = np.array([k.kind == "mode" for k in known], dtype=np.bool_)
+        self._counts = [at for at, k in enumerate(known) if k.counts is not None]
+        self._taken = 0  # samples without time
+        self._raw: float | None = None  # the newest time as it came
+        self._laps = 0
+        self._top: float | None = None  # the newest time of this stretch, None before the first
+        self._start, self._exact = 0.0, 0.0
+        self._next = 0  # the point of the grid that comes next
+        self._gap: Gap | None = None  # to be told with the next piece
+        self._last = np.full((2, len(known)), np.nan)  # of each encoder: as it came, and in all
+        self._times: Array = np.empty(0)
+        self._rows: Array = np.empty((0, len(known)))
+
+    def feed(self, time: Array | None, samples: Array) -> list[Piece]:
+        """What further samples make known of the grid; without times they are uniform.
+
+        `time` (n,) in s, `samples` (n, signals). Where a signal is missing, the grid waits for its
+        next value, `most` s at the longest.
+        """
+        rows = np.asarray(samples, dtype=np.float64)
+        pieces: list[Piece] = []
+        for start in range(0, len(rows), _BLOCK):
+            block = slice(start, start + _BLOCK)
+            pieces += self._feed(None if time is None else time[block], rows[block])
+        return pieces
+
+    def _feed(self, time: Array | None, samples: Array) -> list[Piece]:
+        """A block that fits into the caches of the processor."""
+        times, rows = self._stamped(time, samples)
+        pieces: list[Piece] = []
+        at = 0
+        while at < len(times):
+            if self._top is None:
+                self._begin(float(times[at]))
+            end, fresh = self._stretch(times, at)
+            self._extend(times[at:end][fresh], rows[at:end][fresh])
+            self.dropped += int(len(fresh) - fresh.sum())
+            pieces += self._emit(end < len(times))
+            if end < len(times):
+                self._break(float(times[end]))
+            at = end
+        return pieces
+
+    def finish(self) -> list[Piece]:
+        """What is left at the end of the samples."""
+        return self._emit(True) if self._top is not None else []
+
+    # ------------------------------------------------------------------ times as they come
+
+    def _stamped(self, time: Array | None, rows: Array) -> tuple[Array, Array]:
+        """Times that do not run over, and the rows that have a time and a value."""
+        times: Array = np.asarray(time, dtype=np.float64)
+        if time is None:
+            whole = self._taken + np.arange(len(rows), dtype=np.float64)
+            times = whole * self.sample_time
+            self._taken += len(rows)
+        there = np.isfinite(times)
+        if self.wraps is not None and there.any():
+            raw = times[there]
+            steps = np.diff(raw, prepend=raw[0] if self._raw is None else self._raw)
+            turns = (steps < -self.wraps / 2).astype(np.int64) - (steps > self.wraps / 2)
+            laps = self._laps + np.cumsum(turns)
+            self._raw, self._laps = float(raw[-1]), int(laps[-1])
+            times = times.copy()
+            times[there] = raw + laps * self.wraps
+        there &= np.isfinite(rows).any(axis=1)
+        self.dropped += int(len(there) - there.sum())
+        return times[there], rows[there]
+
+    def _begin(self, start: float) -> None:
+        """Start a grid at a time."""
+        self._start, self._next = start, 0
+        self._exact = max(_EXACT * self.sample_time, 2.0 * float(np.spacing(abs(start))))
+        self._top = -np.inf
+        self._last[:] = np.nan
+        self._times, self._rows = self._times[:0], self._rows[:0]
+
+    def _break(self, time: float) -> None:
+        """Start a new grid behind a gap."""
+        assert self._top is not None
+        lost = round((time - self._top) / self.sample_time) - 1
+        self._gap = Gap(self._top, time, max(0, lost))
+        self._begin(time)
+
+    def _stretch(self, times: Array, at: int) -> tuple[int, _Mask]:
+        """Up to where the times from `at` on belong together, and which of them are new."""
+        assert self._top is not None
+        fresh: list[_Mask] = []
+        width, start = _WINDOW, at
+        while start < len(times):
+            part = times[start : start + width]
+            before = np.maximum.accumulate(np.concatenate([[self._top], part[:-1]]))
+            steps = part - before
+            apart = (np.abs(steps) > self.most + self._exact) & np.isfinite(steps)
+            new = steps > 4.0 * self._exact
+            if apart.any():
+                cut = int(np.argmax(apart))
+                fresh.append(new[:cut])
+                self._top = float(before[cut])
+                return start + cut, np.concatenate(fresh)
+            fresh.append(new)
+            self._top = max(float(before[-1]), float(part[-1]))
+            start, width = start + len(part), 2 * width
+        return len(times), np.concatenate(fresh)
+
+    # ------------------------------------------------------------------- samples as they come
+
+    def _extend(self, times: Array, rows: Array) -> None:
+        """Take samples of the stretch, counters without their runs over."""
+        rows = np.where(np.isfinite(rows), rows, np.nan)
+        for at in self._counts:
+            self._count(rows[:, at], at)
+        self._times = np.concatenate([self._times, times])
+        self._rows = np.concatenate([self._rows, rows])
+
+    def _count(self, column: Array, at: int) -> None:
+        """Replace the counts of an encoder by those of a counter that never runs over."""
+        there = np.abs(column) < _LARGEST
+        column[~there] = np.nan
+        raw = column[there]
+        if not len(raw):
+            return
+        last, total = self._last[:, at] if np.isfinite(self._last[0, at]) else (raw[0], raw[0])
+        steps = np.diff(raw, prepend=last)
+        steps -= _COUNTER * np.floor(steps / _COUNTER + 0.5)  # whole numbers: exact
+        column[there] = total + np.cumsum(steps)
+        self._last[:, at] = raw[-1], column[there][-1]
+
+    # ---------------------------------------------------------------------------- the grid
+
+    def _emit(self, ended: bool) -> list[Piece]:
+        """The points of the grid that no later sample changes; all, where the stretch has ended."""
+        times, rows = self._times, self._rows
+        if not len(times):
+            return []
+        there = np.isfinite(rows)
+        limit = float(times[-1]) if ended else self._known(there)
+        most = int((limit - self._start) / self.sample_time) + 2
+        points = np.arange(self._next, max(most, self._next), dtype=np.float64)
+        grid: Array = self._start + points * self.sample_time
+        grid = grid[grid <= limit + self._exact]
+        if not len(grid):
+            return []
+        full = there.all(axis=0) & ~self._modes
+        if full.all():
+            found = self._lines(grid, times, rows)
+        else:
+            found = np.empty((len(grid), rows.shape[1]))
+            found[:, full] = self._lines(grid, times, rows[:, full])
+        for at in np.flatnonzero(~full):
+            good = there[:, at]
+            between = self._held if self._modes[at] else self._lines
+            found[:, at] = between(grid, times[good], rows[good, at : at + 1])[:, 0]
+        found[:, self._counts] = np.rint(found[:, self._counts])
+        self._next += len(grid)
+        self._forget()
+        gap, self._gap = self._gap, None
+        return [Piece(grid, found, gap.text if gap else "", gap)]
+
+    def _known(self, there: _Mask) -> float:
+        """Up to where all signals are known, or will not be."""
+        last = float(self._times[-1])
+        waiting = there.any(axis=0) & ~there[-1] & ~self._modes
+        newest = [float(self._times[there[:, at]][-1]) for at in np.flatnonzero(waiting)]
+        return min([t for t in newest if last - t <= self.most + self._exact], default=last)
+
+    def _lines(self, grid: Array, times: Array, rows: Array) -> Array:
+        """Straight lines between samples that are no more than `most` apart, elsewhere NaN."""
+        if not len(times):
+            return np.full((len(grid), rows.shape[1]), np.nan)
+        at = np.searchsorted(times, grid + self._exact, side="right") - 1
+        left, right = np.maximum(at, 0), np.minimum(at + 1, len(times) - 1)
+        width = times[right] - times[left]
+        found = rows[left]
+        off = (at < 0) | (times[left] < grid - self._exact)  # not on a sample
+        inside = np.flatnonzero(off & (at >= 0) & (width > 0) & (width <= self.most + self._exact))
+        a, b = left[inside], right[inside]
+        share = ((grid[inside] - times[a]) / width[inside])[:, None]
+        with np.errstate(over="ignore", invalid="ignore"):
+            found[inside] += (rows[b] - found[inside]) * share
+        off[inside] = False
+        found[off] = np.nan
+        return found
+
+    def _held(self, grid: Array, times: Array, rows: Array) -> Array:
+        """The sample before, where it is no more than `most` old, elsewhere NaN."""
+        if not len(times):
+            return np.full((len(grid), rows.shape[1]), np.nan)
+        at = np.searchsorted(times, grid + self._exact, side="right") - 1
+        found = rows[np.maximum(at, 0)]
+        old = (at < 0) | (grid - times[np.maximum(at, 0)] > self.most + self._exact)
+        found[old] = np.nan
+        return found
+
+    def _forget(self) -> None:
+        """Drop samples that no further point of the grid can need."""
+        point = self._start + self._next * self.sample_time
+        oldest = point - self.most - self.sample_time - 4.0 * self._exact
+        first = int(np.searchsorted(self._times, oldest))
+        first = min(first, len(self._times) - 1)  # the newest one says what is late
+        self._times, self._rows = self._times[first:].copy(), self._rows[first:].copy()
+
+
+def clock_of(engine: Engine, most: float | None = None, wraps: float | None = None) -> Clock:
+    """The clock of an engine; `most` is one time constant of its filter unless told otherwise."""
+    bridged = 1.0 / engine.bandwidth if most is None else most
+    return Clock(engine.signals, engine.sample_time, bridged, wraps)
