@@ -16,6 +16,7 @@ COMMANDS = {
     "sensors": "rank the places where one more sensor would help",
     "detect": "tell the smallest change of each fault that the residuals show",
     "simulate": "run a model as a virtual machine, with faults if the scenario has some",
+    "monitor": "watch a machine by its samples, and say what is faulty",
     "draw": "draw a bond graph with half arrows and causal strokes",
     "report": "write all that is known of a model as one HTML page",
 }
@@ -41,6 +42,22 @@ class Version(argparse.Action):
         parser.exit(0)
 
 
+class Parser(argparse.ArgumentParser):
+    """A parser of one command: its options may stand between the other words too."""
+
+    _inside = False
+
+    def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
+        """What the words mean, and those that nobody knows."""
+        if self._inside:
+            return super().parse_known_args(args, namespace)
+        self._inside = True
+        try:
+            return self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self._inside = False
+
+
 def parser_for(command: str | None) -> argparse.ArgumentParser:
     """The parser with all commands; only `command` gets its arguments (None: every one)."""
     parser = argparse.ArgumentParser(
@@ -53,7 +70,9 @@ def parser_for(command: str | None) -> argparse.ArgumentParser:
     parser.add_argument(
         "--version", action=Version, nargs=0, default=argparse.SUPPRESS, help="print the version"
     )
-    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(
+        dest="command", metavar="COMMAND", required=True, parser_class=Parser
+    )
     for name, line in COMMANDS.items():
         sub = commands.add_parser(
             name,

@@ -92,9 +92,15 @@ class Journal:
 
     def _append(self, line: str) -> None:
         data = line.encode()
-        while data:
-            data = data[os.write(self._file, data) :]
-        os.fsync(self._file)
+        try:
+            while data:
+                data = data[os.write(self._file, data) :]
+            os.fsync(self._file)
+        except OSError as error:
+            raise self._unwritable(error) from error
+
+    def _unwritable(self, error: OSError) -> JournalError:
+        return JournalError(f"{self._path}: cannot be written: {error.strerror}")
 
     def _clean(self, last: str) -> None:
         """Write the file anew without old positions: the whole of it, or the old one stays."""
@@ -116,7 +122,7 @@ class Journal:
         try:
             return os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
         except OSError as error:
-            raise JournalError(f"{self._path}: cannot be written: {error.strerror}") from error
+            raise self._unwritable(error) from error
 
     def _read(self) -> None:
         with open(self._file, "rb", closefd=False) as file:

@@ -69,7 +69,7 @@ class Link:
         at: Address,
         identity: str,
         say: Callable[[str], None],
-        joined: Callable[[Client], None],
+        joined: Callable[[Client], None] | None = None,
         keep: int = 0,
         at_once: int = 0,
     ) -> None:
@@ -82,6 +82,7 @@ class Link:
             remedy = "install it (pip install 'bondgraph-arr[robot]')"
             raise LogError(at.name, None, "MQTT needs paho-mqtt", remedy) from error
         self.connections = 0
+        self.connected = False
         self._at, self._say, self._joined = at, say, joined
         self._away = False
         self.client = Client(
@@ -127,7 +128,9 @@ class Link:
         if self._away:
             self._say(f"the broker {self._at.name} is back")
         self._away = False
-        self._joined(client)
+        if self._joined is not None:
+            self._joined(client)
+        self.connected = True
 
     def _failed(self, client: Client, data: object) -> None:
         self._tell(f"the broker {self._at.name} cannot be reached")
@@ -135,6 +138,7 @@ class Link:
     def _lost(
         self, client: Client, data: object, flags: object, code: object, properties: object
     ) -> None:
+        self.connected = False
         if getattr(code, "is_failure", False):
             self._tell(f"the broker {self._at.name} is gone ({code})")
 

@@ -10,10 +10,11 @@ from typing import IO, Any
 
 from bondgraph.runtime.log import LogError, read_log
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
-from bondgraph.runtime.monitoring.sources.source import IDLE, Chunk, Cutter, News
+from bondgraph.runtime.monitoring.sources.source import IDLE, Chunk, Cutter, News, rate_of
 
 _BLOCK = 1 << 20  # bytes read at a time
 _ROWS = 20_000  # of a table, given at a time
+_FIRST = 1000  # samples whose rate is taken
 _HEAD = 512  # bytes by which a file is known again
 
 
@@ -21,27 +22,35 @@ class TableFile:
     """A file that is read as a whole, such as Parquet; a place is the number of a row."""
 
     replays = True
-    decoder = None
 
     def __init__(self, path: str, form: Form) -> None:
         self.name = os.path.abspath(path)
+        self.decoder: Decoder | None = None
         self._log = read_log(path, time=form.time, rate=form.rate)
         self._row = 0
+        self._until = 0  # before this row all was computed once
 
     def chunks(self, stop: Event) -> Iterator[Chunk]:
         """All rows, some thousand at a time."""
         while self._row < self._log.rows and not stop.is_set():
-            part = self._log.part(self._row, self._row + _ROWS)
+            again = self._row < self._until
+            end = self._until if again else self._log.rows
+            part = self._log.part(self._row, min(self._row + _ROWS, end))
             self._row += part.rows
-            yield Chunk(part, place={"row": self._row})
+            yield Chunk(part, place={"row": self._row}, again=again)
 
-    def go(self, place: dict[str, Any]) -> str:
+    def go(self, position: dict[str, Any]) -> str:
         """Go on from a row."""
-        row = place.get("row", 0)
-        if row > self._log.rows:
+        until = (position.get("place") or {}).get("row", 0)
+        if until > self._log.rows:
             return f"the file has only {self._log.rows} samples now"
-        self._row = row
+        self._row = (position.get("back") or {}).get("row", 0)
+        self._until = until
         return ""
+
+    def rate(self) -> float | None:
+        """Samples a second, of the first ones."""
+        return rate_of(self._log.time[:_FIRST])
 
     def close(self) -> None:
         """Nothing to let go of."""
@@ -64,13 +73,17 @@ class LinesFile:
         self._file = self._open()
         self._cutter = Cutter()
         self._offset = 0  # of the first byte behind the lines that were taken
+        self._until = 0  # before this byte all was computed once
 
     def chunks(self, stop: Event) -> Iterator[Chunk]:
         """All lines, and those that are added until `stop` is set."""
         while not stop.is_set():
-            piece = self._file.read(_BLOCK)
+            left = self._until - self._file.tell()
+            piece = self._file.read(min(_BLOCK, left) if left > 0 else _BLOCK)
             if piece:
                 yield from self._taken(piece)
+                if len(piece) == left and self._cutter.rest:  # the last line had no end then
+                    yield from self._taken(b"\n", added=0)
             elif not self._follow:
                 if self._cutter.rest:  # the last line has no line feed
                     yield from self._taken(b"\n", added=0)
@@ -78,28 +91,37 @@ class LinesFile:
             else:
                 yield from self._waited(stop)
 
-    def go(self, place: dict[str, Any]) -> str:
+    def go(self, position: dict[str, Any]) -> str:
         """Go on from a number of bytes, after reading the header again."""
-        offset = int(place.get("offset", 0))
-        if os.fstat(self._file.fileno()).st_size < offset or self._head(offset) != place.get(
-            "head"
-        ):
+        place, back = position.get("place") or {}, position.get("back") or {}
+        until = int(place.get("offset", 0))
+        size = os.fstat(self._file.fileno()).st_size
+        if size < until or (until and self._head(until) != place.get("head")):
             return f"{self._path} is another file now"
-        self._file.seek(0)
-        while self._file.tell() < min(offset, _BLOCK):  # comments and the header come first
-            line = self._file.readline()
-            self._lines.feed(line)
-            if self._lines.rows or self._lines.garbage:
-                break
-        self._lines.garbage = self._lines.rows = 0
-        self._file.seek(offset)
-        self._lines.rows = int(place.get("rows", 0))
-        self._offset, self._cutter = offset, Cutter()
+        self._until, self._offset = until, int(back.get("offset", 0))
+        if self._offset:
+            self._header(self._offset)
+            self._lines.rows = int(back.get("rows", 0))
+        self._file.seek(self._offset)
         return ""
+
+    def rate(self) -> float | None:
+        """Samples a second, of the first ones."""
+        with self._open() as file:
+            lines = file.readlines(_BLOCK // 8)
+        logs = Decoder(self._lines.form).feed(b"".join(lines))
+        return rate_of(logs[0].time[:_FIRST]) if logs else None
 
     def close(self) -> None:
         """Close the file."""
         self._file.close()
+
+    def _header(self, end: int) -> None:
+        """Read comments and the header at the start of the file, without samples."""
+        self._file.seek(0)
+        while self._file.tell() < end and not self._lines.rows:
+            self._lines.feed(self._file.readline(_BLOCK))
+        self._lines.garbage = 0
 
     def _open(self) -> IO[bytes]:
         try:
@@ -112,10 +134,11 @@ class LinesFile:
         if block is None:
             return
         self._offset += len(block.lines) if added is None else len(block.lines) - 1
+        again = self._offset <= self._until
         logs = self._lines.feed(block.lines, block.whole)
         for log in logs[:-1]:
-            yield Chunk(log)
-        yield Chunk(logs[-1] if logs else None, place=self._place())
+            yield Chunk(log, again=again)
+        yield Chunk(logs[-1] if logs else None, place=self._place(), again=again)
 
     def _waited(self, stop: Event) -> Iterator[Chunk]:
         """Wait for more; begin again with a file that was cut or replaced."""
@@ -137,7 +160,8 @@ class LinesFile:
             return
         self._file.close()
         self._file = self._open()
-        self._offset, self._cutter = 0, Cutter()
+        self._offset = self._until = 0
+        self._cutter = Cutter()
         yield Chunk(news=(News("gap", f"{self._path} {what}, read from its start"),))
 
     def _place(self) -> dict[str, Any]:

@@ -35,16 +35,21 @@ class Topic:
         keep = SESSION if identity else 0
         self._link = Link(at, identity or "", self._say, self._joined, keep, _AT_ONCE)
         self._link.client.on_message = self._received
+        self._link.client.on_subscribe = self._subscribed
 
     def chunks(self, stop: Event) -> Iterator[Chunk]:
         """All messages, until `stop` is set."""
         self._link.start()
         yield from decoded(self._intake, self._lines, stop, self._last)
 
-    def go(self, place: dict[str, Any]) -> str:
+    def go(self, position: dict[str, Any]) -> str:
         """The broker goes on with what was not acknowledged; what was, is known by its time."""
-        self._last = float(place.get("time", self._last))
+        self._last = float(position.get("time", self._last))
         return "the broker has only what came since"
+
+    def rate(self) -> float | None:
+        """Not known before samples come."""
+        return None
 
     def close(self) -> None:
         """Leave the broker; the session stays there."""
@@ -58,6 +63,13 @@ class Topic:
 
         # A retained sample is of any age: it is not asked for.
         client.subscribe(self._topic, options=SubscribeOptions(qos=1, retainHandling=2))
+
+    def _subscribed(
+        self, client: Client, data: object, mid: int, codes: list[Any], properties: object
+    ) -> None:
+        for code in codes:
+            if code.is_failure:
+                self._say(f"the broker does not let the monitor read {self._topic} ({code})")
 
     def _received(self, client: Client, data: object, message: MQTTMessage) -> None:
         payload = bytes(message.payload).strip()

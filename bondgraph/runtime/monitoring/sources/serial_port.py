@@ -40,9 +40,13 @@ class SerialPort:
             self._over.set()
             thread.join(1.0)
 
-    def go(self, place: dict[str, Any]) -> str:
+    def go(self, position: dict[str, Any]) -> str:
         """A serial port cannot go back."""
         return "what came through a serial port is gone"
+
+    def rate(self) -> float | None:
+        """Not known before samples come."""
+        return None
 
     def close(self) -> None:
         """Close the port."""

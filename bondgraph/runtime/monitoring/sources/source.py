@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable, Iterator
 from threading import Condition, Event
@@ -9,13 +10,15 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from bondgraph.runtime.log import Log
+from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.text.tuples import NamedTuple
 
 #: How long a source that has nothing waits before it says so, in s.
 IDLE = 0.2
 
+_ROUND = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)  # times a power of ten
+_NEAR = 0.02
 _LONGEST = 1 << 20  # bytes of a line that may be one
 
 
@@ -29,14 +32,16 @@ class News(NamedTuple):
 class Chunk(NamedTuple):
     """Samples that came together; none where there is only news, or nothing at all.
 
-    `place` says where to go on after them, for sources that can go back (`Source.go`).
-    `done` is called once the samples and what follows from them are safe.
+    `place` says where they end, for sources that can go back (`Source.go`). `done` is called once
+    the samples and what follows from them are safe. `again` says that they were computed before,
+    and come only to warm up the filters.
     """
 
     log: Log | None = None
     news: tuple[News, ...] = ()
     place: dict[str, Any] | None = None
     done: Callable[[], None] | None = None
+    again: bool = False
 
 
 class Source(Protocol):
@@ -57,13 +62,37 @@ class Source(Protocol):
         """
         ...
 
-    def go(self, place: dict[str, Any]) -> str:
-        """Go on from a place that a chunk told; "", or why that cannot be (then from the start)."""
+    def go(self, position: dict[str, Any]) -> str:
+        """Go on where a watch ended: at its `place`, with samples from `back` to warm up.
+
+        `position` has also the `time` of the newest sample, in s. "", or why that cannot be; then
+        the source begins as if it were new.
+        """
+        ...
+
+    def rate(self) -> float | None:
+        """Samples a second, where that can be known before the first one is taken."""
         ...
 
     def close(self) -> None:
         """Let go of the line."""
         ...
+
+
+def rate_of(time: Array) -> float | None:
+    """Samples a second, of times in s; a round number if one is near.
+
+    >>> rate_of(np.array([0.0, 0.0101, 0.0199, 0.0301, 0.5]))
+    100.0
+    """
+    steps = np.diff(time)
+    steps = steps[steps > 0.0]
+    if len(steps) < 2:
+        return None
+    rate = 1.0 / float(np.median(steps))
+    power = 10.0 ** math.floor(math.log10(rate))
+    near = min((m * power for m in _ROUND), key=lambda r: abs(r / rate - 1.0))
+    return near if abs(near / rate - 1.0) < _NEAR else float(f"{rate:.6g}")
 
 
 class Block(NamedTuple):
@@ -97,7 +126,7 @@ class Intake:
                 self._changed.wait()
             self._items.append(block)
             self._size += len(block.lines)
-            while self._size > self._most and self._size > len(block.lines):
+            while not self._waits and self._size > max(self._most, len(block.lines)):
                 self._drop()
             self._changed.notify_all()
 
@@ -132,12 +161,12 @@ class Intake:
 
     def _drop(self) -> None:
         """Forget the oldest block; news stay."""
-        for k, item in enumerate(self._items):
-            if isinstance(item, Block):
-                self._dropped += item.lines.count(b"\n")
-                self._size -= len(item.lines)
-                del self._items[k]
-                return
+        k = next(k for k, item in enumerate(self._items) if isinstance(item, Block))
+        item = self._items[k]
+        assert isinstance(item, Block)
+        self._dropped += item.lines.count(b"\n")
+        self._size -= len(item.lines)
+        del self._items[k]
 
 
 def decoded(

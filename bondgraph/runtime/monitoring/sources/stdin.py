@@ -29,9 +29,13 @@ class Pipe:
         Thread(target=self._read, daemon=True).start()
         yield from decoded(self._intake, self._lines, stop)
 
-    def go(self, place: dict[str, Any]) -> str:
+    def go(self, position: dict[str, Any]) -> str:
         """A pipe cannot go back."""
         return "what came through a pipe is gone"
+
+    def rate(self) -> float | None:
+        """Not known before samples come."""
+        return None
 
     def close(self) -> None:
         """Let the thread end."""

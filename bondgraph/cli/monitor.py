@@ -1,0 +1,238 @@
+"""`bondgraph monitor`: watch a machine by its samples, and say what is faulty."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from contextlib import closing, contextmanager
+from typing import TYPE_CHECKING
+
+from bondgraph import Options
+from bondgraph import compile as open_model
+from bondgraph.cli import console
+from bondgraph.cli.numbers import noise, positive
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Callable, Iterator
+
+    from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.monitoring.decision import Facts
+    from bondgraph.runtime.monitoring.journal import Journal
+    from bondgraph.runtime.monitoring.monitor import Stop
+    from bondgraph.runtime.monitoring.mqtt_client import Address
+    from bondgraph.runtime.monitoring.publisher import Publisher
+    from bondgraph.runtime.monitoring.sources.source import Source
+    from bondgraph.runtime.monitoring.verdict import Verdict
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `monitor`."""
+    add = parser.add_argument
+    add("model", metavar="MODEL", help="file.bg or file.bg:Name")
+    add("log", metavar="LOG", nargs="?",
+        help="samples: a .csv or .parquet file, or - for standard input (default)")  # fmt: skip
+    add("--follow", action="store_true", help="wait at the end of a CSV file for more, until ^C")
+    add("--serial", metavar="PORT", help="samples from a serial port")
+    add("--baud", metavar="N", type=int, default=115200,
+        help="its speed (default: 115200)")  # fmt: skip
+    add("--mqtt", metavar="HOST[:PORT]/TOPIC", help="samples from a topic of an MQTT broker")
+    add("--map", metavar="FILE", help="which column is which signal, and in which unit")
+    add("--columns", metavar="NAMES", default="",
+        help="the header of CSV that comes without one: names, separated by commas")  # fmt: skip
+    add("--time", metavar="NAME", help="the column of time (default: t, time or timestamp)")
+    add("--time-unit", choices=["s", "ms", "us", "ns"],
+        help="its unit (default: as its name says, else s)")  # fmt: skip
+    add("--rate", metavar="HZ", type=positive,
+        help=f"samples a second (default: of a file its own, else {Options().rate:g})")  # fmt: skip
+    add("--bandwidth", metavar="RAD/S", type=positive,
+        help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
+    add("--floor", metavar="[RESIDUAL=]SIZE", type=noise, action="append", default=[],
+        help="what noise alone does to a residual (default: learned from the first seconds);"
+        " may be repeated")  # fmt: skip
+    add("--journal", metavar="FILE", help="keep what was said and go on there after a restart")
+    add("--publish", metavar="[HOST[:PORT]/]TOPIC",
+        help="publish the verdicts, at the broker of --mqtt if none is named")  # fmt: skip
+    add("--json", dest="lines", action="store_true",
+        help="print each verdict as a line of JSON (docs/json.md)")  # fmt: skip
+
+
+def run(args: Namespace) -> int:
+    """Open the source, compile, watch."""
+    from bondgraph.runtime.log import LogError
+    from bondgraph.runtime.monitoring.journal import JournalError
+    from bondgraph.runtime.monitoring.mqtt_client import address
+
+    wrong = _wrong(args)
+    if wrong:
+        print(f"error: {wrong}", file=sys.stderr)
+        return 2
+    try:
+        samples = address(args.mqtt) if args.mqtt else None
+        verdicts = _publish_to(args.publish, samples)
+    except ValueError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    try:
+        source = _source(args, samples)
+        with closing(source):
+            return _watch(args, source, verdicts)
+    except (LogError, JournalError) as error:
+        raise console.Trouble(str(error)) from error
+
+
+def _wrong(args: Namespace) -> str:
+    """What is wrong with the words together, "" if nothing."""
+    named = [
+        w for w, v in (("LOG", args.log), ("--serial", args.serial), ("--mqtt", args.mqtt)) if v
+    ]
+    if len(named) > 1:
+        return f"samples come from one source, not from {' and '.join(named)}"
+    if args.follow and args.log in (None, "-"):
+        return "--follow needs a CSV file that grows"
+    if not named and sys.stdin.isatty():
+        return "no samples: name a file, - for standard input, --serial or --mqtt"
+    return ""
+
+
+def _publish_to(text: str | None, samples: Address | None) -> Address | None:
+    """Where verdicts go: a topic of its own broker, or of that of the samples."""
+    from bondgraph.runtime.monitoring.mqtt_client import address
+
+    if text is None:
+        return None
+    host = text.split("/", 1)[0]
+    if samples is not None and "://" not in text and ":" not in host and host != samples.host:
+        return samples._replace(topic=text)
+    return address(text)
+
+
+def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
+    from bondgraph.runtime.monitoring.clock import clock_of
+    from bondgraph.runtime.monitoring.columns import Columns, read_map
+    from bondgraph.runtime.monitoring.decision import Threshold
+    from bondgraph.runtime.monitoring.monitor import Monitor, Parts
+
+    compilation = open_model(args.model, rate=args.rate or Options().rate, bandwidth=args.bandwidth)
+    engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
+    mapping = read_map(args.map, engine.signals) if args.map else None
+    facts = _facts(compilation, dict(args.floor))
+    if not facts.sees:
+        raise console.Trouble(f"{compilation.graph.name} has no residual that could be watched")
+    journal = _journal(args.journal, compilation, source)
+    parts = Parts(
+        source,
+        Columns(engine.signals, mapping, source.name),
+        clock_of(engine),
+        engine,
+        Threshold(facts),
+        [_printer(args.lines)],
+        _publisher(verdicts, args.journal, journal),
+        journal,
+    )
+    what = f"{compilation.graph.name}: {console.plural(len(facts.sees), 'residual')}"
+    with _stop() as stop:
+        what += f" at {1 / engine.sample_time:g} samples a second"
+        untaken = Monitor(parts, what).run(stop)
+    if untaken:
+        kept = "they are sent after the next start" if args.journal else "--journal would keep them"
+        what = console.plural(untaken, "verdict")
+        print(f"note: the broker has not taken {what}; {kept}", file=sys.stderr)
+    return 0
+
+
+def _source(args: Namespace, samples: Address | None) -> Source:
+    from bondgraph.runtime.monitoring.sources.file import file_source
+    from bondgraph.runtime.monitoring.sources.lines import Form
+    from bondgraph.runtime.monitoring.sources.mqtt import Topic
+    from bondgraph.runtime.monitoring.sources.serial_port import SerialPort
+    from bondgraph.runtime.monitoring.sources.stdin import Pipe
+
+    name = args.serial or args.mqtt or args.log or "-"
+    names = tuple(n.strip() for n in args.columns.split(",")) if args.columns else ()
+    form = Form(
+        "standard input" if name == "-" else name, args.time, args.time_unit, names, args.rate
+    )
+    if samples is not None:
+        return Topic(samples, form, _identity(args.journal, "samples") if args.journal else None)
+    if args.serial:
+        return SerialPort(args.serial, args.baud, form)
+    return Pipe(form) if name == "-" else file_source(name, form, args.follow)
+
+
+def _facts(compilation: Compilation, floor: dict[str, float]) -> Facts:
+    from bondgraph.runtime.monitoring.decision import Facts
+
+    program = compilation.program
+    graph = compilation.graph
+    units = {v.name: v.unit or "" for v in graph.values}
+    units |= {i.name: i.unit or "" for i in graph.inputs}
+    units |= {s.name: s.unit or "" for s in graph.sensors}
+    sees = {
+        r.name: tuple(f for f in r.faults if f not in r.invisible)
+        for r in program.residuals
+        if not r.unavailable
+    }
+    names = tuple(r.name for r in program.residuals)
+    floors = {name: floor.get(name, floor[""]) for name in names} if "" in floor else floor
+    return Facts(names, sees, units, floors, 3.0 / program.bandwidth)
+
+
+def _journal(path: str | None, compilation: Compilation, source: Source) -> Journal | None:
+    from bondgraph.runtime.monitoring.journal import Journal
+
+    if path is None:
+        return None
+    bounds = compilation.thresholds
+    digest = compilation.program.digest + ("" if bounds is None else f"-{bounds.digest}")
+    return Journal(path, compilation.graph.name, digest, source.name)
+
+
+def _publisher(at: Address | None, journal: str | None, known: Journal | None) -> Publisher | None:
+    from bondgraph.runtime.monitoring.publisher import Publisher
+
+    if at is None:
+        return None
+    sent = known.past.sent if known is not None and known.past is not None else 0
+    return Publisher(at, _identity(journal, "verdicts") if journal else "", sent)
+
+
+def _identity(journal: str, role: str) -> str:
+    """By what a broker knows a monitor again: the same for the same journal on the same machine."""
+    import hashlib
+    import os
+    import socket
+
+    text = f"{socket.gethostname()}:{os.path.realpath(journal)}"
+    return f"bondgraph-{role}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
+
+
+def _printer(lines: bool) -> Callable[[int, Verdict], None]:
+    from bondgraph.runtime.monitoring.verdict import to_json, to_text
+
+    def text(number: int, verdict: Verdict) -> None:
+        print(to_text(verdict), flush=True)
+
+    def json(number: int, verdict: Verdict) -> None:
+        print(to_json(verdict, number), flush=True)
+
+    return json if lines else text
+
+
+@contextmanager
+def _stop() -> Iterator[Stop]:
+    """What SIGINT and SIGTERM set; a second one ends the program at once."""
+    from bondgraph.runtime.monitoring.monitor import Stop
+
+    stop = Stop()
+
+    def ask(number: int, frame: object) -> None:
+        stop.ask(signal.Signals(number).name)
+        signal.signal(number, signal.default_int_handler)
+
+    before = {number: signal.signal(number, ask) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield stop
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

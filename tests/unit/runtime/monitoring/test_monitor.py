@@ -1,0 +1,242 @@
+"""`bondgraph monitor` on files and pipes: what it says, and what a kill does to it."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bondgraph.cli.main import main
+from bondgraph.runtime.log import write_log
+from bondgraph.runtime.monitoring.verdict import from_json
+from tests.unit.runtime.monitoring import motor
+from tests.unit.runtime.monitoring.watch import MOTOR, ROOT, Watch, csv, objects, until
+
+Start = Callable[..., Watch]
+
+
+def monitored(capsys: pytest.CaptureFixture[str], *words: str) -> list[dict[str, object]]:
+    """What the monitor says in this process."""
+    assert main(["monitor", MOTOR, "--json", *words]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    return [from_json(line)[1]._asdict() for line in lines]
+
+
+@pytest.fixture(scope="module")
+def logs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("logs")
+    for suffix in ("csv", "parquet"):
+        write_log(motor.log(), folder / f"motor.{suffix}")
+    return folder
+
+
+@pytest.mark.parametrize("suffix", ["csv", "parquet"])
+def test_a_friction_fault_is_found_and_told_from_electrical_ones(
+    suffix: str, logs: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = monitored(capsys, str(logs / f"motor.{suffix}"))
+    assert [v["event"] for v in said] == ["start", "warm-up", "fault", "stop"]
+    fault = said[2]
+    assert fault["since"] == pytest.approx(motor.ONSET, abs=0.1)
+    assert motor.ONSET < fault["time"] < motor.ONSET + 0.5  # type: ignore[operator]
+    assert list(fault["residuals"]) == ["r2"]  # type: ignore[call-overload]
+    assert "f" in fault["group"] and not {"R", "L", "U"} & set(fault["group"])  # type: ignore[arg-type,operator]
+    assert "6000 samples" in str(said[3]["message"])
+
+
+def test_text_is_one_line_for_each_verdict(logs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["monitor", MOTOR, str(logs / "motor.csv")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 4
+    assert "Motor: 2 residuals" in lines[0]
+    assert " s  fault " in lines[2] and "since 3.0" in lines[2] and "its threshold" in lines[2]
+
+
+def test_a_healthy_machine_has_no_fault(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = str(tmp_path / "log.csv")
+    write_log(motor.log().part(0, 3000), path)
+    assert [v["event"] for v in monitored(capsys, path)] == ["start", "warm-up", "stop"]
+
+
+def test_what_was_said_before_a_kill_is_not_lost_and_not_said_twice(
+    logs: Path, tmp_path: Path, watch: Start
+) -> None:
+    lines = (logs / "motor.csv").read_bytes().splitlines(keepends=True)
+    path, journal = tmp_path / "log.csv", str(tmp_path / "j")
+    path.write_bytes(b"")
+    said: list[dict[str, object]] = []
+    # Killed after the warm-up, after the fault, and at an unknown moment near the end.
+    for start, end, event in ((0, 2800, "warm-up"), (2800, 4500, "fault"), (4500, 6100, "")):
+        one = watch(str(path), "--follow", "--journal", journal)
+        with path.open("ab") as file:
+            file.write(b"".join(lines[start:end]))
+        one.heard(event) if event else one.heard("resumed")
+        one.kill()
+        said += one.said
+    last = watch(str(path), "--journal", journal)
+    assert last.ended() == 0
+    said += last.said
+    assert [v["number"] for v in said] == list(range(1, len(said) + 1))
+    events = [v["event"] for v in said]
+    assert [e for e in events if e != "resumed"] == ["start", "warm-up", "fault", "stop"]
+    resumed = [v for v in said if v["event"] == "resumed"]
+    assert len(resumed) == 3
+    assert all("nothing is missed" in str(v["message"]) for v in resumed)
+    assert "still latched" not in str(resumed[0]["message"])
+    for verdict in resumed[1:]:
+        assert "still latched" in str(verdict["message"]) and "f" in verdict["group"]  # type: ignore[operator]
+    assert "6000 samples" in str(said[-1]["message"])
+    # The journal has the same.
+    records = [json.loads(line) for line in Path(journal).read_text("utf-8").splitlines()]
+    assert [v for r in records for v in r.get("verdicts", [])] == said
+
+
+def test_a_pipe_that_was_not_watched_says_what_is_missed(tmp_path: Path, watch: Start) -> None:
+    log, journal = motor.log(), str(tmp_path / "j")
+    first = watch("--journal", journal)
+    first.feed(csv(log, 0, 4000, header=True))
+    first.heard("fault")
+    first.kill()
+    second = watch("--journal", journal)
+    second.feed(csv(log, 4750, 5750, header=True))
+    second.process.stdin.close()  # type: ignore[union-attr]
+    assert second.ended() == 0
+    resumed = second.heard("resumed")
+    assert "0.751 s of the stream are missed (750 samples)" in resumed["message"]
+    assert "still latched" in resumed["message"] and resumed["since"] is not None
+    assert second.events() == ["resumed", "warm-up", "stop"]
+    assert second.said[0]["number"] == first.said[-1]["number"] + 1
+
+
+def test_a_journal_goes_on_after_a_proper_end(
+    logs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = [str(logs / "motor.csv"), "--journal", str(tmp_path / "j")]
+    first = monitored(capsys, *words)
+    again = monitored(capsys, *words)
+    assert [v["event"] for v in first] == ["start", "warm-up", "fault", "stop"]
+    assert [v["event"] for v in again] == ["resumed", "stop"]
+    other = monitored(capsys, str(logs / "motor.parquet"), *words[1:])
+    assert "the source was" in str(other[0]["message"])
+
+
+def test_a_journal_of_another_model_is_refused(
+    logs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    journal = str(tmp_path / "j")
+    monitored(capsys, str(logs / "motor.csv"), "--journal", journal)
+    words = ["monitor", MOTOR, str(logs / "motor.csv"), "--journal", journal, "--bandwidth", "10"]
+    assert main(words) == 1
+    assert "another model" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_signals_stop_it_properly(number: signal.Signals, tmp_path: Path, watch: Start) -> None:
+    journal = tmp_path / "j"
+    one = watch("--journal", str(journal))
+    one.feed(csv(motor.log(), 0, 100, header=True))
+    one.heard("start")
+    until(lambda: b"position" in journal.read_bytes())
+    one.process.send_signal(number)
+    one.process.wait(30)
+    assert one.ended() == 0
+    assert f"stopped by {number.name}" in one.said[-1]["message"]
+    assert json.loads(journal.read_text().splitlines()[-1])["verdicts"] == one.said[-1:]
+
+
+def test_lines_of_json_and_garbage_between(watch: Start) -> None:
+    one = watch("-")
+    noise = [b"\x80\x81\n", b'{"t": 0.5, "U"\n', b"hello\n", b"1,2,3\n"]
+    rows = [json.dumps(o).encode() + b"\n" for o in objects(motor.log(), 0, 5000)]
+    one.feed(b"".join(noise[:3]) + b"".join(rows[:2000]) + noise[3] + b"".join(rows[2000:]))
+    one.feed(b'{"t": 5.0, "U": 1.')  # closed in the middle of a line
+    assert one.ended() == 0
+    assert "f" in one.heard("fault")["group"]
+    invalid = [v["message"] for v in one.said if v["event"] == "invalid"]
+    assert invalid and all("no sample" in text for text in invalid)
+    assert "5000 samples" in one.heard("stop")["message"]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (b"", ["no samples came"]),
+        (b"t,U,load,current,speed\n", ["no samples came"]),
+        (b"t,U,current\n0,1,2\n", ["load", "speed"]),
+        (b"stamp,U,load,current,speed\n0,1,2,3,4\n", ["time", "stamp"]),
+        (b'{"stamp": 0, "U": 1}\n', ["time", "stamp"]),
+    ],
+)
+def test_what_cannot_be_watched_is_said_with_names(
+    text: bytes, words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "log.csv"
+    path.write_bytes(text)
+    assert main(["monitor", MOTOR, str(path)]) == 1
+    error = capsys.readouterr().err
+    assert all(word in error for word in words), error
+    assert "Traceback" not in error
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["a.csv", "--serial", "/dev/none"],
+        ["a.csv", "--mqtt", "localhost/x"],
+        ["--follow", "-"],
+        ["--mqtt", "localhost"],
+        ["-", "--publish", "topic"],
+        ["a.csv", "--time-unit", "h"],
+        ["a.csv", "--rate", "0"],
+    ],
+)
+def test_wrong_words_are_wrong_usage(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    try:
+        status = main(["monitor", MOTOR, *words])
+    except SystemExit as left:
+        status = int(left.code or 0)
+    assert status == 2
+    assert "Traceback" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["none.csv"], ["--serial", "/dev/none"]])
+def test_a_source_that_is_not_there_is_said(
+    words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["monitor", MOTOR, *words]) == 1
+    error = capsys.readouterr().err
+    assert words[-1] in error and "Traceback" not in error
+
+
+def test_a_reader_that_goes_away_is_no_failure(logs: Path) -> None:
+    code = f"{sys.executable} -m bondgraph monitor {MOTOR} {logs / 'motor.csv'} | head -n 1"
+    done = subprocess.run(
+        ["sh", "-c", code], capture_output=True, env={**os.environ, "PYTHONPATH": str(ROOT)}
+    )
+    assert b"start" in done.stdout and done.stderr == b""
+
+
+def test_a_robot_with_encoders_is_watched(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """At rest, all counts zero: nothing to say; the signals are found by their paths."""
+    import bondgraph
+
+    model = str(ROOT / "models" / "khepera.bg")
+    knowns = bondgraph.compile(model).engine().signals
+    count = 3000
+    rows = ["t," + ",".join(k.path for k in knowns)]
+    rows += [f"{k / 1000}," + ",".join(["0"] * len(knowns)) for k in range(count)]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(rows) + "\n")
+    assert main(["monitor", model, str(path), "--floor", "1e-6"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[2] for line in lines] == ["start", "warm-up", "stop"]
+    assert np.all([r in lines[1] for r in ("r1", "r5")])
