@@ -6,7 +6,7 @@ import argparse
 import tempfile
 from pathlib import Path
 
-from tests.bench import growth, instructions, peers, toolbox
+from tests.bench import batch, growth, instructions, peers, toolbox
 from tests.bench.clock import in_turn, python
 
 ROOT = Path(__file__).parents[2]
@@ -50,6 +50,8 @@ def main() -> None:
     commands(3 if short else 11)
     print()
     instructions.report()
+    print()
+    batch.report(short)
     print()
     toolbox.report(3 if short else 7)
     print()

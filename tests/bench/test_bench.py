@@ -6,11 +6,14 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
-from tests.bench import families, growth, instructions, peers, toolbox
+from tests.bench import batch, families, growth, instructions, peers, toolbox
+from tests.generated.scale import waves
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
@@ -24,6 +27,16 @@ def test_hand_and_generated_step_agree(tmp_path: Path) -> None:
         # the friction of the wheel is too small to be seen in r2 and left out of the generated step
         assert float(hand) == pytest.approx(float(generated), rel=1e-4)
         assert settled == valid == "1"
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="needs cc")
+def test_the_loop_computes_what_the_batch_does(tmp_path: Path) -> None:
+    c = bondgraph.compile(batch.ROBOT)
+    samples = np.nan_to_num(waves(c, 3000))
+    seconds, last = batch.loop(batch.build(tmp_path), samples, 2)
+    found = c.engine(native=True).run(samples)
+    assert seconds.shape == (2, 2) and found.valid[-1].all()
+    np.testing.assert_allclose(last, np.column_stack([found.value[-1], found.bound[-1]]), rtol=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""How large the terms are that a step adds up: what an error of it is measured by."""
+"""Signals for any model, and the size of the terms of a step, which errors are measured by."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from bondgraph.backends.evaluate import Evaluation, Values, value
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
 from bondgraph.ir.program import Program, Ref
+from bondgraph.pipeline import Compilation
 
 
 class Terms:
@@ -81,3 +82,21 @@ def worst(engine: Any, other: Any, samples: np.ndarray, every: int) -> float:
         off = np.abs(getattr(found, name) - np.concatenate([getattr(p, name) for p in parts]))
         errors.append(np.max(np.where(off > 0, off / np.maximum(scale, 1e-300), 0.0), initial=0.0))
     return float(max(errors))
+
+
+def waves(c: Compilation, count: int) -> np.ndarray:
+    """Slow waves and noise around a half, where most laws have a value; encoders that run over."""
+    random = np.random.default_rng(7)
+    time = np.arange(count) / c.options.rate
+    columns = []
+    for known in c.engine(native=False).signals:
+        wave = np.sin(2 * np.pi * random.uniform(0.2, 3.0) * time + random.uniform(0, 6))
+        noisy = 0.6 + 0.3 * wave + 0.01 * random.normal(size=count)
+        if known.kind == "mode":
+            noisy = (wave > 0).astype(float)
+        elif known.counts is not None:
+            noisy = 2.0**31 - 200 + np.cumsum(np.rint(5 * wave))
+        columns.append(noisy)
+    samples = np.column_stack(columns)
+    samples[count // 2 + 13, random.integers(samples.shape[1])] = np.nan
+    return samples

@@ -6,7 +6,6 @@ import sys
 from functools import cache
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import bondgraph
@@ -15,7 +14,7 @@ from bondgraph.backends.write import write
 from bondgraph.ir.artifact import Artifact
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
-from tests.generated.scale import worst
+from tests.generated.scale import waves, worst
 from tests.unit.backends.compilers import WARNINGS, compiler, run
 
 _ROOT = Path(__file__).resolve().parent.parent.parent
@@ -95,30 +94,12 @@ def test_thresholds_agree_in_every_language(model: str, tmp_path: Path) -> None:
         assert "PASS step r1" in told
 
 
-def _signals(c: Compilation, count: int) -> np.ndarray:
-    """Slow waves and noise around a half, where most laws have a value; encoders that run over."""
-    random = np.random.default_rng(7)
-    time = np.arange(count) / c.options.rate
-    columns = []
-    for known in c.engine(native=False).signals:
-        wave = np.sin(2 * np.pi * random.uniform(0.2, 3.0) * time + random.uniform(0, 6))
-        noisy = 0.6 + 0.3 * wave + 0.01 * random.normal(size=count)
-        if known.kind == "mode":
-            noisy = (wave > 0).astype(float)
-        elif known.counts is not None:
-            noisy = 2.0**31 - 200 + np.cumsum(np.rint(5 * wave))
-        columns.append(noisy)
-    samples = np.column_stack(columns)
-    samples[count // 2 + 13, random.integers(samples.shape[1])] = np.nan
-    return samples
-
-
 @pytest.mark.parametrize("model", _MODELS)
 def test_arrays_through_c_and_through_python_give_the_same(model: str) -> None:
     """Within 1e-12 of the sum of the amounts of the terms of the step, a restart included."""
     if not _artifacts(model)[1]:
         return
     c = _compilation(model)
-    samples = _signals(c, 20_000 if model == "khepera" else 1_500)
+    samples = waves(c, 20_000 if model == "khepera" else 1_500)
     error = worst(c.engine(native=True), c.engine(native=False), samples, 100)
     assert error <= 1e-12
