@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.sources.source import Source
     from bondgraph.runtime.monitoring.verdict import Verdict
 
+_LEARNING = 2.0  # s of healthy samples from which floors are learned
+
 
 def arguments(parser: ArgumentParser) -> None:
     """The arguments of `monitor`."""
@@ -175,7 +177,8 @@ def _facts(compilation: Compilation, floor: dict[str, float]) -> Facts:
     }
     names = tuple(r.name for r in program.residuals)
     floors = {name: floor.get(name, floor[""]) for name in names} if "" in floor else floor
-    return Facts(names, sees, units, floors, 3.0 / program.bandwidth)
+    learning = max(2, round(_LEARNING * program.rate))
+    return Facts(names, sees, units, floors, 3.0 / program.bandwidth, learning)
 
 
 def _journal(path: str | None, compilation: Compilation, source: Source) -> Journal | None:

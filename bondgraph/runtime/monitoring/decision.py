@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 FIRES, BACK = 1.0, 0.5
 
 _IN_A_ROW = 5  # samples that must be above before a residual fires
-_LEARNING = 2.0  # s of healthy samples from which a floor is learned
 
 
 class Decision(Protocol):
@@ -49,8 +48,8 @@ class Facts(NamedTuple):
 
     `sees`: for each residual that can be computed the faults that it sees; `residuals`: the
     columns of a batch; `units` of the faults; `floor`: what noise alone does to each residual, in
-    its unit; of a residual without one it is learned. `patience`: s to wait after the first
-    residual fired until the others had time to.
+    its unit; of a residual without one it is learned, from `learning` samples. `patience`: s to
+    wait after the first residual fired until the others had time to.
     """
 
     residuals: tuple[str, ...]
@@ -58,6 +57,17 @@ class Facts(NamedTuple):
     units: Mapping[str, str]
     floor: Mapping[str, float]
     patience: float
+    learning: int
+
+
+class Learned(NamedTuple):
+    """What is known of the samples from which floors are learned: their number, of each residual
+    the sum, that of the squares, and how far it was beyond its adaptive threshold."""
+
+    samples: int
+    total: Array
+    squares: Array
+    over: Array
 
 
 class Threshold:
@@ -79,6 +89,7 @@ class Threshold:
         self._said = np.zeros(count, dtype=bool)
         self._ratio = np.zeros(count)  # most of |r|/threshold since then
         self._peak = np.zeros(count)  # most of the excess since then
+        self._learned = _nothing(count)
         self._onset: float | None = None
         self._due = math.inf  # s, when a change is to be said
         self._away = False  # the residuals of the fault are back
@@ -92,8 +103,6 @@ class Threshold:
         self._row = np.zeros(count, dtype=int)  # samples above, one after the other
         self._above = np.full(count, math.nan)  # s, since when above BACK
         self._below = np.full(count, math.nan)  # s, since when below
-        self._learned: list[Array] = []
-        self._began = math.nan
 
     def state(self) -> dict[str, Any]:
         """All that `resume` needs, as plain JSON."""
@@ -109,6 +118,7 @@ class Threshold:
             "away": self._away,
             "warm": self._warm,
             "valid": self._valid.tolist(),
+            "learned": [self._learned.samples, *(x.tolist() for x in self._learned[1:])],
         }
 
     def resume(self, state: dict[str, Any]) -> None:
@@ -125,11 +135,13 @@ class Threshold:
         self._due = math.inf if state["due"] is None else state["due"]
         self._away, self._warm = state["away"], state["warm"]
         self._valid = np.array(state["valid"], dtype=bool)
+        number, *sums = state["learned"]
+        self._learned = Learned(number, *(np.array(x, dtype=float) for x in sums))
 
     def update(self, time: Array, batch: Batch, samples: Array) -> list[Verdict]:
         """What there is to say after further samples, in order."""
         out: list[Verdict] = []
-        begin = self._learn(time, batch)
+        begin = self._learn(batch)
         time, value, bound = time[begin:], batch.value[begin:], batch.bound[begin:]
         valid: npt.NDArray[np.bool_] = batch.valid[begin:]
         if not len(time):
@@ -149,27 +161,34 @@ class Threshold:
 
     # ------------------------------------------------------------------- before a fault
 
-    def _learn(self, time: Array, batch: Batch) -> int:
+    def _learn(self, batch: Batch) -> int:
         """Floors that nobody gave, from the first samples: the machine is taken to be well then.
 
         How many of the samples went into that.
         """
         unknown = [k for k in self._watched if math.isnan(self._floor[k])]
-        if not unknown or not len(time):
+        if not unknown:
             return 0
         valid: npt.NDArray[np.bool_] = np.all(batch.valid[:, unknown], axis=1)
-        if math.isnan(self._began) and valid.any():
-            self._began = float(time[valid][0])
-        late = ~np.isnan(time) & (time >= self._began + _LEARNING)
-        end = int(late.argmax()) if late.any() else len(time)
-        used = valid[:end]
-        self._learned.append(np.stack([batch.value[:end][used], batch.bound[:end][used]]))
-        if not late.any():
+        counts = self._learned.samples + np.cumsum(valid)
+        enough = counts >= self._facts.learning
+        end = int(enough.argmax()) + 1 if enough.any() else len(valid)
+        value, bound = batch.value[:end][valid[:end]], batch.bound[:end][valid[:end]]
+        if len(value):
+            over = np.maximum(0.0, np.abs(value) - bound).max(axis=0)
+            self._learned = Learned(
+                self._learned.samples + len(value),
+                self._learned.total + value.sum(axis=0),
+                self._learned.squares + (value**2).sum(axis=0),
+                np.maximum(self._learned.over, over),
+            )
+        if not enough.any():
             return end
-        value, bound = np.concatenate(self._learned, axis=1)
-        over = np.maximum(0.0, np.abs(value) - bound).max(axis=0)
-        floor = 3.0 * over + 3.0 * value.std(axis=0)
-        for k in unknown:
+        found, self._learned = self._learned, _nothing(len(self._floor))
+        mean = found.total / found.samples
+        deviation = np.sqrt(np.maximum(0.0, found.squares / found.samples - mean**2))
+        floor = 3.0 * found.over + 3.0 * deviation
+        for k in unknown:  # nothing but zeros, as of a machine that is off: learn on
             if floor[k] > 0.0:
                 self._floor[k] = floor[k]
         return end
@@ -212,6 +231,7 @@ class Threshold:
         if time >= self._due:
             event = "update" if self._said.any() else "fault"
             self._said, self._due = self._ever.copy(), math.inf
+            self._away = False
             out.append(self._verdict(event, time, ""))
         if self._due == math.inf and self._away != (not self._fired.any()):
             self._away = not self._away
@@ -264,3 +284,7 @@ class Threshold:
         if not group:
             text = text.replace("an unknown fault", "more than one fault, or one not in the model")
         return found._replace(message=text + more)
+
+
+def _nothing(residuals: int) -> Learned:
+    return Learned(0, np.zeros(residuals), np.zeros(residuals), np.zeros(residuals))

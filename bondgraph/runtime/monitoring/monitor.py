@@ -19,6 +19,7 @@ from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
 from bondgraph.text.tuples import NamedTuple
 
 _EVERY = 1.0  # s between two positions in the journal
+_BACK = 3.0  # warm-ups to go back: what the filters began with is forgotten to 12 digits then
 
 
 class Stop(Event):
@@ -148,7 +149,7 @@ class Monitor:
         lost = first - self._time
         if lost > 0.0:
             count = max(0, round(lost / self._parts.engine.sample_time) - 1)
-            what = f"{lost:.3f} s of the stream are missed ({count} samples)"
+            what = f"at most {lost:.3f} s of the stream are missed ({count} samples)"
         else:
             what = (
                 f"the time of the stream begins anew at {first:.3f} s, what was missed is unknown"
@@ -255,7 +256,7 @@ class Monitor:
     def _remember(self, place: dict[str, Any], again: bool) -> None:
         """Places of the source, back to one from which the filters are warm by now."""
         self._places.append((self._newest, place))
-        warm = self._newest - 1.1 * self._parts.engine.warm_up - self._parts.clock.most
+        warm = self._newest - _BACK * self._parts.engine.warm_up - self._parts.clock.most
         while len(self._places) > 1 and self._places[1][0] <= warm:
             self._places.popleft()
         if not again:

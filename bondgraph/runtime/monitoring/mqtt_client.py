@@ -83,8 +83,8 @@ class Link:
             raise LogError(at.name, None, "MQTT needs paho-mqtt", remedy) from error
         self.connections = 0
         self.connected = False
+        self.away = False  # and it was told
         self._at, self._say, self._joined = at, say, joined
-        self._away = False
         self.client = Client(
             CallbackAPIVersion.VERSION2, identity, protocol=MQTTv5, manual_ack=True
         )
@@ -125,9 +125,9 @@ class Link:
             self._tell(f"the broker {self._at.name} refuses the monitor ({code})")
             return
         self.connections += 1
-        if self._away:
+        if self.away:
             self._say(f"the broker {self._at.name} is back")
-        self._away = False
+        self.away = False
         if self._joined is not None:
             self._joined(client)
         self.connected = True
@@ -144,6 +144,6 @@ class Link:
 
     def _tell(self, what: str) -> None:
         """Say that the broker is away, once for each time."""
-        if not self._away:
+        if not self.away:
             self._say(f"{what}; it is tried again")
-        self._away = True
+        self.away = True

@@ -47,8 +47,11 @@ class Publisher:
         return found
 
     def close(self, patience: float = 2.0) -> int:
-        """Wait until all is taken, at most so many s; how many lines are not."""
-        end = time.monotonic() + patience
+        """Wait until all is taken, at most so many s; how many lines are not.
+
+        A broker that is known to be away is not waited for.
+        """
+        end = time.monotonic() + (0.0 if self._link.away else patience)
         while (self._queue or self._sent) and time.monotonic() < end:
             self._send()
             time.sleep(0.005)

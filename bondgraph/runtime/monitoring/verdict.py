@@ -112,15 +112,19 @@ def described(verdict: Verdict) -> str:
 
     >>> print(described(Verdict("fault", 5.2, 5.03, {"r2": 3.14}, ("J", "f"), (
     ...     Candidate("f", 2.38e-6, "N.m.s/rad", 0.8), Candidate("J", None, "kg.m^2", 0.2)))))
-    f or J since 5.030 s: f (80 %, +2.38e-06 N.m.s/rad), J (20 %); r2 at 3.1 times its threshold
+    f or J since 5.030 s: f (80 %, +2.38e-06 N.m.s/rad) or J (20 %); r2 at 3.1 times its threshold
     """
     first = [c.fault for c in verdict.candidates]
     names = first or list(verdict.group)
     text = listed(names, "or") if names else "an unknown fault"
     if verdict.since is not None:
         text += f" since {verdict.since:.3f} s"
-    if len(verdict.candidates) > 1 or any(c.size is not None for c in verdict.candidates):
-        text += ": " + ", ".join(_candidate(c) for c in verdict.candidates)
+    if len({c.probability for c in verdict.candidates}) > 1 or any(
+        c.size is not None for c in verdict.candidates
+    ):
+        text += ": " + listed([_candidate(c) for c in verdict.candidates], "or", 5)
+    elif len(verdict.candidates) > 1:
+        text += ", equally likely"
     if verdict.residuals:
         parts = [f"{n} at {_times(v)} its threshold" for n, v in verdict.residuals.items()]
         text += "; " + listed(parts, "and")
@@ -150,7 +154,9 @@ def _candidate(candidate: Candidate) -> str:
 
 
 def _times(ratio: float) -> str:
-    return "infinitely many times" if math.isinf(ratio) else f"{ratio:.2g} times"
+    if math.isinf(ratio):
+        return "infinitely many times"
+    return f"{ratio:.2g} times" if ratio < 100.0 else f"{ratio:.0f} times"
 
 
 def _finite(value: float) -> float | None:

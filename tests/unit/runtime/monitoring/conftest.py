@@ -8,24 +8,29 @@ from pathlib import Path
 import pytest
 
 from tests.unit.runtime.monitoring.broker import Broker
-from tests.unit.runtime.monitoring.watch import Watch
+from tests.unit.runtime.monitoring.watch import Nursery, Watch
+
+
+@pytest.fixture(scope="session")
+def nursery() -> Iterator[Nursery]:
+    """Where monitors come from."""
+    one = Nursery()
+    yield one
+    one.close()
 
 
 @pytest.fixture
-def watch() -> Iterator[Callable[..., Watch]]:
+def watch(nursery: Nursery) -> Iterator[Callable[..., Watch]]:
     """Starts monitors; kills those that are left."""
     started: list[Watch] = []
 
-    def start(*words: str, **more: object) -> Watch:
-        started.append(Watch(*words, **more))
+    def start(*words: str) -> Watch:
+        started.append(Watch(nursery, *words))
         return started[-1]
 
     yield start
     for one in started:
-        if one.process.poll() is None:
-            one.kill()
-        else:
-            one.ended()
+        one.kill()
 
 
 @pytest.fixture

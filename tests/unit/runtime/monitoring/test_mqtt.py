@@ -55,8 +55,7 @@ def test_a_killed_monitor_misses_nothing_that_the_broker_kept(
         samples(one, 4800, 6000)
         one.send("end")
         second.heard("invalid", "`end`")
-        second.process.send_signal(signal.SIGTERM)
-        assert second.ended() == 0
+        assert second.ended(signal.SIGTERM) == 0
         said = first.said + second.said
         until(lambda: len(one.numbers()) == len(said), "all verdicts")
         assert one.numbers() == [v["number"] for v in said] == list(range(1, len(said) + 1))
@@ -91,8 +90,7 @@ def test_a_killed_broker_loses_no_verdict(
         one.send("end")
         first.heard("fault")
         first.heard("invalid", "`end`")
-        first.process.send_signal(signal.SIGTERM)
-        assert first.ended() == 0
+        assert first.ended(signal.SIGTERM) == 0
         assert "6000 samples" in first.said[-1]["message"]
         heard = [v["number"] for v in first.said]
         if not lasting:  # what it took before the machine was back, it has told nobody
@@ -139,8 +137,7 @@ def test_all_forms_of_messages_are_read_and_old_ones_are_not(
         one.send(csv(log, 3200, 3600, header=True) + b"end\n" * 1000)
         first.heard("fault")
         first.heard("invalid", "`end`")
-        first.process.send_signal(signal.SIGTERM)
-        assert first.ended() == 0
+        assert first.ended(signal.SIGTERM) == 0
         assert "3600 samples" in first.said[-1]["message"]
 
 

@@ -55,7 +55,6 @@ def test_a_device_is_watched_through_noise_and_unplugging(
     device.send(b"end\n" * 10)
     assert "f" in one.heard("fault")["group"]
     one.heard("invalid", "`end`")
-    one.process.send_signal(signal.SIGTERM)
-    assert one.ended() == 0
+    assert one.ended(signal.SIGTERM) == 0
     assert "4000 samples" in one.said[-1]["message"]
     device.unplug()

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 import os
+import signal
+import socket
 import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -29,19 +32,42 @@ def until(met: Callable[[], object], what: str = "") -> None:
         time.sleep(0.005)
 
 
+class Nursery:
+    """What starts monitors; see `nursery`."""
+
+    def __init__(self) -> None:
+        self._asking, theirs = socket.socketpair()
+        environment = {**os.environ, "PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "tests.unit.runtime.monitoring.nursery", str(theirs.fileno())],
+            pass_fds=[theirs.fileno()],
+            cwd=ROOT,
+            env=environment,
+        )
+        theirs.close()
+
+    def start(self, words: list[str], descriptors: list[int]) -> int:
+        """Start a monitor with these descriptors; its process."""
+        socket.send_fds(self._asking, [json.dumps(words).encode()], descriptors)
+        return int(self._asking.recv(64))
+
+    def close(self) -> None:
+        """End it."""
+        self._asking.close()
+        self._process.wait(PATIENCE)
+
+
 class Watch:
     """`bondgraph monitor dc_motor.bg ... --json`, and all that it says, as it says it."""
 
-    def __init__(self, *words: str, **more: Any) -> None:
-        environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUNBUFFERED": "1"}
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "bondgraph", "monitor", MOTOR, "--json", *words],
-            stdin=more.pop("stdin", subprocess.PIPE),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            env=environment,
-            **more,
-        )
+    def __init__(self, nursery: Nursery, *words: str) -> None:
+        pipes = [os.pipe() for _ in range(4)]
+        theirs = [pipes[0][0], *(writing for _, writing in pipes[1:])]
+        self.process = nursery.start(["monitor", MOTOR, "--json", *words], theirs)
+        for descriptor in theirs:
+            os.close(descriptor)
+        self._input = os.fdopen(pipes[0][1], "wb", buffering=0)
+        self._output, self._error, self._status = (os.fdopen(p[0], "rb") for p in pipes[1:])
         self.said: list[dict[str, Any]] = []
         self.errors = ""
         self._threads = [Thread(target=self._read), Thread(target=self._listen)]
@@ -49,13 +75,11 @@ class Watch:
             thread.start()
 
     def _read(self) -> None:
-        assert self.process.stdout is not None
-        for line in self.process.stdout:
+        for line in self._output:
             self.said.append(json.loads(line))
 
     def _listen(self) -> None:
-        assert self.process.stderr is not None
-        self.errors = self.process.stderr.read().decode()
+        self.errors = self._error.read().decode()
 
     def events(self) -> list[str]:
         """The kinds of verdicts so far."""
@@ -67,33 +91,42 @@ class Watch:
         def found() -> list[dict[str, Any]]:
             return [v for v in self.said if v["event"] == event and word in v["message"]]
 
-        until(lambda: found() or self.process.poll() is not None, f"{event} {word}")
         until(lambda: found() or not self._threads[0].is_alive(), f"{event} {word}")
         assert found(), f"no {event} {word} in {self.said}\n{self.errors}"
         return found()[0]
 
     def feed(self, data: bytes) -> None:
         """Write to its standard input."""
-        assert self.process.stdin is not None
-        self.process.stdin.write(data)
-        self.process.stdin.flush()
+        while data:
+            data = data[self._input.write(data) or 0 :]
 
-    def ended(self) -> int:
-        """Its exit status, once all it said is here."""
-        if self.process.stdin is not None and not self.process.stdin.closed:
-            self.process.stdin.close()
-        self.process.wait(PATIENCE)
+    def tell(self, number: int) -> None:
+        """Send it a signal."""
+        os.kill(self.process, number)
+
+    def ended(self, number: int = 0) -> int | None:
+        """Its exit status after a signal, if any, or the end of its input; None: it was killed.
+
+        All that it said is here then.
+        """
+        if number:
+            self.tell(number)
+        else:
+            self._input.close()
         for thread in self._threads:
             thread.join(PATIENCE)
-        for stream in (self.process.stdout, self.process.stderr):
-            if stream is not None:
-                stream.close()
-        return self.process.returncode
+            assert not thread.is_alive(), "the monitor does not end"
+        status = b"" if self._status.closed else self._status.read()
+        for stream in (self._input, self._output, self._error, self._status):
+            stream.close()
+        return int(status) if status else None
 
     def kill(self) -> None:
-        """End it without a chance to say anything."""
-        self.process.kill()
-        self.ended()
+        """End it without a chance to say anything, if it has not ended."""
+        if not self._status.closed:
+            with suppress(ProcessLookupError):
+                self.tell(signal.SIGKILL)
+            self.ended()
 
 
 def csv(log: Log, start: int = 0, stop: int | None = None, header: bool = False) -> bytes:
