@@ -25,10 +25,11 @@ from bondgraph.runtime.log import (
     unit_of_time,
     whole,
 )
+from bondgraph.runtime.log_numbers import NO_SAMPLE, by_c
 
 _SEPARATORS = ("\t", ";", ",")
 _WORDS = {
-    **dict.fromkeys(["", "nan", "na", "n/a", "null", "none"], float("nan")),
+    **dict.fromkeys(NO_SAMPLE, float("nan")),
     "true": 1.0,
     "false": 0.0,
 }
@@ -148,14 +149,11 @@ class CsvReader:
         """The numbers of some lines, a row for each; by C where they are numbers only."""
         first = self._line
         self._line += len(lines)
-        if not (self._text or self._trailing) and any(line.strip() for line in lines):
-            try:
-                values = np.loadtxt(lines, delimiter=self._separator, comments=None, ndmin=2)
-                if values.shape[1] == len(self.names):
-                    self._rows += len(values)
-                    return values
-            except ValueError:
-                pass  # a cell is empty, a word or wrong: look at each line
+        if not (self._text or self._trailing):
+            values = by_c(lines, self._separator, len(self.names))
+            if values is not None:
+                self._rows += len(values)
+                return values
         rows = [row for k, s in enumerate(lines) for row in self._row(s, first + k + 1)]
         return self._array(rows)
 

@@ -33,7 +33,7 @@ def test_hand_and_generated_step_agree(tmp_path: Path) -> None:
 def test_the_loop_computes_what_the_batch_does(tmp_path: Path) -> None:
     c = bondgraph.compile(batch.ROBOT)
     samples = np.nan_to_num(waves(c, 3000))
-    seconds, last = batch.loop(batch.build(tmp_path), samples, 2)
+    seconds, last = batch.loop(batch.build(c, tmp_path), samples, 2)
     found = c.engine(native=True).run(samples)
     assert seconds.shape == (2, 2) and found.valid[-1].all()
     np.testing.assert_allclose(last, np.column_stack([found.value[-1], found.bound[-1]]), rtol=1e-9)

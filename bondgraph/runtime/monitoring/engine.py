@@ -67,7 +67,10 @@ class Engine(Protocol):
         """
 
     def run_with(self, others: Sequence[Engine], samples: Array) -> Batch:
-        """This engine and others of the same model, each over the same samples."""
+        """This engine and others of the same model, each over the same samples.
+
+        The results of all samples and engines are in memory at once: give long logs in blocks.
+        """
 
     def reset(self) -> None:
         """Forget all samples: the next one is the first."""

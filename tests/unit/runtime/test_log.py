@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bondgraph.runtime import log_numbers
 from bondgraph.runtime.log import Log, LogError, joined, read_log, write_log
 from bondgraph.runtime.log_csv import CsvReader
 
@@ -191,3 +192,39 @@ def test_a_file_that_fails_half_way_leaves_the_old_one(tmp_path: Path) -> None:
     with pytest.raises(UnicodeEncodeError):
         write_log(log, path)
     assert path.read_text() == "old" and [p.name for p in tmp_path.iterdir()] == ["a.csv"]
+
+
+_CELLS = st.sampled_from(
+    "1 -0.0 1e-320 4.9e-324 1e400 +5 1. .5 1e5 nan NaN -nan inf -inf Infinity NA null None 0x1 1_0"
+    " 1d5 true x 1e 1e+ 123456789012345678901234567890 0.1000000000000000055511151231257827".split()
+) | st.sampled_from(["", " 2", "3 ", " ", "#", "-"]) | st.floats().map(repr)  # fmt: skip
+
+
+@pytest.mark.parametrize("arrow", [True, False])
+@given(rows=st.lists(st.lists(_CELLS, min_size=2, max_size=2), min_size=1, max_size=3))
+def test_what_c_reads_is_what_python_reads(arrow: bool, rows: list[list[str]]) -> None:
+    """Where C finds numbers, looking at each cell finds the same ones."""
+    lines = [";".join(row) + "\n" for row in rows]
+    joined_lines = "".join(lines)
+    by_arrow, by_numpy = log_numbers._by_arrow, log_numbers._by_numpy
+    found = by_arrow(joined_lines, ";", 2) if arrow else by_numpy(lines, ";", 2)
+    if found is None:
+        return
+    reader = CsvReader("x.csv")
+    slow = reader.feed(["t;a\n", "0;0\n", *lines])
+    assert slow is not None
+    assert _bits(slow.time[1:]) == _bits(found[:, 0])
+    assert _bits(slow.columns["a"][1:]) == _bits(found[:, 1])
+
+
+@pytest.mark.parametrize("holes", [True, False])
+def test_c_reads_numbers_at_all(holes: bool) -> None:
+    bits = np.random.default_rng(4).integers(0, 2**64, 5000, dtype=np.uint64)
+    values = bits.view(np.float64)[np.isfinite(bits.view(np.float64))]
+    lines = [f"{x!r},{'' if holes else repr(x)}\n" for x in values.tolist()]
+    found = log_numbers.by_c(lines, ",", 2)
+    assert found is not None and _bits(found[:, 0]) == _bits(values)
+    assert np.isnan(found[:, 1]).all() == holes
+    plain = log_numbers._by_numpy(lines, ",", 2)
+    assert plain is None if holes else _bits(np.asarray(plain)[:, 1]) == _bits(values)
+    assert log_numbers.by_c([*lines, "1\n"], ",", 2) is None

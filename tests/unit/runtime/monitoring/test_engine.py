@@ -41,8 +41,13 @@ def _motor() -> Compilation:
     return Compilation(Source("motor.bg", _MOTOR))
 
 
+@cache
+def _made(native: bool) -> Engine:
+    return _motor().engine(native=native)
+
+
 def _engines() -> list[Engine]:
-    return [_motor().engine(native=True), _motor().engine(native=False)]
+    return [_made(True).configured(), _made(False).configured()]
 
 
 def _samples(rows: int, seed: int = 1) -> np.ndarray:
@@ -54,11 +59,11 @@ def _samples(rows: int, seed: int = 1) -> np.ndarray:
         "i": random.normal(1.0, 0.1, rows),
         "angle": 2.0**31 - 500 + np.cumsum(random.integers(-3, 40, rows)),
     }
-    return np.column_stack([by_path[k.path] for k in _engines()[1].signals])
+    return np.column_stack([by_path[k.path] for k in _made(False).signals])
 
 
 def _column(path: str) -> int:
-    return [k.path for k in _motor().engine(native=False).signals].index(path)
+    return [k.path for k in _made(False).signals].index(path)
 
 
 def _with_defaults(program: Program) -> Program:
@@ -96,8 +101,8 @@ def test_bounds_and_values_agree_across_a_counter_that_runs_over() -> None:
 def test_samples_may_come_in_any_pieces(cuts: list[int], bad: bool) -> None:
     samples = _samples(400)
     samples[200, _column("i")] = math.nan if bad else 1.0
-    whole = _engines()[0].run(samples)
-    engine = _engines()[0]
+    whole = _made(True).configured().run(samples)
+    engine = _made(True).configured()
     bounds = [0, *sorted(cuts), 400]
     parts = [engine.run(samples[a:b]) for a, b in pairwise(bounds)]
     for at, array in enumerate(whole):
@@ -108,7 +113,7 @@ def test_samples_may_come_in_any_pieces(cuts: list[int], bad: bool) -> None:
 @pytest.mark.parametrize("native", [True, False])
 def test_a_count_or_a_mode_without_value_restarts_what_reads_it(path: str, native: bool) -> None:
     """The rest goes on; what restarts does as if it had begun behind the gap."""
-    make = lambda: _motor().engine(native=native)  # noqa: E731
+    make = lambda: _made(native).configured()  # noqa: E731
     samples = _samples(1600)
     clean = make().run(samples)
     samples[800, _column(path)] = math.nan
@@ -125,7 +130,7 @@ def test_a_count_or_a_mode_without_value_restarts_what_reads_it(path: str, nativ
 @pytest.mark.parametrize("native", [True, False])
 def test_a_changed_resistance_moves_the_residual_by_the_voltage_it_takes(native: bool) -> None:
     """At rest with current i: U - R i - L di/dt - k w, with R larger by 0.5 Ohm, is -0.5 i."""
-    engine = _motor().engine(native=native)
+    engine = _made(native).configured()
     row = {"U": 6.0, "on": 1.0, "i": 3.0, "angle": 77.0}
     still = np.tile([row[k.path] for k in engine.signals], (2000, 1))
     other = engine.configured({"R": 2.5})
@@ -144,7 +149,7 @@ def test_a_changed_resistance_moves_the_residual_by_the_voltage_it_takes(native:
 
 @pytest.mark.parametrize("native", [True, False])
 def test_many_engines_over_the_same_samples(native: bool) -> None:
-    engine = _motor().engine(native=native)
+    engine = _made(native).configured()
     values = [1.0 + 0.1 * k for k in range(4)]
     for bounds in (True, False):
         samples = _samples(300)
@@ -157,13 +162,13 @@ def test_many_engines_over_the_same_samples(native: bool) -> None:
                 np.concatenate([first[at], second[at]], axis=1), np.stack([a[at] for a in alone])
             )
         assert bounds or not second.bound.any()
-    mixed = engine.configured().run_with([_motor().engine(native=not native)], _samples(200))
+    mixed = engine.configured().run_with([_made(not native).configured()], _samples(200))
     np.testing.assert_allclose(mixed.value[0], mixed.value[1], rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.parametrize("native", [True, False])
 def test_reset_and_bandwidth_and_warm_up(native: bool) -> None:
-    engine = _motor().engine(native=native)
+    engine = _made(native).configured()
     samples = _samples(1200)
     first = engine.run(samples)
     engine.reset()
