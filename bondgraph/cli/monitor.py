@@ -115,8 +115,16 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     from bondgraph.runtime.monitoring.decision import Threshold
     from bondgraph.runtime.monitoring.monitor import Monitor, Parts
 
-    compilation = open_model(args.model, rate=args.rate or Options().rate, bandwidth=args.bandwidth)
-    engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
+    rate = args.rate or source.rate() or Options().rate
+    compilation = open_model(args.model, rate=rate, bandwidth=args.bandwidth)
+    names = [r.name for r in compilation.program.residuals]
+    for name, _ in args.floor:
+        if name and name not in names:
+            return console.unknown(name, "no residual", names)
+    try:
+        engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
+    except ValueError as error:
+        raise console.Trouble(str(error)) from error
     mapping = read_map(args.map, engine.signals) if args.map else None
     facts = _facts(compilation, dict(args.floor))
     if not facts.sees:

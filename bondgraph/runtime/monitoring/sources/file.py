@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import stat
 from collections.abc import Iterator
 from threading import Event
 from typing import IO, Any
@@ -11,6 +12,7 @@ from typing import IO, Any
 from bondgraph.runtime.log import LogError, read_log
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
 from bondgraph.runtime.monitoring.sources.source import IDLE, Chunk, Cutter, News, rate_of
+from bondgraph.runtime.monitoring.sources.stdin import Pipe
 
 _BLOCK = 1 << 20  # bytes read at a time
 _ROWS = 20_000  # of a table, given at a time
@@ -177,8 +179,18 @@ class LinesFile:
         return hashlib.sha256(head).hexdigest()[:16]
 
 
-def file_source(path: str, form: Form, follow: bool = False) -> TableFile | LinesFile:
-    """The samples in a file, by its suffix."""
+def _mode(path: str) -> int:
+    """What kind of file it is; 0 for one that is not there."""
+    try:
+        return os.stat(path).st_mode
+    except OSError:
+        return 0
+
+
+def file_source(path: str, form: Form, follow: bool = False) -> TableFile | LinesFile | Pipe:
+    """The samples in a file, by its suffix, or from a named pipe."""
+    if stat.S_ISFIFO(_mode(path)):
+        return Pipe(form, os.open(path, os.O_RDONLY), path)
     if path.lower().endswith(".parquet"):
         if follow:
             raise LogError(path, None, "a Parquet file cannot be followed", "follow a CSV file")

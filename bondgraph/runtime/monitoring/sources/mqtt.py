@@ -13,7 +13,7 @@ from bondgraph.runtime.monitoring.sources.source import Block, Chunk, Intake, de
 if TYPE_CHECKING:
     from paho.mqtt.client import Client, MQTTMessage
 
-_AT_ONCE = 1000  # messages that the broker may send before the first of them is acknowledged
+_AT_ONCE = 200  # messages that the broker may send before the first of them is acknowledged
 
 
 class Topic:
@@ -31,7 +31,7 @@ class Topic:
         self._lines = self.decoder
         self._topic = at.topic
         self._last = float("-inf")
-        self._intake = Intake(most=1 << 26)  # the broker stops long before
+        self._intake = Intake(most=1 << 40)  # the broker stops before
         keep = SESSION if identity else 0
         self._link = Link(at, identity or "", self._say, self._joined, keep, _AT_ONCE)
         self._link.client.on_message = self._received

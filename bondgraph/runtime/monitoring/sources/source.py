@@ -19,6 +19,7 @@ IDLE = 0.2
 
 _ROUND = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)  # times a power of ten
 _NEAR = 0.02
+_FEW, _PAUSE = 20, 0.01  # blocks that wait so many s for more
 _LONGEST = 1 << 20  # bytes of a line that may be one
 
 
@@ -180,6 +181,9 @@ def decoded(
     while not stop.is_set() and (items := intake.take()) is not None:
         if not items:
             yield Chunk()
+        elif len(items) < _FEW:  # more of them together cost less
+            stop.wait(_PAUSE)
+            items += intake.take(0.0) or []
         for item in _together(items):
             if isinstance(item, News):
                 yield Chunk(news=(item,))

@@ -14,10 +14,10 @@ from bondgraph.runtime.monitoring.sources.source import Chunk, Cutter, Intake, d
 class Pipe:
     """Lines from a descriptor; who writes too fast is held up by the pipe, nothing is dropped."""
 
-    name = "standard input"
     replays = False
 
-    def __init__(self, form: Form, descriptor: int = 0) -> None:
+    def __init__(self, form: Form, descriptor: int = 0, name: str = "standard input") -> None:
+        self.name = name
         self.decoder: Decoder | None = Decoder(form)
         self._lines = self.decoder
         self._descriptor = descriptor
@@ -49,7 +49,7 @@ class Pipe:
                 if block is not None:
                     self._intake.put(block)
         except OSError as error:
-            self._intake.say("gap", f"standard input: {error.strerror}")
+            self._intake.say("gap", f"{self.name}: {error.strerror}")
         last = cutter.cut(b"\n") if cutter.rest else None
         if last is not None:
             self._intake.put(last)

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 from bondgraph.cli.main import main
-from bondgraph.runtime.log import write_log
-from bondgraph.runtime.monitoring.verdict import from_json
+from bondgraph.runtime.log import Log, write_log
+from bondgraph.runtime.monitoring.verdict import Verdict, from_json
 from tests.unit.runtime.monitoring import motor
 from tests.unit.runtime.monitoring.watch import MOTOR, ROOT, Watch, csv, objects, until
 
@@ -196,6 +196,7 @@ def test_what_cannot_be_watched_is_said_with_names(
         ["-", "--publish", "topic"],
         ["a.csv", "--time-unit", "h"],
         ["a.csv", "--rate", "0"],
+        ["-", "--floor", "r9=1"],
     ],
 )
 def test_wrong_words_are_wrong_usage(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
@@ -222,6 +223,85 @@ def test_a_reader_that_goes_away_is_no_failure(logs: Path) -> None:
         ["sh", "-c", code], capture_output=True, env={**os.environ, "PYTHONPATH": str(ROOT)}
     )
     assert b"start" in done.stdout and done.stderr == b""
+
+
+def test_a_verdict_is_on_the_disk_before_it_is_said(
+    logs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    journal = tmp_path / "j"
+
+    def printer(lines: bool) -> Callable[[int, Verdict], None]:
+        def say(number: int, verdict: Verdict) -> None:
+            last = json.loads(journal.read_text("utf-8").splitlines()[-1])
+            assert number in [v["number"] for v in last["verdicts"]]
+            if verdict.event == "fault":
+                raise KeyboardInterrupt
+
+        return say
+
+    monkeypatch.setattr("bondgraph.cli.monitor._printer", printer)
+    words = [str(logs / "motor.csv"), "--journal", str(journal)]
+    assert main(["monitor", MOTOR, *words]) == 130
+    capsys.readouterr()
+    monkeypatch.undo()
+    said = monitored(capsys, *words)
+    assert [v["event"] for v in said] == ["resumed", "stop"]
+    assert "f" in said[0]["group"]  # type: ignore[operator]
+
+
+def test_a_clock_of_32_bits_may_run_over_and_other_names_are_mapped(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = motor.log()
+    ticks = (np.arange(log.rows) * 1000 + 2**32 - 1_500_000) % 2**32
+    columns = {"volt": log.columns["U"] * 1000, **log.columns}
+    del columns["U"]
+    path, names = tmp_path / "log.csv", tmp_path / "names.toml"
+    write_log(Log(ticks.astype(float), columns, {}, {}), path)
+    text = "\n".join(path.read_text().splitlines()[1:]).replace("t,", "time_us,", 1)
+    path.write_text(text + "\n")
+    names.write_text('U = { column = "volt", unit = "mV" }\n')
+    said = monitored(capsys, str(path), "--map", str(names))
+    assert [v["event"] for v in said] == ["start", "warm-up", "fault", "stop"]
+    start = (2**32 - 1_500_000) / 1e6
+    assert said[2]["since"] == pytest.approx(start + motor.ONSET, abs=0.1)
+
+
+def test_the_rate_is_that_of_the_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    log = motor.log()
+    time, columns = log.time[::4], {k: v[::4] for k, v in log.columns.items()}
+    path = str(tmp_path / "log.parquet")
+    write_log(log._replace(time=time, columns=columns), path)
+    said = monitored(capsys, path, "--bandwidth", "20")
+    assert "250 samples a second" in str(said[0]["message"])
+    assert said[2]["since"] == pytest.approx(motor.ONSET, abs=0.1)
+
+
+def test_gaps_are_told_and_a_flood_of_them_is_not(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = motor.log()
+    path = str(tmp_path / "log.csv")
+    kept = np.concatenate([np.arange(600), np.arange(900, 1600), np.arange(1600, 2900, 100)])
+    columns = {k: v[kept] for k, v in log.columns.items()}
+    write_log(log._replace(time=log.time[kept], columns=columns), path)
+    said = monitored(capsys, path, "--rate", "1000", "--floor", "1")
+    gaps = [str(v["message"]) for v in said if v["event"] == "gap"]
+    assert "300 samples lost from 0.599 s to 0.9 s" in gaps[0]
+    assert 2 <= len(gaps) <= 6 and "--rate" in gaps[-1]
+    assert [v["event"] for v in said[:4]] == ["start", "warm-up", "gap", "warm-up"]
+
+
+def test_a_model_without_numbers_or_redundancy_is_said(
+    logs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = tmp_path / "m.bg"
+    for text, word in (("param R : Ohm; Se:U -> 1:j -> R:R; j -> Df:i", "R"),
+                       ("param R = 1 Ohm; Se:U -> 1:j -> R:R", "no residual")):  # fmt: skip
+        model.write_text(f"bg 1\nmodel M {{ {text} }}\n")
+        assert main(["monitor", str(model), str(logs / "motor.csv")]) == 1
+        error = capsys.readouterr().err
+        assert word in error and "bug" not in error
 
 
 def test_a_robot_with_encoders_is_watched(
