@@ -41,7 +41,7 @@ def run(args: Namespace) -> int:
     """Collect, write the page; status 1 where it tells why there are no relations."""
     from bondgraph.backends.report.page import page
     from bondgraph.cli.reporting.assumed import assumed
-    from bondgraph.cli.reporting.collect import collect
+    from bondgraph.cli.reporting.collect import STAGES, collect
 
     compilation = compile(
         args.model,
@@ -61,7 +61,8 @@ def run(args: Namespace) -> int:
         return assumed(args, program)
 
     try:
-        content = collect(compilation, assume)
+        with console.progress(STAGES) as advance:
+            content = collect(compilation, assume, advance)
     except UnknownSignal as error:
         return console.unknown(error.name, "no known signal of the residuals", error.paths)
     stem = os.path.splitext(os.path.basename(compilation.source.path))[0]

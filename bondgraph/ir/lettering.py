@@ -55,7 +55,7 @@ def split_name(name: str) -> tuple[str, str]:
     (('U', 'in'), ('load', ''), ('e', '2'), ('K', 's'))
     """
     last = name.rpartition(".")[2]
-    found = re.fullmatch(r"([A-Za-z]+)(\d*)((?:_\w+)?)((?:\[[\d,]+\])?)", last)
+    found = re.fullmatch(r"([A-Za-z]+)((?:#?\d+)?)((?:_\w+)?)((?:\[[\d,]+\])?)", last)
     if found is None:
         return indexed(last), ""
     word, digits, after, place = found.groups()

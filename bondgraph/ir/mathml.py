@@ -9,6 +9,7 @@ from bondgraph.ir.expr import Expr, Op, Symbol, topological
 from bondgraph.text.tuples import NamedTuple
 
 _SUM, _PRODUCT, _ATOM = range(3)
+_NARROW = 3.0  # em, of what may be written twice
 _SPEAKING = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "sign": "sgn", "log": "ln"}
 _MINUS = "−"
 
@@ -143,14 +144,14 @@ class Typist:
                 return _joined([_wrap(a, _ATOM) for a in args],
                                "∧" if node.name == "and" else "\N{LOGICAL OR}", _SUM)  # fmt: skip
 
-    def zero_of(self, node: Expr) -> Box:
-        """What vanishes at the number that a ROOT node is."""
+    def inside(self, node: Expr) -> Typist:
+        """Who sets what vanishes at the number that a ROOT node is."""
         root = node.root
         inside = Typist(self.letters, {}, self.starts)
         inside._boxes[root.unknown] = self.letters(root.name, 0)
         for place, arg in zip(root.places, node.args, strict=True):
             inside._boxes[place] = self.box(arg)
-        return inside.box(root.zero)
+        return inside
 
     def _derivative(self, node: Expr) -> Box:
         inner, order = node.args[0], 1
@@ -297,6 +298,14 @@ def _function(name: str, args: list[Box]) -> Box:
             return atom(xml, width + 0.6)
         case "sqrt":
             return atom(f"<msqrt>{inner}</msqrt>", width + 0.9)
+        case "ssq" | "ssqrt" if width <= _NARROW:
+            bars = _function("abs", args)
+            if name == "ssq":
+                xml = f"<mrow>{_wrap(args[0], _PRODUCT).xml}{bars.xml}</mrow>"
+                return Box(xml, _PRODUCT, 2 * width + 0.6)
+            root = _function("sqrt", [bars])
+            side = _function("sign", args)
+            return Box(f"<mrow>{side.xml}{root.xml}</mrow>", _PRODUCT, side.width + root.width)
         case "cbrt":
             return atom(f"<mroot>{_one(inner)}<mn>3</mn></mroot>", width + 1)
         case "pow":

@@ -22,6 +22,7 @@ from bondgraph.ir.program import (
 from bondgraph.runtime.interpret import Interpreter
 
 Array = npt.NDArray[np.float64]
+_KEPT = 20_000  # roots that are remembered
 
 
 def _ssq(x: Array) -> Array:
@@ -51,6 +52,8 @@ class Lanes(Interpreter):
 
     def __init__(self, program: Program, params: Mapping[str, Any]) -> None:
         super().__init__(program, params, real=np.float64, functions=_FUNCTIONS)
+        # Most lanes, and samples of constant signals, differ in nothing that a root rests on.
+        self._found: dict[tuple[str | float, ...], Any] = {}
 
     def sample(
         self,
@@ -108,8 +111,15 @@ class Lanes(Interpreter):
         wide = np.broadcast_arrays(*args)
         if not wide or not wide[0].shape:
             return super()._root(block, args)
-        found = [super(Lanes, self)._root(block, list(lane)) for lane in zip(*wide, strict=True)]
-        return np.array(found)
+        if len(self._found) > _KEPT:
+            self._found.clear()
+        values = []
+        for lane in zip(*(a.tolist() for a in wide), strict=True):
+            key = (block.name, *lane)
+            if key not in self._found:
+                self._found[key] = super()._root(block, list(lane))
+            values.append(self._found[key])
+        return np.array(values)
 
     def _lookup(self, name: str, x: Any) -> Any:
         points = self.tables[name]

@@ -69,7 +69,7 @@ class Typesetter:
     def _solved(self, name: str, typist: Typist, node: Expr) -> str:
         """A number that no formula gives: where it makes an expression vanish."""
         where = f"{self.name(name).xml}<mtext>&#xa0;where&#xa0;</mtext><mn>0</mn>"
-        return _row(where, [typist.zero_of(node).xml])
+        return _row(where, pieces(typist.inside(node), node.root.zero, ROOM))
 
 
 def _row(head: str, parts: list[str]) -> str:

@@ -94,14 +94,16 @@ def _graph(content: Content) -> dict[str, Any]:
         {**f._asdict(), "places": [_place(span, text) for span, text in f.labels]}
         for f in content.findings
     ]
+    formulas = "".join(line for r in content.relations for line in r.html)
     return {
+        "signed": "<mi>ssq" in formulas,
         "content": {
             **content._asdict(),
             "drawings": drawings,
             "relations": relations,
             "quantities": quantities,
             "findings": findings,
-        }
+        },
     }
 
 

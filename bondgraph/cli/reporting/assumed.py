@@ -18,18 +18,22 @@ def assumed(args: Namespace, program: Program) -> Assumed:
     """The situation of the arguments, completed, and all of it in words.
 
     Without signals each swings by 1 around 1, in its unit; without noise it is that of samples of
-    `--bits` over the range of each signal, a step over the square root of 12.
+    `--bits` over the range of each signal, a step over the square root of 12. A program that
+    iterates gets constant signals: a second of samples would take it a minute.
     """
     given = situation_of(args, program)
     words = []
     signals = [k for k in program.knowns if k.kind != "mode"]
     if not (args.at or args.swing):
-        at, swing = {k.path: 1.0 for k in signals}, {k.path: 1.0 for k in signals}
-        given = given._replace(at=at, swing=swing)
+        ones = {k.path: 1.0 for k in signals}
+        swing = {} if program.roots else ones
+        given = given._replace(at=ones, swing=swing)
+        moves = "be 1" if program.roots else "swing by 1 around 1"
+        rhythm = "" if program.roots else f" at {given.frequency:g} Hz"
         words.append(
-            "Nothing was said of what the machine does: every signal is taken to swing by 1 around"
-            f" 1, in its own unit, at {given.frequency:g} Hz (--at, --swing). The sizes below"
-            " compare faults and residuals; they are not those of a real run."
+            f"Nothing was said of what the machine does: every signal is taken to {moves}, in its"
+            f" own unit{rhythm} (--at, --swing). The sizes below compare faults and residuals; they"
+            " are not those of a real run."
         )
     else:
         told = [f"{n} at {v:g}" for n, v in given.at.items()]

@@ -26,7 +26,14 @@ if TYPE_CHECKING:
 _QUANTITIES = 500  # of a list that is still one
 
 
-def collect(compilation: Compilation, assume: Callable[[Program], Assumed]) -> Content:
+STAGES = 7  # what takes time; `collect` says when each begins
+
+
+def collect(
+    compilation: Compilation,
+    assume: Callable[[Program], Assumed],
+    advance: Callable[[str], None] = lambda _: None,
+) -> Content:
     """The content of the report; `assume` says what the signals of the residual program are.
 
     A model without strokes, or one whose relations cannot be derived, gives the content up to
@@ -35,11 +42,15 @@ def collect(compilation: Compilation, assume: Callable[[Program], Assumed]) -> C
     graph = compilation.graph
     known = _bare(compilation)
     try:
+        advance("causality")
         _ = compilation.derivative
         if compilation.conflicts:
             said = tuple(c.finding for c in compilation.conflicts)
             return known._replace(status="error", message=said[0].message, findings=said)
         known = known._replace(drawings=tuple(_drawings(compilation)))
+        advance("relations")
+        _ = compilation.signatures
+        advance("verifying")
         _ = compilation.verification
     except CompileError as error:
         if not known.drawings:
@@ -47,18 +58,24 @@ def collect(compilation: Compilation, assume: Callable[[Program], Assumed]) -> C
         return known._replace(
             status=status(error), message=str(error), findings=tuple(error.diagnostics)
         )
+    advance("lowering")
     program, trouble = _program(compilation)
     names = [*_names(graph), *[v.symbol.name for e in compilation.equations.equations
                                for v in e.variables]]  # fmt: skip
     typesetter = Typesetter(names, graph.initial_values())
     found = compilation.signatures
     situation = assume(program) if program is not None and found.residuals else None
+    advance("formulas")
+    told = relations(compilation, typesetter, program)
+    advance("signatures")
+    marked = matrix(compilation, program)
+    advance("sizes")
     return known._replace(
         status="ok" if found.residuals else "no_arr",
         message=message(compilation),
         facts=tuple(_facts(compilation, program)),
-        relations=relations(compilation, typesetter, program),
-        signatures=matrix(compilation, program),
+        relations=told,
+        signatures=marked,
         seen=seen(compilation, typesetter, program, situation) if found.residuals else None,
         quantities=tuple(_quantities(graph, typesetter)),
         findings=(*compilation.report.diagnostics, *trouble),
