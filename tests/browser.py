@@ -106,11 +106,12 @@ def browser(profile: Path) -> Iterator[Tab]:
     os.close(to_it)
     os.close(from_it)
     try:
-        yield Tab(read, write)
+        tab = Tab(read, write)
+        yield tab
+        tab.call("Browser.close")
     finally:
         os.close(write)
         os.close(read)
-        process.terminate()
         try:
             process.wait(10)
         except subprocess.TimeoutExpired:

@@ -51,14 +51,17 @@ def letters(names: Iterable[str]) -> dict[str, Letter]:
 def split_name(name: str) -> tuple[str, str]:
     """The base and the index of the last part of a name.
 
-    >>> split_name("Uin"), split_name("load"), split_name("e2"), split_name("K_s")
-    (('U', 'in'), ('load', ''), ('e', '2'), ('K', 's'))
+    >>> split_name("Uin"), split_name("load"), split_name("e2"), split_name("m_wheel")
+    (('U', 'in'), ('load', ''), ('e', '2'), ('m', 'wheel'))
     """
     last = name.rpartition(".")[2]
     found = re.fullmatch(r"([A-Za-z]+)((?:#?\d+)?)((?:_\w+)?)((?:\[[\d,]+\])?)", last)
     if found is None:
         return indexed(last), ""
     word, digits, after, place = found.groups()
+    if after and len(word) > 3 and word not in GREEK:  # words, not a letter with an index
+        word, after = word + digits + after, ""
+        digits = ""
     head, rest = word, ""
     for greek, sign in GREEK.items():
         if word == greek:

@@ -120,7 +120,7 @@ class Typist:
             case Op.SYM:
                 return self.letters(node.symbol.name, 0)
             case Op.ADD:
-                return _sum(node, args)
+                return self._sum(node)
             case Op.MUL:
                 return _product(node, args)
             case Op.DER:
@@ -143,6 +143,34 @@ class Typist:
                                inner.width + 0.7)  # fmt: skip
                 return _joined([_wrap(a, _ATOM) for a in args],
                                "∧" if node.name == "and" else "\N{LOGICAL OR}", _SUM)  # fmt: skip
+
+    def terms(self, node: Expr) -> list[tuple[Fraction, Expr]]:
+        """The terms of a sum as a person writes them: sums inside opened, the positive first."""
+        found: list[tuple[Fraction, Expr]] = []
+        open_ = [(Fraction(c), a) for c, a in zip(node.coefficients, node.args, strict=True)]
+        while open_:
+            c, arg = open_.pop(0)
+            if arg.op is Op.ADD and arg not in self.named:
+                inner = zip(arg.coefficients, arg.args, strict=True)
+                open_[:0] = [(c * k, a) for k, a in inner]
+            else:
+                found.append((c, arg))
+        return sorted(found, key=lambda t: t[0] * _sign(t[1]) < 0)
+
+    def _sum(self, node: Expr) -> Box:
+        parts: list[str] = []
+        width = 0.0
+        terms = self.terms(node)
+        for c, arg in terms:
+            minus = c * _sign(arg) < 0
+            box = term(abs(c), arg, self.box(arg))
+            if parts or minus:
+                parts.append(sign(_MINUS if minus else "+", "infix" if parts else "prefix"))
+                width += 1.2
+            parts.append(box.xml)
+            width += box.width
+        alone = len(terms) == 1 and terms[0][0] > 0
+        return Box(f"<mrow>{''.join(parts)}</mrow>", _PRODUCT if alone else _SUM, width)
 
     def inside(self, node: Expr) -> Typist:
         """Who sets what vanishes at the number that a ROOT node is."""
@@ -203,39 +231,21 @@ def _one(xml: str) -> str:
     return f"<mrow>{xml}</mrow>"
 
 
-def ordered(node: Expr) -> list[tuple[Fraction, int]]:
-    """The terms of a sum as a person writes them, the positive first: coefficient and place."""
-    terms = [(Fraction(c), at) for at, c in enumerate(node.coefficients)]
-    return sorted(terms, key=lambda t: t[0] < 0)
-
-
-def term(node: Expr, size: Fraction, at: int, box: Box) -> Box:
-    """One term of a sum without its sign."""
-    if node.args[at].op is Op.NUM:
-        return number(size * node.args[at].number)
+def term(size: Fraction, arg: Expr, box: Box) -> Box:
+    """One term of a sum without its sign: a number above zero times something."""
+    if arg.op is Op.NUM:
+        return number(size * abs(arg.number))
     inner = _wrap(box, _PRODUCT)
     if size == 1:
         return inner
     times = number(size)
-    return Box(f"{times.xml}<mspace width='0.17em'/>{inner.xml}", _PRODUCT,
-               times.width + inner.width + 0.2)  # fmt: skip
+    xml = f"{times.xml}<mspace width='0.17em'/>{inner.xml}"
+    return Box(xml, _PRODUCT, times.width + inner.width + 0.2)
 
 
-def _sum(node: Expr, args: list[Box]) -> Box:
-    parts: list[str] = []
-    width = 0.0
-    for c, at in ordered(node):
-        minus = c < 0
-        box = term(node, abs(c), at, args[at])
-        if box.level == _SUM:
-            box = _wrap(box, _PRODUCT)
-        if parts or minus:
-            parts.append(sign(_MINUS if minus else "+", "infix" if parts else "prefix"))
-            width += 1.2
-        parts.append(box.xml)
-        width += box.width
-    alone = len(node.args) == 1 and node.coefficients[0] > 0
-    return Box(f"<mrow>{''.join(parts)}</mrow>", _PRODUCT if alone else _SUM, width)
+def _sign(arg: Expr) -> int:
+    """Of a number in a sum its own sign, of anything else plus."""
+    return -1 if arg.op is Op.NUM and arg.number < 0 else 1
 
 
 def _power(box: Box, exponent: int) -> Box:

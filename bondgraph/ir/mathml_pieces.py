@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bondgraph.ir.expr import Expr, Op
-from bondgraph.ir.mathml import Typist, called, d_dt, escape, ordered, sign, term
+from bondgraph.ir.mathml import Typist, called, d_dt, escape, sign, term
 
 _DEEPEST = 40  # sums inside sums that are opened
 
@@ -73,18 +73,17 @@ class _Opener:
 
     def _sum(self, expr: Expr, depth: int) -> list[str]:
         found: list[str] = []
-        for c, at in ordered(expr):
-            arg = expr.args[at]
+        for c, arg in self.typist.terms(expr):
             box = self.typist.box(arg)
-            lead = sign("−" if c < 0 else "+", "infix" if found else "prefix")
-            lead = lead if found or c < 0 else ""
+            minus = (c < 0) != (arg.op is Op.NUM and arg.number < 0)
+            lead = sign("−" if minus else "+", "infix" if found else "prefix")
+            lead = lead if found or minus else ""
             if box.width <= self.room or arg.op is Op.NUM:
-                found.append(lead + term(expr, abs(c), at, box).xml)
+                found.append(lead + term(abs(c), arg, box).xml)
                 continue
             if abs(c) != 1:
-                lead += term(expr, abs(c), at, box._replace(xml="", level=2)).xml
-            inner = self._closed(arg, depth) if arg.op is Op.ADD else self.open(arg, False, depth)
-            found += _around(lead, inner, "")
+                lead += term(abs(c), arg, box._replace(xml="", level=2)).xml
+            found += _around(lead, self.open(arg, False, depth), "")
         return found
 
     def _product(self, expr: Expr, depth: int) -> list[str]:

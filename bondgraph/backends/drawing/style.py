@@ -132,3 +132,8 @@ def legend(preference: Literal["integral", "derivative"], derived: bool, sensors
     if sensors:
         signs.append("grey arrow: ideal sensor")
     return SEPARATOR.join(signs)
+
+
+def palette() -> dict[str, str]:
+    """The colours by name, for light surroundings."""
+    return {**_LIGHT, **_CLASH[0]}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bondgraph.backends.report.episode import Episode
 from bondgraph.text.diagnostic import Diagnostic
 from bondgraph.text.tuples import NamedTuple
 
@@ -127,3 +128,4 @@ class Content(NamedTuple):
     seen: Seen | None
     quantities: tuple[Quantity, ...]
     findings: tuple[Diagnostic, ...]
+    episodes: tuple[Episode, ...] = ()

@@ -41,17 +41,17 @@ class Typesetter:
         """A name in running text."""
         return f"<math>{self.name(path).xml}</math>"
 
-    def equations(self, head: str, parts: Parts) -> list[str]:
+    def equations(self, head: str, parts: Parts, room: float = ROOM) -> list[str]:
         """`head` = the relation, and one line for each part that has a name, outermost first."""
         named = readable(parts)
         typist = Typist(self.name, named, self.starts)
-        lines = [self._line(head, typist, parts.root)]
+        lines = [self._line(head, typist, parts.root, room)]
         for node in reversed(parts.order):
             if node in named and node is not parts.root:
                 if node.op is Op.ROOT:
                     lines.append(self._solved(named[node], typist, node))
                 else:
-                    lines.append(self._line(self.name(named[node]).xml, typist, node))
+                    lines.append(self._line(self.name(named[node]).xml, typist, node, room))
         return lines
 
     def assigned(self, variable: str, value: Expr, room: float = ROOM) -> str:
@@ -63,8 +63,8 @@ class Typesetter:
         """0 = `zero`."""
         return _row("<mn>0</mn>", pieces(Typist(self.name, {}, self.starts), zero, ROOM))
 
-    def _line(self, head: str, typist: Typist, node: Expr) -> str:
-        return _row(head, pieces(typist, node, ROOM, own=True))
+    def _line(self, head: str, typist: Typist, node: Expr, room: float) -> str:
+        return _row(head, pieces(typist, node, room, own=True))
 
     def _solved(self, name: str, typist: Typist, node: Expr) -> str:
         """A number that no formula gives: where it makes an expression vanish."""

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from bondgraph.backends.drawing.style import colours, inside
 from bondgraph.backends.report.content import Content, Group, Signatures
+from bondgraph.backends.report.episode import Episode
 from bondgraph.backends.report.isolability import isolability
 from bondgraph.backends.templates import codegen
 
@@ -28,7 +30,12 @@ _DARK = "--mark:#4d4212"
 
 def page(content: Content) -> str:
     """The whole page as text. The same content gives the same bytes."""
-    sections = [{"id": name, "title": title} for name, title in _sections(content)]
+    graph = _graph(content)
+    wide = any(drawing["wide"] for drawing in graph["content"]["drawings"])
+    sections = [
+        {"id": name, "title": title, "wide": wide and name == "graph"}
+        for name, title in _sections(content)
+    ]
     holes: dict[str, Any] = {
         "content": content,
         "sections": sections,
@@ -36,9 +43,11 @@ def page(content: Content) -> str:
         "script": _markup(_text("page.js").rstrip()),
         "links": _markup(_links(content)),
         "names": _names,
-        **_graph(content),
+        "prose": _prose,
+        **graph,
         **_signatures(content),
         **_seen(content),
+        "episodes": [_episode(e, f"e{k}") for k, e in enumerate(content.episodes, 1)],
         "words": _SEVERITY,
     }
     return _environment().get_template("report/page.html.j2").render(holes)
@@ -58,6 +67,8 @@ def _sections(content: Content) -> list[tuple[str, str]]:
         found.append(("signatures", "Faults"))
     if content.seen is not None:
         found.append(("sensitivities", "What can be seen"))
+    if content.episodes:
+        found.append(("scenarios", "Scenarios"))
     if content.findings and not _failed(content):
         found.append(("findings", "Findings"))
     if content.quantities:
@@ -156,6 +167,22 @@ def _seen(content: Content) -> dict[str, Any]:
     return {"seen": content.seen, "by_fault": list(by_fault.items())}
 
 
+def _episode(episode: Episode, key: str) -> dict[str, Any]:
+    """The figures of an episode and the words beside them."""
+    from bondgraph.backends.report.plots import plane, signals, strips
+
+    planes = [
+        {"title": p.title, "svg": _markup(plane(p, f"{key}-p{k}"))}
+        for k, p in enumerate(episode.planes, 1)
+    ]
+    return {
+        **episode._asdict(),
+        "planes": planes,
+        "strips": [_markup(figure) for figure in strips(episode, f"{key}-r")],
+        "signals": _markup(signals(episode, f"{key}-s")) if episode.panels else "",
+    }
+
+
 def _links(content: Content) -> str:
     """What the script lights up, as JSON that is safe inside of a script element."""
     residuals: dict[str, tuple[str, ...]] = {}
@@ -219,6 +246,13 @@ def _markup(text: str) -> Markup:
     from markupsafe import Markup
 
     return Markup(text)
+
+
+def _prose(text: str) -> Markup:
+    """A sentence of the compiler; what it has in backticks is code."""
+    from markupsafe import Markup, escape
+
+    return Markup(re.sub(r"`([^`]*)`", r"<code>\1</code>", str(escape(text))))
 
 
 def _names(items: Iterable[str]) -> Markup:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph.backends.report.content import PathLine, RelationPart
 from bondgraph.backends.report.formulas import operations
+from bondgraph.cli.console import plural
 from bondgraph.ir.dump import equation_name, place
 from bondgraph.passes.path import path
 from bondgraph.passes.present import parts
@@ -18,19 +19,20 @@ if TYPE_CHECKING:
     from bondgraph.pipeline import Compilation
     from bondgraph.views import Relation
 
-LONGEST = 600  # operations of a formula that is worth its ink
+LONGEST = 300  # operations of a formula that is worth its ink
 _STEPS = 80  # of a causal path
+_ROOM = 800_000  # characters of a page: with hundreds of relations the first are enough
 
 
 def relations(
     compilation: Compilation, typesetter: Typesetter, program: Program | None
 ) -> tuple[RelationPart, ...]:
     """All relations, in order; `program` knows what `step` cannot see (None: there is none)."""
-    budget = 20 * LONGEST  # of the page: with hundreds of relations the first are enough
+    left = _ROOM
     found = []
     for relation in compilation.residuals:
-        part = _relation(compilation, typesetter, relation, program, budget)
-        budget -= operations(relation.residual.expr)
+        part = _relation(compilation, typesetter, relation, program, left > 0)
+        left -= sum(map(len, part.html)) + sum(len(line.html) for line in part.path)
         found.append(part)
     return tuple(found)
 
@@ -40,21 +42,21 @@ def _relation(
     typesetter: Typesetter,
     relation: Relation,
     program: Program | None,
-    budget: int,
+    room: bool,
 ) -> RelationPart:
     residual, source = relation.residual, compilation.source
     size = operations(residual.expr)
     html: tuple[str, ...] = ()
     too_long = ""
-    if size <= min(LONGEST, budget):
+    if size <= LONGEST and room:
         form = parts(compilation.graph, residual)
         html = tuple(typesetter.equations(typesetter.name(relation.name).xml, form))
     else:
         too_long = (
-            f"{size} operations are too many to be read here;"
+            f"{plural(size, 'operation')}, not written out here;"
             f" bondgraph explain {source.path.rpartition('/')[2]} {relation.name} prints them."
         )
-    lines, longer = _path(compilation, typesetter, relation)
+    lines, longer = _path(compilation, typesetter, relation) if room else ((), 0)
     weak = compilation.detectability.weak(relation.name) or ()
     closing = residual.closing.zero
     return RelationPart(

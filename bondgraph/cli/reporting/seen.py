@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from bondgraph.runtime.smallest import Detection, Situation, Smallest
     from bondgraph.views import Relation
 
-_FORMULAS = 400  # of a page
+_WIDE = 22.0  # em, of a piece of a formula: they stand in a column
+_ROOM = 400_000  # characters of all formulas
 
 
 class Assumed(NamedTuple):
@@ -43,10 +44,10 @@ def seen(
     for relation in compilation.residuals:
         values = parts(compilation.graph, relation.residual).variables
         for fault in relation.faults:
-            html, too_long = "", "not written out: the page has enough formulas"
-            if len(effects) < _FORMULAS and spent < 20 * LONGEST:
-                html, too_long, size = _formula(typesetter, relation, fault, values)
-                spent += size
+            html, too_long = "", "not written out here"
+            if spent < _ROOM:
+                html, too_long = _formula(typesetter, relation, fault, values)
+                spent += len(html)
             found = smallest.get((fault, relation.name))
             told = _told(found, units.get(fault, ""))
             effects.append(Effect(fault, relation.name, html, too_long, *told))
@@ -72,17 +73,17 @@ def _detection(
 
 def _formula(
     typesetter: Typesetter, relation: Relation, fault: str, values: dict[Expr, str]
-) -> tuple[str, str, int]:
-    """The derivative as HTML, or why it is not written, and its size."""
+) -> tuple[str, str]:
+    """The derivative as HTML, or why it is not written."""
     slope = relation.sensitivity_node(fault)
     size = operations(slope)
     if size > LONGEST // 4:
-        return "", f"{size} operations", 1
+        return "", f"{size} operations, not written out here"
     head = (
         f"<mfrac><mrow><mo>∂</mo>{typesetter.name(relation.name).xml}</mrow>"
         f"<mrow><mo>∂</mo>{typesetter.name(fault).xml}</mrow></mfrac>"
     )
-    return "".join(typesetter.equations(head, shared(slope, values))), "", size
+    return "".join(typesetter.equations(head, shared(slope, values), _WIDE)), ""
 
 
 def _told(found: Smallest | None, unit: str) -> tuple[str, str, str]:
