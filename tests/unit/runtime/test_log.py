@@ -228,3 +228,26 @@ def test_c_reads_numbers_at_all(holes: bool) -> None:
     plain = log_numbers._by_numpy(lines, ",", 2)
     assert plain is None if holes else _bits(np.asarray(plain)[:, 1]) == _bits(values)
     assert log_numbers.by_c([*lines, "1\n"], ",", 2) is None
+
+
+_PIECES = st.lists(
+    st.sampled_from(
+        [b"# bondgraph log 1\n", b"# unit a: V\n", b"t,a\n", b"t;a\n", b"0,1\n", b"0;1\n", b"\n",
+         b'"', b",", b"\x00", b"\xff", b"\r", b"#", b"a,b\n", b"nan", b"-1e9", b"\xef\xbb\xbf",
+         b"PAR1"]
+    ) | st.binary(max_size=3),
+    max_size=12,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+@given(pieces=_PIECES)
+def test_any_bytes_are_a_log_or_told_not_to_be(suffix: str, pieces: list[bytes]) -> None:
+    path = Path(f"{_FOLDER}/any{suffix}")
+    path.write_bytes(b"".join(pieces))
+    try:
+        log = read_log(path)
+    except LogError as error:
+        assert str(path) in str(error) and "\n" not in str(error)
+    else:
+        assert all(len(c) == log.rows for c in log.columns.values())
