@@ -37,7 +37,7 @@ def _by_arrow(text: str, separator: str, columns: int) -> Array | None:
     names = [str(k) for k in range(columns)]
     try:
         table = pyarrow.csv.read_csv(
-            pyarrow.py_buffer(data),
+            pyarrow.BufferReader(data),
             pyarrow.csv.ReadOptions(column_names=names, block_size=len(data) + 1),
             pyarrow.csv.ParseOptions(delimiter=separator, quote_char=False),
             pyarrow.csv.ConvertOptions(

@@ -14,6 +14,7 @@ import numpy as np
 import bondgraph
 from bondgraph.backends.write import write
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.monitoring.clock import clock_of
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.native import NativeError
 from tests.generated.scale import waves, worst
@@ -87,6 +88,12 @@ def report(short: bool) -> None:
     fleet[0].run_with(fleet[1:], samples[:6000])
     each = (time.perf_counter() - start) / _FLEET / 6000 / (residuals / len(samples))
     print(f"  {_FLEET} engines over one block: {each:.2f}x the C loop for each")
+    clock = clock_of(engine)
+    random = np.random.default_rng(1)
+    times = (np.arange(len(samples)) + random.uniform(-0.05, 0.05, len(samples))) / 1e3
+    start = time.perf_counter()
+    clock.feed(times, samples)
+    print(f"  the clock, with 5 % jitter: {(time.perf_counter() - start) * 1e3:.0f} ms")
     rows = 20_000 if short else len(samples)
     gappy, python = waves(c, rows), c.engine(native=False)
     start = time.perf_counter()

@@ -22,6 +22,7 @@ from bondgraph.runtime.monitoring.engine import Engine
 WRAP_32 = 2.0**32 / 1e6
 
 _EXACT = 1e-6  # of the sample time: nearer to a point of the grid a sample is taken as it is
+_FOREVER = 1e15  # s: beyond it a double does not tell one sample from the next
 _COUNTER, _LARGEST = 2.0**32, 2.0**53
 _BLOCK = 8192  # samples taken at a time
 _WINDOW = 256  # samples in which a break is looked for first
@@ -134,7 +135,7 @@ class Clock:
             whole = self._taken + np.arange(len(rows), dtype=np.float64)
             times = whole * self.sample_time
             self._taken += len(rows)
-        there = np.isfinite(times)
+        there = np.abs(times) < _FOREVER  # false for NaN too
         if self.wraps is not None and there.any():
             raw = times[there]
             steps = np.diff(raw, prepend=raw[0] if self._raw is None else self._raw)

@@ -241,6 +241,15 @@ def test_samples_of_another_rate_are_interpolated() -> None:
     np.testing.assert_allclose(samples[:, 2], 1e4 * grid, atol=1.0)
 
 
+def test_times_that_are_none_are_dropped() -> None:
+    time = np.arange(12) * _DT
+    time[[2, 3, 4, 5]] = [1e308, -1e300, math.inf, math.nan]
+    clock = _clock(wraps=WRAP_32)
+    ((_, samples, gap),) = _joined(clock.feed(time, _rows(12)))
+    np.testing.assert_allclose(samples[:, 0], np.arange(12), atol=1e-9)
+    assert clock.dropped == 4 and gap is None
+
+
 def test_huge_numbers_do_no_harm() -> None:
     rows = np.full((6, 4), 1e308)
     rows[::2] *= -1
