@@ -9,25 +9,23 @@ the causality of the bond graph says. What stays in a loop is one block.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from typing import NamedTuple
 
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equations import Equation, EquationSystem
 from bondgraph.ir.expr import VARIABLES, Expr, Kind, Op, Pool, topological
-from bondgraph.ir.state import Block, Disturbance, State, StateEquations
+from bondgraph.ir.state import Block, Disturbance, Impulse, State, StateEquations
 from bondgraph.passes.branches import in_mode
 from bondgraph.passes.lowering.derivative import Jets
 from bondgraph.passes.matching import decompose, match
 from bondgraph.passes.nominal import Nominal
+from bondgraph.passes.reduce_index import Column, Reduced, reduce_index
 from bondgraph.passes.sensitivity import sensitivity
 from bondgraph.passes.solve import solve
 from bondgraph.text.diagnostic import Report
 
 _UNKNOWN = (VARIABLES | {Kind.SENSOR}) - {Kind.UNKNOWN}
-_MOST_DERIVATIVES = 12  # of one equation: physics needs two or three
-
-_Column = tuple[Expr, int]  # a variable and the order of its derivative
 
 
 class Wanted(NamedTuple):
@@ -84,49 +82,64 @@ class _Causaliser:
         self.preferred = _preferred(system, integral)
 
     def run(self) -> StateEquations | None:
-        offsets = self._offsets() if self._without_surplus() else None
-        if offsets is None:
+        if not self._without_surplus():
             return None
-        states = self._states(*offsets)
-        blocks = self._blocks(*offsets, states)
+        reduced = reduce_index([r.orders for r in self.rows], self._wish)
+        if not isinstance(reduced, Reduced):
+            _tell_over(self.report, [self.rows[k].equation for k in reduced])
+            return None
+        order = {v: k for k, v in enumerate(self.system.unknowns)}
+        states = sorted(reduced.states, key=lambda x: (order.get(x[0], len(order)), x[1]))
+        impulses = self._impulses({variable for variable, _ in states})
+        blocks = self._blocks(reduced, states)
         if blocks is None:
             return None
         initial = {e.state: e.initial for e in self.system.equations if e.state is not None}
         made = []
-        for variable, order in states:
-            own = self._symbol(variable, order)
-            rate = self._symbol(variable, order + 1)
-            name = own.symbol.name
-            start = initial.get(variable) if order == 0 else None
-            made.append(State(name, own, rate, start, self._capacity(variable, order)))
-        stored = [e for e in self.system.equations if e.kind == "state" and e.state is not None]
-        alive = {variable for variable, _ in states}
-        rest = frozenset(self.static)
-        dependent = [e.name for e in stored if e.state not in alive and e.name not in rest]
-        modes = tuple(sorted(self.wanted.modes.items()))
+        for variable, n in states:
+            own = self._symbol(variable, n)
+            rate = self._symbol(variable, n + 1)
+            start = initial.get(variable) if n == 0 else None
+            made.append(State(own.symbol.name, own, rate, start, self._capacities(variable, n)))
         return StateEquations(
             self.graph,
             tuple(made),
             tuple(blocks),
-            tuple(dict.fromkeys(dependent)),
+            impulses,
             tuple(self.static),
             self.disturbances,
-            modes,
+            tuple(sorted(self.wanted.modes.items())),
         )
 
-    def _capacity(self, variable: Expr, order: int) -> Expr | None:
-        """How much of a state goes with a unit of its effort or flow, by its law."""
+    def _impulses(self, alive: Set[Expr]) -> tuple[Impulse, ...]:
+        """Let every storage whose state follows from others take an impulse from outside."""
         pool = self.pool
+        found = []
+        for k, row in enumerate(self.rows):
+            equation = row.equation
+            state = equation.state
+            if equation.kind != "state" or state is None or state in alive:
+                continue
+            if not self._at_rest(equation.name):
+                name = state.symbol.name
+                signal = pool.symbol(f"impulse of {name}", Kind.INPUT)
+                self.rows[k] = row._replace(zero=pool.sub(row.zero, signal))
+                found.append(Impulse(equation.name, name, state, signal, equation.initial))
+        return tuple(found)
+
+    def _capacities(self, variable: Expr, order: int) -> tuple[Expr, ...]:
+        """How much of a state goes with a unit of each effort or flow, by the laws it is in."""
+        pool = self.pool
+        found = []
         for node in self.graph.nodes if order == 0 else ():
-            for port in node.ports:
-                if port.state is not variable:
-                    continue
-                other = port.effort if node.kind == "C" else port.flow
-                for law in node.laws:
-                    own, pair = sensitivity(pool, law.zero, [variable, other]).values()
-                    if own is not pool.zero and pair is not pool.zero:
-                        return pool.neg(pool.div(pair, own))
-        return None
+            if all(port.state is not variable for port in node.ports):
+                continue
+            others = [port.effort if node.kind == "C" else port.flow for port in node.ports]
+            for law in node.laws:
+                own, *pairs = sensitivity(pool, law.zero, [variable, *others]).values()
+                found += [pool.div(pair, own) for pair in pairs if pair is not pool.zero is not own]
+        replaced = {**self._disturbed(), **self.system.shared}
+        return tuple(pool.substitute(found, replaced))
 
     # ---------------------------------------------------------------- equations
 
@@ -203,81 +216,13 @@ class _Causaliser:
                 found.setdefault(variable, len(found))
         return found
 
-    # ------------------------------------------------------------------ offsets
-
-    def _offsets(self) -> tuple[list[int], dict[Expr, int]] | None:
-        """How often each equation is differentiated, and to which order each variable appears.
-
-        The smallest offsets with d_j - c_i >= sigma_ij, equality on a transversal of highest
-        value (Pryce, 2001).
-        """
-        from scipy.sparse import csr_array
-        from scipy.sparse.csgraph import min_weight_full_bipartite_matching
-
-        columns = list(self._columns())
-        place = {v: k for k, v in enumerate(columns)}
-        if not columns:
-            return [], {}
-        top = max(o for r in self.rows for o in r.orders.values())
-        at, to, cost = [], [], []
-        for k, row in enumerate(self.rows):
-            for variable, order in row.orders.items():
-                at.append(k)
-                to.append(place[variable])
-                cost.append(float(top + 1 - order))
-        size = len(self.rows)
-        weights = csr_array((cost, (at, to)), shape=(size, size))
-        matched_rows, matched = min_weight_full_bipartite_matching(weights)
-        column_of = dict(zip(matched_rows.tolist(), matched.tolist(), strict=True))
-        own = [row.orders[columns[column_of[k]]] for k, row in enumerate(self.rows)]
-        c = [0] * size
-        while True:
-            d = [0] * size
-            for k, row in enumerate(self.rows):
-                for variable, order in row.orders.items():
-                    d[place[variable]] = max(d[place[variable]], order + c[k])
-            after = [d[column_of[k]] - own[k] for k in range(size)]
-            if after == c:
-                return c, {v: d[k] for k, v in enumerate(columns)}
-            c = after
-            if max(c) > _MOST_DERIVATIVES:
-                rows = [r.equation for r, n in zip(self.rows, c, strict=True) if n]
-                _tell_over(self.report, rows)
-                return None
-
-    def _states(self, c: list[int], d: Mapping[Expr, int]) -> list[_Column]:
-        """The derivatives that integration carries: those that no equation determines."""
-        chosen: list[Expr] = []
-        found: set[_Column] = set()
-        for stage in range(1, max(c, default=0) + 1):
-            rows = [k for k, n in enumerate(c) if n >= stage]
-            among = [v for v, n in d.items() if n >= stage] if stage == 1 else chosen
-            among = sorted((v for v in among if d[v] >= stage), key=self._wish)
-            holds = [[at for at, k in enumerate(rows) if self._leads(k, v, c, d)] for v in among]
-            _, row_of = match(holds, len(rows), in_order=True)
-            chosen = [v for v, k in zip(among, row_of, strict=True) if k >= 0]
-            found |= {(v, d[v] - stage) for v in chosen}
-        columns = [(v, m) for v, n in d.items() for m in range(n)]
-        order = {v: k for k, v in enumerate(self.system.unknowns)}
-        free = [column for column in columns if column not in found]
-        return sorted(free, key=lambda x: (order.get(x[0], len(order)), x[1]))
-
-    def _leads(self, row: int, variable: Expr, c: list[int], d: Mapping[Expr, int]) -> bool:
-        order = self.rows[row].orders.get(variable)
-        return order is not None and order == d[variable] - c[row]
-
-    def _wish(self, variable: Expr) -> tuple[int, int]:
-        """How much a variable is to be computed rather than integrated: the least first."""
-        return self.preferred.get(variable, 0), variable.id
-
     # ------------------------------------------------------------------- blocks
 
-    def _blocks(
-        self, c: list[int], d: Mapping[Expr, int], states: Sequence[_Column]
-    ) -> list[Block] | None:
+    def _blocks(self, reduced: Reduced, states: Sequence[Column]) -> list[Block] | None:
         import networkx as nx
 
         pool = self.pool
+        c, d = reduced.differentiated, reduced.orders
         integrated = set(states)
         unknown = [(v, m) for v, n in d.items() for m in range(n + 1) if (v, m) not in integrated]
         plain = {
@@ -319,25 +264,23 @@ class _Causaliser:
 
     def _block(self, zeros: list[Expr], unknowns: list[Expr], equations: list[Equation]) -> Block:
         pool = self.pool
+        laws = [e for e in equations if e.kind in ("law", "sensor")] or equations
+        names = tuple(dict.fromkeys(e.name for e in laws))
+        origins = tuple(dict.fromkeys(e.origin for e in laws))
         if len(zeros) == 1:
             found = solve(pool, zeros[0], unknowns[0])
             if found is not None:
-                return Block(tuple(unknowns), found.value)
-        slopes = [list(sensitivity(pool, zero, unknowns).values()) for zero in zeros]
+                return Block(tuple(unknowns), found.value, names, origins)
+        slopes = tuple(tuple(sensitivity(pool, zero, unknowns).values()) for zero in zeros)
         inside = set(unknowns)
         linear = not any(
             s in inside for row in slopes for slope in row for s in topological([slope])
         )
-        laws = [e for e in equations if e.kind in ("law", "sensor")] or equations
-        return Block(
-            tuple(unknowns),
-            None,
-            tuple(zeros),
-            tuple(tuple(row) for row in slopes),
-            linear,
-            tuple(dict.fromkeys(e.name for e in laws)),
-            tuple(dict.fromkeys(e.origin for e in laws)),
-        )
+        return Block(tuple(unknowns), None, names, origins, tuple(zeros), slopes, linear)
+
+    def _wish(self, variable: Expr) -> tuple[int, int]:
+        """How much a variable is to be integrated rather than computed: the least first."""
+        return self.preferred.get(variable, 0), variable.id
 
     def _derivative(self, variable: Expr, order: int) -> Expr:
         for _ in range(order):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Callable
 
@@ -14,7 +15,10 @@ from bondgraph.runtime.simulation.code import Code
 from bondgraph.runtime.simulation.scenario import Course
 from bondgraph.runtime.simulation.values import Values
 
+Array = npt.NDArray[np.float64]
+
 TIME = "t"
+_MANY = 200  # points of a recording, rather than of a table that a person wrote
 
 
 def time_symbol(pool: Pool) -> Expr:
@@ -72,46 +76,98 @@ def _through(course: Course, order: int) -> Callable[[float], float]:
 
 
 def bends(course: Course, end: float) -> list[float]:
-    """The moments before `end` at which a course of points jumps or bends."""
-    if course.expr is not None:
+    """The moments before `end` at which a course of points jumps or bends.
+
+    None for a long recording in straight lines: `smooth` says that it has to be followed closely.
+    """
+    if course.expr is not None or (len(course.points) > _MANY and not course.hold):
         return []
     return [t for t, _ in course.points if 0 < t < end]
 
 
-def jumps(
-    course: Course, pool: Pool, values: Values, times: npt.NDArray[np.float64], whole: bool
-) -> list[float]:
-    """The moments at which a condition in the expression changes, between the first and last time.
+def smooth(course: Course) -> bool:
+    """Whether a course may change anywhere, not at its `bends` and `jumps` alone."""
+    if course.expr is None:
+        return len(course.points) > _MANY and not course.hold
+    return any(n.op is Op.SYM and n.symbol.name == TIME for n in topological([course.expr]))
 
-    Looked for at the given times and then halved to the rounding of time: an integrator that takes
-    long steps would run past a short pulse. With `whole` the value itself is a condition.
+
+def jumps(course: Course, pool: Pool, values: Values, times: Array) -> list[float]:
+    """The moments at which an expression jumps or bends, between the first and the last time.
+
+    That is where a condition, a `sign`, `abs`, `min` or `max` in it changes sides. They are looked
+    for at the given times, and between them where a side comes near to changing; then halved to
+    the rounding of time. An integrator that takes long steps would run past a short pulse.
     """
     if course.expr is None:
         return []
-    time = time_symbol(pool)
-    conditions = [n for n in topological([course.expr]) if n.op is Op.CMP]
-    if whole and not conditions:
-        conditions = [course.expr]
     found: list[float] = []
-    for condition in conditions:
-        code = Code(pool, {time: "t"}, values.constant)
-        holds = code.function("holds", "t", code.condition(condition))
-        before, truth = float(times[0]), bool(holds(float(times[0])))
-        for t in times[1:].tolist():
-            now = bool(holds(t))
-            if now != truth:
-                found.append(_change(holds, before, t, truth))
-            before, truth = t, now
+    for margin in _margins(course.expr, pool):
+        if values.constant(margin) is not None:
+            continue
+        code = Code(pool, {time_symbol(pool): "t"}, values.constant)
+        side = code.function("margin", "t", code.write(margin))
+        found += _crossings(side, times)
     return found
 
 
-def _change(holds: Callable[[float], bool], a: float, b: float, truth: bool) -> float:
-    """The moment after a, and up to b, at which a condition is no longer what it was at a."""
+def _margins(expr: Expr, pool: Pool) -> list[Expr]:
+    """Expressions that vanish where this one jumps or bends."""
+    found: dict[Expr, None] = {}
+    for node in topological([expr]):
+        if node.op is Op.CMP or (node.op is Op.FN and node.name in ("min", "max")):
+            found[pool.sub(*node.args)] = None
+        elif node.op is Op.FN and node.name in ("abs", "sign"):
+            found[node.args[0]] = None
+        elif node.op is Op.FN and node.name.startswith("table:"):
+            points = pool.tables[node.name.removeprefix("table:")]
+            if len(points) <= _MANY:
+                found |= {pool.sub(node.args[0], pool.num(x)): None for x, _ in points}
+    return list(found)
+
+
+def _crossings(side: Callable[[float], float], times: Array) -> list[float]:
+    """Where a function changes its sign; zero counts as negative."""
+
+    def value(t: float) -> float:
+        try:
+            return side(t)
+        except (ArithmeticError, ValueError):
+            return math.nan
+
+    found = []
+    at = times.tolist()
+    seen = [value(t) for t in at]
+    for k, (t, now) in enumerate(zip(at, seen, strict=True)):
+        if k and (now > 0) != (seen[k - 1] > 0):
+            found.append(_change(value, at[k - 1], t, seen[k - 1] > 0))
+        if not 0 < k < len(at) - 1:
+            continue
+        steps = abs(now - seen[k - 1]), abs(now - seen[k + 1])
+        near = abs(now) <= min(abs(seen[k - 1]), abs(seen[k + 1])) and abs(now) <= 2 * max(steps)
+        if near and (seen[k - 1] > 0) == (now > 0) == (seen[k + 1] > 0):
+            dip = _nearest(value, at[k - 1], at[k + 1])
+            if (value(dip) > 0) != (now > 0):
+                found.append(_change(value, at[k - 1], dip, now > 0))
+                found.append(_change(value, dip, at[k + 1], now <= 0))
+    return found
+
+
+def _nearest(side: Callable[[float], float], a: float, b: float) -> float:
+    """Where a function that keeps its sign at a and b comes nearest to changing it between."""
+    from scipy.optimize import minimize_scalar
+
+    away = 1.0 if side(a) > 0 else -1.0
+    return float(minimize_scalar(lambda t: away * side(t), bounds=(a, b), method="bounded").x)
+
+
+def _change(side: Callable[[float], float], a: float, b: float, positive: bool) -> float:
+    """The moment after a, and up to b, at which a function no longer has the sign it had at a."""
     for _ in range(60):
         middle = (a + b) / 2
         if middle in (a, b):
             break
-        if bool(holds(middle)) == truth:
+        if (side(middle) > 0) == positive:
             a = middle
         else:
             b = middle

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 
 from bondgraph.runtime.simulation.scenario import Fault
 
@@ -23,28 +23,54 @@ class Wrong:
         self.faults = tuple(faults)
         self._held: dict[int, float] = {}
 
-    def hold(self, t: float, value: Callable[[], float]) -> None:
-        """At the onset of a fault that sticks: remember the value of the moment."""
+    def hold(self, t: float, told: float) -> None:
+        """At time t, where `told` is told: a fault that sticks keeps what acts at its onset."""
         for k, fault in enumerate(self.faults):
-            if fault.op == "stuck" and k not in self._held and t >= fault.at:
-                self._held[k] = value()
+            if fault.op != "stuck":
+                continue
+            if strength(fault, t) == 0:
+                self._held.pop(k, None)
+            elif k not in self._held:
+                gain, bias = self._composed(t, k)
+                self._held[k] = gain * told + bias
+
+    def stuck(self, t: float) -> bool:
+        """Whether the value does not change any more."""
+        return any(f.op == "stuck" and strength(f, t) > 0 for f in self.faults)
 
     def at(self, t: float) -> tuple[float, float]:
         """Gain and bias at time t, in s."""
-        gain, bias = 1.0, 0.0
+        return self._composed(t, len(self.faults))
+
+    def slope(self, t: float) -> tuple[float, float]:
+        """How gain and bias change, per s; only ramps do.
+
+        >>> from bondgraph.runtime.simulation.scenario import Fault
+        >>> low = Fault("U", "*=", 0.5, 1.0, math.inf, 2.0, 0.0, 1.0, "weak battery")
+        >>> Wrong([low]).slope(2.0)
+        (-0.25, 0.0)
+        """
+        gain, bias, gain_rate, bias_rate = 1.0, 0.0, 0.0, 0.0
         for k, fault in enumerate(self.faults):
             share = strength(fault, t)
             g, b = self._own(k, fault, share)
+            full, none = self._own(k, fault, 1.0), self._own(k, fault, 0.0)
+            rate = 1 / fault.ramp if 0 < share < 1 else 0.0
+            g_rate, b_rate = rate * (full[0] - none[0]), rate * (full[1] - none[1])
+            gain_rate, bias_rate = (
+                g_rate * gain + g * gain_rate,
+                g_rate * bias + g * bias_rate + b_rate,
+            )
+            gain, bias = g * gain, g * bias + b
+        return gain_rate, bias_rate
+
+    def _composed(self, t: float, count: int) -> tuple[float, float]:
+        """Gain and bias of the first faults together."""
+        gain, bias = 1.0, 0.0
+        for k, fault in enumerate(self.faults[:count]):
+            g, b = self._own(k, fault, strength(fault, t))
             gain, bias = g * gain, g * bias + b
         return gain, bias
-
-    def slope(self, t: float) -> tuple[float, float]:
-        """How gain and bias change, per s; only ramps do."""
-        step = 1e-6
-        before, after = self.at(t - step), self.at(t + step)
-        if not any(f.ramp and f.at <= t <= f.at + f.ramp for f in self.faults):
-            return 0.0, 0.0
-        return (after[0] - before[0]) / (2 * step), (after[1] - before[1]) / (2 * step)
 
     def missing(self, t: float) -> bool:
         """Whether no sample arrives."""
@@ -59,7 +85,8 @@ class Wrong:
             case "=":
                 return 1.0 - share, share * fault.value
             case "stuck":
-                return (0.0, self._held.get(k, 0.0)) if share > 0 else (1.0, 0.0)
+                held = self._held.get(k)
+                return (1.0, 0.0) if held is None or not share else (0.0, held)
             case "missing":
                 return 1.0, 0.0
 

@@ -31,6 +31,10 @@ class Reader:
         own = instrument.rate
         self._every = 1 if own is None or own >= rate else round(rate / own)
 
+    def freeze(self, first: int, last: int) -> None:
+        """From sample `first` to before `last` it shows noise no more: the sensor is stuck."""
+        self._noise[first:last] = self._noise[max(first - 1, 0)]
+
     def own_sample(self, k: int) -> int:
         """The sample whose value is shown at sample k: earlier for a slow instrument."""
         return k - k % self._every

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -14,8 +16,10 @@ Array = npt.NDArray[np.float64]
 Inputs = Callable[[float], Sequence[float]]
 
 RELATIVE = 1e-7  # tolerance of one step, of each state
-_ABSOLUTE = 1e-8  # tolerance in the unit of the effort or flow that a state goes with
+_ABSOLUTE = 1e-11  # tolerance in the unit of the effort or flow that a state goes with
+_SPARSE = 60  # states from which on it pays to know which rate depends on which state
 _MANY = 300  # states from which on eigenvalues cost more than they tell
+_STILL = 20  # times the states (slopes by differences take one each): no way on from here
 _RINGING = 1e5  # periods of one mode in a run: too many to follow
 
 
@@ -31,37 +35,61 @@ class Integrator:
     is left to Radau (Hairer and Wanner, 1996), which damps it.
     """
 
-    def __init__(self, method: str, duration: float) -> None:
+    def __init__(self, method: str, duration: float, longest: float) -> None:
         self.method = method
         self.duration = duration
+        self._scales: dict[Machine, Array] = {}
+        self.longest = longest  # step, in s: an input that moves smoothly is not run past
 
     def run(
         self, machine: Machine, inputs: Inputs, a: float, b: float, x: Array, wanted: Array
     ) -> Array:
-        """The states at the `wanted` times in [a, b], and at b in the last row."""
+        """The states at the `wanted` times in [a, b], and at b in the last row.
+
+        Raises `SimulationError` with the time, and the law or loop that has no value there.
+        """
         if not len(x) or b <= a:
             return np.tile(x, (len(wanted) + 1, 1))
-        from scipy.integrate import solve_ivp
-
         if self.method == "auto":
             self.method = self._chosen(machine, inputs, a, x)
-        at = np.unique(np.clip([*wanted, b], a, b))
-
-        def rates(t: float, y: Array) -> Sequence[float]:
-            return machine.rates(t, y.tolist(), inputs(t))
-
-        options: dict[str, Any] = {"rtol": RELATIVE, "atol": _ABSOLUTE * machine.scale()}
+        ends = np.clip([*wanted, b], a, b)
+        at = np.unique(ends)
         for method in dict.fromkeys((self.method, "Radau")):
-            with np.errstate(all="ignore"):
-                found = solve_ivp(rates, (a, b), x, method=method, t_eval=at, **options)
-            if found.status == 0 and np.isfinite(found.y).all():
-                rows = found.y.T
-                return rows if len(wanted) < len(rows) else np.vstack([rows, rows[-1]])
-        reached = float(found.t[-1]) if len(found.t) else a
-        raise SimulationError(
-            f"integration ended at {reached:g} s: a law has no value there, or the solution grows"
-            " without bound"
-        )
+            tried = _Tried(machine, inputs)
+            found = self._solved(method, tried, (a, b), x, at)
+            if found is not None:
+                return np.asarray(found[np.searchsorted(at, ends)])
+        raise SimulationError(f"the run ends at {tried.t:.6g} s: {tried.trouble()}")
+
+    def _solved(
+        self, method: str, tried: _Tried, span: tuple[float, float], x: Array, at: Array
+    ) -> Array | None:
+        from scipy.integrate import solve_ivp
+
+        machine = tried.machine
+        options: dict[str, Any] = {
+            "rtol": RELATIVE,
+            "atol": _ABSOLUTE * self._scale(tried, span[0], x),
+        }
+        if method in ("Radau", "BDF") and len(x) >= _SPARSE:
+            options["jac_sparsity"] = machine.pattern()
+        try:
+            with np.errstate(all="ignore"), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                found = solve_ivp(
+                    tried, span, x, method, t_eval=at, max_step=self.longest, **options
+                )
+        except (ValueError, _Standstill):  # a slope that is no number is a ValueError of scipy
+            return None
+        whole = found.status == 0 and np.isfinite(found.y).all()
+        return np.asarray(found.y.T) if whole else None
+
+    def _scale(self, tried: _Tried, t: float, x: Array) -> Array:
+        """How much of each state matters, as it is where a machine runs for the first time."""
+        machine = tried.machine
+        if machine not in self._scales:
+            self._scales[machine] = machine.scale(t, x.tolist(), tried.inputs(t))
+        return self._scales[machine]
 
     def _chosen(self, machine: Machine, inputs: Inputs, t: float, x: Array) -> str:
         if len(x) >= _MANY:
@@ -69,3 +97,36 @@ class Integrator:
         modes = np.linalg.eigvals(machine.jacobian(t, x, inputs(t)))
         ringing = float(np.max(np.abs(modes.imag))) * self.duration / (2 * np.pi)
         return "Radau" if ringing > _RINGING else "LSODA"
+
+
+class _Standstill(Exception):
+    """A method that tries one moment again and again."""
+
+
+class _Tried:
+    """The rates as scipy asks for them; remembers where it asked last and where there were none."""
+
+    def __init__(self, machine: Machine, inputs: Inputs) -> None:
+        self.machine, self.inputs = machine, inputs
+        self.t = 0.0
+        self.x: list[float] = []
+        self.failed = False
+        self._latest = -math.inf
+        self._still = 0
+
+    def __call__(self, t: float, x: Array) -> Sequence[float]:
+        state = x.tolist()
+        self._still = 0 if t > self._latest else self._still + 1
+        self._latest = max(self._latest, t)
+        if self._still > _STILL * (len(state) + 50):
+            raise _Standstill
+        found = self.machine.rates(t, state, self.inputs(t))
+        bad = not all(map(math.isfinite, found)) and all(map(math.isfinite, state))
+        if bad or not self.failed:
+            self.t, self.x, self.failed = t, state, bad or self.failed
+        return found
+
+    def trouble(self) -> str:
+        """Why it cannot go on."""
+        found = self.machine.trouble(self.t, self.x, self.inputs(self.t)) if self.failed else ""
+        return found or "the solution grows without bound"

@@ -12,23 +12,12 @@ import numpy.typing as npt
 from bondgraph.ir.expr import Expr, Kind, Op, topological
 from bondgraph.ir.state import Block, StateEquations
 from bondgraph.runtime.simulation.code import Code
+from bondgraph.runtime.simulation.loops import NoSolution, factorised, iteration, solver
 from bondgraph.runtime.simulation.values import Values
 
 Array = npt.NDArray[np.float64]
 
-_DENSE = 60  # unknowns of a loop from which on its matrix is kept sparse
-_STEPS = 60  # of Newton's method
-_SINGULAR = 1e14  # condition of a matrix that leaves something open: flows around a ring
-_EXACT = 1e-12  # relative accuracy of a loop
-
-
-class NoSolution(Exception):
-    """The equations of a loop have no solution where the machine is now, or none was found."""
-
-    def __init__(self, names: tuple[str, ...]) -> None:
-        self.names = names
-        shown = ", ".join(f"`{n}`" for n in names[:4])
-        super().__init__(f"the loop through {shown} has no solution that iteration could find")
+_FAILS = (ArithmeticError, ValueError, NoSolution)
 
 
 class Signal(NamedTuple):
@@ -43,7 +32,8 @@ class Machine:
 
     `values` gives parameters and initial values, `outputs` the expressions to observe, in the
     variables of the state equations. `signals` tells what `rates` wants as its third argument: a
-    value for each, in that order. Raises KeyError with the name of a parameter without a value.
+    value for each, in that order; `impulses` are the places of those that hit the dependent
+    storages (None: it has no effect). Raises KeyError with the name of a parameter without a value.
     """
 
     def __init__(
@@ -54,50 +44,84 @@ class Machine:
         self.outputs = tuple(outputs)
         self.states = tuple(s.name for s in equations.states)
         self.signals = self._signals()
-        self._guess: dict[int, list[float]] = {}
+        place = {s.name: k for k, s in enumerate(self.signals) if s.order == 0}
+        self.impulses = tuple(place.get(i.signal.symbol.name) for i in equations.dependent)
+        self._newton: dict[int, Callable[..., list[float]]] = {}
         wanted = [s.rate for s in equations.states]
         self._rates = self._compiled("rates", wanted)
         self._observed: Callable[..., Any] | None = None
+        self._single: dict[Expr, Callable[..., float]] = {}
 
     def rates(self, t: float, x: Sequence[float], u: Sequence[float]) -> Sequence[float]:
-        """The derivative of each state at time t (s); NaN where a law has no value.
-
-        Raises `NoSolution` where a nonlinear loop cannot be solved.
-        """
+        """The derivative of each state at time t (s); NaN where a law or loop has no solution."""
         try:
             return self._rates(t, x, u)  # type: ignore[no-any-return]
-        except (ArithmeticError, ValueError):
+        except _FAILS:
             return [math.nan] * len(self.states)
 
     def observe(self, t: float, x: Sequence[float], u: Sequence[float]) -> Sequence[float]:
-        """The value of each output; all NaN where a law has no value."""
+        """The value of each output; NaN for those that rest on a law or loop without solution."""
         if self._observed is None:
-            self._observed = self._compiled("observe", list(self.outputs))
+            self._observed = self._compiled("observe", self.outputs)
         try:
             return self._observed(t, x, u)  # type: ignore[no-any-return]
-        except (ArithmeticError, ValueError):
-            return [math.nan] * len(self.outputs)
+        except _FAILS:
+            return [self._alone(e)(t, x, u) for e in self.outputs]
 
-    def start(self) -> Array:
-        """The state at the start: declared initial values, zero where there is none."""
-        initial = [s.initial for s in self.equations.states]
-        return np.array([0.0 if i is None else self.values.number(i) for i in initial])
+    def content(self, t: float, x: Sequence[float], u: Sequence[float]) -> Array:
+        """What each dependent storage holds; NaN where a law has no value."""
+        return np.array([self._alone(i.state)(t, x, u) for i in self.equations.dependent])
+
+    def _alone(self, output: Expr) -> Callable[..., float]:
+        """A function of one output that gives NaN where it has no value."""
+        if output not in self._single:
+            compiled = self._compiled("observe", [output])
+
+            def single(t: float, x: Sequence[float], u: Sequence[float]) -> float:
+                try:
+                    return float(compiled(t, x, u)[0])
+                except _FAILS:
+                    return math.nan
+
+            self._single[output] = single
+        return self._single[output]
+
+    def trouble(self, t: float, x: Sequence[float], u: Sequence[float]) -> str:
+        """Which law or loop has no value here, in words; empty where all have one."""
+        for block in self.equations.blocks:
+            if all(math.isfinite(self._alone(unknown)(t, x, u)) for unknown in block.unknowns):
+                continue
+            names = ", ".join(f"`{n}`" for n in block.names[:4])
+            if block.value is not None:
+                return f"the law of {names} has no value there"
+            return f"the loop through {names} has no solution there that iteration could find"
+        return ""
+
+    def start(self) -> dict[str, float]:
+        """What the model declares that states and dependent storages hold at the start."""
+        found = {s.name: s.initial for s in self.equations.states}
+        found |= {i.name: i.initial for i in self.equations.dependent}
+        return {n: self.values.number(e) for n, e in found.items() if e is not None}
 
     def undeclared(self) -> tuple[str, ...]:
         """The states whose initial value the model does not declare."""
         return tuple(s.name for s in self.equations.states if s.initial is None)
 
-    def scale(self) -> Array:
-        """How much of each state goes with one unit of effort or flow, 1 where that depends."""
+    def scale(self, t: float, x: Sequence[float], u: Sequence[float]) -> Array:
+        """How much of each state matters: what goes with one unit of an effort or flow here.
+
+        Where nothing tells, it is the state itself, or 1.
+        """
         found = []
-        for state in self.equations.states:
-            size = None if state.capacity is None else self.values.constant(state.capacity)
-            found.append(abs(size) if size else 1.0)
+        for state, own in zip(self.equations.states, x, strict=True):
+            sizes = [abs(self._alone(c)(t, x, u)) for c in state.capacities]
+            sizes = [s for s in sizes if 0 < s < math.inf]
+            found.append(min([*sizes, *([abs(own)] if own else [])], default=1.0))
         return np.array(found)
 
     def jacobian(self, t: float, x: Array, u: Sequence[float]) -> Array:
         """d rates / d states, shape (states, states), by central differences."""
-        step = 1e-6 * np.maximum(np.abs(x), self.scale())
+        step = 1e-6 * np.maximum(np.abs(x), self.scale(t, x.tolist(), u))
         columns = []
         for k, h in enumerate(step):
             up, down = x.copy(), x.copy()
@@ -107,12 +131,43 @@ class Machine:
             columns.append(change / (2 * h))
         return np.asarray(np.nan_to_num(np.array(columns).T.reshape(len(x), len(x))))
 
+    def pattern(self) -> Any:
+        """Which rate depends on which state, as a sparse matrix of ones."""
+        from scipy.sparse import csc_array
+
+        masks = {s.symbol: 1 << k for k, s in enumerate(self.equations.states)}
+
+        def mask(expr: Expr) -> int:
+            for node in topological([expr], stop=masks.__contains__):
+                if node not in masks:
+                    masks[node] = 0
+                    for arg in node.args:
+                        masks[node] |= masks[arg]
+            return masks[expr]
+
+        for block in self.equations.blocks:
+            roots = [*block.zeros, *(slope for row in block.slopes for slope in row)]
+            own = [mask(e) for e in (roots if block.value is None else [block.value])]
+            whole = 0
+            for one in own:
+                whole |= one
+            masks.update(dict.fromkeys(block.unknowns, whole))
+        size = len(self.states)
+        rows, columns = [], []
+        for i, state in enumerate(self.equations.states):
+            found = mask(state.rate)
+            held = [k for k in range(size) if found >> k & 1] if found else []
+            rows += [i] * len(held)
+            columns += held
+        return csc_array((np.ones(len(rows)), (rows, columns)), shape=(size, size))
+
     # ------------------------------------------------------------- compilation
 
     def _signals(self) -> tuple[Signal, ...]:
         blocks = self.equations.blocks
         roots = [e for b in blocks for e in (b.zeros if b.value is None else (b.value,))]
         found: dict[Signal, None] = {}
+        roots += [c for s in self.equations.states for c in s.capacities]
         for node in topological([*roots, *self.outputs]):
             order = 0
             while node.op is Op.DER:
@@ -121,7 +176,7 @@ class Machine:
                 found[Signal(node.symbol.name, order)] = None
         return tuple(found)
 
-    def _compiled(self, name: str, wanted: list[Expr]) -> Callable[..., Any]:
+    def _compiled(self, name: str, wanted: Sequence[Expr]) -> Callable[..., Any]:
         graph = self.equations.graph
         leaves: dict[Expr, str] = {s.symbol: f"x[{k}]" for k, s in enumerate(self.equations.states)}
         for k, signal in enumerate(self.signals):
@@ -150,7 +205,7 @@ class Machine:
             leaf = pool.der(leaf)
         return leaf
 
-    def _needed(self, wanted: list[Expr]) -> set[int]:
+    def _needed(self, wanted: Sequence[Expr]) -> set[int]:
         """The blocks that the wanted expressions rest on."""
         giver = {u: k for k, b in enumerate(self.equations.blocks) for u in b.unknowns}
         needed: set[int] = set()
@@ -182,11 +237,11 @@ class Machine:
         solve = f"solve{number}"
         if all(n is not None for n in numbers):
             places = [(i, j) for i, j, _ in entries]
-            more[solve] = _factorised(size, places, np.array(numbers, float), block.names)
+            more[solve] = factorised(size, places, np.array(numbers, float))
             given = f"[{', '.join(right)}]"
         else:
             texts = [code.write(slope) for _, _, slope in entries]
-            more[solve] = _solver(size, [(i, j) for i, j, _ in entries])
+            more[solve] = solver(size, [(i, j) for i, j, _ in entries])
             given = f"[{', '.join(texts)}], [{', '.join(right)}]"
         names = [code.fresh() for _ in right]
         code.line(f"{', '.join(names)}, = {solve}({given})")
@@ -206,114 +261,6 @@ class Machine:
         code.lines += inner.lines
         code.line(f"    return [{zeros}], [{slopes}]")
         code._count = inner._count
-        more[root] = self._newton(number, block)
+        more[root] = self._newton.setdefault(number, iteration(len(block.unknowns)))
         code.line(f"{', '.join(names)}, = {root}({look})")
         code.known.update(zip(block.unknowns, names, strict=True))
-
-    def _newton(self, number: int, block: Block) -> Callable[..., list[float]]:
-        guesses = self._guess
-
-        def newton(look: Callable[..., Any]) -> list[float]:
-            size = len(block.unknowns)
-            starts = [guesses.get(number), [0.0] * size, [1.0] * size, [-1.0] * size]
-            for start in starts:
-                found = None if start is None else _root(look, start)
-                if found is not None:
-                    guesses[number] = found
-                    return found
-            raise NoSolution(block.names)
-
-        return newton
-
-
-def _factorised(
-    size: int, places: list[tuple[int, int]], numbers: Array, names: tuple[str, ...]
-) -> Callable[[list[float]], Any]:
-    """The solution for a right side, of a matrix that does not change."""
-    if size > _DENSE:
-        from scipy.sparse import csc_array
-        from scipy.sparse.linalg import splu
-
-        rows, columns = zip(*places, strict=True)
-        try:
-            factors = splu(csc_array((numbers, (rows, columns)), shape=(size, size)))
-        except RuntimeError:
-            raise NoSolution(names) from None
-        return lambda b: factors.solve(np.array(b)).tolist()
-    matrix = np.zeros((size, size))
-    for (i, j), n in zip(places, numbers, strict=True):
-        matrix[i, j] = n
-    singular = np.linalg.cond(matrix) > _SINGULAR
-    inverse = np.linalg.pinv(matrix) if singular else np.linalg.inv(matrix)
-    if size <= 4:
-        lines = inverse.tolist()
-        return lambda b: [sum(c * v for c, v in zip(line, b, strict=True)) for line in lines]
-    return lambda b: (inverse @ b).tolist()
-
-
-def _solver(size: int, places: list[tuple[int, int]]) -> Callable[[list[float], list[float]], Any]:
-    """The solution for a matrix and a right side."""
-    if size == 1:
-        return lambda a, b: [b[0] / a[0]]
-    rows = [i for i, _ in places]
-    columns = [j for _, j in places]
-
-    def dense(entries: list[float], right: list[float]) -> Any:
-        matrix = np.zeros((size, size))
-        matrix[rows, columns] = entries
-        try:
-            return np.linalg.solve(matrix, right).tolist()
-        except np.linalg.LinAlgError:
-            return [math.nan] * size
-
-    def sparse(entries: list[float], right: list[float]) -> Any:
-        from scipy.sparse import csc_array
-        from scipy.sparse.linalg import spsolve
-
-        matrix = csc_array((entries, (rows, columns)), shape=(size, size))
-        return spsolve(matrix, np.array(right)).tolist()
-
-    return dense if size <= _DENSE else sparse
-
-
-def _root(look: Callable[..., Any], start: list[float]) -> list[float] | None:
-    """Newton's method with steps halved until the zeros shrink; None where it does not arrive."""
-    x = list(start)
-    try:
-        zeros, slopes = look(*x)
-    except (ArithmeticError, ValueError):
-        return None
-    for _ in range(_STEPS):
-        size = max(map(abs, zeros))
-        if not math.isfinite(size):
-            return None
-        try:
-            step = (
-                [zeros[0] / slopes[0][0]]
-                if len(x) == 1
-                else np.linalg.solve(np.array(slopes), np.array(zeros)).tolist()
-            )
-        except (ZeroDivisionError, np.linalg.LinAlgError):
-            return x if size == 0 else None
-        if not all(map(math.isfinite, step)):
-            return None
-        if all(abs(s) <= _EXACT * (abs(v) + 1e-300) for s, v in zip(step, x, strict=True)):
-            return [v - s for v, s in zip(x, step, strict=True)]
-        share = 1.0
-        while True:
-            trial = [v - share * s for v, s in zip(x, step, strict=True)]
-            if trial == x:
-                return x  # as exact as numbers are
-            try:
-                after, slopes_after = look(*trial)
-                if sum(a * a for a in after) < sum(z * z for z in zeros) or size == 0:
-                    break
-            except (ArithmeticError, ValueError):
-                pass
-            share /= 2
-            if share < 1e-12:
-                return x if size < 1e-9 else None
-        x, zeros, slopes = trial, after, slopes_after
-        if not any(zeros):
-            return x
-    return None

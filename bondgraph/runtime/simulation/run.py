@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -14,14 +14,13 @@ from bondgraph.ir.equations import EquationSystem
 from bondgraph.ir.graph import BondGraph
 from bondgraph.passes.state_equations import Wanted, state_equations
 from bondgraph.runtime.log import Log
-from bondgraph.runtime.simulation import courses
-from bondgraph.runtime.simulation.controllers import Pid
-from bondgraph.runtime.simulation.faults import Wrong, edges
+from bondgraph.runtime.simulation.given import Given, Inputs, inside
+from bondgraph.runtime.simulation.handover import handed_over
 from bondgraph.runtime.simulation.instruments import Reader
 from bondgraph.runtime.simulation.integrate import Integrator, SimulationError
-from bondgraph.runtime.simulation.machine import Machine, NoSolution
+from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
-from bondgraph.runtime.simulation.scenario import Course, Instrument, Scenario
+from bondgraph.runtime.simulation.scenario import Instrument, Scenario
 from bondgraph.runtime.simulation.spread import spread
 from bondgraph.runtime.simulation.values import Values
 from bondgraph.text.diagnostic import CompileError, Report
@@ -61,6 +60,19 @@ def simulate(
     return _Simulation(system, integral, scenario).run(progress)
 
 
+class _Mode(NamedTuple):
+    """The machine in one position of its switches, the names of its outputs, what it is given."""
+
+    machine: Machine
+    names: tuple[str, ...]
+    inputs: Inputs
+
+
+def _within(mode: _Mode, when: Callable[[float], float]) -> Inputs:
+    """What the machine is given in a segment, jumps at its ends left out."""
+    return lambda t: mode.inputs(when(t))
+
+
 class _Simulation:
     def __init__(self, system: EquationSystem, integral: CausalGraph, scenario: Scenario) -> None:
         self.system, self.integral, self.scenario = system, integral, scenario
@@ -68,37 +80,13 @@ class _Simulation:
         drawn = spread(self.graph, scenario)
         self.values = Values(self.graph, {**scenario.parameters, **drawn})
         self.sensors = [s for s in self.graph.sensors if s.same_as is None]
-        self.wrong = self._wrong()
-        self.modes = [i.name for i in self.graph.inputs if i.mode]
-        self.told = self._told()
-        self.pids = [
-            Pid(c, courses.function(c.setpoint, self.graph.pool, self.values))
-            for c in scenario.controllers
-        ]
         self.times = self._times()
+        self.given = Given(self.graph, scenario, self.values, self.times)
         self.readers = self._readers()
-        self.machines: dict[tuple[bool, ...], Machine] = {}
-        self._names: dict[int, tuple[str, ...]] = {}
-        self._given: dict[int, Callable[[float], list[float]]] = {}
-        self._driven: dict[str, list[tuple[float, float]]] = {
-            c.input: [] for c in scenario.controllers
-        }
-
-    # -------------------------------------------------------------- what is given
-
-    def _wrong(self) -> dict[str, Wrong]:
-        targets = dict.fromkeys(f.target for f in self.scenario.faults)
-        return {
-            name: Wrong([f for f in self.scenario.faults if f.target == name]) for name in targets
-        }
-
-    def _told(self) -> dict[str, Course]:
-        """The course of every input that no controller has in hand; zero where none is given."""
-        zero = Course(None, ((0.0, 0.0),))
-        driven = {c.input for c in self.scenario.controllers}
-        given = {**self.scenario.inputs, **self.scenario.modes}
-        names = [i.name for i in self.graph.inputs if i.name not in driven]
-        return {name: given.get(name, zero) for name in names}
+        self.modes: dict[tuple[bool, ...], _Mode] = {}
+        samples = len(self.times)
+        self.told = {i.name: np.empty(samples) for i in self.graph.inputs}
+        self.gone = {s.name: np.zeros(samples, dtype=bool) for s in self.sensors}
 
     def _times(self) -> Array:
         """The instants of the samples, in s; jitter is there, lost samples too."""
@@ -121,161 +109,149 @@ class _Simulation:
             found[sensor.name] = Reader(instrument, counts, len(self.times), rate, seed)
         return found
 
-    def _machine(self, setting: tuple[bool, ...]) -> Machine:
-        """The virtual machine in one mode of its switches."""
-        if setting not in self.machines:
+    def _mode(self, t: float) -> _Mode:
+        """The virtual machine with its switches as they are at time t."""
+        setting = self.given.setting(t)
+        if setting not in self.modes:
             report = Report()
             disturbed = tuple(
-                n for n, w in self.wrong.items() if any(f.op != "missing" for f in w.faults)
+                n for n, w in self.given.wrong.items() if any(f.op != "missing" for f in w.faults)
             )
-            modes = dict(zip(self.modes, setting, strict=True))
+            modes = dict(zip(self.given.modes, setting, strict=True))
             wanted = Wanted(modes, self.scenario.static, disturbed, self.values.replaced)
             equations = state_equations(self.system, self.integral, wanted, report)
             if equations is None:
                 raise CompileError(tuple(report.diagnostics))
             view = observed(self.system, equations, self.scenario.record)
             machine = Machine(equations, self.values, view.exprs)
-            self.machines[setting] = machine
-            self._given[id(machine)] = self._inputs(machine)
-            self._names[id(machine)] = view.names
-        return self.machines[setting]
+            self.modes[setting] = _Mode(machine, view.names, self.given.inputs(machine))
+        return self.modes[setting]
 
     # -------------------------------------------------------------------- running
 
     def run(self, progress: Progress) -> Run:
         """Segment by segment, from jump to jump of anything."""
-        times = self.times
+        times, given = self.times, self.given
         end = float(times[-1])
-        stops = self._stops(end)
-        first = self._machine(self._setting(0.0))
-        names = self._names[id(first)]
-        table = np.empty((len(times), len(names)))
-        states = dict(zip(first.states, first.start().tolist(), strict=True))
-        states |= self.scenario.initial
-        integrator = Integrator(self.scenario.method, end)
+        stops = given.stops(end)
+        first = self._mode(0.0)
+        table = np.full((len(times), len(first.names)), math.nan)
+        held = self._start(first)
+        longest = 2 / self.scenario.sampling.rate if given.smooth else math.inf
+        integrator = Integrator(self.scenario.method, end, longest)
         done = 0
         for a, b in zip([0.0, *stops], [*stops, end], strict=True):
-            machine = self._machine(self._setting(a))
-            inputs = self._given[id(machine)]
-            x = np.array([states[name] for name in machine.states], dtype=float)
-            self._begin(machine, a, x, table, done)
-            for pid in self.pids:
-                self._driven[pid.controller.input].append((a, pid.output))
-            last = len(times) if b == end else int(np.searchsorted(times, b - 1e-12))
-            wanted = times[done:last]
-            try:
-                rows = integrator.run(machine, inputs, a, b, x, wanted)
-                for k, (t, row) in enumerate(zip(wanted.tolist(), rows, strict=False)):
-                    now = self._row(machine, t, row)
-                    table[done + k] = [now.get(name, math.nan) for name in names]
-                after = self._row(machine, b, rows[-1])
-            except NoSolution as failure:
-                raise SimulationError(f"between {a:g} s and {b:g} s {failure}") from failure
+            when = inside(a, b)
+            mode = self._mode(when(a))
+            last = len(times) if b == end else int(np.searchsorted(times, b))
+            x = handed_over(mode.machine, a, mode.inputs(when(a)), held)
+            if self._begin(mode, when(a), x, table, (done, last)):
+                x = handed_over(mode.machine, a, mode.inputs(when(a)), held)
+            rows = integrator.run(mode.machine, _within(mode, when), a, b, x, times[done:last])
+            for k in range(done, last):
+                now = self._seen(mode, when(times[k]), rows[k - done])
+                table[k] = [now.get(name, math.nan) for name in first.names]
+                self._note(k, when(times[k]))
+            after = self._seen(mode, when(b), rows[-1])
+            held |= {n: v for n, v in after.items() if n in held and v == v}
+            held |= zip(mode.machine.states, rows[-1].tolist(), strict=True)
             done = last
-            states = {**after, **dict(zip(machine.states, rows[-1].tolist(), strict=True))}
             progress(b / end if end else 1.0)
-        return self._result(first, names, table)
+        return self._result(first, table)
 
-    def _setting(self, t: float) -> tuple[bool, ...]:
-        pool, values = self.graph.pool, self.values
-        return tuple(courses.function(self.told[name], pool, values)(t) != 0 for name in self.modes)
+    def _start(self, mode: _Mode) -> dict[str, float]:
+        """What every storage holds before the start.
 
-    def _stops(self, end: float) -> list[float]:
-        """The moments between start and end at which something jumps or bends."""
-        found = set(edges(self.scenario.faults, end))
-        pool, values = self.graph.pool, self.values
-        for name, course in self.told.items():
-            found.update(courses.bends(course, end))
-            jumps = courses.jumps(course, pool, values, self.times, name in self.modes)
-            found.update(t for t in jumps if 0 < t < end)
-        for controller in self.scenario.controllers:
-            found.update(courses.jumps(controller.setpoint, pool, values, self.times, False))
-            ticks = np.arange(1, math.ceil(end / controller.period)) * controller.period
-            found.update(t for t in ticks.tolist() if t < end)
-        kept: list[float] = []
-        for t in sorted(t for t in found if 0 < t < end):
-            if not kept or t - kept[-1] > 1e-9:
-                kept.append(t)
-        return kept
+        One that nothing is said of is empty; a dependent one is as the states say that it is,
+        before anything acts on the machine.
+        """
+        machine = mode.machine
+        stated = {**machine.start(), **self.scenario.initial}
+        x = [stated.get(name, 0.0) for name in machine.states]
+        rest = machine.content(0.0, x, self.given.before(machine)).tolist()
+        names = [i.name for i in machine.equations.dependent]
+        ports = [p for node in self.graph.nodes for p in node.ports if p.state is not None]
+        every = {p.state.symbol.name: 0.0 for p in ports if p.state is not None}
+        following = {n: v for n, v in zip(names, rest, strict=True) if v == v}
+        return {**every, **dict(zip(machine.states, x, strict=True)), **following, **stated}
 
-    def _inputs(self, machine: Machine) -> Callable[[float], list[float]]:
-        """What `machine.signals` are, as functions of time."""
-        pool, values = self.graph.pool, self.values
-        pids = {p.controller.input: p for p in self.pids}
-        made: list[Callable[[float], float]] = []
-        for name, order in machine.signals:
-            what, _, target = name.partition(" of ")
-            if name in self.told:
-                made.append(courses.function(self.told[name], pool, values, order))
-            elif name in pids:
-                made.append(_output(pids[name]) if order == 0 else _nothing)
-            elif order > 1:
-                made.append(_nothing)
-            else:
-                made.append(_disturbed(self.wrong[target], ("gain", "bias").index(what), order))
-        return lambda t: [f(t) for f in made]
-
-    def _row(self, machine: Machine, t: float, x: Array) -> dict[str, float]:
+    def _seen(self, mode: _Mode, t: float, x: Array) -> dict[str, float]:
         """Everything that can be seen, by name."""
-        names = self._names[id(machine)]
-        return dict(
-            zip(names, machine.observe(t, x.tolist(), self._given[id(machine)](t)), strict=True)
-        )
+        state, u = x.tolist(), mode.inputs(t)
+        found = mode.machine.observe(t, state, u)
+        if not all(map(math.isfinite, found)):
+            lets = {x.name for x in self.graph.lets}
+            if any(n not in lets and v != v for n, v in zip(mode.names, found, strict=True)):
+                what = mode.machine.trouble(t, state, u) or "the solution grows without bound"
+                raise SimulationError(f"the run ends at {t:.6g} s: {what}")
+        return dict(zip(mode.names, found, strict=True))
 
-    def _begin(self, machine: Machine, t: float, x: Array, table: Array, done: int) -> None:
-        """What happens at a jump: faults that stick take hold, controllers read and decide."""
-        waiting = [w for w in self.wrong.values() if any(f.op == "stuck" for f in w.faults)]
-        due = [p for p in self.pids if _multiple(t, p.controller.period)]
-        if not waiting and not due:
-            return
-        now = self._row(machine, t, x)
-        columns = self._names[id(next(iter(self.machines.values())))]
-        for name, wrong in self.wrong.items():
-            wrong.hold(t, lambda name=name: self._acting(name, now, t))  # type: ignore[misc]
-        k = min(int(np.searchsorted(self.times, t - 0.25 / self.scenario.sampling.rate)),
-                len(self.times) - 1)  # fmt: skip
+    def _begin(
+        self, mode: _Mode, t: float, x: Array, table: Array, samples: tuple[int, int]
+    ) -> bool:
+        """What happens at a jump: faults that stick take hold, controllers read and decide.
+
+        `samples` are the first of this segment and of the next. Whether anything was done.
+        """
+        wrong = self.given.wrong
+        sticking = [n for n, w in wrong.items() if any(f.op == "stuck" for f in w.faults)]
+        due = [p for p in self.given.pids if _multiple(t, p.controller.period)]
+        if not sticking and not due:
+            return False
+        now = self._seen(mode, t, x)
+        for name in sticking:
+            wrong[name].hold(t, self._healthy(name, now, t))
+            if name in self.readers and wrong[name].stuck(t):
+                self.readers[name].freeze(*samples)
+        if sticking:
+            now = self._seen(mode, t, x)
+        step = 1 / self.scenario.sampling.rate
+        k = min(int(np.searchsorted(self.times, t - 0.25 * step)), len(self.times) - 1)
+        first = next(iter(self.modes.values())).names
         for pid in due:
             name = pid.controller.measures
             reader = self.readers[name]
             own = reader.own_sample(k)
-            true = now[name] if own >= done else table[own, columns.index(name)]
-            gone = name in self.wrong and self.wrong[name].missing(t)
+            true = now[name] if own >= samples[0] else table[own, first.index(name)]
+            gone = name in wrong and wrong[name].missing(t)
             seen = math.nan if gone else reader.read(own, true)
             unit = 1.0 if reader.counts is None else 2 * math.pi / reader.counts
             pid.update(t, seen, unit)
+        return True
 
-    def _acting(self, name: str, now: Mapping[str, float], t: float) -> float:
-        """What a value, input or sensor is at this moment."""
-        if name in now:
-            return now[name]
-        for pid in self.pids:
-            if pid.controller.input == name:
-                return pid.output
+    def _healthy(self, name: str, now: Mapping[str, float], t: float) -> float:
+        """What a value, input or sensor would be at this moment if nothing were wrong with it."""
+        if name in self.readers:
+            gain, bias = self.given.wrong[name].at(t)
+            return (now[name] - bias) / gain if gain else 0.0
         if name in self.told:
-            return courses.function(self.told[name], self.graph.pool, self.values)(t)
+            return self.given.told(name, t)
         symbols = {v.name: v.symbol for v in self.graph.values}
         return self.values.number(symbols[name])
 
+    def _note(self, k: int, t: float) -> None:
+        """Write down what is told at sample k, and what is not read."""
+        for name, column in self.told.items():
+            column[k] = self.given.told(name, t)
+        for name, column in self.gone.items():
+            if name in self.given.wrong:
+                column[k] = self.given.wrong[name].missing(t)
+
     # -------------------------------------------------------------------- results
 
-    def _result(self, machine: Machine, names: Sequence[str], table: Array) -> Run:
+    def _result(self, mode: _Mode, table: Array) -> Run:
         scenario, graph = self.scenario, self.graph
-        truth = {name: table[:, k].copy() for k, name in enumerate(names)}
+        truth = {name: table[:, k].copy() for k, name in enumerate(mode.names)}
         units = {s.name: s.unit or "" for s in graph.sensors}
         units |= {i.name: i.unit or "" for i in graph.inputs}
         units |= {x.name: x.unit or "" for x in graph.lets}
         known: dict[str, Array] = {}
         for item in graph.inputs:
-            column = self._recorded(item.name)
-            (known if item.known else truth)[item.name] = column
+            (known if item.known else truth)[item.name] = self.told[item.name]
+        blank = np.full(len(self.times), math.nan)
         for sensor in self.sensors:
-            reader = self.readers[sensor.name]
-            blank = np.full(len(self.times), math.nan)
-            read = reader.all(truth.get(sensor.name, blank))
-            if sensor.name in self.wrong:
-                gone = [self.wrong[sensor.name].missing(t) for t in self.times]
-                read = np.where(gone, math.nan, read)
-            known[sensor.name] = read
+            read = self.readers[sensor.name].all(truth.get(sensor.name, blank))
+            known[sensor.name] = np.where(self.gone[sensor.name], math.nan, read)
         kept = np.ones(len(self.times), dtype=bool)
         if scenario.sampling.lost:
             draw = np.random.default_rng([scenario.seed, 3])
@@ -286,7 +262,7 @@ class _Simulation:
         own = {name: {**units, **counted}.get(name, "") for name in known}
         log = Log(self.times[kept], {n: c[kept] for n, c in known.items()}, own, meta)
         shown = {name: units.get(name, "") for name in truth}
-        equations = machine.equations
+        equations = mode.machine.equations
         numbers = {v.name: self.values.constant(v.symbol) for v in graph.values}
         return Run(
             scenario,
@@ -294,31 +270,10 @@ class _Simulation:
             Log(self.times, truth, shown, meta),
             {name: n for name, n in numbers.items() if n is not None},
             equations.static,
-            equations.dependent,
-            tuple(n for n in machine.undeclared() if n not in scenario.initial),
+            tuple(dict.fromkeys(i.storage for i in equations.dependent)),
+            tuple(n for n in mode.machine.undeclared() if n not in scenario.initial),
         )
-
-    def _recorded(self, name: str) -> Array:
-        """An input as it was told, at every sample."""
-        if name in self.told:
-            f = courses.function(self.told[name], self.graph.pool, self.values)
-            return np.array([f(t) for t in self.times.tolist()])
-        changes = self._driven[name]
-        at = np.searchsorted([t for t, _ in changes], self.times + 1e-12, side="right") - 1
-        return np.array([v for _, v in changes])[at]
-
-
-def _output(pid: Pid) -> Callable[[float], float]:
-    return lambda _: pid.output
-
-
-def _nothing(_: float) -> float:
-    return 0.0
-
-
-def _disturbed(wrong: Wrong, which: int, order: int) -> Callable[[float], float]:
-    return (lambda t: wrong.slope(t)[which]) if order else (lambda t: wrong.at(t)[which])
 
 
 def _multiple(t: float, period: float) -> bool:
-    return abs(t / period - round(t / period)) * period < 1e-9
+    return abs(t / period - round(t / period)) < 1e-6

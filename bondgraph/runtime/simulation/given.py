@@ -1,0 +1,126 @@
+"""What acts on a machine over time: commands, controllers, and what is wrong with them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+
+import numpy as np
+import numpy.typing as npt
+
+from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.simulation import courses
+from bondgraph.runtime.simulation.controllers import Pid
+from bondgraph.runtime.simulation.faults import Wrong, edges
+from bondgraph.runtime.simulation.machine import Machine, Signal
+from bondgraph.runtime.simulation.scenario import Course, Scenario
+from bondgraph.runtime.simulation.values import Values
+
+Array = npt.NDArray[np.float64]
+Inputs = Callable[[float], list[float]]
+
+_EDGE = 2e-12  # of the time: what lies nearer together than half of it is one moment
+
+
+class Given:
+    """All that acts on a machine from outside, by name.
+
+    Within a segment, from one jump of anything to the next, it is smooth: `inside` keeps times
+    clear of the jumps at both ends, so that each of them belongs to one side.
+    """
+
+    def __init__(self, graph: BondGraph, scenario: Scenario, values: Values, times: Array) -> None:
+        self.graph, self.scenario, self.values, self.times = graph, scenario, values, times
+        faults = scenario.faults
+        self.wrong = {
+            name: Wrong([f for f in faults if f.target == name])
+            for name in dict.fromkeys(f.target for f in faults)
+        }
+        self.pids = [Pid(c, self._function(c.setpoint)) for c in scenario.controllers]
+        self._driven = {p.controller.input: p for p in self.pids}
+        zero = Course(None, ((0.0, 0.0),))
+        written = {**scenario.inputs, **scenario.modes}
+        self.courses = {
+            i.name: written.get(i.name, zero) for i in graph.inputs if i.name not in self._driven
+        }
+        self.modes = tuple(i.name for i in graph.inputs if i.mode)
+        for name in self.modes:
+            self.courses[name] = self.courses[name]._replace(hold=True)
+        self._told = {name: self._function(course) for name, course in self.courses.items()}
+        self.smooth = any(courses.smooth(c) for c in self.courses.values())
+
+    def _function(self, course: Course, order: int = 0) -> Callable[[float], float]:
+        return courses.function(course, self.graph.pool, self.values, order)
+
+    def told(self, name: str, t: float) -> float:
+        """A command as it is given, not as a faulty amplifier carries it out."""
+        pid = self._driven.get(name)
+        return self._told[name](t) if pid is None else pid.output
+
+    def setting(self, t: float) -> tuple[bool, ...]:
+        """The position of the switches."""
+        return tuple(self._told[name](t) != 0 for name in self.modes)
+
+    def inputs(self, machine: Machine) -> Inputs:
+        """What `machine.signals` are, as a function of time."""
+        made = [self._signal(signal) for signal in machine.signals]
+        return lambda t: [f(t) for f in made]
+
+    def _signal(self, signal: Signal) -> Callable[[float], float]:
+        name, order = signal
+        if name in self.courses:
+            return self._function(self.courses[name], order)
+        if name in self._driven:
+            pid = self._driven[name]
+            return _nothing if order else (lambda _: pid.output)
+        what, _, target = name.partition(" of ")
+        if what not in ("gain", "bias") or order > 1:
+            return _nothing
+        wrong, which = self.wrong[target], ("gain", "bias").index(what)
+        if order:
+            return lambda t: wrong.slope(t)[which]
+        return lambda t: wrong.at(t)[which]
+
+    def before(self, machine: Machine) -> list[float]:
+        """What `machine.signals` were before the start: nothing told, nothing wrong."""
+        return [float(s.name.startswith("gain of ") and s.order == 0) for s in machine.signals]
+
+    def stops(self, end: float) -> list[float]:
+        """The moments between start and end at which something jumps or bends."""
+        found = set(edges(self.scenario.faults, end))
+        times = self.times
+        if len(times) < _LOOKS:
+            times = np.linspace(0.0, end, _LOOKS)
+        for course in self.courses.values():
+            found.update(courses.bends(course, end))
+            found.update(courses.jumps(course, self.graph.pool, self.values, times))
+        for controller in self.scenario.controllers:
+            ticks = np.arange(1, math.ceil(end / controller.period)) * controller.period
+            found.update(ticks.tolist())
+        return _apart((t for t in found if 0 < t < end), self.times)
+
+
+_LOOKS = 2000  # times at which a condition is looked at, at least
+
+
+def inside(a: float, b: float) -> Callable[[float], float]:
+    """Times of a segment, kept clear of what jumps at its ends."""
+    margin = min(_EDGE * b, (b - a) / 2)
+    low, high = (a + margin if a else a), b - margin
+    return lambda t: min(max(t, low), high)
+
+
+def _apart(found: Iterable[float], times: Array) -> list[float]:
+    """Moments in order, each once, and exactly at a sample where one is meant."""
+    kept: list[float] = []
+    for t in sorted(found):
+        k = int(np.searchsorted(times, t))
+        near = min(times[max(k - 1, 0) : k + 1].tolist(), key=lambda s: abs(s - t))
+        moment = near if abs(near - t) < _EDGE / 2 * t else t
+        if moment > 0 and (not kept or moment - kept[-1] > _EDGE * t):
+            kept.append(moment)
+    return [t for t in kept if t < times[-1]]
+
+
+def _nothing(_: float) -> float:
+    return 0.0
