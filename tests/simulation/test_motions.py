@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 
 from bondgraph.ir.expr import Kind
-
 from tests.models import plants
 from tests.models.plants import Signals, Values
 from tests.models.series import Series, d, t

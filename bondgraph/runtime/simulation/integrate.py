@@ -15,11 +15,11 @@ from bondgraph.runtime.simulation.machine import Machine
 Array = npt.NDArray[np.float64]
 Inputs = Callable[[float], Sequence[float]]
 
-RELATIVE = 1e-7  # tolerance of one step, of each state
-_ABSOLUTE = 1e-11  # tolerance in the unit of the effort or flow that a state goes with
+_ABSOLUTE = 0.1  # of the relative tolerance, in units of the effort or flow of a state
 _SPARSE = 60  # states from which on it pays to know which rate depends on which state
 _MANY = 300  # states from which on eigenvalues cost more than they tell
-_STILL = 20  # times the states (slopes by differences take one each): no way on from here
+_BEYOND = 1e100  # a rate that no machine has
+_PATIENCE = 2000  # such rates in a row, from which on a method will not find back
 _RINGING = 1e5  # periods of one mode in a run: too many to follow
 
 
@@ -35,8 +35,11 @@ class Integrator:
     is left to Radau (Hairer and Wanner, 1996), which damps it.
     """
 
-    def __init__(self, method: str, duration: float, longest: float) -> None:
+    def __init__(
+        self, method: str, tolerance: float, duration: float, longest: float = math.inf
+    ) -> None:
         self.method = method
+        self.tolerance = tolerance  # of a step, relative to each state
         self.duration = duration
         self._scales: dict[Machine, Array] = {}
         self.longest = longest  # step, in s: an input that moves smoothly is not run past
@@ -68,8 +71,8 @@ class Integrator:
 
         machine = tried.machine
         options: dict[str, Any] = {
-            "rtol": RELATIVE,
-            "atol": _ABSOLUTE * self._scale(tried, span[0], x),
+            "rtol": self.tolerance,
+            "atol": _ABSOLUTE * self.tolerance * self._scale(tried, span[0], x),
         }
         if method in ("Radau", "BDF") and len(x) >= _SPARSE:
             options["jac_sparsity"] = machine.pattern()
@@ -100,7 +103,7 @@ class Integrator:
 
 
 class _Standstill(Exception):
-    """A method that tries one moment again and again."""
+    """A method that is lost where rates are no numbers."""
 
 
 class _Tried:
@@ -111,17 +114,15 @@ class _Tried:
         self.t = 0.0
         self.x: list[float] = []
         self.failed = False
-        self._latest = -math.inf
-        self._still = 0
+        self._in_vain = 0
 
     def __call__(self, t: float, x: Array) -> Sequence[float]:
         state = x.tolist()
-        self._still = 0 if t > self._latest else self._still + 1
-        self._latest = max(self._latest, t)
-        if self._still > _STILL * (len(state) + 50):
-            raise _Standstill
         found = self.machine.rates(t, state, self.inputs(t))
         bad = not all(map(math.isfinite, found)) and all(map(math.isfinite, state))
+        self._in_vain = 0 if all(abs(r) < _BEYOND for r in found) else self._in_vain + 1
+        if self._in_vain > _PATIENCE:
+            raise _Standstill
         if bad or not self.failed:
             self.t, self.x, self.failed = t, state, bad or self.failed
         return found

@@ -89,6 +89,7 @@ class _Reader:
             spread="uniform" if top.text("spread", "none", ("none", "uniform")) == "uniform"
             else "none",
             method=top.text("method", "auto", METHODS),
+            tolerance=top.number("tolerance", PURE, 1e-7, 1e-12, 1e-2),
             static=self._static(top),
             parameters=parameters,
             initial=self._initial(top.table("initial")),

@@ -138,7 +138,7 @@ class _Simulation:
         table = np.full((len(times), len(first.names)), math.nan)
         held = self._start(first)
         longest = 2 / self.scenario.sampling.rate if given.smooth else math.inf
-        integrator = Integrator(self.scenario.method, end, longest)
+        integrator = Integrator(self.scenario.method, self.scenario.tolerance, end, longest)
         done = 0
         for a, b in zip([0.0, *stops], [*stops, end], strict=True):
             when = inside(a, b)

@@ -96,7 +96,8 @@ class Scenario(NamedTuple):
     """One run of a virtual machine.
 
     `parameters`, `initial` and `inputs` by name; `spread` draws parameters inside their tolerances.
-    `static` are storages taken as being at rest. `desired` says what sensors should show, for the
+    `tolerance` is that of a step of integration, relative to each state. `static` are storages
+    taken as being at rest. `desired` says what sensors should show, for the
     desired path, where no controller says it. `record` are signals to keep beside those known.
     """
 
@@ -106,6 +107,7 @@ class Scenario(NamedTuple):
     seed: int = 1
     spread: Literal["none", "uniform"] = "none"
     method: str = "auto"
+    tolerance: float = 1e-7
     static: tuple[str, ...] = ()
     parameters: Mapping[str, float] = {}
     initial: Mapping[str, float] = {}
