@@ -58,6 +58,10 @@ class Tab:
         found: dict[str, Any] = json.loads(message)
         return found
 
+    def events(self, method: str) -> list[dict[str, Any]]:
+        """What the browser reported of itself since the page was opened."""
+        return [e for e in self._events if e.get("method") == method]
+
     def open(self, path: Path, width: int = 1200, dark: bool = False, media: str = "") -> None:
         """Show a file in a window so wide, in px."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=1000,

@@ -138,7 +138,8 @@ class _Opener:
         inner = [piece for part in parts for piece in part]
         match expr.name:
             case "abs":
-                return _around("<mo>|</mo>", inner, "<mo>|</mo>")
+                bar = '<mo stretchy="false" form="{}">|</mo>'
+                return _around(bar.format("prefix"), inner, bar.format("postfix"))
             case "sqrt":
                 return _around(_OPEN, inner, _root(2))
             case "cbrt":

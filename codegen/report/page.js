@@ -12,6 +12,12 @@
   };
   const seenBy = (faults) => [...new Set(faults.flatMap((f) => links.residuals[f] || []))];
 
+  const said = (faults, residuals) => {
+    const known = faults.filter((f) => links.residuals[f] || links.unseen.includes(f));
+    if (!known.length) return "";
+    return residuals.length ? `; seen by ${residuals.join(", ")}` : "; no residual sees it";
+  };
+
   const light = (faults, nodes, text) => {
     clear();
     const residuals = seenBy(faults);
@@ -20,9 +26,7 @@
     all("[data-name]").forEach((e) => faults.includes(e.dataset.name) && e.classList.add("named"));
     all("th[data-residual], .residual[data-residual]").forEach(
       (e) => residuals.includes(e.dataset.residual) && e.classList.add("named"));
-    const seen = residuals.length ? "seen by " + residuals.join(", ") : "no residual sees it";
-    told.textContent = faults.length && text !== faults[0]
-      ? `${text}: ${faults.join(", ")} (${seen})` : faults.length ? `${text}: ${seen}` : text;
+    told.textContent = text + (faults.length ? said(faults, residuals) : "");
     told.hidden = false;
   };
 
@@ -33,9 +37,12 @@
     const at = target.closest("[data-node], [data-fault], [data-name]");
     if (!at) return false;
     const { node, fault, name } = at.dataset;
-    if (node) light(links.elements[node] || [], [node], node);
-    else if (fault) light([fault], nodesOf(fault), fault);
-    else light([name], nodesOf(name), name + (links.meanings[name] ? `, ${links.meanings[name]}` : ""));
+    const one = fault || name;
+    const meaning = (f) => (links.meanings[f] ? `${f}: ${links.meanings[f]}` : f);
+    if (node) {
+      const faults = links.elements[node] || [];
+      light(faults, [node], [node, ...faults.filter((f) => f !== node)].join(", "));
+    } else light([one], nodesOf(one), meaning(one));
     return true;
   };
 

@@ -189,7 +189,13 @@ def _links(content: Content) -> str:
     for group in _groups(content):
         residuals |= {row.fault: group.residuals for row in group.rows}
     meanings = _meanings(content)
-    found = {"elements": content.links, "residuals": residuals, "meanings": meanings}
+    unseen = [] if content.signatures is None else content.signatures.undetectable
+    found = {
+        "elements": content.links,
+        "residuals": residuals,
+        "unseen": [fault for _, faults in unseen for fault in faults],
+        "meanings": meanings,
+    }
     text = json.dumps(found, ensure_ascii=False, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace("&", "\\u0026")
 
@@ -200,7 +206,7 @@ def _meanings(content: Content) -> dict[str, str]:
     for q in content.quantities:
         unit = "" if q.unit == "1" else q.unit
         size = f"{q.value} {unit}" if q.value else f"{q.kind} in {unit}" if unit else q.kind
-        found[q.name] = ", ".join(word for word in (size.strip(), q.doc.rstrip(".")) if word)
+        found[q.name] = ": ".join(word for word in (size.strip(), q.doc.rstrip(".")) if word)
     return found
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from bondgraph.backends.report.content import Content, Drawing, Quantity
 from bondgraph.backends.report.formulas import Typesetter
 from bondgraph.cli.console import plural, status
+from bondgraph.cli.numbers import readable
 from bondgraph.cli.reasons import message
 from bondgraph.cli.reporting.matrix import matrix
 from bondgraph.cli.reporting.relations import relations
@@ -170,7 +171,7 @@ def _quantities(graph: BondGraph, typesetter: Typesetter) -> Iterator[Quantity]:
     rows: list[Quantity] = []
     for v in graph.values:
         number = nominal.value(v.symbol)
-        value = "free" if number is None else f"{number:g}"
+        value = "free" if number is None else readable(number, 6)
         if v.tolerance is not None:
             value += f" ± {100 * float(v.tolerance):g} %"
         kind = "parameter" if v.fault else "constant"

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bondgraph.backends.report.content import Effect, Seen
 from bondgraph.backends.report.formulas import operations
+from bondgraph.cli.numbers import readable
 from bondgraph.cli.reporting.relations import LONGEST
 from bondgraph.passes.present import parts, shared
 
@@ -91,14 +92,14 @@ def _told(found: Smallest | None, unit: str) -> tuple[str, str, str]:
         return "", "", ""
     if found.change is None:
         return "", "", found.reason
-    share = "" if found.relative is None else f"{100 * found.relative:.3g} %"
-    return f"{found.change:.3g} {unit}".rstrip(), share, ""
+    share = "" if found.relative is None else f"{readable(100 * found.relative)} %"
+    return f"{readable(found.change)} {unit}".rstrip(), share, ""
 
 
 def _noise(found: Detection) -> list[tuple[str, str]]:
     rows = []
     for name, sigma in found.sigma.items():
-        text = "grows for ever: the residual integrates it" if sigma is None else f"{sigma:.3g}"
+        text = "grows for ever: the residual integrates it" if sigma is None else readable(sigma)
         rows.append((name, "no value at these signals" if name in found.undefined else text))
     return rows
 

@@ -91,3 +91,109 @@ def test_any_hash_seed_gives_the_same_bytes(tmp_path: Path) -> None:
         )
         pages.append(out.read_bytes())
     assert pages[0] == pages[1]
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "model.bg"
+    path.write_text(f"bg 1\n{text}", encoding="utf-8")
+    return path
+
+
+MOTOR = """model Motor {
+    param R : Ohm
+    param L : H
+    Se:U -> 1:i -> I:L
+    i -> R:R
+    i -> Df:current
+}
+"""
+
+
+def test_a_model_without_numbers_has_formulas_and_says_what_is_missing(tmp_path: Path) -> None:
+    page = Page(report(written(tmp_path, MOTOR), tmp_path))
+    assert "1 residual detects 4 of 4 faults" in page.text
+    assert "Smallest changes cannot be told: R has no value in the model" in page.text
+    assert any(tag == "mfrac" for tag, _ in page.elements)
+
+
+def test_a_model_without_redundancy_is_a_right_answer(tmp_path: Path) -> None:
+    model = written(tmp_path, "model M { param R = 1 Ohm\n Se:U -> 1:i -> R:R }\n")
+    page = Page(report(model, tmp_path))
+    assert "No residual: the model has no sensor" in page.text
+    assert "no sensor around i could contradict the model there" in page.text
+
+
+def test_a_conflict_is_drawn_with_its_reason(tmp_path: Path) -> None:
+    model = written(tmp_path, "model M { param R = 1 Ohm\n Se:U -> 0:a -> R:R; Se:V -> a }\n")
+    page = Page(report(model, tmp_path, status=1))
+    assert "The effort of 0:a is imposed twice, by Se:U and Se:V." in page.text
+    assert "imposed twice, by Se:U and Se:V.." not in page.text
+    drawn = [a.get("class") or "" for tag, a in page.elements if tag == "rect"]
+    assert "core line-clash" in drawn
+
+
+def test_what_cannot_be_eliminated_still_has_its_strokes_and_the_reason(tmp_path: Path) -> None:
+    text = """model M {
+    param A = 1
+    param B = 2
+    param ra = 3
+    Sf:Q -> 0:a { -> C:A; -> R:ra }
+    0:b { <- Sf:x = ra.f; -> C:B; -> R:rb { f = e^2 } }
+    sensor y = a.e + b.e
+}
+"""
+    model = written(tmp_path, text)
+    page = Page(report(model, tmp_path, status=1))
+    assert "loop-unsolvable" in page.text and "Why there are no relations" in page.text
+    assert len([tag for tag, a in page.elements if tag == "svg"]) == 2
+    assert "Analytical redundancy relations" not in page.text
+
+
+def test_signals_and_noise_that_are_given_are_used(tmp_path: Path) -> None:
+    motor = ROOT / "models" / "dc_motor.bg"
+    assumed = Page(report(motor, tmp_path)).text
+    assert "Nothing was said of what the machine does" in assumed
+    assert "every sensor has that of 12-bit samples" in assumed
+    given = ["--at", "current=0.5", "--at", "U=6", "--noise", "0.02", "--kappa", "4"]
+    told = Page(report(motor, tmp_path, *given)).text
+    assert "current at 0.5, U at 6" in told and "4 standard deviations" in told
+    assert "current 0.02, speed 0.02" in told and "Nothing was said" not in told
+    assert main(["report", str(motor), "-o", "-", "--at", "curent=1"]) == 2
+
+
+def test_modes_of_a_switched_model_are_told(tmp_path: Path) -> None:
+    text = """model M {
+    param A = 1
+    param k = 2
+    param k2 = 3
+    input on : bool
+    Sf:Q -> 0:t
+    t { -> C:A; -> De:h; -> v; -> R:leak = k2 }
+    1:v when on { -> R:k; -> Df:q }
+}
+"""
+    page = Page(report(written(tmp_path, text), tmp_path))
+    assert "While the machine stays in one mode" in page.text
+    assert "on off" in page.text and "on on" in page.text
+    assert "undetectable here" in page.text  # what is behind the valve while it is shut
+
+
+def test_hundreds_of_faults_fit_a_page_of_a_few_megabytes(tmp_path: Path) -> None:
+    text = """model Cell {
+    port a : in electrical
+    port b : out electrical
+    param R = 3 Ohm
+    param C = 100 uF
+    1:left { <- a; -> R:R; -> mid }
+    0:mid { -> C:C; -> De:u; -> b }
+}
+model Line {
+    Cell:cell[34]
+    Se:U -> cell[1..34] -> R:load = 100
+}
+"""
+    text = report(written(tmp_path, text), tmp_path, "--rate", "50")
+    assert len(text) < 3_000_000
+    page = Page(text)
+    rows = [a for tag, a in page.elements if tag == "tr" and a.get("data-fault") == "cell[20].C"]
+    assert rows
