@@ -75,7 +75,7 @@ class SerialPort:
                     cutter = Cutter(whole=False)
                     continue
                 piece = self._serial.read(max(1, self._serial.in_waiting))
-            except (OSError, TypeError) as error:  # TypeError: closed by another thread
+            except Exception as error:  # drivers raise what they like: the device is gone
                 if not self._over.is_set():
                     self._lost(error)
                 continue

@@ -217,6 +217,24 @@ def test_a_source_that_is_not_there_is_said(
     assert words[-1] in error and "Traceback" not in error
 
 
+@pytest.mark.parametrize(
+    ("package", "words"),
+    [
+        ("serial", ["--serial", "/dev/none"]),
+        ("paho.mqtt.client", ["--mqtt", "localhost/x"]),
+        ("paho.mqtt.client", ["-", "--publish", "localhost/x"]),
+    ],
+)
+def test_a_package_that_is_missing_is_named(
+    package: str, words: list[str], capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    monkeypatch.setitem(sys.modules, package, None)
+    assert main(["monitor", MOTOR, *words]) == 1
+    error = capsys.readouterr().err
+    assert "pip install 'bondgraph-arr[robot]'" in error and error.count("\n") == 1
+
+
 def test_a_reader_that_goes_away_is_no_failure(logs: Path) -> None:
     code = f"{sys.executable} -m bondgraph monitor {MOTOR} {logs / 'motor.csv'} | head -n 1"
     done = subprocess.run(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -31,6 +32,17 @@ def samples(one: Machine, start: int, stop: int, step: int = 100) -> None:
         one.send(objects(motor.log(), k, k + step))
 
 
+def listening(first: Watch, one: Machine) -> None:
+    """Wait until the monitor hears the machine; before, a broker keeps nothing for it."""
+    first.heard("start")
+
+    def heard() -> bool:
+        one.send("noise")
+        return "invalid" in first.events()
+
+    until(heard, "the subscription")
+
+
 def words(broker: Broker, tmp_path: Path) -> list[str]:
     return [
         *("--mqtt", f"{broker.at}/motor/samples", "--publish", "motor/verdicts"),
@@ -44,8 +56,7 @@ def test_a_killed_monitor_misses_nothing_that_the_broker_kept(
     at = broker(False)
     with machine(at) as one:
         first = watch(*words(at, tmp_path))
-        first.heard("start")
-        until(lambda: 1 in one.numbers())
+        listening(first, one)
         samples(one, 0, 3600)
         first.heard("fault")
         first.kill()
@@ -53,18 +64,18 @@ def test_a_killed_monitor_misses_nothing_that_the_broker_kept(
         second = watch(*words(at, tmp_path))
         second.heard("warm-up")
         samples(one, 4800, 6000)
-        one.send("end")
+        one.send("end\n" * 4000)
         second.heard("invalid", "`end`")
         assert second.ended(signal.SIGTERM) == 0
         said = first.said + second.said
         until(lambda: len(one.numbers()) == len(said), "all verdicts")
         assert one.numbers() == [v["number"] for v in said] == list(range(1, len(said) + 1))
-        assert [v["event"] for v in said] == [
-            *("start", "warm-up", "fault", "resumed", "warm-up", "invalid", "stop")
+        assert [v["event"] for v in said if v["event"] != "invalid"] == [
+            *("start", "warm-up", "fault", "resumed", "warm-up", "stop")
         ]
         resumed = second.heard("resumed")["message"]
         assert "still latched" in resumed
-        assert next(v for v in one.verdicts if v["event"] == "fault") == said[2]
+        assert next(v for v in one.verdicts if v["event"] == "fault") == first.heard("fault")
     with machine(at, "late") as late:
         until(lambda: late.retained)
         assert late.retained == [said[-1]]
@@ -77,26 +88,31 @@ def test_a_killed_broker_loses_no_verdict(
     at = broker(lasting)
     with machine(at) as one:
         first = watch(*words(at, tmp_path))
-        first.heard("start")
-        until(lambda: 1 in one.numbers())
+        listening(first, one)
         samples(one, 0, 2800)
+        one.send("middle\n" * 1000)
         first.heard("warm-up")
+        first.heard("invalid", "`middle`")
+        until(lambda: one.numbers() == [v["number"] for v in first.said])
         at.kill()
         first.heard("gap", "gone")
         at.start()
         first.heard("gap", "back")
         until(lambda: one.ready)
         samples(one, 2800, 6000)
-        one.send("end")
+        one.send("end\n" * 4000)
         first.heard("fault")
         first.heard("invalid", "`end`")
         assert first.ended(signal.SIGTERM) == 0
-        assert "6000 samples" in first.said[-1]["message"]
-        heard = [v["number"] for v in first.said]
-        if not lasting:  # what it took before the machine was back, it has told nobody
-            known = first.events().index("fault") + 1
-            heard = [n for n in heard if n in one.numbers() or n >= known]
-        until(lambda: one.numbers() == heard, "all verdicts")
+        # A broker that was killed may send again what it had not put down as taken.
+        count = re.search(r"after (\d+) samples", first.said[-1]["message"])
+        assert count is not None and int(count[1]) >= 6000
+        # What it took before the machine was back, and did not keep, it has told nobody.
+        back = [v["number"] for v in first.said if v["event"] == "gap"]
+        optional = set() if lasting else set(back)
+        needed = {v["number"] for v in first.said} - optional
+        until(lambda: set(one.numbers()) >= needed, "all verdicts")
+        assert one.numbers() == sorted(one.numbers())
 
 
 def test_verdicts_that_no_broker_took_are_sent_after_the_next_start(
@@ -127,14 +143,12 @@ def test_all_forms_of_messages_are_read_and_old_ones_are_not(
         one.send({"t": 77.0, "U": 1}, retain=True)
         names = ",".join(["t", *log.columns])
         first = watch("--mqtt", f"{at.at}/motor/samples", "--columns", names)
-        until(lambda: first.events() == ["start"])
-        # Without a journal the session is new: what comes before the subscription is not heard.
-        until(lambda: one.send("noise") or "invalid" in first.events())
+        listening(first, one)
         samples(one, 0, 1500)
         one.send(csv(log, 1500, 3000))
         for k in range(3000, 3200):
             one.send(objects(log, k, k + 1)[0])
-        one.send(csv(log, 3200, 3600, header=True) + b"end\n" * 1000)
+        one.send(csv(log, 3200, 3600, header=True) + b"end\n" * 4000)
         first.heard("fault")
         first.heard("invalid", "`end`")
         assert first.ended(signal.SIGTERM) == 0

@@ -29,7 +29,7 @@ def until(met: Callable[[], object], what: str = "") -> None:
     end = time.monotonic() + PATIENCE
     while not met():
         assert time.monotonic() < end, f"waited in vain for {what or met}"
-        time.sleep(0.005)
+        time.sleep(0.01)
 
 
 class Nursery:
