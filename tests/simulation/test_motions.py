@@ -134,4 +134,4 @@ def course(signal: Series | bool) -> str:
 
 
 def values(signal: Series, times: Array) -> Array:
-    return np.polyval([float(c) for c in reversed(signal.c)], times)
+    return np.asarray(np.polyval([float(c) for c in reversed(signal.c)], times), dtype=float)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph.frontend.cursor import SyntaxProblem
 from bondgraph.frontend.expressions import Expressions as Words
-from bondgraph.ir.expr import Expr, Kind
+from bondgraph.ir.expr import Expr, Kind, Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.syntax import Ref
 from bondgraph.ir.units import Dimension
@@ -77,6 +77,9 @@ class Outside(Expressions):
             raise Skip from None
         scope: Scope = None  # type: ignore[assignment]  # names are paths: nothing is looked up
         node, term = (self.convert if truth else self.quantity)(tree, Place(scope, {}, ""))
+        if any(n.op is Op.DER or _is_integral(n) for n in topological([node])):
+            fail(self.report, "scenario-value", f"{what} has an integral or derivative in it.",
+                 origin, help="Write it as a function of t itself: it has no memory.")  # fmt: skip
         if term is None:
             return node
         if dimension is not None:
@@ -104,6 +107,10 @@ class Outside(Expressions):
         if value.dimension is None:
             return value.symbol, self.quantities.dimensions.fresh(ref.origin, f"`{name}`")
         return value.symbol, self.quantities.known(value.dimension, ref.origin, f"`{name}`")
+
+
+def _is_integral(node: Expr) -> bool:
+    return node.op is Op.SYM and node.symbol.kind is Kind.INTEGRAL
 
 
 def _at_home(found: Diagnostic, source: Source) -> Diagnostic:

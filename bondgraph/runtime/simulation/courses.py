@@ -29,7 +29,7 @@ def time_symbol(pool: Pool) -> Expr:
 def function(
     course: Course, pool: Pool, values: Values, order: int = 0
 ) -> Callable[[float], float]:
-    """The course, or its derivative of some order, as a function of time in s.
+    """The course, or its derivative of some order, as a function of time in s; NaN where undefined.
 
     Raises KeyError with the name of a parameter that has no value.
     """
@@ -48,7 +48,15 @@ def function(
         if node.op is Op.SYM and node is not time:
             values.number(node)  # says which one has no value
     code = Code(pool, {time: "t"}, values.constant)
-    return code.function("course", "t", code.write(expr))  # type: ignore[no-any-return]
+    found = code.function("course", "t", code.write(expr))
+
+    def defined(t: float) -> float:
+        try:
+            return float(found(t))
+        except (ArithmeticError, ValueError):
+            return math.nan
+
+    return defined
 
 
 def _through(course: Course, order: int) -> Callable[[float], float]:

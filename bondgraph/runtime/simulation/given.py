@@ -113,11 +113,12 @@ def inside(a: float, b: float) -> Callable[[float], float]:
 def _apart(found: Iterable[float], times: Array) -> list[float]:
     """Moments in order, each once, and exactly at a sample where one is meant."""
     kept: list[float] = []
+    step = float(times[-1]) / len(times)
     for t in sorted(found):
         k = int(np.searchsorted(times, t))
         near = min(times[max(k - 1, 0) : k + 1].tolist(), key=lambda s: abs(s - t))
         moment = near if abs(near - t) < _EDGE / 2 * t else t
-        if moment > 0 and (not kept or moment - kept[-1] > _EDGE * t):
+        if moment - (kept[-1] if kept else 0.0) > _EDGE * max(t, step):
             kept.append(moment)
     return [t for t in kept if t < times[-1]]
 

@@ -97,7 +97,8 @@ class Integrator:
     def _chosen(self, machine: Machine, inputs: Inputs, t: float, x: Array) -> str:
         if len(x) >= _MANY:
             return "Radau"
-        modes = np.linalg.eigvals(machine.jacobian(t, x, inputs(t)))
+        with np.errstate(all="ignore"):
+            modes = np.linalg.eigvals(machine.jacobian(t, x, inputs(t)))
         ringing = float(np.max(np.abs(modes.imag))) * self.duration / (2 * np.pi)
         return "Radau" if ringing > _RINGING else "LSODA"
 

@@ -17,6 +17,7 @@ from bondgraph.runtime.simulation.values import Values
 
 Array = npt.NDArray[np.float64]
 
+_LEAST = 1e-15  # of a state that nothing else says the size of
 _FAILS = (ArithmeticError, ValueError, NoSolution)
 
 
@@ -88,6 +89,9 @@ class Machine:
 
     def trouble(self, t: float, x: Sequence[float], u: Sequence[float]) -> str:
         """Which law or loop has no value here, in words; empty where all have one."""
+        for signal, value in zip(self.signals, u, strict=True):
+            if not math.isfinite(value):
+                return f"the input `{signal.name}` has no value there"
         for block in self.equations.blocks:
             if all(math.isfinite(self._alone(unknown)(t, x, u)) for unknown in block.unknowns):
                 continue
@@ -116,7 +120,7 @@ class Machine:
         for state, own in zip(self.equations.states, x, strict=True):
             sizes = [abs(self._alone(c)(t, x, u)) for c in state.capacities]
             sizes = [s for s in sizes if 0 < s < math.inf]
-            found.append(min([*sizes, *([abs(own)] if own else [])], default=1.0))
+            found.append(min(sizes, default=max(abs(own), _LEAST) if own else 1.0))
         return np.array(found)
 
     def jacobian(self, t: float, x: Array, u: Sequence[float]) -> Array:

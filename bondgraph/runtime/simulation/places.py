@@ -5,67 +5,123 @@ from __future__ import annotations
 import re
 
 Path = tuple[str | int, ...]
+Place = tuple[int, int]
 
-_KEY = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
-_DOTTED = rf"{_KEY}(?:\s*\.\s*{_KEY})*"
-_TABLE = re.compile(rf"^[ \t]*(\[\[?)[ \t]*({_DOTTED})[ \t]*\]", re.MULTILINE)
-_PAIR = re.compile(
-    rf"""^[ \t]*({_DOTTED})[ \t]*=[ \t]*("[^"\n]*"|'[^'\n]*'|[^\n#]*)""", re.MULTILINE
+_BLANK = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
+_KEY = re.compile(r"""\s*(?:([\w-]+)|"((?:\\.|[^"\\])*)"|'([^']*)')[ \t]*""")
+_TEXT = re.compile(
+    r'''"""(?:\\.|[^\\])*?"""+|\'\'\'.*?\'\'\'+|"(?:\\.|[^"\\])*"|'[^']*\'''', re.DOTALL
 )
-_INNER = re.compile(rf"""({_DOTTED})[ \t]*=[ \t]*("[^"\n]*"|'[^'\n]*'|[^,}}\]\n]*)""")
+_BARE = re.compile(r"[^,\]}\n#]*")
 
 
-def places(text: str) -> dict[Path, tuple[int, int]]:
+def places(text: str) -> dict[Path, Place]:
     """Start and end of each value and of each table's name, by the keys that lead to it.
 
-    Texts are given without their quotes. What is written over several lines has the place of its
-    first; a value that is not found has none.
+    Texts are given without their quotes; entries of lists are counted from 0. The text has to be
+    right as TOML.
 
     >>> where = places('[inputs]\\nU = "5 V"\\n')
     >>> where["inputs", "U"]
     (14, 17)
     """
-    found: dict[Path, tuple[int, int]] = {}
-    counts: dict[Path, int] = {}
-    table: Path = ()
-    marks = [(m.start(), m, True) for m in _TABLE.finditer(text)]
-    marks += [(m.start(), m, False) for m in _PAIR.finditer(text)]
-    for _, match, heading in sorted(marks, key=lambda mark: mark[0]):
-        if heading:
-            table = _parts(match[2])
-            if match[1] == "[[":
-                counts[table] = counts.get(table, -1) + 1
-                table = (*table, counts[table])
+    return _Scanner(text).scan()
+
+
+class _Scanner:
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.at = 0
+        self.found: dict[Path, Place] = {}
+        self.counts: dict[Path, int] = {}
+
+    def scan(self) -> dict[Path, Place]:
+        table: Path = ()
+        self.blank()
+        while self.at < len(self.text):
+            before = self.at
+            if self.text[self.at] == "[":
+                table = self.heading()
             else:
-                table = _inside(table, counts)
-            found.setdefault(table, match.span(2))
-            continue
-        path = (*table, *_parts(match[1]))
-        found[path] = _bare(text, *match.span(2))
-        if match[2].lstrip().startswith("{"):
-            for inner in _INNER.finditer(text, match.start(2) + 1, match.end(2)):
-                found[(*path, *_parts(inner[1]))] = _bare(text, *inner.span(2))
-    return found
+                self.pair(table)
+            self.blank()
+            if self.at == before:  # nothing of TOML
+                break
+        return self.found
 
+    def heading(self) -> Path:
+        """The path of `[a.b]` or `[[a.b]]`."""
+        brackets = 2 if self.text.startswith("[[", self.at) else 1
+        self.at += brackets
+        start = self.at
+        names = self.keys()
+        place = (start, self.at)
+        self.at += brackets
+        path: Path = ()
+        for k, name in enumerate(names):
+            path = (*path, name)
+            if brackets == 2 and k == len(names) - 1:
+                self.counts[path] = self.counts.get(path, -1) + 1
+            if path in self.counts:
+                path = (*path, self.counts[path])
+        self.found.setdefault(path, place)
+        return path
 
-def _parts(dotted: str) -> Path:
-    return tuple(key.strip("\"'") for key in re.findall(_KEY, dotted))
+    def pair(self, table: Path) -> None:
+        """`key = value`."""
+        path = (*table, *self.keys())
+        self.at += 1  # the equals sign
+        self.value(path)
 
+    def keys(self) -> list[str]:
+        """The names of a dotted key."""
+        names: list[str] = []
+        while True:
+            match = _KEY.match(self.text, self.at)
+            if match is None:
+                return names
+            names.append(next(g for g in match.groups() if g is not None))
+            self.at = match.end()
+            if not self.text.startswith(".", self.at):
+                return names
+            self.at += 1
 
-def _inside(table: Path, counts: dict[Path, int]) -> Path:
-    """The table with the number of the array entry that it belongs to."""
-    out: Path = ()
-    for key in table:
-        out = (*out, key)
-        if out in counts:
-            out = (*out, counts[out])
-    return out
+    def value(self, path: Path) -> None:
+        """The place of a value, and those of all that is in it."""
+        self.blank()
+        start = self.at
+        opening = self.text[start : start + 1]
+        if opening in ("[", "{") and opening:
+            self.at += 1
+            count = 0
+            self.blank()
+            while self.at < len(self.text) and self.text[self.at] not in "]}":
+                before = self.at
+                if opening == "[":
+                    self.value((*path, count))
+                    count += 1
+                else:
+                    self.pair(path)
+                self.blank()
+                if self.text.startswith(",", self.at):
+                    self.at += 1
+                    self.blank()
+                if self.at == before:
+                    break
+            self.at += 1
+            self.found[path] = (start, self.at)
+            return
+        match = _TEXT.match(self.text, start)
+        if match is not None:
+            quotes = 3 if match[0][:3] in ('"""', "'''") and len(match[0]) > 5 else 1
+            self.at = match.end()
+            self.found[path] = (start + quotes, self.at - quotes)
+            return
+        match = _BARE.match(self.text, start)
+        self.at = match.end() if match else start
+        self.found[path] = (start, start + len(self.text[start : self.at].rstrip()))
 
-
-def _bare(text: str, start: int, end: int) -> tuple[int, int]:
-    """The place without blanks around and without quotes."""
-    while end > start and text[end - 1] in " \t":
-        end -= 1
-    if end - start >= 2 and text[start] in "\"'" and text[end - 1] == text[start]:
-        return start + 1, end - 1
-    return start, end
+    def blank(self) -> None:
+        """Over blanks, ends of lines and comments."""
+        match = _BLANK.match(self.text, self.at)
+        self.at = match.end() if match else self.at

@@ -114,7 +114,9 @@ class _Reader:
 
     # ---------------------------------------------------------------------- parts
 
-    def _known(self, table: Table, key: str, name: str, what: str, known: Iterable[str]) -> bool:
+    def _known(
+        self, table: Table, key: str | tuple[str, int], name: str, what: str, known: Iterable[str]
+    ) -> bool:
         names = list(known)
         if name in names:
             return True
@@ -124,7 +126,8 @@ class _Reader:
         help = f"It has {', '.join(f'`{n}`' for n in shown)}{more}." if shown else "It has none."
         if close:
             help = f"Did you mean {' or '.join(f'`{n}`' for n in close)}?"
-        self.document.no_name((*table.path, key), f"The model has no {what} `{name}`.", help)
+        inside = (key,) if isinstance(key, str) else key
+        self.document.no_name((*table.path, *inside), f"The model has no {what} `{name}`.", help)
         return False
 
     def _parameters(self, table: Table) -> dict[str, float]:
@@ -315,11 +318,19 @@ class _Reader:
     def _record(self, top: Table) -> tuple[str, ...]:
         known = named(self.graph)
         names = top.names("record")
-        return tuple(n for n in names if self._known(top, "record", n, "effort or flow", known))
+        return tuple(
+            n
+            for k, n in enumerate(names)
+            if self._known(top, ("record", k), n, "effort or flow", known)
+        )
 
     def _static(self, top: Table) -> tuple[str, ...]:
         paths = [n.path for n in self.graph.nodes if n.kind in ("C", "I")]
         inside = {p[:k] for p in paths for k, c in enumerate(p) if c in ".["} | set(paths)
         names = top.names("quasi_static")
         shown = sorted(inside)
-        return tuple(n for n in names if self._known(top, "quasi_static", n, "storage", shown))
+        return tuple(
+            n
+            for k, n in enumerate(names)
+            if self._known(top, ("quasi_static", k), n, "storage", shown)
+        )

@@ -148,10 +148,10 @@ class _Simulation:
             if self._begin(mode, when(a), x, table, (done, last)):
                 x = handed_over(mode.machine, a, mode.inputs(when(a)), held)
             rows = integrator.run(mode.machine, _within(mode, when), a, b, x, times[done:last])
-            for k in range(done, last):
-                now = self._seen(mode, when(times[k]), rows[k - done])
+            for k, t in enumerate(times[done:last].tolist(), done):
+                now = self._seen(mode, when(t), rows[k - done])
                 table[k] = [now.get(name, math.nan) for name in first.names]
-                self._note(k, when(times[k]))
+                self._note(k, when(t))
             after = self._seen(mode, when(b), rows[-1])
             held |= {n: v for n, v in after.items() if n in held and v == v}
             held |= zip(mode.machine.states, rows[-1].tolist(), strict=True)
@@ -233,6 +233,8 @@ class _Simulation:
         """Write down what is told at sample k, and what is not read."""
         for name, column in self.told.items():
             column[k] = self.given.told(name, t)
+            if not math.isfinite(column[k]):
+                raise SimulationError(f"the run ends at {t:.6g} s: the input `{name}` has no value")
         for name, column in self.gone.items():
             if name in self.given.wrong:
                 column[k] = self.given.wrong[name].missing(t)

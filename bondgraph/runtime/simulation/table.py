@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from difflib import get_close_matches
 from itertools import pairwise
@@ -21,6 +22,11 @@ from bondgraph.text.source import Source, Span
 SECOND: Dimension = (0, 0, 1, 0, 0, 0, 0)
 HERTZ: Dimension = (0, 0, -1, 0, 0, 0, 0)
 PURE: Dimension = (0, 0, 0, 0, 0, 0, 0)
+
+
+def _named(path: Path) -> str:
+    """What a person calls a value: its key, not its place in a list."""
+    return next((key for key in reversed(path) if isinstance(key, str)), "")
 
 
 class Document:
@@ -153,7 +159,7 @@ class Table:
         if not isinstance(value, list) or len(value) != 2:
             self.wrong(key, f"`{key}` is a lower and an upper limit.", f"Write {key} = [-5, 5].")
             return none
-        ends = [self._quantity((*self.path, key), v, dimension) for v in value]
+        ends = [self._quantity((*self.path, key, k), v, dimension) for k, v in enumerate(value)]
         if ends[0] is None or ends[1] is None:
             return none
         if ends[0] >= ends[1]:
@@ -162,11 +168,15 @@ class Table:
         return ends[0], ends[1]
 
     def _quantity(self, path: Path, value: Any, dimension: Dimension | None) -> float | None:
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
-            return float(value)
         document = self.document
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            if abs(value) <= sys.float_info.max:
+                return float(value)
+            document.wrong(path, f"`{_named(path)}` is no finite number.",
+                           "Leave it out if there is to be no limit.")  # fmt: skip
+            return None
         if not isinstance(value, str):
-            document.wrong(path, f"`{path[-1]}` is a quantity.",
+            document.wrong(path, f"`{_named(path)}` is a quantity.",
                            'Write a number in SI units, or "5 mV".')  # fmt: skip
             return None
         expr = self.term(path, value, dimension, timely=False)
@@ -192,7 +202,7 @@ class Table:
         span = document.span(path)
         if span.text != text:  # written over several lines, or with escapes: no place inside
             span = Span(Source(document.source.path, text), 0, len(text))
-        return document.terms.read(span, dimension, f"`{path[-1]}`", timely, truth)
+        return document.terms.read(span, dimension, f"`{_named(path)}`", timely, truth)
 
     def course(self, key: str, dimension: Dimension | None, truth: bool = False) -> Course | None:
         """A signal over time: number, expression of t, table of points, or column of a file.
@@ -233,13 +243,13 @@ class Table:
         self, table: list[Any], dimension: Dimension | None
     ) -> tuple[tuple[float, float], ...] | None:
         pairs = []
-        for row in table:
+        for k, row in enumerate(table):
             if not isinstance(row, list) or len(row) != 2:
                 self.wrong("table", "A table has two columns, time and value.",
                            "Write table = [[0, 0], [1, 5]].")  # fmt: skip
                 return None
-            t = self._quantity((*self.path, "table"), row[0], SECOND)
-            v = self._quantity((*self.path, "table"), row[1], dimension)
+            t = self._quantity((*self.path, "table", k, 0), row[0], SECOND)
+            v = self._quantity((*self.path, "table", k, 1), row[1], dimension)
             if t is None or v is None:
                 return None
             pairs.append((t, v))
