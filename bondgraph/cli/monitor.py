@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.sources.source import Source
     from bondgraph.runtime.monitoring.verdict import Verdict
 
+_COLOURS = {"fault": "1;31", "update": "31", "invalid": "33", "gap": "33"}
 _LEARNING = 2.0  # s of healthy samples from which floors are learned
 
 
@@ -113,9 +114,11 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     from bondgraph.runtime.monitoring.clock import clock_of
     from bondgraph.runtime.monitoring.columns import Columns, read_map
     from bondgraph.runtime.monitoring.decision import Threshold
+    from bondgraph.runtime.monitoring.journal import known_rate
     from bondgraph.runtime.monitoring.monitor import Monitor, Parts
 
-    rate = args.rate or source.rate() or Options().rate
+    known = known_rate(args.journal) if args.journal else None
+    rate = args.rate or known or source.rate() or Options().rate
     compilation = open_model(args.model, rate=rate, bandwidth=args.bandwidth)
     names = [r.name for r in compilation.program.residuals]
     for name, _ in args.floor:
@@ -196,7 +199,7 @@ def _journal(path: str | None, compilation: Compilation, source: Source) -> Jour
         return None
     bounds = compilation.thresholds
     digest = compilation.program.digest + ("" if bounds is None else f"-{bounds.digest}")
-    return Journal(path, compilation.graph.name, digest, source.name)
+    return Journal(path, compilation.graph.name, digest, source.name, compilation.program.rate)
 
 
 def _publisher(at: Address | None, journal: str | None, known: Journal | None) -> Publisher | None:
@@ -221,8 +224,12 @@ def _identity(journal: str, role: str) -> str:
 def _printer(lines: bool) -> Callable[[int, Verdict], None]:
     from bondgraph.runtime.monitoring.verdict import to_json, to_text
 
+    colours = _COLOURS if console.coloured(sys.stdout) else {}
+
     def text(number: int, verdict: Verdict) -> None:
-        print(to_text(verdict), flush=True)
+        line = to_text(verdict)
+        colour = colours.get(verdict.event)
+        print(f"\x1b[{colour}m{line}\x1b[0m" if colour else line, flush=True)
 
     def json(number: int, verdict: Verdict) -> None:
         print(to_json(verdict, number), flush=True)

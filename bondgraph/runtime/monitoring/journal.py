@@ -41,10 +41,11 @@ class Journal:
     cleaned away once they are many; verdicts stay for ever.
     """
 
-    def __init__(self, path: str, model: str, digest: str, source: str) -> None:
+    def __init__(self, path: str, model: str, digest: str, source: str, rate: float) -> None:
         self.past: Past | None = None
         self._path = path
-        self._head = {"journal": _EDITION, "model": model, "digest": digest, "source": source}
+        self._head = {"journal": _EDITION, "model": model, "digest": digest, "source": source,
+                      "rate": rate}  # fmt: skip
         self._lines: list[str] = []  # of verdicts, kept for cleaning
         self._sent = 0
         self._old = 0  # bytes that could be cleaned away
@@ -190,6 +191,15 @@ class Journal:
         if not position and not verdicts:
             return None
         return Past(source, position, state, tuple(verdicts), self._sent, at)
+
+
+def known_rate(path: str) -> float | None:
+    """The samples a second that a journal was begun with; None if there is no such journal."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return float(json.loads(file.readline())["rate"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
 
 
 def _line(record: dict[str, Any]) -> str:

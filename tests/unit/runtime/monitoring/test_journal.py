@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from bondgraph.runtime.monitoring.journal import Journal, JournalError
+from bondgraph.runtime.monitoring.journal import Journal, JournalError, known_rate
 from bondgraph.runtime.monitoring.verdict import Candidate, Verdict
 
 _FAULT = Verdict("fault", 2.0, 1.5, {"r1": 3.0}, ("R",), (Candidate("R", 1e-3, "Ohm", 1.0),), "R")
 
 
 def opened(path: Path, digest: str = "abc", source: str = "here") -> Journal:
-    return Journal(str(path), "Motor", digest, source)
+    return Journal(str(path), "Motor", digest, source, 250.0)
 
 
 def test_what_was_written_is_known_again(tmp_path: Path) -> None:
@@ -44,7 +44,8 @@ def test_a_kill_in_any_byte_leaves_whole_lines(tmp_path: Path) -> None:
     journal.close()
     data = path.read_bytes()
     ends = [k + 1 for k, byte in enumerate(data) if byte == 10]
-    for cut in range(len(data) + 1):
+    near = {end + k for end in ends for k in (-1, 0, 1)}
+    for cut in sorted(near | set(range(0, len(data), 7))):
         path.write_bytes(data[:cut])
         again = opened(path)
         whole = sum(cut >= end for end in ends)
@@ -76,6 +77,15 @@ def test_old_positions_are_cleaned_away_and_verdicts_stay(tmp_path: Path) -> Non
     assert [n for n, _ in past.verdicts] == list(range(0, 200, 20))
     assert past.position == {"time": 199.0} and past.sent == 7
     assert not list(tmp_path.glob("*.new"))
+
+
+def test_the_rate_is_known_before_the_journal_is_opened(tmp_path: Path) -> None:
+    path = tmp_path / "j"
+    assert known_rate(str(path)) is None
+    opened(path).close()
+    assert known_rate(str(path)) == 250.0
+    path.write_text("[]\n")
+    assert known_rate(str(path)) is None
 
 
 def test_another_model_is_refused_with_a_remedy(tmp_path: Path) -> None:
@@ -119,7 +129,7 @@ def test_a_killed_writer_frees_the_journal(tmp_path: Path) -> None:
     path = tmp_path / "j"
     code = (
         "import os, sys; from bondgraph.runtime.monitoring.journal import Journal;"
-        "j = Journal(sys.argv[1], 'Motor', 'abc', 'there'); j.write({'time': 1.0}, {});"
+        "j = Journal(sys.argv[1], 'Motor', 'abc', 'there', 250.0); j.write({'time': 1.0}, {});"
         "print('open', flush=True); sys.stdin.read()"
     )
     with subprocess.Popen(

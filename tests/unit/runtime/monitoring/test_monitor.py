@@ -295,6 +295,20 @@ def test_the_rate_is_that_of_the_file(tmp_path: Path, capsys: pytest.CaptureFixt
     assert said[2]["since"] == pytest.approx(motor.ONSET, abs=0.1)
 
 
+def test_a_file_that_was_empty_at_first_keeps_its_rate(tmp_path: Path, watch: Start) -> None:
+    path, journal = tmp_path / "log.csv", str(tmp_path / "j")
+    path.write_bytes(b"")
+    first = watch(str(path), "--follow", "--journal", journal)
+    assert "1000 samples a second" in first.heard("start")["message"]
+    first.kill()
+    log = motor.log()
+    columns = {k: v[::4] for k, v in log.columns.items()}
+    path.write_bytes(csv(log._replace(time=log.time[::4], columns=columns), header=True))
+    second = watch(str(path), "--journal", journal)
+    assert second.ended() == 0
+    assert second.events() == ["resumed", "warm-up", "fault", "stop"]
+
+
 def test_gaps_are_told_and_a_flood_of_them_is_not(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -329,10 +343,10 @@ def test_a_robot_with_encoders_is_watched(
     import bondgraph
 
     model = str(ROOT / "models" / "khepera.bg")
-    knowns = bondgraph.compile(model).engine().signals
-    count = 3000
-    rows = ["t," + ",".join(k.path for k in knowns)]
-    rows += [f"{k / 1000}," + ",".join(["0"] * len(knowns)) for k in range(count)]
+    graph = bondgraph.compile(model).graph
+    names = [*(i.name for i in graph.inputs), *(s.name for s in graph.sensors)]
+    rows = ["t," + ",".join(names)]
+    rows += [f"{k / 1000}," + ",".join(["0"] * len(names)) for k in range(1000)]
     path = tmp_path / "log.csv"
     path.write_text("\n".join(rows) + "\n")
     assert main(["monitor", model, str(path), "--floor", "1e-6"]) == 0

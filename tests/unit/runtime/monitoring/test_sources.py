@@ -37,7 +37,7 @@ def times(chunks: Iterator[Chunk]) -> list[float]:
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])
 def test_a_file_goes_on_from_any_place(suffix: str, tmp_path: Path) -> None:
     path = str(tmp_path / f"log{suffix}")
-    count = 90_000
+    count = 60_000
     write_log(Log(np.arange(count) / 1000, {"a": np.arange(count) / 7}, {}, {}), path)
     source = file_source(path, Form(path))
     chunks = list(source.chunks(Event()))

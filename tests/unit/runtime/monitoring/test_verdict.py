@@ -6,7 +6,7 @@ import json
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bondgraph.runtime.monitoring.verdict import (
@@ -34,6 +34,7 @@ _verdicts = st.builds(
 )
 
 
+@settings(max_examples=50)
 @given(_verdicts, st.integers(min_value=1))
 def test_a_line_gives_back_the_verdict(verdict: Verdict, number: int) -> None:
     line = to_json(verdict, number)
