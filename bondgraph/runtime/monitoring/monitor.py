@@ -19,6 +19,7 @@ from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
 from bondgraph.text.tuples import NamedTuple
 
 _EVERY = 1.0  # s between two positions in the journal
+_DIGITS = 9  # of a time in s
 _BACK = 3.0  # warm-ups to go back: what the filters began with is forgotten to 12 digits then
 
 
@@ -288,6 +289,8 @@ class Monitor:
     # ------------------------------------------------------------------------- verdicts
 
     def _say(self, verdict: Verdict) -> None:
+        since = None if verdict.since is None else round(verdict.since, _DIGITS)
+        verdict = verdict._replace(time=round(verdict.time, _DIGITS), since=since)
         self._number += 1
         self._keep(verdict)
         self._pending.append((self._number, verdict))
