@@ -34,7 +34,10 @@ class Leaf(NamedTuple):
 
 
 class Scene(NamedTuple):
-    """Items by node, the skeleton in order, the leaves, and the submodels that get a frame."""
+    """Items by node, the skeleton in order, the leaves, and the submodels that get a frame.
+
+    `framed` are the same submodels as a set.
+    """
 
     graph: BondGraph
     items: tuple[Item, ...]
@@ -42,11 +45,12 @@ class Scene(NamedTuple):
     links: tuple[tuple[int, int, int], ...]  # bonds of the skeleton: tail, head, bond
     leaves: dict[int, tuple[Leaf, ...]]
     frames: tuple[Path, ...]
+    framed: frozenset[Path]
 
     def frames_of(self, node: int) -> tuple[Path, ...]:
         """The frames around a node, the outermost first."""
         path = self.items[node].path
-        return tuple(path[:k] for k in range(1, len(path)) if path[:k] in set(self.frames))
+        return tuple(path[:k] for k in range(1, len(path)) if path[:k] in self.framed)
 
     def walls(self, a: int, b: int) -> int:
         """How many frames a bond from a to b crosses."""
@@ -60,7 +64,7 @@ def scene(causal: CausalGraph, unframed: frozenset[Path]) -> Scene:
     graph = causal.graph
     paths = [tuple(node.path.split(".")) for node in graph.nodes]
     frames = _frames(paths, unframed)
-    framed = set(frames)
+    framed = frozenset(frames)
     derived = {s.node for s in causal.storages if not s.integral}
     dualised = set(causal.dualised)
     items = []
@@ -80,7 +84,7 @@ def scene(causal: CausalGraph, unframed: frozenset[Path]) -> Scene:
             links.append((tail, head, b))
     skeleton = tuple(n for n in range(len(graph.nodes)) if n not in host)
     hanging = {n: tuple(group) for n, group in leaves.items()}
-    return Scene(graph, tuple(items), skeleton, tuple(links), hanging, frames)
+    return Scene(graph, tuple(items), skeleton, tuple(links), hanging, frames, framed)
 
 
 def _frames(paths: list[Path], unframed: frozenset[Path]) -> tuple[Path, ...]:

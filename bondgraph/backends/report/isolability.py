@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from bondgraph.backends.drawing.paint import escape
@@ -11,7 +12,7 @@ from bondgraph.backends.report.content import Signatures
 MOST = 120  # rows of a picture that is still one
 _CELL = 13.0  # px
 _TEXT = 10.0
-_LONGEST = 28  # letters of a label
+_LONGEST = 28  # letters of a label before its words are shortened
 
 
 def isolability(signatures: Signatures) -> str:
@@ -49,8 +50,10 @@ def _relation(sees: dict[str, frozenset[str]], best: dict[str, int], one: str, o
 
 
 def _label(faults: Sequence[str]) -> str:
-    text = faults[0] if len(faults) == 1 else f"{faults[0]} +{len(faults) - 1}"
-    return text if len(text) <= _LONGEST else f"…{text[1 - _LONGEST :]}"
+    name = faults[0]
+    if len(name) > _LONGEST:  # every word and index of the path stays recognisable
+        name = re.sub(r"([^.\[\]]{5})[^.\[\]]{4,}([^.\[\]]{4})", r"\1…\2", name)
+    return name if len(faults) == 1 else f"{name} +{len(faults) - 1}"
 
 
 def _cell(kind: str, column: int, row: int) -> str:

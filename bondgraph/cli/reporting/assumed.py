@@ -32,8 +32,8 @@ def assumed(args: Namespace, program: Program) -> Assumed:
         rhythm = "" if program.roots else f" at {given.frequency:g} Hz"
         words.append(
             f"Nothing was said of what the machine does: every signal is taken to {moves}, in its"
-            f" own unit{rhythm} (--at, --swing). The sizes below compare faults and residuals; they"
-            " are not those of a real run."
+            f" own unit{rhythm} (`--at`, `--swing`). The sizes below compare faults and residuals;"
+            " they are not those of a real run."
         )
     else:
         told = [f"{n} at {v:g}" for n, v in given.at.items()]
@@ -49,8 +49,9 @@ def assumed(args: Namespace, program: Program) -> Assumed:
         size = 2.0**-args.bits / math.sqrt(12)
         given = given._replace(noise={name: size * r for name, r in ranges.items()})
         words.append(
-            f"Nothing was said of noise (--noise): every sensor has that of {args.bits}-bit samples"
-            " over its range here, white, a step over the square root of 12."
+            "Nothing was said of noise (`--noise`): every sensor has that of"
+            f" {args.bits}-bit samples over its range here, white, a step over the square root of"
+            " 12."
         )
     if any(k.counts is not None for k in signals):
         words.append("An encoder has the noise of its counts, evenly spread over one.")

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from bondgraph.pipeline import Compilation
     from bondgraph.text.diagnostic import Diagnostic
 
+_NODES = 1500  # of a drawing that still fits a page
 _QUANTITIES = 500  # of a list that is still one
 
 
@@ -101,6 +102,9 @@ def _program(compilation: Compilation) -> tuple[Program | None, tuple[Diagnostic
 
 
 def _drawings(compilation: Compilation) -> Iterator[Drawing]:
+    nodes = len(compilation.graph.nodes)
+    if nodes > _NODES:
+        return
     if compilation.conflicts:
         yield Drawing(
             "Why no strokes can be placed",
@@ -142,6 +146,8 @@ def _facts(compilation: Compilation, program: Program | None) -> Iterator[tuple[
     kinds = [f"{plural(len(graph.nodes), 'node')}", f"{plural(len(graph.bonds), 'bond')}",
              plural(sum(s.same_as is None for s in graph.sensors), "sensor")]  # fmt: skip
     yield "Model", ", ".join(kinds)
+    if len(graph.nodes) > _NODES:
+        yield "Drawing", "too large for a page; bondgraph draw writes it"
     if not compilation.residuals:
         return
     done = compilation.verification

@@ -81,7 +81,13 @@ def _orders(
     words = {-1: "only integrated", 0: "none of", 1: "first of", 2: "second of", 3: "third of"}
     for order in sorted(set(orders.values()), reverse=True):
         signals = tuple(typesetter.inline(s) for s, n in orders.items() if n == order)
-        yield words.get(order, f"{order}th of"), signals
+        yield words.get(order, f"{_ordinal(order)} of"), signals
+
+
+def _ordinal(number: int) -> str:
+    """`4th`, `22nd`."""
+    late = number % 100 in (11, 12, 13)
+    return f"{number}{'th' if late else {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th')}"
 
 
 def _path(
