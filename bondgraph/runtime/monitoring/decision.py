@@ -83,6 +83,9 @@ class Threshold:
         self._facts = facts
         self._watched = [k for k, r in enumerate(facts.residuals) if r in facts.sees]
         count = len(facts.residuals)
+        self._hair = (
+            1e-6 * facts.patience
+        )  # a grid that begins elsewhere rounds its times elsewhere
         self._floor = np.array([facts.floor.get(r, math.nan) for r in facts.residuals])
         self._fired = np.zeros(count, dtype=bool)
         self._ever = np.zeros(count, dtype=bool)  # since the fault began
@@ -107,7 +110,10 @@ class Threshold:
     def state(self) -> dict[str, Any]:
         """All that `resume` needs, as plain JSON."""
         return {
-            "floor": [None if math.isnan(f) else f for f in self._floor.tolist()],
+            "floor": _plain(self._floor),
+            "row": self._row.tolist(),
+            "above": _plain(self._above),
+            "below": _plain(self._below),
             "fired": self._fired.tolist(),
             "ever": self._ever.tolist(),
             "said": self._said.tolist(),
@@ -124,8 +130,10 @@ class Threshold:
     def resume(self, state: dict[str, Any]) -> None:
         """Go on from a state; a floor that was learned is not learned again."""
         self.restart()
-        learned = np.array([math.nan if f is None else f for f in state["floor"]])
+        learned = _numbers(state["floor"])
         self._floor = np.where(np.isnan(self._floor), learned, self._floor)
+        self._row = np.array(state["row"], dtype=int)
+        self._above, self._below = _numbers(state["above"]), _numbers(state["below"])
         self._fired = np.array(state["fired"], dtype=bool)
         self._ever = np.array(state["ever"], dtype=bool)
         self._said = np.array(state["said"], dtype=bool)
@@ -228,7 +236,7 @@ class Threshold:
         if (self._fired & ~self._ever).any() and self._said.any():
             self._due = min(self._due, time + self._facts.patience)
         self._ever |= self._fired
-        if time >= self._due:
+        if time >= self._due - self._hair:
             event = "update" if self._said.any() else "fault"
             self._said, self._due = self._ever.copy(), math.inf
             self._away = False
@@ -255,7 +263,7 @@ class Threshold:
         self._above[k] = math.nan
         if math.isnan(self._below[k]):
             self._below[k] = time
-        if self._fired[k] and time - self._below[k] >= self._facts.patience:
+        if self._fired[k] and time - self._below[k] >= self._facts.patience - self._hair:
             self._fired[k] = False
 
     def _verdict(self, event: str, time: float, more: str) -> Verdict:
@@ -288,3 +296,12 @@ class Threshold:
 
 def _nothing(residuals: int) -> Learned:
     return Learned(0, np.zeros(residuals), np.zeros(residuals), np.zeros(residuals))
+
+
+def _plain(values: Array) -> list[float | None]:
+    """Numbers as JSON has them, None for NaN."""
+    return [None if math.isnan(x) else x for x in values.tolist()]
+
+
+def _numbers(values: Sequence[float | None]) -> Array:
+    return np.array([math.nan if x is None else x for x in values], dtype=np.float64)

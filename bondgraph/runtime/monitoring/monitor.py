@@ -12,7 +12,7 @@ from bondgraph.runtime.log import TIME_UNIT, Array, Log, LogError
 from bondgraph.runtime.monitoring.clock import Clock, Piece
 from bondgraph.runtime.monitoring.decision import Decision
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.journal import Journal, Past
+from bondgraph.runtime.monitoring.journal import Journal, JournalError, Past
 from bondgraph.runtime.monitoring.publisher import Publisher
 from bondgraph.runtime.monitoring.sources.source import Chunk, Source
 from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
@@ -60,7 +60,6 @@ class Monitor:
         self._time = 0.0  # s, of the newest sample that was decided on
         self._newest = 0.0  # s, of the newest one that was computed
         self._samples = 0
-        self._fresh = 0  # samples of this run
         self._number = 0
         self._pending: list[tuple[int, Verdict]] = []
         self._latched: Verdict | None = None
@@ -72,7 +71,8 @@ class Monitor:
         self._gaps = 0  # one after the other, without residuals between them
         self._anew = float("-inf")  # s, when the filters began
         self._matched = False
-        self._written = clocks.monotonic()
+        self._written = clocks.monotonic()  # when the position was put down
+        self._put_down = 0  # samples until then
 
     def run(self, stop: Stop) -> int:
         """Watch until the source ends or `stop` is set; how many verdicts the broker has not taken.
@@ -114,7 +114,13 @@ class Monitor:
         self._time = float(past.position.get("time", 0.0))
         self._samples = int(past.position.get("samples", 0))
         if past.state is not None:
-            self._parts.decision.resume(past.state)
+            try:
+                self._parts.decision.resume(past.state)
+            except (KeyError, IndexError, TypeError, ValueError) as error:
+                message = (
+                    "the journal is of another version of bondgraph; move it away to begin anew"
+                )
+                raise JournalError(message) from error
         same = past.source == source.name
         why = source.go(past.position) if same else f"the source was {past.source}"
         if why:
@@ -163,11 +169,11 @@ class Monitor:
             self._resumed(past, "no sample came")
         if not stop.is_set():
             for piece in self._parts.clock.finish():
-                new = piece.time > self._time  # a file that is read again has told its end
-                if piece.anew or new.any():
-                    self._step(
-                        piece._replace(time=piece.time[new], samples=piece.samples[new]), False
-                    )
+                # A file that is read again has told its end.
+                first = 0 if piece.anew else int((piece.time <= self._time).sum())
+                if first < len(piece.time):
+                    rest = piece._replace(time=piece.time[first:], samples=piece.samples[first:])
+                    self._step(rest, False)
         why = f"stopped by {stop.reason}" if stop.is_set() else "the samples end"
         message = f"{why}, after {self._samples} samples"
         if self._parts.clock.dropped:
@@ -305,7 +311,8 @@ class Monitor:
         """Put down what is to be said, then say it; and how far the watch is, each second."""
         journal = self._parts.journal
         now = clocks.monotonic()
-        if journal is not None and (self._pending or now - self._written >= _EVERY):
+        due = self._samples != self._put_down and now - self._written >= _EVERY
+        if journal is not None and (self._pending or due):
             position = {
                 "time": self._time,
                 "samples": self._samples,
@@ -313,7 +320,7 @@ class Monitor:
                 "back": self._places[0][1],
             }
             journal.write(position, self._parts.decision.state(), self._pending)
-            self._written = now
+            self._written, self._put_down = now, self._samples
         said, self._pending = self._pending, []
         for number, verdict in said:
             for sink in self._parts.sinks:

@@ -86,17 +86,24 @@ def test_a_short_peak_and_a_slow_approach_do_not_chatter() -> None:
     assert len(faults(said)) == 1
 
 
-def test_pieces_and_restarts_from_a_state_change_nothing() -> None:
-    stretches = [(0, 0, 0), (3, 0, 0), (3, 3, 0), (0, 0, 0), (0, 0, 3)]
-    whole = run(Threshold(facts({})), (0.1, 0.2, 0.3), (-0.1, 0.1, -0.2), *stretches)
-    one = Threshold(facts({}))
-    said = []
-    for k, stretch in enumerate([(0.1, 0.2, 0.3), (-0.1, 0.1, -0.2), *stretches]):
-        state = json.loads(json.dumps(one.state()))
+@pytest.mark.parametrize("step", [3, 77, 1000])
+def test_pieces_and_restarts_from_a_state_change_nothing(step: int) -> None:
+    rng = np.random.default_rng(2)
+    levels = [(0, 0, 0), (0, 0, 0), (3, 0, 0), (3, 3, 0), (0, 0, 0), (0, 0, 3)]
+    value = np.repeat(np.array(levels, dtype=float), 500, axis=0)
+    value += rng.normal(size=value.shape) * 0.1
+    time = np.arange(len(value)) / 1000
+    valid, bound = np.ones_like(value, bool), np.full_like(value, 0.1)
+    whole = Threshold(facts({})).update(time, Batch(value, valid, bound), value)
+    state, said = Threshold(facts({})).state(), []
+    for k in range(0, len(value), step):
         one = Threshold(facts({}))
-        one.resume(state)
-        said += run(one, stretch, start=k / 2)
-    assert faults(said) == faults(whole) and len(faults(said)) > 2
+        one.resume(json.loads(json.dumps(state)))
+        part = slice(k, k + step)
+        said += one.update(time[part], Batch(value[part], valid[part], bound[part]), value[part])
+        state = one.state()
+    assert [(v.event, v.time, v.group) for v in said] == [(v.event, v.time, v.group) for v in whole]
+    assert len(faults(whole)) > 2
 
 
 def test_floors_are_learned_from_movement_and_never_from_nothing() -> None:

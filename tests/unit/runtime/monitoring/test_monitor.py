@@ -140,6 +140,18 @@ def test_a_journal_of_another_model_is_refused(
     assert "another model" in capsys.readouterr().err
 
 
+def test_a_journal_with_another_kind_of_state_is_refused(
+    logs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    journal = tmp_path / "j"
+    words = ["monitor", MOTOR, str(logs / "motor.csv"), "--journal", str(journal)]
+    assert main(words) == 0
+    journal.write_text(journal.read_text("utf-8").replace('"floor"', '"flour"'))
+    capsys.readouterr()
+    assert main(words) == 1
+    assert "another version" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_signals_stop_it_properly(number: signal.Signals, tmp_path: Path, watch: Start) -> None:
     journal = tmp_path / "j"
