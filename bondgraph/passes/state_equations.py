@@ -10,6 +10,7 @@ the causality of the bond graph says. What stays in a loop is one block.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence, Set
+from fractions import Fraction
 from typing import NamedTuple
 
 from bondgraph.ir.causal import CausalGraph
@@ -21,6 +22,7 @@ from bondgraph.passes.lowering.derivative import Jets
 from bondgraph.passes.matching import decompose, match
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.reduce_index import Column, Reduced, reduce_index
+from bondgraph.passes.rings import rings
 from bondgraph.passes.sensitivity import sensitivity
 from bondgraph.passes.solve import solve
 from bondgraph.text.diagnostic import Report
@@ -79,6 +81,7 @@ class _Causaliser:
         self.static: list[str] = []
         self.disturbances = tuple(disturbance(self.pool, name) for name in wanted.disturbed)
         self.rows = self._rows()
+        self._open_rings()
         self.preferred = _preferred(system, integral)
 
     def run(self) -> StateEquations | None:
@@ -166,6 +169,24 @@ class _Causaliser:
             zero = self.jets.of(zero)
             rows.append(_Row(equation, zero, _orders(zero)))
         return rows
+
+    def _open_rings(self) -> None:
+        """Where flows or efforts go around a ring, let there be none."""
+        pool = self.pool
+        nominal = Nominal(self.graph)
+        numbers = self.wanted.numbers
+        told = {
+            v.symbol: pool.num(Fraction(numbers[v.name]))
+            for v in self.graph.values
+            if v.name in numbers
+        }
+
+        def number(expr: Expr) -> float | None:
+            return nominal.value(pool.substitute([expr], told)[0])
+
+        rows = [(r.equation, r.zero) for r in self.rows]
+        for k, variable in rings(self.system, rows, number).items():
+            self.rows[k] = _Row(self.rows[k].equation, variable, _orders(variable))
 
     def _at_rest(self, name: str) -> bool:
         return any(

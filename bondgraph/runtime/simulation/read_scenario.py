@@ -218,7 +218,7 @@ class _Reader:
 
     def _sampling(self, table: Table) -> Sampling:
         sampling = Sampling(
-            table.number("rate", HERTZ, 1000.0, 0.0, 1e9, above=True),
+            table.number("rate", HERTZ, 1000.0, 0.0, 1e15, above=True),
             table.number("jitter", PURE, 0.0, 0.0, 0.9),
             table.number("lost", PURE, 0.0, 0.0, 0.9),
         )
