@@ -231,6 +231,8 @@ class Threshold:
             self._onset, self._due = float(first.min()), time + self._facts.patience
         if self._onset is None:
             return
+        if self._due < math.inf:  # not for ever, where the clock was put back in between
+            self._due = min(self._due, time + self._facts.patience)
         self._ratio = np.fmax(self._ratio, np.where(np.isnan(excess), 0.0, ratio))
         self._peak = np.fmax(self._peak, excess)
         if (self._fired & ~self._ever).any() and self._said.any():
@@ -255,13 +257,13 @@ class Threshold:
         self._row[k] = self._row[k] + 1 if excess > FIRES else 0
         if excess > BACK:
             self._below[k] = math.nan
-            if math.isnan(self._above[k]):
+            if not self._above[k] <= time:
                 self._above[k] = time
             if self._row[k] >= _IN_A_ROW:
                 self._fired[k] = True
             return
         self._above[k] = math.nan
-        if math.isnan(self._below[k]):
+        if not self._below[k] <= time:  # NaN, or the clock was put back
             self._below[k] = time
         if self._fired[k] and time - self._below[k] >= self._facts.patience - self._hair:
             self._fired[k] = False

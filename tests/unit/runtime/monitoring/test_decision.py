@@ -106,6 +106,18 @@ def test_pieces_and_restarts_from_a_state_change_nothing(step: int) -> None:
     assert len(faults(whole)) > 2
 
 
+def test_a_clock_that_was_put_back_delays_nothing() -> None:
+    decision = Threshold(facts())
+    assert faults(run(decision, (0, 0, 0), start=1000.0)) == []
+    value = np.tile([3.0, 0.0, 0.0], (50, 1))
+    batch = Batch(value, np.ones_like(value, bool), np.ones_like(value))
+    assert faults(decision.update(1000.5 + np.arange(50) / 1000, batch, value)) == []
+    decision.restart()
+    said = run(decision, (3, 0, 0), (0, 0, 0), start=7.0)
+    assert faults(said) == [("fault", ("a",)), ("update", ("a",))]
+    assert [v.time for v in said if v.event != "warm-up"] == pytest.approx([7.1, 7.6], abs=2e-3)
+
+
 def test_floors_are_learned_from_movement_and_never_from_nothing() -> None:
     decision = Threshold(facts({"r1": 1.0}))
     said = run(decision, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
