@@ -128,10 +128,10 @@ def test_any_time_scale(scale: float) -> None:
 def test_a_jump_at_a_sample_shows_there_and_not_before() -> None:
     found = run(
         "param R = 2\nSe:U -> 1:i\ni -> R:R\ni -> Df:y",
-        'duration = 0.9\nsampling.rate = 10\ninputs.U = "if(t > 0.3, 1, 0)"\n[[fault]]\nof = "R"\n'
+        'duration = 1\nsampling.rate = 10\ninputs.U = "if(t > 0.3, 1, 0)"\n[[fault]]\nof = "R"\n'
         'change = "*= 0.5"\nat = 0.1\nperiod = 0.6\nduty = 0.5',
     )
     told, read = found.log.columns["U"], found.log.columns["y"]
-    assert told.tolist() == [0, 0, 0, *[1] * 7]
+    assert told.tolist() == [0, 0, 0, *[1] * 8]
     # the fault is there from 0.1 to 0.4 and from 0.7 on
-    assert np.allclose(read, [0, 0, 0, 1, 0.5, 0.5, 0.5, 1, 1, 1])
+    assert np.allclose(read, [0, 0, 0, 1, 0.5, 0.5, 0.5, 1, 1, 1, 0.5])

@@ -104,7 +104,9 @@ _LOOKS = 2000  # times at which a condition is looked at, at least
 
 
 def inside(a: float, b: float) -> Callable[[float], float]:
-    """Times of a segment, kept clear of what jumps at its ends."""
+    """Times of a segment, kept clear of what jumps at its ends; a moment is what comes after."""
+    if a == b:
+        return lambda _: a * (1 + _EDGE)
     margin = min(_EDGE * b, (b - a) / 2)
     low, high = (a + margin if a else a), b - margin
     return lambda t: min(max(t, low), high)

@@ -130,7 +130,7 @@ class _Simulation:
     # -------------------------------------------------------------------- running
 
     def run(self, progress: Progress) -> Run:
-        """Segment by segment, from jump to jump of anything."""
+        """Segment by segment, from jump to jump of anything; the last one is a moment."""
         times, given = self.times, self.given
         end = float(times[-1])
         stops = given.stops(end)
@@ -140,10 +140,10 @@ class _Simulation:
         longest = 2 / self.scenario.sampling.rate if given.smooth else math.inf
         integrator = Integrator(self.scenario.method, self.scenario.tolerance, end, longest)
         done = 0
-        for a, b in zip([0.0, *stops], [*stops, end], strict=True):
+        for a, b in zip([0.0, *stops, end], [*stops, end, end], strict=True):
             when = inside(a, b)
             mode = self._mode(when(a))
-            last = len(times) if b == end else int(np.searchsorted(times, b))
+            last = len(times) if a == end else int(np.searchsorted(times, b))
             x = handed_over(mode.machine, a, mode.inputs(when(a)), held)
             if self._begin(mode, when(a), x, table, (done, last)):
                 x = handed_over(mode.machine, a, mode.inputs(when(a)), held)

@@ -1,0 +1,221 @@
+"""Controllers, instruments and faults of a scenario, against simulations written by hand."""
+
+from __future__ import annotations
+
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bondgraph.runtime.log import Log, write_log
+from tests.simulation.machines import Array, example, near, opened, read, run
+
+ROTOR = "Se:T -> 1:w\nw -> I:J = 0.5\nw -> R:f = 0.2\nw -> Df:y\nsensor th : rad = int(w.f)"
+ENCODER = ROTOR + " counts 24/turn"
+
+
+def rotor(w: float, th: float, torque: float, dt: float) -> tuple[float, float]:
+    """Half a unit of inertia with friction, over a time in which the torque is constant."""
+    end, fall = torque / 0.2, math.exp(-0.4 * dt)
+    return end + (w - end) * fall, th + end * dt + (w - end) * (1 - fall) / 0.4
+
+
+@pytest.mark.parametrize("speed", [False, True])
+def test_a_controller_with_limits_is_the_one_written_by_hand(speed: bool) -> None:
+    """PID by the trapezoidal rule, integral held at the limits; setpoint jumps at 1 s."""
+    kp, ki, kd, period, low, high = 0.8, 3.0, 0.01, 0.02, -0.7, 0.9
+    sensor = "th" if speed else "y"
+    found = run(
+        ROTOR,
+        f'duration = 3\nsampling.rate = 100\n[[controller]]\ninput = "T"\nmeasures = "{sensor}"\n'
+        f'setpoint = "if(t >= 1, -1, 3)"\nkp = {kp}\nki = {ki}\nkd = {kd}\nperiod = {period}\n'
+        f"limits = [{low}, {high}]\nspeed = {str(speed).lower()}",
+    ).truth
+    w = th = integral = 0.0
+    torque = before = None
+    seen = None
+    told, speeds = [], []
+    for k in range(301):
+        if k % 2 == 0:
+            measured = w
+            if speed:
+                measured = 0.0 if seen is None else (th - seen) / period
+                seen = th
+            error = (-1 if k >= 100 else 3) - measured
+            last = error if before is None else before
+            before = error
+            more = integral + ki * period * (error + last) / 2
+            wanted = kp * error + more + kd * (error - last) / period
+            if (
+                low <= wanted <= high
+                or (wanted > high and error < 0)
+                or (wanted < low and error > 0)
+            ):
+                integral = more
+            torque = min(max(wanted, low), high)
+        assert torque is not None
+        told.append(torque)
+        speeds.append(w)
+        w, th = rotor(w, th, torque, 0.01)
+    assert min(told) == low and max(told) == high
+    assert near(found.columns["y"], np.array(speeds))
+
+
+def test_an_encoder_gives_the_whole_counts_of_the_angle() -> None:
+    found = run(ENCODER, 'duration = 20\nsampling.rate = 50\ninputs.T = "sin(t)"')
+    exact = found.truth.columns["th"] * 24 / (2 * math.pi)
+    counts = found.log.columns["th"]
+    assert (counts == np.floor(counts)).all() and found.log.units["th"] == "count"
+    phase = counts - exact  # floor(exact + phase), one phase for all
+    assert phase.max() - phase.min() < 1
+    assert len(set(counts.tolist())) > 10
+
+
+def test_faults_of_one_target_are_applied_in_their_order() -> None:
+    found = run(
+        ROTOR,
+        "duration = 1\nsampling.rate = 10\ninputs.T = 2\n[[fault]]\nof = 'T'\nchange = '*= 3'\n"
+        "at = 0.2\nuntil = 0.5\n[[fault]]\nof = 'T'\nchange = '+= 4'\nat = 0.3\n[[fault]]\n"
+        "of = 'T'\nchange = '= 1'\nat = 0.6\nuntil = 0.9\nramp = 0.2",
+    )
+    assert found.log.columns["T"].tolist() == [2.0] * 11  # told, not as it acts
+    t = found.truth.time
+    w = 0.0
+    speeds = []
+    fine = np.linspace(0, 1, 10_001)
+    for k in range(10_000):
+        if k % 1000 == 0:
+            speeds.append(w)
+        s = (fine[k] + fine[k + 1]) / 2
+        act = 2.0 * (3 if 0.2 <= s < 0.5 else 1) + (4 if s >= 0.3 else 0)
+        share = min(1.0, (s - 0.6) / 0.2) if 0.6 <= s < 0.9 else 0.0
+        act = (1 - share) * act + share * 1
+        w, _ = rotor(w, 0.0, act, fine[k + 1] - fine[k])
+    assert near(found.truth.columns["y"], np.array([*speeds, w]), 1e-6)
+    assert len(t) == 11
+
+
+def test_a_stuck_sensor_keeps_its_reading_with_its_noise() -> None:
+    found = run(
+        ROTOR,
+        'duration = 1\nsampling.rate = 100\ninputs.T = "sin(9*t)"\nsensors.y.noise = 0.01\n'
+        '[[fault]]\nof = "y"\nchange = "stuck"\nat = 0.3\nuntil = 0.6\n'
+        '[[fault]]\nof = "th"\nchange = "missing"\nat = 0.5\nperiod = 0.2\nduty = 0.5',
+    )
+    read, t = found.log.columns["y"], found.log.time
+    stuck = (t >= 0.3) & (t < 0.6)
+    assert len(set(read[stuck].tolist())) == 1
+    assert abs(read[stuck][0] - found.truth.columns["y"][29]) < 0.05
+    assert len(set(read[~stuck].tolist())) == int((~stuck).sum())
+    gone = np.isnan(found.log.columns["th"])
+    assert gone.tolist() == [50 <= k < 60 or 70 <= k < 80 or 90 <= k < 100 for k in range(101)]
+
+
+def test_a_stuck_input_stays_as_it_was_and_a_stuck_parameter_stops_drifting() -> None:
+    found = run(
+        "param Rf = 2\nSe:T -> 1:w\nw -> R:Rf\nw -> Df:y",
+        "duration = 1\nsampling.rate = 10\ninputs.T = '1 + t'\n[[fault]]\nof = 'Rf'\nchange ="
+        " '+= 1'\nramp = 1\n[[fault]]\nof = 'Rf'\nchange = 'stuck'\nat = 0.5\n[[fault]]\nof = 'T'\n"
+        "change = 'stuck'\nat = 0.8",
+    )
+    t = found.truth.time
+    wanted = (1 + np.minimum(t, 0.8)) / (2 + np.minimum(t, 0.5))
+    assert near(found.truth.columns["y"], wanted, 1e-9)
+
+
+def test_resolution_bias_noise_and_a_slow_instrument() -> None:
+    found = run(
+        ROTOR,
+        "duration = 50\nsampling.rate = 100\ninputs.T = 'sin(t)'\n[sensors.y]\nstep = 0.25\n"
+        "bias = 1\nrate = 10\n[sensors.th]\nnoise = 0.2",
+    )
+    y, true = found.log.columns["y"], found.truth.columns["y"]
+    own = np.arange(5001) // 10 * 10
+    assert np.allclose(y, np.round((true[own] + 1) / 0.25) * 0.25)
+    noise = found.log.columns["th"] - found.truth.columns["th"]
+    assert abs(noise.mean()) < 5 * 0.2 / math.sqrt(5001)
+    assert abs(noise.std() - 0.2) < 5 * 0.2 / math.sqrt(2 * 5001)
+    assert abs(np.corrcoef(noise[:-1], noise[1:])[0, 1]) < 0.08
+
+
+def test_jitter_is_in_the_time_stamps_and_lost_samples_are_not_there() -> None:
+    text = "duration = 20\nsampling.rate = 100\ninputs.T = 'sin(t)'\n"
+    plain = run(ROTOR, text).truth
+    found = run(ROTOR, text + "sampling.jitter = 0.4\nsampling.lost = 0.1")
+    time = found.log.time
+    shift = found.truth.time - plain.time
+    assert np.abs(shift).max() <= 0.002 and np.abs(shift).max() > 0.0019
+    assert (np.diff(time) > 0).all()
+    assert 1700 < len(time) < 1900
+    exact = np.interp(time, plain.time, plain.columns["y"])
+    assert near(found.log.columns["y"], exact, 1e-4)
+
+
+def test_inputs_from_a_file(tmp_path: Path) -> None:
+    t = np.arange(0, 3, 0.001)
+    write_log(Log(t, {"pump": np.sin(t)}, {}, {}), tmp_path / "run.csv")
+    (tmp_path / "s.toml").write_text(
+        'duration = 2.5\nsampling.rate = 20\ninputs.T = { file = "run.csv", column = "pump" }\n'
+    )
+    found = opened(ROTOR).simulate(tmp_path / "s.toml").truth
+    # 0.5 w' = sin t - 0.2 w
+    a, s = 0.4, found.time
+    w = 2 * (a * np.sin(s) - np.cos(s) + np.exp(-a * s)) / (1 + a * a)
+    assert near(found.columns["y"], w)
+
+
+def test_one_seed_one_machine_whatever_the_hash_seed(tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_text(
+        'duration = 0.05\nseed = 7\nspread = "uniform"\nsensors.all.noise = 0.1\n'
+        "sampling.jitter = 0.1\nsampling.lost = 0.1\ninputs.U = 3\n"
+        "[[fault]]\nof = 'R'\nchange = '*= 2'\nat = 0.01\n"
+    )
+    model = Path(__file__).parents[2] / "models" / "dc_motor.bg"
+    texts = []
+    for seed in ("0", "1"):
+        out = tmp_path / f"{seed}.csv"
+        words = [
+            sys.executable,
+            "-m",
+            "bondgraph",
+            "simulate",
+            str(model),
+            "s.toml",
+            "-o",
+            str(out),
+        ]
+        env = {**os.environ, "PYTHONHASHSEED": seed}
+        subprocess.run(words, cwd=tmp_path, env=env, check=True, capture_output=True)
+        texts.append(out.read_bytes())
+    assert texts[0] == texts[1] and len(texts[0]) > 1000
+
+
+def test_machines_differ_inside_their_tolerances() -> None:
+    machine = example("dc_motor")
+    drawn: list[dict[str, float]] = []
+    for seed in range(40):
+        scenario = read(
+            machine, f'duration = 0.001\nseed = {seed}\nspread = "uniform"\ninputs.U = 1'
+        )
+        drawn.append(machine.simulate(scenario).parameters)
+    for value in machine.graph.values:
+        numbers = np.array([d[value.name] for d in drawn])
+        share = float(value.tolerance or 0)
+        nominal = numbers.mean() if share == 0 else float(value.value.number)  # type: ignore[union-attr]
+        assert (np.abs(numbers - nominal) <= (share + 1e-12) * nominal).all()
+        if share:
+            assert numbers.std() > 0.4 * share * nominal
+
+
+def test_all_methods_agree() -> None:
+    machine = example("dc_motor")
+    ends: list[Array] = []
+    for method in ("LSODA", "Radau", "BDF", "DOP853", "RK45"):
+        text = f'duration = 0.2\nsampling.rate = 50\nmethod = "{method}"\ntolerance = 1e-9\n'
+        found = machine.simulate(read(machine, text + 'inputs.U = "12*sin(20*t)"')).truth
+        ends.append(found.columns["speed"])
+    assert all(near(one, ends[0], 1e-6) for one in ends[1:])
