@@ -129,8 +129,8 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     except ValueError as error:
         raise console.Trouble(str(error)) from error
     mapping = read_map(args.map, engine.signals) if args.map else None
-    facts = _facts(compilation, dict(args.floor))
-    if not facts.sees:
+    known_facts = facts(compilation, dict(args.floor))
+    if not known_facts.sees:
         raise console.Trouble(f"{compilation.graph.name} has no residual that could be watched")
     journal = _journal(args.journal, compilation, source)
     parts = Parts(
@@ -138,12 +138,12 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
         Columns(engine.signals, mapping, source.name),
         clock_of(engine),
         engine,
-        Threshold(facts),
+        Threshold(known_facts),
         [_printer(args.lines)],
         _publisher(verdicts, args.journal, journal),
         journal,
     )
-    what = f"{compilation.graph.name}: {console.plural(len(facts.sees), 'residual')}"
+    what = f"{compilation.graph.name}: {console.plural(len(known_facts.sees), 'residual')}"
     with _stop() as stop:
         what += f" at {1 / engine.sample_time:g} samples a second"
         untaken = Monitor(parts, what).run(stop)
@@ -173,7 +173,8 @@ def _source(args: Namespace, samples: Address | None) -> Source:
     return Pipe(form) if name == "-" else file_source(name, form, args.follow)
 
 
-def _facts(compilation: Compilation, floor: dict[str, float]) -> Facts:
+def facts(compilation: Compilation, floor: dict[str, float]) -> Facts:
+    """What a decision has to know of a model; `floor` by residual, "" for all others."""
     from bondgraph.runtime.monitoring.decision import Facts
 
     program = compilation.program

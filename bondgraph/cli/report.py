@@ -6,13 +6,14 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from bondgraph import compile
+from bondgraph import Compilation, compile
 from bondgraph.cli import console
 from bondgraph.cli.detect import no_signal, sampling, signals
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
+    from bondgraph.backends.report.episode import Episode
     from bondgraph.cli.reporting.seen import Assumed
     from bondgraph.ir.program import Program
 
@@ -25,6 +26,13 @@ def arguments(parser: ArgumentParser) -> None:
         "--output",
         metavar="FILE.html",
         help="where to write the page, - for stdout (default: beside you, named like the file)",
+    )
+    parser.add_argument(
+        "--scenario",
+        metavar="FILE.toml",
+        action="append",
+        default=[],
+        help="simulate this, watch it, and show both (docs/simulation.md); may be repeated",
     )
     sampling(parser)
     signals(parser)
@@ -65,6 +73,8 @@ def run(args: Namespace) -> int:
             content = collect(compilation, assume, advance)
     except UnknownSignal as error:
         return console.unknown(error.name, "no known signal of the residuals", error.paths)
+    if content.status in ("ok", "no_arr"):
+        content = content._replace(episodes=_episodes(compilation, args.scenario))
     stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
     output = args.output or f"{stem}.html"
     console.show(content.findings)
@@ -78,6 +88,25 @@ def run(args: Namespace) -> int:
         console.write_whole(output, text)
         print(f"{output}: {content.title}: {content.message}")
     return 0 if content.status in ("ok", "no_arr") else 1
+
+
+def _episodes(compilation: Compilation, paths: list[str]) -> tuple[Episode, ...]:
+    """The scenarios as they go."""
+    if not paths:
+        return ()
+    from importlib.util import find_spec
+
+    if find_spec("matplotlib") is None:
+        raise console.Trouble(
+            "plots of scenarios need matplotlib: pip install 'bondgraph-arr[robot]'"
+        )
+    from bondgraph.cli.reporting.scenarios import played
+
+    found = []
+    for path in paths:
+        with console.progress_bar("simulating") as progress:
+            found.append(played(compilation, path, progress))
+    return tuple(found)
 
 
 class UnknownSignal(Exception):

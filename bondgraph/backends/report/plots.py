@@ -20,14 +20,15 @@ from bondgraph.backends.report.episode import (
     stretches,
 )
 from bondgraph.backends.report.svg import colour, drawn, looks
+from bondgraph.text.numerals import readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _WIDE = 10.0  # inch, of 72 px
-_STRIP = 0.95  # inch, of one signal
-_LEFT, _RIGHT = 0.95, 0.25  # inch, beside a strip
+_STRIP = 1.05  # inch, of one signal with its name above
+_LEFT, _RIGHT = 0.75, 0.25  # inch, beside a strip
 _BINS = 700  # points of a line, each with its least and its largest
 _MOST = 8  # strips of one figure, so that it fits a page
 _LINES = ("inertia", "resistor", "capacity", "source")
@@ -47,7 +48,7 @@ def strips(episode: Episode, key: str) -> list[str]:
 
 def _strips(episode: Episode, traces: Sequence[Trace], key: str) -> str:
     rows = _rows(episode.said)
-    below = 0.25 + 0.24 * (max(rows.values(), default=-1) + 1) if rows else 0.0
+    below = 0.45 + 0.24 * (max(rows.values(), default=-1) + 1) if rows else 0.0
     names = traces[0].name if len(traces) == 1 else f"{traces[0].name} to {traces[-1].name}"
     what = f"Residuals {names} of {episode.name} over time, with thresholds and verdicts"
     with looks():
@@ -106,7 +107,7 @@ def _stack(episode: Episode, count: int, height: float, below: float) -> tuple[F
     """Axes above each other with marks through all of them; the last one for verdicts."""
     from matplotlib.figure import Figure
 
-    top, foot = (0.42 if episode.marks else 0.12), 0.5
+    top, foot = (0.36 if episode.marks else 0.05), 0.5
     high = top + foot + count * height + below
     figure = Figure(figsize=(_WIDE, high))
     wide = (_WIDE - _LEFT - _RIGHT) / _WIDE
@@ -115,7 +116,7 @@ def _stack(episode: Episode, count: int, height: float, below: float) -> tuple[F
     at = high - top
     for own in heights:
         at -= own
-        gap = 0.12 if own == height else 0.08
+        gap = 0.27
         box = (_LEFT / _WIDE, at / high, wide, (own - gap) / high)
         axes.append(figure.add_axes(box, sharex=axes[0] if axes else None))
     first, last = (float(episode.time[0]), float(episode.time[-1])) if len(episode.time) else (0, 1)
@@ -147,7 +148,7 @@ def _marks(axis: Axes, episode: Episode, first: float, last: float) -> None:
         ends[line] = start + wide
         axis.annotate(
             mark.text, (mark.time, 1), xycoords=("data", "axes fraction"),
-            xytext=(2 if side == "left" else -2, 3 + 11 * line), textcoords="offset points",
+            xytext=(2 if side == "left" else -2, 16 + 11 * line), textcoords="offset points",
             ha=side, va="bottom", fontsize=9,
         )  # fmt: skip
 
@@ -202,8 +203,10 @@ def _panel(axis: Axes, time: Array, panel: Panel) -> None:
 
 
 def _label(axis: Axes, name: str, unit: str) -> None:
-    text = f"{name}\nin {unit}" if unit and unit != "1" else name
-    axis.set_ylabel(text, rotation=0, ha="right", va="center", labelpad=8)
+    """The name of a strip, above it on the left: however long it is, it has room."""
+    text = f"{name} in {unit}" if unit and unit != "1" else name
+    axis.annotate(text, (0, 1), xycoords="axes fraction", xytext=(0, 3),
+                  textcoords="offset points", ha="left", va="bottom")  # fmt: skip
 
 
 # ------------------------------------------------------------------------ verdicts
@@ -228,7 +231,7 @@ def _verdicts(axis: Axes, episode: Episode, rows: dict[int, int]) -> None:
     most = max(rows.values()) + 1
     axis.set_ylim(most - 0.5, -0.5)
     axis.set_yticks([])
-    axis.set_ylabel("said", rotation=0, ha="right", va="center", labelpad=8)
+    _label(axis, "said", "")
     for at, row in rows.items():
         verdict = episode.said[at]
         end = last if verdict.end is None else verdict.end
@@ -293,3 +296,5 @@ def _plain(axis: Axes) -> None:
         axis.spines[side].set_linewidth(0.7)
     axis.tick_params(width=0.7, length=3)
     axis.locator_params(axis="y", nbins=3)
+    for scale in (axis.xaxis, axis.yaxis):
+        scale.set_major_formatter(lambda value, _: readable(value, 4))

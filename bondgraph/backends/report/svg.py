@@ -68,7 +68,7 @@ def _inlined(text: str, key: str, title: str, told: str) -> str:
     body = re.sub(r'(?<= id=")', f"{key}-", body)
     body = re.sub(r"url\(#", f"url(#{key}-", body)
     body = re.sub(r'xlink:href="#', f'href="#{key}-', body)
-    body = re.sub(r"(\d+\.\d)\d+", r"\1", body)
+    body = re.sub(r"<[^>]*>", lambda tag: re.sub(r"(\d+\.\d)\d+", r"\1", tag[0]), body)
     body = re.sub(r"font: ([\d.]+)px [^;\"]*", r"font-size: \1px", body)
     body = re.sub(r"font-family: [^;\"]*; ?", "", body)
     for name, value in palette().items():

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from bondgraph.backends.report.content import Content, Drawing, Quantity
 from bondgraph.backends.report.formulas import Typesetter
 from bondgraph.cli.console import plural, status
-from bondgraph.cli.numbers import readable
 from bondgraph.cli.reasons import message
 from bondgraph.cli.reporting.matrix import matrix
 from bondgraph.cli.reporting.relations import relations
@@ -15,6 +14,7 @@ from bondgraph.cli.reporting.seen import Assumed, seen
 from bondgraph.ir.expr import symbols
 from bondgraph.passes.nominal import Nominal
 from bondgraph.text.diagnostic import CompileError
+from bondgraph.text.numerals import readable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bondgraph.backends.report.content import Effect, Seen
 from bondgraph.backends.report.formulas import operations
-from bondgraph.cli.numbers import readable
 from bondgraph.cli.reporting.relations import LONGEST
 from bondgraph.passes.present import parts, shared
+from bondgraph.text.numerals import readable
 
 if TYPE_CHECKING:
     from bondgraph.backends.report.formulas import Typesetter

@@ -67,7 +67,7 @@ def test_a_figure_is_plain_svg_in_the_colours_of_the_page() -> None:
     assert len(ids) == len(set(ids))
     words = " ".join("".join(e.itertext()) for e in ElementTree.fromstring(drawn[0]).iter()
                      if e.tag.endswith("text"))  # fmt: skip
-    for text in ("r1", "in V", "time in s", "m[1].el.Re or m[1].el.k", "m[1].el.Re +30 %"):
+    for text in ("r1 in V", "time in s", "m[1].el.Re or m[1].el.k", "m[1].el.Re +30 %"):
         assert text in words
     assert "No samples &amp; nothing &lt; said." in drawn[0]
 

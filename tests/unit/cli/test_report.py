@@ -197,3 +197,51 @@ model Line {
     page = Page(text)
     rows = [a for tag, a in page.elements if tag == "tr" and a.get("data-fault") == "cell[20].C"]
     assert rows
+
+
+SCENARIO = """doc = "The winding warms at three seconds."
+duration = "4 s"
+seed = 2
+[inputs]
+U = "12*(1 + 0.2*sin(2*pi*t))"
+[sampling]
+rate = "500 Hz"
+[sensors.current]
+noise = "2 mA"
+[[fault]]
+of = "R"
+change = "+= 10 Ohm"
+at = "3 s"
+until = "3.9 s"
+"""
+
+
+def test_a_scenario_is_simulated_watched_and_shown(tmp_path: Path) -> None:
+    scenario = tmp_path / "warm.toml"
+    scenario.write_text(SCENARIO, encoding="utf-8")
+    motor = ROOT / "models" / "dc_motor.bg"
+    text = report(motor, tmp_path, "--scenario", str(scenario))
+    assert text == report(motor, tmp_path, "--scenario", str(scenario))
+    page = Page(text)
+    assert "The winding warms at three seconds." in page.text
+    assert "4 s at 500 samples a second, seed 2" in page.text
+    assert "R += 10 at 3 s; R += 10: over at 3.9 s" in page.text
+    # r1 is the balance of the armature: of the faults it sees alone are L, R and U (a sensor error
+    # of the current or of the speed, and k, move the balance of the rotor as well)
+    verdict = page.text.split("What the monitor said")[1]
+    assert re.search(r"3\.\d+ s .*L, R or U since 3\.\d+ s", verdict)
+    assert "in rad/s" in page.text and "time in s" in page.text
+    ids = [a["id"] for _, a in page.elements if "id" in a]
+    assert len(ids) == len(set(ids))
+
+
+def test_a_wrong_scenario_is_told_like_any_wrong_source(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scenario = tmp_path / "odd.toml"
+    scenario.write_text('[inputs]\nV = "1"\n', encoding="utf-8")
+    motor = str(ROOT / "models" / "dc_motor.bg")
+    out = tmp_path / "p.html"
+    assert main(["report", motor, "-o", str(out), "--scenario", str(scenario)]) == 1
+    assert "odd.toml" in capsys.readouterr().err
+    assert not out.exists()

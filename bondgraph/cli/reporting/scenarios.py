@@ -1,0 +1,178 @@
+"""Scenarios for a report: simulated, watched, and brought to what the page shows."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from bondgraph import Compilation
+from bondgraph.backends.report.episode import (
+    Array,
+    Curve,
+    Episode,
+    Mark,
+    Panel,
+    Plane,
+    Said,
+    Trace,
+)
+from bondgraph.cli import console
+from bondgraph.cli.monitor import facts
+from bondgraph.runtime.monitoring.verdict import listed
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from bondgraph.runtime.monitoring.verdict import Verdict
+    from bondgraph.runtime.simulation.run import Run
+    from bondgraph.runtime.simulation.scenario import Scenario
+
+_TOGETHER = 4  # signals of one unit in one panel
+_PANELS = 8  # of an episode
+
+
+class Watched(NamedTuple):
+    """What the residuals of a run were, on the grid of their code: (n,), and (n, columns)."""
+
+    time: Array
+    samples: Array
+    value: Array
+    valid: npt.NDArray[np.bool_]
+    bound: Array
+    verdicts: tuple[Verdict, ...]
+
+
+def played(compilation: Compilation, path: str, progress: Callable[[float], None]) -> Episode:
+    """The scenario of a file as it goes with a monitor at the rate of its samples.
+
+    Raises `CompileError` where the scenario is wrong, Trouble where it cannot be run.
+    """
+    from bondgraph.runtime.simulation.integrate import SimulationError
+
+    scenario = compilation.scenario(path)
+    try:
+        run = compilation.simulate(scenario, progress)
+    except SimulationError as error:
+        raise console.Trouble(f"{path}: {error}") from error
+    except KeyError as error:
+        raise console.Trouble(f"{path}: `{error.args[0]}` has no value") from error
+    rate = scenario.sampling.rate
+    if rate != compilation.options.rate:
+        options = compilation.options._replace(rate=rate)
+        compilation = Compilation(compilation.source, compilation.model, options)
+    seen = _watched(compilation, run) if compilation.residuals else None
+    time = run.log.time if seen is None else seen.time
+    return Episode(
+        scenario.name,
+        scenario.doc,
+        time,
+        () if seen is None else tuple(_traces(compilation, seen)),
+        tuple(_panels(compilation, run, seen)),
+        tuple(_planes(run)),
+        tuple(sorted(_marks(scenario))),
+        () if seen is None else tuple(_said(seen)),
+        tuple(_facts(run)),
+    )
+
+
+def _watched(compilation: Compilation, run: Run) -> Watched | None:
+    """The run through the monitor's clock, engine and decision."""
+    from bondgraph.runtime.monitoring.clock import clock_of
+    from bondgraph.runtime.monitoring.columns import Columns
+    from bondgraph.runtime.monitoring.decision import Threshold
+
+    try:
+        engine = compilation.engine()
+    except ValueError as error:
+        raise console.Trouble(str(error)) from error
+    clock, decision = clock_of(engine), Threshold(facts(compilation, {}))
+    pieces = clock.feed(run.log.time, Columns(engine.signals)(run.log)) + clock.finish()
+    parts, verdicts = [], []
+    for piece in pieces:
+        if piece.anew:
+            engine.reset()
+            decision.restart()
+        batch = engine.run(piece.samples)
+        verdicts += decision.update(piece.time, batch, piece.samples)
+        parts.append((piece.time, piece.samples, batch.value, batch.valid, batch.bound))
+    if not parts:
+        return None
+    time, samples, value, valid, bound = map(np.concatenate, zip(*parts, strict=True))
+    floors = [math.nan if f is None else f for f in decision.state()["floor"]]
+    return Watched(time, samples, value, valid, bound + np.array(floors), tuple(verdicts))
+
+
+def _traces(compilation: Compilation, seen: Watched) -> Iterator[Trace]:
+    """The residuals; a threshold is the adaptive one and what noise alone does."""
+    for k, info in enumerate(compilation.program.residuals):
+        if not info.unavailable:
+            yield Trace(info.path, seen.value[:, k], "", seen.bound[:, k], seen.valid[:, k])
+
+
+def _panels(compilation: Compilation, run: Run, seen: Watched | None) -> Iterator[Panel]:
+    """The known signals, those of one unit together."""
+    if seen is None:
+        columns, units = run.log.columns, run.log.units
+    else:
+        knowns = compilation.program.knowns
+        columns = {k.path: seen.samples[:, at] for at, k in enumerate(knowns)}
+        units = {k.path: "count" if k.counts is not None else k.unit for k in knowns}
+    by_unit: dict[str, list[Trace]] = {}
+    for name, values in columns.items():
+        if not np.isnan(values).all():
+            by_unit.setdefault(units.get(name, ""), []).append(Trace(name, values))
+    parts = [
+        (unit, tuple(traces[k : k + _TOGETHER]))
+        for unit, traces in by_unit.items()
+        for k in range(0, len(traces), _TOGETHER)
+    ]
+    for unit, some in parts[:_PANELS]:
+        yield Panel(some[0].name if len(some) == 1 else "signals", unit, some)
+
+
+def _planes(run: Run) -> Iterator[Plane]:
+    """The way of a vehicle in the plane."""
+    plane = run.scenario.plane
+    if plane is not None:
+        driven = Curve("driven", run.truth.columns[plane.x], run.truth.columns[plane.y])
+        yield Plane("The way in the plane", f"{plane.x} in m", f"{plane.y} in m", (driven,))
+
+
+def _marks(scenario: Scenario) -> Iterator[Mark]:
+    for fault in scenario.faults:
+        yield Mark(fault.at, fault.label)
+        if fault.until < scenario.duration:
+            yield Mark(fault.until, f"{fault.label}: over")
+
+
+def _said(seen: Watched) -> Iterator[Said]:
+    """A fault is said until something else is said of it, the warm-up from the start."""
+    from bondgraph.runtime.monitoring.verdict import described
+
+    about = [v for v in seen.verdicts if v.event in ("fault", "update", "cleared")]
+    for verdict in seen.verdicts:
+        text = verdict.message or described(verdict)
+        if verdict.event == "warm-up":
+            yield Said("warm-up", float(seen.time[0]), verdict.time, "warm-up", text)
+        elif verdict.event in ("fault", "update"):
+            end = next((v.time for v in about if v.time > verdict.time), None)
+            names = [c.fault for c in verdict.candidates] or list(verdict.group)
+            short = listed(names, "or", 3) if names else "an unknown fault"
+            yield Said("fault", verdict.time, end, short, text, verdict.since)
+        else:
+            yield Said(verdict.event, verdict.time, verdict.time, verdict.event, text)
+
+
+def _facts(run: Run) -> Iterator[tuple[str, str]]:
+    scenario = run.scenario
+    sampling = f"{scenario.duration:g} s at {scenario.sampling.rate:g} samples a second"
+    if scenario.sampling.jitter:
+        sampling += f", jitter {100 * scenario.sampling.jitter:g} %"
+    if scenario.sampling.lost:
+        sampling += f", {100 * scenario.sampling.lost:g} % lost"
+    yield "Virtual machine", f"{sampling}, seed {scenario.seed}"
+    if run.static:
+        yield "At rest", f"{', '.join(run.static)} (quasi-static)"
