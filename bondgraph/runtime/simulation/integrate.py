@@ -20,6 +20,7 @@ _SPARSE = 60  # states from which on it pays to know which rate depends on which
 _MANY = 300  # states from which on eigenvalues cost more than they tell
 _BEYOND = 1e100  # a rate that no machine has
 _PATIENCE = 2000  # such rates in a row, from which on a method will not find back
+_OFTEN = 100  # rates between two words about how far it is
 _RINGING = 1e5  # periods of one mode in a run: too many to follow
 
 
@@ -36,11 +37,17 @@ class Integrator:
     """
 
     def __init__(
-        self, method: str, tolerance: float, duration: float, longest: float = math.inf
+        self,
+        method: str,
+        tolerance: float,
+        duration: float,
+        longest: float = math.inf,
+        tell: Callable[[float], None] = lambda _: None,
     ) -> None:
         self.method = method
         self.tolerance = tolerance  # of a step, relative to each state
         self.duration = duration
+        self.tell = tell  # of the time that integration has come to, now and then
         self._scales: dict[Machine, Array] = {}
         self.longest = longest  # step, in s: an input that moves smoothly is not run past
 
@@ -58,7 +65,7 @@ class Integrator:
         ends = np.clip([*wanted, b], a, b)
         at = np.unique(ends)
         for method in dict.fromkeys((self.method, "Radau")):
-            tried = _Tried(machine, inputs)
+            tried = _Tried(machine, inputs, self.tell)
             found = self._solved(method, tried, (a, b), x, at)
             if found is not None:
                 return np.asarray(found[np.searchsorted(at, ends)])
@@ -110,8 +117,9 @@ class _Standstill(Exception):
 class _Tried:
     """The rates as scipy asks for them; remembers where it asked last and where there were none."""
 
-    def __init__(self, machine: Machine, inputs: Inputs) -> None:
-        self.machine, self.inputs = machine, inputs
+    def __init__(self, machine: Machine, inputs: Inputs, tell: Callable[[float], None]) -> None:
+        self.machine, self.inputs, self.tell = machine, inputs, tell
+        self.calls = 0
         self.t = 0.0
         self.x: list[float] = []
         self.failed = False
@@ -119,6 +127,9 @@ class _Tried:
 
     def __call__(self, t: float, x: Array) -> Sequence[float]:
         state = x.tolist()
+        self.calls += 1
+        if not self.calls % _OFTEN:
+            self.tell(t)
         found = self.machine.rates(t, state, self.inputs(t))
         bad = not all(map(math.isfinite, found)) and all(map(math.isfinite, state))
         self._in_vain = 0 if all(abs(r) < _BEYOND for r in found) else self._in_vain + 1

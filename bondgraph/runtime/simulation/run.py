@@ -138,7 +138,14 @@ class _Simulation:
         table = np.full((len(times), len(first.names)), math.nan)
         held = self._start(first)
         longest = 2 / self.scenario.sampling.rate if given.smooth else math.inf
-        integrator = Integrator(self.scenario.method, self.scenario.tolerance, end, longest)
+        progress(0.0)
+        integrator = Integrator(
+            self.scenario.method,
+            self.scenario.tolerance,
+            end,
+            longest,
+            lambda t: progress(min(t / end, 1.0)),
+        )
         done = 0
         for a, b in zip([0.0, *stops, end], [*stops, end, end], strict=True):
             when = inside(a, b)
