@@ -27,7 +27,9 @@ if TYPE_CHECKING:
     from bondgraph.ir.structure import StructuralModel
     from bondgraph.ir.syntax import File
     from bondgraph.passes.state_equations import Wanted
+    from bondgraph.runtime.monitoring.diagnosis import Diagnosis, Facts
     from bondgraph.runtime.monitoring.engine import Engine
+    from bondgraph.runtime.monitoring.tuning import Tuning
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
     from bondgraph.views import Relations
@@ -319,6 +321,48 @@ class Compilation:
         matrix = self.signatures
         sees = {name: matrix.signature(name) for name in matrix.residuals}
         return diagnoses(sees, fired, silent, at_most)
+
+    @cached_property
+    def facts(self) -> Facts:
+        """What a monitor has to know of the machine beside its residuals."""
+        from bondgraph.runtime.monitoring.diagnosis import Facts
+        from bondgraph.runtime.simulation.values import Values
+
+        graph, matrix = self.graph, self.signatures
+        values = Values(graph)
+        numbers = {v.name: values.constant(v.symbol) for v in graph.values}
+        program = self.program
+        sees = {
+            r.name: tuple(f for f in r.faults if f not in r.invisible)
+            for r in program.residuals
+            if not r.unavailable
+        }
+        seen = dict.fromkeys(f for faults in sees.values() for f in faults)
+        units = {v.name: v.unit or "" for v in graph.values}
+        units |= {i.name: i.unit or "" for i in graph.inputs}
+        units |= {s.name: s.unit or "" for s in graph.sensors}
+        return Facts(
+            {f: numbers.get(f) for f in matrix.faults if f in seen},
+            {v.name: float(v.tolerance) for v in graph.values if v.tolerance},
+            units,
+            sees,
+            matrix.groups,
+        )
+
+    def diagnosis(self, engine: Engine, tuning: Tuning | None = None) -> Diagnosis:
+        """What says verdicts about the residuals of an engine of this model.
+
+        Without a `tuning` (`bondgraph tune`) it learns the noise from the first seconds. Raises
+        ValueError for a tuning of another model, rate or bandwidth.
+        """
+        from bondgraph.runtime.monitoring.diagnosis import Diagnosis
+
+        if tuning is not None:
+            if tuning.model != self.program.digest:
+                raise ValueError("it is of another model, or of other options")
+            if abs(tuning.bandwidth / engine.bandwidth - 1) > 1e-9:
+                raise ValueError(f"it is for a filter of {tuning.bandwidth:g} rad/s")
+        return Diagnosis(engine, self.facts, tuning)
 
     @cached_property
     def conflicts(self) -> tuple[Conflict, ...]:

@@ -17,6 +17,7 @@ COMMANDS = {
     "detect": "tell the smallest change of each fault that the residuals show",
     "simulate": "run a model as a virtual machine, with faults if the scenario has some",
     "monitor": "watch a machine by its samples, and say what is faulty",
+    "tune": "learn the limits of the residuals from healthy samples, and what shows with them",
     "draw": "draw a bond graph with half arrows and causal strokes",
     "report": "write all that is known of a model as one HTML page",
 }

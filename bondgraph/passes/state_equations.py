@@ -160,10 +160,9 @@ class _Causaliser:
                 zero = equation.rate
                 self.static.append(equation.name)
             if equation.kind == "sensor" and equation.name in errors:
-                sensor = next(s for s in self.graph.sensors if s.name == equation.name)
-                reads = pool.sub(sensor.symbol, zero)
-                own = errors[equation.name]
-                zero = pool.add((1, sensor.symbol), (-1, pool.mul(own.gain, reads)), (-1, own.bias))
+                zero, counted = self._misread(equation, errors[equation.name])
+                if counted is not None:
+                    rows.append(counted)
             zero = pool.substitute([zero], replaced)[0]
             zero = in_mode(pool, [zero], truth)[0] if truth else zero
             zero = self.jets.of(zero)
@@ -187,6 +186,27 @@ class _Causaliser:
         rows = [(r.equation, r.zero) for r in self.rows]
         for k, variable in rings(self.system, rows, number).items():
             self.rows[k] = _Row(self.rows[k].equation, variable, _orders(variable))
+
+    def _misread(self, equation: Equation, own: Disturbance) -> tuple[Expr, _Row | None]:
+        """The equation of a sensor that may be wrong; an encoder counts wrong from then on.
+
+        What was counted before stays: a lost pulse is lost for ever, but does not come back when
+        all are counted again.
+        """
+        pool = self.pool
+        sensor = next(s for s in self.graph.sensors if s.name == equation.name)
+        reads = pool.sub(sensor.symbol, equation.zero)
+        if sensor.counts is None:
+            terms = (1, sensor.symbol), (-1, pool.mul(own.gain, reads)), (-1, own.bias)
+            return pool.add(*terms), None
+        counted = pool.symbol(f"{sensor.name}.counted", Kind.INTEGRAL)
+        rate = self.jets.of(pool.mul(own.gain, pool.der(reads)))
+        zero = pool.sub(pool.der(counted), rate)
+        integral = equation._replace(
+            kind="integral", zero=zero, state=counted, rate=rate, variables=(counted,)
+        )
+        row = _Row(integral, zero, _orders(zero))
+        return pool.add((1, sensor.symbol), (-1, counted), (-1, own.bias)), row
 
     def _at_rest(self, name: str) -> bool:
         return any(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from copy import deepcopy
 from itertools import count
 from types import ModuleType
 from typing import Any, NamedTuple, Protocol
@@ -74,6 +75,13 @@ class Engine(Protocol):
 
     def reset(self) -> None:
         """Forget all samples: the next one is the first."""
+
+    def follow(self, other: Engine) -> None:
+        """Take over what another engine of the same model remembers of its samples.
+
+        From the next sample on this engine is the other one with parameters of its own, as if they
+        had changed at this moment.
+        """
 
     def configured(
         self,
@@ -195,6 +203,12 @@ class PythonEngine:
         for monitor in self._monitors:
             monitor.reset()
 
+    def follow(self, other: Engine) -> None:
+        """See `Engine`."""
+        assert isinstance(other, PythonEngine)
+        for own, one in zip(self._monitors, other._monitors, strict=False):
+            own.follow(one)
+
     def configured(
         self,
         parameters: Mapping[str, float] | None = None,
@@ -249,6 +263,11 @@ class _Monitor:
 
     def reset(self) -> None:
         self._monitor.reset()
+
+    def follow(self, other: _Monitor) -> None:
+        for name in ("_x", "_e", "_age"):  # all that the generated class changes in `step`
+            if hasattr(other._monitor, name):
+                setattr(self._monitor, name, deepcopy(getattr(other._monitor, name)))
 
     def run(
         self, rows: list[list[float]], shape: tuple[int, int]

@@ -111,6 +111,7 @@ class Functions:
         self.size = int(function("_size", size)())
         self.configure = function("_configure", ctypes.c_int, pointer, pointer, real, real)
         self.reset = function("_reset", None, pointer)
+        self.follow = function("_follow", None, pointer, pointer)
         self.run = function("", None, pointer, size, pointer, size, size, pointer, *results)
 
 
@@ -136,6 +137,13 @@ class NativeEngine:
         """Forget all samples: the next one is the first."""
         for monitor in self._monitors:
             monitor.functions.reset(monitor.address)
+
+    def follow(self, other: Engine) -> None:
+        """See `Engine`; raises ValueError for an engine of another library."""
+        if not isinstance(other, NativeEngine) or other._library is not self._library:
+            raise ValueError("an engine of another model remembers other things")
+        for own, one in zip(self._monitors, other._monitors, strict=False):
+            own.functions.follow(own.address, one.address)
 
     def configured(
         self,

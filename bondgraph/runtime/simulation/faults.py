@@ -19,8 +19,9 @@ class Wrong:
     (0.75, 0.0)
     """
 
-    def __init__(self, faults: Sequence[Fault]) -> None:
+    def __init__(self, faults: Sequence[Fault], counts: bool = False) -> None:
         self.faults = tuple(faults)
+        self._counts = counts  # an encoder that sticks goes on from where it stuck
         self._held: dict[int, float] = {}
 
     def hold(self, t: float, told: float) -> None:
@@ -86,7 +87,9 @@ class Wrong:
                 return 1.0 - share, share * fault.value
             case "stuck":
                 held = self._held.get(k)
-                return (1.0, 0.0) if held is None or not share else (0.0, held)
+                if held is None or not share:
+                    return 1.0, 0.0
+                return 0.0, 0.0 if self._counts else held
             case "missing":
                 return 1.0, 0.0
 

@@ -32,8 +32,9 @@ class Given:
     def __init__(self, graph: BondGraph, scenario: Scenario, values: Values, times: Array) -> None:
         self.graph, self.scenario, self.values, self.times = graph, scenario, values, times
         faults = scenario.faults
+        counting = {s.name for s in graph.sensors if s.counts is not None}
         self.wrong = {
-            name: Wrong([f for f in faults if f.target == name])
+            name: Wrong([f for f in faults if f.target == name], name in counting)
             for name in dict.fromkeys(f.target for f in faults)
         }
         self.pids = [Pid(c, self._function(c.setpoint)) for c in scenario.controllers]

@@ -1,0 +1,243 @@
+"""`bondgraph tune`: limits of the residuals from healthy samples, and what shows with them."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from bondgraph import Options
+from bondgraph import compile as open_model
+from bondgraph.cli import console
+from bondgraph.cli.numbers import positive
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Callable
+
+    from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.log import Array
+    from bondgraph.runtime.monitoring.engine import Engine
+    from bondgraph.runtime.monitoring.tune import Shown, Tuned
+
+_FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of the default bandwidth, where none is wanted
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `tune`."""
+    parser.add_argument("model", metavar="MODEL", help="file.bg or file.bg:Name")
+    parser.add_argument("logs", metavar="LOG", nargs="*",
+                        help="logs of healthy machines, .csv or .parquet")  # fmt: skip
+    parser.add_argument("--simulate", metavar="SCENARIO",
+                        help="use virtual machines instead, with parameters drawn inside their"
+                        " tolerances")  # fmt: skip
+    parser.add_argument("--runs", metavar="N", type=int, default=10,
+                        help="how many of them (default: 10)")  # fmt: skip
+    parser.add_argument("--seed", metavar="N", type=int, default=900_000,
+                        help="seed of the first of them (default: 900000)")  # fmt: skip
+    parser.add_argument("-o", "--output", metavar="FILE.json", default="tuning.json",
+                        help="where to write the limits (default: tuning.json)")  # fmt: skip
+    parser.add_argument("--false-alarms", metavar="N", type=positive, default=1.0,
+                        help="false alarms an hour, of all residuals (default: 1)")  # fmt: skip
+    parser.add_argument("--bandwidth", metavar="RAD/S", type=positive, action="append", default=[],
+                        help="of the filter; of several the best one is taken (default: five"
+                        " are tried)")  # fmt: skip
+    parser.add_argument("--window", metavar="S", type=positive, default=2.0,
+                        help="seconds in which a fault has to show (default: 2)")  # fmt: skip
+    parser.add_argument("--rate", metavar="HZ", type=positive, default=None,
+                        help="samples a second (default: that of the first log)")  # fmt: skip
+    parser.add_argument("--map", metavar="FILE.toml", help="which column is which signal")
+    parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
+
+
+def run(args: Namespace) -> int:
+    """Learn, choose a bandwidth, write the limits, say what follows."""
+    from bondgraph.runtime.log import LogError
+    from bondgraph.runtime.monitoring.tune import tune
+    from bondgraph.runtime.monitoring.tuning import to_json
+
+    if bool(args.logs) == bool(args.simulate):
+        raise console.Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
+    try:
+        compilation, engine, logs = _logs(args)
+        wanted = args.bandwidth or [f * engine.bandwidth for f in _FACTORS]
+        found = []
+        with console.progress_bar("tuning") as progress:
+            for k, bandwidth in enumerate(wanted):
+                found.append(
+                    tune(
+                        _filtered(engine, bandwidth),
+                        compilation.facts,
+                        logs,
+                        compilation.program.digest,
+                        args.false_alarms,
+                        args.window,
+                        _part(progress, k, len(wanted)),
+                    )
+                )
+    except (LogError, ValueError) as error:
+        raise console.Trouble(str(error)) from error
+    best = min(found, key=lambda t: (_score(t, found), -t.tuning.bandwidth))
+    console.write_whole(args.output, to_json(best.tuning))
+    if args.json:
+        from bondgraph.text.render import as_json
+
+        result = _result(compilation, best, found)
+        console.print_json({"status": "ok", "message": _message(compilation, best),
+                            "diagnostics": as_json(compilation.report.diagnostics),
+                            "files": [args.output], **result})  # fmt: skip
+        return 0
+    console.show(compilation.report.diagnostics)
+    print("\n".join(_lines(compilation, best, found, args.output)))
+    return 0
+
+
+def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[float], None]:
+    return lambda share: progress((k + share) / parts)
+
+
+def _filtered(engine: Engine, bandwidth: float) -> Engine:
+    return engine.configured(bandwidth=bandwidth)
+
+
+def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
+    """The model, an engine of it, and what it reads from each log, on its own grid."""
+    import numpy as np
+
+    from bondgraph.runtime.log import read_log
+    from bondgraph.runtime.monitoring.clock import clock_of
+    from bondgraph.runtime.monitoring.columns import Columns, read_map
+
+    read = []
+    if args.simulate:
+        compilation = open_model(args.model, rate=args.rate or Options().rate)
+        scenario = compilation.scenario(args.simulate)
+        if scenario.faults:
+            raise console.Trouble(f"{args.simulate} has a fault: tune on what is healthy")
+        if scenario.sampling.rate != compilation.options.rate:
+            compilation = open_model(args.model, rate=scenario.sampling.rate)
+            scenario = compilation.scenario(args.simulate)
+        with console.progress_bar("simulating") as progress:
+            for k in range(args.runs):
+                own = scenario._replace(seed=args.seed + k, spread="uniform")
+                read.append(compilation.simulate(own).log)
+                progress((k + 1) / args.runs)
+        names = [args.simulate] * len(read)
+    else:
+        read = [read_log(path) for path in args.logs]
+        names = list(args.logs)
+        steps = np.diff(read[0].time)
+        usual = float(np.median(steps)) if len(steps) else 1.0 / Options().rate
+        compilation = open_model(args.model, rate=args.rate or round(1.0 / usual, 6))
+    engine = compilation.engine()
+    mapping = read_map(args.map, engine.signals) if args.map else None
+    logs = []
+    for name, log in zip(names, read, strict=True):
+        clock = clock_of(engine)
+        samples = Columns(engine.signals, mapping, name)(log)
+        pieces = [*clock.feed(log.time, samples), *clock.finish()]
+        logs += [p.samples for p in pieces if len(p.samples)]
+    return compilation, engine, logs
+
+
+def _score(tuned: Tuned, found: list[Tuned]) -> float:
+    """The geometric mean of what shows, next to what is usual, of all that shows with any filter.
+
+    What is below a tenth is small enough, and above ten times it is of no use: no filter gets
+    credit for more.
+    """
+    logs = []
+    for k, shown in enumerate(tuned.shown):
+        if any(t.shown[k].size is not None for t in found):
+            share = math.inf if shown.size is None else shown.size / shown.hypothesis.usual
+            logs.append(math.log(min(max(share, 0.1), 10.0)))
+    return sum(logs) / len(logs) if logs else 0.0
+
+
+def _message(compilation: Compilation, best: Tuned) -> str:
+    t = best.tuning
+    return (
+        f"{compilation.graph.name}: {console.plural(len(t.limits), 'residual')}, tuned on"
+        f" {t.seconds:.0f} s for {t.false_alarms:g} false alarms an hour, filter of"
+        f" {t.bandwidth:g} rad/s"
+    )
+
+
+def _result(compilation: Compilation, best: Tuned, found: list[Tuned]) -> dict[str, object]:
+    return {
+        "model": compilation.graph.name,
+        "bandwidth": best.tuning.bandwidth,
+        "tried": [{"bandwidth": t.tuning.bandwidth, "score": _score(t, found)} for t in found],
+        "window": best.window,
+        "limits": [{"residual": n, **x._asdict()} for n, x in best.tuning.limits.items()],
+        "faults": [
+            {
+                "fault": s.hypothesis.fault,
+                "kind": s.hypothesis.kind,
+                "change": s.size,
+                "unit": s.hypothesis.unit,
+                "relative": _relative(compilation, s),
+                "delay": s.delay,
+                "residual": s.residual or None,
+            }
+            for s in best.shown
+        ],
+    }
+
+
+def _relative(compilation: Compilation, shown: Shown) -> float | None:
+    nominal = compilation.facts.faults.get(shown.hypothesis.fault)
+    if shown.size is None:
+        return None
+    if shown.hypothesis.kind == "gain":
+        return shown.size
+    return shown.size / abs(nominal) if nominal else None
+
+
+def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: str) -> list[str]:
+    lines = [_message(compilation, best), ""]
+    if len(found) > 1:
+        tried = [f"{t.tuning.bandwidth:g} ({math.exp(_score(t, found)):.2g})" for t in found]
+        what = "Filters tried, rad/s (what shows, next to a usual change)"
+        lines += [f"{what}: {', '.join(tried)}", ""]
+    limits: list[tuple[str, ...]] = [("residual", "noise", "fires above", "sums above")]
+    for name, x in best.tuning.limits.items():
+        level = f"a + {x.kappa * x.sigma:.3g}"
+        limits.append((name, f"{x.sigma:.3g}", level, f"{x.height:.1f} sigma"))
+    rows: list[tuple[str, ...]] = [("fault", "change", "", "after", "in")]
+    hidden = []
+    for shown in best.shown:
+        row = _row(compilation, shown)
+        if row is None:
+            hidden.append(_name(shown))
+        else:
+            rows.append(row)
+    lines += [*_table(limits), ""]
+    lines += [f"The smallest change that is sure to show within {best.window:g} s, in nine windows"
+              " of ten", *_table(rows)]  # fmt: skip
+    if hidden:
+        lines += ["", "Cannot be seen: " + ", ".join(hidden)]
+    return [*lines, "", f"Written to {output}"]
+
+
+def _name(shown: Shown) -> str:
+    return f"{shown.hypothesis.fault} {shown.hypothesis.kind}".removesuffix(" value")
+
+
+def _row(compilation: Compilation, shown: Shown) -> tuple[str, ...] | None:
+    """What is told of one hypothesis; None for what cannot be seen."""
+    relative = _relative(compilation, shown)
+    if shown.size is None or shown.delay is None:
+        return None
+    share = "" if relative is None else f"{100 * relative:.3g} %"
+    gain = shown.hypothesis.kind == "gain"
+    size = "" if gain else f"{shown.size:.3g} {shown.hypothesis.unit}".rstrip()
+    note = "  more than the value itself" if relative is not None and relative > 1 else ""
+    return _name(shown), size, share, f"{shown.delay:.2f} s", shown.residual + note
+
+
+def _table(rows: list[tuple[str, ...]]) -> list[str]:
+    sizes = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return [
+        "  " + "  ".join(c.ljust(n) for c, n in zip(row, sizes, strict=True)).rstrip()
+        for row in rows
+    ]

@@ -1,0 +1,209 @@
+"""What each fault would do to the residuals: the same program run beside itself, a little wrong."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.engine import Engine
+
+_STEP = 1e-3  # relative change that a sensitivity is taken from
+_USUAL = 0.3  # share of what a fault usually changes: of a value, of the size of a signal
+_COUNTS = 0.02  # share of an encoder's counts: smaller ones would drown in rounding
+_SLIP = 1 / 8  # of a turn, by which an encoder usually slips
+_APART = 3.0  # time constants of the filter between two rows
+
+COUNT = "count"  # the unit of an encoder's offset
+Kind = Literal["value", "offset", "gain", "drift"]
+
+
+class Hypothesis(NamedTuple):
+    """One way in which one thing may be wrong.
+
+    `value`: a parameter has another value; `offset`: a signal is wrong by a constant (an encoder
+    has slipped); `gain`: a signal is wrong by a share of itself (an encoder misses counts);
+    `drift`: an encoder misses so many counts a second (it stands still). `unit` is that of the
+    change, `usual` the size that is expected of it before anything is seen.
+    `turned` says that a change of the machine moves residuals like the opposite change of what the
+    program is told: so it is with parameters and commands, not with readings.
+    """
+
+    fault: str
+    kind: Kind
+    unit: str
+    usual: float
+    turned: bool
+
+
+class Bank:
+    """Engines side by side on the same samples, two for each hypothesis.
+
+    The slope of a residual is its central difference between two engines with a parameter a little
+    larger and smaller, or with a signal that is a little wrong. Hypotheses hold from the moment at
+    which the bank begins, with all that `engine` remembers of the time before.
+    """
+
+    def __init__(
+        self,
+        engine: Engine,
+        hypotheses: Sequence[Hypothesis],
+        nominal: Mapping[str, float],
+        begin: Array | None = None,
+    ) -> None:
+        self.engine = engine
+        self.hypotheses = tuple(hypotheses)
+        self._place = {k.path: at for at, k in enumerate(engine.signals)}
+        self._nominal = nominal
+        self._steps = np.array([self._step(h) for h in hypotheses])
+        self._values = [k for k, h in enumerate(hypotheses) if h.kind == "value"]
+        self._signals = [k for k, h in enumerate(hypotheses) if h.kind != "value"]
+        self._wrong = [self._configured(k, sign) for k in self._values for sign in (1.0, -1.0)]
+        self._told = [engine.configured(bounds=False) for _ in self._signals for _ in (1, -1)]
+        for one in (*self._wrong, *self._told):
+            one.follow(engine)
+        self._begin = begin  # the sample before the first: where encoders count from
+        self._age = 0  # samples so far
+
+    def _configured(self, k: int, sign: float) -> Engine:
+        fault = self.hypotheses[k].fault
+        value = self._nominal[fault] + sign * self._steps[k]
+        return self.engine.configured({fault: value}, bounds=False)
+
+    def _step(self, hypothesis: Hypothesis) -> float:
+        if hypothesis.kind == "value":
+            return _STEP * (abs(self._nominal[hypothesis.fault]) or hypothesis.usual)
+        counts = self._counts(hypothesis)
+        if hypothesis.kind == "gain":
+            return _COUNTS if counts else _STEP
+        if hypothesis.kind == "drift":
+            return max(1.0, _COUNTS * hypothesis.usual)
+        return max(1.0, round(hypothesis.usual)) if counts else _STEP * hypothesis.usual
+
+    def _counts(self, hypothesis: Hypothesis) -> bool:
+        return self.engine.signals[self._place[hypothesis.fault]].counts is not None
+
+    def reset(self) -> None:
+        """Forget all samples."""
+        for engine in (self.engine, *self._wrong, *self._told):
+            engine.reset()
+        self._begin = None
+        self._age = 0
+
+    def run(self, samples: Array) -> Array:
+        """The slopes after further (n, signals) samples; shape (n, hypotheses, residuals).
+
+        In units of the residual over those of the hypothesis. The first engine goes on too.
+        """
+        count = len(self.engine.residuals)
+        slopes = np.zeros((len(samples), len(self.hypotheses), count))
+        if self._wrong:
+            value = self._wrong[0].run_with(self._wrong[1:], samples).value
+            for at, k in enumerate(self._values):
+                slopes[:, k, :] = (value[2 * at] - value[2 * at + 1]) / (2 * self._steps[k])
+        fresh = self._begin is None
+        if fresh and len(samples):
+            self._begin = samples[0].copy()
+        for at, k in enumerate(self._signals):
+            up = self._told[2 * at].run(self._shifted(samples, k, 1.0, fresh)).value
+            down = self._told[2 * at + 1].run(self._shifted(samples, k, -1.0, fresh)).value
+            slopes[:, k, :] = (up - down) / (2 * self._steps[k])
+        self.engine.run(samples)
+        self._age += len(samples)
+        return slopes
+
+    def _shifted(self, samples: Array, k: int, sign: float, fresh: bool) -> Array:
+        """The samples as they are told when the hypothesis holds, a little.
+
+        A `fresh` encoder counts from its first sample, which is therefore as it is told.
+        """
+        hypothesis = self.hypotheses[k]
+        at = self._place[hypothesis.fault]
+        told = samples.copy()
+        step = sign * self._steps[k]
+        column = told[:, at]
+        if hypothesis.kind == "offset":
+            told[:, at] = column + step
+            if fresh and self._counts(hypothesis):
+                told[:1, at] = samples[:1, at]
+        elif hypothesis.kind == "drift":
+            since = (self._age + 1 + np.arange(len(told))) * self.engine.sample_time
+            told[:, at] = np.round(column + step * since)
+        elif self._counts(hypothesis):
+            assert self._begin is not None
+            told[:, at] = np.round(column + step * (column - self._begin[at]))
+        else:
+            told[:, at] = column + step * column
+        return told
+
+
+def hypotheses(
+    engine: Engine,
+    faults: Mapping[str, float | None],
+    units: Mapping[str, str],
+    sizes: Mapping[str, float],
+) -> tuple[Hypothesis, ...]:
+    """All that may be wrong: a value for each parameter, offset and gain for each signal.
+
+    `faults` are the paths that some residual sees, with the nominal value of a parameter and None
+    for a signal; `sizes` is the usual size of a signal, of an encoder its speed in rad/s. Modes are
+    no faults.
+    """
+    signals = {k.path: k for k in engine.signals}
+    found = []
+    for path, nominal in faults.items():
+        unit = units.get(path, "")
+        if nominal is not None:
+            if path in engine.parameters:
+                usual = _USUAL * (abs(nominal) or 1.0)
+                found.append(Hypothesis(path, "value", unit, usual, True))
+        elif path in signals and signals[path].kind != "mode":
+            counts = signals[path].counts
+            size = sizes.get(path, 1.0)
+            usual = _USUAL * size if counts is None else _SLIP * counts
+            turned = signals[path].kind != "sensor"
+            unit = unit if counts is None else COUNT
+            found.append(Hypothesis(path, "offset", unit, usual or _USUAL, turned))
+            found.append(Hypothesis(path, "gain", "", _USUAL, turned))
+            if counts is not None:
+                rate = _USUAL * size * counts / (2 * math.pi)
+                found.append(Hypothesis(path, "drift", "count/s", rate, turned))
+    return tuple(found)
+
+
+class Sizes:
+    """What signals are usually like: the root of their mean square, of an encoder its speed."""
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+        self._sums = np.zeros(len(engine.signals))
+        self._counts = np.zeros(len(engine.signals))
+
+    def add(self, samples: Array) -> None:
+        """Further (n, signals) samples, one after the other."""
+        for at, known in enumerate(self._engine.signals):
+            column = samples[:, at]
+            if known.counts is not None:
+                turn = 2 * math.pi / known.counts / self._engine.sample_time
+                column = np.diff(column) * turn
+            column = column[np.isfinite(column)]
+            self._sums[at] += float(np.sum(column**2))
+            self._counts[at] += len(column)
+
+    def found(self) -> dict[str, float]:
+        """By path; 1 for a signal that has always been zero, of which nothing is known."""
+        means = np.sqrt(self._sums / np.maximum(self._counts, 1))
+        paths = [k.path for k in self._engine.signals]
+        return {p: float(m) or 1.0 for p, m in zip(paths, means, strict=True)}
+
+
+def rows_apart(engine: Engine) -> int:
+    """How many samples lie between two rows that noise makes nearly independent.
+
+    The residual filter forgets with its bandwidth; after three time constants of a filter of third
+    order the correlation is 0.35 (Matern).
+    """
+    return max(1, math.ceil(_APART / engine.bandwidth / engine.sample_time))

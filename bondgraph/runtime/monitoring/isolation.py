@@ -1,0 +1,177 @@
+"""Which fault it is, by magnitude: every candidate explains the residuals, better or worse.
+
+Residuals are r(t) = sum_k s_k(t) d_k + s_j(t) c_j(t) + noise, with the sensitivities s through the
+same filter. The d are what parameters are off by within their tolerances, constant and normal with
+the deviation of their tolerance; the change c of candidate j is a signal that moves little from one
+moment to the next. With both integrated out (Gaussian evidence; MacKay, 1992), candidates are
+compared by how probable they make what was seen. A residual that a fault would have to move and
+that did not speaks against it by as much as it would have moved, and no more.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.hypotheses import Hypothesis
+
+_SCALES = (0.1, 1.0, 10.0)  # of the usual change: how large a fault is, nobody knows before
+_KEEP = 0.95  # correlation of a fault's change between neighbouring chunks
+_CHUNK = 4  # rows in which the change is taken as constant
+_PARTS = 15  # chunks at most: what was longer ago is left out
+
+
+class Explained(NamedTuple):
+    """How well one fault explains what was seen.
+
+    `evidence` is the logarithm of how much more probable it makes that than a healthy machine
+    does; `changes` and `deviations` are the latest changes of its hypotheses, `share` says how
+    much of the healthy machine's misfit (in squares) is gone.
+    """
+
+    fault: str
+    evidence: float
+    changes: tuple[float, ...]
+    deviations: tuple[float, ...]
+    share: float
+
+
+class Rows(NamedTuple):
+    """Residuals at moments far enough apart for their noise to be taken as independent.
+
+    Value and weight (1/variance, 0 where not valid) have the shape (rows, residuals). `rest` are
+    the slopes by the parameters with a tolerance, which have been off for ever, `slopes` those by
+    the hypotheses, which hold since the onset: (rows, parameters or hypotheses, residuals).
+    """
+
+    value: Array
+    weight: Array
+    rest: Array
+    slopes: Array
+
+    def part(self, start: int, stop: int | None = None) -> Rows:
+        """Some of the rows."""
+        return Rows(*[x[start:stop] for x in self])
+
+
+class History:
+    """What healthy operation has told of parameters that are off within their tolerances.
+
+    `prior` are the standard deviations of the parameters. Kept as information, matrix and vector,
+    so that rows are added one after the other and forgotten slowly.
+    """
+
+    def __init__(self, prior: Array) -> None:
+        self.prior = prior
+        self.matrix = np.zeros((len(prior), len(prior)))
+        self.vector = np.zeros(len(prior))
+
+    def add(self, value: Array, weight: Array, slopes: Array, keep: float) -> None:
+        """One row: residuals, their weights, slopes of the shape (parameters, residuals)."""
+        weighted = slopes * weight
+        self.matrix = keep * self.matrix + weighted @ slopes.T
+        self.vector = keep * self.vector + weighted @ value
+
+    def information(self) -> Array:
+        """Prior and history together."""
+        return np.diag(1.0 / np.square(self.prior)) + self.matrix
+
+    def expected(self, slopes: Array) -> tuple[Array, Array]:
+        """The residuals of the healthy machine as far as it is known, and their variances."""
+        if not len(self.prior):
+            nothing = np.zeros(slopes.shape[1])
+            return nothing, nothing
+        spread = np.linalg.inv(self.information())
+        return slopes.T @ (spread @ self.vector), np.einsum("pr,pq,qr->r", slopes, spread, slopes)
+
+
+def explain(rows: Rows, hypotheses: Sequence[Hypothesis], history: History) -> list[Explained]:
+    """How well each fault explains the rows since the onset, in the order of the hypotheses.
+
+    Raises numpy.linalg.LinAlgError where numbers are too far apart.
+    """
+    chunks = [rows.part(k, k + _CHUNK) for k in range(0, len(rows.value), _CHUNK)][-_PARTS:]
+    matrix = history.information()
+    vector = history.vector.copy()
+    inner, cross, score = [], [], []
+    misfit = 0.0
+    for chunk in chunks:
+        weighted = chunk.slopes * chunk.weight[:, None, :]
+        rest = chunk.rest * chunk.weight[:, None, :]
+        inner.append(np.einsum("tar,tbr->ab", weighted, chunk.slopes))
+        cross.append(np.einsum("tar,tbr->ab", rest, chunk.slopes))
+        score.append(np.einsum("tar,tr->a", weighted, chunk.value))
+        matrix = matrix + np.einsum("tar,tbr->ab", rest, chunk.rest)
+        vector = vector + np.einsum("tar,tr->a", rest, chunk.value)
+        misfit += float(np.sum(chunk.weight * chunk.value**2))
+    factor = np.linalg.inv(matrix)
+    misfit -= float(vector @ factor @ vector)
+    misfit += float(history.vector @ np.linalg.solve(history.information(), history.vector))
+    found = []
+    for fault in dict.fromkeys(h.fault for h in hypotheses):
+        own = [j for j, h in enumerate(hypotheses) if h.fault == fault]
+        coupling = np.concatenate([c[:, own] for c in cross], axis=1)
+        information = _diagonal([i[np.ix_(own, own)] for i in inner])
+        information -= coupling.T @ factor @ coupling
+        seen = np.concatenate([s[own] for s in score]) - coupling.T @ factor @ vector
+        usual = np.array([hypotheses[j].usual for j in own])
+        found.append(_evidence(fault, usual, information, seen, misfit))
+    return found
+
+
+def _diagonal(blocks: Sequence[Array]) -> Array:
+    size = len(blocks[0])
+    out = np.zeros((size * len(blocks), size * len(blocks)))
+    for k, block in enumerate(blocks):
+        out[k * size : (k + 1) * size, k * size : (k + 1) * size] = block
+    return out
+
+
+def _evidence(
+    fault: str, usual: Array, information: Array, score: Array, misfit: float
+) -> Explained:
+    """Evidence for changes with a normal prior that is correlated in time, of unknown scale."""
+    found = [_at_scale(fault, s * usual, information, score, misfit) for s in _SCALES]
+    best = max(found, key=lambda e: e.evidence)
+    if not math.isfinite(best.evidence):
+        return best
+    sum_ = sum(math.exp(max(e.evidence - best.evidence, -700.0)) for e in found)
+    return best._replace(evidence=best.evidence + math.log(sum_ / len(found)))
+
+
+def _at_scale(
+    fault: str, usual: Array, information: Array, score: Array, misfit: float
+) -> Explained:
+    """Evidence where the size of the change is about the usual one."""
+    size = len(usual)
+    chunks = len(score) // size
+    steps = np.abs(np.subtract.outer(np.arange(chunks), np.arange(chunks)))
+    scale = np.tile(usual, chunks)  # in units of the usual change numbers are alike
+    information = information * np.outer(scale, scale)
+    score = score * scale
+    prior = np.kron(_KEEP**steps, np.eye(size))
+    inner = np.eye(len(score)) + prior @ information
+    sign, log_size = np.linalg.slogdet(inner)
+    posterior = np.linalg.solve(inner, prior)
+    mean = posterior @ score
+    if sign <= 0 or not np.isfinite(mean).all():
+        nothing = tuple([0.0] * size)
+        return Explained(fault, -math.inf, nothing, nothing, 0.0)
+    evidence = 0.5 * float(score @ mean) - 0.5 * float(log_size)
+    gone = float(2 * score @ mean - mean @ information @ mean)
+    deviations = np.sqrt(np.maximum(np.diag(posterior)[-size:], 0.0)) * usual
+    changes = mean[-size:] * usual
+    share = gone / misfit if misfit > 0 else 0.0
+    return Explained(fault, evidence, tuple(changes.tolist()), tuple(deviations.tolist()), share)
+
+
+def probabilities(found: Sequence[Explained]) -> dict[str, float]:
+    """How probable each fault is, all equally probable before; they add up to 1."""
+    top = max((e.evidence for e in found), default=0.0)
+    weight = {e.fault: math.exp(max(e.evidence - top, -700.0)) for e in found}
+    total = sum(weight.values()) or 1.0
+    return {fault: w / total for fault, w in weight.items()}

@@ -1,0 +1,252 @@
+"""From healthy samples and a wanted rate of false alarms to limits, delays and smallest faults."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.diagnosis import Facts, grown, slack, tolerated
+from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.hypotheses import Bank, Hypothesis, Sizes, hypotheses, rows_apart
+from bondgraph.runtime.monitoring.isolation import History
+from bondgraph.runtime.monitoring.tuning import Limit, Tuning, height, kappa
+
+_TAIL = 3.29  # standard deviations that one normal sample in a thousand exceeds
+_ABOVE = 1.2  # times the largest excess of a healthy machine that a limit stays above
+_CHUNK = 5000  # samples at a time
+_SURE = 0.9  # share of the windows in which the smallest change shows
+
+
+class Shown(NamedTuple):
+    """What can be seen of one hypothesis: the smallest change that is sure to show.
+
+    `size` in the unit of the hypothesis (None: nothing moves), in nine windows of ten; `delay` is
+    the median time in s until it shows. `residual` is the one that shows it first most often.
+    """
+
+    hypothesis: Hypothesis
+    size: float | None
+    delay: float | None
+    residual: str
+
+
+class Tuned(NamedTuple):
+    """A tuning with what follows from it, for one bandwidth."""
+
+    tuning: Tuning
+    shown: tuple[Shown, ...]
+    window: float
+
+
+def tune(
+    engine: Engine,
+    facts: Facts,
+    logs: Sequence[Array],
+    model: str,
+    false_alarms: float,
+    window: float = 2.0,
+    progress: Callable[[float], None] = lambda _: None,
+) -> Tuned:
+    """Limits for an engine, from `logs` of healthy machines: (n, signals) samples each.
+
+    `false_alarms` wanted per hour; a fault is taken to be there for a `window` of seconds. Every
+    log may be of another machine, with parameters of its own inside their tolerances. Raises
+    ValueError where the logs are too short to be of use.
+    """
+    work = _Work(engine, facts, logs)
+    total = 2 * len(logs)
+    noise: list[_Noise] = []
+    for k, log in enumerate(logs):
+        own = work.noise(log)
+        if own is not None:
+            noise.append(own)
+        progress((k + 1) / total)
+    seconds = sum(n.rows for n in noise) * engine.sample_time
+    if seconds <= 0:
+        raise ValueError(
+            f"no log is longer than the warm-up of {engine.warm_up:g} s: nothing can be learned"
+        )
+    limits = _limits(engine, noise, false_alarms)
+    tuning = Tuning(model, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, limits)
+    sizes: list[list[_Seen]] = [[] for _ in work.all]
+    for k, log in enumerate(logs):
+        for seen in work.windows(log, limits, window):
+            for all_, one in zip(sizes, seen, strict=True):
+                all_.append(one)
+        progress((len(logs) + k + 1) / total)
+    shown = tuple(
+        _shown(h, found, engine.residuals) for h, found in zip(work.all, sizes, strict=True)
+    )
+    return Tuned(tuning, shown, window)
+
+
+class _Noise(NamedTuple):
+    """Of one log: how many valid samples, sums by residual of squares, upward crossings of zero,
+    the level that one sample in a thousand exceeds, the largest excess over the threshold; and the
+    rows: values, what is allowed, validity."""
+
+    rows: int
+    squares: Array
+    crossings: Array
+    tail: Array
+    excess: Array
+    value: Array
+    allowed: Array
+    valid: Array
+
+
+class _Seen(NamedTuple):
+    """Of one window: the smallest change that shows, when, and in which residual."""
+
+    size: float
+    delay: float
+    residual: int
+
+
+class _Work:
+    def __init__(self, engine: Engine, facts: Facts, logs: Sequence[Array]) -> None:
+        self.engine = engine
+        self.facts = facts
+        self.nominal = {f: v for f, v in facts.faults.items() if v is not None}
+        sizes = Sizes(engine)
+        for log in logs:
+            sizes.add(log)
+        self.all = hypotheses(engine, facts.faults, facts.units, sizes.found())
+        self.tolerated, self.spread = tolerated(self.all, facts)
+        self.every = rows_apart(engine)
+
+    def noise(self, samples: Array) -> _Noise | None:
+        """What is left of the residuals once parameters are taken as they fit best.
+
+        None for a log that is not longer than the warm-up.
+        """
+        start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
+        if len(samples) <= start + self.every:
+            return None
+        history = History(self.spread)
+        first = next(self._chunks(samples[start:], samples[:start]))[0].value
+        rough = np.std(np.diff(first[:: self.every], axis=0), axis=0)
+        size = np.max(np.abs(first), axis=0, initial=0.0)
+        weight = 1.0 / np.maximum(rough, 1e-12 * size + 1e-300) ** 2
+        values, allowed, sound = [], [], []
+        for batch, slopes in self._chunks(samples[start:], samples[:start]):
+            more = slack(self.tolerated, slopes)
+            for k in range(self.every - 1, len(slopes), self.every):
+                valid = batch.valid[k]
+                history.add(batch.value[k], weight * valid, slopes[k], 1.0)
+                values.append(batch.value[k])
+                allowed.append(batch.bound[k] + more[k])
+                sound.append(valid)
+        found = np.linalg.solve(history.information(), history.vector)
+        rest, excess, rows = [], [], 0
+        for batch, slopes in self._chunks(samples[start:], samples[:start]):
+            left = batch.value - np.einsum("thr,h->tr", slopes, found)
+            rest.append(np.where(batch.valid, left, 0.0))
+            over = np.abs(batch.value) - batch.bound - slack(self.tolerated, slopes)
+            excess.append(np.where(batch.valid, over, 0.0).max(axis=0, initial=0.0))
+            rows += int(batch.valid.any(axis=1).sum())
+        left = np.concatenate(rest)
+        return _Noise(
+            rows,
+            (left**2).sum(axis=0),
+            ((left[:-1] < 0) & (left[1:] >= 0)).sum(axis=0).astype(float),
+            np.quantile(np.abs(left), 0.999, axis=0),
+            np.max(excess, axis=0),
+            np.array(values),
+            np.array(allowed),
+            np.array(sound),
+        )
+
+    def _chunks(self, samples: Array, before: Array) -> Iterator[tuple[Batch, Array]]:
+        """Residuals and the slopes of what is tolerated, some thousand samples at a time."""
+        engine = self.engine.configured()
+        bank = Bank(self.engine.configured(bounds=False), self.tolerated, self.nominal)
+        engine.run(before)
+        bank.run(before)
+        step = self.every * max(1, _CHUNK // self.every)
+        for k in range(0, len(samples), step):
+            part = samples[k : k + step]
+            yield engine.run(part), bank.run(part)
+
+    def windows(
+        self, samples: Array, limits: Mapping[str, Limit], window: float
+    ) -> Iterator[list[_Seen]]:
+        """For each window of the log, what of each hypothesis would show if it began there."""
+        engine = self.engine.configured()
+        start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
+        length = max(2, round(window / self.engine.sample_time))
+        never = Limit(math.inf, 0.0, 1.0, math.inf)
+        own = [limits.get(name, never) for name in engine.residuals]
+        top = np.array([limit.kappa * limit.sigma for limit in own])
+        bank = Bank(self.engine.configured(bounds=False), self.tolerated, self.nominal)
+        engine.run(samples[:start])
+        bank.run(samples[:start])
+        for begin in range(start, len(samples) - length + 1, length):
+            part = samples[begin : begin + length]
+            copy = engine.configured(bounds=False)
+            copy.follow(engine)
+            slopes = np.abs(Bank(copy, self.all, self.nominal, samples[begin - 1]).run(part))
+            batch = engine.run(part)
+            batch = batch._replace(bound=batch.bound + slack(self.tolerated, bank.run(part)))
+            yield [self._seen(h, slopes[:, k], batch, top) for k, h in enumerate(self.all)]
+
+    def _seen(self, hypothesis: Hypothesis, slopes: Array, batch: Batch, top: Array) -> _Seen:
+        share = self.facts.tolerances.get(hypothesis.fault, 0.0)
+        own = share * abs(self.nominal.get(hypothesis.fault, 0.0)) * slopes
+        need = 2.0 * batch.bound - np.minimum(own, batch.bound) + top
+        least = np.divide(
+            need, slopes, out=np.full_like(slopes, math.inf),
+            where=(slopes > 0) & batch.valid & np.isfinite(top),
+        )  # fmt: skip
+        at, residual = np.unravel_index(int(np.argmin(least)), least.shape)
+        size = float(least[at, residual])
+        return _Seen(size, (int(at) + 1) * self.engine.sample_time, int(residual))
+
+
+def _limits(engine: Engine, noise: Sequence[_Noise], false_alarms: float) -> dict[str, Limit]:
+    rows = sum(n.rows for n in noise)
+    deviation = np.sqrt(np.sum([n.squares for n in noise], axis=0) / rows)
+    tail = np.max([n.tail for n in noise], axis=0) / _TAIL
+    sigma = np.maximum(deviation, tail)
+    crossings = np.sum([n.crossings for n in noise], axis=0) / (rows * engine.sample_time)
+    excess = np.max([n.excess for n in noise], axis=0)
+    used = sigma > 0
+    alarms = false_alarms / 3600.0 / (2 * max(1, int(used.sum())))
+    apart = 1.0 / (rows_apart(engine) * engine.sample_time)
+    sums = np.max([_highest(n, np.where(used, sigma, math.inf)) for n in noise], axis=0)
+    found = {}
+    for k, name in enumerate(engine.residuals):
+        if not used[k]:
+            continue  # never valid in these logs
+        rate = max(float(crossings[k]), engine.bandwidth / (2 * math.pi))
+        level = max(kappa(rate, alarms), _ABOVE * float(excess[k] / sigma[k]))
+        top = max(height(apart, alarms), _ABOVE * float(sums[k]))
+        found[name] = Limit(float(sigma[k]), rate, level, top)
+    return found
+
+
+def _highest(noise: _Noise, sigma: Array) -> Array:
+    """The highest that the sums of a healthy machine became."""
+    count = noise.value.shape[1]
+    sums, most = np.zeros((2, count)), np.zeros(count)
+    for value, allowed, valid in zip(noise.value, noise.allowed, noise.valid, strict=True):
+        sums = np.where(valid, grown(sums, value, allowed, sigma), 0.0)
+        most = np.maximum(most, sums.max(axis=0))
+    return most
+
+
+def _shown(hypothesis: Hypothesis, found: Sequence[_Seen], residuals: Sequence[str]) -> Shown:
+    sizes = sorted(s.size for s in found)
+    if not sizes:
+        return Shown(hypothesis, None, None, "")
+    size = sizes[min(len(sizes) - 1, math.floor(_SURE * len(sizes)))]
+    seen = [s for s in found if math.isfinite(s.size)]
+    if not math.isfinite(size) or not seen:
+        return Shown(hypothesis, None, None, "")
+    delay = float(np.median([s.delay for s in seen]))
+    often = np.bincount([s.residual for s in seen])
+    return Shown(hypothesis, size, delay, residuals[int(np.argmax(often))])

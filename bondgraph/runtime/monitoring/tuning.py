@@ -1,0 +1,109 @@
+"""What a healthy machine taught: the noise of each residual and the limits that follow from it."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+EDITION = 1
+
+
+class Limit(NamedTuple):
+    """Of one residual, in its own unit: noise `sigma`, and how often a second it crosses zero
+    upwards (`crossings`).
+
+    It fires where max(0, |r| - a) is above `kappa` sigma, or where the sum of what it is above
+    (CUSUM of rows, in sigma, less a drift of one half) is above `height`.
+    """
+
+    sigma: float
+    crossings: float
+    kappa: float
+    height: float
+
+
+class Tuning(NamedTuple):
+    """Limits by residual for a filter of `bandwidth` (rad/s) at `rate` samples a second.
+
+    `false_alarms` are those wanted per hour, of all residuals and both tests together; `model` is
+    the digest of the residuals that it belongs to, `seconds` how much healthy data it is from.
+    """
+
+    model: str
+    rate: float
+    bandwidth: float
+    false_alarms: float
+    seconds: float
+    limits: Mapping[str, Limit]
+
+
+def kappa(crossings: float, alarms: float) -> float:
+    """The level that noise of one residual exceeds `alarms` times a second, to either side.
+
+    Normal noise crosses the level k sigma upwards exp(-k^2/2) times as often as zero (Rice, 1945).
+
+    >>> round(kappa(10.0, 1 / 3600), 2)
+    4.73
+    """
+    return math.sqrt(2.0 * math.log(max(2.0 * crossings / alarms, 1.0 + 1e-9)))
+
+
+def height(rows: float, alarms: float) -> float:
+    """The height of a CUSUM of `rows` a second that ends above it `alarms` times a second.
+
+    For independent normal rows and a drift of half a sigma to each side, by Siegmund's
+    approximation of the mean time between false alarms (1985, eq. 2.56).
+
+    >>> round(height(10.0, 1 / 3600), 1)
+    9.3
+    """
+    wanted = 2.0 * rows / alarms  # rows between false alarms of one side
+    low, high = 0.0, 1e4
+    for _ in range(200):
+        middle = (low + high) / 2
+        if _between(middle) < wanted:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def _between(height: float) -> float:
+    b = height + 1.166
+    return 2.0 * (math.expm1(min(b, 700.0)) - b)
+
+
+def to_json(tuning: Tuning) -> str:
+    """The tuning as a text for people and programs."""
+    record = {
+        "bondgraph tuning": EDITION,
+        **tuning._asdict(),
+        "limits": {name: limit._asdict() for name, limit in tuning.limits.items()},
+    }
+    return json.dumps(record, indent=2) + "\n"
+
+
+def from_json(text: str) -> Tuning:
+    """The tuning in a text; raises ValueError, with the reason, for any other text."""
+    try:
+        record: dict[str, Any] = json.loads(text)
+        if record["bondgraph tuning"] != EDITION:
+            raise ValueError(f"edition {record['bondgraph tuning']} is not known here")
+        limits = {
+            str(name): Limit(*[float(limit[key]) for key in Limit._fields])
+            for name, limit in record["limits"].items()
+        }
+        return Tuning(
+            str(record["model"]),
+            float(record["rate"]),
+            float(record["bandwidth"]),
+            float(record["false_alarms"]),
+            float(record["seconds"]),
+            limits,
+        )
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"this is no tuning: {error}") from error
+    except json.JSONDecodeError as error:
+        raise ValueError(f"this is no tuning: {error.msg} in line {error.lineno}") from error

@@ -1,0 +1,122 @@
+"""Many virtual robots through the monitor: false alarms, missed faults, wrong names."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+
+import bondgraph
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.log import Log
+from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.tune import Tuned, tune
+from bondgraph.runtime.monitoring.tuning import Tuning
+from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.runtime.simulation.scenario import Change, Fault, Scenario
+
+MODEL = "models/khepera_encoders.bg"
+SCENARIO = "models/scenarios/errands.toml"
+ONSET = 10.0  # s
+_BLOCK = 1000  # samples that the monitor gets at a time
+
+
+class Kind(NamedTuple):
+    """A kind of fault: what changes by what, and which hypothesis of `tune` gives its size."""
+
+    name: str
+    target: str
+    op: Change
+    hypothesis: str
+    sign: float
+
+
+#: Eight kinds, on drives and cable, of four classes of the signature matrix on each side.
+KINDS = (
+    Kind("winding resistance", "m[1].el.Re", "+=", "value", 1.0),
+    Kind("motor friction", "m[2].fe", "+=", "value", 1.0),
+    Kind("amplifier gain", "U0[2]", "*=", "gain", -1.0),
+    Kind("backlash", "m[1].tau0", "+=", "value", 1.0),
+    Kind("wheel bearing", "m[2].fs", "+=", "value", 1.0),
+    Kind("motor encoder misses counts", "m[1].motor", "*=", "gain", -1.0),
+    Kind("cable resistance", "R_L", "+=", "value", 1.0),
+    Kind("supply voltage sensor", "Us", "+=", "offset", 1.0),
+)
+
+
+class Seen(NamedTuple):
+    """What the monitor said of one run."""
+
+    alarms: int
+    delay: float | None
+    named: tuple[tuple[str, ...], ...]
+    last: tuple[str, ...]
+    best: str
+
+
+@cache
+def robot(model: str = MODEL, bandwidth: float | None = None) -> Compilation:
+    """The model, compiled once a process."""
+    return bondgraph.compile(model, bandwidth=bandwidth)
+
+
+@cache
+def engine(model: str = MODEL, bandwidth: float | None = None) -> Engine:
+    """An engine of it."""
+    return robot(model, bandwidth).engine()
+
+
+def errands(seed: int, duration: float, *faults: Fault, scenario: str = SCENARIO) -> Scenario:
+    """One robot out of many, on its errands."""
+    chosen = robot().scenario(scenario)
+    return chosen._replace(seed=seed, duration=duration, spread="uniform", faults=faults)
+
+
+def samples(log: Log, of: Engine) -> np.ndarray:
+    """What the engine reads, from a log."""
+    return np.column_stack([log.columns[k.path] for k in of.signals])
+
+
+def tuned(seeds: range, duration: float, false_alarms: float) -> Tuned:
+    """Limits from robots that nobody reports on."""
+    own, runs = engine(), robot()
+    logs = [samples(runs.simulate(errands(seed, duration)).log, own) for seed in seeds]
+    return tune(own, runs.facts, logs, runs.program.digest, false_alarms)
+
+
+def fault(kind: Kind, size: float) -> Fault:
+    """A fault of this size, that sets in at `ONSET` and stays."""
+    change = kind.sign * size
+    value = 1.0 + change if kind.op == "*=" else change
+    return Fault(kind.target, kind.op, value, ONSET, math.inf, 0.0, 0.0, 1.0, kind.name)
+
+
+def watched(scenario: Scenario, tuning: Tuning) -> list[Verdict]:
+    """All that the monitor says of a run."""
+    own = engine()
+    log = robot().simulate(scenario).log
+    rows = samples(log, own)
+    base, diagnosis = own.configured(), robot().diagnosis(own, tuning)
+    said: list[Verdict] = []
+    for k in range(0, len(rows), _BLOCK):
+        part = rows[k : k + _BLOCK]
+        said += diagnosis.update(log.time[k : k + _BLOCK], base.run(part), part)
+    return said
+
+
+def seen(said: list[Verdict], onset: float | None) -> Seen:
+    """The verdicts of a run in numbers; an alarm before the onset is a false one."""
+    alarms = [v for v in said if v.event == "fault"]
+    false = [v for v in alarms if onset is None or v.time < onset]
+    true = [v for v in alarms if onset is not None and v.time >= onset]
+    named = [v for v in said if v.group and (onset is None or v.time >= onset)]
+    best = [v.candidates[0].fault for v in said if v.candidates]
+    return Seen(
+        len(false),
+        true[0].time - onset if true and onset is not None else None,
+        tuple(v.group for v in named),
+        named[-1].group if named else (),
+        best[-1] if best else "",
+    )
