@@ -76,6 +76,10 @@ class CompileError(Exception):
         first = next((d for d in diagnostics if d.severity == "error"), None)
         super().__init__(first.message if first else "the model could not be compiled")
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """So that it comes back whole from another process."""
+        return type(self), (self.diagnostics, self.status)
+
 
 def _labels(places: tuple[Label | Span, ...]) -> tuple[Label, ...]:
     return tuple(p if isinstance(p, Label) else Label(p) for p in places)

@@ -35,9 +35,12 @@ _FORGET = 1000.0  # rows after which healthy operation counts a third
 _LEARNING = 30  # rows from which noise is learned where nobody has tuned
 _JUDGE = 5  # rows after an alarm before a fault is named
 _AGAIN = 5  # rows between later judgements
+_CALM = 5  # rows that have to be calm behind one before it counts as healthy
 _BACK = 10  # rows that residuals must be quiet before a fault is over
 _MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is off by
 _SLOPE_ERROR = 0.05  # of the residual: what its sensitivities are off by
+_ONSET_ERROR = 0.8  # of the residual, in the first row: somewhere in it the fault began
+_ONSET_FADES = 0.4  # what is left of that in every row after
 _CORRELATED = 2.0  # variance of the mean of rows, to that of independent ones
 _SURE = 0.75  # probability from which on a class is named
 _SHOWN = 0.02  # probability from which on a candidate is worth telling
@@ -139,6 +142,7 @@ class Diagnosis:
         self._bank = Bank(self._engine.configured(), self._tolerated, self._nominal)
         self._bank.reset()
         self._past: deque[_Row] = deque(maxlen=int(_MEMORY))
+        self._calm: deque[_Row] = deque()
         self._piece: list[Array] = []
         self._before = self._copy()
         self._filled = 0
@@ -226,10 +230,20 @@ class Diagnosis:
             self._after += 1
             self._judge(row, out)
             self._over(row, bound, valid, out)
-        elif not self._fired.any() and not (self._streak > 0).any():
-            calm = (np.abs(value) - bound < 0.5 * self._limits[:, 2] * self._limits[:, 0]).all()
-            if calm:
-                self._history.add(value, row.weight, slopes, 1.0 - 1.0 / _FORGET)
+        elif not self._fired.any():
+            self._remember(row, bound)
+
+    def _remember(self, row: _Row, bound: Array) -> None:
+        """Learn from a row once the ones behind it are calm too: before an alarm a fault acts."""
+        assert self._limits is not None
+        half = 0.5 * self._limits[:, 2] * self._limits[:, 0]
+        if (self._streak > 0).any() or (np.abs(row.value) - bound > half).any():
+            self._calm.clear()
+            return
+        self._calm.append(row)
+        if len(self._calm) > _CALM:
+            old = self._calm.popleft()
+            self._history.add(old.value, old.weight, old.slopes, 1.0 - 1.0 / _FORGET)
 
     def _weight(self, value: Array, bound: Array, valid: npt.NDArray[np.bool_]) -> Array:
         sigma = np.ones(len(value)) if self._limits is None else self._limits[:, 0]
@@ -287,6 +301,7 @@ class Diagnosis:
     def _fire(self, time: float, fresh: npt.NDArray[np.bool_], out: list[Verdict]) -> None:
         first = not self._fired.any()
         self._fired |= fresh
+        self._calm.clear()
         self._quiet = 0
         if first:
             since = self._onset(time)
@@ -338,7 +353,10 @@ class Diagnosis:
         """One more row of what every fault would have done since the onset."""
         assert self._steps is not None
         slopes = self._steps.run(row.samples)[-1]
-        self._rows.append(Rows(row.value, row.weight, row.slopes, slopes))
+        early = _ONSET_ERROR * _ONSET_FADES ** len(self._rows)
+        variance = np.divide(1.0, row.weight, out=np.full_like(row.weight, math.inf),
+                             where=row.weight > 0) + (early * row.value) ** 2  # fmt: skip
+        self._rows.append(Rows(row.value, 1.0 / variance, row.slopes, slopes))
         del self._rows[: -int(_MEMORY)]
 
     # ------------------------------------------------------------------ judgement
@@ -363,8 +381,8 @@ class Diagnosis:
         """No fault turns a parameter into its opposite: what would need that is no explanation."""
         nominal = self._nominal.get(explained.fault)
         if nominal:
-            left = 1.0 - explained.changes[0] / nominal  # of the value, as the machine has it now
-            if left < -0.1 - 3.0 * explained.deviations[0] / abs(nominal):
+            left = 1.0 - explained.change / nominal  # of the value, as the machine has it now
+            if left < -0.1 - 3.0 * explained.deviation / abs(nominal):
                 return explained._replace(evidence=-math.inf)
         return explained
 
@@ -394,10 +412,12 @@ class Diagnosis:
 
     def _candidate(self, explained: Explained, chance: float) -> Candidate:
         """A fault with the change that fits best: of the machine where it has changed."""
-        own = [h for h in self._all if h.fault == explained.fault]
-        pairs = zip(own, explained.changes, explained.deviations, strict=True)
-        hypothesis, change, _ = max(pairs, key=lambda p: abs(p[1]) / max(p[2], 1e-300))
+        hypothesis, change = explained.hypothesis, explained.change
         size = -change if hypothesis.turned else change
+        if hypothesis.kind == "gain" and not hypothesis.turned:
+            size = size / max(1.0 - size, 1e-3)  # of what is true, not of what is told
+        if hypothesis.kind == "gain":
+            return Candidate(explained.fault, 100.0 * size, "%", round(chance, 4))
         return Candidate(explained.fault, size, hypothesis.unit, round(chance, 4))
 
     def _over(

@@ -29,15 +29,16 @@ class Explained(NamedTuple):
     """How well one fault explains what was seen.
 
     `evidence` is the logarithm of how much more probable it makes that than a healthy machine
-    does; `changes` and `deviations` are the latest changes of its hypotheses, `share` says how
-    much of the healthy machine's misfit (in squares) is gone.
+    does, `share` how much of the healthy machine's misfit (in squares) it takes away. `change` is
+    that of the one of its hypotheses that explains most by itself, at the end, with its deviation.
     """
 
     fault: str
     evidence: float
-    changes: tuple[float, ...]
-    deviations: tuple[float, ...]
     share: float
+    hypothesis: Hypothesis
+    change: float
+    deviation: float
 
 
 class Rows(NamedTuple):
@@ -118,8 +119,7 @@ def explain(rows: Rows, hypotheses: Sequence[Hypothesis], history: History) -> l
         information = _diagonal([i[np.ix_(own, own)] for i in inner])
         information -= coupling.T @ factor @ coupling
         seen = np.concatenate([s[own] for s in score]) - coupling.T @ factor @ vector
-        usual = np.array([hypotheses[j].usual for j in own])
-        found.append(_evidence(fault, usual, information, seen, misfit))
+        found.append(_compared([hypotheses[j] for j in own], information, seen, misfit))
     return found
 
 
@@ -131,22 +131,45 @@ def _diagonal(blocks: Sequence[Array]) -> Array:
     return out
 
 
-def _evidence(
-    fault: str, usual: Array, information: Array, score: Array, misfit: float
-) -> Explained:
-    """Evidence for changes with a normal prior that is correlated in time, of unknown scale."""
-    found = [_at_scale(fault, s * usual, information, score, misfit) for s in _SCALES]
-    best = max(found, key=lambda e: e.evidence)
-    if not math.isfinite(best.evidence):
-        return best
-    sum_ = sum(math.exp(max(e.evidence - best.evidence, -700.0)) for e in found)
-    return best._replace(evidence=best.evidence + math.log(sum_ / len(found)))
+class _Fit(NamedTuple):
+    """One hypothesis, or several at once, where changes have about one size."""
+
+    evidence: float
+    share: float
+    change: float
+    deviation: float
 
 
-def _at_scale(
-    fault: str, usual: Array, information: Array, score: Array, misfit: float
+def _compared(
+    own: Sequence[Hypothesis], information: Array, score: Array, misfit: float
 ) -> Explained:
-    """Evidence where the size of the change is about the usual one."""
+    """Each hypothesis of a fault by itself, and all at once: one as probable as the other."""
+    size = len(own)
+    alone, every = [], []
+    for j in range(size):
+        pick = np.arange(j, len(score), size)
+        usual = np.array([own[j].usual])
+        fits = [
+            _fit(s * usual, information[np.ix_(pick, pick)], score[pick], misfit) for s in _SCALES
+        ]
+        alone.append(max(fits, key=lambda f: f.evidence))
+        every += fits
+    if size > 1:
+        usual = np.array([h.usual for h in own])
+        every += [_fit(s * usual, information, score, misfit) for s in _SCALES]
+    top = max(f.evidence for f in every)
+    best = max(range(size), key=lambda j: alone[j].evidence)
+    total = -math.inf
+    if math.isfinite(top):
+        weights = sum(math.exp(max(f.evidence - top, -700.0)) for f in every)
+        total = top + math.log(weights / len(every))
+    share = max(every, key=lambda f: f.evidence).share
+    chosen = alone[best]
+    return Explained(own[0].fault, total, share, own[best], chosen.change, chosen.deviation)
+
+
+def _fit(usual: Array, information: Array, score: Array, misfit: float) -> _Fit:
+    """Evidence for changes with a normal prior that is correlated in time."""
     size = len(usual)
     chunks = len(score) // size
     steps = np.abs(np.subtract.outer(np.arange(chunks), np.arange(chunks)))
@@ -159,14 +182,14 @@ def _at_scale(
     posterior = np.linalg.solve(inner, prior)
     mean = posterior @ score
     if sign <= 0 or not np.isfinite(mean).all():
-        nothing = tuple([0.0] * size)
-        return Explained(fault, -math.inf, nothing, nothing, 0.0)
-    evidence = 0.5 * float(score @ mean) - 0.5 * float(log_size)
+        return _Fit(-math.inf, 0.0, 0.0, 0.0)
     gone = float(2 * score @ mean - mean @ information @ mean)
-    deviations = np.sqrt(np.maximum(np.diag(posterior)[-size:], 0.0)) * usual
-    changes = mean[-size:] * usual
-    share = gone / misfit if misfit > 0 else 0.0
-    return Explained(fault, evidence, tuple(changes.tolist()), tuple(deviations.tolist()), share)
+    return _Fit(
+        0.5 * float(score @ mean) - 0.5 * float(log_size),
+        gone / misfit if misfit > 0 else 0.0,
+        float(mean[-1] * usual[-1]),
+        math.sqrt(max(float(posterior[-1, -1]), 0.0)) * float(usual[-1]),
+    )
 
 
 def probabilities(found: Sequence[Explained]) -> dict[str, float]:

@@ -1,0 +1,59 @@
+"""Limits against published figures, simulated noise, and each other."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from bondgraph.runtime.monitoring.diagnosis import grown
+from bondgraph.runtime.monitoring.tuning import (
+    Limit,
+    Tuning,
+    from_json,
+    height,
+    kappa,
+    to_json,
+)
+
+
+@pytest.mark.parametrize(("wanted", "between"), [(4.0, 168.0), (5.0, 465.0)])
+def test_the_height_agrees_with_published_run_lengths(wanted: float, between: float) -> None:
+    # two-sided CUSUM, drift of half a sigma: Montgomery, Introduction to Statistical Quality
+    # Control, 6th edition, table 9.3; Siegmund's formula is good to a few hundredths of a sigma
+    assert height(1.0, 1.0 / between) == pytest.approx(wanted, abs=0.03)
+
+
+def test_sums_of_noise_end_above_the_height_as_often_as_wanted() -> None:
+    noise = np.random.default_rng(1).standard_normal((60_000, 1))
+    top = height(1.0, 1.0 / 300.0)
+    sums, alarms = np.zeros((2, 1)), 0
+    for row in noise:
+        sums = grown(sums, row, np.zeros(1), np.ones(1))
+        if sums.max() > top:
+            sums, alarms = np.zeros((2, 1)), alarms + 1
+    assert alarms == pytest.approx(200, rel=0.25)
+
+
+def test_noise_crosses_a_level_as_often_as_wanted() -> None:
+    # white noise through three equal lags, as a residual filter does it
+    rate, pole = 1000.0, np.exp(-20.0 / 1000.0)
+    noise = np.random.default_rng(2).standard_normal(3_000_000)
+    for _ in range(3):
+        noise = lfilter([1 - pole], [1, -pole], noise)
+    noise = noise[2000:] / noise[2000:].std()
+    seconds = len(noise) / rate
+    zero = ((noise[:-1] < 0) & (noise[1:] >= 0)).sum() / seconds
+    level = kappa(zero, 0.1)
+    size = np.abs(noise)
+    found = ((size[:-1] < level) & (size[1:] >= level)).sum()
+    assert found == pytest.approx(0.1 * seconds, rel=0.2)
+
+
+def test_a_tuning_is_read_back_and_other_texts_are_not() -> None:
+    tuning = Tuning("abc", 1000.0, 20.0, 2.0, 300.0, {"r1": Limit(0.1, 3.0, 4.5, 10.0)})
+    assert from_json(to_json(tuning)) == tuning
+    other = to_json(tuning).replace('"bondgraph tuning": 1', '"bondgraph tuning": 9')
+    for text in ("", "{}", "[1]", "3", to_json(tuning).replace("sigma", "sigmo"), other):
+        with pytest.raises(ValueError, match=r"tuning|edition"):
+            from_json(text)
