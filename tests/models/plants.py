@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-from tests.models.series import Series, cos, d, sin, since_start, sqrt, ssqrt, t
+from tests.models.series import Series, cos, d, sin, since_start, sqrt, ssqrt, t, tanh
 
 Signals = dict[str, Series | bool]
 Values = Callable[[str], Series]
@@ -57,6 +57,35 @@ def two_tanks(F: Values) -> Signals:
     p1 = p2 + (between / F("k12")) ** 2  # the flow goes down the line
     Q = d(F("A1") / weight * p1) + F("leak") * ssqrt(p1) + between
     return {"p1": p1, "p2": p2, "Q": Q}
+
+
+def khepera_encoders(F: Values) -> Signals:
+    """Wheels and forces are chosen; shafts twist as they must, motors push as they must."""
+    out: Signals = {}
+    for j, wheel in ((1, t + t**2 / 3), (2, t / 2 - t**3 / 5)):
+        own = f"m[{j}]"
+        speed = 1 + d(wheel)
+        force = q(1, 2) + t / (2 + j)
+        twist = t / 3 + j * t**2 / 7  # from zero
+        play = F(f"{own}.tau0")
+        spring = F(f"{own}.K") * (twist + F(f"{own}.A") * play * tanh(twist / (4 * play)))
+        hub = F(f"{own}.fs") * speed + d(F(f"{own}.Js") * speed) + F(f"{own}.R") * force
+        # the spring carries what the hub needs: the rest of the load is the contact force
+        force = force + (F(f"{own}.ge.N") * spring - hub) / F(f"{own}.R")
+        rotor = d(twist) + F(f"{own}.ge.N") * speed
+        torque = spring + F(f"{own}.fe") * rotor + d(F(f"{own}.Je") * rotor)
+        current = torque / F(f"{own}.el.k")
+        out[f"{own}.motor"], out[f"{own}.wheel"] = since_start(rotor), since_start(speed)
+        out[f"Fx[{j}]"] = force
+        drop = F(f"{own}.el.Re") * current + d(F(f"{own}.el.L") * current)
+        out[f"U0[{j}]"] = F(f"{own}.el.k") * rotor + drop
+    R, L, C = F("R_L"), q(5, 10**7), q(22, 10**11)
+    load, Us = 1 + t / 4, 3 + t**2 - t**5 / 2
+    current = load + d(C * Us)
+    voltage = Us + R / 2 * current + d(L / 2 * current)
+    current = current + d(C * voltage)
+    out |= {"load": load, "Us": Us, "Uin": voltage + R / 2 * current + d(L / 2 * current)}
+    return out
 
 
 def rigid_gear(F: Values) -> Signals:

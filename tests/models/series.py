@@ -106,6 +106,10 @@ def cos(x: Series) -> Series:
     return x.composed(lambda at, n: mpmath.taylor(mpmath.cos, at, n - 1))
 
 
+def tanh(x: Series) -> Series:
+    return x.composed(lambda at, n: mpmath.taylor(mpmath.tanh, at, n - 1))
+
+
 def sign(x: Series) -> int:
     assert x.c[0] != 0
     return 1 if x.c[0] > 0 else -1

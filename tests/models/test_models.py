@@ -41,6 +41,7 @@ CASES = [
     Case("microphone", plants.microphone, 2),
     Case("slider_crank", plants.slider_crank, 1),
     Case("oven", plants.oven, 2),
+    Case("khepera_encoders", plants.khepera_encoders, 5),
 ]
 
 
@@ -71,7 +72,7 @@ def relation(arr: dict[str, Any], known: dict[str, Any]) -> Series:
         "Abs": series.magnitude,
         "Piecewise": choose,
         "exactly": Fraction,
-        **{name: getattr(series, name) for name in ("sqrt", "ssqrt", "sign", "sin", "cos")},
+        **{name: getattr(series, name) for name in ("sqrt", "ssqrt", "sign", "sin", "cos", "tanh")},
         **known,
     }
     for name, part in arr.get("defs", []):

@@ -1,0 +1,1328 @@
+/* khepera_encoders_residuals.c: the residuals of KheperaEncoders; generated, see the header. */
+#include "khepera_encoders_residuals.h"
+
+#include <math.h>
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef khepera_encoders_real real;
+
+#define REAL(x) KHEPERA_ENCODERS_CONSTANT(x)
+#if defined KHEPERA_ENCODERS_FLOAT && !defined KHEPERA_ENCODERS_REAL
+#define SLOWEST REAL(0.0001)
+#define MATH(name) name##f
+#else
+#define SLOWEST REAL(1.0e-09)
+#define MATH(name) name
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
+static real exponential(real value)
+{
+    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
+    const real ln2_low = REAL(1.4286068203094173e-06);
+    real rest;
+    real scale = REAL(1.0);
+    real sum = REAL(1.0);
+    int n = 0;
+    int k;
+
+    if (value > REAL(1000.0)) {
+        value = REAL(1000.0); /* more than enough for infinity */
+    }
+    if (value < REAL(-1000.0)) {
+        value = REAL(-1000.0); /* more than enough for zero */
+    }
+    rest = value;
+    while (rest > REAL(0.35)) {
+        ++n;
+        scale *= REAL(2.0);
+        rest = value - (real)n * ln2_high;
+    }
+    while (rest < REAL(-0.35)) {
+        --n;
+        scale *= REAL(0.5);
+        rest = value - (real)n * ln2_high;
+    }
+    rest -= (real)n * ln2_low;
+    for (k = 14; k > 0; --k) {
+        sum = REAL(1.0) + sum * rest / (real)k;
+    }
+    return sum * scale;
+}
+
+/* Takes a count; the difference to the one before is right also when the counter runs over. */
+static void count_on(khepera_encoders_encoder *encoder, int32_t count)
+{
+    const uint32_t step = (uint32_t)count - encoder->count;
+
+    encoder->increment = step <= INT32_MAX ? (int32_t)step : -(int32_t)(UINT32_MAX - step) - 1;
+    encoder->total += encoder->increment;
+    encoder->count = (uint32_t)count;
+}
+
+/* Takes the first count. */
+static void count_from(khepera_encoders_encoder *encoder, int32_t count)
+{
+    encoder->count = (uint32_t)count;
+    encoder->increment = 0;
+    encoder->total = 0;
+}
+
+uint32_t khepera_encoders_abi(void)
+{
+    return KHEPERA_ENCODERS_ABI;
+}
+
+const char *khepera_encoders_digest(void)
+{
+    return KHEPERA_ENCODERS_DIGEST;
+}
+
+void khepera_encoders_nominal(khepera_encoders_parameters *parameters)
+{
+    parameters->R_L = REAL(0.85);             /* Ohm */
+    parameters->m__1__Je = REAL(1.4e-08);     /* kg.m^2 */
+    parameters->m__1__fe = REAL(1.0e-07);     /* N.m.s/rad */
+    parameters->m__1__K = REAL(0.1);          /* N.m/rad */
+    parameters->m__1__tau0 = REAL(0.01);      /* rad */
+    parameters->m__1__A = -REAL(4.0);         /* 1 */
+    parameters->m__1__Js = REAL(1.0e-05);     /* kg.m^2 */
+    parameters->m__1__fs = REAL(0.0003);      /* N.m.s/rad */
+    parameters->m__1__R = REAL(0.008);        /* m */
+    parameters->m__1__el__L = REAL(0.0003);   /* H */
+    parameters->m__1__el__Re = REAL(17.6);    /* Ohm */
+    parameters->m__1__el__k = REAL(0.00351);  /* N.m/A */
+    parameters->m__1__ge__N = REAL(25.0);     /* 1 */
+    parameters->m__2__Je = REAL(1.4e-08);     /* kg.m^2 */
+    parameters->m__2__fe = REAL(1.0e-07);     /* N.m.s/rad */
+    parameters->m__2__K = REAL(0.1);          /* N.m/rad */
+    parameters->m__2__tau0 = REAL(0.01);      /* rad */
+    parameters->m__2__A = -REAL(4.0);         /* 1 */
+    parameters->m__2__Js = REAL(1.0e-05);     /* kg.m^2 */
+    parameters->m__2__fs = REAL(0.0003);      /* N.m.s/rad */
+    parameters->m__2__R = REAL(0.008);        /* m */
+    parameters->m__2__el__L = REAL(0.0003);   /* H */
+    parameters->m__2__el__Re = REAL(17.6);    /* Ohm */
+    parameters->m__2__el__k = REAL(0.00351);  /* N.m/A */
+    parameters->m__2__ge__N = REAL(25.0);     /* 1 */
+}
+
+/* The coefficients of exact and of the filter, from the parameters. */
+static void compute_coefficients(khepera_encoders_monitor *monitor,
+        const khepera_encoders_parameters *p, real sample_time, real bandwidth)
+{
+    khepera_encoders_coefficients *c = &monitor->c;
+
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* khepera.bg:17: m[1].fe*m[1].el.L/m[1].el.k */
+    const real t = p->m__1__fe * p->m__1__el__L / p->m__1__el__k;
+
+    /* khepera.bg:17: m[1].fs*m[1].el.L/(m[1].el.k*m[1].ge.N) */
+    const real t_2 = p->m__1__fs * p->m__1__el__L / p->m__1__el__k / p->m__1__ge__N;
+
+    /* khepera.bg:17: m[1].fe*m[1].el.Re/m[1].el.k */
+    const real t_3 = p->m__1__fe * p->m__1__el__Re / p->m__1__el__k;
+
+    /* khepera.bg:17: m[1].Je*m[1].el.Re/m[1].el.k */
+    const real t_4 = p->m__1__Je * p->m__1__el__Re / p->m__1__el__k;
+
+    /* khepera.bg:17: m[1].Js*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
+    const real t_5 = p->m__1__Js * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+
+    /* khepera.bg:17: m[2].fe*m[2].el.L/m[2].el.k */
+    const real t_6 = p->m__2__fe * p->m__2__el__L / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N) */
+    const real t_7 = p->m__2__fs * p->m__2__el__L / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:17: m[2].fe*m[2].el.Re/m[2].el.k */
+    const real t_8 = p->m__2__fe * p->m__2__el__Re / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].Je*m[2].el.Re/m[2].el.k */
+    const real t_9 = p->m__2__Je * p->m__2__el__Re / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
+    const real t_10 = p->m__2__Js * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:114: R_L^2 */
+    const real t_11 = p->R_L * p->R_L;
+
+    /* khepera.bg:114: -5.5e-11*R_L^2 - 5e-07 */
+    const real t_12 = -REAL(11.0) * t_11 / REAL(200000000000.0) - REAL(1.0) / REAL(2000000.0);
+
+    /* exp(-x) */
+    const real t_13 = exponential(-x_);
+
+    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
+    const real t_14 = x_ < REAL(0.125)
+        ? x_ * (REAL(0.5)
+            - x_ * (REAL(1.0) / REAL(6.0)
+                - x_ * (REAL(1.0) / REAL(24.0)
+                    - x_ * (REAL(1.0) / REAL(120.0)
+                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
+        : REAL(1.0) - (REAL(1.0) - t_13) / x_;
+
+    /* 1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - ( ... */
+    const real t_15 = REAL(1.0) - t_14;
+
+    /* bandwidth*(1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040) ... */
+    const real t_16 = bandwidth * t_15;
+
+    /* khepera.bg:17: (-m[1].fe*m[1].el.L/m[1].el.k - m[1].Je*m[1].el.Re/m[1].el.k)*bandwidth */
+    const real t_17 = (-t - t_4) * bandwidth;
+
+    /* khepera.bg:17: m[1].Je*m[1].el.L*bandwidth^2/m[1].el.k */
+    const real t_18 = p->m__1__Je * p->m__1__el__L * bandwidth * bandwidth / p->m__1__el__k;
+
+    /* khepera.bg:17: (-m[1].fs*m[1].el.L/(m[1].el.k*m[1].ge.N) -
+     * m[1].Js*m[1].el.Re/(m[1].el.k*m[1].ge.N))* ... */
+    const real t_19 = (-t_2 - t_5) * bandwidth;
+
+    /* khepera.bg:17: m[1].Js*m[1].el.L*bandwidth^2/(m[1].el.k*m[1].ge.N) */
+    const real t_20 = p->m__1__Js * p->m__1__el__L * bandwidth * bandwidth / p->m__1__el__k
+            / p->m__1__ge__N;
+
+    /* khepera.bg:17: (-m[2].fe*m[2].el.L/m[2].el.k - m[2].Je*m[2].el.Re/m[2].el.k)*bandwidth */
+    const real t_21 = (-t_6 - t_9) * bandwidth;
+
+    /* khepera.bg:17: m[2].Je*m[2].el.L*bandwidth^2/m[2].el.k */
+    const real t_22 = p->m__2__Je * p->m__2__el__L * bandwidth * bandwidth / p->m__2__el__k;
+
+    /* khepera.bg:17: (-m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N) -
+     * m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N))* ... */
+    const real t_23 = (-t_7 - t_10) * bandwidth;
+
+    /* khepera.bg:17: m[2].Js*m[2].el.L*bandwidth^2/(m[2].el.k*m[2].ge.N) */
+    const real t_24 = p->m__2__Js * p->m__2__el__L * bandwidth * bandwidth / p->m__2__el__k
+            / p->m__2__ge__N;
+
+    /* khepera.bg:17: r1: factor of m[1].motor': m[1].el.k + m[1].fe*m[1].el.Re/m[1].el.k */
+    c->r1_m__1__motor_1 = p->m__1__el__k + t_3;
+
+    /* khepera.bg:17: r1: factor of m[1].motor'': m[1].fe*m[1].el.L/m[1].el.k +
+     * m[1].Je*m[1].el.Re/m[1].el.k */
+    c->r1_m__1__motor_2 = t + t_4;
+
+    /* khepera.bg:17: r1: factor of m[1].motor''': m[1].Je*m[1].el.L/m[1].el.k */
+    c->r1_m__1__motor_3 = p->m__1__Je * p->m__1__el__L / p->m__1__el__k;
+
+    /* khepera.bg:17: r1: factor of Fx[1]: m[1].R*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
+    c->r1_Fx__1 = p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+
+    /* khepera.bg:17: r1: factor of Fx[1]': m[1].R*m[1].el.L/(m[1].el.k*m[1].ge.N) */
+    c->r1_Fx__1_1 = p->m__1__R * p->m__1__el__L / p->m__1__el__k / p->m__1__ge__N;
+
+    /* khepera.bg:17: r1: factor of m[1].wheel': m[1].fs*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
+    c->r1_m__1__wheel_1 = p->m__1__fs * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+
+    /* khepera.bg:17: r1: factor of m[1].wheel'': m[1].fs*m[1].el.L/(m[1].el.k*m[1].ge.N) +
+     * m[1].Js*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
+    c->r1_m__1__wheel_2 = t_2 + t_5;
+
+    /* khepera.bg:17: r1: factor of m[1].wheel''': m[1].Js*m[1].el.L/(m[1].el.k*m[1].ge.N) */
+    c->r1_m__1__wheel_3 = p->m__1__Js * p->m__1__el__L / p->m__1__el__k / p->m__1__ge__N;
+
+    /* speed of m[1].motor for one count */
+    c->m__1__motor_gain = REAL(0.0015339807878856412) * t_16;
+
+    /* filter: exp(-bandwidth*sample_time) */
+    c->a = t_13;
+
+    /* khepera.bg:17: r1: factor of m[1].motor in stage 1 */
+    c->r1_v1_m__1__motor = t_18;
+
+    /* khepera.bg:17: r1: factor of m[1].motor in stage 2 */
+    c->r1_v2_m__1__motor = t_17 + REAL(2.0) * t_18;
+
+    /* khepera.bg:17: r1: factor of m[1].motor in stage 3 */
+    c->r1_v3_m__1__motor = -p->m__1__el__k - t_3 - t_17 - t_18;
+
+    /* khepera.bg:17: r1: factor of Fx[1] in stage 3 */
+    c->r1_v3_Fx__1 = p->m__1__R * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N;
+
+    /* khepera.bg:17: r1: factor of Fx[1] in stage 4 */
+    c->r1_v4_Fx__1 = p->m__1__R * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N
+        - p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+
+    /* speed of m[1].wheel for one count */
+    c->m__1__wheel_gain = REAL(9.587379924285257e-05) * t_16;
+
+    /* khepera.bg:17: r1: factor of m[1].wheel in stage 1 */
+    c->r1_v1_m__1__wheel = t_20;
+
+    /* khepera.bg:17: r1: factor of m[1].wheel in stage 2 */
+    c->r1_v2_m__1__wheel = t_19 + REAL(2.0) * t_20;
+
+    /* khepera.bg:17: r1: factor of m[1].wheel in stage 3 */
+    c->r1_v3_m__1__wheel = p->m__1__fs * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N + t_19
+        + t_20;
+
+    /* filter: weight of the new sample */
+    c->b0 = t_14;
+
+    /* filter: weight of the sample before */
+    c->b1 = REAL(1.0) - t_13 - t_14;
+
+    /* filter: 1 - b0, the memory of a constant 1 */
+    c->rest = t_15;
+
+    /* khepera_encoders.bg:31: 1/(4*m[1].tau0) */
+    c->g = REAL(0.25) / p->m__1__tau0;
+
+    /* khepera_encoders.bg:31: m[1].ge.N/(4*m[1].tau0) */
+    c->g_2 = REAL(0.25) * p->m__1__ge__N / p->m__1__tau0;
+
+    /* khepera_encoders.bg:31: r2: factor of Fx[1]: m[1].R/m[1].ge.N */
+    c->r2_Fx__1 = p->m__1__R / p->m__1__ge__N;
+
+    /* khepera_encoders.bg:31: r2: factor of m[1].wheel': m[1].fs/m[1].ge.N */
+    c->r2_m__1__wheel_1 = p->m__1__fs / p->m__1__ge__N;
+
+    /* khepera_encoders.bg:31: r2: factor of m[1].wheel'': m[1].Js/m[1].ge.N */
+    c->r2_m__1__wheel_2 = p->m__1__Js / p->m__1__ge__N;
+
+    /* khepera_encoders.bg:31: r2: factor of Int(D(m[1].motor)): m[1].K */
+    c->r2_integral = p->m__1__K;
+
+    /* khepera_encoders.bg:31: r2: factor of Int(D(m[1].wheel)): m[1].K*m[1].ge.N */
+    c->r2_integral_2 = p->m__1__K * p->m__1__ge__N;
+
+    /* khepera_encoders.bg:31: r2: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
+     * m[1].ge.N*Int(D( ...: m[1].K*m[1].tau0*m[1].A */
+    c->r2_tanh = p->m__1__K * p->m__1__tau0 * p->m__1__A;
+
+    /* khepera_encoders.bg:31: m[1].wheel.int.x0 */
+    c->m__1__wheel__int__x0 = REAL(0.0);
+
+    /* khepera_encoders.bg:31: m[1].motor.int.x0 */
+    c->m__1__motor__int__x0 = REAL(0.0);
+
+    /* khepera_encoders.bg:31: r2: factor of m[1].wheel in stage 1 */
+    c->r2_v1_m__1__wheel = p->m__1__Js * bandwidth / p->m__1__ge__N;
+
+    /* khepera_encoders.bg:31: r2: factor of m[1].wheel in stage 2 */
+    c->r2_v2_m__1__wheel = p->m__1__fs / p->m__1__ge__N - p->m__1__Js * bandwidth / p->m__1__ge__N;
+
+    /* khepera.bg:17: r3: factor of m[2].motor': m[2].el.k + m[2].fe*m[2].el.Re/m[2].el.k */
+    c->r3_m__2__motor_1 = p->m__2__el__k + t_8;
+
+    /* khepera.bg:17: r3: factor of m[2].motor'': m[2].fe*m[2].el.L/m[2].el.k +
+     * m[2].Je*m[2].el.Re/m[2].el.k */
+    c->r3_m__2__motor_2 = t_6 + t_9;
+
+    /* khepera.bg:17: r3: factor of m[2].motor''': m[2].Je*m[2].el.L/m[2].el.k */
+    c->r3_m__2__motor_3 = p->m__2__Je * p->m__2__el__L / p->m__2__el__k;
+
+    /* khepera.bg:17: r3: factor of Fx[2]: m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
+    c->r3_Fx__2 = p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:17: r3: factor of Fx[2]': m[2].R*m[2].el.L/(m[2].el.k*m[2].ge.N) */
+    c->r3_Fx__2_1 = p->m__2__R * p->m__2__el__L / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:17: r3: factor of m[2].wheel': m[2].fs*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
+    c->r3_m__2__wheel_1 = p->m__2__fs * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:17: r3: factor of m[2].wheel'': m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N) +
+     * m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
+    c->r3_m__2__wheel_2 = t_7 + t_10;
+
+    /* khepera.bg:17: r3: factor of m[2].wheel''': m[2].Js*m[2].el.L/(m[2].el.k*m[2].ge.N) */
+    c->r3_m__2__wheel_3 = p->m__2__Js * p->m__2__el__L / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:17: r3: factor of m[2].motor in stage 1 */
+    c->r3_v1_m__2__motor = t_22;
+
+    /* khepera.bg:17: r3: factor of m[2].motor in stage 2 */
+    c->r3_v2_m__2__motor = t_21 + REAL(2.0) * t_22;
+
+    /* khepera.bg:17: r3: factor of m[2].motor in stage 3 */
+    c->r3_v3_m__2__motor = -p->m__2__el__k - t_8 - t_21 - t_22;
+
+    /* khepera.bg:17: r3: factor of Fx[2] in stage 3 */
+    c->r3_v3_Fx__2 = p->m__2__R * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:17: r3: factor of Fx[2] in stage 4 */
+    c->r3_v4_Fx__2 = p->m__2__R * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N
+        - p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:17: r3: factor of m[2].wheel in stage 1 */
+    c->r3_v1_m__2__wheel = t_24;
+
+    /* khepera.bg:17: r3: factor of m[2].wheel in stage 2 */
+    c->r3_v2_m__2__wheel = t_23 + REAL(2.0) * t_24;
+
+    /* khepera.bg:17: r3: factor of m[2].wheel in stage 3 */
+    c->r3_v3_m__2__wheel = p->m__2__fs * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N + t_23
+        + t_24;
+
+    /* khepera_encoders.bg:31: 1/(4*m[2].tau0) */
+    c->g_3 = REAL(0.25) / p->m__2__tau0;
+
+    /* khepera_encoders.bg:31: m[2].ge.N/(4*m[2].tau0) */
+    c->g_4 = REAL(0.25) * p->m__2__ge__N / p->m__2__tau0;
+
+    /* khepera_encoders.bg:31: r4: factor of Fx[2]: m[2].R/m[2].ge.N */
+    c->r4_Fx__2 = p->m__2__R / p->m__2__ge__N;
+
+    /* khepera_encoders.bg:31: r4: factor of m[2].wheel': m[2].fs/m[2].ge.N */
+    c->r4_m__2__wheel_1 = p->m__2__fs / p->m__2__ge__N;
+
+    /* khepera_encoders.bg:31: r4: factor of m[2].wheel'': m[2].Js/m[2].ge.N */
+    c->r4_m__2__wheel_2 = p->m__2__Js / p->m__2__ge__N;
+
+    /* khepera_encoders.bg:31: r4: factor of Int(D(m[2].motor)): m[2].K */
+    c->r4_integral = p->m__2__K;
+
+    /* khepera_encoders.bg:31: r4: factor of Int(D(m[2].wheel)): m[2].K*m[2].ge.N */
+    c->r4_integral_2 = p->m__2__K * p->m__2__ge__N;
+
+    /* khepera_encoders.bg:31: r4: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
+     * m[2].ge.N*Int(D( ...: m[2].K*m[2].tau0*m[2].A */
+    c->r4_tanh = p->m__2__K * p->m__2__tau0 * p->m__2__A;
+
+    /* khepera_encoders.bg:31: m[2].wheel.int.x0 */
+    c->m__2__wheel__int__x0 = REAL(0.0);
+
+    /* khepera_encoders.bg:31: m[2].motor.int.x0 */
+    c->m__2__motor__int__x0 = REAL(0.0);
+
+    /* khepera_encoders.bg:31: r4: factor of m[2].wheel in stage 1 */
+    c->r4_v1_m__2__wheel = p->m__2__Js * bandwidth / p->m__2__ge__N;
+
+    /* khepera_encoders.bg:31: r4: factor of m[2].wheel in stage 2 */
+    c->r4_v2_m__2__wheel = p->m__2__fs / p->m__2__ge__N - p->m__2__Js * bandwidth / p->m__2__ge__N;
+
+    /* khepera.bg:114: r5: factor of Us': 3.3e-10*R_L */
+    c->r5_Us_1 = REAL(33.0) * p->R_L / REAL(100000000000.0);
+
+    /* khepera.bg:114: r5: factor of Us'': 1.21e-20*R_L^2 + 1.65e-16 */
+    c->r5_Us_2 = REAL(1.21e-20) * t_11 + REAL(1.65e-16);
+
+    /* khepera.bg:114: r5: factor of Us''': 1.21e-26*R_L */
+    c->r5_Us_3 = REAL(1.21e-26) * p->R_L;
+
+    /* khepera.bg:114: r5: factor of load: R_L */
+    c->r5_load = p->R_L;
+
+    /* khepera.bg:114: r5: factor of load': 5.5e-11*R_L^2 + 5e-07 */
+    c->r5_load_1 = REAL(11.0) * t_11 / REAL(200000000000.0) + REAL(1.0) / REAL(2000000.0);
+
+    /* khepera.bg:114: r5: factor of load'': 5.5e-17*R_L */
+    c->r5_load_2 = REAL(5.5e-17) * p->R_L;
+
+    /* khepera.bg:114: r5: factor of load in stage 1 */
+    c->r5_v1_load = t_12 * bandwidth;
+
+    /* khepera.bg:114: r5: factor of load in stage 2 */
+    c->r5_v2_load = p->R_L + t_12 * bandwidth;
+}
+
+static bool parameters_are_finite(const khepera_encoders_parameters *p)
+{
+    return finite_number(p->R_L + p->m__1__Je + p->m__1__fe + p->m__1__K + p->m__1__tau0
+            + p->m__1__A + p->m__1__Js + p->m__1__fs + p->m__1__R + p->m__1__el__L + p->m__1__el__Re
+            + p->m__1__el__k + p->m__1__ge__N + p->m__2__Je + p->m__2__fe + p->m__2__K
+            + p->m__2__tau0 + p->m__2__A + p->m__2__Js + p->m__2__fs + p->m__2__R + p->m__2__el__L
+            + p->m__2__el__Re + p->m__2__el__k + p->m__2__ge__N);
+}
+
+static bool coefficients_are_finite(const khepera_encoders_monitor *monitor)
+{
+    return finite_number(monitor->c.r1_m__1__motor_1 + monitor->c.r1_m__1__motor_2
+            + monitor->c.r1_m__1__motor_3 + monitor->c.r1_Fx__1 + monitor->c.r1_Fx__1_1
+            + monitor->c.r1_m__1__wheel_1 + monitor->c.r1_m__1__wheel_2
+            + monitor->c.r1_m__1__wheel_3 + monitor->c.m__1__motor_gain + monitor->c.a
+            + monitor->c.r1_v1_m__1__motor + monitor->c.r1_v2_m__1__motor
+            + monitor->c.r1_v3_m__1__motor + monitor->c.r1_v3_Fx__1 + monitor->c.r1_v4_Fx__1
+            + monitor->c.m__1__wheel_gain + monitor->c.r1_v1_m__1__wheel
+            + monitor->c.r1_v2_m__1__wheel + monitor->c.r1_v3_m__1__wheel + monitor->c.b0
+            + monitor->c.b1 + monitor->c.rest + monitor->c.g + monitor->c.g_2 + monitor->c.r2_Fx__1
+            + monitor->c.r2_m__1__wheel_1 + monitor->c.r2_m__1__wheel_2 + monitor->c.r2_integral
+            + monitor->c.r2_integral_2 + monitor->c.r2_tanh + monitor->c.m__1__wheel__int__x0
+            + monitor->c.m__1__motor__int__x0 + monitor->c.r2_v1_m__1__wheel
+            + monitor->c.r2_v2_m__1__wheel + monitor->c.r3_m__2__motor_1
+            + monitor->c.r3_m__2__motor_2 + monitor->c.r3_m__2__motor_3 + monitor->c.r3_Fx__2
+            + monitor->c.r3_Fx__2_1 + monitor->c.r3_m__2__wheel_1 + monitor->c.r3_m__2__wheel_2
+            + monitor->c.r3_m__2__wheel_3 + monitor->c.r3_v1_m__2__motor
+            + monitor->c.r3_v2_m__2__motor + monitor->c.r3_v3_m__2__motor + monitor->c.r3_v3_Fx__2
+            + monitor->c.r3_v4_Fx__2 + monitor->c.r3_v1_m__2__wheel + monitor->c.r3_v2_m__2__wheel
+            + monitor->c.r3_v3_m__2__wheel + monitor->c.g_3 + monitor->c.g_4 + monitor->c.r4_Fx__2
+            + monitor->c.r4_m__2__wheel_1 + monitor->c.r4_m__2__wheel_2 + monitor->c.r4_integral
+            + monitor->c.r4_integral_2 + monitor->c.r4_tanh + monitor->c.m__2__wheel__int__x0
+            + monitor->c.m__2__motor__int__x0 + monitor->c.r4_v1_m__2__wheel
+            + monitor->c.r4_v2_m__2__wheel + monitor->c.r5_Us_1 + monitor->c.r5_Us_2
+            + monitor->c.r5_Us_3 + monitor->c.r5_load + monitor->c.r5_load_1 + monitor->c.r5_load_2
+            + monitor->c.r5_v1_load + monitor->c.r5_v2_load);
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+khepera_encoders_status khepera_encoders_configure(
+    khepera_encoders_monitor *monitor,
+    const khepera_encoders_parameters *parameters,
+    khepera_encoders_real sample_time,
+    khepera_encoders_real bandwidth,
+    khepera_encoders_real time_unit)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_ENCODERS_RESIDUALS; ++k) {
+        monitor->settle[k] = UINT32_MAX;
+    }
+    khepera_encoders_reset(monitor);
+    if (!parameters_are_finite(parameters)) {
+        return KHEPERA_ENCODERS_BAD_PARAMETER;
+    }
+    if (!(sample_time >= REAL(0.000999999)) || !finite_number(sample_time)) {
+        return KHEPERA_ENCODERS_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return KHEPERA_ENCODERS_BAD_BANDWIDTH;
+    }
+    if (!(time_unit > REAL(0.0)) || !finite_number(time_unit)) {
+        return KHEPERA_ENCODERS_BAD_TIME_UNIT;
+    }
+    compute_coefficients(monitor, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(monitor)) {
+        return KHEPERA_ENCODERS_BAD_COEFFICIENT;
+    }
+    monitor->settle[KHEPERA_ENCODERS_R1] =
+        samples(REAL(13.062240779188071), sample_time, bandwidth);
+    monitor->settle[KHEPERA_ENCODERS_R2] =
+        samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[KHEPERA_ENCODERS_R3] =
+        samples(REAL(13.062240779188071), sample_time, bandwidth);
+    monitor->settle[KHEPERA_ENCODERS_R4] =
+        samples(REAL(11.228872242412663), sample_time, bandwidth);
+    monitor->settle[KHEPERA_ENCODERS_R5] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    return KHEPERA_ENCODERS_OK;
+}
+
+void khepera_encoders_exact(
+    const khepera_encoders_monitor *monitor,
+    const khepera_encoders_derivatives *derivatives,
+    khepera_encoders_real residuals[KHEPERA_ENCODERS_RESIDUALS])
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    const khepera_encoders_derivatives *d = derivatives;
+    real *r = residuals;
+
+    /* khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
+     * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
+     * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
+     * m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel, 2))/m[1].ge.N */
+    r[KHEPERA_ENCODERS_R1] = d->U0__1 - c->r1_m__1__motor_1 * d->m__1__motor[1]
+        - c->r1_m__1__motor_2 * d->m__1__motor[2] - c->r1_m__1__motor_3 * d->m__1__motor[3]
+        - c->r1_Fx__1 * d->Fx__1[0] - c->r1_Fx__1_1 * d->Fx__1[1]
+        - c->r1_m__1__wheel_1 * d->m__1__wheel[1] - c->r1_m__1__wheel_2 * d->m__1__wheel[2]
+        - c->r1_m__1__wheel_3 * d->m__1__wheel[3];
+
+    /* khepera_encoders.bg:31: r2 = (Fx[1]*m[1].R + m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel,
+     * 2))/m[1].ge.N - m[1].K*(m[1].spring.q +
+     * m[1].tau0*m[1].A*tanh(m[1].spring.q/(4*m[1].tau0)))
+     * where m[1].spring.q = Int(D(m[1].motor) - m[1].ge.N*D(m[1].wheel)) */
+    r[KHEPERA_ENCODERS_R2] = c->r2_Fx__1 * d->Fx__1[0] + c->r2_m__1__wheel_1 * d->m__1__wheel[1]
+        + c->r2_m__1__wheel_2 * d->m__1__wheel[2]
+        + c->r2_integral_2 * (d->m__1__wheel[0] - d->m__1__wheel_start)
+        - c->r2_integral * (d->m__1__motor[0] - d->m__1__motor_start)
+        - c->r2_tanh * MATH(tanh)(c->g * (d->m__1__motor[0] - d->m__1__motor_start)
+            - c->g_2 * (d->m__1__wheel[0] - d->m__1__wheel_start));
+
+    /* khepera.bg:17: r3 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
+     * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
+     * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
+     * m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel, 2))/m[2].ge.N */
+    r[KHEPERA_ENCODERS_R3] = d->U0__2 - c->r3_m__2__motor_1 * d->m__2__motor[1]
+        - c->r3_m__2__motor_2 * d->m__2__motor[2] - c->r3_m__2__motor_3 * d->m__2__motor[3]
+        - c->r3_Fx__2 * d->Fx__2[0] - c->r3_Fx__2_1 * d->Fx__2[1]
+        - c->r3_m__2__wheel_1 * d->m__2__wheel[1] - c->r3_m__2__wheel_2 * d->m__2__wheel[2]
+        - c->r3_m__2__wheel_3 * d->m__2__wheel[3];
+
+    /* khepera_encoders.bg:31: r4 = (Fx[2]*m[2].R + m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel,
+     * 2))/m[2].ge.N - m[2].K*(m[2].spring.q +
+     * m[2].tau0*m[2].A*tanh(m[2].spring.q/(4*m[2].tau0)))
+     * where m[2].spring.q = Int(D(m[2].motor) - m[2].ge.N*D(m[2].wheel)) */
+    r[KHEPERA_ENCODERS_R4] = c->r4_Fx__2 * d->Fx__2[0] + c->r4_m__2__wheel_1 * d->m__2__wheel[1]
+        + c->r4_m__2__wheel_2 * d->m__2__wheel[2]
+        + c->r4_integral_2 * (d->m__2__wheel[0] - d->m__2__wheel_start)
+        - c->r4_integral * (d->m__2__motor[0] - d->m__2__motor_start)
+        - c->r4_tanh * MATH(tanh)(c->g_3 * (d->m__2__motor[0] - d->m__2__motor_start)
+            - c->g_4 * (d->m__2__wheel[0] - d->m__2__wheel_start));
+
+    /* khepera.bg:114: r5 = Uin - line.cell[1].mid.e - R_L*line.cell[1].left.f/2 -
+     * D(line.cell[1].left.f)/4000000
+     * where line.cell[1].left.f = line.cell[1].right.f + 2.2e-10*D(line.cell[1].mid.e)
+     * line.cell[1].mid.e = Us + R_L*line.cell[1].right.f/2 + D(line.cell[1].right.f)/4000000
+     * line.cell[1].right.f = load + 2.2e-10*D(Us) */
+    r[KHEPERA_ENCODERS_R5] = d->Uin - d->Us[0] - c->r5_Us_1 * d->Us[1] - c->r5_Us_2 * d->Us[2]
+        - c->r5_Us_3 * d->Us[3] - REAL(3.025e-33) * d->Us[4] - c->r5_load * d->load[0]
+        - c->r5_load_1 * d->load[1] - c->r5_load_2 * d->load[2] - REAL(1.375e-23) * d->load[3];
+}
+
+/* r1 on its first sample: the filter as if it had always been so. */
+static void start_r1(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, real *r)
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    khepera_encoders_memory *x = &monitor->x;
+
+    count_from(&monitor->e.m__1__motor_r1, s->m__1__motor);
+    count_from(&monitor->e.m__1__wheel_r1, s->m__1__wheel);
+
+    /* khepera.bg:17: filtered speed of m[1].motor, at rest */
+    const real r1_m__1__motor_speed_2 = REAL(0.0);
+
+    /* khepera.bg:17: filtered speed of m[1].motor */
+    x->r1_m__1__motor_speed = r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: filtered speed of m[1].wheel, at rest */
+    const real r1_m__1__wheel_speed_2 = REAL(0.0);
+
+    /* khepera.bg:17: filtered speed of m[1].wheel */
+    x->r1_m__1__wheel_speed = r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: input of stage 4 */
+    const real r1_u4 = s->U0__1 + c->r1_v4_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: stage 4, at rest */
+    const real r1_y4 = r1_u4;
+
+    /* khepera.bg:17: r1: stage 4: memory */
+    x->r1_s4 = c->rest * r1_u4;
+
+    /* khepera.bg:17: r1: input of stage 3 */
+    const real r1_u3 = r1_y4 + c->r1_v3_m__1__motor * r1_m__1__motor_speed_2
+        - c->r1_v3_Fx__1 * s->Fx__1 - c->r1_v3_m__1__wheel * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: stage 3, at rest */
+    const real r1_y3 = r1_u3;
+
+    /* khepera.bg:17: r1: stage 3: memory */
+    x->r1_s3 = c->rest * r1_u3;
+
+    /* khepera.bg:17: r1: input of stage 2 */
+    const real r1_u2 = r1_y3 + c->r1_v2_m__1__motor * r1_m__1__motor_speed_2
+        + c->r1_v2_m__1__wheel * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: stage 2, at rest */
+    const real r1_y2 = r1_u2;
+
+    /* khepera.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->rest * r1_u2;
+
+    /* khepera.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_m__1__motor * r1_m__1__motor_speed_2
+        - c->r1_v1_m__1__wheel * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: stage 1, at rest */
+    const real r1_y1 = r1_u1;
+
+    /* khepera.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->rest * r1_u1;
+
+    /* khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
+     * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
+     * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
+     * m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel, 2))/m[1].ge.N */
+    r[KHEPERA_ENCODERS_R1] = r1_y1;
+}
+
+/* r1 on every further sample. */
+static void next_r1(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, real *r)
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    khepera_encoders_memory *x = &monitor->x;
+    const khepera_encoders_encoders *e = &monitor->e;
+
+    count_on(&monitor->e.m__1__motor_r1, s->m__1__motor);
+    count_on(&monitor->e.m__1__wheel_r1, s->m__1__wheel);
+
+    /* khepera.bg:17: filtered speed of m[1].motor */
+    const real r1_m__1__motor_speed_2 = c->a * x->r1_m__1__motor_speed
+        + c->m__1__motor_gain * (real)e->m__1__motor_r1.increment;
+    x->r1_m__1__motor_speed = r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: filtered speed of m[1].wheel */
+    const real r1_m__1__wheel_speed_2 = c->a * x->r1_m__1__wheel_speed
+        + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
+    x->r1_m__1__wheel_speed = r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: input of stage 4 */
+    const real r1_u4 = s->U0__1 + c->r1_v4_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: stage 4 */
+    const real r1_y4 = x->r1_s4 + c->b0 * r1_u4;
+
+    /* khepera.bg:17: r1: stage 4: memory */
+    x->r1_s4 = c->a * r1_y4 + c->b1 * r1_u4;
+
+    /* khepera.bg:17: r1: input of stage 3 */
+    const real r1_u3 = r1_y4 + c->r1_v3_m__1__motor * r1_m__1__motor_speed_2
+        - c->r1_v3_Fx__1 * s->Fx__1 - c->r1_v3_m__1__wheel * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: stage 3 */
+    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+
+    /* khepera.bg:17: r1: stage 3: memory */
+    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+
+    /* khepera.bg:17: r1: input of stage 2 */
+    const real r1_u2 = r1_y3 + c->r1_v2_m__1__motor * r1_m__1__motor_speed_2
+        + c->r1_v2_m__1__wheel * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: stage 2 */
+    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+
+    /* khepera.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+
+    /* khepera.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_m__1__motor * r1_m__1__motor_speed_2
+        - c->r1_v1_m__1__wheel * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: stage 1 */
+    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+
+    /* khepera.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+
+    /* khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
+     * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
+     * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
+     * m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel, 2))/m[1].ge.N */
+    r[KHEPERA_ENCODERS_R1] = r1_y1;
+}
+
+/* One sample for r1; a number that is not finite makes the next sample the first. */
+static void run_r1(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, khepera_encoders_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[0];
+
+    if (age == 0u) {
+        start_r1(monitor, s, r);
+    } else {
+        next_r1(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx__1 + s->U0__1 + r[KHEPERA_ENCODERS_R1])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_ENCODERS_R1] = REAL(0.0);
+    }
+    monitor->age[0] = age;
+    residuals->valid[KHEPERA_ENCODERS_R1] = age > monitor->settle[KHEPERA_ENCODERS_R1];
+}
+
+/* r2 on its first sample: the filter as if it had always been so. */
+static void start_r2(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, real *r)
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    khepera_encoders_memory *x = &monitor->x;
+    const khepera_encoders_encoders *e = &monitor->e;
+
+    count_from(&monitor->e.m__1__motor_r2, s->m__1__motor);
+    count_from(&monitor->e.m__1__wheel_r2, s->m__1__wheel);
+
+    /* khepera_encoders.bg:31: m[1].wheel */
+    const real r2_m__1__wheel = c->m__1__wheel__int__x0
+        + REAL(9.587379924285257e-05) * (real)e->m__1__wheel_r2.total;
+
+    /* khepera_encoders.bg:31: change of D(m[1].wheel) */
+    x->r2_start = r2_m__1__wheel;
+    const real r2_change = r2_m__1__wheel - x->r2_start;
+
+    /* khepera_encoders.bg:31: m[1].motor */
+    const real r2_m__1__motor = c->m__1__motor__int__x0
+        + REAL(0.0015339807878856412) * (real)e->m__1__motor_r2.total;
+
+    /* khepera_encoders.bg:31: change of D(m[1].motor) */
+    x->r2_start_2 = r2_m__1__motor;
+    const real r2_change_2 = r2_m__1__motor - x->r2_start_2;
+
+    /* khepera_encoders.bg:31: tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... */
+    const real r2_tanh = MATH(tanh)(c->g * r2_change_2 - c->g_2 * r2_change);
+
+    /* khepera_encoders.bg:31: filtered speed of m[1].wheel, at rest */
+    const real r2_m__1__wheel_speed_2 = REAL(0.0);
+
+    /* khepera_encoders.bg:31: filtered speed of m[1].wheel */
+    x->r2_m__1__wheel_speed = r2_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2: input of stage 3 */
+    const real r2_u3 = c->r2_Fx__1 * s->Fx__1 + c->r2_integral_2 * r2_change
+        - c->r2_integral * r2_change_2 - c->r2_tanh * r2_tanh;
+
+    /* khepera_encoders.bg:31: r2: stage 3, at rest */
+    const real r2_y3 = r2_u3;
+
+    /* khepera_encoders.bg:31: r2: stage 3: memory */
+    x->r2_s3 = c->rest * r2_u3;
+
+    /* khepera_encoders.bg:31: r2: input of stage 2 */
+    const real r2_u2 = r2_y3 + c->r2_v2_m__1__wheel * r2_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2: stage 2, at rest */
+    const real r2_y2 = r2_u2;
+
+    /* khepera_encoders.bg:31: r2: stage 2: memory */
+    x->r2_s2 = c->rest * r2_u2;
+
+    /* khepera_encoders.bg:31: r2: input of stage 1 */
+    const real r2_u1 = r2_y2 + c->r2_v1_m__1__wheel * r2_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2: stage 1, at rest */
+    const real r2_y1 = r2_u1;
+
+    /* khepera_encoders.bg:31: r2: stage 1: memory */
+    x->r2_s1 = c->rest * r2_u1;
+
+    /* khepera_encoders.bg:31: r2 = (Fx[1]*m[1].R + m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel,
+     * 2))/m[1].ge.N - m[1].K*(m[1].spring.q +
+     * m[1].tau0*m[1].A*tanh(m[1].spring.q/(4*m[1].tau0)))
+     * where m[1].spring.q = Int(D(m[1].motor) - m[1].ge.N*D(m[1].wheel)) */
+    r[KHEPERA_ENCODERS_R2] = r2_y1;
+}
+
+/* r2 on every further sample. */
+static void next_r2(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, real *r)
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    khepera_encoders_memory *x = &monitor->x;
+    const khepera_encoders_encoders *e = &monitor->e;
+
+    count_on(&monitor->e.m__1__motor_r2, s->m__1__motor);
+    count_on(&monitor->e.m__1__wheel_r2, s->m__1__wheel);
+
+    /* khepera_encoders.bg:31: m[1].wheel */
+    const real r2_m__1__wheel = c->m__1__wheel__int__x0
+        + REAL(9.587379924285257e-05) * (real)e->m__1__wheel_r2.total;
+
+    /* khepera_encoders.bg:31: change of D(m[1].wheel) */
+    const real r2_change = r2_m__1__wheel - x->r2_start;
+
+    /* khepera_encoders.bg:31: m[1].motor */
+    const real r2_m__1__motor = c->m__1__motor__int__x0
+        + REAL(0.0015339807878856412) * (real)e->m__1__motor_r2.total;
+
+    /* khepera_encoders.bg:31: change of D(m[1].motor) */
+    const real r2_change_2 = r2_m__1__motor - x->r2_start_2;
+
+    /* khepera_encoders.bg:31: tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... */
+    const real r2_tanh = MATH(tanh)(c->g * r2_change_2 - c->g_2 * r2_change);
+
+    /* khepera_encoders.bg:31: filtered speed of m[1].wheel */
+    const real r2_m__1__wheel_speed_2 = c->a * x->r2_m__1__wheel_speed
+        + c->m__1__wheel_gain * (real)e->m__1__wheel_r2.increment;
+    x->r2_m__1__wheel_speed = r2_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2: input of stage 3 */
+    const real r2_u3 = c->r2_Fx__1 * s->Fx__1 + c->r2_integral_2 * r2_change
+        - c->r2_integral * r2_change_2 - c->r2_tanh * r2_tanh;
+
+    /* khepera_encoders.bg:31: r2: stage 3 */
+    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+
+    /* khepera_encoders.bg:31: r2: stage 3: memory */
+    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+
+    /* khepera_encoders.bg:31: r2: input of stage 2 */
+    const real r2_u2 = r2_y3 + c->r2_v2_m__1__wheel * r2_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2: stage 2 */
+    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+
+    /* khepera_encoders.bg:31: r2: stage 2: memory */
+    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+
+    /* khepera_encoders.bg:31: r2: input of stage 1 */
+    const real r2_u1 = r2_y2 + c->r2_v1_m__1__wheel * r2_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2: stage 1 */
+    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+
+    /* khepera_encoders.bg:31: r2: stage 1: memory */
+    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+
+    /* khepera_encoders.bg:31: r2 = (Fx[1]*m[1].R + m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel,
+     * 2))/m[1].ge.N - m[1].K*(m[1].spring.q +
+     * m[1].tau0*m[1].A*tanh(m[1].spring.q/(4*m[1].tau0)))
+     * where m[1].spring.q = Int(D(m[1].motor) - m[1].ge.N*D(m[1].wheel)) */
+    r[KHEPERA_ENCODERS_R2] = r2_y1;
+}
+
+/* One sample for r2; a number that is not finite makes the next sample the first. */
+static void run_r2(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, khepera_encoders_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[1];
+
+    if (age == 0u) {
+        start_r2(monitor, s, r);
+    } else {
+        next_r2(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx__1 + r[KHEPERA_ENCODERS_R2])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_ENCODERS_R2] = REAL(0.0);
+    }
+    monitor->age[1] = age;
+    residuals->valid[KHEPERA_ENCODERS_R2] = age > monitor->settle[KHEPERA_ENCODERS_R2];
+}
+
+/* r3 on its first sample: the filter as if it had always been so. */
+static void start_r3(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, real *r)
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    khepera_encoders_memory *x = &monitor->x;
+
+    count_from(&monitor->e.m__2__motor_r3, s->m__2__motor);
+    count_from(&monitor->e.m__2__wheel_r3, s->m__2__wheel);
+
+    /* khepera.bg:17: filtered speed of m[2].motor, at rest */
+    const real r3_m__2__motor_speed_2 = REAL(0.0);
+
+    /* khepera.bg:17: filtered speed of m[2].motor */
+    x->r3_m__2__motor_speed = r3_m__2__motor_speed_2;
+
+    /* khepera.bg:17: filtered speed of m[2].wheel, at rest */
+    const real r3_m__2__wheel_speed_2 = REAL(0.0);
+
+    /* khepera.bg:17: filtered speed of m[2].wheel */
+    x->r3_m__2__wheel_speed = r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: input of stage 4 */
+    const real r3_u4 = s->U0__2 + c->r3_v4_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: stage 4, at rest */
+    const real r3_y4 = r3_u4;
+
+    /* khepera.bg:17: r3: stage 4: memory */
+    x->r3_s4 = c->rest * r3_u4;
+
+    /* khepera.bg:17: r3: input of stage 3 */
+    const real r3_u3 = r3_y4 + c->r3_v3_m__2__motor * r3_m__2__motor_speed_2
+        - c->r3_v3_Fx__2 * s->Fx__2 - c->r3_v3_m__2__wheel * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: stage 3, at rest */
+    const real r3_y3 = r3_u3;
+
+    /* khepera.bg:17: r3: stage 3: memory */
+    x->r3_s3 = c->rest * r3_u3;
+
+    /* khepera.bg:17: r3: input of stage 2 */
+    const real r3_u2 = r3_y3 + c->r3_v2_m__2__motor * r3_m__2__motor_speed_2
+        + c->r3_v2_m__2__wheel * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: stage 2, at rest */
+    const real r3_y2 = r3_u2;
+
+    /* khepera.bg:17: r3: stage 2: memory */
+    x->r3_s2 = c->rest * r3_u2;
+
+    /* khepera.bg:17: r3: input of stage 1 */
+    const real r3_u1 = r3_y2 - c->r3_v1_m__2__motor * r3_m__2__motor_speed_2
+        - c->r3_v1_m__2__wheel * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: stage 1, at rest */
+    const real r3_y1 = r3_u1;
+
+    /* khepera.bg:17: r3: stage 1: memory */
+    x->r3_s1 = c->rest * r3_u1;
+
+    /* khepera.bg:17: r3 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
+     * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
+     * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
+     * m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel, 2))/m[2].ge.N */
+    r[KHEPERA_ENCODERS_R3] = r3_y1;
+}
+
+/* r3 on every further sample. */
+static void next_r3(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, real *r)
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    khepera_encoders_memory *x = &monitor->x;
+    const khepera_encoders_encoders *e = &monitor->e;
+
+    count_on(&monitor->e.m__2__motor_r3, s->m__2__motor);
+    count_on(&monitor->e.m__2__wheel_r3, s->m__2__wheel);
+
+    /* khepera.bg:17: filtered speed of m[2].motor */
+    const real r3_m__2__motor_speed_2 = c->a * x->r3_m__2__motor_speed
+        + c->m__1__motor_gain * (real)e->m__2__motor_r3.increment;
+    x->r3_m__2__motor_speed = r3_m__2__motor_speed_2;
+
+    /* khepera.bg:17: filtered speed of m[2].wheel */
+    const real r3_m__2__wheel_speed_2 = c->a * x->r3_m__2__wheel_speed
+        + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
+    x->r3_m__2__wheel_speed = r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: input of stage 4 */
+    const real r3_u4 = s->U0__2 + c->r3_v4_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: stage 4 */
+    const real r3_y4 = x->r3_s4 + c->b0 * r3_u4;
+
+    /* khepera.bg:17: r3: stage 4: memory */
+    x->r3_s4 = c->a * r3_y4 + c->b1 * r3_u4;
+
+    /* khepera.bg:17: r3: input of stage 3 */
+    const real r3_u3 = r3_y4 + c->r3_v3_m__2__motor * r3_m__2__motor_speed_2
+        - c->r3_v3_Fx__2 * s->Fx__2 - c->r3_v3_m__2__wheel * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: stage 3 */
+    const real r3_y3 = x->r3_s3 + c->b0 * r3_u3;
+
+    /* khepera.bg:17: r3: stage 3: memory */
+    x->r3_s3 = c->a * r3_y3 + c->b1 * r3_u3;
+
+    /* khepera.bg:17: r3: input of stage 2 */
+    const real r3_u2 = r3_y3 + c->r3_v2_m__2__motor * r3_m__2__motor_speed_2
+        + c->r3_v2_m__2__wheel * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: stage 2 */
+    const real r3_y2 = x->r3_s2 + c->b0 * r3_u2;
+
+    /* khepera.bg:17: r3: stage 2: memory */
+    x->r3_s2 = c->a * r3_y2 + c->b1 * r3_u2;
+
+    /* khepera.bg:17: r3: input of stage 1 */
+    const real r3_u1 = r3_y2 - c->r3_v1_m__2__motor * r3_m__2__motor_speed_2
+        - c->r3_v1_m__2__wheel * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: stage 1 */
+    const real r3_y1 = x->r3_s1 + c->b0 * r3_u1;
+
+    /* khepera.bg:17: r3: stage 1: memory */
+    x->r3_s1 = c->a * r3_y1 + c->b1 * r3_u1;
+
+    /* khepera.bg:17: r3 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
+     * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
+     * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
+     * m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel, 2))/m[2].ge.N */
+    r[KHEPERA_ENCODERS_R3] = r3_y1;
+}
+
+/* One sample for r3; a number that is not finite makes the next sample the first. */
+static void run_r3(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, khepera_encoders_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[2];
+
+    if (age == 0u) {
+        start_r3(monitor, s, r);
+    } else {
+        next_r3(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx__2 + s->U0__2 + r[KHEPERA_ENCODERS_R3])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_ENCODERS_R3] = REAL(0.0);
+    }
+    monitor->age[2] = age;
+    residuals->valid[KHEPERA_ENCODERS_R3] = age > monitor->settle[KHEPERA_ENCODERS_R3];
+}
+
+/* r4 on its first sample: the filter as if it had always been so. */
+static void start_r4(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, real *r)
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    khepera_encoders_memory *x = &monitor->x;
+    const khepera_encoders_encoders *e = &monitor->e;
+
+    count_from(&monitor->e.m__2__motor_r4, s->m__2__motor);
+    count_from(&monitor->e.m__2__wheel_r4, s->m__2__wheel);
+
+    /* khepera_encoders.bg:31: m[2].wheel */
+    const real r4_m__2__wheel = c->m__2__wheel__int__x0
+        + REAL(9.587379924285257e-05) * (real)e->m__2__wheel_r4.total;
+
+    /* khepera_encoders.bg:31: change of D(m[2].wheel) */
+    x->r4_start = r4_m__2__wheel;
+    const real r4_change = r4_m__2__wheel - x->r4_start;
+
+    /* khepera_encoders.bg:31: m[2].motor */
+    const real r4_m__2__motor = c->m__2__motor__int__x0
+        + REAL(0.0015339807878856412) * (real)e->m__2__motor_r4.total;
+
+    /* khepera_encoders.bg:31: change of D(m[2].motor) */
+    x->r4_start_2 = r4_m__2__motor;
+    const real r4_change_2 = r4_m__2__motor - x->r4_start_2;
+
+    /* khepera_encoders.bg:31: tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... */
+    const real r4_tanh = MATH(tanh)(c->g_3 * r4_change_2 - c->g_4 * r4_change);
+
+    /* khepera_encoders.bg:31: filtered speed of m[2].wheel, at rest */
+    const real r4_m__2__wheel_speed_2 = REAL(0.0);
+
+    /* khepera_encoders.bg:31: filtered speed of m[2].wheel */
+    x->r4_m__2__wheel_speed = r4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4: input of stage 3 */
+    const real r4_u3 = c->r4_Fx__2 * s->Fx__2 + c->r4_integral_2 * r4_change
+        - c->r4_integral * r4_change_2 - c->r4_tanh * r4_tanh;
+
+    /* khepera_encoders.bg:31: r4: stage 3, at rest */
+    const real r4_y3 = r4_u3;
+
+    /* khepera_encoders.bg:31: r4: stage 3: memory */
+    x->r4_s3 = c->rest * r4_u3;
+
+    /* khepera_encoders.bg:31: r4: input of stage 2 */
+    const real r4_u2 = r4_y3 + c->r4_v2_m__2__wheel * r4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4: stage 2, at rest */
+    const real r4_y2 = r4_u2;
+
+    /* khepera_encoders.bg:31: r4: stage 2: memory */
+    x->r4_s2 = c->rest * r4_u2;
+
+    /* khepera_encoders.bg:31: r4: input of stage 1 */
+    const real r4_u1 = r4_y2 + c->r4_v1_m__2__wheel * r4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4: stage 1, at rest */
+    const real r4_y1 = r4_u1;
+
+    /* khepera_encoders.bg:31: r4: stage 1: memory */
+    x->r4_s1 = c->rest * r4_u1;
+
+    /* khepera_encoders.bg:31: r4 = (Fx[2]*m[2].R + m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel,
+     * 2))/m[2].ge.N - m[2].K*(m[2].spring.q +
+     * m[2].tau0*m[2].A*tanh(m[2].spring.q/(4*m[2].tau0)))
+     * where m[2].spring.q = Int(D(m[2].motor) - m[2].ge.N*D(m[2].wheel)) */
+    r[KHEPERA_ENCODERS_R4] = r4_y1;
+}
+
+/* r4 on every further sample. */
+static void next_r4(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, real *r)
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    khepera_encoders_memory *x = &monitor->x;
+    const khepera_encoders_encoders *e = &monitor->e;
+
+    count_on(&monitor->e.m__2__motor_r4, s->m__2__motor);
+    count_on(&monitor->e.m__2__wheel_r4, s->m__2__wheel);
+
+    /* khepera_encoders.bg:31: m[2].wheel */
+    const real r4_m__2__wheel = c->m__2__wheel__int__x0
+        + REAL(9.587379924285257e-05) * (real)e->m__2__wheel_r4.total;
+
+    /* khepera_encoders.bg:31: change of D(m[2].wheel) */
+    const real r4_change = r4_m__2__wheel - x->r4_start;
+
+    /* khepera_encoders.bg:31: m[2].motor */
+    const real r4_m__2__motor = c->m__2__motor__int__x0
+        + REAL(0.0015339807878856412) * (real)e->m__2__motor_r4.total;
+
+    /* khepera_encoders.bg:31: change of D(m[2].motor) */
+    const real r4_change_2 = r4_m__2__motor - x->r4_start_2;
+
+    /* khepera_encoders.bg:31: tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... */
+    const real r4_tanh = MATH(tanh)(c->g_3 * r4_change_2 - c->g_4 * r4_change);
+
+    /* khepera_encoders.bg:31: filtered speed of m[2].wheel */
+    const real r4_m__2__wheel_speed_2 = c->a * x->r4_m__2__wheel_speed
+        + c->m__1__wheel_gain * (real)e->m__2__wheel_r4.increment;
+    x->r4_m__2__wheel_speed = r4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4: input of stage 3 */
+    const real r4_u3 = c->r4_Fx__2 * s->Fx__2 + c->r4_integral_2 * r4_change
+        - c->r4_integral * r4_change_2 - c->r4_tanh * r4_tanh;
+
+    /* khepera_encoders.bg:31: r4: stage 3 */
+    const real r4_y3 = x->r4_s3 + c->b0 * r4_u3;
+
+    /* khepera_encoders.bg:31: r4: stage 3: memory */
+    x->r4_s3 = c->a * r4_y3 + c->b1 * r4_u3;
+
+    /* khepera_encoders.bg:31: r4: input of stage 2 */
+    const real r4_u2 = r4_y3 + c->r4_v2_m__2__wheel * r4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4: stage 2 */
+    const real r4_y2 = x->r4_s2 + c->b0 * r4_u2;
+
+    /* khepera_encoders.bg:31: r4: stage 2: memory */
+    x->r4_s2 = c->a * r4_y2 + c->b1 * r4_u2;
+
+    /* khepera_encoders.bg:31: r4: input of stage 1 */
+    const real r4_u1 = r4_y2 + c->r4_v1_m__2__wheel * r4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4: stage 1 */
+    const real r4_y1 = x->r4_s1 + c->b0 * r4_u1;
+
+    /* khepera_encoders.bg:31: r4: stage 1: memory */
+    x->r4_s1 = c->a * r4_y1 + c->b1 * r4_u1;
+
+    /* khepera_encoders.bg:31: r4 = (Fx[2]*m[2].R + m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel,
+     * 2))/m[2].ge.N - m[2].K*(m[2].spring.q +
+     * m[2].tau0*m[2].A*tanh(m[2].spring.q/(4*m[2].tau0)))
+     * where m[2].spring.q = Int(D(m[2].motor) - m[2].ge.N*D(m[2].wheel)) */
+    r[KHEPERA_ENCODERS_R4] = r4_y1;
+}
+
+/* One sample for r4; a number that is not finite makes the next sample the first. */
+static void run_r4(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, khepera_encoders_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[3];
+
+    if (age == 0u) {
+        start_r4(monitor, s, r);
+    } else {
+        next_r4(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx__2 + r[KHEPERA_ENCODERS_R4])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_ENCODERS_R4] = REAL(0.0);
+    }
+    monitor->age[3] = age;
+    residuals->valid[KHEPERA_ENCODERS_R4] = age > monitor->settle[KHEPERA_ENCODERS_R4];
+}
+
+/* r5 on its first sample: the filter as if it had always been so. */
+static void start_r5(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, real *r)
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    khepera_encoders_memory *x = &monitor->x;
+
+    /* khepera.bg:114: r5: input of stage 2 */
+    const real r5_u2 = s->Uin - s->Us - c->r5_v2_load * s->load;
+
+    /* khepera.bg:114: r5: stage 2, at rest */
+    const real r5_y2 = r5_u2;
+
+    /* khepera.bg:114: r5: stage 2: memory */
+    x->r5_s2 = c->rest * r5_u2;
+
+    /* khepera.bg:114: r5: input of stage 1 */
+    const real r5_u1 = r5_y2 + c->r5_v1_load * s->load;
+
+    /* khepera.bg:114: r5: stage 1, at rest */
+    const real r5_y1 = r5_u1;
+
+    /* khepera.bg:114: r5: stage 1: memory */
+    x->r5_s1 = c->rest * r5_u1;
+
+    /* khepera.bg:114: r5 = Uin - line.cell[1].mid.e - R_L*line.cell[1].left.f/2 -
+     * D(line.cell[1].left.f)/4000000
+     * where line.cell[1].left.f = line.cell[1].right.f + 2.2e-10*D(line.cell[1].mid.e)
+     * line.cell[1].mid.e = Us + R_L*line.cell[1].right.f/2 + D(line.cell[1].right.f)/4000000
+     * line.cell[1].right.f = load + 2.2e-10*D(Us) */
+    r[KHEPERA_ENCODERS_R5] = r5_y1;
+}
+
+/* r5 on every further sample. */
+static void next_r5(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, real *r)
+{
+    const khepera_encoders_coefficients *c = &monitor->c;
+    khepera_encoders_memory *x = &monitor->x;
+
+    /* khepera.bg:114: r5: input of stage 2 */
+    const real r5_u2 = s->Uin - s->Us - c->r5_v2_load * s->load;
+
+    /* khepera.bg:114: r5: stage 2 */
+    const real r5_y2 = x->r5_s2 + c->b0 * r5_u2;
+
+    /* khepera.bg:114: r5: stage 2: memory */
+    x->r5_s2 = c->a * r5_y2 + c->b1 * r5_u2;
+
+    /* khepera.bg:114: r5: input of stage 1 */
+    const real r5_u1 = r5_y2 + c->r5_v1_load * s->load;
+
+    /* khepera.bg:114: r5: stage 1 */
+    const real r5_y1 = x->r5_s1 + c->b0 * r5_u1;
+
+    /* khepera.bg:114: r5: stage 1: memory */
+    x->r5_s1 = c->a * r5_y1 + c->b1 * r5_u1;
+
+    /* khepera.bg:114: r5 = Uin - line.cell[1].mid.e - R_L*line.cell[1].left.f/2 -
+     * D(line.cell[1].left.f)/4000000
+     * where line.cell[1].left.f = line.cell[1].right.f + 2.2e-10*D(line.cell[1].mid.e)
+     * line.cell[1].mid.e = Us + R_L*line.cell[1].right.f/2 + D(line.cell[1].right.f)/4000000
+     * line.cell[1].right.f = load + 2.2e-10*D(Us) */
+    r[KHEPERA_ENCODERS_R5] = r5_y1;
+}
+
+/* One sample for r5; a number that is not finite makes the next sample the first. */
+static void run_r5(
+    khepera_encoders_monitor *monitor, const khepera_encoders_samples *s, khepera_encoders_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[4];
+
+    if (age == 0u) {
+        start_r5(monitor, s, r);
+    } else {
+        next_r5(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->load + s->Uin + s->Us + r[KHEPERA_ENCODERS_R5])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_ENCODERS_R5] = REAL(0.0);
+    }
+    monitor->age[4] = age;
+    residuals->valid[KHEPERA_ENCODERS_R5] = age > monitor->settle[KHEPERA_ENCODERS_R5];
+}
+
+void khepera_encoders_reset(khepera_encoders_monitor *monitor)
+{
+    int k;
+
+    for (k = 0; k < 5; ++k) {
+        monitor->age[k] = 0u;
+    }
+}
+
+void khepera_encoders_step(
+    khepera_encoders_monitor *monitor,
+    const khepera_encoders_samples *samples,
+    khepera_encoders_residuals *residuals)
+{
+    run_r1(monitor, samples, residuals);
+    run_r2(monitor, samples, residuals);
+    run_r3(monitor, samples, residuals);
+    run_r4(monitor, samples, residuals);
+    run_r5(monitor, samples, residuals);
+}
