@@ -16,6 +16,7 @@ GREEK = {
     "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Sigma": "Σ", "Phi": "Φ",
     "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
+_WORDS = frozenset({"on", "up"})  # short, but no letter with an index
 _BELOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _DEEPEST = 8  # parts of a path that are tried in all combinations
 
@@ -66,7 +67,11 @@ def split_name(name: str) -> tuple[str, str]:
     for greek, sign in GREEK.items():
         if word == greek:
             head = sign
-    if head == word and (len(word) == 2 or (len(word) == 3 and word[0].isupper())):
+    if (
+        head == word
+        and word not in _WORDS
+        and (len(word) == 2 or (len(word) == 3 and word[0].isupper()))
+    ):
         head, rest = (word, "") if word.isupper() and len(word) > 2 else (word[0], word[1:])
     parts = [rest + digits, after[1:], place.strip("[]")]
     return head, ",".join(part for part in parts if part)

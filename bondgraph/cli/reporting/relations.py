@@ -59,6 +59,8 @@ def _relation(
     lines, longer = _path(compilation, typesetter, relation) if room else ((), 0)
     weak = compilation.detectability.weak(relation.name) or ()
     closing = residual.closing.zero
+    modes = {i.name for i in compilation.graph.inputs if i.mode}
+    orders = {s: n for s, n in relation.orders.items() if s not in modes}
     return RelationPart(
         relation.name,
         equation_name(residual.closing, source),
@@ -69,7 +71,7 @@ def _relation(
         longer,
         tuple(f for f in relation.faults if f not in weak),
         weak,
-        tuple(_orders(typesetter, relation.orders)),
+        tuple(_orders(typesetter, orders)),
         tuple(_notes(compilation, relation, program)),
     )
 
