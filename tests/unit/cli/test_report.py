@@ -281,3 +281,17 @@ def test_a_wrong_scenario_is_told_like_any_wrong_source(
     assert main(["report", motor, "-o", str(out), "--scenario", str(scenario)]) == 1
     assert "odd.toml" in capsys.readouterr().err
     assert not out.exists()
+
+
+def test_without_matplotlib_one_line_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    scenario = tmp_path / "warm.toml"
+    scenario.write_text(SCENARIO, encoding="utf-8")
+    motor = str(ROOT / "models" / "dc_motor.bg")
+    out = tmp_path / "p.html"
+    assert main(["report", motor, "-o", str(out), "--scenario", str(scenario)]) == 1
+    told = capsys.readouterr().err.strip().splitlines()
+    assert len(told) == 1 and "pip install 'bondgraph-arr[robot]'" in told[0]
+    assert main(["report", motor, "-o", str(out)]) == 0  # without scenarios it is not needed
