@@ -29,6 +29,7 @@ from bondgraph.runtime.simulation.values import Values
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Source, Span
 
+STARTS = ("initial", "steady")
 METHODS = ("auto", "LSODA", "Radau", "BDF", "DOP853", "RK45", "RK23")
 
 
@@ -86,6 +87,7 @@ class _Reader:
             doc=doc,
             duration=top.number("duration", SECOND, 10.0, 0.0, 1e7, above=True),
             seed=top.whole("seed", 1),
+            start="steady" if top.text("start", "initial", STARTS) == "steady" else "initial",
             spread="uniform" if top.text("spread", "none", ("none", "uniform")) == "uniform"
             else "none",
             method=top.text("method", "auto", METHODS),

@@ -22,6 +22,7 @@ from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
 from bondgraph.runtime.simulation.scenario import Instrument, Scenario
 from bondgraph.runtime.simulation.spread import spread
+from bondgraph.runtime.simulation.steady import NoSteadyState, steady
 from bondgraph.runtime.simulation.values import Values
 from bondgraph.text.diagnostic import CompileError, Report
 
@@ -174,6 +175,16 @@ class _Simulation:
         """
         machine = mode.machine
         stated = {**machine.start(), **self.scenario.initial}
+        if self.scenario.start == "steady" and machine.states:
+            u = mode.inputs(0.0)
+            guess = np.array([stated.get(name, 0.0) for name in machine.states])
+            try:
+                found = steady(machine, u, guess)
+            except NoSteadyState as error:
+                raise SimulationError(f"{error}") from error
+            both = (*machine.states, *(i.name for i in machine.equations.dependent))
+            held = [*found.tolist(), *machine.content(0.0, found.tolist(), u).tolist()]
+            return dict(zip(both, held, strict=True))
         x = [stated.get(name, 0.0) for name in machine.states]
         rest = machine.content(0.0, x, self.given.before(machine)).tolist()
         names = [i.name for i in machine.equations.dependent]
@@ -280,7 +291,9 @@ class _Simulation:
             {name: n for name, n in numbers.items() if n is not None},
             equations.static,
             tuple(dict.fromkeys(i.storage for i in equations.dependent)),
-            tuple(n for n in mode.machine.undeclared() if n not in scenario.initial),
+            ()
+            if scenario.start == "steady"
+            else tuple(n for n in mode.machine.undeclared() if n not in scenario.initial),
         )
 
 

@@ -95,16 +95,18 @@ class Plane(NamedTuple):
 class Scenario(NamedTuple):
     """One run of a virtual machine.
 
-    `parameters`, `initial` and `inputs` by name; `spread` draws parameters inside their tolerances.
-    `tolerance` is that of a step of integration, relative to each state. `static` are storages
-    taken as being at rest. `desired` says what sensors should show, for the
-    desired path, where no controller says it. `record` are signals to keep beside those known.
+    `parameters`, `initial` and `inputs` by name; it may `start` in the steady state for the inputs
+    of the first moment, which is looked for from the initial one. `spread` draws parameters inside
+    their tolerances, `tolerance` is that of a step of integration, relative to each state. `static`
+    are storages taken as being at rest. `desired` says what sensors should show, for the desired
+    path, where no controller says it. `record` are signals to keep beside those known.
     """
 
     name: str
     doc: str = ""
     duration: float = 10.0
     seed: int = 1
+    start: Literal["initial", "steady"] = "initial"
     spread: Literal["none", "uniform"] = "none"
     method: str = "auto"
     tolerance: float = 1e-7
