@@ -62,6 +62,9 @@ def function(
 def _through(course: Course, order: int) -> Callable[[float], float]:
     xs = [p[0] for p in course.points]
     ys = [p[1] for p in course.points]
+    if len(ys) == 1:
+        only = 0.0 if order else ys[0]
+        return lambda _: only
 
     def held(t: float) -> float:
         return ys[max(bisect_right(xs, t) - 1, 0)]

@@ -131,10 +131,11 @@ class _Tried:
         if not self.calls % _OFTEN:
             self.tell(t)
         found = self.machine.rates(t, state, self.inputs(t))
-        bad = not all(map(math.isfinite, found)) and all(map(math.isfinite, state))
-        self._in_vain = 0 if all(abs(r) < _BEYOND for r in found) else self._in_vain + 1
+        bad = not sum(map(abs, found)) < _BEYOND  # also where one of them is no number
+        self._in_vain = self._in_vain + 1 if bad else 0
         if self._in_vain > _PATIENCE:
             raise _Standstill
+        bad = bad and all(map(math.isfinite, state))
         if bad or not self.failed:
             self.t, self.x, self.failed = t, state, bad or self.failed
         return found
