@@ -23,13 +23,17 @@ class Reader:
     def __init__(
         self, instrument: Instrument, counts: float | None, samples: int, rate: float, seed: Any
     ) -> None:
-        draw = np.random.default_rng(seed)
+        self._draw = np.random.default_rng(seed)
         self.instrument = instrument
         self.counts = counts
-        self._noise = draw.standard_normal(samples) * instrument.noise
-        self._phase = float(draw.uniform())
+        self._noise = self._draw.standard_normal(samples) * instrument.noise
+        self._phase = float(self._draw.uniform())
         own = instrument.rate
         self._every = 1 if own is None or own >= rate else round(rate / own)
+
+    def renew(self) -> None:
+        """Noise for as many samples more, which are counted from 0 again."""
+        self._noise = self._draw.standard_normal(len(self._noise)) * self.instrument.noise
 
     def freeze(self, first: int, last: int) -> None:
         """From sample `first` to before `last` it shows noise no more: the sensor is stuck."""
