@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from bondgraph.pipeline import Compilation
-    from bondgraph.runtime.monitoring.decision import Facts
+    from bondgraph.runtime.monitoring.decision import Decision, Facts
+    from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
     from bondgraph.runtime.monitoring.monitor import Stop
     from bondgraph.runtime.monitoring.mqtt_client import Address
@@ -35,6 +36,16 @@ def arguments(parser: ArgumentParser) -> None:
     add("model", metavar="MODEL", help="file.bg or file.bg:Name")
     add("log", metavar="LOG", nargs="?",
         help="samples: a .csv or .parquet file, or - for standard input (default)")  # fmt: skip
+    sampled(add)
+    add("--journal", metavar="FILE", help="keep what was said and go on there after a restart")
+    add("--publish", metavar="[HOST[:PORT]/]TOPIC",
+        help="publish the verdicts, at the broker of --mqtt if none is named")  # fmt: skip
+    add("--json", dest="lines", action="store_true",
+        help="print each verdict as a line of JSON (docs/json.md)")  # fmt: skip
+
+
+def sampled(add: Callable[..., object]) -> None:
+    """The arguments that say where samples come from, and how they are watched."""
     add("--follow", action="store_true", help="wait at the end of a CSV file for more, until ^C")
     add("--serial", metavar="PORT", help="samples from a serial port")
     add("--baud", metavar="N", type=int, default=115200,
@@ -53,11 +64,6 @@ def arguments(parser: ArgumentParser) -> None:
     add("--floor", metavar="[RESIDUAL=]SIZE", type=noise, action="append", default=[],
         help="what noise alone does to a residual (default: learned from the first seconds);"
         " may be repeated")  # fmt: skip
-    add("--journal", metavar="FILE", help="keep what was said and go on there after a restart")
-    add("--publish", metavar="[HOST[:PORT]/]TOPIC",
-        help="publish the verdicts, at the broker of --mqtt if none is named")  # fmt: skip
-    add("--json", dest="lines", action="store_true",
-        help="print each verdict as a line of JSON (docs/json.md)")  # fmt: skip
 
 
 def run(args: Namespace) -> int:
@@ -77,9 +83,9 @@ def run(args: Namespace) -> int:
         print(f"error: {error}", file=sys.stderr)
         return 2
     try:
-        source = _source(args, samples)
-        with closing(source):
-            return _watch(args, source, verdicts)
+        found = source(args, samples)
+        with closing(found):
+            return _watch(args, found, verdicts)
     except (LogError, JournalError) as error:
         raise console.Trouble(str(error)) from error
 
@@ -154,7 +160,8 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     return 0
 
 
-def _source(args: Namespace, samples: Address | None) -> Source:
+def source(args: Namespace, samples: Address | None) -> Source:
+    """The source that the arguments name."""
     from bondgraph.runtime.monitoring.sources.file import file_source
     from bondgraph.runtime.monitoring.sources.lines import Form
     from bondgraph.runtime.monitoring.sources.mqtt import Topic
@@ -171,6 +178,18 @@ def _source(args: Namespace, samples: Address | None) -> Source:
     if args.serial:
         return SerialPort(args.serial, args.baud, form)
     return Pipe(form) if name == "-" else file_source(name, form, args.follow)
+
+
+def decided(
+    compilation: Compilation, floor: dict[str, float]
+) -> Callable[[Engine], Decision]:
+    """What makes the decision of one watch; raises Trouble where there is nothing to watch."""
+    from bondgraph.runtime.monitoring.decision import Threshold
+
+    known = facts(compilation, floor)
+    if not known.sees:
+        raise console.Trouble(f"{compilation.graph.name} has no residual that could be watched")
+    return lambda engine: Threshold(known)
 
 
 def facts(compilation: Compilation, floor: dict[str, float]) -> Facts:

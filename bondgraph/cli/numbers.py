@@ -16,6 +16,17 @@ def positive(text: str) -> float:
 positive.__name__ = "positive number"
 
 
+def pace(text: str) -> float:
+    """A number above zero, or inf; raises ValueError for anything else."""
+    value = float(text)
+    if not value > 0:
+        raise ValueError
+    return value
+
+
+pace.__name__ = "positive number"
+
+
 def bits(text: str) -> int:
     """How many bits a sample has."""
     value = int(text)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.numbers import assigned, positive
+from bondgraph.cli.numbers import assigned, pace, positive
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -35,6 +35,12 @@ def arguments(parser: ArgumentParser) -> None:
                         help="another value of a parameter, in SI; may be repeated")  # fmt: skip
     parser.add_argument("--input", metavar="NAME=VALUE", type=assigned, action="append",
                         default=[], help="a constant input, in SI; may be repeated")  # fmt: skip
+    parser.add_argument("--stream", action="store_true",
+                        help="run without an end, and print the samples as lines of CSV while they"
+                        " are taken")  # fmt: skip
+    parser.add_argument("--speed", metavar="X", type=pace, default=1.0,
+                        help="of a stream: so many seconds in one (default: 1; inf: as fast as"
+                        " they are read)")  # fmt: skip
     parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
 
 
@@ -45,16 +51,15 @@ def run(args: Namespace) -> int:
 
     compilation = open_model(args.model)
     chosen = _scenario(args, compilation)
+    if args.stream:
+        return stream(compilation, chosen, args.speed)
     with console.progress_bar("simulating") as progress:
         try:
             found = compilation.simulate(chosen, progress)
         except SimulationError as error:
             raise console.Trouble(f"{error}") from error
         except KeyError as error:
-            raise console.Trouble(
-                f"`{error.args[0]}` has no value: give it under [parameters], or --set"
-                f" {error.args[0]}=..."
-            ) from error
+            raise _without_value(error) from error
     files = [args.output or f"{_stem(chosen.name)}.csv"]
     try:
         write_log(found.log, files[0])
@@ -72,6 +77,48 @@ def run(args: Namespace) -> int:
         return 0
     console.show(compilation.report.diagnostics)
     print("\n".join(_lines(compilation, found, files)))
+    return 0
+
+
+def _without_value(error: KeyError) -> console.Trouble:
+    name = error.args[0]
+    return console.Trouble(
+        f"`{name}` has no value: give it under [parameters], or --set {name}=..."
+    )
+
+
+def stream(compilation: Compilation, scenario: Scenario, speed: float) -> int:
+    """Print the samples of a machine that never stops, each when it is taken, until nobody reads.
+
+    Who falls behind does not catch up: time stretches.
+    """
+    import sys
+    import time
+
+    from bondgraph.runtime.simulation.integrate import SimulationError
+    from bondgraph.runtime.simulation.robot import Robot
+
+    try:
+        robot = Robot(compilation.equations, compilation.integral, scenario)
+        names = list(robot.units)
+        sys.stdout.write(",".join(["t", *[f'"{n}"' if "," in n else n for n in names]]) + "\n")
+        anchor = time.monotonic()
+        for log in robot.logs():
+            rows = zip(log.time.tolist(), *[log.columns[n].tolist() for n in names], strict=True)
+            wait = anchor + float(log.time[-1]) / speed - time.monotonic()
+            if wait > 0:
+                time.sleep(wait)
+            else:
+                anchor -= wait
+            text = (",".join("" if v != v else repr(v) for v in row) for row in rows)
+            sys.stdout.write("\n".join(text) + "\n")
+            sys.stdout.flush()
+    except SimulationError as error:
+        raise console.Trouble(f"{error}") from error
+    except KeyError as error:
+        raise _without_value(error) from error
+    except KeyboardInterrupt:
+        return 0
     return 0
 
 

@@ -18,6 +18,7 @@ COMMANDS = {
     "simulate": "run a model as a virtual machine, with faults if the scenario has some",
     "monitor": "watch a machine by its samples, and say what is faulty",
     "tune": "learn the limits of the residuals from healthy samples, and what shows with them",
+    "live": "show a machine beside its virtual twin on a page, and let faults happen to the twin",
     "draw": "draw a bond graph with half arrows and causal strokes",
     "report": "write all that is known of a model as one HTML page",
 }

@@ -12,10 +12,10 @@ import numpy.typing as npt
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equations import EquationSystem
 from bondgraph.passes.state_equations import Wanted, state_equations
+from bondgraph.runtime.simulation.brisk import Brisk
 from bondgraph.runtime.simulation.faults import Wrong
 from bondgraph.runtime.simulation.given import inside
 from bondgraph.runtime.simulation.handover import handed_over
-from bondgraph.runtime.simulation.brisk import Brisk
 from bondgraph.runtime.simulation.integrate import SimulationError
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
@@ -140,9 +140,7 @@ class Stepper:
         view = observed(self.system, equations, ())
         return _Mode(Machine(equations, self.values, view.exprs), view.names)
 
-    def _state(
-        self, mode: _Mode, inputs: Inputs, acting: Acting, t: float | None = None
-    ) -> Array:
+    def _state(self, mode: _Mode, inputs: Inputs, acting: Acting, t: float | None = None) -> Array:
         machine, now = mode.machine, self.time if t is None else t
         if self._held is None:
             self._held = self._start(machine, acting)

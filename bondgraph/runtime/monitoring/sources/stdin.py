@@ -12,21 +12,32 @@ from bondgraph.runtime.monitoring.sources.source import Chunk, Cutter, Intake, d
 
 
 class Pipe:
-    """Lines from a descriptor; who writes too fast is held up by the pipe, nothing is dropped."""
+    """Lines from a descriptor; who writes too fast is held up by the pipe, nothing is dropped.
+
+    At most so many bytes wait here.
+    """
 
     replays = False
 
-    def __init__(self, form: Form, descriptor: int = 0, name: str = "standard input") -> None:
+    def __init__(
+        self,
+        form: Form,
+        descriptor: int = 0,
+        name: str = "standard input",
+        most: int = 1 << 22,
+    ) -> None:
         self.name = name
         self.decoder: Decoder | None = Decoder(form)
         self._lines = self.decoder
         self._descriptor = descriptor
-        self._intake = Intake(waits=True)
+        self._intake = Intake(most, waits=True)
+        self._reader: Thread | None = None
 
     def chunks(self, stop: Event) -> Iterator[Chunk]:
         """All lines, until the writer closes the pipe."""
         # Reading blocks, and nothing wakes it up: the thread is left behind at the end.
-        Thread(target=self._read, daemon=True).start()
+        self._reader = Thread(target=self._read, daemon=True)
+        self._reader.start()
         yield from decoded(self._intake, self._lines, stop)
 
     def go(self, position: dict[str, Any]) -> str:
@@ -40,6 +51,11 @@ class Pipe:
     def close(self) -> None:
         """Let the thread end."""
         self._intake.end()
+
+    def join(self, patience: float) -> None:
+        """Wait until the thread has read the end, at most so many seconds."""
+        if self._reader is not None:
+            self._reader.join(patience)
 
     def _read(self) -> None:
         cutter = Cutter()

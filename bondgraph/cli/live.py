@@ -1,0 +1,263 @@
+"""`bondgraph live`: a machine and its virtual twin side by side, on a page in the browser."""
+
+from __future__ import annotations
+
+import sys
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from bondgraph import Options
+from bondgraph import compile as open_model
+from bondgraph.cli import console, monitor
+from bondgraph.cli.numbers import positive
+from bondgraph.cli.residual_units import residual_units
+from bondgraph.ir.expr import symbols
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Callable
+
+    from bondgraph.ir.graph import BondGraph
+    from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.live.session import Session
+    from bondgraph.runtime.live.setup import Machine, Setup
+    from bondgraph.runtime.simulation.scenario import Scenario
+
+_PORT = 8420
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `live`."""
+    add = parser.add_argument
+    add("model", metavar="MODEL", help="file.bg or file.bg:Name")
+    add("scenario", metavar="SCENARIO", nargs="?",
+        help="a .toml file: what happens, and the plane (docs/simulation.md)")  # fmt: skip
+    add("--port", metavar="N", type=int, default=_PORT,
+        help=f"where the page is served; 0 for any that is free (default: {_PORT})")  # fmt: skip
+    add("--host", metavar="NAME", default="127.0.0.1",
+        help="address to serve at (default: 127.0.0.1, this computer only)")  # fmt: skip
+    add("--no-browser", action="store_true", help="do not open the page")
+    add("--speed", metavar="X", type=positive, default=1.0,
+        help="so many seconds in one, of a simulation or a file (default: 1)")  # fmt: skip
+    add("--log", metavar="LOG",
+        help="the monitored machine: a .csv or .parquet file, or - for standard input (default:"
+        " a simulation of the scenario in a process of its own)")  # fmt: skip
+    monitor.sampled(add)
+
+
+def run(args: Namespace) -> int:
+    """Compile, listen, then serve until somebody stops it."""
+    try:
+        from bondgraph.runtime.live.server import PortTaken, listening
+    except ImportError as error:
+        if error.name != "aiohttp":
+            raise
+        raise console.Trouble(
+            "the live page needs aiohttp: pip install aiohttp, or install bondgraph-arr[robot]"
+        ) from error
+    wrong = _wrong(args)
+    if wrong:
+        print(f"error: {wrong}", file=sys.stderr)
+        return 2
+    try:
+        made = listening(args.host, args.port)
+    except PortTaken as error:
+        raise console.Trouble(str(error)) from error
+    try:
+        return _serve(args, made)
+    finally:
+        made.close()
+
+
+def _wrong(args: Namespace) -> str:
+    """What is wrong with the words together, "" if nothing."""
+    named = [
+        w for w, v in (("--log", args.log), ("--serial", args.serial), ("--mqtt", args.mqtt)) if v
+    ]
+    if len(named) > 1:
+        return f"samples come from one source, not from {' and '.join(named)}"
+    if args.follow and args.log in (None, "-"):
+        return "--follow needs --log with a CSV file that grows"
+    if not 0 <= args.port < 65536:
+        return f"{args.port} is no port: 0 to 65535"
+    if not named and not args.scenario:
+        return "nothing moves: name a SCENARIO, or --log, --serial or --mqtt"
+    return ""
+
+
+def _serve(args: Namespace, made: Any) -> int:
+    import asyncio
+
+    from bondgraph.backends.live import live
+    from bondgraph.runtime.live.server import serve
+    from bondgraph.runtime.live.session import Session
+    from bondgraph.runtime.log import LogError
+    from bondgraph.runtime.simulation.scenario import Scenario
+
+    rate = args.rate
+    compilation = open_model(args.model)
+    scenario = compilation.scenario(args.scenario) if args.scenario else Scenario("live")
+    if rate is None:
+        rate = scenario.sampling.rate if args.scenario else Options().rate
+    compilation = open_model(args.model, rate=rate, bandwidth=args.bandwidth)
+    if args.scenario:  # read for this one: its expressions belong to the graph of the model
+        scenario = compilation.scenario(args.scenario)
+    try:
+        setup = _setup(args, compilation, scenario)
+    except (LogError, ValueError) as error:
+        raise console.Trouble(str(error)) from error
+    machine = _machine(args, compilation)
+    sessions: list[Session] = []
+
+    def start(say: Callable[[dict[str, Any]], None]) -> Session:
+        sessions.append(Session(setup, {t.name: t for t in machine.targets}, say))
+        hello.update(_hello(machine, setup, sessions[0]))
+        return sessions[0]
+
+    hello: dict[str, Any] = {"type": "hello"}
+    files = live(machine.name, machine.doc, compilation.drawing(bare=True))
+    host, port = made.getsockname()[:2]
+    address = f"http://{f'[{host}]' if ':' in host else host}:{port}/"
+
+    def ready() -> None:
+        print(f"{machine.name}: {setup.what}; look at {address}, stop with ^C", flush=True)
+        if not args.no_browser:
+            import webbrowser
+
+            webbrowser.open(address)
+
+    try:
+        asyncio.run(serve(made, files, hello, start, ready))
+    except KeyError as error:
+        raise console.Trouble(
+            f"`{error.args[0]}` has no value: give it under [parameters] of the scenario"
+        ) from error
+    print("stopped")
+    return 0
+
+
+# --------------------------------------------------------------------------- what it is made of
+
+
+def _setup(args: Namespace, compilation: Compilation, scenario: Scenario) -> Setup:
+    from bondgraph.runtime.live.setup import Setup
+    from bondgraph.runtime.live.watch import Wide, further
+    from bondgraph.runtime.monitoring.clock import clock_of
+    from bondgraph.runtime.monitoring.columns import Columns, read_map
+    from bondgraph.runtime.monitoring.mqtt_client import address
+    from bondgraph.runtime.simulation.values import Values
+
+    graph = compilation.graph
+    engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
+    values = Values(graph, scenario.parameters)
+    turns = {s.name: values.number(s.counts) for s in graph.sensors if s.counts is not None}
+    wide = Wide(engine, further(graph, engine, turns))
+    mapping = read_map(args.map, wide.signals) if args.map else None
+    samples = address(args.mqtt) if args.mqtt else None
+    decision = monitor.decided(compilation, dict(args.floor))
+    simulated = not (args.log or args.serial or args.mqtt)
+    if simulated:
+        source: Callable[[], Any] = partial(_robot, args)
+    else:
+        args.journal = None
+        source = partial(monitor.source, args, samples)
+    name = "simulation" if simulated else args.serial or args.mqtt or args.log
+    replayed = bool(args.log) and args.log != "-" and not args.follow
+    return Setup(
+        compilation.equations,
+        compilation.integral,
+        scenario,
+        wide,
+        len(engine.signals),
+        decision,
+        lambda: clock_of(wide),
+        lambda: Columns(wide.signals, mapping, name),
+        source,
+        simulated or replayed,
+        args.speed if simulated or replayed else None,
+        f"{console.plural(len(engine.residuals), 'residual')} at {1 / wide.sample_time:g} samples"
+        " a second",
+    )
+
+
+def _robot(args: Namespace) -> Any:
+    """The monitored machine: the same command that anybody could start, heard through a pipe."""
+    from bondgraph.runtime.live.process import Simulated
+
+    words = [sys.executable, "-m", "bondgraph", "simulate", args.model, args.scenario]
+    return Simulated([*words, "--stream", "--speed", "inf"], "simulated machine")
+
+
+def _machine(args: Namespace, compilation: Compilation) -> Machine:
+    from bondgraph.runtime.live.setup import Machine
+
+    program, graph = compilation.program, compilation.graph
+    known = args.serial or args.mqtt or args.log
+    units = residual_units(compilation)
+    return Machine(
+        graph.name,
+        graph.doc,
+        tuple((r.name, units.get(r.name, ""), r.faults) for r in program.residuals),
+        tuple((s.name, s.unit or "") for s in graph.sensors if s.same_as is None),
+        _targets(graph),
+        links(graph),
+        known or "simulated in another process",
+        not known,
+    )
+
+
+def _targets(graph: BondGraph) -> tuple[Any, ...]:
+    """Everything that can be made faulty, as the model names and measures it."""
+    from bondgraph.library.units import parse_unit
+    from bondgraph.runtime.live.setup import Target
+    from bondgraph.runtime.simulation.values import Values
+
+    values = Values(graph)
+    items = [(v.name, "param", v.unit, values.constant(v.symbol)) for v in graph.values if v.fault]
+    items += [(i.name, "input", i.unit, None) for i in graph.inputs if not i.mode]
+    items += [(s.name, "sensor", s.unit, None) for s in graph.sensors if s.same_as is None]
+    found = []
+    for name, kind, unit, value in items:
+        parsed = parse_unit(unit) if unit else None
+        factor = float(parsed.factor) if parsed is not None else 1.0
+        found.append(Target(name, kind, unit or "", factor,
+                            None if value is None else value / factor))  # fmt: skip
+    return tuple(found)
+
+
+def links(graph: BondGraph) -> dict[str, tuple[str, ...]]:
+    """The faults of each element: of its laws, and of what measures it directly."""
+    faults = {symbol: name for name, symbol in graph.fault_symbols().items()}
+    integrands = {i.symbol: i.integrand for i in graph.integrals}
+    found: dict[str, list[str]] = {n.path: [] for n in graph.nodes}
+    common = {n.common: n.path for n in graph.nodes if n.common is not None}
+    for node in graph.nodes:
+        inside = symbols(*[law.zero for law in node.laws])
+        found[node.path] += [faults[s] for s in inside if s in faults]
+    for sensor in graph.sensors:
+        if sensor.name not in faults.values() or sensor.same_as is not None:
+            continue
+        if sensor.node is not None:
+            found[graph.nodes[sensor.node].path].append(sensor.name)
+            continue
+        for variable in symbols(integrands.get(sensor.reads, sensor.reads)):
+            if variable in common:
+                found[common[variable]].append(sensor.name)
+    return {path: tuple(dict.fromkeys(own)) for path, own in found.items() if own}
+
+
+def _hello(machine: Machine, setup: Setup, session: Session) -> dict[str, Any]:
+    """What a page is told first; the sensors in the order of the samples."""
+    sensors = dict(machine.sensors)
+    order = [k.path for k in setup.engine.signals if k.path in sensors]
+    return {
+        "residuals": machine.residuals,
+        "sensors": [(name, sensors[name]) for name in order],
+        "plane": session.places.names,
+        "lacking": session.places.lacking,
+        "faults": [f.label for f in setup.scenario.faults],
+        "targets": [t._asdict() for t in machine.targets],
+        "links": machine.links,
+        "monitored": machine.monitored,
+        "pace": setup.speed,
+    }

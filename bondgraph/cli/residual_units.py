@@ -1,0 +1,62 @@
+"""In which unit each residual is, from the dimensions of what it is made of."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.units import NONE, Dimension, over, raised, times
+from bondgraph.library.units import describe
+
+if TYPE_CHECKING:
+    from bondgraph.pipeline import Compilation
+
+_SECOND: Dimension = (0, 0, 1, 0, 0, 0, 0)
+_LIKE = frozenset({"abs", "min", "max"})  # functions whose value is in the unit of what they get
+
+
+def residual_units(compilation: Compilation) -> dict[str, str]:
+    """The SI unit of each residual as a person would write it, "" where that is not known.
+
+    >>> import bondgraph
+    >>> residual_units(bondgraph.compile("models/dc_motor.bg"))
+    {'r1': 'V', 'r2': 'N.m'}
+    """
+    graph = compilation.graph
+    known: dict[Expr, Dimension | None] = {v.symbol: v.dimension for v in graph.values}
+    known |= {i.symbol: i.dimension for i in graph.inputs}
+    known |= {s.symbol: s.dimension for s in graph.sensors if s.same_as is None}
+    found = {}
+    for residual in (r.residual for r in compilation.residuals):
+        for node in topological([residual.expr], stop=known.__contains__):
+            if node not in known:
+                known[node] = _dimension(node, known)
+        own = known[residual.expr]
+        found[residual.name] = "" if own is None else describe(own)
+    return found
+
+
+def _dimension(node: Expr, known: dict[Expr, Dimension | None]) -> Dimension | None:
+    args = [known.get(a) for a in node.args]
+    match node.op:
+        case Op.NUM | Op.CMP | Op.LOGIC:
+            return NONE
+        case Op.ADD:
+            return next((a for a in args if a is not None), None)
+        case Op.MUL:
+            product = NONE
+            for own, exponent in zip(args, node.exponents, strict=True):
+                if own is None:
+                    return None
+                product = times(product, raised(own, exponent))
+            return product
+        case Op.DER:
+            return None if args[0] is None else over(args[0], _SECOND)
+        case Op.INT:
+            return None if args[0] is None else times(args[0], _SECOND)
+        case Op.IF:
+            return args[1] or args[2]
+        case Op.FN:
+            return args[0] if node.name in _LIKE else None
+        case _:
+            return None

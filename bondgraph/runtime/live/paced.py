@@ -1,0 +1,110 @@
+"""Samples at the pace of time, in the small portions in which a page is drawn."""
+
+from __future__ import annotations
+
+import time as clocks
+from collections import deque
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from threading import Event
+from typing import Any
+
+import numpy as np
+
+from bondgraph.runtime.monitoring.sources.lines import Decoder
+from bondgraph.runtime.monitoring.sources.source import Chunk, Source
+
+_LATE = 0.25  # s on the wall; who is later than that does not catch up, time stretches
+_LOOK = 0.05  # s between two looks at the wishes of people
+_OVER = 2.0  # s on the wall over which the pace is measured
+
+
+class Paced:
+    """A source whose samples come `portion` s at a time, at the latest when `between` was called.
+
+    With a `speed` (s of samples a second on the wall) samples wait until it is their time, and
+    while `paused`; without one they come as they come.
+    """
+
+    def __init__(
+        self, inner: Source, portion: float, speed: float | None, between: Callable[[], None]
+    ) -> None:
+        self._inner = inner
+        self.name, self.replays = inner.name, inner.replays
+        self.decoder: Decoder | None = inner.decoder
+        self._portion, self._speed, self._between = portion, speed, between
+        self.paused = False
+        self._anchor: tuple[float, float] | None = None  # on the wall, of the samples
+        self._marks: deque[tuple[float, float]] = deque(maxlen=400)
+
+    def chunks(self, stop: Event) -> Iterator[Chunk]:
+        """See `Source`."""
+        for chunk in self._inner.chunks(stop):
+            self._between()
+            if chunk.log is None or not chunk.log.rows:
+                yield chunk
+                continue
+            time = chunk.log.time
+            cuts = self._cuts(time)
+            for a, b in pairwise(cuts):
+                self._wait(float(time[b - 1]), stop)
+                if stop.is_set():
+                    return
+                last = b == len(time)
+                yield Chunk(
+                    chunk.log.part(a, b),
+                    chunk.news if a == 0 else (),
+                    chunk.place if last else None,
+                    chunk.done if last else None,
+                    chunk.again,
+                )
+
+    def _cuts(self, time: Any) -> list[int]:
+        cells = np.floor(time / self._portion)
+        return [0, *(np.flatnonzero(np.diff(cells)) + 1).tolist(), len(time)]
+
+    def _wait(self, t: float, stop: Event) -> None:
+        """Until it is time for what has the time stamp t."""
+        while True:
+            self._between()
+            now = clocks.monotonic()
+            if self._speed is None or stop.is_set():
+                break
+            if self.paused:
+                self._anchor = None
+                self._marks.clear()
+                stop.wait(_LOOK)
+                continue
+            if self._anchor is None or t < self._anchor[1]:
+                self._anchor = now, t
+            due = self._anchor[0] + (t - self._anchor[1]) / self._speed
+            if due <= now:
+                if now - due > _LATE:
+                    self._anchor = now, t
+                break
+            stop.wait(min(_LOOK, due - now))
+        if self._marks and t < self._marks[-1][1]:
+            self._marks.clear()
+        self._marks.append((now, t))
+
+    @property
+    def pace(self) -> float | None:
+        """Seconds of samples a second on the wall, lately; None while nobody knows."""
+        end = self._marks[-1] if self._marks else (0.0, 0.0)
+        while len(self._marks) > 1 and end[0] - self._marks[0][0] > _OVER:
+            self._marks.popleft()
+        start = self._marks[0] if self._marks else end
+        wall = end[0] - start[0]
+        return (end[1] - start[1]) / wall if wall > _OVER / 4 else None
+
+    def go(self, position: dict[str, Any]) -> str:
+        """See `Source`."""
+        return self._inner.go(position)
+
+    def rate(self) -> float | None:
+        """See `Source`."""
+        return self._inner.rate()
+
+    def close(self) -> None:
+        """See `Source`."""
+        self._inner.close()

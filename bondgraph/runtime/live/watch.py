@@ -1,0 +1,103 @@
+"""What a watch is made of when people look on: samples and batches heard, thresholds as drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+
+from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.program import Known
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.decision import Decision
+from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.verdict import Verdict
+
+Hear = Callable[[Array, Batch, Array], None]
+
+
+class Wide:
+    """An engine whose samples have more columns than it reads: all that is known of the machine."""
+
+    def __init__(self, engine: Engine, more: Sequence[Known]) -> None:
+        self._engine = engine
+        self._own = len(engine.signals)
+        self.residuals = engine.residuals
+        self.signals: tuple[Known, ...] = (*engine.signals, *more)
+        self.sample_time, self.bandwidth = engine.sample_time, engine.bandwidth
+        self.warm_up, self.parameters = engine.warm_up, engine.parameters
+
+    def run(self, samples: Array) -> Batch:
+        """See `Engine`."""
+        return self._engine.run(samples[:, : self._own])
+
+    def run_with(self, others: Sequence[Engine], samples: Array) -> Batch:
+        """See `Engine`."""
+        return self._engine.run_with(others, samples[:, : self._own])
+
+    def reset(self) -> None:
+        """See `Engine`."""
+        self._engine.reset()
+
+    def configured(
+        self,
+        parameters: Mapping[str, float] | None = None,
+        *,
+        bandwidth: float | None = None,
+        bounds: bool = True,
+    ) -> Engine:
+        """See `Engine`; the new one has no more columns than it reads."""
+        return self._engine.configured(parameters, bandwidth=bandwidth, bounds=bounds)
+
+
+def further(graph: BondGraph, engine: Engine, numbers: Mapping[str, float]) -> tuple[Known, ...]:
+    """The known signals of a model that its residuals do not read; they may be missing in a log.
+
+    `numbers` are the counts a turn of encoders, by sensor.
+    """
+    read = {k.path for k in engine.signals}
+    found: list[tuple[str, str | None, Literal["input", "mode", "sensor"], float | None]] = []
+    for item in graph.inputs:
+        if item.known and item.name not in read:
+            found.append((item.name, item.unit, "mode" if item.mode else "input", None))
+    for sensor in graph.sensors:
+        if sensor.same_as is None and sensor.name not in read:
+            found.append((sensor.name, sensor.unit, "sensor", numbers.get(sensor.name)))
+    return tuple(
+        Known(name, name, unit or "", "", kind, 0, False, counts, None, sampled=False)
+        for name, unit, kind, counts in found
+    )
+
+
+class Heard:
+    """A decision that is overheard: each batch goes to `hear` once it is decided on."""
+
+    def __init__(self, inner: Decision, signals: int, hear: Hear) -> None:
+        self._inner, self._own, self._hear = inner, signals, hear
+
+    def update(self, time: Array, batch: Batch, samples: Array) -> list[Verdict]:
+        """See `Decision`."""
+        found = self._inner.update(time, batch, samples[:, : self._own])
+        self._hear(time, batch, samples)
+        return found
+
+    def restart(self) -> None:
+        """See `Decision`."""
+        self._inner.restart()
+
+    def state(self) -> dict[str, Any]:
+        """See `Decision`."""
+        return self._inner.state()
+
+    def resume(self, state: dict[str, Any]) -> None:
+        """See `Decision`."""
+        self._inner.resume(state)
+
+
+def floors(decision: Decision, residuals: int) -> list[float | None]:
+    """What comes on top of the adaptive threshold of each residual, None while nobody knows."""
+    found = getattr(decision, "floor", None)
+    if found is None or len(found) != residuals:
+        return [None] * residuals
+    return [float(f) if np.isfinite(f) else None for f in found]
