@@ -8,7 +8,10 @@ from bondgraph.backends.drawing.style import colours, inside
 from bondgraph.backends.templates import codegen
 
 _SCRIPTS = ("main.js", "graph.js", "plane.js", "said.js", "strips.js")
-_LIGHT, _DARK = "--mark:#fff0b8;--band:#eef3f7", "--mark:#4d4212;--band:#22303a"
+_LIGHT, _DARK = (
+    "--mark:#fff0b8;--band:#eef3f7;--trace:#a3a3a3",
+    ("--mark:#4d4212;--band:#22303a;--trace:#8a8a8a"),
+)
 
 
 def live(title: str, doc: str, drawing: str) -> dict[str, tuple[str, str]]:

@@ -103,7 +103,7 @@ def _serve(args: Namespace, made: Any) -> int:
     if args.scenario:  # read for this one: its expressions belong to the graph of the model
         scenario = compilation.scenario(args.scenario)
     try:
-        setup = _setup(args, compilation, scenario)
+        setup = setup_of(args, compilation, scenario)
     except (LogError, ValueError) as error:
         raise console.Trouble(str(error)) from error
     machine = _machine(args, compilation)
@@ -139,7 +139,8 @@ def _serve(args: Namespace, made: Any) -> int:
 # --------------------------------------------------------------------------- what it is made of
 
 
-def _setup(args: Namespace, compilation: Compilation, scenario: Scenario) -> Setup:
+def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> Setup:
+    """What a session of these arguments is made of."""
     from bondgraph.runtime.live.setup import Setup
     from bondgraph.runtime.live.watch import Wide, further
     from bondgraph.runtime.monitoring.clock import clock_of
@@ -199,14 +200,14 @@ def _machine(args: Namespace, compilation: Compilation) -> Machine:
         graph.doc,
         tuple((r.name, units.get(r.name, ""), r.faults) for r in program.residuals),
         tuple((s.name, s.unit or "") for s in graph.sensors if s.same_as is None),
-        _targets(graph),
+        targets(graph),
         links(graph),
         known or "simulated in another process",
         not known,
     )
 
 
-def _targets(graph: BondGraph) -> tuple[Any, ...]:
+def targets(graph: BondGraph) -> tuple[Any, ...]:
     """Everything that can be made faulty, as the model names and measures it."""
     from bondgraph.library.units import parse_unit
     from bondgraph.runtime.live.setup import Target

@@ -1,6 +1,6 @@
 // Machines in the plane: paths, bodies with their heading, names that keep clear of each other.
 const SVG = "http://www.w3.org/2000/svg";
-const ALL = ["desired", "virtual", "real"]; // the last is drawn on top
+const ALL = ["desired", "real", "virtual"]; // the last is drawn on top
 const MOST = 2400; // points of a path
 const make = (into, kind, attributes = {}) => {
   const made = document.createElementNS(SVG, kind);

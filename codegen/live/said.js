@@ -63,10 +63,11 @@ export class Diagnosis {
       const line = element("li");
       const name = element("span", "name", fault);
       if (size !== null) name.append(" ", element("small", "", `${size > 0 ? "+" : ""}${amount(size)}${unit && unit !== "1" ? ` ${unit}` : ""}`));
-      const meter = element("meter");
-      meter.value = chance;
-      meter.setAttribute("aria-hidden", "true");
-      line.append(name, meter, element("span", "amount", percent(chance)));
+      const share = element("span", "share"), part = element("i");
+      part.style.width = `${100 * chance}%`;
+      share.append(part);
+      share.setAttribute("aria-hidden", "true");
+      line.append(name, share, element("span", "amount", percent(chance)));
       return line;
     }), ...(candidates.length > 6 ? [element("li", "", `and ${candidates.length - 6} more`)] : []));
   }

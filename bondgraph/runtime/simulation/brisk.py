@@ -14,14 +14,14 @@ from bondgraph.runtime.simulation.machine import Machine
 
 Array = npt.NDArray[np.float64]
 
-_COARSE = 1e-5  # relative tolerance of a step: finer than instruments are
+_COARSE = 1e-6  # relative tolerance of a step: finer than instruments are
 _STEPS = 20_000  # in one segment
 
 
 class Brisk:
     """As `Integrator`, with less around it: LSODA (Petzold, 1983) straight from ODEPACK.
 
-    A step is no finer than the tolerance 1e-5. What this cannot do, and all that a scenario names a
+    A step is no finer than the tolerance 1e-6. What this cannot do, and all that a scenario names a
     method for, is left to `Integrator`, which also says what went wrong.
     """
 
