@@ -40,6 +40,10 @@ class Wide:
         """See `Engine`."""
         self._engine.reset()
 
+    def follow(self, other: Engine) -> None:
+        """See `Engine`."""
+        self._engine.follow(other._engine if isinstance(other, Wide) else other)
+
     def configured(
         self,
         parameters: Mapping[str, float] | None = None,
