@@ -79,13 +79,33 @@ def khepera_encoders(F: Values) -> Signals:
         out[f"Fx[{j}]"] = force
         drop = F(f"{own}.el.Re") * current + d(F(f"{own}.el.L") * current)
         out[f"U0[{j}]"] = F(f"{own}.el.k") * rotor + drop
+    load = 1 + t / 4
+    return out | {"load": load} | _line(F, load, 3 + t**2 - t**5 / 2)
+
+
+def khepera_built(F: Values) -> Signals:
+    """Speeds and contact forces are chosen, the motors push what that takes."""
+    out: Signals = {}
+    for j, hub in ((1, 1 + t + t**2), (2, 2 - t**3 / 5)):
+        own = f"m[{j}]"
+        force = q(1, 2) + t / (2 + j)
+        rotor = F(f"{own}.ge.N") * hub
+        load = F(f"{own}.fs") * hub + d(F(f"{own}.Js") * hub) + F(f"{own}.R") * force
+        torque = load / F(f"{own}.ge.N") + F(f"{own}.fe") * rotor + d(F(f"{own}.Je") * rotor)
+        current = torque / F(f"{own}.el.k")
+        drop = F(f"{own}.el.Re") * current + d(F(f"{own}.el.L") * current)
+        out[f"U0[{j}]"] = F(f"{own}.el.k") * rotor + drop
+        out[f"{own}.motor"], out[f"Fx[{j}]"] = since_start(rotor), force
+    return out | _line(F, 0 * t, 3 + t**2 - t**5 / 2)
+
+
+def _line(F: Values, load: Series, Us: Series) -> Signals:
+    """The cable of the robots with numbers of their own, from its end to its beginning."""
     R, L, C = F("R_L"), q(5, 10**7), q(22, 10**11)
-    load, Us = 1 + t / 4, 3 + t**2 - t**5 / 2
     current = load + d(C * Us)
     voltage = Us + R / 2 * current + d(L / 2 * current)
     current = current + d(C * voltage)
-    out |= {"load": load, "Us": Us, "Uin": voltage + R / 2 * current + d(L / 2 * current)}
-    return out
+    return {"Us": Us, "Uin": voltage + R / 2 * current + d(L / 2 * current)}
 
 
 def rigid_gear(F: Values) -> Signals:

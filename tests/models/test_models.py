@@ -42,6 +42,7 @@ CASES = [
     Case("slider_crank", plants.slider_crank, 1),
     Case("oven", plants.oven, 2),
     Case("khepera_encoders", plants.khepera_encoders, 5),
+    Case("khepera_built", plants.khepera_built, 3),
 ]
 
 

@@ -31,6 +31,7 @@ from bondgraph.runtime.monitoring.tuning import Limit, Tuning, height, kappa
 from bondgraph.runtime.monitoring.verdict import Candidate, Verdict, listed
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset
+_MOST = 600  # rows since the onset that are compared
 _FORGET = 1000.0  # rows after which healthy operation counts a third
 _LEARNING = 30  # rows from which noise is learned where nobody has tuned
 _JUDGE = 5  # rows after an alarm before a fault is named
@@ -357,7 +358,7 @@ class Diagnosis:
         variance = np.divide(1.0, row.weight, out=np.full_like(row.weight, math.inf),
                              where=row.weight > 0) + (early * row.value) ** 2  # fmt: skip
         self._rows.append(Rows(row.value, 1.0 / variance, row.slopes, slopes))
-        del self._rows[: -int(_MEMORY)]
+        del self._rows[_MOST:]  # by then it is known as well as it will be
 
     # ------------------------------------------------------------------ judgement
 

@@ -19,10 +19,10 @@ import numpy as np
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.hypotheses import Hypothesis
 
-_SCALES = (0.1, 1.0, 10.0)  # of the usual change: how large a fault is, nobody knows before
+_SCALES = (0.1, 1.0, 10.0, 100.0)  # of the usual change: how large a fault is, nobody knows before
 _KEEP = 0.95  # correlation of a fault's change between neighbouring chunks
-_CHUNK = 4  # rows in which the change is taken as constant
-_PARTS = 15  # chunks at most: what was longer ago is left out
+_CHUNK = 4  # rows in which the change is taken as constant, at least
+_PARTS = 15  # chunks at most
 
 
 class Explained(NamedTuple):
@@ -95,7 +95,9 @@ def explain(rows: Rows, hypotheses: Sequence[Hypothesis], history: History) -> l
 
     Raises numpy.linalg.LinAlgError where numbers are too far apart.
     """
-    chunks = [rows.part(k, k + _CHUNK) for k in range(0, len(rows.value), _CHUNK)][-_PARTS:]
+    count = len(rows.value)
+    length = max(_CHUNK, -(-count // _PARTS))
+    chunks = [rows.part(k, k + length) for k in range(0, count, length)]
     matrix = history.information()
     vector = history.vector.copy()
     inner, cross, score = [], [], []

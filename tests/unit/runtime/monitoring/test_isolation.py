@@ -17,7 +17,7 @@ from bondgraph.runtime.monitoring.isolation import (
     probabilities,
 )
 
-_SCALES = (0.1, 1.0, 10.0)
+_SCALES = (0.1, 1.0, 10.0, 100.0)
 _CHUNK, _KEEP = 4, 0.95
 
 

@@ -1,0 +1,738 @@
+/* khepera_built_residuals.c: the residuals of KheperaBuilt; generated, see the header. */
+#include "khepera_built_residuals.h"
+
+
+#if defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__
+#error "this code tells numbers from NaN: compile it without -ffinite-math-only (-ffast-math)"
+#endif
+
+typedef khepera_built_real real;
+
+#define REAL(x) KHEPERA_BUILT_CONSTANT(x)
+#if defined KHEPERA_BUILT_FLOAT && !defined KHEPERA_BUILT_REAL
+#define SLOWEST REAL(0.0001)
+#else
+#define SLOWEST REAL(1.0e-09)
+#endif
+
+/* Neither NaN nor infinite: infinity minus infinity is NaN, and NaN is not 0. */
+static bool finite_number(real value)
+{
+    return value - value <= REAL(0.0);
+}
+
+/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
+static real exponential(real value)
+{
+    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
+    const real ln2_low = REAL(1.4286068203094173e-06);
+    real rest;
+    real scale = REAL(1.0);
+    real sum = REAL(1.0);
+    int n = 0;
+    int k;
+
+    if (value > REAL(1000.0)) {
+        value = REAL(1000.0); /* more than enough for infinity */
+    }
+    if (value < REAL(-1000.0)) {
+        value = REAL(-1000.0); /* more than enough for zero */
+    }
+    rest = value;
+    while (rest > REAL(0.35)) {
+        ++n;
+        scale *= REAL(2.0);
+        rest = value - (real)n * ln2_high;
+    }
+    while (rest < REAL(-0.35)) {
+        --n;
+        scale *= REAL(0.5);
+        rest = value - (real)n * ln2_high;
+    }
+    rest -= (real)n * ln2_low;
+    for (k = 14; k > 0; --k) {
+        sum = REAL(1.0) + sum * rest / (real)k;
+    }
+    return sum * scale;
+}
+
+/* Takes a count; the difference to the one before is right also when the counter runs over. */
+static void count_on(khepera_built_encoder *encoder, int32_t count)
+{
+    const uint32_t step = (uint32_t)count - encoder->count;
+
+    encoder->increment = step <= INT32_MAX ? (int32_t)step : -(int32_t)(UINT32_MAX - step) - 1;
+    encoder->total += encoder->increment;
+    encoder->count = (uint32_t)count;
+}
+
+/* Takes the first count. */
+static void count_from(khepera_built_encoder *encoder, int32_t count)
+{
+    encoder->count = (uint32_t)count;
+    encoder->increment = 0;
+    encoder->total = 0;
+}
+
+uint32_t khepera_built_abi(void)
+{
+    return KHEPERA_BUILT_ABI;
+}
+
+const char *khepera_built_digest(void)
+{
+    return KHEPERA_BUILT_DIGEST;
+}
+
+void khepera_built_nominal(khepera_built_parameters *parameters)
+{
+    parameters->R_L = REAL(0.85);             /* Ohm */
+    parameters->m__1__Je = REAL(1.4e-08);     /* kg.m^2 */
+    parameters->m__1__fe = REAL(1.0e-07);     /* N.m.s/rad */
+    parameters->m__1__Js = REAL(1.0e-05);     /* kg.m^2 */
+    parameters->m__1__fs = REAL(0.0003);      /* N.m.s/rad */
+    parameters->m__1__R = REAL(0.008);        /* m */
+    parameters->m__1__el__L = REAL(0.0003);   /* H */
+    parameters->m__1__el__Re = REAL(17.6);    /* Ohm */
+    parameters->m__1__el__k = REAL(0.00351);  /* N.m/A */
+    parameters->m__1__ge__N = REAL(25.0);     /* 1 */
+    parameters->m__2__Je = REAL(1.4e-08);     /* kg.m^2 */
+    parameters->m__2__fe = REAL(1.0e-07);     /* N.m.s/rad */
+    parameters->m__2__Js = REAL(1.0e-05);     /* kg.m^2 */
+    parameters->m__2__fs = REAL(0.0003);      /* N.m.s/rad */
+    parameters->m__2__R = REAL(0.008);        /* m */
+    parameters->m__2__el__L = REAL(0.0003);   /* H */
+    parameters->m__2__el__Re = REAL(17.6);    /* Ohm */
+    parameters->m__2__el__k = REAL(0.00351);  /* N.m/A */
+    parameters->m__2__ge__N = REAL(25.0);     /* 1 */
+}
+
+/* The coefficients of exact and of the filter, from the parameters. */
+static void compute_coefficients(khepera_built_monitor *monitor, const khepera_built_parameters *p,
+        real sample_time, real bandwidth)
+{
+    khepera_built_coefficients *c = &monitor->c;
+
+    /* bandwidth*sample_time */
+    const real x_ = bandwidth * sample_time;
+
+    /* khepera.bg:17: m[1].fe + m[1].fs/m[1].ge.N^2 */
+    const real t = p->m__1__fe + p->m__1__fs / p->m__1__ge__N / p->m__1__ge__N;
+
+    /* khepera.bg:17: m[1].Je + m[1].Js/m[1].ge.N^2 */
+    const real t_2 = p->m__1__Je + p->m__1__Js / p->m__1__ge__N / p->m__1__ge__N;
+
+    /* khepera.bg:17: m[1].el.L*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k */
+    const real t_3 = p->m__1__el__L * t / p->m__1__el__k;
+
+    /* khepera.bg:17: m[1].el.Re*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k */
+    const real t_4 = p->m__1__el__Re * t / p->m__1__el__k;
+
+    /* khepera.bg:17: m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)/m[1].el.k */
+    const real t_5 = p->m__1__el__Re * t_2 / p->m__1__el__k;
+
+    /* khepera.bg:17: m[2].fe + m[2].fs/m[2].ge.N^2 */
+    const real t_6 = p->m__2__fe + p->m__2__fs / p->m__2__ge__N / p->m__2__ge__N;
+
+    /* khepera.bg:17: m[2].Je + m[2].Js/m[2].ge.N^2 */
+    const real t_7 = p->m__2__Je + p->m__2__Js / p->m__2__ge__N / p->m__2__ge__N;
+
+    /* khepera.bg:17: m[2].el.L*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k */
+    const real t_8 = p->m__2__el__L * t_6 / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].el.Re*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k */
+    const real t_9 = p->m__2__el__Re * t_6 / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)/m[2].el.k */
+    const real t_10 = p->m__2__el__Re * t_7 / p->m__2__el__k;
+
+    /* exp(-x) */
+    const real t_11 = exponential(-x_);
+
+    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
+    const real t_12 = x_ < REAL(0.125)
+        ? x_ * (REAL(0.5)
+            - x_ * (REAL(1.0) / REAL(6.0)
+                - x_ * (REAL(1.0) / REAL(24.0)
+                    - x_ * (REAL(1.0) / REAL(120.0)
+                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
+        : REAL(1.0) - (REAL(1.0) - t_11) / x_;
+
+    /* 1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - ( ... */
+    const real t_13 = REAL(1.0) - t_12;
+
+    /* khepera.bg:17: (-m[1].el.L*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k - m[1].el.Re*(m[1].Je
+     * + m[1].Js/ ... */
+    const real t_14 = (-t_3 - t_5) * bandwidth;
+
+    /* khepera.bg:17: m[1].el.L*(m[1].Je + m[1].Js/m[1].ge.N^2)*bandwidth^2/m[1].el.k */
+    const real t_15 = p->m__1__el__L * t_2 * bandwidth * bandwidth / p->m__1__el__k;
+
+    /* khepera.bg:17: (-m[2].el.L*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k - m[2].el.Re*(m[2].Je
+     * + m[2].Js/ ... */
+    const real t_16 = (-t_8 - t_10) * bandwidth;
+
+    /* khepera.bg:17: m[2].el.L*(m[2].Je + m[2].Js/m[2].ge.N^2)*bandwidth^2/m[2].el.k */
+    const real t_17 = p->m__2__el__L * t_7 * bandwidth * bandwidth / p->m__2__el__k;
+
+    /* khepera.bg:17: r1: factor of m[1].motor': m[1].el.k + m[1].el.Re*(m[1].fe +
+     * m[1].fs/m[1].ge.N^2)/m[1].el.k */
+    c->r1_m__1__motor_1 = p->m__1__el__k + t_4;
+
+    /* khepera.bg:17: r1: factor of m[1].motor'': m[1].el.L*(m[1].fe +
+     * m[1].fs/m[1].ge.N^2)/m[1].el.k + m[1].el.Re*(m[1].Je + m[1].Js/m[ ... */
+    c->r1_m__1__motor_2 = t_3 + t_5;
+
+    /* khepera.bg:17: r1: factor of m[1].motor''': m[1].el.L*(m[1].Je +
+     * m[1].Js/m[1].ge.N^2)/m[1].el.k */
+    c->r1_m__1__motor_3 = p->m__1__el__L * t_2 / p->m__1__el__k;
+
+    /* khepera.bg:17: r1: factor of Fx[1]: m[1].R*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
+    c->r1_Fx__1 = p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+
+    /* khepera.bg:17: r1: factor of Fx[1]': m[1].R*m[1].el.L/(m[1].el.k*m[1].ge.N) */
+    c->r1_Fx__1_1 = p->m__1__R * p->m__1__el__L / p->m__1__el__k / p->m__1__ge__N;
+
+    /* speed of m[1].motor for one count */
+    c->m__1__motor_gain = REAL(884279719003555.0) * bandwidth * t_13 / REAL(3377699720527872.0);
+
+    /* filter: exp(-bandwidth*sample_time) */
+    c->a = t_11;
+
+    /* khepera.bg:17: r1: factor of m[1].motor in stage 1 */
+    c->r1_v1_m__1__motor = t_15;
+
+    /* khepera.bg:17: r1: factor of m[1].motor in stage 2 */
+    c->r1_v2_m__1__motor = t_14 + REAL(2.0) * t_15;
+
+    /* khepera.bg:17: r1: factor of m[1].motor in stage 3 */
+    c->r1_v3_m__1__motor = -p->m__1__el__k - t_4 - t_14 - t_15;
+
+    /* khepera.bg:17: r1: factor of Fx[1] in stage 3 */
+    c->r1_v3_Fx__1 = p->m__1__R * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N;
+
+    /* khepera.bg:17: r1: factor of Fx[1] in stage 4 */
+    c->r1_v4_Fx__1 = p->m__1__R * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N
+        - p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+
+    /* filter: weight of the new sample */
+    c->b0 = t_12;
+
+    /* filter: weight of the sample before */
+    c->b1 = REAL(1.0) - t_11 - t_12;
+
+    /* filter: 1 - b0, the memory of a constant 1 */
+    c->rest = t_13;
+
+    /* khepera.bg:17: r2: factor of m[2].motor': m[2].el.k + m[2].el.Re*(m[2].fe +
+     * m[2].fs/m[2].ge.N^2)/m[2].el.k */
+    c->r2_m__2__motor_1 = p->m__2__el__k + t_9;
+
+    /* khepera.bg:17: r2: factor of m[2].motor'': m[2].el.L*(m[2].fe +
+     * m[2].fs/m[2].ge.N^2)/m[2].el.k + m[2].el.Re*(m[2].Je + m[2].Js/m[ ... */
+    c->r2_m__2__motor_2 = t_8 + t_10;
+
+    /* khepera.bg:17: r2: factor of m[2].motor''': m[2].el.L*(m[2].Je +
+     * m[2].Js/m[2].ge.N^2)/m[2].el.k */
+    c->r2_m__2__motor_3 = p->m__2__el__L * t_7 / p->m__2__el__k;
+
+    /* khepera.bg:17: r2: factor of Fx[2]: m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
+    c->r2_Fx__2 = p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:17: r2: factor of Fx[2]': m[2].R*m[2].el.L/(m[2].el.k*m[2].ge.N) */
+    c->r2_Fx__2_1 = p->m__2__R * p->m__2__el__L / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:17: r2: factor of m[2].motor in stage 1 */
+    c->r2_v1_m__2__motor = t_17;
+
+    /* khepera.bg:17: r2: factor of m[2].motor in stage 2 */
+    c->r2_v2_m__2__motor = t_16 + REAL(2.0) * t_17;
+
+    /* khepera.bg:17: r2: factor of m[2].motor in stage 3 */
+    c->r2_v3_m__2__motor = -p->m__2__el__k - t_9 - t_16 - t_17;
+
+    /* khepera.bg:17: r2: factor of Fx[2] in stage 3 */
+    c->r2_v3_Fx__2 = p->m__2__R * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:17: r2: factor of Fx[2] in stage 4 */
+    c->r2_v4_Fx__2 = p->m__2__R * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N
+        - p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+
+    /* khepera.bg:114: r3: factor of Us': 3.3e-10*R_L */
+    c->r3_Us_1 = REAL(33.0) * p->R_L / REAL(100000000000.0);
+
+    /* khepera.bg:114: r3: factor of Us'': 1.21e-20*R_L^2 + 1.65e-16 */
+    c->r3_Us_2 = REAL(1.21e-20) * p->R_L * p->R_L + REAL(1.65e-16);
+
+    /* khepera.bg:114: r3: factor of Us''': 1.21e-26*R_L */
+    c->r3_Us_3 = REAL(1.21e-26) * p->R_L;
+}
+
+static bool parameters_are_finite(const khepera_built_parameters *p)
+{
+    return finite_number(p->R_L + p->m__1__Je + p->m__1__fe + p->m__1__Js + p->m__1__fs + p->m__1__R
+            + p->m__1__el__L + p->m__1__el__Re + p->m__1__el__k + p->m__1__ge__N + p->m__2__Je
+            + p->m__2__fe + p->m__2__Js + p->m__2__fs + p->m__2__R + p->m__2__el__L
+            + p->m__2__el__Re + p->m__2__el__k + p->m__2__ge__N);
+}
+
+static bool coefficients_are_finite(const khepera_built_monitor *monitor)
+{
+    return finite_number(monitor->c.r1_m__1__motor_1 + monitor->c.r1_m__1__motor_2
+            + monitor->c.r1_m__1__motor_3 + monitor->c.r1_Fx__1 + monitor->c.r1_Fx__1_1
+            + monitor->c.m__1__motor_gain + monitor->c.a + monitor->c.r1_v1_m__1__motor
+            + monitor->c.r1_v2_m__1__motor + monitor->c.r1_v3_m__1__motor + monitor->c.r1_v3_Fx__1
+            + monitor->c.r1_v4_Fx__1 + monitor->c.b0 + monitor->c.b1 + monitor->c.rest
+            + monitor->c.r2_m__2__motor_1 + monitor->c.r2_m__2__motor_2
+            + monitor->c.r2_m__2__motor_3 + monitor->c.r2_Fx__2 + monitor->c.r2_Fx__2_1
+            + monitor->c.r2_v1_m__2__motor + monitor->c.r2_v2_m__2__motor
+            + monitor->c.r2_v3_m__2__motor + monitor->c.r2_v3_Fx__2 + monitor->c.r2_v4_Fx__2
+            + monitor->c.r3_Us_1 + monitor->c.r3_Us_2 + monitor->c.r3_Us_3);
+}
+
+/* Samples until `constants` time constants of the filter are over. */
+static uint32_t samples(real constants, real sample_time, real bandwidth)
+{
+    const real wait = constants / (bandwidth * sample_time);
+    const uint32_t whole = wait < REAL(4.0e9) ? (uint32_t)wait : UINT32_MAX - 1u;
+
+    return (real)whole < wait ? whole + 1u : whole;
+}
+
+khepera_built_status khepera_built_configure(
+    khepera_built_monitor *monitor,
+    const khepera_built_parameters *parameters,
+    khepera_built_real sample_time,
+    khepera_built_real bandwidth,
+    khepera_built_real time_unit)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_BUILT_RESIDUALS; ++k) {
+        monitor->settle[k] = UINT32_MAX;
+    }
+    khepera_built_reset(monitor);
+    if (!parameters_are_finite(parameters)) {
+        return KHEPERA_BUILT_BAD_PARAMETER;
+    }
+    if (!(sample_time >= REAL(0.000999999)) || !finite_number(sample_time)) {
+        return KHEPERA_BUILT_BAD_SAMPLE_TIME;
+    }
+    if (!(bandwidth * sample_time >= SLOWEST && bandwidth * sample_time <= REAL(3.0))) {
+        return KHEPERA_BUILT_BAD_BANDWIDTH;
+    }
+    if (!(time_unit > REAL(0.0)) || !finite_number(time_unit)) {
+        return KHEPERA_BUILT_BAD_TIME_UNIT;
+    }
+    compute_coefficients(monitor, parameters, sample_time, bandwidth);
+    if (!coefficients_are_finite(monitor)) {
+        return KHEPERA_BUILT_BAD_COEFFICIENT;
+    }
+    monitor->settle[KHEPERA_BUILT_R1] = samples(REAL(13.062240779188071), sample_time, bandwidth);
+    monitor->settle[KHEPERA_BUILT_R2] = samples(REAL(13.062240779188071), sample_time, bandwidth);
+    monitor->settle[KHEPERA_BUILT_R3] = samples(REAL(6.907755278982138), sample_time, bandwidth);
+    return KHEPERA_BUILT_OK;
+}
+
+void khepera_built_exact(
+    const khepera_built_monitor *monitor,
+    const khepera_built_derivatives *derivatives,
+    khepera_built_real residuals[KHEPERA_BUILT_RESIDUALS])
+{
+    const khepera_built_coefficients *c = &monitor->c;
+    const khepera_built_derivatives *d = derivatives;
+    real *r = residuals;
+
+    /* khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
+     * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
+     * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
+     * m[1].fs*D(m[1].motor)/m[1].ge.N + m[1].Js*D(m[1].motor, 2)/m[1].ge.N)/m[1].ge.N */
+    r[KHEPERA_BUILT_R1] = d->U0__1 - c->r1_m__1__motor_1 * d->m__1__motor[1]
+        - c->r1_m__1__motor_2 * d->m__1__motor[2] - c->r1_m__1__motor_3 * d->m__1__motor[3]
+        - c->r1_Fx__1 * d->Fx__1[0] - c->r1_Fx__1_1 * d->Fx__1[1];
+
+    /* khepera.bg:17: r2 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
+     * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
+     * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
+     * m[2].fs*D(m[2].motor)/m[2].ge.N + m[2].Js*D(m[2].motor, 2)/m[2].ge.N)/m[2].ge.N */
+    r[KHEPERA_BUILT_R2] = d->U0__2 - c->r2_m__2__motor_1 * d->m__2__motor[1]
+        - c->r2_m__2__motor_2 * d->m__2__motor[2] - c->r2_m__2__motor_3 * d->m__2__motor[3]
+        - c->r2_Fx__2 * d->Fx__2[0] - c->r2_Fx__2_1 * d->Fx__2[1];
+
+    /* khepera.bg:114: r3 = Uin - line.cell[1].mid.e - R_L*line.cell[1].left.f/2 -
+     * D(line.cell[1].left.f)/4000000
+     * where line.cell[1].left.f = 2.2e-10*D(Us) + 2.2e-10*D(line.cell[1].mid.e)
+     * line.cell[1].mid.e = Us + 1.1e-10*R_L*D(Us) + 5.5e-17*D(Us, 2) */
+    r[KHEPERA_BUILT_R3] = d->Uin - d->Us[0] - c->r3_Us_1 * d->Us[1] - c->r3_Us_2 * d->Us[2]
+        - c->r3_Us_3 * d->Us[3] - REAL(3.025e-33) * d->Us[4];
+}
+
+/* r1 on its first sample: the filter as if it had always been so. */
+static void start_r1(
+    khepera_built_monitor *monitor, const khepera_built_samples *s, real *r)
+{
+    const khepera_built_coefficients *c = &monitor->c;
+    khepera_built_memory *x = &monitor->x;
+
+    count_from(&monitor->e.m__1__motor, s->m__1__motor);
+
+    /* khepera.bg:17: filtered speed of m[1].motor, at rest */
+    const real r1_m__1__motor_speed_2 = REAL(0.0);
+
+    /* khepera.bg:17: filtered speed of m[1].motor */
+    x->r1_m__1__motor_speed = r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: input of stage 4 */
+    const real r1_u4 = s->U0__1 + c->r1_v4_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: stage 4, at rest */
+    const real r1_y4 = r1_u4;
+
+    /* khepera.bg:17: r1: stage 4: memory */
+    x->r1_s4 = c->rest * r1_u4;
+
+    /* khepera.bg:17: r1: input of stage 3 */
+    const real r1_u3 = r1_y4 + c->r1_v3_m__1__motor * r1_m__1__motor_speed_2
+        - c->r1_v3_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: stage 3, at rest */
+    const real r1_y3 = r1_u3;
+
+    /* khepera.bg:17: r1: stage 3: memory */
+    x->r1_s3 = c->rest * r1_u3;
+
+    /* khepera.bg:17: r1: input of stage 2 */
+    const real r1_u2 = r1_y3 + c->r1_v2_m__1__motor * r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: stage 2, at rest */
+    const real r1_y2 = r1_u2;
+
+    /* khepera.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->rest * r1_u2;
+
+    /* khepera.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_m__1__motor * r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: stage 1, at rest */
+    const real r1_y1 = r1_u1;
+
+    /* khepera.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->rest * r1_u1;
+
+    /* khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
+     * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
+     * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
+     * m[1].fs*D(m[1].motor)/m[1].ge.N + m[1].Js*D(m[1].motor, 2)/m[1].ge.N)/m[1].ge.N */
+    r[KHEPERA_BUILT_R1] = r1_y1;
+}
+
+/* r1 on every further sample. */
+static void next_r1(
+    khepera_built_monitor *monitor, const khepera_built_samples *s, real *r)
+{
+    const khepera_built_coefficients *c = &monitor->c;
+    khepera_built_memory *x = &monitor->x;
+    const khepera_built_encoders *e = &monitor->e;
+
+    count_on(&monitor->e.m__1__motor, s->m__1__motor);
+
+    /* khepera.bg:17: filtered speed of m[1].motor */
+    const real r1_m__1__motor_speed_2 = c->a * x->r1_m__1__motor_speed
+        + c->m__1__motor_gain * (real)e->m__1__motor.increment;
+    x->r1_m__1__motor_speed = r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: input of stage 4 */
+    const real r1_u4 = s->U0__1 + c->r1_v4_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: stage 4 */
+    const real r1_y4 = x->r1_s4 + c->b0 * r1_u4;
+
+    /* khepera.bg:17: r1: stage 4: memory */
+    x->r1_s4 = c->a * r1_y4 + c->b1 * r1_u4;
+
+    /* khepera.bg:17: r1: input of stage 3 */
+    const real r1_u3 = r1_y4 + c->r1_v3_m__1__motor * r1_m__1__motor_speed_2
+        - c->r1_v3_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: stage 3 */
+    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+
+    /* khepera.bg:17: r1: stage 3: memory */
+    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+
+    /* khepera.bg:17: r1: input of stage 2 */
+    const real r1_u2 = r1_y3 + c->r1_v2_m__1__motor * r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: stage 2 */
+    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+
+    /* khepera.bg:17: r1: stage 2: memory */
+    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+
+    /* khepera.bg:17: r1: input of stage 1 */
+    const real r1_u1 = r1_y2 - c->r1_v1_m__1__motor * r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: stage 1 */
+    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+
+    /* khepera.bg:17: r1: stage 1: memory */
+    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+
+    /* khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
+     * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
+     * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
+     * m[1].fs*D(m[1].motor)/m[1].ge.N + m[1].Js*D(m[1].motor, 2)/m[1].ge.N)/m[1].ge.N */
+    r[KHEPERA_BUILT_R1] = r1_y1;
+}
+
+/* One sample for r1; a number that is not finite makes the next sample the first. */
+static void run_r1(
+    khepera_built_monitor *monitor, const khepera_built_samples *s, khepera_built_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[0];
+
+    if (age == 0u) {
+        start_r1(monitor, s, r);
+    } else {
+        next_r1(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx__1 + s->U0__1 + r[KHEPERA_BUILT_R1])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_BUILT_R1] = REAL(0.0);
+    }
+    monitor->age[0] = age;
+    residuals->valid[KHEPERA_BUILT_R1] = age > monitor->settle[KHEPERA_BUILT_R1];
+}
+
+/* r2 on its first sample: the filter as if it had always been so. */
+static void start_r2(
+    khepera_built_monitor *monitor, const khepera_built_samples *s, real *r)
+{
+    const khepera_built_coefficients *c = &monitor->c;
+    khepera_built_memory *x = &monitor->x;
+
+    count_from(&monitor->e.m__2__motor, s->m__2__motor);
+
+    /* khepera.bg:17: filtered speed of m[2].motor, at rest */
+    const real r2_m__2__motor_speed_2 = REAL(0.0);
+
+    /* khepera.bg:17: filtered speed of m[2].motor */
+    x->r2_m__2__motor_speed = r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: input of stage 4 */
+    const real r2_u4 = s->U0__2 + c->r2_v4_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2: stage 4, at rest */
+    const real r2_y4 = r2_u4;
+
+    /* khepera.bg:17: r2: stage 4: memory */
+    x->r2_s4 = c->rest * r2_u4;
+
+    /* khepera.bg:17: r2: input of stage 3 */
+    const real r2_u3 = r2_y4 + c->r2_v3_m__2__motor * r2_m__2__motor_speed_2
+        - c->r2_v3_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2: stage 3, at rest */
+    const real r2_y3 = r2_u3;
+
+    /* khepera.bg:17: r2: stage 3: memory */
+    x->r2_s3 = c->rest * r2_u3;
+
+    /* khepera.bg:17: r2: input of stage 2 */
+    const real r2_u2 = r2_y3 + c->r2_v2_m__2__motor * r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: stage 2, at rest */
+    const real r2_y2 = r2_u2;
+
+    /* khepera.bg:17: r2: stage 2: memory */
+    x->r2_s2 = c->rest * r2_u2;
+
+    /* khepera.bg:17: r2: input of stage 1 */
+    const real r2_u1 = r2_y2 - c->r2_v1_m__2__motor * r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: stage 1, at rest */
+    const real r2_y1 = r2_u1;
+
+    /* khepera.bg:17: r2: stage 1: memory */
+    x->r2_s1 = c->rest * r2_u1;
+
+    /* khepera.bg:17: r2 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
+     * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
+     * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
+     * m[2].fs*D(m[2].motor)/m[2].ge.N + m[2].Js*D(m[2].motor, 2)/m[2].ge.N)/m[2].ge.N */
+    r[KHEPERA_BUILT_R2] = r2_y1;
+}
+
+/* r2 on every further sample. */
+static void next_r2(
+    khepera_built_monitor *monitor, const khepera_built_samples *s, real *r)
+{
+    const khepera_built_coefficients *c = &monitor->c;
+    khepera_built_memory *x = &monitor->x;
+    const khepera_built_encoders *e = &monitor->e;
+
+    count_on(&monitor->e.m__2__motor, s->m__2__motor);
+
+    /* khepera.bg:17: filtered speed of m[2].motor */
+    const real r2_m__2__motor_speed_2 = c->a * x->r2_m__2__motor_speed
+        + c->m__1__motor_gain * (real)e->m__2__motor.increment;
+    x->r2_m__2__motor_speed = r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: input of stage 4 */
+    const real r2_u4 = s->U0__2 + c->r2_v4_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2: stage 4 */
+    const real r2_y4 = x->r2_s4 + c->b0 * r2_u4;
+
+    /* khepera.bg:17: r2: stage 4: memory */
+    x->r2_s4 = c->a * r2_y4 + c->b1 * r2_u4;
+
+    /* khepera.bg:17: r2: input of stage 3 */
+    const real r2_u3 = r2_y4 + c->r2_v3_m__2__motor * r2_m__2__motor_speed_2
+        - c->r2_v3_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2: stage 3 */
+    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+
+    /* khepera.bg:17: r2: stage 3: memory */
+    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+
+    /* khepera.bg:17: r2: input of stage 2 */
+    const real r2_u2 = r2_y3 + c->r2_v2_m__2__motor * r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: stage 2 */
+    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+
+    /* khepera.bg:17: r2: stage 2: memory */
+    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+
+    /* khepera.bg:17: r2: input of stage 1 */
+    const real r2_u1 = r2_y2 - c->r2_v1_m__2__motor * r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: stage 1 */
+    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+
+    /* khepera.bg:17: r2: stage 1: memory */
+    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+
+    /* khepera.bg:17: r2 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
+     * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
+     * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
+     * m[2].fs*D(m[2].motor)/m[2].ge.N + m[2].Js*D(m[2].motor, 2)/m[2].ge.N)/m[2].ge.N */
+    r[KHEPERA_BUILT_R2] = r2_y1;
+}
+
+/* One sample for r2; a number that is not finite makes the next sample the first. */
+static void run_r2(
+    khepera_built_monitor *monitor, const khepera_built_samples *s, khepera_built_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[1];
+
+    if (age == 0u) {
+        start_r2(monitor, s, r);
+    } else {
+        next_r2(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Fx__2 + s->U0__2 + r[KHEPERA_BUILT_R2])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_BUILT_R2] = REAL(0.0);
+    }
+    monitor->age[1] = age;
+    residuals->valid[KHEPERA_BUILT_R2] = age > monitor->settle[KHEPERA_BUILT_R2];
+}
+
+/* r3 on its first sample: the filter as if it had always been so. */
+static void start_r3(
+    khepera_built_monitor *monitor, const khepera_built_samples *s, real *r)
+{
+    const khepera_built_coefficients *c = &monitor->c;
+    khepera_built_memory *x = &monitor->x;
+
+    /* khepera.bg:114: r3: input of stage 1 */
+    const real r3_u1 = s->Uin - s->Us;
+
+    /* khepera.bg:114: r3: stage 1, at rest */
+    const real r3_y1 = r3_u1;
+
+    /* khepera.bg:114: r3: stage 1: memory */
+    x->r3_s1 = c->rest * r3_u1;
+
+    /* khepera.bg:114: r3 = Uin - line.cell[1].mid.e - R_L*line.cell[1].left.f/2 -
+     * D(line.cell[1].left.f)/4000000
+     * where line.cell[1].left.f = 2.2e-10*D(Us) + 2.2e-10*D(line.cell[1].mid.e)
+     * line.cell[1].mid.e = Us + 1.1e-10*R_L*D(Us) + 5.5e-17*D(Us, 2) */
+    r[KHEPERA_BUILT_R3] = r3_y1;
+}
+
+/* r3 on every further sample. */
+static void next_r3(
+    khepera_built_monitor *monitor, const khepera_built_samples *s, real *r)
+{
+    const khepera_built_coefficients *c = &monitor->c;
+    khepera_built_memory *x = &monitor->x;
+
+    /* khepera.bg:114: r3: input of stage 1 */
+    const real r3_u1 = s->Uin - s->Us;
+
+    /* khepera.bg:114: r3: stage 1 */
+    const real r3_y1 = x->r3_s1 + c->b0 * r3_u1;
+
+    /* khepera.bg:114: r3: stage 1: memory */
+    x->r3_s1 = c->a * r3_y1 + c->b1 * r3_u1;
+
+    /* khepera.bg:114: r3 = Uin - line.cell[1].mid.e - R_L*line.cell[1].left.f/2 -
+     * D(line.cell[1].left.f)/4000000
+     * where line.cell[1].left.f = 2.2e-10*D(Us) + 2.2e-10*D(line.cell[1].mid.e)
+     * line.cell[1].mid.e = Us + 1.1e-10*R_L*D(Us) + 5.5e-17*D(Us, 2) */
+    r[KHEPERA_BUILT_R3] = r3_y1;
+}
+
+/* One sample for r3; a number that is not finite makes the next sample the first. */
+static void run_r3(
+    khepera_built_monitor *monitor, const khepera_built_samples *s, khepera_built_residuals *residuals)
+{
+    real *r = residuals->value;
+    uint32_t age = monitor->age[2];
+
+    if (age == 0u) {
+        start_r3(monitor, s, r);
+    } else {
+        next_r3(monitor, s, r);
+    }
+    /* a sum is finite only if all its terms are */
+    if (finite_number(s->Uin + s->Us + r[KHEPERA_BUILT_R3])) {
+        age += age < UINT32_MAX ? 1u : 0u;
+    } else {
+        age = 0u;
+        r[KHEPERA_BUILT_R3] = REAL(0.0);
+    }
+    monitor->age[2] = age;
+    residuals->valid[KHEPERA_BUILT_R3] = age > monitor->settle[KHEPERA_BUILT_R3];
+}
+
+void khepera_built_reset(khepera_built_monitor *monitor)
+{
+    int k;
+
+    for (k = 0; k < 3; ++k) {
+        monitor->age[k] = 0u;
+    }
+}
+
+void khepera_built_step(
+    khepera_built_monitor *monitor,
+    const khepera_built_samples *samples,
+    khepera_built_residuals *residuals)
+{
+    run_r1(monitor, samples, residuals);
+    run_r2(monitor, samples, residuals);
+    run_r3(monitor, samples, residuals);
+}
