@@ -97,6 +97,7 @@ WRONG = {
     '[[fault]]\nof = "R"\nchange = "*= 2"\nat = 1\nuntil = ~0.5~': "scenario-value",
     '[[fault]]\nof = "R"\nchange = "*= 2"\nperiod = "1 s"\nduty = ~1.5~': "scenario-value",
     '[[fault]]\nof = "R"\nchange = "*= 2"\nwhen = ~1~': "scenario-key",
+    'duration = 9\n[[fault]]\nof = "R"\nchange = "*= 2"\nperiod = "~1 us~"': "scenario-value",
     '[[fault]]\nevent = "~fire~"': "scenario-name",
     '[plane]\nx = "~x~"\ny = "y"': "scenario-name",
     "[desired]\nspeeed = ~1~": "scenario-name",

@@ -280,6 +280,7 @@ def test_transformers_in_a_ring(back: float) -> None:
         ("0:n\nn -> C:a(q0 = 1) = 1\nn -> R:pump { f = -e^2 }", "", ("without bound", "1 s")),
         (f"{LOOP}\ni -> R:x {{ e = f + f^2 }}", 'inputs.U = "-t"', ("`x`", "1 s")),
         ("Se:U -> 1:i\ni -> C:c = 1\ni -> R:r = 1", 'inputs.U = "log(0.5 - t)"', ("`U`", "0.5")),
+        ("Se:F -> 1:w\nw -> I:M = 1\nw -> R:d { e = 2*sign(f) }", "inputs.F = 1", ("`tanh`",)),
         ("param R0 : Ohm\nSe:U -> 1:i\ni -> R:R0\ni -> C:c = 1", "", ("`R0`",)),
     ],
 )  # fmt: skip

@@ -7,8 +7,6 @@ from collections.abc import Iterable, Sequence
 
 from bondgraph.runtime.simulation.scenario import Fault
 
-_EDGES = 10_000  # of an intermittent fault
-
 
 class Wrong:
     """All faults of one target, in the order given.
@@ -113,7 +111,7 @@ def edges(faults: Iterable[Fault], end: float) -> list[float]:
             found.add(fault.at + fault.ramp)
         if fault.period:
             stop = min(fault.until, end)
-            count = min(_EDGES, int((stop - fault.at) / fault.period) + 1)
+            count = int((stop - fault.at) / fault.period) + 1
             for k in range(max(count, 0)):
                 found |= {fault.at + k * fault.period, fault.at + (k + fault.duty) * fault.period}
     return sorted(t for t in found if 0 < t < end)

@@ -19,6 +19,9 @@ _ABSOLUTE = 0.1  # of the relative tolerance, in units of the effort or flow of 
 _SPARSE = 60  # states from which on it pays to know which rate depends on which state
 _MANY = 300  # states from which on eigenvalues cost more than they tell
 _BEYOND = 1e100  # a rate that no machine has
+_LARGE = 1e5  # units of effort or flow: a state that runs away
+_START = 30_000  # rates, after which it can be told whether it will ever end
+_CALLS = 5e8  # rates in a segment: hours
 _PATIENCE = 2000  # such rates in a row, from which on a method will not find back
 _OFTEN = 100  # rates between two words about how far it is
 _RINGING = 1e5  # periods of one mode in a run: too many to follow
@@ -65,21 +68,19 @@ class Integrator:
         ends = np.clip([*wanted, b], a, b)
         at = np.unique(ends)
         for method in dict.fromkeys((self.method, "Radau")):
-            tried = _Tried(machine, inputs, self.tell)
-            found = self._solved(method, tried, (a, b), x, at)
+            tried = _Tried(machine, inputs, (a, b), self.tell)
+            found = self._solved(method, tried, x, at)
             if found is not None:
                 return np.asarray(found[np.searchsorted(at, ends)])
         raise SimulationError(f"the run ends at {tried.t:.6g} s: {tried.trouble()}")
 
-    def _solved(
-        self, method: str, tried: _Tried, span: tuple[float, float], x: Array, at: Array
-    ) -> Array | None:
+    def _solved(self, method: str, tried: _Tried, x: Array, at: Array) -> Array | None:
         from scipy.integrate import solve_ivp
 
         machine = tried.machine
         options: dict[str, Any] = {
             "rtol": self.tolerance,
-            "atol": _ABSOLUTE * self.tolerance * self._scale(tried, span[0], x),
+            "atol": _ABSOLUTE * self.tolerance * self._scale(tried, x),
         }
         if method in ("Radau", "BDF") and len(x) >= _SPARSE:
             options["jac_sparsity"] = machine.pattern()
@@ -87,16 +88,16 @@ class Integrator:
             with np.errstate(all="ignore"), warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 found = solve_ivp(
-                    tried, span, x, method, t_eval=at, max_step=self.longest, **options
+                    tried, tried.span, x, method, t_eval=at, max_step=self.longest, **options
                 )
         except (ValueError, _Standstill):  # a slope that is no number is a ValueError of scipy
             return None
         whole = found.status == 0 and np.isfinite(found.y).all()
         return np.asarray(found.y.T) if whole else None
 
-    def _scale(self, tried: _Tried, t: float, x: Array) -> Array:
+    def _scale(self, tried: _Tried, x: Array) -> Array:
         """How much of each state matters, as it is where a machine runs for the first time."""
-        machine = tried.machine
+        machine, t = tried.machine, tried.span[0]
         if machine not in self._scales:
             self._scales[machine] = machine.scale(t, x.tolist(), tried.inputs(t))
         return self._scales[machine]
@@ -117,8 +118,14 @@ class _Standstill(Exception):
 class _Tried:
     """The rates as scipy asks for them; remembers where it asked last and where there were none."""
 
-    def __init__(self, machine: Machine, inputs: Inputs, tell: Callable[[float], None]) -> None:
-        self.machine, self.inputs, self.tell = machine, inputs, tell
+    def __init__(
+        self,
+        machine: Machine,
+        inputs: Inputs,
+        span: tuple[float, float],
+        tell: Callable[[float], None],
+    ) -> None:
+        self.machine, self.inputs, self.span, self.tell = machine, inputs, span, tell
         self.calls = 0
         self.t = 0.0
         self.x: list[float] = []
@@ -130,6 +137,9 @@ class _Tried:
         self.calls += 1
         if not self.calls % _OFTEN:
             self.tell(t)
+            share = (t - self.span[0]) / (self.span[1] - self.span[0])
+            if self.calls > _START and share * _CALLS < self.calls:
+                raise _Standstill
         found = self.machine.rates(t, state, self.inputs(t))
         bad = not sum(map(abs, found)) < _BEYOND  # also where one of them is no number
         self._in_vain = self._in_vain + 1 if bad else 0
@@ -142,5 +152,13 @@ class _Tried:
 
     def trouble(self) -> str:
         """Why it cannot go on."""
-        found = self.machine.trouble(self.t, self.x, self.inputs(self.t)) if self.failed else ""
-        return found or "the solution grows without bound"
+        u = self.inputs(self.t)
+        found = self.machine.trouble(self.t, self.x, u) if self.failed else ""
+        if found:
+            return found
+        if (np.abs(self.x) > _LARGE * self.machine.scale(self.t, self.x, u)).any():
+            return "the solution grows without bound"
+        return (
+            "steps become too small to go on; a law that jumps where the machine would rest"
+            " (`sign`, `if`) does that, a steep `tanh` does not"
+        )

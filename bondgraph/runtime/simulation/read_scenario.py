@@ -30,6 +30,7 @@ from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Source, Span
 
 STARTS = ("initial", "steady")
+_TIMES = 20_000  # that a fault comes and goes; every time is a new start of integration
 METHODS = ("auto", "LSODA", "Radau", "BDF", "DOP853", "RK45", "RK23")
 
 
@@ -79,13 +80,14 @@ class _Reader:
         parameters = self._parameters(top.table("parameters"))
         self.document.values = Values(self.graph, parameters)
         sampling = self._sampling(top.table("sampling"))
+        duration = top.number("duration", SECOND, 10.0, 0.0, 1e7, above=True)
         inputs, modes = self._inputs(top.table("inputs"))
         controllers = tuple(self._controller(t, sampling) for t in top.tables("controller"))
-        faults = tuple(f for t in top.tables("fault") for f in self._fault(t))
+        faults = tuple(f for t in top.tables("fault") for f in self._fault(t, duration))
         scenario = Scenario(
             name=name,
             doc=doc,
-            duration=top.number("duration", SECOND, 10.0, 0.0, 1e7, above=True),
+            duration=duration,
             seed=top.whole("seed", 1),
             start="steady" if top.text("start", "initial", STARTS) == "steady" else "initial",
             spread="uniform" if top.text("spread", "none", ("none", "uniform")) == "uniform"
@@ -227,13 +229,16 @@ class _Reader:
         table.finish()
         return sampling
 
-    def _fault(self, table: Table) -> list[Fault]:
+    def _fault(self, table: Table, duration: float) -> list[Fault]:
         event, of = table.text("event"), table.text("of")
         label = table.text("label")
         at = table.number("at", SECOND, 0.0, 0.0)
         until = table.number("until", SECOND, math.inf, at, above=True)
         ramp = table.number("ramp", SECOND, 0.0, 0.0)
         period = table.number("period", SECOND, 0.0, 0.0)
+        if period and (min(until, duration) - at) / period > _TIMES:
+            table.wrong("period", f"The fault comes and goes more than {_TIMES} times.",
+                        "What changes that fast is seen as its mean: take that.")  # fmt: skip
         duty = table.number("duty", PURE, 0.5, 0.0, 1.0)
         op: Change = "+="
         value, target = 0.0, of
