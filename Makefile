@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check lint types imports docs wheel bench update fuzz random clean
+.PHONY: help run demo robots test check lint types imports docs wheel bench update fuzz random clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -30,6 +30,17 @@ $(VENV)/dev.stamp: requirements-dev.lock $(VENV)/run.stamp
 
 run: $(VENV)/run.stamp ## compile MODEL (the robot) and print its residuals, signatures and files
 	@$(BIN)/bondgraph compile $(MODEL)
+
+# The paper's experiments on a virtual robot. Pages open in a browser where there is a display.
+EXPERIMENTS := normal actuator cable
+demo: $(VENV)/run.stamp ## the paper's experiments: simulated, watched, written as pages in demo/
+	@mkdir -p demo
+	@$(BIN)/bondgraph report models/khepera_encoders.bg -o demo/khepera.html \
+	$(EXPERIMENTS:%=--scenario models/scenarios/paper_%.toml)
+	@$(BIN)/bondgraph report models/khepera_built.bg -o demo/khepera_as_built.html \
+	--scenario models/scenarios/paper_cable_unloaded.toml 2> /dev/null
+	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] && command -v xdg-open > /dev/null; then \
+	xdg-open demo/khepera.html; else echo "open demo/khepera.html in a browser"; fi
 
 test: $(VENV)/dev.stamp ## all tests
 	$(BIN)/python -m pytest $(TESTS)
@@ -76,6 +87,9 @@ fuzz: $(VENV)/dev.stamp ## 100 000 broken models through `check`
 
 random: $(VENV)/dev.stamp ## 10 000 random bond graphs, each verified or refused with a reason
 	$(BIN)/python -m tests.random.run --count 10000 --jobs 2
+
+robots: $(VENV)/dev.stamp ## a hundred healthy robots and many faulty ones through the monitor; hours
+	$(BIN)/python -m tests.robots.run --healthy 100 --minutes 2 --seeds 20 --jobs 2
 
 clean: ## remove what this file made
 	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

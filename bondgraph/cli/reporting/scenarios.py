@@ -71,7 +71,7 @@ def played(compilation: Compilation, path: str, progress: Callable[[float], None
         time,
         () if seen is None else tuple(_traces(compilation, seen)),
         tuple(_panels(compilation, run, seen)),
-        tuple(_planes(run)),
+        tuple(_planes(compilation, run)),
         tuple(sorted(_marks(scenario))),
         () if seen is None else tuple(_said(seen)),
         tuple(_facts(run)),
@@ -133,12 +133,50 @@ def _panels(compilation: Compilation, run: Run, seen: Watched | None) -> Iterato
         yield Panel(some[0].name if len(some) == 1 else "signals", unit, some)
 
 
-def _planes(run: Run) -> Iterator[Plane]:
-    """The way of a vehicle in the plane."""
+def _planes(compilation: Compilation, run: Run) -> Iterator[Plane]:
+    """The way of a vehicle in the plane: as it should be, by its signals, and a healthy twin's."""
+    from bondgraph.runtime.simulation.trajectory import Desired, Reckoning
+    from bondgraph.runtime.simulation.values import Values
+
     plane = run.scenario.plane
-    if plane is not None:
-        driven = Curve("driven", run.truth.columns[plane.x], run.truth.columns[plane.y])
-        yield Plane("The way in the plane", f"{plane.x} in m", f"{plane.y} in m", (driven,))
+    if plane is None:
+        return
+    values = Values(compilation.graph, run.scenario.parameters)
+    names = (plane.x, plane.y)
+    curves = []
+    desired = Desired(compilation.equations, run.scenario, values)
+    wanted = Reckoning(compilation.equations, names, values, counts=False)
+    if len(wanted.names) == 2 and set(wanted.signals) <= set(desired.names):
+        way = wanted.feed(run.log.time, desired.at(run.log.time))
+        curves.append(Curve("desired", way[plane.x], way[plane.y]))
+    twin = compilation.simulate(healthy_twin(run))
+    curves.append(Curve("virtual", twin.truth.columns[plane.x], twin.truth.columns[plane.y]))
+    reckoned = Reckoning(compilation.equations, names, values)
+    if len(reckoned.names) == 2:
+        way = reckoned.feed(run.log.time, run.log.columns)
+        curves.append(Curve("real", way[plane.x], way[plane.y]))
+    yield Plane("The way in the plane", f"{plane.x} in m", f"{plane.y} in m", tuple(curves))
+
+
+def healthy_twin(run: Run) -> Scenario:
+    """The nominal machine under the same commands, with nothing wrong and perfect instruments."""
+    from bondgraph.runtime.simulation.scenario import Course, Sampling
+
+    scenario = run.scenario
+    driven = {}
+    for controller in scenario.controllers:
+        column = run.log.columns[controller.input]
+        jumps = np.concatenate([[True], np.diff(column) != 0])
+        points = zip(run.log.time[jumps].tolist(), column[jumps].tolist(), strict=True)
+        driven[controller.input] = Course(None, tuple(points), hold=True)
+    return scenario._replace(
+        faults=(),
+        spread="none",
+        controllers=(),
+        instruments={},
+        inputs={**scenario.inputs, **driven},
+        sampling=Sampling(scenario.sampling.rate),
+    )
 
 
 def _marks(scenario: Scenario) -> Iterator[Mark]:
