@@ -180,9 +180,7 @@ def source(args: Namespace, samples: Address | None) -> Source:
     return Pipe(form) if name == "-" else file_source(name, form, args.follow)
 
 
-def decided(
-    compilation: Compilation, floor: dict[str, float]
-) -> Callable[[Engine], Decision]:
+def decided(compilation: Compilation, floor: dict[str, float]) -> Callable[[Engine], Decision]:
     """What makes the decision of one watch; raises Trouble where there is nothing to watch."""
     from bondgraph.runtime.monitoring.decision import Threshold
 

@@ -142,6 +142,11 @@ def test_resolution_bias_noise_and_a_slow_instrument() -> None:
     assert abs(np.corrcoef(noise[:-1], noise[1:])[0, 1]) < 0.08
 
 
+def test_an_instrument_that_is_slower_than_the_run_shows_its_first_reading() -> None:
+    found = run(ROTOR, "duration = 1\nsampling.rate = 10\ninputs.T = 1\nsensors.y.rate = 1e-300")
+    assert found.log.columns["y"].tolist() == [0.0] * 11
+
+
 def test_jitter_is_in_the_time_stamps_and_lost_samples_are_not_there() -> None:
     text = "duration = 20\nsampling.rate = 100\ninputs.T = 'sin(t)'\n"
     plain = run(ROTOR, text).truth

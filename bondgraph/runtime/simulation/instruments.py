@@ -29,7 +29,7 @@ class Reader:
         self._noise = self._draw.standard_normal(samples) * instrument.noise
         self._phase = float(self._draw.uniform())
         own = instrument.rate
-        self._every = 1 if own is None or own >= rate else round(rate / own)
+        self._every = 1 if own is None or own >= rate else round(min(rate / own, samples))
 
     def renew(self) -> None:
         """Noise for as many samples more, which are counted from 0 again."""
