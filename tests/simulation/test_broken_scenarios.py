@@ -85,6 +85,8 @@ WRONG = {
         "unit-mismatch",
     '[[controller]]\ninput = "U"\nmeasures = "speed"\nsetpoint = 1\nperiod = ~0.0015~':
         "scenario-value",
+    '[[controller]]\ninput = "U"\nmeasures = "speed"\nsetpoint = 1\nperiod = ~1e-300~':
+        "scenario-value",
     '[[controller]]\ninput = "U"\nmeasures = "speed"\nsetpoint = 1\nlimits = ~[5, -5]~':
         "scenario-value",
     '[inputs]\nU = 1\n[[controller]]\ninput = "~U~"\nmeasures = "speed"\nsetpoint = 1':

@@ -186,7 +186,7 @@ class _Reader:
                 )
         step = 1.0 / sampling.rate
         period = table.number("period", SECOND, step, 0.0, above=True)
-        if abs(period / step - round(period / step)) > 1e-6:
+        if period < step / 2 or abs(period / step - round(period / step)) > 1e-6:
             table.wrong("period", f"`period` is no multiple of the sample time, {step:g} s.",
                         "A controller reads samples: let it run at some of them.")  # fmt: skip
         gain = None if effort is None or dimension is None else over(effort, dimension)

@@ -27,6 +27,7 @@ from bondgraph.runtime.simulation.values import Values
 from bondgraph.text.diagnostic import CompileError, Report
 
 Array = npt.NDArray[np.float64]
+_MOST = 10**8  # samples, all of them in memory
 Progress = Callable[[float], None]
 
 
@@ -93,6 +94,8 @@ class _Simulation:
         """The instants of the samples, in s; jitter is there, lost samples too."""
         sampling = self.scenario.sampling
         count = math.floor(self.scenario.duration * sampling.rate + 1e-9) + 1
+        if count > _MOST:
+            raise SimulationError(f"a run of {count:.0e} samples is too long: take a lower rate")
         times = np.arange(count) / sampling.rate
         if sampling.jitter:
             draw = np.random.default_rng([self.scenario.seed, 1])
