@@ -22,7 +22,7 @@ from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
 from bondgraph.runtime.simulation.scenario import Instrument, Scenario
 from bondgraph.runtime.simulation.spread import spread
-from bondgraph.runtime.simulation.steady import NoSteadyState, steady
+from bondgraph.runtime.simulation.start import start
 from bondgraph.runtime.simulation.values import Values
 from bondgraph.text.diagnostic import CompileError, Report
 
@@ -140,7 +140,8 @@ class _Simulation:
         stops = given.stops(end)
         first = self._mode(0.0)
         table = np.full((len(times), len(first.names)), math.nan)
-        held = self._start(first)
+        before = given.before(first.machine)
+        held = start(first.machine, self.graph, self.scenario, first.inputs(0.0), before)
         longest = 2 / self.scenario.sampling.rate if given.smooth else math.inf
         progress(0.0)
         integrator = Integrator(
@@ -169,32 +170,6 @@ class _Simulation:
             done = last
             progress(b / end if end else 1.0)
         return self._result(first, table)
-
-    def _start(self, mode: _Mode) -> dict[str, float]:
-        """What every storage holds before the start.
-
-        One that nothing is said of is empty; a dependent one is as the states say that it is,
-        before anything acts on the machine.
-        """
-        machine = mode.machine
-        stated = {**machine.start(), **self.scenario.initial}
-        if self.scenario.start == "steady" and machine.states:
-            u = mode.inputs(0.0)
-            guess = np.array([stated.get(name, 0.0) for name in machine.states])
-            try:
-                found = steady(machine, u, guess)
-            except NoSteadyState as error:
-                raise SimulationError(f"{error}") from error
-            both = (*machine.states, *(i.name for i in machine.equations.dependent))
-            held = [*found.tolist(), *machine.content(0.0, found.tolist(), u).tolist()]
-            return dict(zip(both, held, strict=True))
-        x = [stated.get(name, 0.0) for name in machine.states]
-        rest = machine.content(0.0, x, self.given.before(machine)).tolist()
-        names = [i.name for i in machine.equations.dependent]
-        ports = [p for node in self.graph.nodes for p in node.ports if p.state is not None]
-        every = {p.state.symbol.name: 0.0 for p in ports if p.state is not None}
-        following = {n: v for n, v in zip(names, rest, strict=True) if v == v}
-        return {**every, **dict(zip(machine.states, x, strict=True)), **following, **stated}
 
     def _seen(self, mode: _Mode, t: float, x: Array) -> dict[str, float]:
         """Everything that can be seen, by name."""

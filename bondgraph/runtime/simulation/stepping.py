@@ -21,6 +21,7 @@ from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.spread import spread
+from bondgraph.runtime.simulation.start import start
 from bondgraph.runtime.simulation.values import Values
 from bondgraph.text.diagnostic import CompileError, Report
 
@@ -143,21 +144,11 @@ class Stepper:
     def _state(self, mode: _Mode, inputs: Inputs, acting: Acting, t: float | None = None) -> Array:
         machine, now = mode.machine, self.time if t is None else t
         if self._held is None:
-            self._held = self._start(machine, acting)
+            graph, before = self.system.graph, acting.before(machine)
+            self._held = start(machine, graph, self.scenario, inputs(now), before)
         for name in machine.states:  # of an encoder that may count wrong from now on
             self._held.setdefault(name, self.last.get(name.removesuffix(".counted"), 0.0))
         return handed_over(machine, self.time, inputs(now), self._held)
-
-    def _start(self, machine: Machine, acting: Acting) -> dict[str, float]:
-        """What every storage holds before the start; dependent ones as the states say."""
-        stated = {**machine.start(), **self.scenario.initial}
-        x = [stated.get(name, 0.0) for name in machine.states]
-        rest = machine.content(0.0, x, acting.before(machine)).tolist()
-        names = [i.name for i in machine.equations.dependent]
-        ports = [p for node in self.system.graph.nodes for p in node.ports if p.state is not None]
-        every = {p.state.symbol.name: 0.0 for p in ports if p.state is not None}
-        following = {n: v for n, v in zip(names, rest, strict=True) if v == v}
-        return {**every, **dict(zip(machine.states, x, strict=True)), **following, **stated}
 
     def _seen(self, mode: _Mode, inputs: Inputs, t: float, x: Array) -> dict[str, float]:
         state, u = x.tolist(), inputs(t)
