@@ -193,7 +193,7 @@ def _machine(args: Namespace, compilation: Compilation) -> Machine:
     from bondgraph.runtime.live.setup import Machine
 
     program, graph = compilation.program, compilation.graph
-    known = args.serial or args.mqtt or args.log
+    known = args.serial or args.mqtt or {"-": "standard input"}.get(args.log, args.log)
     units = residual_units(compilation)
     return Machine(
         graph.name,
@@ -255,6 +255,7 @@ def _hello(machine: Machine, setup: Setup, session: Session) -> dict[str, Any]:
         "residuals": machine.residuals,
         "sensors": [(name, sensors[name]) for name in order],
         "plane": session.places.names,
+        "wanted": bool(session.places.wanted),
         "lacking": session.places.lacking,
         "faults": [f.label for f in setup.scenario.faults],
         "targets": [t._asdict() for t in machine.targets],

@@ -181,13 +181,18 @@ def source(args: Namespace, samples: Address | None) -> Source:
 
 
 def decided(compilation: Compilation, floor: dict[str, float]) -> Callable[[Engine], Decision]:
-    """What makes the decision of one watch; raises Trouble where there is nothing to watch."""
+    """What makes the decision of one watch: by magnitude, or by `floor`s where there are some.
+
+    Raises Trouble where there is nothing to watch.
+    """
     from bondgraph.runtime.monitoring.decision import Threshold
 
     known = facts(compilation, floor)
     if not known.sees:
         raise console.Trouble(f"{compilation.graph.name} has no residual that could be watched")
-    return lambda engine: Threshold(known)
+    if floor:
+        return lambda engine: Threshold(known)
+    return compilation.diagnosis
 
 
 def facts(compilation: Compilation, floor: dict[str, float]) -> Facts:

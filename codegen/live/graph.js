@@ -6,6 +6,7 @@ const percent = (p) => (p > 0.995 && p < 1 ? "> 99 %" : p < 0.01 ? "< 1 %" : `${
 export class Graph {
   constructor(svg, words) {
     this.svg = svg;
+    if (svg) svg.style.minWidth = `${Math.min(svg.width.baseVal.value, 704)}px`; // then it scrolls
     this.words = words;
     this.links = {};
     this.made = [];

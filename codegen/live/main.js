@@ -30,6 +30,7 @@ function begin(message) {
   graph.links = hello.links;
   $("real-name").textContent = `real: ${hello.monitored}` + (hello.lacking.real ? `, place unknown: ${hello.lacking.real}` : "");
   $("desired-name").textContent = "desired" + (hello.lacking.desired ? `: ${hello.lacking.desired}` : "");
+  $("desired-name").closest("li").hidden = !hello.plane.length && !hello.wanted;
   $("pause").textContent = hello.pace ? "Pause" : "Freeze";
   const flat = hello.plane.length > 0;
   $("plane").hidden = !flat;
@@ -84,8 +85,8 @@ const heard = {
     const words = { waiting: "waiting", running: "connected", slow: "connected", paused: "paused", ended: "ended" };
     $("connection").dataset.state = m.state;
     $("connection").textContent = words[m.state] || m.state;
-    $("pace").textContent = m.pace ? `× ${m.pace}` : "";
-    if (m.state !== "paused") notice(m.state === "running" || m.state === "waiting" ? "" : m.text);
+    $("pace").textContent = m.state === "slow" ? m.text : m.pace ? `× ${m.pace}` : "";
+    if (m.state !== "paused" && m.state !== "slow") notice(m.state === "running" || m.state === "waiting" ? "" : m.text);
     if (hello && hello.pace) pressed(m.state === "paused");
   },
 };

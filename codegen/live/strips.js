@@ -117,7 +117,7 @@ export class Residual extends Strip {
   }
 }
 
-const LINES = [["ink", []], ["inertia", [7, 5]], ["resistor", [2, 3]]]; // real, virtual, desired
+const LINES = [["trace", [], 3.4], ["inertia", [7, 5], 1.8], ["resistor", [2, 3], 1.8]]; // real, virtual, desired
 
 export class Plot extends Strip {
   constructor(into, name, unit) {
@@ -137,9 +137,9 @@ export class Plot extends Strip {
     const all = this.points.flatMap((p) => p.slice(1)).filter((v) => v !== null);
     const least = Math.min(0, ...all), most = Math.max(0, ...all, least + 1e-300), last = this.points.at(-1);
     const { pen, x, y } = this.paper(last ? last[0] : 0, least, most);
-    LINES.forEach(([colour, dash], k) => {
+    LINES.forEach(([colour, dash, width], k) => {
       pen.strokeStyle = style(colour);
-      pen.lineWidth = 1.6;
+      pen.lineWidth = width;
       pen.setLineDash(dash);
       pen.beginPath();
       for (const p of this.points) if (p[k + 1] !== null) pen.lineTo(x(p[0]), y(p[k + 1]));

@@ -29,7 +29,7 @@ class Places:
         self.names = () if plane is None else tuple(n for n in plane if n is not None)
         self.lacking: dict[str, str] = {}
         self._real = Reckoning(system, self.names, values)
-        self._wanted = Reckoning(system, self.names, values, counts=False)
+        self._goal = Reckoning(system, self.names, values, counts=False)
         self._desired = Desired(system, scenario, values)
         pool, told = system.graph.pool, {**scenario.inputs, **scenario.modes}
         self._told = {n: courses.function(c, pool, values) for n, c in told.items()}
@@ -37,15 +37,20 @@ class Places:
             what = next(iter(self._real.lacking.values()))
             self.lacking["real"] = f"no sensor tells {what}"
         known = {*self._desired.names, *self._told}
-        unknown = [n for n in self._wanted.signals if n not in known]
+        unknown = [n for n in self._goal.signals if n not in known]
         if self._real.lacking or unknown:
             what = unknown[0] if unknown else "where to go"
             self.lacking["desired"] = f"the scenario does not say what {what} should be"
 
+    @property
+    def wanted(self) -> tuple[str, ...]:
+        """The sensors of which the scenario says what they should show."""
+        return self._desired.names
+
     def restart(self) -> None:
         """Everyone at the origin."""
         self._real.restart()
-        self._wanted.restart()
+        self._goal.restart()
         self._desired.restart()
 
     def real(self, time: Array, signals: Mapping[str, Array]) -> Pose:
@@ -63,11 +68,11 @@ class Places:
         show = {n: float(c[-1]) for n, c in given.items()}
         if not self.names or "desired" in self.lacking:
             return [], show
-        for name in self._wanted.signals:
+        for name in self._goal.signals:
             if name not in given:
                 told = self._told[name]
                 given[name] = np.array([told(t) for t in time.tolist()])
-        return self._pose(self._wanted.feed(time, given)), show
+        return self._pose(self._goal.feed(time, given)), show
 
     def virtual(self, rows: Sequence[Mapping[str, float]]) -> Pose:
         """Where the virtual one is."""

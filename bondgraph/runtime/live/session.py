@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time as clocks
 from collections.abc import Callable, Mapping
 from queue import Empty, SimpleQueue
 from typing import Any
@@ -25,6 +26,7 @@ from bondgraph.text.diagnostic import CompileError
 Say = Callable[[dict[str, Any]], None]
 
 _FRAMES = 20.0  # a second
+_PACED = 2.0  # s on the wall between two words on how fast it goes
 
 
 class Session:
@@ -51,6 +53,7 @@ class Session:
         self._number = 0
         self._trouble = ""  # why the virtual machine stands still
         self._over = ""  # why no more samples come
+        self._paced = 0.0  # on the wall, when the pace was told
         self._state: dict[str, Any] = {}
 
     # ---------------------------------------------------------------- from other threads
@@ -183,13 +186,16 @@ class Session:
         assert source is not None
         if source.paused:
             return
-        pace = source.pace
+        pace, now = source.pace, clocks.monotonic()
         slow = speed is not None and pace is not None and pace < 0.85 * speed
+        if slow == (self._state["state"] == "slow") and now - self._paced < _PACED:
+            return
+        self._paced = now
         if slow and pace is not None:
-            text = f"Slower than it should be: {pace:.1f} s in a second instead of {speed:g} s."
+            text = f"slower than it should be: × {pace:.1f} instead of × {speed:g}"
             self._told("slow", text, round(pace, 1))
         else:
-            self._told("running", "", None if speed is None else speed)
+            self._told("running", "", speed)
 
     # ---------------------------------------------------------------------------- wishes
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
-import numpy as np
-
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Known
 from bondgraph.runtime.log import Array
@@ -101,7 +99,9 @@ class Heard:
 
 def floors(decision: Decision, residuals: int) -> list[float | None]:
     """What comes on top of the adaptive threshold of each residual, None while nobody knows."""
-    found = getattr(decision, "floor", None)
-    if found is None or len(found) != residuals:
-        return [None] * residuals
-    return [float(f) if np.isfinite(f) else None for f in found]
+    state = decision.state()
+    if state.get("limits") is not None:  # of each residual the noise, and how much of it is allowed
+        found = [None if x[0] is None or x[2] is None else x[0] * x[2] for x in state["limits"]]
+    else:
+        found = state.get("floor") or [None] * residuals
+    return found

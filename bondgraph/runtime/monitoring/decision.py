@@ -98,11 +98,6 @@ class Threshold:
         self._away = False  # the residuals of the fault are back
         self.restart()
 
-    @property
-    def floor(self) -> Array:
-        """What each residual may be beyond its adaptive threshold, in its unit; NaN: not known."""
-        return self._floor
-
     def restart(self) -> None:
         """The residuals begin anew, after a gap; those that had fired have, until they are back."""
         count = len(self._facts.residuals)

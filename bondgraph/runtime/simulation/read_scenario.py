@@ -263,9 +263,9 @@ class _Reader:
             if changed is None:
                 return []
             op, value = changed
+        said = label or event or f"{target} {table.text('change')}"
         table.finish()
         span = self.document.span(table.path)
-        said = label or event or f"{target} {op} {value:g}".strip()
         return [Fault(target, op, value, at, until, ramp, period, duty, said, span)]
 
     def _change(self, table: Table, of: str) -> tuple[Change, float] | None:

@@ -261,7 +261,7 @@ def test_a_scenario_is_simulated_watched_and_shown(tmp_path: Path) -> None:
     page = Page(text)
     assert "The winding warms at three seconds." in page.text
     assert "4 s at 500 samples a second, seed 2" in page.text
-    assert "R += 10 at 3 s; R += 10: over at 3.9 s" in page.text
+    assert "R += 10 Ohm at 3 s; R += 10 Ohm: over at 3.9 s" in page.text
     # r1 is the balance of the armature: of the faults it sees alone are L, R and U (a sensor error
     # of the current or of the speed, and k, move the balance of the rotor as well)
     verdict = page.text.split("What the monitor said")[1]
