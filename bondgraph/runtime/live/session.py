@@ -26,6 +26,7 @@ from bondgraph.text.diagnostic import CompileError
 Say = Callable[[dict[str, Any]], None]
 
 _FRAMES = 20.0  # a second
+_APART = 0.8 / _FRAMES  # s on the wall, at least; samples that come oftener share a frame
 _PACED = 2.0  # s on the wall between two words on how fast it goes
 
 
@@ -53,6 +54,8 @@ class Session:
         self._number = 0
         self._trouble = ""  # why the virtual machine stands still
         self._over = ""  # why no more samples come
+        self._waiting: dict[str, Any] | None = None  # a frame that is not full
+        self._framed = 0.0  # on the wall, when the last one was told
         self._paced = 0.0  # on the wall, when the pace was told
         self._state: dict[str, Any] = {}
 
@@ -94,7 +97,7 @@ class Session:
         self.places.restart()
         self._second.reset()
         self._second_decision = self._setup.decision(self._second)
-        self._trouble = ""
+        self._trouble, self._waiting = "", None
         self._say({"type": "reset"})
         self._told("waiting", "Waiting for the first sample.")
         self._injected()
@@ -150,8 +153,15 @@ class Session:
                  _short(shown[n]) if n in shown else None]
                 for n in self._signals if n in self.twin.sensors
             ]  # fmt: skip
-        self._say(frame)
+        self._waiting = frame if self._waiting is None else _merged(self._waiting, frame)
         self._pace()
+
+    def _flush(self) -> None:
+        """Tell what has gathered since the last frame."""
+        if self._waiting is not None:
+            self._framed = clocks.monotonic()
+            self._say(self._waiting)
+            self._waiting = None
 
     def _follow(
         self, time: Array, told: Mapping[str, Array]
@@ -200,7 +210,9 @@ class Session:
     # ---------------------------------------------------------------------------- wishes
 
     def _between(self, patience: float = 0.0) -> None:
-        """Do what people wish."""
+        """Do what people wish, and tell what nothing more came to for a while."""
+        if clocks.monotonic() - self._framed > _APART:
+            self._flush()
         while True:
             try:
                 message = self._wishes.get(patience > 0, patience or None)
@@ -243,6 +255,7 @@ class Session:
     # ---------------------------------------------------------------------------- saying
 
     def _told(self, state: str, text: str, pace: float | None = None) -> None:
+        self._flush()
         message = {"type": "state", "state": state, "text": text, "pace": pace}
         if message != self._state:
             self._state = message
@@ -266,6 +279,17 @@ class Session:
             ],
             "message": verdict.message or described(verdict),
         })  # fmt: skip
+
+
+def _merged(before: dict[str, Any], after: dict[str, Any]) -> dict[str, Any]:
+    """One frame of two that follow each other: what is at the end, and the range of residuals."""
+    for whose in ("real", "virtual"):
+        pairs = zip(before[whose].get("r", ()), after[whose].get("r", ()), strict=False)
+        for old, new in pairs:
+            if None not in (old[0], new[0]):
+                new[:2] = [min(old[0], new[0]), max(old[1], new[1])]
+                new[2] = max((x[2] for x in (old, new) if x[2] is not None), default=None)
+    return after
 
 
 def _strips(batch: Batch, floor: list[float | None]) -> list[list[float | None]]:

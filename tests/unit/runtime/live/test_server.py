@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import socket
+import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -18,6 +19,7 @@ from aiohttp.test_utils import TestClient, TestServer
 
 from bondgraph.cli import live as command
 from bondgraph.cli import usage
+from bondgraph.cli.main import main
 from bondgraph.runtime.live.hub import Hub
 from bondgraph.runtime.live.process import Simulated
 from bondgraph.runtime.live.server import PortTaken, application, listening
@@ -302,3 +304,61 @@ def test_sizes_are_in_the_units_of_the_model() -> None:
     assert kinds["f[1]"] == ("param", "N.s/m", 2.0)
     assert kinds["F[2]"] == ("input", "N", None)
     assert kinds["turn[1]"] == ("sensor", "rad", None)
+
+
+def test_without_aiohttp_one_line_says_what_to_do(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "aiohttp", None)
+    monkeypatch.delitem(sys.modules, "bondgraph.runtime.live.server")
+    assert main(["live", "rover.bg", "--log", "-"]) == 1
+    said = capsys.readouterr().err
+    assert "needs aiohttp" in said and said.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "wrong"),
+    [
+        (["rover.bg"], "nothing moves"),
+        (["rover.bg", "--log", "-", "--serial", "x"], "not from --log and --serial"),
+        (["rover.bg", "s.toml", "--follow"], "--follow needs --log"),
+        (["rover.bg", "s.toml", "--port", "70000"], "70000 is no port"),
+    ],
+)
+def test_wrong_words(words: list[str], wrong: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["live", *words]) == 2
+    assert wrong in capsys.readouterr().err
+
+
+def test_a_stream_ends_when_nobody_reads_it(tmp_path: Path) -> None:
+    model, scenario = written(tmp_path)
+    words = [sys.executable, "-m", "bondgraph", "simulate", str(model), str(scenario), "--stream"]
+    with subprocess.Popen([*words, "--speed", "inf"], stdout=-1, stderr=-1, text=True) as process:
+        assert process.stdout is not None and process.stderr is not None
+        assert process.stdout.readline() == "t,F[1],F[2],turn[1],v[1],turn[2],v[2]\n"
+        rows = [process.stdout.readline().strip().split(",") for _ in range(100)]
+        assert [float(r[0]) for r in rows] == pytest.approx([k / 200 for k in range(100)])
+        process.stdout.close()
+        assert process.wait(20) == 0
+        assert process.stderr.read() == ""
+
+
+def test_small_portions_share_a_frame(tmp_path: Path) -> None:
+    ours, theirs = socket.socketpair()
+    watched = Watched(tmp_path, lambda: Pipe(Form("w"), theirs.fileno(), "w"), False, None)
+    try:
+        ours.sendall(b"t,F[1],F[2],turn[1],turn[2],v[1],v[2]\n")
+        watched.wait(("type", "state"), ("state", "waiting"))
+        start = time.monotonic()
+        for k in range(200):
+            ours.sendall(b"%f,1,1,0,0,0,%d\n" % (k / 200, k == 150))
+            time.sleep(0.002)
+        ours.close()
+        watched.wait(("state", "ended"))
+        frames = [m for m in watched.said if m["type"] == "frame"]
+        assert len(frames) <= 2 + (time.monotonic() - start) * 25
+        assert frames[-1]["t"] == pytest.approx(199 / 200)
+        assert watched.wait(("event", "stop"))["message"].endswith("after 200 samples")
+    finally:
+        watched.stop()
+        theirs.close()
