@@ -110,7 +110,13 @@ def _serve(args: Namespace, made: Any) -> int:
     sessions: list[Session] = []
 
     def start(say: Callable[[dict[str, Any]], None]) -> Session:
-        sessions.append(Session(setup, {t.name: t for t in machine.targets}, say))
+        try:
+            sessions.append(Session(setup, {t.name: t for t in machine.targets}, say))
+        except KeyError as error:
+            name = error.args[0]
+            raise console.Trouble(
+                f"`{name}` has no value: give it under [parameters] of the scenario"
+            ) from error
         hello.update(_hello(machine, setup, sessions[0]))
         return sessions[0]
 
@@ -126,12 +132,7 @@ def _serve(args: Namespace, made: Any) -> int:
 
             webbrowser.open(address)
 
-    try:
-        asyncio.run(serve(made, files, hello, start, ready))
-    except KeyError as error:
-        raise console.Trouble(
-            f"`{error.args[0]}` has no value: give it under [parameters] of the scenario"
-        ) from error
+    asyncio.run(serve(made, files, hello, start, ready))
     print("stopped")
     return 0
 

@@ -138,12 +138,10 @@ def _welcome(request: web.Request) -> bool:
     host = request.host.rpartition(":")[0] if request.host[-1:].isdigit() else request.host
     name = request.transport.get_extra_info("sockname") if request.transport else None
     own = {*_LOCAL, str(name[0])} if name else set(_LOCAL)
-    if name and name[0] not in ("127.0.0.1", "::1"):
-        return True  # whoever serves other machines has said so
-    if host not in own:
-        return False
+    alone = not name or name[0] in ("127.0.0.1", "::1")  # else other computers are served, too
     origin = request.headers.get("Origin")
-    return origin is None or origin.partition("://")[2] == request.host
+    same = origin is None or origin.partition("://")[2] == request.host
+    return same and (host in own or not alone)
 
 
 async def serve(

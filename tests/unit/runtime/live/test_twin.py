@@ -9,10 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bondgraph.pipeline import Compilation
 from bondgraph.runtime.live.twin import Twin
 from bondgraph.runtime.log import joined
 from bondgraph.runtime.simulation.robot import Robot
 from bondgraph.runtime.simulation.scenario import Fault, Instrument, Scenario
+from bondgraph.text.source import Source
 from tests.unit.runtime.live.rover import FRICTION, MASS, TURN, rover, written
 
 T = np.arange(401) / 200.0
@@ -87,6 +89,37 @@ def test_after_a_long_silence_it_goes_on_where_it_was() -> None:
     assert rows[1]["v[1]"] == pytest.approx(
         _speed(np.array([0.1]), 1.0, FRICTION, speed)[0], rel=1e-4
     )
+
+
+def test_a_switch_turns_when_the_samples_say_so() -> None:
+    """A capacitor that is charged through a switch, and empties itself while that is off."""
+    c = Compilation(
+        Source(
+            "chopper.bg",
+            """bg 1
+model Chopper {
+    input U : V
+    input on : bool
+    0:out { -> C:C1 = 1 mF; -> R:R1 = 100 Ohm; -> De:v }
+    1:sw when on { <- Se:U; -> R:Rs = 10 Ohm; -> out }
+}
+""",
+        )
+    )
+    twin = Twin(c.equations, c.integral, Scenario("s"))
+    on = ((T < 0.5) | (T >= 1.0)).astype(float)
+    found = [
+        twin.advance(T[a:b], {"U": np.full(b - a, 10.0), "on": on[a:b]})[0]
+        for a, b in ((0, 30), (30, 250), (250, 401))
+    ]
+    v = np.array([row["v"] for rows in found for row in rows])
+    end, charging, emptying = 100 / 11, 1e-3 / (1 / 10 + 1 / 100), 0.1
+    first = end * (1 - np.exp(-T / charging))
+    at = end * (1 - math.exp(-0.5 / charging))
+    second = at * np.exp(-(T - 0.5) / emptying)
+    third = end + (at * math.exp(-0.5 / emptying) - end) * np.exp(-(T - 1.0) / charging)
+    truth = np.where(T < 0.5, first, np.where(T < 1.0, second, third))
+    np.testing.assert_allclose(v, truth, atol=2e-5)
 
 
 def test_a_robot_never_stops_and_its_counts_go_on(tmp_path: Path) -> None:
