@@ -41,12 +41,12 @@ export class Diagnosis {
     this.$("verdicts").prepend(line);
     while (this.$("verdicts").children.length > KEPT) this.$("verdicts").lastChild.remove();
     if (v.event === "fault" || v.event === "update" || (v.event === "resumed" && v.candidates.length)) {
-      if (v.candidates.length || v.event === "update") this.found[v.whose] = new Map(v.candidates.map((c) => [c[0], c[3]]));
       const since = v.since === null ? "" : ` since ${v.since.toFixed(2)} s`;
       const [first] = v.candidates, many = v.message.includes("more than one fault") || v.message.startsWith("no single fault");
       const which = many ? "more than one, or not in the model" : first && first[3] >= 0.75 ? `most likely ${first[0]}` : v.group.length ? v.group.join(" or ") : first ? "one of these" : "not known which";
-      const sure = `fault${since}: ${which}`;
-      this.now(v.whose, "fault", sure, v.candidates);
+      const sure = `fault${since}: ${which}`, shown = many ? [] : v.candidates;
+      this.found[v.whose] = new Map(shown.map((c) => [c[0], c[3]]));
+      this.now(v.whose, "fault", sure, shown);
       this.changed(v.whose);
     } else if (v.event === "cleared") {
       this.found[v.whose] = new Map();
