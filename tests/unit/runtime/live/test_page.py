@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import signal
 import subprocess
@@ -107,8 +108,11 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
         page.server.stdout.close()
 
 
+_CANVAS = "document.querySelectorAll('.strip canvas')"
+
+
 def _picture(page: Page, strip: int) -> Any:
-    return page.tab.run(f"document.querySelectorAll('.strip canvas')[{strip}].toDataURL()")
+    return page.tab.run(f"{_CANVAS}[{strip}].toDataURL()")
 
 
 def test_machines_move_and_residuals_scroll(page: Page) -> None:
@@ -116,10 +120,9 @@ def test_machines_move_and_residuals_scroll(page: Page) -> None:
     places += ".getAttribute('d') || '')"
     page.until(f"{places}.every((d) => d.length > 40)")
     before, strips = page.tab.run(places), [_picture(page, k) for k in range(4)]
-    time.sleep(0.4)
-    after = page.tab.run(places)
-    assert all(a != b for a, b in zip(before, after, strict=True))
-    assert all(a != _picture(page, k) for k, a in enumerate(strips))
+    page.until(f"{places}.every((d, k) => d !== {json.dumps(before)}[k])")
+    for k, picture in enumerate(strips):
+        page.until(f"{_CANVAS}[{k}].toDataURL() !== {json.dumps(picture)}")
     assert re.fullmatch(r"threshold ±0\.03\d* N", page.text(".strip .limit"))
     page.until("document.querySelector('#now-real .finding').textContent === 'no fault seen'")
     assert re.fullmatch(r"[\d.]+ c?m", page.text("#plane .length"))
