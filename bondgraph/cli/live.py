@@ -228,11 +228,19 @@ def targets(graph: BondGraph) -> tuple[Any, ...]:
 
 
 def links(graph: BondGraph) -> dict[str, tuple[str, ...]]:
-    """The faults of each element: of its laws, and of what measures it directly."""
+    """The faults of each element: of its laws, and of what measures it directly.
+
+    >>> import bondgraph
+    >>> found = links(bondgraph.compile("models/quarter_car.bg").graph)
+    >>> found["spring"], found["ms"]
+    (('ks', 'stroke'), ('ms',))
+    """
     faults = {symbol: name for name, symbol in graph.fault_symbols().items()}
     integrands = {i.symbol: i.integrand for i in graph.integrals}
     found: dict[str, list[str]] = {n.path: [] for n in graph.nodes}
-    common = {n.common: n.path for n in graph.nodes if n.common is not None}
+    owner = {p.state: n.path for n in graph.nodes for p in n.ports if p.state is not None}
+    owner |= {v: n.path for n in graph.nodes for p in n.ports for v in (p.effort, p.flow)}
+    owner |= {n.common: n.path for n in graph.nodes if n.common is not None}
     for node in graph.nodes:
         inside = symbols(*[law.zero for law in node.laws])
         found[node.path] += [faults[s] for s in inside if s in faults]
@@ -243,8 +251,8 @@ def links(graph: BondGraph) -> dict[str, tuple[str, ...]]:
             found[graph.nodes[sensor.node].path].append(sensor.name)
             continue
         for variable in symbols(integrands.get(sensor.reads, sensor.reads)):
-            if variable in common:
-                found[common[variable]].append(sensor.name)
+            if variable in owner:
+                found[owner[variable]].append(sensor.name)
     return {path: tuple(dict.fromkeys(own)) for path, own in found.items() if own}
 
 

@@ -21,7 +21,7 @@ export class Graph {
       if (chance > 0) nodes.push([node, Math.min(1, chance), faults.filter((f) => found.has(f))]);
     }
     nodes.sort((a, b) => b[1] - a[1]);
-    const key = JSON.stringify([whose, nodes]);
+    const key = JSON.stringify([whose, nodes, [...found.keys()]]);
     if (key === this.key) return;
     this.key = key;
     this.made.forEach((e) => e.remove());
