@@ -27,8 +27,9 @@ if TYPE_CHECKING:
     from bondgraph.ir.structure import StructuralModel
     from bondgraph.ir.syntax import File
     from bondgraph.passes.state_equations import Wanted
-    from bondgraph.runtime.monitoring.diagnosis import Diagnosis, Facts
+    from bondgraph.runtime.monitoring.diagnosis import Diagnosis
     from bondgraph.runtime.monitoring.engine import Engine
+    from bondgraph.runtime.monitoring.healthy import Facts
     from bondgraph.runtime.monitoring.tuning import Tuning
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
@@ -325,7 +326,7 @@ class Compilation:
     @cached_property
     def facts(self) -> Facts:
         """What a monitor has to know of the machine beside its residuals."""
-        from bondgraph.runtime.monitoring.diagnosis import Facts
+        from bondgraph.runtime.monitoring.healthy import Facts
         from bondgraph.runtime.simulation.values import Values
 
         graph, matrix = self.graph, self.signatures

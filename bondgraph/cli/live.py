@@ -150,13 +150,13 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
     from bondgraph.runtime.simulation.values import Values
 
     graph = compilation.graph
-    engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
+    tuning = monitor.read_tuning(args.tuning) if args.tuning else None
+    engine, decided = monitor.watching(compilation, tuning)
     values = Values(graph, scenario.parameters)
     turns = {s.name: values.number(s.counts) for s in graph.sensors if s.counts is not None}
     wide = Wide(engine, further(graph, engine, turns))
     mapping = read_map(args.map, wide.signals) if args.map else None
     samples = address(args.mqtt) if args.mqtt else None
-    decision = monitor.decided(compilation, dict(args.floor))
     simulated = not (args.log or args.serial or args.mqtt)
     if simulated:
         source: Callable[[], Any] = partial(_robot, args)
@@ -171,7 +171,7 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
         scenario,
         wide,
         len(engine.signals),
-        decision,
+        decided,
         lambda: clock_of(wide),
         lambda: Columns(wide.signals, mapping, name),
         source,

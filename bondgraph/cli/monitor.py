@@ -10,24 +10,24 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.numbers import noise, positive
+from bondgraph.cli.numbers import positive
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable, Iterator
 
     from bondgraph.pipeline import Compilation
-    from bondgraph.runtime.monitoring.decision import Decision, Facts
+    from bondgraph.runtime.monitoring.decision import Decision
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
     from bondgraph.runtime.monitoring.monitor import Stop
     from bondgraph.runtime.monitoring.mqtt_client import Address
     from bondgraph.runtime.monitoring.publisher import Publisher
     from bondgraph.runtime.monitoring.sources.source import Source
+    from bondgraph.runtime.monitoring.tuning import Tuning
     from bondgraph.runtime.monitoring.verdict import Verdict
 
 _COLOURS = {"fault": "1;31", "update": "31", "invalid": "33", "gap": "33"}
-_LEARNING = 2.0  # s of healthy samples from which floors are learned
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -61,9 +61,8 @@ def sampled(add: Callable[..., object]) -> None:
         help=f"samples a second (default: of a file its own, else {Options().rate:g})")  # fmt: skip
     add("--bandwidth", metavar="RAD/S", type=positive,
         help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
-    add("--floor", metavar="[RESIDUAL=]SIZE", type=noise, action="append", default=[],
-        help="what noise alone does to a residual (default: learned from the first seconds);"
-        " may be repeated")  # fmt: skip
+    add("--tuning", metavar="FILE.json",
+        help="limits from `bondgraph tune` (default: learned from the first seconds)")  # fmt: skip
 
 
 def run(args: Namespace) -> int:
@@ -119,37 +118,27 @@ def _publish_to(text: str | None, samples: Address | None) -> Address | None:
 def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     from bondgraph.runtime.monitoring.clock import clock_of
     from bondgraph.runtime.monitoring.columns import Columns, read_map
-    from bondgraph.runtime.monitoring.decision import Threshold
     from bondgraph.runtime.monitoring.journal import known_rate
     from bondgraph.runtime.monitoring.monitor import Monitor, Parts
 
     known = known_rate(args.journal) if args.journal else None
-    rate = args.rate or known or source.rate() or Options().rate
+    tuning = read_tuning(args.tuning) if args.tuning else None
+    rate = args.rate or known or source.rate() or (tuning.rate if tuning else Options().rate)
     compilation = open_model(args.model, rate=rate, bandwidth=args.bandwidth)
-    names = [r.name for r in compilation.program.residuals]
-    for name, _ in args.floor:
-        if name and name not in names:
-            return console.unknown(name, "no residual", names)
-    try:
-        engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
-    except ValueError as error:
-        raise console.Trouble(str(error)) from error
+    engine, decided = watching(compilation, tuning)
     mapping = read_map(args.map, engine.signals) if args.map else None
-    known_facts = facts(compilation, dict(args.floor))
-    if not known_facts.sees:
-        raise console.Trouble(f"{compilation.graph.name} has no residual that could be watched")
-    journal = _journal(args.journal, compilation, source)
+    journal = _journal(args.journal, compilation, source, engine)
     parts = Parts(
         source,
         Columns(engine.signals, mapping, source.name),
         clock_of(engine),
         engine,
-        Threshold(known_facts),
+        decided(engine),
         [_printer(args.lines)],
         _publisher(verdicts, args.journal, journal),
         journal,
     )
-    what = f"{compilation.graph.name}: {console.plural(len(known_facts.sees), 'residual')}"
+    what = f"{compilation.graph.name}: {console.plural(len(compilation.facts.sees), 'residual')}"
     with _stop() as stop:
         what += f" at {1 / engine.sample_time:g} samples a second"
         untaken = Monitor(parts, what).run(stop)
@@ -180,48 +169,51 @@ def source(args: Namespace, samples: Address | None) -> Source:
     return Pipe(form) if name == "-" else file_source(name, form, args.follow)
 
 
-def decided(compilation: Compilation, floor: dict[str, float]) -> Callable[[Engine], Decision]:
-    """What makes the decision of one watch: by magnitude, or by `floor`s where there are some.
+def watching(
+    compilation: Compilation, tuning: Tuning | None
+) -> tuple[Engine, Callable[[Engine], Decision]]:
+    """The engine of a watch, and what makes the decision of one.
 
-    Raises Trouble where there is nothing to watch.
+    Raises Trouble where there is nothing to watch, or where the tuning is of something else.
     """
-    from bondgraph.runtime.monitoring.decision import Threshold
-
-    known = facts(compilation, floor)
-    if not known.sees:
+    try:
+        engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
+    except ValueError as error:
+        raise console.Trouble(str(error)) from error
+    if not compilation.facts.sees:
         raise console.Trouble(f"{compilation.graph.name} has no residual that could be watched")
-    if floor:
-        return lambda engine: Threshold(known)
-    return compilation.diagnosis
+    if tuning is not None:
+        engine = engine.configured(bandwidth=tuning.bandwidth)
+    try:
+        compilation.diagnosis(engine, tuning)
+    except ValueError as error:
+        message = f"the tuning cannot be used: {error}; make it anew with `bondgraph tune`"
+        raise console.Trouble(message) from error
+    return engine, lambda own: compilation.diagnosis(own, tuning)
 
 
-def facts(compilation: Compilation, floor: dict[str, float]) -> Facts:
-    """What a decision has to know of a model; `floor` by residual, "" for all others."""
-    from bondgraph.runtime.monitoring.decision import Facts
+def read_tuning(path: str) -> Tuning:
+    """The limits that `bondgraph tune` wrote."""
+    from bondgraph.runtime.monitoring.tuning import from_json
 
-    program = compilation.program
-    graph = compilation.graph
-    units = {v.name: v.unit or "" for v in graph.values}
-    units |= {i.name: i.unit or "" for i in graph.inputs}
-    units |= {s.name: s.unit or "" for s in graph.sensors}
-    sees = {
-        r.name: tuple(f for f in r.faults if f not in r.invisible)
-        for r in program.residuals
-        if not r.unavailable
-    }
-    names = tuple(r.name for r in program.residuals)
-    floors = {name: floor.get(name, floor[""]) for name in names} if "" in floor else floor
-    learning = max(2, round(_LEARNING * program.rate))
-    return Facts(names, sees, units, floors, 3.0 / program.bandwidth, learning)
+    try:
+        with open(path, encoding="utf-8") as file:
+            return from_json(file.read())
+    except (ValueError, UnicodeDecodeError) as error:
+        raise console.Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
 
 
-def _journal(path: str | None, compilation: Compilation, source: Source) -> Journal | None:
+def _journal(
+    path: str | None, compilation: Compilation, source: Source, engine: Engine
+) -> Journal | None:
     from bondgraph.runtime.monitoring.journal import Journal
 
     if path is None:
         return None
     bounds = compilation.thresholds
     digest = compilation.program.digest + ("" if bounds is None else f"-{bounds.digest}")
+    if engine.bandwidth != compilation.program.bandwidth:  # of a tuning
+        digest += f"-{engine.bandwidth:g}"
     return Journal(path, compilation.graph.name, digest, source.name, compilation.program.rate)
 
 

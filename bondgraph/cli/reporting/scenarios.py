@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -20,7 +19,6 @@ from bondgraph.backends.report.episode import (
     Trace,
 )
 from bondgraph.cli import console
-from bondgraph.cli.monitor import facts
 from bondgraph.runtime.monitoring.verdict import listed
 
 if TYPE_CHECKING:
@@ -82,13 +80,12 @@ def _watched(compilation: Compilation, run: Run) -> Watched | None:
     """The run through the monitor's clock, engine and decision."""
     from bondgraph.runtime.monitoring.clock import clock_of
     from bondgraph.runtime.monitoring.columns import Columns
-    from bondgraph.runtime.monitoring.decision import Threshold
 
     try:
         engine = compilation.engine()
     except ValueError as error:
         raise console.Trouble(str(error)) from error
-    clock, decision = clock_of(engine), Threshold(facts(compilation, {}))
+    clock, decision = clock_of(engine), compilation.diagnosis(engine)
     pieces = clock.feed(run.log.time, Columns(engine.signals)(run.log)) + clock.finish()
     parts, verdicts = [], []
     for piece in pieces:
@@ -101,8 +98,7 @@ def _watched(compilation: Compilation, run: Run) -> Watched | None:
     if not parts:
         return None
     time, samples, value, valid, bound = map(np.concatenate, zip(*parts, strict=True))
-    floors = [math.nan if f is None else f for f in decision.state()["floor"]]
-    return Watched(time, samples, value, valid, bound + np.array(floors), tuple(verdicts))
+    return Watched(time, samples, value, valid, bound + decision.noise(), tuple(verdicts))
 
 
 def _traces(compilation: Compilation, seen: Watched) -> Iterator[Trace]:

@@ -139,12 +139,12 @@ class Session:
         frame: dict[str, Any] = {
             "type": "frame",
             "t": round(float(time[-1]), 6),
-            "real": {"p": real, "r": _strips(batch, floors(decision, batch.value.shape[1]))},
+            "real": {"p": real, "r": _strips(batch, floors(decision))},
             "virtual": {"p": self.places.virtual(rows)},
             "desired": {"p": wanted},
         }
         if second is not None:
-            floor = floors(self._second_decision, second.value.shape[1])
+            floor = floors(self._second_decision)
             frame["virtual"]["r"] = _strips(second, floor)
         if not self.places.names:
             frame["s"] = [

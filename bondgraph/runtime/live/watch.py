@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
+import numpy as np
+
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Known
 from bondgraph.runtime.log import Array
@@ -84,6 +86,14 @@ class Heard:
         self._hear(time, batch, samples)
         return found
 
+    def look(self, time: Array, batch: Batch, samples: Array) -> None:
+        """See `Decision`."""
+        self._inner.look(time, batch, samples[:, : self._own])
+
+    def noise(self) -> Array:
+        """See `Decision`."""
+        return self._inner.noise()
+
     def restart(self) -> None:
         """See `Decision`."""
         self._inner.restart()
@@ -97,11 +107,6 @@ class Heard:
         self._inner.resume(state)
 
 
-def floors(decision: Decision, residuals: int) -> list[float | None]:
+def floors(decision: Decision) -> list[float | None]:
     """What comes on top of the adaptive threshold of each residual, None while nobody knows."""
-    state = decision.state()
-    if state.get("limits") is not None:  # of each residual the noise, and how much of it is allowed
-        found = [None if x[0] is None or x[2] is None else x[0] * x[2] for x in state["limits"]]
-    else:
-        found = state.get("floor") or [None] * residuals
-    return found
+    return [float(f) if np.isfinite(f) else None for f in decision.noise()]

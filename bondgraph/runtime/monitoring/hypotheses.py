@@ -101,16 +101,18 @@ class Bank:
         count = len(self.engine.residuals)
         slopes = np.zeros((len(samples), len(self.hypotheses), count))
         if self._wrong:
-            value = self._wrong[0].run_with(self._wrong[1:], samples).value
+            value, valid, _ = self._wrong[0].run_with(self._wrong[1:], samples)
             for at, k in enumerate(self._values):
                 slopes[:, k, :] = (value[2 * at] - value[2 * at + 1]) / (2 * self._steps[k])
+                slopes[:, k, :] *= valid[2 * at] & valid[2 * at + 1]
         fresh = self._begin is None
         if fresh and len(samples):
             self._begin = samples[0].copy()
         for at, k in enumerate(self._signals):
-            up = self._told[2 * at].run(self._shifted(samples, k, 1.0, fresh)).value
-            down = self._told[2 * at + 1].run(self._shifted(samples, k, -1.0, fresh)).value
-            slopes[:, k, :] = (up - down) / (2 * self._steps[k])
+            up = self._told[2 * at].run(self._shifted(samples, k, 1.0, fresh))
+            down = self._told[2 * at + 1].run(self._shifted(samples, k, -1.0, fresh))
+            slopes[:, k, :] = (up.value - down.value) / (2 * self._steps[k])
+            slopes[:, k, :] *= up.valid & down.valid
         self.engine.run(samples)
         self._age += len(samples)
         return slopes

@@ -195,8 +195,13 @@ def _fit(usual: Array, information: Array, score: Array, misfit: float) -> _Fit:
 
 
 def probabilities(found: Sequence[Explained]) -> dict[str, float]:
-    """How probable each fault is, all equally probable before; they add up to 1."""
-    top = max((e.evidence for e in found), default=0.0)
+    """How probable each fault is, all equally probable before.
+
+    They add up to 1, or are all 0 where each of them is impossible.
+    """
+    top = max((e.evidence for e in found), default=-math.inf)
+    if top == -math.inf:
+        return {e.fault: 0.0 for e in found}
     weight = {e.fault: math.exp(max(e.evidence - top, -700.0)) for e in found}
     total = sum(weight.values()) or 1.0
     return {fault: w / total for fault, w in weight.items()}

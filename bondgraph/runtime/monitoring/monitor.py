@@ -239,6 +239,9 @@ class Monitor:
         batch = parts.engine.run(piece.samples)
         self._newest = float(piece.time[-1])
         if again:
+            if piece.anew:
+                parts.decision.restart()
+            parts.decision.look(piece.time, batch, piece.samples)
             return
         if piece.anew:
             parts.decision.restart()

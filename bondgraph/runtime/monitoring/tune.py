@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.diagnosis import Facts, grown, slack, tolerated
 from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.healthy import Facts, grown, slack, tolerated
 from bondgraph.runtime.monitoring.hypotheses import Bank, Hypothesis, Sizes, hypotheses, rows_apart
 from bondgraph.runtime.monitoring.isolation import History
 from bondgraph.runtime.monitoring.tuning import Limit, Tuning, height, kappa

@@ -112,11 +112,12 @@ def described(verdict: Verdict) -> str:
 
     >>> print(described(Verdict("fault", 5.2, 5.03, {"r2": 3.14}, ("J", "f"), (
     ...     Candidate("f", 2.38e-6, "N.m.s/rad", 0.8), Candidate("J", None, "kg.m^2", 0.2)))))
-    f or J since 5.030 s: f (80 %, +2.38e-06 N.m.s/rad) or J (20 %); r2 at 3.1 times its threshold
+    J or f since 5.030 s: f (80 %, +2.38e-06 N.m.s/rad) or J (20 %); r2 at 3.1 times its threshold
     """
-    first = [c.fault for c in verdict.candidates]
-    names = first or list(verdict.group)
-    text = listed(names, "or") if names else "an unknown fault"
+    if verdict.group:
+        text = listed(verdict.group, "or")
+    else:
+        text = "not clear yet which fault," if verdict.candidates else "an unknown fault"
     if verdict.since is not None:
         text += f" since {verdict.since:.3f} s"
     if len({c.probability for c in verdict.candidates}) > 1 or any(

@@ -170,9 +170,7 @@ class Watched:
 
     def __init__(self, folder: Path, source: Callable[[], Any], renews: bool, speed: float | None):
         model, scenario = written(folder)
-        args = usage.parser_for("live").parse_args(
-            ["live", str(model), str(scenario), "--floor", "0.02"]
-        )
+        args = usage.parser_for("live").parse_args(["live", str(model), str(scenario)])
         compilation = rover()
         made: Setup = command.setup_of(args, compilation, compilation.scenario(scenario))
         made = made._replace(source=source, renews=renews, speed=speed)
@@ -255,14 +253,16 @@ def test_faults_are_injected_refused_and_taken_back(tmp_path: Path) -> None:
     session = watched.session
     try:
         rows = ["t,F[1],F[2],turn[1],turn[2],v[1],v[2]"]
-        rows += [f"{k / 200},1,1,0,0,0,0" for k in range(400)]
+        rows += [f"{k / 200},1,1,0,0,0,0" for k in range(3000)]
         ours.sendall("\n".join([*rows, ""]).encode())
-        watched.wait(("type", "frame"), ("t", 1.995))
+        watched.wait(("type", "frame"), ("t", 14.995))
         session.ask({"do": "inject", "target": "f[1]", "change": "*=", "value": 9})
         assert watched.wait(("type", "faults"), ("active", ["f[1] × 9"]))
-        rows = [f"{k / 200},1,1,0,0,0,0" for k in range(400, 800)]
+        rows = [f"{k / 200},1,1,0,0,0,0" for k in range(3000, 4800)]
         ours.sendall("\n".join([*rows, ""]).encode())
-        verdict = watched.wait(("whose", "virtual"), ("event", "fault"))
+        watched.wait(("whose", "virtual"), ("event", "fault"))
+        verdict = watched.wait(("whose", "virtual"), ("event", "update"))
+        watched.wait(("type", "frame"), ("t", 23.995))
         assert verdict["fired"] == ["r1"] and "f[1]" in verdict["group"]
         session.ask({"do": "inject", "target": "turn[2]", "change": "+=", "value": -0.5})
         watched.wait(("type", "faults"), ("active", ["f[1] × 9", "turn[2] − 0.5 rad"]))
@@ -286,7 +286,7 @@ def test_faults_are_injected_refused_and_taken_back(tmp_path: Path) -> None:
         session.ask({"do": "reset"})  # a real machine goes on
         watched.wait(("type", "reset"))
         watched.said.clear()
-        ours.sendall(b"4.0,1,1,0,0,0,0\n4.005,1,1,0,0,0,0\n4.01,1,1,0,0,0,0\n")
+        ours.sendall(b"24.0,1,1,0,0,0,0\n24.005,1,1,0,0,0,0\n24.01,1,1,0,0,0,0\n")
         frame = watched.wait(("type", "frame"))
         assert frame["virtual"]["p"][0] == pytest.approx(0.0, abs=1e-3)
     finally:

@@ -11,6 +11,8 @@ from bondgraph.runtime.log import Array, Log
 
 #: When the friction triples, in s.
 ONSET = 3.0
+#: By how much, in N.m.s/rad.
+FAULT = 2 * 1.19e-5
 _L, _R, _K, _J, _F = 300e-6, 17.6, 3.51e-3, 1.4e-8, 1.19e-5
 _RATE = 1000
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from bondgraph.runtime.monitoring.diagnosis import grown
+from bondgraph.runtime.monitoring.healthy import grown
 from bondgraph.runtime.monitoring.tuning import (
     Limit,
     Tuning,

@@ -66,10 +66,14 @@ def test_text_says_what_since_when_how_sure_and_what_else() -> None:
     residuals = {"r1": 12.34, "r2": 1.26}
     line = to_text(Verdict("fault", 5.21, 5.034, residuals, ("m[1].el.Re",), candidates))
     assert line.split("fault", 1)[1].strip() == (
-        "m[1].el.Re or m[1].el.k since 5.034 s: m[1].el.Re (71 %, +4.4 Ohm) or m[1].el.k (29 %);"
+        "m[1].el.Re since 5.034 s: m[1].el.Re (71 %, +4.4 Ohm) or m[1].el.k (29 %);"
         " r1 at 12 times its threshold and r2 at 1.3 times its threshold"
     )
     assert "\n" not in line
+    unsure = to_text(Verdict("update", 5.21, 5.034, {}, (), candidates))
+    assert unsure.split("update", 1)[1].strip() == (
+        "not clear yet which fault, since 5.034 s: m[1].el.Re (71 %, +4.4 Ohm) or m[1].el.k (29 %)"
+    )
 
 
 def test_candidates_that_nothing_tells_apart_are_named_once() -> None:

@@ -1,0 +1,63 @@
+"""What a healthy machine may do: be off within tolerances, begin anywhere within a count."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.hypotheses import COUNT, Hypothesis
+
+_COUNT = 1.0  # counts by which the first one of an encoder may be off
+
+
+class Facts(NamedTuple):
+    """What a diagnosis knows of the machine.
+
+    `faults` that some residual sees, with the nominal value of a parameter and None for a signal;
+    `tolerances` relative; `sees` for each residual its faults; `groups` the faults that structure
+    does not tell apart.
+    """
+
+    faults: Mapping[str, float | None]
+    tolerances: Mapping[str, float]
+    units: Mapping[str, str]
+    sees: Mapping[str, Sequence[str]]
+    groups: Sequence[tuple[str, ...]]
+
+
+def tolerated(known: Sequence[Hypothesis], facts: Facts) -> tuple[tuple[Hypothesis, ...], Array]:
+    """What may be off for ever while all is well, and by how much (standard deviations).
+
+    Parameters within their tolerances, and encoders by one count: where within a count an encoder
+    stands when it begins to count, nobody knows.
+    """
+    found, most = [], []
+    for one in known:
+        if one.kind == "value" and facts.tolerances.get(one.fault):
+            most.append(facts.tolerances[one.fault] * abs(facts.faults[one.fault] or 0.0))
+        elif one.kind == "offset" and one.unit == COUNT:
+            most.append(_COUNT)
+        else:
+            continue
+        found.append(one)
+    keep = [k for k, size in enumerate(most) if size > 0]
+    return tuple(found[k] for k in keep), np.array([most[k] for k in keep]) / math.sqrt(3.0)
+
+
+def slack(known: Sequence[Hypothesis], slopes: Array) -> Array:
+    """What the first counts of encoders add to the adaptive threshold; slopes (..., known, r)."""
+    own = [k for k, h in enumerate(known) if h.unit == COUNT]
+    return np.asarray(_COUNT * np.abs(slopes[..., own, :]).sum(axis=-2))
+
+
+def grown(sums: Array, value: Array, allowed: Array, sigma: Array) -> Array:
+    """One row more of the sums of what is above the allowed and below its opposite (Page, 1954).
+
+    `sums` has the shape (2, residuals). Half a sigma less a row keeps noise from adding up.
+    """
+    above = (np.stack([value, -value]) - allowed) / sigma - 0.5
+    return np.asarray(np.maximum(0.0, sums + above))
