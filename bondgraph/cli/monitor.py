@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.tuning import Tuning
     from bondgraph.runtime.monitoring.verdict import Verdict
 
-_COLOURS = {"fault": "1;31", "update": "31", "invalid": "33", "gap": "33"}
+_COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "invalid": "33", "gap": "33"}
 
 
 def arguments(parser: ArgumentParser) -> None:

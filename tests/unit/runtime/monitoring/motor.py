@@ -31,13 +31,13 @@ def _rates(t: float, x: Array, f: float) -> list[float]:
 
 
 @cache
-def log(seconds: float = 6.0) -> Log:
-    """What its sensors say, with noise; the friction is 3 f from `ONSET` on."""
+def log(seconds: float = 6.0, times: float = 3.0) -> Log:
+    """What its sensors say, with noise; the friction is `times` f from `ONSET` on."""
     t = np.arange(round(seconds * _RATE)) / _RATE
     state = np.linalg.solve([[_R, _K], [_K, -_F]], [float(_voltage(0.0)), 0.0])
     parts = []
-    for f, part in ((_F, t[t < ONSET]), (3.0 * _F, t[t >= ONSET])):
-        end = ONSET if f == _F else t[-1] + 1e-3
+    for f, part in ((_F, t[t < ONSET]), (times * _F, t[t >= ONSET])):
+        end = ONSET if part[:1].sum() == 0.0 else t[-1] + 1e-3
         if not len(part):
             continue
         found = solve_ivp(
