@@ -19,6 +19,7 @@ from bondgraph.backends.report.episode import (
     Trace,
 )
 from bondgraph.cli import console
+from bondgraph.cli.residual_units import residual_units
 from bondgraph.runtime.monitoring.verdict import listed
 
 if TYPE_CHECKING:
@@ -103,9 +104,11 @@ def _watched(compilation: Compilation, run: Run) -> Watched | None:
 
 def _traces(compilation: Compilation, seen: Watched) -> Iterator[Trace]:
     """The residuals; a threshold is the adaptive one and what noise alone does."""
+    units = residual_units(compilation)
     for k, info in enumerate(compilation.program.residuals):
         if not info.unavailable:
-            yield Trace(info.path, seen.value[:, k], "", seen.bound[:, k], seen.valid[:, k])
+            unit = units.get(info.path, "")
+            yield Trace(info.path, seen.value[:, k], unit, seen.bound[:, k], seen.valid[:, k])
 
 
 def _panels(compilation: Compilation, run: Run, seen: Watched | None) -> Iterator[Panel]:
