@@ -197,7 +197,7 @@ def _said(seen: Watched) -> Iterator[Said]:
         elif verdict.event in ("fault", "update"):
             end = next((v.time for v in about if v.time > verdict.time), None)
             names = [c.fault for c in verdict.candidates] or list(verdict.group)
-            short = listed(names, "or", 3) if names else "an unknown fault"
+            short = listed(names, "or", 3) if names else ""  # what it is, the next one says
             yield Said("fault", verdict.time, end, short, text, verdict.since)
         else:
             yield Said(verdict.event, verdict.time, verdict.time, verdict.event, text)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.hypotheses import Bank, Hypothesis
+from bondgraph.runtime.monitoring.hypotheses import COUNT, Bank, Hypothesis
 from bondgraph.runtime.monitoring.tuning import height, kappa
 
 _STEPS = 10  # differences of neighbouring rows that the noise of a residual is taken from
@@ -31,7 +31,8 @@ class Learning:
     def __init__(
         self, engine: Engine, known: Sequence[Hypothesis], used: npt.NDArray[np.bool_], every: int
     ) -> None:
-        self._gains = tuple(h for h in known if h.kind == "gain")
+        counted = {h.fault for h in known if h.unit == COUNT}  # exact, however far they have come
+        self._gains = tuple(h for h in known if h.kind == "gain" and h.fault not in counted)
         self._engine = engine
         self._steps: list[list[float]] = [[] for _ in used]
         self._scale = np.zeros(len(used))
