@@ -14,9 +14,10 @@ from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.healthy import Facts, grown, slack, tolerated
 from bondgraph.runtime.monitoring.hypotheses import Bank, Sizes, hypotheses, rows_apart
-from bondgraph.runtime.monitoring.isolation import Explained, History, Rows, explain
+from bondgraph.runtime.monitoring.isolation import History, Rows, explain, inverse
 from bondgraph.runtime.monitoring.learning import Learning
-from bondgraph.runtime.monitoring.naming import named, update
+from bondgraph.runtime.monitoring.naming import LONGEST, named, news, possible, update
+from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.runtime.monitoring.tuning import Limit, Tuning
 from bondgraph.runtime.monitoring.verdict import Verdict, listed
 
@@ -27,7 +28,6 @@ _JUDGE = 5  # rows after an alarm before a fault is named
 _AGAIN = 5  # rows between later judgements
 _CALM = 5  # rows that have to be calm behind one before it counts as healthy
 _BACK = 10  # rows that residuals must be quiet before a fault is over, twice as many each time
-_LONGEST = 320  # rows that anything said again has to wait
 _MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is off by
 _SLOPE_ERROR = 0.05  # of the residual: what its sensitivities are off by
 _ONSET_ERROR = 0.8  # of the residual, in the first row: somewhere in it the fault began
@@ -174,8 +174,8 @@ class Diagnosis:
             return None
         whole = np.concatenate(self._piece)
         self._sizes.add(whole)
-        value, valid, bound = (x[-1] for x in batch)
-        row = _Row(float(time[-1]), whole, self._before, value, valid, bound, every[-1])
+        value, valid, bound, slopes = (x[-1].copy() for x in (*batch, every))
+        row = _Row(float(time[-1]), whole, self._before, value, valid, bound, slopes)
         self._piece, self._before = [], self._copy()
         self._past.append(row)
         return row
@@ -306,16 +306,16 @@ class Diagnosis:
     def _odd(self, row: _Row) -> bool:
         """Whether a fired residual is not what the history lets expect."""
         expected, variance = self._history.expected(row.slopes)
-        own = _inverse(self._weight(row))
+        own = inverse(self._weight(row))
         off = np.abs(row.value - expected) > 3.0 * np.sqrt(variance + own)
         return bool((off & (self._fired if self._fired.any() else True)).any())
 
     def _step_row(self, row: _Row) -> None:
         """One more row of what every fault would have done since the onset."""
         assert self._steps is not None
-        slopes = self._steps.run(row.samples)[-1]
+        slopes = self._steps.run(row.samples)[-1].copy()
         early = _ONSET_ERROR * _ONSET_FADES ** len(self._rows)
-        variance = _inverse(self._weight(row)) + (early * row.value) ** 2
+        variance = inverse(self._weight(row)) + (early * row.value) ** 2
         self._rows.append(Rows(row.value, 1.0 / variance, row.slopes, slopes))
         del self._rows[_MOST:]  # by then it is known as well as it will be
 
@@ -331,7 +331,7 @@ class Diagnosis:
             found = explain(rows, self._all, self._history)
         except np.linalg.LinAlgError:
             return
-        found = [self._possible(e) for e in found]
+        found = [possible(e, self._nominal.get(e.fault)) for e in found]
         group, leads = named(found, self._facts.groups)
         sure, self._leads = group if leads == self._leads else (), leads
         if group and not sure and self._latched["said"] is None and self._after == _JUDGE:
@@ -339,43 +339,18 @@ class Diagnosis:
         verdict = update(row.time, self._latched["since"], self._levels(), sure, found)
         wanted = [list(sure), verdict.candidates[0].fault if verdict.candidates else None]
         again, self._wanted = self._wanted == wanted, wanted
-        if self._news(wanted, again):
+        if news(self._latched["said"], wanted, again, self._after - self._told):
             times = 1 if self._latched["said"] is None else self._latched["said"][2] + 1
             self._latched["said"] = [*wanted, times]
             self._told = self._after
             out.append(verdict)
-
-    def _news(self, wanted: list[Any], again: bool) -> bool:
-        """Whether a judgement is to be told: something else than before, and for good.
-
-        Who waits longer each time does not go back and forth between two that are alike.
-        """
-        assert self._latched is not None
-        if self._latched["said"] is None:
-            return True
-        group, fault, times = self._latched["said"]
-        if wanted == [group, fault] or (not wanted[0] and wanted[1] in group):
-            return False  # the same, or only less sure of it
-        if wanted[0] and not group:
-            return True
-        wait = min(_AGAIN * 2**times, _LONGEST)
-        return again and self._after - self._told >= wait
-
-    def _possible(self, explained: Explained) -> Explained:
-        """No fault turns a parameter into its opposite: what would need that is no explanation."""
-        nominal = self._nominal.get(explained.fault)
-        if nominal:
-            left = 1.0 - explained.change / nominal  # of the value, as the machine has it now
-            if left < -0.1 - 3.0 * explained.deviation / abs(nominal):
-                return explained._replace(evidence=-math.inf)
-        return explained
 
     def _over(self, row: _Row, out: list[Verdict]) -> None:
         """A fault is over when its residuals have been quiet for long enough."""
         excess = np.abs(row.value) - row.bound
         loud = row.valid & (excess > 0.5 * self._limits[:, 2] * self._limits[:, 0])
         self._quiet = 0 if (loud & self._fired).any() or not row.valid.any() else self._quiet + 1
-        if self._quiet < min(_BACK * 2 ** min(self._count - 1, 9), _LONGEST):
+        if self._quiet < min(_BACK * 2 ** min(self._count - 1, 9), LONGEST):
             return
         names = listed(
             [n for n, f in zip(self._engine.residuals, self._fired, strict=True) if f], "and"
@@ -393,24 +368,24 @@ class Diagnosis:
     def state(self) -> dict[str, Any]:
         """All that `resume` needs, as plain JSON."""
         return {
-            "limits": _numbers(self._limits),
+            "limits": numbers(self._limits),
             "matrix": self._history.matrix.tolist(),
             "vector": self._history.vector.tolist(),
             "fired": self._fired.tolist(),
-            "most": _numbers(self._most),
-            "sums": _numbers(self._sums),
+            "most": numbers(self._most),
+            "sums": numbers(self._sums),
             "alarms": self._count,
             "latched": self._latched,
         }
 
     def resume(self, state: dict[str, Any]) -> None:
         """Go on from a state: limits that were learned, what is known of parameters and faults."""
-        limits = _array(state["limits"], self._limits.shape)
-        matrix = _array(state["matrix"], self._history.matrix.shape)
-        vector = _array(state["vector"], self._history.vector.shape)
-        fired = _array(state["fired"], self._fired.shape) != 0.0
-        most = _array(state["most"], self._most.shape)
-        sums = _array(state["sums"], self._sums.shape)
+        limits = array(state["limits"], self._limits.shape)
+        matrix = array(state["matrix"], self._history.matrix.shape)
+        vector = array(state["vector"], self._history.vector.shape)
+        fired = array(state["fired"], self._fired.shape) != 0.0
+        most = array(state["most"], self._most.shape)
+        sums = array(state["sums"], self._sums.shape)
         count, latched = int(state["alarms"]), state["latched"]
         if latched is not None:
             latched = {"since": float(latched["since"]), "said": latched["said"]}
@@ -423,22 +398,3 @@ class Diagnosis:
         self._history.matrix, self._history.vector = matrix, vector
         self._fired, self._most, self._sums = fired, most, sums
         self._count, self._latched = count, latched
-
-
-def _inverse(weight: Array) -> Array:
-    """Variances from weights, infinite where there is none."""
-    return np.where(weight > 0, 1.0 / np.maximum(weight, 1e-300), math.inf)
-
-
-def _numbers(values: Array) -> list[Any]:
-    """An array as JSON can hold it: None for what is not finite."""
-    return [
-        _numbers(v) if isinstance(v, np.ndarray) else (float(v) if math.isfinite(v) else None)
-        for v in values
-    ]
-
-
-def _array(values: Any, shape: tuple[int, ...]) -> Array:
-    """The array again, infinite where there is None; raises ValueError for another shape."""
-    found = np.array(values, dtype=float).reshape(shape)
-    return np.where(np.isnan(found), math.inf, found)

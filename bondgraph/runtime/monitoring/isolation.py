@@ -90,6 +90,11 @@ class History:
         return slopes.T @ (spread @ self.vector), np.einsum("pr,pq,qr->r", slopes, spread, slopes)
 
 
+def inverse(weight: Array) -> Array:
+    """Variances from weights, infinite where there is none."""
+    return np.where(weight > 0, 1.0 / np.maximum(weight, 1e-300), math.inf)
+
+
 def explain(rows: Rows, hypotheses: Sequence[Hypothesis], history: History) -> list[Explained]:
     """How well each fault explains the rows since the onset, in the order of the hypotheses.
 

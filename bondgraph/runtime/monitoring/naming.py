@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from bondgraph.runtime.monitoring.isolation import Explained, probabilities
 from bondgraph.runtime.monitoring.verdict import Candidate, Verdict, described
@@ -10,6 +12,39 @@ from bondgraph.runtime.monitoring.verdict import Candidate, Verdict, described
 _SURE = 0.75  # probability from which on a class is named
 _SHOWN = 0.02  # probability from which on a candidate is worth telling
 _EXPLAINS = 0.7  # share of the misfit that a single fault has to take away
+_AGAIN = 5  # rows between an update and the next, twice as many each time
+LONGEST = 320  # rows that anything said again has to wait
+
+
+def possible(explained: Explained, nominal: float | None) -> Explained:
+    """No fault turns a parameter into its opposite: what would need that is no explanation."""
+    if nominal:
+        left = 1.0 - explained.change / nominal  # of the value, as the machine has it now
+        if left < -0.1 - 3.0 * explained.deviation / abs(nominal):
+            return explained._replace(evidence=-math.inf)
+    return explained
+
+
+def news(said: list[Any] | None, wanted: list[Any], again: bool, waited: int) -> bool:
+    """Whether a judgement is to be told: something else than before, and for good.
+
+    `said` is the class that was named, the first candidate, and the number of updates so far;
+    `wanted` the class and candidate now, `again` whether the judgement before had the same. Who
+    waits longer each time does not go back and forth between two that are alike.
+
+    >>> news([["a", "b"], "a", 1], [["a", "b"], "b"], False, 100)
+    False
+    >>> [news([["a", "b"], "a", k], [["a", "b"], "b"], True, 20) for k in (1, 2, 3)]
+    [True, True, False]
+    """
+    if said is None:
+        return True
+    group, fault, times = said
+    if wanted == [group, fault] or (not wanted[0] and wanted[1] in group):
+        return False  # the same, or only less sure of it
+    if wanted[0] and not group:
+        return True
+    return again and waited >= min(_AGAIN * 2.0 ** min(times, 9), LONGEST)
 
 
 def named(

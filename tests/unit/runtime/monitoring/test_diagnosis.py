@@ -216,3 +216,13 @@ def test_a_tuning_of_another_model_is_refused() -> None:
         _motor().diagnosis(_engine(), tuning._replace(bandwidth=3.0))
     with pytest.raises(ValueError, match="warm-up"):
         tune(_engine(), _motor().facts, [np.zeros((5, 4))], "x", 1.0)
+
+
+def test_what_is_remembered_are_rows_and_not_the_samples_that_they_were_cut_from() -> None:
+    t, rows = _samples(16, 6.0, {"f": _F * 2.0})
+    diagnosis = _motor().diagnosis(_engine(), _tuned().tuning)
+    assert [v for v in _said(t, rows, 6000, diagnosis=diagnosis) if v.event == "fault"]
+    kept = [x for row in (*diagnosis._past, *diagnosis._rows) for x in row]
+    arrays = [x for x in kept if isinstance(x, np.ndarray)]
+    assert len(arrays) > 20
+    assert all(x.base is None for x in arrays)

@@ -11,11 +11,13 @@ from scipy.stats import multivariate_normal
 
 from bondgraph.runtime.monitoring.hypotheses import Hypothesis
 from bondgraph.runtime.monitoring.isolation import (
+    Explained,
     History,
     Rows,
     explain,
     probabilities,
 )
+from bondgraph.runtime.monitoring.naming import named, update
 
 _SCALES = (0.1, 1.0, 10.0, 100.0)
 _CHUNK, _KEEP = 4, 0.95
@@ -96,3 +98,14 @@ def test_a_silent_residual_speaks_against_a_fault_by_what_it_should_have_shown()
         chance = probabilities(explain(rows, hypotheses, History(np.zeros(0))))
         assert (chance["a"] > 0.99) is certain
         assert certain or chance["a"] == pytest.approx(0.5, abs=0.01)
+
+
+def test_where_each_fault_is_impossible_none_is_probable() -> None:
+    one = Hypothesis("a", "value", "", 1.0, True)
+    found = [Explained(f, -math.inf, 0.0, one._replace(fault=f), 0.0, 0.0) for f in "ab"]
+    assert probabilities(found) == {"a": 0.0, "b": 0.0}
+    verdict = update(1.0, 0.5, {"r1": 2.0}, (), found)
+    assert verdict.candidates == () and verdict.message.startswith("no single fault")
+    assert named(found, [("a",), ("b",)])[0] == ()
+    sure = [found[0]._replace(evidence=30.0, share=0.9), found[1]]
+    assert probabilities(sure) == pytest.approx({"a": 1.0, "b": 0.0})
