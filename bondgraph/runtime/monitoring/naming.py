@@ -89,7 +89,8 @@ def _candidate(explained: Explained, chance: float) -> Candidate:
     hypothesis, change = explained.hypothesis, explained.change
     size = -change if hypothesis.turned else change
     if hypothesis.kind == "gain" and not hypothesis.turned:
-        size = size / max(1.0 - size, 1e-3)  # of what is true, not of what is told
+        left = 1.0 - size  # told is true/left: nothing is left of what is told for no reason
+        size = size / left if abs(left) > 1e-3 else math.copysign(1e3, left)
     if hypothesis.kind == "gain":
         return Candidate(explained.fault, 100.0 * size, "%", round(chance, 4))
     return Candidate(explained.fault, size, hypothesis.unit, round(chance, 4))
