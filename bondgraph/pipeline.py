@@ -326,29 +326,9 @@ class Compilation:
     @cached_property
     def facts(self) -> Facts:
         """What a monitor has to know of the machine beside its residuals."""
-        from bondgraph.runtime.monitoring.healthy import Facts
-        from bondgraph.runtime.simulation.values import Values
+        from bondgraph.runtime.monitoring.healthy import facts
 
-        graph, matrix = self.graph, self.signatures
-        values = Values(graph)
-        numbers = {v.name: values.constant(v.symbol) for v in graph.values}
-        program = self.program
-        sees = {
-            r.name: tuple(f for f in r.faults if f not in r.invisible)
-            for r in program.residuals
-            if not r.unavailable
-        }
-        seen = dict.fromkeys(f for faults in sees.values() for f in faults)
-        units = {v.name: v.unit or "" for v in graph.values}
-        units |= {i.name: i.unit or "" for i in graph.inputs}
-        units |= {s.name: s.unit or "" for s in graph.sensors}
-        return Facts(
-            {f: numbers.get(f) for f in matrix.faults if f in seen},
-            {v.name: float(v.tolerance) for v in graph.values if v.tolerance},
-            units,
-            sees,
-            matrix.groups,
-        )
+        return facts(self.graph, self.signatures, self.program)
 
     def diagnosis(self, engine: Engine, tuning: Tuning | None = None) -> Diagnosis:
         """What says verdicts about the residuals of an engine of this model.

@@ -8,8 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.program import Program
+from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.hypotheses import COUNT, Hypothesis
+from bondgraph.runtime.simulation.values import Values
 
 _COUNT = 1.0  # counts by which the first one of an encoder may be off
 
@@ -27,6 +31,28 @@ class Facts(NamedTuple):
     units: Mapping[str, str]
     sees: Mapping[str, Sequence[str]]
     groups: Sequence[tuple[str, ...]]
+
+
+def facts(graph: BondGraph, matrix: SignatureMatrix, program: Program) -> Facts:
+    """The facts of a model, as far as the code sees its faults at its sample rate."""
+    values = Values(graph)
+    numbers = {v.name: values.constant(v.symbol) for v in graph.values}
+    sees = {
+        r.name: tuple(f for f in r.faults if f not in r.invisible)
+        for r in program.residuals
+        if not r.unavailable
+    }
+    seen = {f for faults in sees.values() for f in faults}
+    units = {v.name: v.unit or "" for v in graph.values}
+    units |= {i.name: i.unit or "" for i in graph.inputs}
+    units |= {s.name: s.unit or "" for s in graph.sensors}
+    return Facts(
+        {f: numbers.get(f) for f in matrix.faults if f in seen},
+        {v.name: float(v.tolerance) for v in graph.values if v.tolerance},
+        units,
+        sees,
+        matrix.groups,
+    )
 
 
 def tolerated(known: Sequence[Hypothesis], facts: Facts) -> tuple[tuple[Hypothesis, ...], Array]:

@@ -14,6 +14,7 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -101,10 +102,10 @@ class Functions:
     """The functions of one program in a library."""
 
     def __init__(self, library: ctypes.CDLL, runnable: Runnable) -> None:
-        def function(name: str, result: object, *arguments: object) -> ctypes._NamedFuncPointer:
-            found = getattr(library, f"{runnable.stem}_batch{name}")
+        def function(name: str, result: Any, *arguments: Any) -> ctypes._NamedFuncPointer:
+            found: ctypes._NamedFuncPointer = getattr(library, f"{runnable.stem}_batch{name}")
             found.restype, found.argtypes = result, arguments
-            return found  # type: ignore[no-any-return]
+            return found
 
         pointer, size, real = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_double
         results = [pointer] * (3 if runnable.program.bounds else 2)

@@ -190,9 +190,12 @@ class Code:
             self.names[self.tables[expr.name]] = found
         return f"{self.tables[expr.name]}({args})"
 
-    def function(self, name: str, arguments: str, result: str, **more: object) -> Any:
+    def function(
+        self, name: str, arguments: str, result: str, **more: object
+    ) -> Callable[..., Any]:
         """The function with these lines; `more` are further names that it uses."""
         source = "\n".join([f"def {name}({arguments}):", *self.lines, f"    return {result}"])
         space = {**self.names, **more}
         exec(compile(source, f"<{name} of the virtual machine>", "exec"), space)
-        return space[name]
+        made: Callable[..., Any] = space[name]
+        return made

@@ -56,7 +56,8 @@ class Machine:
     def rates(self, t: float, x: Sequence[float], u: Sequence[float]) -> Sequence[float]:
         """The derivative of each state at time t (s); NaN where a law or loop has no solution."""
         try:
-            return self._rates(t, x, u)  # type: ignore[no-any-return]
+            found: Sequence[float] = self._rates(t, x, u)
+            return found
         except _FAILS:
             return [math.nan] * len(self.states)
 
@@ -65,7 +66,8 @@ class Machine:
         if self._observed is None:
             self._observed = self._compiled("observe", self.outputs)
         try:
-            return self._observed(t, x, u)  # type: ignore[no-any-return]
+            found: Sequence[float] = self._observed(t, x, u)
+            return found
         except _FAILS:
             return [self._alone(e)(t, x, u) for e in self.outputs]
 
@@ -199,7 +201,7 @@ class Machine:
             else:
                 self._iterated(code, number, block, more)
         result = f"[{', '.join(code.write(e) for e in wanted)}]"
-        return code.function(name, "t, x, u", result, **more)  # type: ignore[no-any-return]
+        return code.function(name, "t, x, u", result, **more)
 
     def _leaf(self, signal: Signal) -> Expr:
         pool = self.equations.graph.pool

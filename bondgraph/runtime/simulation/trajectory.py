@@ -67,7 +67,7 @@ class Reckoning:
                       for s in self.signals]  # fmt: skip
         self._counted = [counts and s in turns for s in self.signals]
         self._start: list[float] = []
-        self._tracked: list[tuple[bool, int, Callable[..., float]]] = []
+        self._tracked: list[tuple[bool, int, Callable[..., list[float]]]] = []
         leaves: dict[Expr, str] = {n: f"w[{k}]" for k, n in enumerate(symbols)}
         self._derived = 0
         for node in nodes:
@@ -120,7 +120,7 @@ class Reckoning:
         elif self._time is None:
             return [math.nan] * len(self.names)
         try:
-            return self._values(self._w, self._d, self._s)  # type: ignore[return-value]
+            return self._values(self._w, self._d, self._s)
         except (ArithmeticError, ValueError):
             return [math.nan] * len(self.names)
 
@@ -148,7 +148,7 @@ class Reckoning:
         half = list(self._s)
         for is_rate, k, look in self._tracked:
             try:
-                value = look(w, self._d, ahead)[0] if is_rate else look(middle, self._d, half)[0]  # type: ignore[index]
+                value = (look(w, self._d, ahead) if is_rate else look(middle, self._d, half))[0]
             except (ArithmeticError, ValueError):
                 continue  # the law has no value here: as before
             if is_rate:
@@ -275,7 +275,7 @@ def _initial(node: Expr, values: Values) -> float:
 
 def _compiled(
     pool: Any, leaves: Mapping[Expr, str], values: Values, wanted: list[Expr]
-) -> Callable[..., float]:
+) -> Callable[..., list[float]]:
     code = Code(pool, leaves, values.constant)
     result = f"[{', '.join(code.write(e) for e in wanted)}]"
-    return code.function("reckoned", "w, d, s", result)  # type: ignore[no-any-return]
+    return code.function("reckoned", "w, d, s", result)
