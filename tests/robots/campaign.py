@@ -15,12 +15,28 @@ from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.tune import Tuned, tune
 from bondgraph.runtime.monitoring.tuning import Tuning
 from bondgraph.runtime.monitoring.verdict import Verdict
-from bondgraph.runtime.simulation.scenario import Change, Fault, Scenario
+from bondgraph.runtime.simulation.scenario import Change, Course, Fault, Scenario
 
-MODEL = "models/khepera_encoders.bg"
+PLANT = "models/khepera_encoders.bg"
 SCENARIO = "models/scenarios/errands.toml"
 ONSET = 10.0  # s
 _BLOCK = 1000  # samples that the monitor gets at a time
+
+
+class Robot(NamedTuple):
+    """The robot on its errands with the instruments that it has.
+
+    `model` is the one that watches it; its encoders turn with the same shafts, however coarse they
+    are. `load` says whether something draws a current through the cable.
+    """
+
+    name: str
+    model: str
+    load: bool
+
+
+ENCODERS = Robot("two encoders a drive", PLANT, True)
+BUILT = Robot("as built", "models/khepera_built.bg", False)
 
 
 class Kind(NamedTuple):
@@ -47,43 +63,55 @@ KINDS = (
 
 
 class Seen(NamedTuple):
-    """What the monitor said of one run."""
+    """What the monitor said of one run; `delay` until the alarm, `naming` until the last name."""
 
     alarms: int
     delay: float | None
+    naming: float | None
     named: tuple[tuple[str, ...], ...]
     last: tuple[str, ...]
     best: str
 
 
 @cache
-def robot(model: str = MODEL, bandwidth: float | None = None) -> Compilation:
-    """The model, compiled once a process."""
-    return bondgraph.compile(model, bandwidth=bandwidth)
+def compiled(model: str = PLANT) -> Compilation:
+    """A model, compiled once a process."""
+    return bondgraph.compile(model)
 
 
 @cache
-def engine(model: str = MODEL, bandwidth: float | None = None) -> Engine:
+def engine(model: str = PLANT) -> Engine:
     """An engine of it."""
-    return robot(model, bandwidth).engine()
+    return compiled(model).engine()
 
 
-def errands(seed: int, duration: float, *faults: Fault, scenario: str = SCENARIO) -> Scenario:
+def errands(seed: int, duration: float, *faults: Fault, robot: Robot = ENCODERS) -> Scenario:
     """One robot out of many, on its errands."""
-    chosen = robot().scenario(scenario)
-    return chosen._replace(seed=seed, duration=duration, spread="uniform", faults=faults)
+    chosen = compiled().scenario(SCENARIO)
+    inputs = chosen.inputs if robot.load else {**chosen.inputs, "load": Course(None, ((0.0, 0.0),))}
+    return chosen._replace(
+        seed=seed, duration=duration, spread="uniform", faults=faults, inputs=inputs
+    )
 
 
-def samples(log: Log, of: Engine) -> np.ndarray:
-    """What the engine reads, from a log."""
-    return np.column_stack([log.columns[k.path] for k in of.signals])
+def samples(log: Log, robot: Robot = ENCODERS) -> np.ndarray:
+    """What the engine reads, from a log of the plant."""
+    fine = {k.path: k.counts for k in engine().signals}
+    columns = []
+    for known in engine(robot.model).signals:
+        column = log.columns[known.path]
+        if known.counts != fine[known.path]:
+            column = np.floor(column * (known.counts / fine[known.path]))
+        columns.append(column)
+    return np.column_stack(columns)
 
 
-def tuned(seeds: range, duration: float, false_alarms: float) -> Tuned:
+def tuned(seeds: range, duration: float, false_alarms: float, robot: Robot = ENCODERS) -> Tuned:
     """Limits from robots that nobody reports on."""
-    own, runs = engine(), robot()
-    logs = [samples(runs.simulate(errands(seed, duration)).log, own) for seed in seeds]
-    return tune(own, runs.facts, logs, runs.program.digest, false_alarms)
+    own, watcher = engine(robot.model), compiled(robot.model)
+    runs = (compiled().simulate(errands(seed, duration, robot=robot)).log for seed in seeds)
+    logs = [samples(log, robot) for log in runs]
+    return tune(own, watcher.facts, logs, watcher.program.digest, false_alarms)
 
 
 def fault(kind: Kind, size: float) -> Fault:
@@ -93,12 +121,12 @@ def fault(kind: Kind, size: float) -> Fault:
     return Fault(kind.target, kind.op, value, ONSET, math.inf, 0.0, 0.0, 1.0, kind.name)
 
 
-def watched(scenario: Scenario, tuning: Tuning) -> list[Verdict]:
+def watched(scenario: Scenario, tuning: Tuning, robot: Robot = ENCODERS) -> list[Verdict]:
     """All that the monitor says of a run."""
-    own = engine()
-    log = robot().simulate(scenario).log
-    rows = samples(log, own)
-    base, diagnosis = own.configured(), robot().diagnosis(own, tuning)
+    own = engine(robot.model)
+    log = compiled().simulate(scenario).log
+    rows = samples(log, robot)
+    base, diagnosis = own.configured(), compiled(robot.model).diagnosis(own, tuning)
     said: list[Verdict] = []
     for k in range(0, len(rows), _BLOCK):
         part = rows[k : k + _BLOCK]
@@ -113,10 +141,13 @@ def seen(said: list[Verdict], onset: float | None) -> Seen:
     true = [v for v in alarms if onset is not None and v.time >= onset]
     named = [v for v in said if v.group and (onset is None or v.time >= onset)]
     best = [v.candidates[0].fault for v in said if v.candidates]
+    last = named[-1].group if named else ()
+    since = [v.time for v in named if v.group == last]
     return Seen(
         len(false),
         true[0].time - onset if true and onset is not None else None,
+        since[0] - onset if since and onset is not None else None,
         tuple(v.group for v in named),
-        named[-1].group if named else (),
+        last,
         best[-1] if best else "",
     )
