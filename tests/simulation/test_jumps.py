@@ -51,6 +51,20 @@ def test_a_clutch_that_closes_keeps_the_momentum() -> None:
     assert near(found.columns["J2.p"], np.where(t < 1, 3.0, 3 * both))
 
 
+@pytest.mark.parametrize("closed", ["t > 0", "sin(t) > 0"])
+def test_a_switch_may_turn_at_the_very_start(closed: str) -> None:
+    found = run(
+        CLUTCH,
+        f'duration = 2\nsampling.rate = 100\n[inputs]\nclosed = "{closed}"\nT = 0\n'
+        '[initial]\n"J1.p" = 8\n"J2.p" = 3',
+    )
+    t = found.log.time
+    both = 11 / 5 * np.exp(-0.1 * t)
+    assert near(found.truth.columns["J1.p"], 2 * both)
+    assert near(found.truth.columns["J2.p"], 3 * both)
+    assert found.log.columns["closed"].tolist() == [1.0] * len(t)
+
+
 def test_an_inertia_behind_a_gear_that_gets_heavier_shares_its_momentum() -> None:
     """What is added stands still: the sum of momenta along the constraint stays."""
     found = run(

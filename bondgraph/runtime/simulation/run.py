@@ -154,7 +154,8 @@ class _Simulation:
         done = 0
         for a, b in zip([0.0, *stops, end], [*stops, end, end], strict=True):
             when = inside(a, b)
-            mode = self._mode(when(a))
+            setting = when((a + b) / 2)  # what turns at the very start has turned
+            mode = self._mode(setting)
             last = len(times) if a == end else int(np.searchsorted(times, b))
             x = handed_over(mode.machine, a, mode.inputs(when(a)), held)
             if self._begin(mode, when(a), x, table, (done, last)):
@@ -163,7 +164,7 @@ class _Simulation:
             for k, t in enumerate(times[done:last].tolist(), done):
                 now = self._seen(mode, when(t), rows[k - done])
                 table[k] = [now.get(name, math.nan) for name in first.names]
-                self._note(k, when(t))
+                self._note(k, when(t), setting)
             after = self._seen(mode, when(b), rows[-1])
             held |= {n: v for n, v in after.items() if n in held and v == v}
             held |= zip(mode.machine.states, rows[-1].tolist(), strict=True)
@@ -225,10 +226,13 @@ class _Simulation:
         symbols = {v.name: v.symbol for v in self.graph.values}
         return self.values.number(symbols[name])
 
-    def _note(self, k: int, t: float) -> None:
-        """Write down what is told at sample k, and what is not read."""
+    def _note(self, k: int, t: float, setting: float) -> None:
+        """Write down what is told at sample k, and what is not read.
+
+        `setting` is a time at which the switches are as they are throughout the segment.
+        """
         for name, column in self.told.items():
-            column[k] = self.given.told(name, t)
+            column[k] = self.given.told(name, setting if name in self.given.modes else t)
             if not math.isfinite(column[k]):
                 raise SimulationError(f"the run ends at {t:.6g} s: the input `{name}` has no value")
         for name, column in self.gone.items():
