@@ -3,30 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
+from typing import Any
 
 from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 
-_FUNCTIONS = {
+#: What an expression may call, on doubles.
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    **{
+        name: getattr(math, name)
+        for name in "sqrt cbrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh"
+        " pow atan2".split()
+    },
     "abs": abs,
-    "sqrt": math.sqrt,
-    "cbrt": math.cbrt,
-    "exp": math.exp,
-    "log": math.log,
-    "sin": math.sin,
-    "cos": math.cos,
-    "tan": math.tan,
-    "asin": math.asin,
-    "acos": math.acos,
-    "atan": math.atan,
-    "sinh": math.sinh,
-    "cosh": math.cosh,
-    "tanh": math.tanh,
-    "asinh": math.asinh,
-    "acosh": math.acosh,
-    "atanh": math.atanh,
-    "pow": math.pow,
-    "atan2": math.atan2,
     "min": min,
     "max": max,
     "sign": lambda x: math.copysign(1.0, x) if x else 0.0,
@@ -40,10 +30,16 @@ _ROUNDING = 1e-15
 
 
 class Nominal:
-    """Nominal values of expressions of parameters, in SI units."""
+    """Nominal values of expressions of parameters, in SI units.
 
-    def __init__(self, graph: BondGraph) -> None:
-        self._known: dict[Expr, float | None] = {}
+    `replaced` are parameters of a machine, by name, that have another value than the model says.
+    """
+
+    def __init__(self, graph: BondGraph, replaced: Mapping[str, float] | None = None) -> None:
+        other = replaced or {}
+        self._known: dict[Expr, float | None] = {
+            v.symbol: float(other[v.name]) for v in graph.values if v.name in other
+        }
         self._doubts: dict[Expr, float] = {}
         self._nothing: dict[Expr, bool] = {}
         self._given = {v.symbol: v.value for v in graph.values}
@@ -136,7 +132,7 @@ def defined(expr: Expr, variable: Expr, at: float) -> bool:
             continue
         if node.op in (Op.FN, Op.NUM, Op.ADD, Op.MUL):
             value = _apply(node, [values[a] for a in node.args])
-            if value is None and not (node.op is Op.FN and node.name not in _FUNCTIONS):
+            if value is None and not (node.op is Op.FN and node.name not in FUNCTIONS):
                 return False
             values[node] = 1.0 if value is None else value
         else:
@@ -154,8 +150,20 @@ def _apply(node: Expr, args: list[float]) -> float | None:
                 return math.fsum(float(c) * a for c, a in terms)
             case Op.MUL:
                 return math.prod(a**e for a, e in zip(args, node.exponents, strict=True))
-            case Op.FN if node.name in _FUNCTIONS:
-                return float(_FUNCTIONS[node.name](*args))  # type: ignore[operator]
+            case Op.FN if node.name in FUNCTIONS:
+                return float(FUNCTIONS[node.name](*args))
+            case Op.DER:
+                return 0.0
+            case Op.IF:
+                return args[1] if args[0] else args[2]
+            case Op.CMP:
+                left, right = args
+                holds = {"<": left < right, "<=": left <= right, "==": left == right}
+                return float(holds[node.name])
+            case Op.LOGIC if node.name == "not":
+                return float(not args[0])
+            case Op.LOGIC:
+                return float((all if node.name == "and" else any)(args))
             case _:
                 return None
     except (ArithmeticError, ValueError):

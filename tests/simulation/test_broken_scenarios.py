@@ -70,6 +70,7 @@ WRONG = {
     "[parameters]\nRR = ~3~": "scenario-name",
     '[parameters]\nR = "~3 H~"': "unit-mismatch",
     '[initial]\n"x.q" = ~3~': "scenario-name",
+    '[initial]\n"L.p" = "~3 A~"': "unit-mismatch",
     '[sampling]\nrate = "~1 s~"': "unit-mismatch",
     "[sampling]\nrate = ~0~": "scenario-value",
     "[sampling]\njitter = ~2~": "scenario-value",

@@ -12,23 +12,9 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from bondgraph.ir.expr import Expr, Op, Pool
+from bondgraph.passes.nominal import FUNCTIONS
 
 _INLINE = 40  # letters of a subexpression that is written where it is used
-
-
-def sign(x: float) -> float:
-    """-1, 0 or 1."""
-    return math.copysign(1.0, x) if x else 0.0
-
-
-def ssqrt(x: float) -> float:
-    """The signed square root."""
-    return math.copysign(math.sqrt(abs(x)), x)
-
-
-def ssq(x: float) -> float:
-    """The signed square."""
-    return x * abs(x)
 
 
 def lookup(points: Sequence[tuple[float, float]]) -> Callable[[float], float]:
@@ -45,22 +31,7 @@ def lookup(points: Sequence[tuple[float, float]]) -> Callable[[float], float]:
 
 
 #: What the source may call.
-NAMES: dict[str, Any] = {
-    **{
-        name: getattr(math, name)
-        for name in "sqrt cbrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh"
-        " pow atan2".split()
-    },
-    "abs": abs,
-    "min": min,
-    "max": max,
-    "sign": sign,
-    "ssqrt": ssqrt,
-    "ssq": ssq,
-    "nan": math.nan,
-    "inf": math.inf,
-    "__builtins__": {},
-}
+NAMES: dict[str, Any] = {**FUNCTIONS, "nan": math.nan, "inf": math.inf, "__builtins__": {}}
 
 
 class Code:

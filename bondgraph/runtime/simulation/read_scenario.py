@@ -9,8 +9,9 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
-from bondgraph.ir.graph import BondGraph
-from bondgraph.ir.units import Dimension, over
+from bondgraph.ir.graph import BondGraph, Node
+from bondgraph.ir.units import Dimension, over, times
+from bondgraph.library.units import DOMAINS
 from bondgraph.passes.elaboration.outside import Outside
 from bondgraph.runtime.simulation.observed import named
 from bondgraph.runtime.simulation.places import places
@@ -60,6 +61,13 @@ def _where(source: Source, message: str) -> Span:
     start = sum(map(len, lines[: int(match[1]) - 1])) + int(match[2]) - 1
     start = min(start, len(source.text))
     return Span(source, start, min(start + 1, len(source.text)))
+
+
+def _state_unit(storage: Node) -> Dimension | None:
+    """The dimension of a charge or an impulse; None where the domain leaves it open."""
+    domain = DOMAINS.get(storage.domain or "")
+    rate = domain and (domain.flow if storage.kind == "C" else domain.effort)
+    return times(rate, SECOND) if rate else None
 
 
 class _Reader:
@@ -142,15 +150,16 @@ class _Reader:
         return found
 
     def _initial(self, table: Table) -> dict[str, float]:
-        states = {}
-        for node in self.graph.nodes:
-            for port in node.ports:
-                if port.state is not None:
-                    states[port.state.symbol.name] = port
+        states = {
+            port.state.symbol.name: _state_unit(node)
+            for node in self.graph.nodes
+            for port in node.ports
+            if port.state is not None
+        }
         found = {}
         for key in table.keys:
             if self._known(table, key, key, "state", states):
-                found[key] = table.number(key, None, 0.0)
+                found[key] = table.number(key, states[key], 0.0)
         return found
 
     def _inputs(self, table: Table) -> tuple[dict[str, Course], dict[str, Course]]:
