@@ -24,8 +24,11 @@ def codegen() -> Path:
 
 
 @cache
-def environment() -> Environment:
-    """The Jinja environment: a hole that nobody fills is an error, lines are kept as they are."""
+def environment(html: bool = False) -> Environment:
+    """The Jinja environment: a hole that nobody fills is an error, lines are kept as they are.
+
+    For `html` what fills a hole is escaped; C, Python and Markdown take it as it is.
+    """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     return Environment(
@@ -34,7 +37,7 @@ def environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
         undefined=StrictUndefined,
-        autoescape=False,  # the output is C, Python and Markdown, never HTML
+        autoescape=html,
     )
 
 

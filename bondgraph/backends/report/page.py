@@ -12,10 +12,9 @@ from bondgraph.backends.drawing.style import colours, inside
 from bondgraph.backends.report.content import Content, Group, Signatures
 from bondgraph.backends.report.episode import Episode
 from bondgraph.backends.report.isolability import isolability
-from bondgraph.backends.templates import codegen
+from bondgraph.backends.templates import codegen, environment
 
 if TYPE_CHECKING:
-    from jinja2 import Environment
     from markupsafe import Markup
 
 _COLUMNS = 24  # residuals beside each other in one matrix
@@ -50,7 +49,7 @@ def page(content: Content) -> str:
         "episodes": [_episode(e, f"e{k}") for k, e in enumerate(content.episodes, 1)],
         "words": _SEVERITY,
     }
-    return _environment().get_template("report/page.html.j2").render(holes)
+    return environment(html=True).get_template("report/page.html.j2").render(holes)
 
 
 def _sections(content: Content) -> list[tuple[str, str]]:
@@ -232,20 +231,6 @@ def _style() -> str:
 @cache
 def _text(name: str) -> str:
     return (codegen() / "report" / name).read_text(encoding="utf-8")
-
-
-@cache
-def _environment() -> Environment:
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    return Environment(
-        loader=FileSystemLoader(codegen()),
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        undefined=StrictUndefined,
-        autoescape=True,
-    )
 
 
 def _markup(text: str) -> Markup:
