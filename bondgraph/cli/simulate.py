@@ -46,7 +46,8 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Simulate, write the log, say how it ended."""
-    from bondgraph.runtime.log import LogError, write_log
+    from bondgraph.runtime.log import LogError
+    from bondgraph.runtime.log_file import write_log
     from bondgraph.runtime.simulation.integrate import SimulationError
 
     compilation = open_model(args.model)

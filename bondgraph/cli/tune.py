@@ -103,7 +103,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
     """The model, an engine of it, and what it reads from each log, on its own grid."""
     import numpy as np
 
-    from bondgraph.runtime.log import read_log
+    from bondgraph.runtime.log_file import read_log
     from bondgraph.runtime.monitoring.clock import clock_of
     from bondgraph.runtime.monitoring.columns import Columns, read_map
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from bondgraph.cli.main import main
-from bondgraph.runtime.log import read_log
+from bondgraph.runtime.log_file import read_log
 from bondgraph.runtime.simulation.integrate import Integrator
 from tests.simulation.machines import MODELS, example, read
 

@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bondgraph.runtime.log import Log, write_log
+from bondgraph.runtime.log import Log
+from bondgraph.runtime.log_file import write_log
 from tests.simulation.machines import Array, example, near, opened, read, run
 
 ROTOR = "Se:T -> 1:w\nw -> I:J = 0.5\nw -> R:f = 0.2\nw -> Df:y\nsensor th : rad = int(w.f)"

@@ -12,7 +12,8 @@ from typing import Any
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.units import Dimension
 from bondgraph.passes.elaboration.outside import Outside
-from bondgraph.runtime.log import LogError, read_log
+from bondgraph.runtime.log import LogError
+from bondgraph.runtime.log_file import read_log
 from bondgraph.runtime.simulation.places import Path
 from bondgraph.runtime.simulation.scenario import Course
 from bondgraph.runtime.simulation.values import Values

@@ -13,8 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bondgraph.runtime import log_numbers
-from bondgraph.runtime.log import Log, LogError, joined, read_log, write_log
+from bondgraph.runtime.log import Log, LogError, joined
 from bondgraph.runtime.log_csv import CsvReader
+from bondgraph.runtime.log_file import read_log, write_log
 
 _TEXT = st.text(st.characters(exclude_categories=("Cs",)), max_size=12)
 _NAME = st.text(st.characters(exclude_categories=("Cs",), exclude_characters="\r\n"), min_size=1)
@@ -162,7 +163,8 @@ def test_parquet_of_other_people(tmp_path: Path) -> None:
 def test_without_pyarrow_one_line_says_what_to_install(tmp_path: Path) -> None:
     code = (
         "import sys; sys.modules['pyarrow'] = None\n"
-        "from bondgraph.runtime.log import LogError, read_log\n"
+        "from bondgraph.runtime.log import LogError\n"
+        "from bondgraph.runtime.log_file import read_log\n"
         f"try: read_log({str(tmp_path / 'a.parquet')!r})\n"
         "except LogError as error: print(error)\n"
     )

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from threading import Event
 from typing import IO, Any
 
-from bondgraph.runtime.log import LogError, read_log
+from bondgraph.runtime.log import LogError
+from bondgraph.runtime.log_file import read_log
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
 from bondgraph.runtime.monitoring.sources.source import IDLE, Chunk, Cutter, News, rate_of
 from bondgraph.runtime.monitoring.sources.stdin import Pipe

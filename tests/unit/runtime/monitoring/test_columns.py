@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from bondgraph.ir.program import Known
-from bondgraph.runtime.log import Log, LogError, read_log
+from bondgraph.runtime.log import Log, LogError
+from bondgraph.runtime.log_file import read_log
 from bondgraph.runtime.monitoring.columns import Columns, Mapped, read_map
 
 

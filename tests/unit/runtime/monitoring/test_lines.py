@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bondgraph.runtime.log import Log, LogError, joined, read_log, write_log
+from bondgraph.runtime.log import Log, LogError, joined
+from bondgraph.runtime.log_file import read_log, write_log
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
 
 

@@ -15,7 +15,8 @@ import numpy as np
 import pytest
 
 from bondgraph.cli.main import main
-from bondgraph.runtime.log import Log, write_log
+from bondgraph.runtime.log import Log
+from bondgraph.runtime.log_file import write_log
 from bondgraph.runtime.monitoring.verdict import Verdict, from_json
 from tests.unit.runtime.monitoring import motor
 from tests.unit.runtime.monitoring.watch import MOTOR, ROOT, Watch, csv, objects, until

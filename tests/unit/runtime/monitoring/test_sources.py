@@ -10,7 +10,8 @@ from threading import Event, Thread
 import numpy as np
 import pytest
 
-from bondgraph.runtime.log import Log, LogError, write_log
+from bondgraph.runtime.log import Log, LogError
+from bondgraph.runtime.log_file import write_log
 from bondgraph.runtime.monitoring.sources.file import LinesFile, TableFile, file_source
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
 from bondgraph.runtime.monitoring.sources.source import Block, Chunk, Cutter, Intake, News, decoded
