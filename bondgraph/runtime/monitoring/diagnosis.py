@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -17,9 +17,12 @@ from bondgraph.runtime.monitoring.hypotheses import Bank, Sizes, hypotheses, row
 from bondgraph.runtime.monitoring.isolation import History, Rows, explain, inverse
 from bondgraph.runtime.monitoring.learning import Learning
 from bondgraph.runtime.monitoring.naming import LONGEST, named, news, possible, update
+from bondgraph.runtime.monitoring.origins import Origins, starts_in
 from bondgraph.runtime.monitoring.plain import array, numbers
+from bondgraph.runtime.monitoring.rows import Row, weight
+from bondgraph.runtime.monitoring.telling import Telling
 from bondgraph.runtime.monitoring.tuning import Limit, Tuning
-from bondgraph.runtime.monitoring.verdict import Verdict, listed
+from bondgraph.runtime.monitoring.verdict import Verdict
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset
 _MOST = 600  # rows since the onset that are compared
@@ -28,24 +31,9 @@ _JUDGE = 5  # rows after an alarm before a fault is named
 _AGAIN = 5  # rows between later judgements
 _CALM = 5  # rows that have to be calm behind one before it counts as healthy
 _BACK = 10  # rows that residuals must be quiet before a fault is over, twice as many each time
-_MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is off by
-_SLOPE_ERROR = 0.05  # of the residual: what its sensitivities are off by
 _ONSET_ERROR = 0.8  # of the residual, in the first row: somewhere in it the fault began
 _ONSET_FADES = 0.4  # what is left of that in every row after
-_CORRELATED = 2.0  # variance of the mean of rows, to that of independent ones
 _NEVER = Limit(math.inf, 1.0, 1.0, math.inf)
-
-
-class _Row(NamedTuple):
-    """One row of the past, with the samples that led to it and the engine before these."""
-
-    time: float
-    samples: Array
-    engine: Engine
-    value: Array
-    valid: npt.NDArray[np.bool_]
-    bound: Array
-    slopes: Array  # of the tolerated parameters, wrong for ever
 
 
 class Diagnosis:
@@ -63,8 +51,12 @@ class Diagnosis:
         self._sizes = Sizes(engine)
         self._all = hypotheses(engine, facts.faults, facts.units, {})
         self._tolerated, spread = tolerated(self._all, facts)
+        self._lasting = len(spread)  # those that stay; starts that were estimated stand behind
         self._history = History(spread)
         self._used = np.array([name in facts.sees for name in engine.residuals], dtype=bool)
+        self._telling = Telling(engine.residuals, self._used)
+        self._origins = Origins(engine, facts.memories, self._every)
+        self._past: deque[Row] = deque(maxlen=int(_MEMORY))
         self._learning: Learning | None = None
         if tuning is None:
             self._learning = Learning(engine, self._all, self._used, self._every)
@@ -83,14 +75,15 @@ class Diagnosis:
         count = len(self._engine.residuals)
         self._bank = Bank(self._engine.configured(), self._tolerated, self._nominal)
         self._bank.reset()
-        self._past: deque[_Row] = deque(maxlen=int(_MEMORY))
-        self._calm: deque[_Row] = deque()
+        self._origins.restart(self._past)
+        self._past.clear()
+        self._calm: deque[Row] = deque()
         self._piece: list[Array] = []
         self._before = self._copy()
         self._ends = False  # whether the present samples complete a row
         self._streak = np.zeros(count, dtype=int)
         self._sums = np.zeros((2, count))
-        self._warm = False
+        self._telling.restart()
         self._quiet = 0
         self._after = self._told = 0  # rows since the alarm, and until the last update
         self._leads: tuple[str, ...] = ()  # the class that the last judgement found best
@@ -115,24 +108,22 @@ class Diagnosis:
     def update(self, time: Array, batch: Batch, samples: Array) -> list[Verdict]:
         """What there is to say after further samples, in order."""
         out: list[Verdict] = []
-        for own, part, slopes in self._parts(time, batch, samples):
-            self._warmth(time[own], part.valid, out)
+        for own, part, slopes in self._parts(time, batch, samples, out):
             self._alarms(time[own], part, out)
-            row = self._row(time[own], part, samples[own], slopes)
+            row = self._row(time[own], part, samples[own], slopes, out)
             if row is not None:
                 self._judged(row, out)
         return out
 
     def look(self, time: Array, batch: Batch, samples: Array) -> None:
         """Samples that were judged before: only what is remembered of them is wanted."""
-        for own, part, slopes in self._parts(time, batch, samples):
-            self._warmth(time[own], part.valid, [])
-            row = self._row(time[own], part, samples[own], slopes)
+        for own, part, slopes in self._parts(time, batch, samples, [], again=True):
+            row = self._row(time[own], part, samples[own], slopes, [])
             if row is not None and self._learning is not None:
                 self._learning.row(row.samples, row.value, np.zeros_like(row.valid))
 
     def _parts(
-        self, time: Array, batch: Batch, samples: Array
+        self, time: Array, batch: Batch, samples: Array, out: list[Verdict], again: bool = False
     ) -> Iterator[tuple[slice, Batch, Array]]:
         """Up to the end of each row; rows end at the same times whenever one begins to look."""
         start = 0
@@ -141,9 +132,12 @@ class Diagnosis:
             stop = min(len(time), start + self._every - number % self._every)
             own = slice(start, stop)
             self._ends = (number + stop - start) % self._every == 0
+            self._origins.take(time[own], samples[own], again)
             slopes = self._bank.run(samples[own])
-            bound = batch.bound[own] + slack(self._tolerated, slopes)
-            yield own, Batch(batch.value[own], batch.valid[own], bound), slopes
+            part = Batch(batch.value[own], batch.valid[own], batch.bound[own])
+            value, valid, bound = self._origins.judged(part, self._bank, slopes)
+            self._telling.warmth(time[own], valid, self._origins, out)
+            yield own, Batch(value, valid, bound + slack(self._tolerated, slopes)), slopes
             start = stop
 
     def _alarms(self, time: Array, batch: Batch, out: list[Verdict]) -> None:
@@ -167,7 +161,9 @@ class Diagnosis:
         """Every residual, while none has fired: then its level is that of the last samples."""
         return np.full(len(self._fired), not self._fired.any())
 
-    def _row(self, time: Array, batch: Batch, samples: Array, every: Array) -> _Row | None:
+    def _row(
+        self, time: Array, batch: Batch, samples: Array, every: Array, out: list[Verdict]
+    ) -> Row | None:
         """Add samples to the row; the row, when it is full."""
         self._piece.append(samples.copy())
         if not self._ends:
@@ -175,12 +171,30 @@ class Diagnosis:
         whole = np.concatenate(self._piece)
         self._sizes.add(whole)
         value, valid, bound, slopes = (x[-1].copy() for x in (*batch, every))
-        row = _Row(float(time[-1]), whole, self._before, value, valid, bound, slopes)
+        row = Row(float(time[-1]), whole, self._before, value, valid, bound, slopes)
         self._piece, self._before = [], self._copy()
         self._past.append(row)
-        return row
+        if self._origins.waiting.any():
+            self._settle()
+        self._telling.row(row.time, self._origins, out)
+        return self._past[-1]
 
-    def _judged(self, row: _Row, out: list[Verdict]) -> None:
+    def _settle(self) -> None:
+        """Go on with starts that nobody knew, once they are known; rows are as with these then."""
+        for _ in self._facts.memories:
+            found = self._origins.settled(
+                self._past, self._tolerated, self._nominal, self._history, self._limits
+            )
+            if found is None:
+                break
+            if found.tolerated != self._tolerated:
+                self._calm.clear()
+            self._bank, self._tolerated, self._history = found.bank, found.tolerated, found.history
+            self._past = deque(found.rows, maxlen=self._past.maxlen)
+            self._before = self._copy()
+            self._steps, self._rows = None, []
+
+    def _judged(self, row: Row, out: list[Verdict]) -> None:
         """What a row tells."""
         if self._learning is not None:
             self._learning.row(row.samples, row.value, row.valid & ~self._fired.any())
@@ -198,7 +212,7 @@ class Diagnosis:
         self._judge(row, out)
         self._over(row, out)
 
-    def _begin_again(self, row: _Row) -> bool:
+    def _begin_again(self, row: Row) -> bool:
         """After a restart: compare faults from the onset on, or from where there are residuals."""
         assert self._latched is not None
         since = self._latched["since"]
@@ -213,7 +227,7 @@ class Diagnosis:
             self._step_row(one)
         return True
 
-    def _remember(self, row: _Row) -> None:
+    def _remember(self, row: Row) -> None:
         """Learn from a row once the ones behind it are calm too: before an alarm a fault acts.
 
         While noise is being learned nobody knows how much a row is worth: it waits.
@@ -228,28 +242,12 @@ class Diagnosis:
             old = self._calm.popleft()
             self._history.add(old.value, self._weight(old), old.slopes, 1.0 - 1.0 / _FORGET)
 
-    def _weight(self, row: _Row) -> Array:
-        """One over the variance of its residuals, by what is known of noise now."""
-        sigma = math.sqrt(_CORRELATED) * self._limits[:, 0]
-        with np.errstate(over="ignore"):  # what is that large has no weight
-            variance = sigma**2 + (_MODEL_ERROR * row.bound) ** 2 + (_SLOPE_ERROR * row.value) ** 2
-        return np.where(row.valid & (variance > 0), 1.0 / np.maximum(variance, 1e-300), 0.0)
-
-    def _warmth(self, time: Array, valid: npt.NDArray[np.bool_], out: list[Verdict]) -> None:
-        """Say so once all are valid that ever will be: the slowest filter has settled."""
-        settled = valid[:, self._used].all(axis=1)
-        if self._warm or not settled.any():
-            return
-        self._warm = True
-        names = [n for n, used in zip(self._engine.residuals, self._used, strict=True) if used]
-        verb = "is" if len(names) == 1 else "are"
-        message = f"{listed(names, 'and')} {verb} watched from now on"
-        at = float(time[int(np.argmax(settled))])
-        out.append(Verdict("warm-up", at, message=message))
+    def _weight(self, row: Row) -> Array:
+        return weight(row, self._limits[:, 0])
 
     # --------------------------------------------------------------------- alarms
 
-    def _sum(self, row: _Row, out: list[Verdict]) -> None:
+    def _sum(self, row: Row, out: list[Verdict]) -> None:
         """Row by row: the sum of what is too much, to either side (Page, 1954)."""
         sigma, top = self._limits[:, 0], self._limits[:, 3]
         after = np.minimum(grown(self._sums, row.value, row.bound, sigma), 2.0 * top)
@@ -266,9 +264,7 @@ class Diagnosis:
         if first:
             since = self._onset(time)
             self._latched = {"since": since, "said": None}
-            names = listed(
-                [n for n, f in zip(self._engine.residuals, fresh, strict=True) if f], "and"
-            )
+            names = self._telling.names(fresh)
             self._count += 1
             message = f"{names} above what a healthy machine does since {since:.3f} s"
             message += "; looking for the fault"
@@ -303,14 +299,14 @@ class Diagnosis:
         copy.follow(engine)
         self._steps = Bank(copy, self._all, self._nominal)
 
-    def _odd(self, row: _Row) -> bool:
+    def _odd(self, row: Row) -> bool:
         """Whether a fired residual is not what the history lets expect."""
         expected, variance = self._history.expected(row.slopes)
         own = inverse(self._weight(row))
         off = np.abs(row.value - expected) > 3.0 * np.sqrt(variance + own)
         return bool((off & (self._fired if self._fired.any() else True)).any())
 
-    def _step_row(self, row: _Row) -> None:
+    def _step_row(self, row: Row) -> None:
         """One more row of what every fault would have done since the onset."""
         assert self._steps is not None
         slopes = self._steps.run(row.samples)[-1].copy()
@@ -321,7 +317,7 @@ class Diagnosis:
 
     # ------------------------------------------------------------------ judgement
 
-    def _judge(self, row: _Row, out: list[Verdict]) -> None:
+    def _judge(self, row: Row, out: list[Verdict]) -> None:
         """Name the fault when there is enough to go by, and again when that changes."""
         due = self._after >= _JUDGE and (self._after < 10 or self._after % _AGAIN == 0)
         if not due or self._latched is None or not self._rows:
@@ -345,16 +341,15 @@ class Diagnosis:
             self._told = self._after
             out.append(verdict)
 
-    def _over(self, row: _Row, out: list[Verdict]) -> None:
+    def _over(self, row: Row, out: list[Verdict]) -> None:
         """A fault is over when its residuals have been quiet for long enough."""
         excess = np.abs(row.value) - row.bound
         loud = row.valid & (excess > 0.5 * self._limits[:, 2] * self._limits[:, 0])
-        self._quiet = 0 if (loud & self._fired).any() or not row.valid.any() else self._quiet + 1
+        blind = not row.valid.any() or (self._fired & self._origins.waiting).any()
+        self._quiet = 0 if blind or (loud & self._fired).any() else self._quiet + 1
         if self._quiet < min(_BACK * 2 ** min(self._count - 1, 9), LONGEST):
             return
-        names = listed(
-            [n for n, f in zip(self._engine.residuals, self._fired, strict=True) if f], "and"
-        )
+        names = self._telling.names(self._fired)
         assert self._latched is not None
         message = f"{names} back to what a healthy machine does; what was said stays said"
         out.append(Verdict("cleared", row.time, self._latched["since"], message=message))
@@ -376,13 +371,17 @@ class Diagnosis:
             "sums": numbers(self._sums),
             "alarms": self._count,
             "latched": self._latched,
+            "prior": numbers(self._history.prior),
+            "origins": self._origins.state(self._tolerated[self._lasting :]),
         }
 
     def resume(self, state: dict[str, Any]) -> None:
         """Go on from a state: limits that were learned, what is known of parameters and faults."""
         limits = array(state["limits"], self._limits.shape)
-        matrix = array(state["matrix"], self._history.matrix.shape)
-        vector = array(state["vector"], self._history.vector.shape)
+        known = (*self._tolerated[: self._lasting], *starts_in(state["origins"]))
+        history = History(array(state["prior"], (len(known),)))
+        history.matrix = array(state["matrix"], history.matrix.shape)
+        history.vector = array(state["vector"], history.vector.shape)
         fired = array(state["fired"], self._fired.shape) != 0.0
         most = array(state["most"], self._most.shape)
         sums = array(state["sums"], self._sums.shape)
@@ -391,10 +390,11 @@ class Diagnosis:
             latched = {"since": float(latched["since"]), "said": latched["said"]}
         if fired.any() != (latched is not None):
             raise ValueError("residuals have fired and nothing is latched, or the other way round")
+        self._tolerated, self._history = known, history
         self.restart()
+        self._origins.resume(state["origins"])
         if self._learning is not None:
             self._learning.known(limits)
             self._limits = limits
-        self._history.matrix, self._history.vector = matrix, vector
         self._fired, self._most, self._sums = fired, most, sums
         self._count, self._latched = count, latched

@@ -13,6 +13,7 @@ from bondgraph.ir.program import Program
 from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.hypotheses import COUNT, Hypothesis
+from bondgraph.runtime.monitoring.remembered import Memory, memories
 from bondgraph.runtime.simulation.values import Values
 
 _COUNT = 1.0  # counts by which the first one of an encoder may be off
@@ -23,7 +24,7 @@ class Facts(NamedTuple):
 
     `faults` that some residual sees, with the nominal value of a parameter and None for a signal;
     `tolerances` relative; `sees` for each residual its faults; `groups` the faults that structure
-    does not tell apart.
+    does not tell apart; `memories` are what residuals keep of their first sample.
     """
 
     faults: Mapping[str, float | None]
@@ -31,6 +32,7 @@ class Facts(NamedTuple):
     units: Mapping[str, str]
     sees: Mapping[str, Sequence[str]]
     groups: Sequence[tuple[str, ...]]
+    memories: tuple[Memory, ...] = ()
 
 
 def facts(graph: BondGraph, matrix: SignatureMatrix, program: Program) -> Facts:
@@ -52,6 +54,7 @@ def facts(graph: BondGraph, matrix: SignatureMatrix, program: Program) -> Facts:
         units,
         sees,
         matrix.groups,
+        memories(program),
     )
 
 
@@ -76,7 +79,7 @@ def tolerated(known: Sequence[Hypothesis], facts: Facts) -> tuple[tuple[Hypothes
 
 def slack(known: Sequence[Hypothesis], slopes: Array) -> Array:
     """What the first counts of encoders add to the adaptive threshold; slopes (..., known, r)."""
-    own = [k for k, h in enumerate(known) if h.unit == COUNT]
+    own = [k for k, h in enumerate(known) if h.unit == COUNT and h.kind == "offset"]
     return np.asarray(_COUNT * np.abs(slopes[..., own, :]).sum(axis=-2))
 
 

@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.engine import Batch, Engine
 
 _STEP = 1e-3  # relative change that a sensitivity is taken from
 _USUAL = 0.3  # share of what a fault usually changes: of a value, of the size of a signal
@@ -18,7 +18,7 @@ _SLIP = 1 / 8  # of a turn, by which an encoder usually slips
 _APART = 3.0  # time constants of the filter between two rows
 
 COUNT = "count"  # the unit of an encoder's offset
-Kind = Literal["value", "offset", "gain", "drift"]
+Kind = Literal["value", "offset", "gain", "drift", "start"]
 
 
 class Hypothesis(NamedTuple):
@@ -26,8 +26,9 @@ class Hypothesis(NamedTuple):
 
     `value`: a parameter has another value; `offset`: a signal is wrong by a constant (an encoder
     has slipped); `gain`: a signal is wrong by a share of itself (an encoder misses counts);
-    `drift`: an encoder misses so many counts a second (it stands still). `unit` is that of the
-    change, `usual` the size that is expected of it before anything is seen.
+    `drift`: an encoder misses so many counts a second (it stands still); `start`: only the first
+    sample of a signal is, so that what is remembered of it is wrong. `unit` is that of the change,
+    `usual` the size that is expected of it before anything is seen.
     `turned` says that a change of the machine moves residuals like the opposite change of what the
     program is told: so it is with parameters and commands, not with readings.
     """
@@ -67,6 +68,7 @@ class Bank:
             one.follow(engine)
         self._begin = begin  # the sample before the first: where encoders count from
         self._age = 0  # samples so far
+        self.batch: Batch | None = None  # what came out of `engine` last
 
     def _configured(self, k: int, sign: float) -> Engine:
         fault = self.hypotheses[k].fault
@@ -77,6 +79,8 @@ class Bank:
         if hypothesis.kind == "value":
             return _STEP * (abs(self._nominal[hypothesis.fault]) or hypothesis.usual)
         counts = self._counts(hypothesis)
+        if hypothesis.kind == "start":
+            return max(1.0, round(hypothesis.usual)) if counts else hypothesis.usual
         if hypothesis.kind == "gain":
             return _COUNTS if counts else _STEP
         if hypothesis.kind == "drift":
@@ -113,7 +117,7 @@ class Bank:
             down = self._told[2 * at + 1].run(self._shifted(samples, k, -1.0, fresh))
             slopes[:, k, :] = (up.value - down.value) / (2 * self._steps[k])
             slopes[:, k, :] *= up.valid & down.valid
-        self.engine.run(samples)
+        self.batch = self.engine.run(samples)
         self._age += len(samples)
         return slopes
 
@@ -131,6 +135,10 @@ class Bank:
             told[:, at] = column + step
             if fresh and self._counts(hypothesis):
                 told[:1, at] = samples[:1, at]
+        elif hypothesis.kind == "start":
+            told[:, at] = samples[:, at]
+            if fresh:
+                told[:1, at] += step
         elif hypothesis.kind == "drift":
             since = (self._age + 1 + np.arange(len(told))) * self.engine.sample_time
             told[:, at] = np.round(column + step * since)

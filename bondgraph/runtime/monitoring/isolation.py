@@ -77,6 +77,26 @@ class History:
         self.matrix = keep * self.matrix + weighted @ slopes.T
         self.vector = keep * self.vector + weighted @ value
 
+    def anew(self, gone: Sequence[int], keep: Sequence[int], more: Sequence[float]) -> History:
+        """The same once the parameters `gone` have another value, unknown within their prior.
+
+        What the others owe them is integrated out. Then only the parameters `keep` are kept, and
+        such with the deviations `more` come behind them.
+        """
+        own = list(gone)
+        rest = [k for k in range(len(self.prior)) if k not in own]
+        matrix, vector = np.zeros_like(self.matrix), np.zeros_like(self.vector)
+        owed = self.matrix[np.ix_(rest, own)] @ np.linalg.inv(self.information()[np.ix_(own, own)])
+        matrix[np.ix_(rest, rest)] = (
+            self.matrix[np.ix_(rest, rest)] - owed @ self.matrix[np.ix_(own, rest)]
+        )
+        vector[rest] = self.vector[rest] - owed @ self.vector[own]
+        kept = list(keep)
+        found = History(np.concatenate([self.prior[kept], np.array(more, dtype=float)]))
+        found.matrix[: len(kept), : len(kept)] = matrix[np.ix_(kept, kept)]
+        found.vector[: len(kept)] = vector[kept]
+        return found
+
     def information(self) -> Array:
         """Prior and history together."""
         return np.diag(1.0 / np.square(self.prior)) + self.matrix

@@ -101,16 +101,7 @@ def robot() -> Log:
     return compilation.simulate(scenario._replace(duration=6.0)).log
 
 
-_TWISTED = pytest.mark.xfail(
-    strict=True,
-    reason="counters that begin again while a shaft is twisted look like another rest angle",
-)
-
-
-@pytest.mark.parametrize(
-    "name",
-    [pytest.param(n, marks=_TWISTED) if n == "a restart" else n for n in DISTURBANCES],
-)
+@pytest.mark.parametrize("name", DISTURBANCES)
 def test_a_robot(name: str, robot: Log, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     disturbed = DISTURBANCES[name]
     healthy = _said(ROBOT, disturbed(robot), tmp_path, capsys)

@@ -1,0 +1,323 @@
+"""Where positions began that nobody has told: the start that explains the samples since a break."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.healthy import slack
+from bondgraph.runtime.monitoring.hypotheses import COUNT, Bank, Hypothesis
+from bondgraph.runtime.monitoring.isolation import History
+from bondgraph.runtime.monitoring.rows import Row, weight
+
+_SPREAD = 3.0  # standard deviations that a start may be off by
+_LOCAL = 2.0  # counts that a slope is taken over, at least
+_FINE = 2.0**-6  # of the size of a signal: the smallest change of its start that is tried
+_OCTAVES = 22  # from there to the largest one
+_PARTS = 32  # of a turn, so that laws that turn are not stepped over
+_INSIDE = 9  # points between two where the best one lies
+_STEPS = 6  # of Gauss and Newton
+_OTHER = 0.3  # share of its slope by which a further start does something else
+
+
+class Case(NamedTuple):
+    """What has been seen since a break, and what was known before.
+
+    `own` are the residuals that remember, `signals` the columns of those whose start they remember.
+    `start` is the first sample as engines are told it. `gone` are the tolerated parameters that
+    the break makes unknown, `starts` those of them that are starts. `limit` is what a residual may
+    have above its adaptive threshold, `sigma` its noise. `reach` is how far an encoder has come, in
+    counts, `steep` (residuals, signals) the largest slopes that were seen before; with no more
+    doubt than `known` a start is of use. `hold` samples are told between the start and the first
+    sample, `warm` ones pass before residuals are valid.
+    """
+
+    engine: Engine
+    own: Sequence[int]
+    signals: Sequence[int]
+    start: Array
+    rows: Sequence[Row]
+    tolerated: tuple[Hypothesis, ...]
+    gone: Sequence[int]
+    starts: Sequence[int]
+    nominal: Mapping[str, float]
+    history: History
+    limit: Array
+    sigma: Array
+    reach: Array
+    steep: Array
+    known: float
+    hold: int
+    warm: int
+
+
+class Fit(NamedTuple):
+    """The start that explains most, and all that follows from it.
+
+    `starts` are the hypotheses that stand at the end of `tolerated` now, `spread` the covariance of
+    what they are off by; `history` knows nothing yet of the rows since the break. `level` is the
+    largest residual over its threshold, `doubt` what the spread may do to a residual over it.
+    """
+
+    start: Array
+    tolerated: tuple[Hypothesis, ...]
+    starts: tuple[Hypothesis, ...]
+    spread: Array
+    history: History
+    bank: Bank
+    rows: list[Row]
+    level: float
+    doubt: float
+
+
+def replayed(
+    case: Case, start: Array, tolerated: tuple[Hypothesis, ...]
+) -> tuple[Bank, list[Row]]:
+    """The rows again, as residuals would have had them that began with another first sample."""
+    bank = Bank(case.engine.configured(), tolerated, case.nominal)
+    bank.reset()
+    first = case.rows[0].samples[:1]
+    bank.run(start[None])
+    length = max(len(row.samples) for row in case.rows)
+    for _ in range(-(-case.hold // length)):
+        bank.run(np.repeat(first, length, axis=0))
+    own = list(case.own)
+    found, age = [], 0
+    for row in case.rows:
+        before = bank.engine.configured(bounds=False)
+        before.follow(bank.engine)
+        slopes = bank.run(row.samples)[-1].copy()
+        batch = bank.batch
+        assert batch is not None
+        age += len(row.samples)
+        value, valid, bound = row.value.copy(), row.valid.copy(), row.bound.copy()
+        valid[own] = batch.valid[-1, own] & (age > case.warm)
+        value[own] = batch.value[-1, own] * valid[own]
+        bound[own] = (batch.bound[-1] + slack(tolerated, slopes))[own] * valid[own]
+        found.append(Row(row.time, row.samples, before, value, valid, bound, slopes))
+    return bank, found
+
+
+def fitted(case: Case) -> Fit | None:
+    """The start that explains the rows best; None where they tell nothing of it."""
+    trial = _Trial(case)
+    signals = trial.order()
+    if not signals:
+        return None
+    change = np.zeros(len(case.start))
+    for at in signals[:1]:
+        change = trial.scanned(change, at)
+    more = trial.independent(change, signals)
+    for at in [*more[1:], *more[:1]] if len(more) > 1 else []:
+        change = trial.scanned(change, at)
+    found = _refined(case, trial, change, more)
+    sure = found.level > 1.0 or found.doubt >= case.known or trial.unique(found, more[0])
+    return found if sure else found._replace(doubt=math.inf)
+
+
+class _Trial:
+    """Residuals at the ends of the rows for one first sample or another."""
+
+    def __init__(self, case: Case) -> None:
+        self._case = case
+        self._engine = case.engine.configured(bounds=False)
+        self._samples = np.concatenate([row.samples for row in case.rows])
+        ends = np.cumsum([len(row.samples) for row in case.rows])
+        self._ends = ends[ends > case.warm] - 1
+        self._own = list(case.own)
+        self._limit = case.limit[self._own]
+        self._counts = [k.counts for k in case.engine.signals]
+        size = np.sqrt(np.nanmean(np.square(self._samples), axis=0))
+        self._size = np.where(size > 0, size, 1.0)
+
+    def values(self, change: Array) -> Array:
+        """The residuals, (rows, own), when the start is changed by that much."""
+        engine = self._engine
+        engine.reset()
+        engine.run((self._case.start + change)[None])
+        if self._case.hold:
+            engine.run(np.repeat(self._samples[:1], self._case.hold, axis=0))
+        return np.asarray(engine.run(self._samples).value[self._ends][:, self._own])
+
+    def unit(self, at: int) -> float:
+        """The smallest change of a start that is worth trying."""
+        return 1.0 if self._counts[at] is not None else _FINE * float(self._size[at])
+
+    def most(self, at: int) -> float:
+        """The largest one."""
+        turn = self._counts[at]
+        if turn is None:
+            return self.unit(at) * 2.0**_OCTAVES
+        return max(turn / 2, 2.0 * float(self._case.reach[at]))
+
+    def order(self) -> list[int]:
+        """The signals whose start makes a difference, the one that can be set most finely first."""
+        effects = {}
+        nothing = self.values(np.zeros(len(self._case.start)))
+        for at in self._case.signals:
+            step = np.zeros(len(self._case.start))
+            step[at] = 1024.0 * self.unit(at)
+            effect = float(np.abs((self.values(step) - nothing) / self._limit).max(initial=0.0))
+            if effect > 0:
+                effects[at] = effect
+        return sorted(effects, key=lambda at: (effects[at], at))
+
+    def scanned(self, change: Array, at: int) -> Array:
+        """The change with the smallest residuals along one signal; the others stay."""
+        unit, most = self.unit(at), self.most(at)
+        octaves = math.ceil(math.log2(max(most / unit, 1.0)))
+        sizes = {unit * 2.0**k for k in range(octaves + 1)}
+        turn = self._counts[at]
+        if turn is not None:
+            sizes |= {float(round(turn * k / 2 / _PARTS)) for k in range(1, _PARTS + 1)}
+        points = np.array(sorted({0.0, *sizes, *(-s for s in sizes)}))
+        while True:
+            scores = [self._score(self._moved(change, at, p)) for p in points]
+            best = int(np.argmin(scores))
+            low, high = points[max(best - 1, 0)], points[min(best + 1, len(points) - 1)]
+            near = max(abs(float(points[best])), 1.0) * 1e-6 if turn is None else 2.0
+            if high - low <= near:
+                return self._moved(change, at, float(points[best]))
+            inner = np.linspace(low, high, _INSIDE + 2)
+            points = np.unique(np.append(np.rint(inner) if turn is not None else inner,
+                                         points[best]))  # fmt: skip
+
+    def _moved(self, change: Array, at: int, by: float) -> Array:
+        moved = change.copy()
+        moved[at] += by
+        return moved
+
+    def _score(self, change: Array) -> float:
+        score = float(np.sum((self.values(change) / self._limit) ** 2))
+        return score if math.isfinite(score) else math.inf
+
+    def slopes(self, change: Array, at: int) -> Array:
+        """How the residuals move with the start of one signal, (rows, own)."""
+        step = _LOCAL * self.unit(at)
+        up = self.values(self._moved(change, at, step))
+        return np.asarray((up - self.values(self._moved(change, at, -step))) / (2 * step))
+
+    def independent(self, change: Array, signals: Sequence[int]) -> list[int]:
+        """The signals without those whose start does what the starts before them do."""
+        found: list[int] = []
+        basis: list[Array] = []
+        for at in signals:
+            slope = (self.slopes(change, at) / self._limit).ravel()
+            rest = slope.copy()
+            for one in basis:
+                rest -= one * float(one @ rest)
+            size = float(np.linalg.norm(rest))
+            if not found or size > _OTHER * float(np.linalg.norm(slope)):
+                found.append(at)
+                if size > 0:
+                    basis.append(rest / size)
+        return found
+
+    def unique(self, found: Fit, at: int) -> bool:
+        """Whether no other start explains the rows too that would matter later."""
+        allowed = np.array([row.bound[self._own] for row in found.rows])[-len(self._ends):]
+        allowed = allowed + self._limit
+        change = found.start - self._case.start
+        own = self.values(change)
+        near = max(4.0 * self.unit(at), 2.0 * _SPREAD * math.sqrt(found.spread[0, 0]))
+        most = self.most(at)
+        tries = np.linspace(-most, most, 2 * _PARTS + 1)
+        if self._counts[at] is not None:
+            turn = self._counts[at] or 1.0
+            tries = np.append(tries, np.linspace(-turn / 2, turn / 2, 2 * _PARTS + 1))
+            tries = np.rint(tries)
+        for by in (float(t) for t in tries if abs(t) > near):
+            other = self._moved(change, at, by)
+            if (np.abs(self.values(other)) > allowed).any():
+                continue
+            shifts = (0.0, most / 7, -most / 5)
+            for shift in shifts:
+                there, here = self._moved(other, at, shift), self._moved(change, at, shift)
+                values = own if shift == 0.0 else self.values(here)
+                if (np.abs(self.values(there) - values) > 0.1 * allowed).any():
+                    return False
+        return True
+
+
+def _refined(case: Case, trial: _Trial, change: Array, signals: Sequence[int]) -> Fit:
+    """Gauss and Newton, with the parameters that are tolerated as what is known of them."""
+    signals = list(signals)
+    counts = np.array([case.engine.signals[at].counts is not None for at in signals])
+    units = np.array([trial.unit(at) for at in signals])
+    kept = [k for k in range(len(case.tolerated)) if k not in case.starts]
+    history = case.history.anew(case.gone, kept, [trial.most(at) for at in signals])
+    usual = _LOCAL * units
+    start = case.start + change
+    best: tuple[float, Fit] | None = None
+    for _ in range(_STEPS):
+        starts = _starts(case, signals, usual)
+        tolerated = (*(case.tolerated[k] for k in kept), *starts)
+        bank, rows = replayed(case, start, tolerated)
+        mean, spread = _posterior(case, history, rows, len(signals))
+        level, doubt = _judged(case, rows, signals, spread)
+        fit = Fit(start, tolerated, starts, spread, history, bank, rows, level, doubt)
+        score = _misfit(case, rows)
+        if best is not None and score > best[0]:
+            break
+        best = score, fit
+        step = np.where(counts, np.rint(mean), mean)
+        wider = np.clip(_SPREAD * np.sqrt(np.diag(spread)), _LOCAL * units, 1024.0 * units)
+        still = np.abs(step) <= np.where(counts, 0.0, 0.1 * np.sqrt(np.diag(spread)))
+        if still.all() and np.allclose(wider, usual, rtol=0.3):
+            break
+        usual = wider
+        start = start.copy()
+        start[signals] -= step
+    assert best is not None
+    return best[1]
+
+
+def _starts(case: Case, signals: Sequence[int], usual: Array) -> tuple[Hypothesis, ...]:
+    found = []
+    for at, size in zip(signals, usual, strict=True):
+        known = case.engine.signals[at]
+        unit = known.unit if known.counts is None else COUNT
+        found.append(Hypothesis(known.path, "start", unit, float(size), False))
+    return tuple(found)
+
+
+def _posterior(
+    case: Case, history: History, rows: Sequence[Row], starts: int
+) -> tuple[Array, Array]:
+    """What the starts, which stand last, are off by: mean and covariance."""
+    matrix, vector = history.information(), history.vector.copy()
+    own = list(case.own)
+    for row in rows:
+        slopes = row.slopes[:, own]
+        weighted = slopes * weight(row, case.sigma)[own]
+        matrix = matrix + weighted @ slopes.T
+        vector = vector + weighted @ row.value[own]
+    spread = np.asarray(np.linalg.inv(matrix), dtype=np.float64)
+    return (spread @ vector)[-starts:], spread[-starts:, -starts:]
+
+
+def _misfit(case: Case, rows: Sequence[Row]) -> float:
+    own = list(case.own)
+    return float(sum(np.sum((row.value[own] / case.limit[own]) ** 2) for row in rows))
+
+
+def _judged(
+    case: Case, rows: Sequence[Row], signals: Sequence[int], spread: Array
+) -> tuple[float, float]:
+    """The largest residual over its threshold, and what the spread may do to one."""
+    own, columns = list(case.own), list(signals)
+    good = [row for row in rows if row.valid[own].any()]
+    if not good:
+        return math.inf, math.inf
+    allowed = np.array([row.bound[own] + case.limit[own] for row in good])
+    level = float((np.abs([row.value[own] for row in good]) / allowed).max())
+    slopes = np.array([row.slopes[-len(columns):][:, own] for row in good])  # (rows, starts, own)
+    before = case.steep[np.ix_(own, columns)].T
+    slopes = np.concatenate([slopes, before[None]])
+    moved = np.sqrt(np.einsum("tsr,su,tur->tr", slopes, spread, slopes))
+    return level, float((_SPREAD * moved / np.median(allowed, axis=0)).max())

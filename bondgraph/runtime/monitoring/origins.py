@@ -1,0 +1,390 @@
+"""Where positions are counted from: what a break makes unknown, and who waits until it is known."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.hypotheses import COUNT, Bank, Hypothesis
+from bondgraph.runtime.monitoring.isolation import History
+from bondgraph.runtime.monitoring.origin_fit import Case, Fit, fitted, replayed
+from bondgraph.runtime.monitoring.plain import array, numbers
+from bondgraph.runtime.monitoring.remembered import Memory
+from bondgraph.runtime.monitoring.rows import Row, weight
+
+_HOLD = 3  # warm-ups that a start is told before the first sample: encoders may jump far
+_FEW = 3  # rows beyond the warm-up before a start is looked for
+_MANY = 24  # rows that are looked at; with so many something has to explain them
+_KNOWN = 0.5  # of the threshold: what an unknown start may do to a residual that is watched
+_FASTER = 1.5  # times as fast as ever before a machine may have moved in a gap
+_SLACK = 3.0  # standard deviations of a start that a threshold leaves room for
+_LATEST = 10  # rows in which slopes before a break are taken
+_TURN = 2.0**32  # counts after which a counter runs over
+_ROOM = 1e-9  # s that times may be off by
+
+
+class Settled(NamedTuple):
+    """What changes for a diagnosis once a start is known."""
+
+    names: tuple[str, ...]  # of the residuals
+    bank: Bank
+    rows: list[Row]
+    tolerated: tuple[Hypothesis, ...]
+    history: History
+
+
+def starts_in(state: dict[str, Any]) -> tuple[Hypothesis, ...]:
+    """The starts that were estimated, in the order in which a diagnosis had them."""
+    return tuple(
+        Hypothesis(str(fault), "start", str(unit), float(usual), False)
+        for fault, unit, usual in state["starts"]
+    )
+
+
+class _Group:
+    """Residuals that remember the same starts, and what is known of these."""
+
+    def __init__(self, engine: Engine, memory: Memory) -> None:
+        place = {k.path: at for at, k in enumerate(engine.signals)}
+        number = {name: at for at, name in enumerate(engine.residuals)}
+        self.memory = memory
+        self.residuals = [number[name] for name in memory.residuals]
+        self.signals = [place[path] for path in memory.signals]
+        self.reads = [place[path] for path in memory.reads]
+        self.counters = [at for at in self.signals if engine.signals[at].counts is not None]
+        self.starts: tuple[Hypothesis, ...] = ()  # that were estimated, and their covariance
+        self.spread: Array = np.zeros((0, 0))
+        self.fresh = True  # no sample yet: the model says where it begins
+        self.restart(waiting=False)
+
+    def restart(self, waiting: bool = True) -> None:
+        """Nothing is known of the samples to come."""
+        self.waiting = waiting
+        self.ours = False  # whether residuals are computed here: the given ones began elsewhere
+        self.begun = False
+        self.resumed = False
+        self.kept = False  # whether the start is what it was before the break
+        self.since = math.inf
+        self.window = math.nan  # s, of the first sample that the start is that of
+        self.next = 0  # rows with which a start is looked for again
+
+
+class Origins:
+    """Watches breaks in the samples, and looks for the starts that they make unknown.
+
+    At the very first sample positions are what the model says. After a break, where encoders have
+    gone on, they still count from where they did. Otherwise residuals that depend on it wait, until
+    the samples since the break tell what their first one should have been, or for so long that
+    some start has to do.
+    """
+
+    def __init__(self, engine: Engine, memories: Sequence[Memory], every: int) -> None:
+        self._engine, self._every = engine, every
+        self._groups = [_Group(engine, memory) for memory in memories]
+        self._told = np.full(len(engine.signals), math.nan)  # the first sample, where it counts
+        self._last = np.full(len(engine.signals), math.nan)  # value of each signal, and when
+        self._when = np.full(len(engine.signals), math.nan)
+        self._fast = np.zeros(len(engine.signals))  # counts a second
+        self._far = np.zeros(len(engine.signals))  # counts from the start
+        self._steep = np.zeros((len(engine.residuals), len(engine.signals)))
+        self._warm = math.ceil(engine.warm_up / engine.sample_time)
+        counted = any(group.counters for group in self._groups)
+        self._hold = _HOLD * self._warm if counted else 0
+
+    @property
+    def waiting(self) -> npt.NDArray[np.bool_]:
+        """The residuals that are not judged."""
+        found: npt.NDArray[np.bool_] = np.zeros(len(self._engine.residuals), dtype=np.bool_)
+        for group in self._groups:
+            if group.waiting:
+                found[group.residuals] = True
+        return found
+
+    @property
+    def lost(self) -> npt.NDArray[np.bool_]:
+        """Those of them whose start nobody knows."""
+        found: npt.NDArray[np.bool_] = np.zeros(len(self._engine.residuals), dtype=np.bool_)
+        for group in self._groups:
+            if group.waiting and group.begun and not group.kept:
+                found[group.residuals] = True
+        return found
+
+    def unknown(self, of: npt.NDArray[np.bool_]) -> list[str]:
+        """The signals whose start these residuals wait for."""
+        return [s for g in self._groups if of[g.residuals].any() for s in g.memory.signals]
+
+    # --------------------------------------------------------------------- breaks
+
+    def restart(self, past: Sequence[Row]) -> None:
+        """All residuals begin anew."""
+        for group in self._groups:
+            self._look_back(group, past)
+        for group in self._groups:
+            if not group.fresh:
+                group.restart()
+
+    def _look_back(self, group: _Group, past: Sequence[Row]) -> None:
+        """Put down how steep residuals were while the start was known."""
+        rows = [row for row in list(past)[-_LATEST:] if row.valid[group.residuals].all()]
+        if group.waiting or group.memory.integral or not rows:
+            return
+        engines = [rows[0].engine.configured(bounds=False) for _ in range(2)]
+        samples = np.concatenate([row.samples for row in rows])
+        ends = np.cumsum([len(row.samples) for row in rows])
+        ends = ends[ends > self._warm] - 1
+        for at in group.counters if len(ends) else []:
+            value = []
+            for engine, step in zip(engines, (1.0, -1.0), strict=True):
+                engine.follow(rows[0].engine)
+                moved = samples.copy()
+                moved[:, at] -= step  # later counts less are a start more
+                value.append(engine.run(moved).value[ends][:, group.residuals])
+            slopes = (value[0] - value[1]) / 2.0
+            most = np.argmax(np.abs(slopes), axis=0)
+            self._steep[group.residuals, at] = slopes[most, np.arange(len(most))]
+
+    def take(self, time: Array, samples: Array, again: bool) -> None:
+        """Note samples before they are run; `again`: they are those of before the watch ended."""
+        for group in self._groups:
+            whole = np.isfinite(samples[:, group.reads]).all(axis=1)
+            first = 0
+            if not whole.all():
+                if group.begun:
+                    group.restart()
+                first = int(np.flatnonzero(~whole)[-1]) + 1
+            if not group.begun and first < len(samples):
+                self._begin(group, time, samples, first, again)
+        if self._groups:
+            self._note(time, samples)
+
+    def _begin(
+        self, group: _Group, time: Array, samples: Array, first: int, again: bool
+    ) -> None:
+        """The first sample of a group after a break."""
+        group.begun = True
+        group.since = float(time[first])
+        now = samples[first]
+        if group.fresh:
+            group.fresh = False
+            if not group.memory.integral:
+                self._told[group.signals] = now[group.signals]
+            return
+        known = bool(np.isfinite(self._told[group.signals]).all()) and not group.memory.integral
+        sure = (again and group.resumed) or self._goes_on(group, time, samples, first)
+        group.kept = known and sure
+        if not group.kept:
+            self._told[group.signals] = math.nan
+            self._far[group.signals] = np.maximum(
+                self._far[group.signals], np.abs(now[group.signals])
+            )
+
+    def _goes_on(self, group: _Group, time: Array, samples: Array, first: int) -> bool:
+        """Whether all counters stand where they can have come to, and not only by chance.
+
+        One that has begun anew has not come further since than it could either.
+        """
+        sure = not group.counters
+        for at in group.counters:
+            there = np.flatnonzero(np.isfinite(samples[:first, at]))
+            last, when = self._last[at], self._when[at]
+            if len(there):
+                last, when = samples[there[-1], at], time[there[-1]]
+            gap = float(time[first] - when)
+            room = _FASTER * self._fast[at] * gap + 2.0
+            way = (samples[first, at] - last + _TURN / 2) % _TURN - _TURN / 2
+            if not (gap > 0.0 and abs(way) <= room):
+                return False
+            sure |= gap < 1.5 * self._engine.sample_time or abs(samples[first, at]) > room
+        return sure
+
+    def _note(self, time: Array, samples: Array) -> None:
+        """Where signals stand, and how fast encoders go."""
+        for at in sorted({at for group in self._groups for at in group.signals}):
+            there = np.flatnonzero(np.isfinite(samples[:, at]))
+            if not len(there):
+                continue
+            begin, end = there[0], there[-1]
+            self._last[at], self._when[at] = samples[end, at], time[end]
+            if end - begin >= self._every // 2:
+                way = abs(float(samples[end, at] - samples[begin, at]))
+                self._fast[at] = max(self._fast[at], way / float(time[end] - time[begin]))
+            if math.isfinite(self._told[at]):
+                self._far[at] = max(self._far[at], abs(self._last[at] - self._told[at]))
+
+    # --------------------------------------------------------------------- samples
+
+    def judged(self, batch: Batch, bank: Bank, slopes: Array) -> Batch:
+        """What may be judged of further samples; `slopes` and own residuals are of the `bank`."""
+        own = [g for g in self._groups if g.waiting or g.ours]
+        if not own or bank.batch is None:
+            return batch
+        value, valid, bound = batch.value.copy(), batch.valid.copy(), batch.bound.copy()
+        for group in own:
+            at = group.residuals
+            value[:, at] = bank.batch.value[:, at]
+            bound[:, at] = bank.batch.bound[:, at]
+            if group.waiting:
+                valid[:, at] = False
+            else:
+                bound[:, at] += self._slack(group, bank.hypotheses, slopes)[:, at]
+        value[~valid] = 0.0
+        bound[~valid] = 0.0
+        return Batch(value, valid, bound)
+
+    def _slack(self, group: _Group, known: Sequence[Hypothesis], slopes: Array) -> Array:
+        """What a start that is not known exactly may do to residuals."""
+        own = slopes[..., [known.index(h) for h in group.starts], :]
+        square = np.einsum("...sr,su,...ur->...r", own, group.spread, own)
+        return np.asarray(_SLACK * np.sqrt(np.maximum(square, 0.0)))
+
+    # ------------------------------------------------------------------------ starts
+
+    def settled(
+        self,
+        past: Sequence[Row],
+        tolerated: tuple[Hypothesis, ...],
+        nominal: Mapping[str, float],
+        history: History,
+        limits: Array,
+    ) -> Settled | None:
+        """A group that waits no longer, at the end of a row; None where there is none."""
+        for group in self._groups:
+            rows = [row for row in past if self._begins(row) >= group.since - _ROOM]
+            if not (group.waiting and group.begun and rows) or len(rows) < group.next:
+                continue
+            group.next = len(rows) + max(1, len(rows) // 4)
+            case = self._case(group, rows[-_MANY:], tolerated, nominal, history, limits)
+            if group.kept:
+                bank, again = replayed(case, case.start, tolerated)
+                return self._accepted(group, Settled((), bank, again, tolerated, history))
+            if len(rows) * self._every < self._warm * self._slow(group) + _FEW * self._every:
+                continue
+            try:
+                found = fitted(case)
+            except np.linalg.LinAlgError:
+                continue
+            if found is None or not self._good(found, len(rows)):
+                continue
+            self._told[group.signals] = found.start[group.signals]
+            group.starts, group.spread = found.starts, found.spread
+            self._taught(group, found, case)
+            return self._accepted(
+                group, Settled((), found.bank, found.rows, found.tolerated, found.history)
+            )
+        return None
+
+    def _slow(self, group: _Group) -> int:
+        """Warm-ups until nothing is seen of the start itself: an integral begins with a pulse."""
+        return 2 if group.memory.integral else 1
+
+    def _begins(self, row: Row) -> float:
+        return row.time - (len(row.samples) - 1.5) * self._engine.sample_time
+
+    def _good(self, found: Fit, rows: int) -> bool:
+        """Whether a start may be used: it is known well, or nothing explains what is seen."""
+        if found.level > 1.0:
+            return rows >= _MANY
+        return found.doubt <= _KNOWN
+
+    def _taught(self, group: _Group, found: Fit, case: Case) -> None:
+        """A healthy machine has told of its parameters since the break."""
+        if found.level > 1.0:
+            return
+        own = np.zeros(len(self._engine.residuals))
+        own[group.residuals] = 1.0
+        for row in found.rows:
+            found.history.add(row.value, weight(row, case.sigma) * own, row.slopes, 1.0)
+
+    def _accepted(self, group: _Group, settled: Settled) -> Settled:
+        group.waiting, group.ours = False, True
+        group.window = self._begins(settled.rows[0])
+        for other in self._groups:
+            if other.ours and other.memory.integral and other.window != group.window:
+                other.waiting, other.next = True, 0  # its start was that of another first sample
+                self._told[other.signals] = math.nan
+        for row in settled.rows:
+            row.bound[group.residuals] += self._slack(
+                group, settled.tolerated, row.slopes
+            )[group.residuals]
+            at = self.waiting
+            row.value[at], row.bound[at], row.valid[at] = 0.0, 0.0, False
+        return settled._replace(names=group.memory.residuals)
+
+    def _case(
+        self,
+        group: _Group,
+        rows: Sequence[Row],
+        tolerated: tuple[Hypothesis, ...],
+        nominal: Mapping[str, float],
+        history: History,
+        limits: Array,
+    ) -> Case:
+        start = rows[0].samples[0].copy()
+        known = np.isfinite(self._told)
+        start[known] = self._told[known]
+        sigma = limits[:, 0].copy()
+        limit = limits[:, 2] * sigma
+        unknown = ~np.isfinite(limit) | (limit <= 0)
+        if unknown.any():  # until noise has been learned
+            rough = self._rough(start, rows)
+            sigma[unknown], limit[unknown] = 0.1 * rough[unknown], 0.5 * rough[unknown]
+        paths = set(group.memory.signals)
+        gone = [k for k, h in enumerate(tolerated)
+                if h.fault in paths and (h.kind == "start" or h.unit == COUNT)]  # fmt: skip
+        starts = [k for k in gone if tolerated[k].kind == "start"]
+        return Case(
+            self._engine, group.residuals, group.signals, start, rows, tolerated, gone, starts,
+            nominal, history, limit, sigma, self._far, self._steep, _KNOWN, self._hold,
+            self._warm * self._slow(group),
+        )  # fmt: skip
+
+    def _rough(self, start: Array, rows: Sequence[Row]) -> Array:
+        """About what residuals are allowed, where nobody knows their noise."""
+        engine = self._engine.configured()
+        engine.run(start[None])
+        batch = engine.run(np.concatenate([row.samples for row in rows]))
+        bound = np.median(batch.bound[self._warm :], axis=0)
+        size = np.sqrt(np.mean(np.square(batch.value[self._warm :]), axis=0))
+        return np.asarray(np.where(bound > 0, bound, size) + 1e-300)
+
+    # ---------------------------------------------------------------- persistence
+
+    def state(self, starts: Sequence[Hypothesis]) -> dict[str, Any]:
+        """All that `resume` needs, as plain JSON; `starts` in the order of the diagnosis."""
+        return {
+            "starts": [[h.fault, h.unit, h.usual] for h in starts],
+            "told": numbers(self._told),
+            "last": numbers(self._last),
+            "when": numbers(self._when),
+            "fast": numbers(self._fast),
+            "far": numbers(self._far),
+            "steep": numbers(self._steep),
+            "waiting": [group.waiting and not group.kept for group in self._groups],
+            "spread": [numbers(group.spread) for group in self._groups],
+        }
+
+    def resume(self, state: dict[str, Any]) -> None:
+        """Go on from a state."""
+        starts = starts_in(state)
+        own = [tuple(h for h in starts if h.fault in g.memory.signals) for g in self._groups]
+        spread = [array(s, (len(h),) * 2) for s, h in zip(state["spread"], own, strict=True)]
+        waiting = [bool(w) for w in state["waiting"]]
+        told, last, when, fast, far = (
+            array(state[key], self._told.shape) for key in ("told", "last", "when", "fast", "far")
+        )
+        steep = array(state["steep"], self._steep.shape)
+        for one in (told, last, when):
+            one[~np.isfinite(one)] = math.nan
+        self._told, self._last, self._when = told, last, when
+        self._fast, self._far, self._steep = fast, far, steep
+        for k, group in enumerate(self._groups):
+            group.starts, group.spread = own[k], spread[k]
+            group.fresh = not np.isfinite(when[group.signals]).any()
+            group.restart(waiting=not group.fresh)
+            group.resumed = not waiting[k]

@@ -1,0 +1,200 @@
+"""What residuals keep for ever of their first sample: where the positions that they read began."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TypeAlias, assert_never
+
+from bondgraph.ir.program import (
+    Choice,
+    Compare,
+    Condition,
+    Const,
+    Expression,
+    Function,
+    Logic,
+    Mode,
+    Product,
+    Program,
+    Ref,
+    Sum,
+)
+from bondgraph.text.tuples import NamedTuple
+
+_Name: TypeAlias = tuple[str, str]  # of a local or a state: its space and its name
+_READS = ("known", "increment", "total")
+
+
+class Memory(NamedTuple):
+    """Residuals that remember where the same signals began.
+
+    `signals` are those of whose first sample something stays for ever, `reads` all that may start
+    the residuals anew by having no value; both are paths. `integral` says that what stays is a sum
+    over all samples since: no later reading tells it.
+    """
+
+    residuals: tuple[str, ...]
+    signals: tuple[str, ...]
+    reads: tuple[str, ...]
+    integral: bool = False
+
+
+def memories(program: Program) -> tuple[Memory, ...]:
+    """The memories of a program, none of them with a signal or a residual of another one.
+
+    A residual remembers the start of an encoder whose counts it adds up, of whatever it has put
+    down with its first sample and compares with ever since, and of what it integrates. Residuals
+    that share filters start anew together.
+    """
+    work = _Work(program)
+    reached = {r.name: work.reached(r.name) for r in program.residuals if not r.unavailable}
+    joined = _joined({name: {n for n in r if n[0] != "known"} for name, r in reached.items()})
+    found: list[tuple[set[str], set[str], set[str], bool]] = []
+    for name, names in reached.items():
+        signals = work.starts(names)
+        if not signals:
+            continue
+        own, integral = {name}, work.adds(names)
+        reads = {s for other in joined[name] for s in work.signals(reached[other])}
+        for old in [f for f in found if f[1] & signals]:
+            found.remove(old)
+            own, signals, reads = own | old[0], signals | old[1], reads | old[2]
+            integral |= old[3]
+        found.append((own, signals, reads, integral))
+    paths = {k.name: k.path for k in program.knowns if k.kind != "mode"}
+    modes = {k.name: k.path for k in program.knowns}
+    order = [r.name for r in program.residuals]
+    return tuple(
+        Memory(
+            tuple(r for r in order if r in own),
+            tuple(path for name, path in paths.items() if name in signals),
+            tuple(path for name, path in modes.items() if name in reads),
+            integral,
+        )
+        for own, signals, reads, integral in found
+    )
+
+
+class _Work:
+    """What the statements of a program are made of."""
+
+    def __init__(self, program: Program) -> None:
+        self._made: dict[_Name, list[Ref]] = {}
+        self._first: dict[_Name, list[Ref]] = {}
+        self._kept: dict[_Name, list[_Name]] = {}  # what a value has in it as it is
+        lasting: set[_Name] = set()
+        for assign in program.first:
+            at = (assign.target.space, assign.target.name)
+            self._first.setdefault(at, []).extend(_refs(assign.value))
+            lasting.add(at)
+        for assign in program.step:
+            at = (assign.target.space, assign.target.name)
+            self._made.setdefault(at, []).extend(_refs(assign.value))
+            self._kept.setdefault(at, []).extend(_whole(assign.value))
+            lasting.discard(at)
+        self._lasting = {at for at in lasting if at[0] == "state"}
+        self._sums = {at for at in self._kept if at[0] == "state" and self._stays(at)}
+
+    def _stays(self, state: _Name) -> bool:
+        """Whether a state is what it was and something more: the memory of an integral."""
+        todo, done = [state], {state}
+        while todo:
+            for at in self._kept.get(todo.pop(), ()):
+                if at == state:
+                    return True
+                if at[0] == "local" and at not in done:
+                    done.add(at)
+                    todo.append(at)
+        return False
+
+    def adds(self, names: set[_Name]) -> bool:
+        """Whether an integral is among what was reached."""
+        return bool(names & self._sums)
+
+    def reached(self, residual: str) -> set[_Name]:
+        """All states and signals that a residual is made of, sample by sample."""
+        return self._closed(("residual", residual), self._made)
+
+    def starts(self, names: set[_Name]) -> set[str]:
+        """The signals among what was reached whose start stays in it."""
+        found = set()
+        for space, name in names:
+            if space == "known" and ("total", name) in names:
+                found.add(name)
+            elif (space, name) in self._lasting:
+                found |= self.signals(self._closed((space, name), self._first))
+            elif (space, name) in self._sums:
+                found |= self.signals(self._closed((space, name), self._made))
+        return found
+
+    def signals(self, names: Iterable[_Name]) -> set[str]:
+        """The signals among what was reached."""
+        return {name for space, name in names if space == "known"}
+
+    def _closed(self, start: _Name, made: Mapping[_Name, list[Ref]]) -> set[_Name]:
+        found: set[_Name] = set()
+        todo, done = [start], {start}
+        while todo:
+            at = todo.pop()
+            for ref in made.get(at, ()):
+                if ref.space in _READS:
+                    found |= {("known", ref.name), (ref.space, ref.name)}
+                    continue
+                name = (ref.space, ref.name)
+                if ref.space == "state":
+                    found.add(name)
+                if name not in done:
+                    done.add(name)
+                    todo.append(name)
+        return found
+
+
+def _joined(shared: Mapping[str, set[_Name]]) -> dict[str, list[str]]:
+    """For each residual those that share a state with it, itself among them."""
+    states = {name: {n for n in names if n[0] == "state"} for name, names in shared.items()}
+    return {
+        name: [other for other in states if other == name or states[other] & own]
+        for name, own in states.items()
+    }
+
+
+def _whole(value: Expression) -> Iterator[_Name]:
+    """What an expression is a sum of, as it is."""
+    match value:
+        case Ref(space, name):
+            yield space, name
+        case Sum(terms):
+            for sign, term in terms:
+                if sign:
+                    yield from _whole(term)
+
+
+def _refs(value: Expression | Condition) -> Iterator[Ref]:
+    """All that an expression reads."""
+    match value:
+        case Const():
+            return
+        case Ref():
+            yield value
+        case Sum(terms):
+            for _, term in terms:
+                yield from _refs(term)
+        case Product(factors, divisors):
+            for factor in (*factors, *divisors):
+                yield from _refs(factor)
+        case Function(_, args):
+            for arg in args:
+                yield from _refs(arg)
+        case Choice(condition, yes, no):
+            for part in (condition, yes, no):
+                yield from _refs(part)
+        case Compare(_, left, right):
+            for part in (left, right):
+                yield from _refs(part)
+        case Logic(_, conditions):
+            for part in conditions:
+                yield from _refs(part)
+        case Mode(name):
+            yield Ref("known", name)
+        case _:
+            assert_never(value)

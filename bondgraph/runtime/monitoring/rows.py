@@ -1,0 +1,36 @@
+"""Rows of the past: samples far enough apart, what came out there, and how much that is worth."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.engine import Engine
+
+_MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is off by
+_SLOPE_ERROR = 0.05  # of the residual: what its sensitivities are off by
+_CORRELATED = 2.0  # variance of the mean of rows, to that of independent ones
+
+
+class Row(NamedTuple):
+    """One row of the past, with the samples that led to it and the engine before these."""
+
+    time: float
+    samples: Array
+    engine: Engine
+    value: Array
+    valid: npt.NDArray[np.bool_]
+    bound: Array
+    slopes: Array  # of the tolerated parameters, wrong for ever
+
+
+def weight(row: Row, sigma: Array) -> Array:
+    """One over the variance of its residuals, by what is known of their noise (deviation sigma)."""
+    sigma = math.sqrt(_CORRELATED) * sigma
+    with np.errstate(over="ignore"):  # what is that large has no weight
+        variance = sigma**2 + (_MODEL_ERROR * row.bound) ** 2 + (_SLOPE_ERROR * row.value) ** 2
+    return np.where(row.valid & (variance > 0), 1.0 / np.maximum(variance, 1e-300), 0.0)
