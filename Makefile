@@ -42,8 +42,9 @@ demo: $(VENV)/run.stamp ## the paper's experiments: simulated, watched, written 
 	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] && command -v xdg-open > /dev/null; then \
 	xdg-open demo/khepera.html; else echo "open demo/khepera.html in a browser"; fi
 
+# Side by side, a file at a time: what the tests of a file share is made once.
 test: $(VENV)/dev.stamp ## all tests
-	$(BIN)/python -m pytest $(TESTS)
+	$(BIN)/python -m pytest -n $(or $(JOBS),auto) --maxprocesses 8 --dist loadfile $(TESTS)
 
 check: lint types imports test wheel ## all that CI runs
 

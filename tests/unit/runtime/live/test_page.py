@@ -146,10 +146,12 @@ def test_an_injected_fault_fires_and_colours_what_is_suspected(page: Page) -> No
     assert page.text(".strip.fired b") == "r2"
     page.until("document.querySelector('#now-virtual').dataset.state === 'fault'")
     assert page.text("#now-real .finding") == "no fault seen"
-    page.until("document.querySelector('.bondgraph .suspected')")
-    marked = page.tab.run("[...document.querySelectorAll('.bondgraph .suspected')]"
-                          ".map((e) => e.closest('[data-node]').dataset.node)")  # fmt: skip
-    assert set(marked) == {"f[2]", "F[2]"}  # the mass is seen by the residual that is silent
+    # The mass is seen by the residual that is silent. How soon the two left over are told depends
+    # on the moment of the click.
+    page.until(
+        "[...document.querySelectorAll('.bondgraph .suspected')]"
+        ".map((e) => e.closest('[data-node]').dataset.node).sort().join() === 'F[2],f[2]'"
+    )
     chances = page.tab.run("[...document.querySelectorAll('.chance')].map((e) =>"
                            " e.firstChild.textContent)")  # fmt: skip
     assert chances and all(re.fullmatch(r"\d+ %", c) for c in chances)
