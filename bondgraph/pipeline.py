@@ -328,7 +328,7 @@ class Compilation:
         """What a monitor has to know of the machine beside its residuals."""
         from bondgraph.runtime.monitoring.healthy import facts
 
-        return facts(self.graph, self.signatures, self.program)
+        return facts(self.graph, self._analysis[0], self.signatures, self.program)
 
     def diagnosis(self, engine: Engine, tuning: Tuning | None = None) -> Diagnosis:
         """What says verdicts about the residuals of an engine of this model.

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.doubt import Doubt
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.healthy import Facts, grown, slack, tolerated
 from bondgraph.runtime.monitoring.hypotheses import Bank, Sizes, hypotheses, rows_apart
@@ -19,9 +20,9 @@ from bondgraph.runtime.monitoring.learning import Learning
 from bondgraph.runtime.monitoring.naming import LONGEST, named, news, possible, update
 from bondgraph.runtime.monitoring.origins import Origins, starts_in
 from bondgraph.runtime.monitoring.plain import array, numbers
-from bondgraph.runtime.monitoring.rows import Row, weight
+from bondgraph.runtime.monitoring.rows import Part, Row, weight
 from bondgraph.runtime.monitoring.telling import Telling
-from bondgraph.runtime.monitoring.tuning import Limit, Tuning
+from bondgraph.runtime.monitoring.tuning import Tuning, limits
 from bondgraph.runtime.monitoring.verdict import Verdict
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset
@@ -33,7 +34,6 @@ _CALM = 5  # rows that have to be calm behind one before it counts as healthy
 _BACK = 10  # rows that residuals must be quiet before a fault is over, twice as many each time
 _ONSET_ERROR = 0.8  # of the residual, in the first row: somewhere in it the fault began
 _ONSET_FADES = 0.4  # what is left of that in every row after
-_NEVER = Limit(math.inf, 1.0, 1.0, math.inf)
 
 
 class Diagnosis:
@@ -54,16 +54,16 @@ class Diagnosis:
         self._lasting = len(spread)  # those that stay; starts that were estimated stand behind
         self._history = History(spread)
         self._used = np.array([name in facts.sees for name in engine.residuals], dtype=bool)
-        self._telling = Telling(engine.residuals, self._used)
+        self._telling = Telling(engine, self._used)
+        self._doubt = Doubt(engine, facts, walks=tuning is None)
         self._origins = Origins(engine, facts.memories, self._every)
         self._past: deque[Row] = deque(maxlen=int(_MEMORY))
         self._learning: Learning | None = None
         if tuning is None:
-            self._learning = Learning(engine, self._all, self._used, self._every)
+            self._learning = Learning(engine, self._all, self._used, facts)
             self._limits = self._learning.limits
-        else:  # one without limits never fires
-            limits = [tuning.limits.get(name, _NEVER) for name in engine.residuals]
-            self._limits = np.array(limits, dtype=float)
+        else:
+            self._limits = np.array(limits(tuning, engine.residuals), dtype=float)
         self._latched: dict[str, Any] | None = None
         self._count = 0  # alarms so far
         self._fired: npt.NDArray[np.bool_] = np.zeros(len(self._used), dtype=bool)
@@ -75,6 +75,7 @@ class Diagnosis:
         count = len(self._engine.residuals)
         self._bank = Bank(self._engine.configured(), self._tolerated, self._nominal)
         self._bank.reset()
+        self._doubt.reset()
         self._origins.restart(self._past)
         self._past.clear()
         self._calm: deque[Row] = deque()
@@ -108,23 +109,23 @@ class Diagnosis:
     def update(self, time: Array, batch: Batch, samples: Array) -> list[Verdict]:
         """What there is to say after further samples, in order."""
         out: list[Verdict] = []
-        for own, part, slopes in self._parts(time, batch, samples, out):
-            self._alarms(time[own], part, out)
-            row = self._row(time[own], part, samples[own], slopes, out)
+        for part in self._parts(time, batch, samples, out):
+            self._alarms(part, out)
+            row = self._row(part, out)
             if row is not None:
                 self._judged(row, out)
         return out
 
     def look(self, time: Array, batch: Batch, samples: Array) -> None:
         """Samples that were judged before: only what is remembered of them is wanted."""
-        for own, part, slopes in self._parts(time, batch, samples, [], again=True):
-            row = self._row(time[own], part, samples[own], slopes, [])
+        for part in self._parts(time, batch, samples, [], again=True):
+            row = self._row(part, [])
             if row is not None and self._learning is not None:
-                self._learning.row(row.samples, row.value, np.zeros_like(row.valid))
+                self._learning.row(row, healthy=False)
 
     def _parts(
         self, time: Array, batch: Batch, samples: Array, out: list[Verdict], again: bool = False
-    ) -> Iterator[tuple[slice, Batch, Array]]:
+    ) -> Iterator[Part]:
         """Up to the end of each row; rows end at the same times whenever one begins to look."""
         start = 0
         while start < len(time):
@@ -134,49 +135,46 @@ class Diagnosis:
             self._ends = (number + stop - start) % self._every == 0
             self._origins.take(time[own], samples[own], again)
             slopes = self._bank.run(samples[own])
-            part = Batch(batch.value[own], batch.valid[own], batch.bound[own])
-            value, valid, bound = self._origins.judged(part, self._bank, slopes)
-            self._telling.warmth(time[own], valid, self._origins, out)
-            yield own, Batch(value, valid, bound + slack(self._tolerated, slopes)), slopes
+            given = Batch(batch.value[own], batch.valid[own], batch.bound[own])
+            doubt, sound = self._doubt.run(samples[own], given, number, self._limits[:, 0])
+            value, valid, bound = self._origins.judged(given, self._bank, slopes)
+            valid = valid & sound
+            self._telling.warmth(time[own], valid, self._limits[:, 0], self._origins, out)
+            bound = np.where(valid, bound + slack(self._tolerated, slopes) + doubt, 0.0)
+            yield Part(time[own], samples[own], value, valid, bound, doubt, slopes)
             start = stop
 
-    def _alarms(self, time: Array, batch: Batch, out: list[Verdict]) -> None:
+    def _alarms(self, part: Part, out: list[Verdict]) -> None:
         """Sample by sample: is a residual above its limit for long enough?"""
         sigma, limit = self._limits[:, 0], self._limits[:, 2] * self._limits[:, 0]
-        excess = np.where(batch.valid, np.abs(batch.value) - batch.bound, -math.inf)
-        level = np.where(batch.valid, np.abs(batch.value) / (batch.bound + limit), 0.0)
-        self._most = np.maximum(self._most * ~self._fired_none(), level.max(axis=0))
+        excess = np.where(part.valid, np.abs(part.value) - part.bound, -math.inf)
+        level = np.where(part.valid, np.abs(part.value) / (part.bound + limit), 0.0)
+        past = self._most if self._fired.any() else 0.0  # before: that of the last samples
+        self._most = np.maximum(past, level.max(axis=0))
         over = (excess > limit) & ~self._fired
         if not over.any():
             self._streak[:] = 0
             return
         wanted = max(3, self._every // 10)
-        for k in range(len(time)):
+        for k, at in enumerate(part.time.tolist()):
             self._streak = np.where(over[k], self._streak + 1, 0)
             fresh = (self._streak >= wanted) & ~self._fired & np.isfinite(sigma)
             if fresh.any():
-                self._fire(float(time[k]), fresh, out)
+                self._fire(at, fresh, out)
 
-    def _fired_none(self) -> npt.NDArray[np.bool_]:
-        """Every residual, while none has fired: then its level is that of the last samples."""
-        return np.full(len(self._fired), not self._fired.any())
-
-    def _row(
-        self, time: Array, batch: Batch, samples: Array, every: Array, out: list[Verdict]
-    ) -> Row | None:
+    def _row(self, part: Part, out: list[Verdict]) -> Row | None:
         """Add samples to the row; the row, when it is full."""
-        self._piece.append(samples.copy())
+        self._piece.append(part.samples.copy())
         if not self._ends:
             return None
         whole = np.concatenate(self._piece)
         self._sizes.add(whole)
-        value, valid, bound, slopes = (x[-1].copy() for x in (*batch, every))
-        row = Row(float(time[-1]), whole, self._before, value, valid, bound, slopes)
+        row = Row(float(part.time[-1]), whole, self._before, *[x[-1].copy() for x in part[2:]])
         self._piece, self._before = [], self._copy()
         self._past.append(row)
         if self._origins.waiting.any():
             self._settle()
-        self._telling.row(row.time, self._origins, out)
+        self._telling.row(row.time, self._limits[:, 0], self._origins, out)
         return self._past[-1]
 
     def _settle(self) -> None:
@@ -197,7 +195,8 @@ class Diagnosis:
     def _judged(self, row: Row, out: list[Verdict]) -> None:
         """What a row tells."""
         if self._learning is not None:
-            self._learning.row(row.samples, row.value, row.valid & ~self._fired.any())
+            fresh = self._learning.row(row, healthy=not self._fired.any())
+            self._telling.learned(row.time, fresh, out)
             if self._learning.over:
                 self._learning = None
         self._sum(row, out)
@@ -266,8 +265,8 @@ class Diagnosis:
             self._latched = {"since": since, "said": None}
             names = self._telling.names(fresh)
             self._count += 1
-            message = f"{names} above what a healthy machine does since {since:.3f} s"
-            message += "; looking for the fault"
+            what = f"above what a healthy machine does since {since:.3f} s; looking for the fault"
+            message = f"{names} {what}"
             out.append(Verdict("fault", time, since, self._levels(), message=message))
 
     def _levels(self) -> dict[str, float]:
@@ -377,7 +376,7 @@ class Diagnosis:
 
     def resume(self, state: dict[str, Any]) -> None:
         """Go on from a state: limits that were learned, what is known of parameters and faults."""
-        limits = array(state["limits"], self._limits.shape)
+        levels = array(state["limits"], self._limits.shape)
         known = (*self._tolerated[: self._lasting], *starts_in(state["origins"]))
         history = History(array(state["prior"], (len(known),)))
         history.matrix = array(state["matrix"], history.matrix.shape)
@@ -394,7 +393,7 @@ class Diagnosis:
         self.restart()
         self._origins.resume(state["origins"])
         if self._learning is not None:
-            self._learning.known(limits)
-            self._limits = limits
+            self._learning.known(levels)
+            self._limits = levels
         self._fired, self._most, self._sums = fired, most, sums
         self._count, self._latched = count, latched

@@ -8,8 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bondgraph.ir.expr import Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
+from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.hypotheses import COUNT, Hypothesis
@@ -19,12 +21,28 @@ from bondgraph.runtime.simulation.values import Values
 _COUNT = 1.0  # counts by which the first one of an encoder may be off
 
 
+class Nature(NamedTuple):
+    """How the code of a residual is off where nothing is wrong.
+
+    `modes` are the switches that it reads. `stages` of its filter, where it is `approximate`: puts
+    filtered derivatives into a nonlinear law. `settle` is how many time constants of the filter
+    pass until it has forgotten. `drifts` if it adds up readings, and their noise, for ever.
+    """
+
+    modes: tuple[str, ...]
+    approximate: bool
+    stages: int
+    settle: float
+    drifts: bool
+
+
 class Facts(NamedTuple):
     """What a diagnosis knows of the machine.
 
     `faults` that some residual sees, with the nominal value of a parameter and None for a signal;
     `tolerances` relative; `sees` for each residual its faults; `groups` the faults that structure
-    does not tell apart; `memories` are what residuals keep of their first sample.
+    does not tell apart; `memories` are what residuals keep of their first sample; `natures` by
+    residual.
     """
 
     faults: Mapping[str, float | None]
@@ -32,10 +50,13 @@ class Facts(NamedTuple):
     units: Mapping[str, str]
     sees: Mapping[str, Sequence[str]]
     groups: Sequence[tuple[str, ...]]
-    memories: tuple[Memory, ...] = ()
+    memories: tuple[Memory, ...]
+    natures: Mapping[str, Nature]
 
 
-def facts(graph: BondGraph, matrix: SignatureMatrix, program: Program) -> Facts:
+def facts(
+    graph: BondGraph, residuals: ResidualSet, matrix: SignatureMatrix, program: Program
+) -> Facts:
     """The facts of a model, as far as the code sees its faults at its sample rate."""
     values = Values(graph)
     numbers = {v.name: values.constant(v.symbol) for v in graph.values}
@@ -55,7 +76,23 @@ def facts(graph: BondGraph, matrix: SignatureMatrix, program: Program) -> Facts:
         sees,
         matrix.groups,
         memories(program),
+        _natures(graph, residuals, program),
     )
+
+
+def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict[str, Nature]:
+    modes = {i.symbol: i.name for i in graph.inputs if i.mode}
+    found = {}
+    for residual, info in zip(residuals.residuals, program.residuals, strict=True):
+        nodes = topological([residual.expr])
+        found[info.name] = Nature(
+            tuple(modes[n] for n in nodes if n in modes),
+            bool(info.approximate),
+            info.stages,
+            info.settle,
+            any(n.op is Op.INT for n in nodes),
+        )
+    return found
 
 
 def tolerated(known: Sequence[Hypothesis], facts: Facts) -> tuple[tuple[Hypothesis, ...], Array]:

@@ -98,8 +98,9 @@ def replayed(
         value, valid, bound = row.value.copy(), row.valid.copy(), row.bound.copy()
         valid[own] = batch.valid[-1, own] & (age > case.warm)
         value[own] = batch.value[-1, own] * valid[own]
-        bound[own] = (batch.bound[-1] + slack(tolerated, slopes))[own] * valid[own]
-        found.append(Row(row.time, row.samples, before, value, valid, bound, slopes))
+        whole = batch.bound[-1] + slack(tolerated, slopes) + row.doubt
+        bound[own] = whole[own] * valid[own]
+        found.append(Row(row.time, row.samples, before, value, valid, bound, row.doubt, slopes))
     return bank, found
 
 

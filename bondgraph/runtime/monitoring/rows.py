@@ -13,7 +13,20 @@ from bondgraph.runtime.monitoring.engine import Engine
 
 _MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is off by
 _SLOPE_ERROR = 0.05  # of the residual: what its sensitivities are off by
+_DOUBTED = 0.5  # of the doubt: its deviation
 _CORRELATED = 2.0  # variance of the mean of rows, to that of independent ones
+
+
+class Part(NamedTuple):
+    """Samples up to the end of a row, with residuals and whole thresholds, (n, residuals) each."""
+
+    time: Array
+    samples: Array
+    value: Array
+    valid: npt.NDArray[np.bool_]
+    bound: Array
+    doubt: Array
+    slopes: Array  # (n, parameters, residuals)
 
 
 class Row(NamedTuple):
@@ -25,6 +38,7 @@ class Row(NamedTuple):
     value: Array
     valid: npt.NDArray[np.bool_]
     bound: Array
+    doubt: Array  # the part of it that no parameter explains
     slopes: Array  # of the tolerated parameters, wrong for ever
 
 
@@ -33,4 +47,5 @@ def weight(row: Row, sigma: Array) -> Array:
     sigma = math.sqrt(_CORRELATED) * sigma
     with np.errstate(over="ignore"):  # what is that large has no weight
         variance = sigma**2 + (_MODEL_ERROR * row.bound) ** 2 + (_SLOPE_ERROR * row.value) ** 2
+        variance += (_DOUBTED * row.doubt) ** 2
     return np.where(row.valid & (variance > 0), 1.0 / np.maximum(variance, 1e-300), 0.0)

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
 
 import numpy as np
 import numpy.typing as npt
 
 from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.hypotheses import rows_apart
+from bondgraph.runtime.monitoring.learning import STEPS
 from bondgraph.runtime.monitoring.origins import Origins
 from bondgraph.runtime.monitoring.verdict import Verdict, listed
+
+_PATIENCE = 5.0  # warm-ups in which a residual should have had a value
 
 _Mask = npt.NDArray[np.bool_]
 
@@ -17,34 +22,67 @@ _Mask = npt.NDArray[np.bool_]
 class Telling:
     """Says once what has changed since it was last said."""
 
-    def __init__(self, names: Sequence[str], used: _Mask) -> None:
-        self._names, self._used = names, used
+    def __init__(self, engine: Engine, used: _Mask) -> None:
+        self._engine, self._used = engine, used
         self.restart()
 
     def restart(self) -> None:
         """The residuals begin anew."""
         self._warm = False
+        self._first: float | None = None  # s, of the first sample
+        self._seen: _Mask = np.zeros(len(self._used), dtype=np.bool_)  # that have had a value
         self._waits: _Mask = np.zeros(len(self._used), dtype=np.bool_)  # that were said to wait
 
     def names(self, of: _Mask) -> str:
         """Residuals by name."""
-        return listed([n for n, own in zip(self._names, of, strict=True) if own], "and")
+        return listed([n for n, own in zip(self._engine.residuals, of, strict=True) if own], "and")
 
-    def warmth(self, time: Array, valid: _Mask, origins: Origins, out: list[Verdict]) -> None:
-        """Say so once all are valid that ever will be: the slowest filter has settled."""
+    def warmth(
+        self, time: Array, valid: _Mask, noise: Array, origins: Origins, out: list[Verdict]
+    ) -> None:
+        """Say so once all have had a value that ever will: the slowest filter has settled.
+
+        The `noise` of residuals is infinite while nobody knows it.
+        """
+        if self._warm or not len(time):
+            return
+        if self._first is None:
+            self._first = float(time[0])
         waiting = origins.waiting & self._used
         watched = self._used & ~waiting
-        settled = valid[:, watched].all(axis=1)
-        if self._warm or not settled.any():
+        seen = np.logical_or.accumulate(valid, axis=0) | self._seen
+        self._seen = seen[-1]
+        settled = seen[:, watched].all(axis=1)
+        at = float(time[int(np.argmax(settled))]) if settled.any() else float(time[-1])
+        patience = _PATIENCE * self._engine.warm_up + self._engine.sample_time
+        if not settled.any() and at - self._first < patience:
             return
         self._warm, self._waits = True, waiting
-        said = [self._watched(watched)] if watched.any() else []
+        silent = watched & ~self._seen
+        if silent.any():
+            message = f"{self.names(silent)} had no value so far: something that it reads is"
+            message += " missing, an equation has no solution, or switches turn too often"
+            out.append(Verdict("invalid", at, message=message))
+        self._begin(at, watched & self._seen, waiting, np.isfinite(noise), origins, out)
+
+    def _begin(
+        self,
+        at: float,
+        watched: _Mask,
+        waiting: _Mask,
+        known: _Mask,
+        origins: Origins,
+        out: list[Verdict],
+    ) -> None:
+        said = [self._watched(watched & known)] if (watched & known).any() else []
+        if (watched & ~known).any():
+            said.append(self._learning(at, watched & ~known))
         if waiting.any():
             said.append(self._waiting(waiting, origins))
-        at = float(time[int(np.argmax(settled))])
-        out.append(Verdict("warm-up", at, message="; ".join(said)))
+        if said:
+            out.append(Verdict("warm-up", at, message="; ".join(said)))
 
-    def row(self, time: float, origins: Origins, out: list[Verdict]) -> None:
+    def row(self, time: float, noise: Array, origins: Origins, out: list[Verdict]) -> None:
         """At the end of a row: what has begun to wait, and what waits no longer."""
         waiting = origins.waiting & self._used
         lost = waiting & origins.lost & ~self._waits
@@ -53,13 +91,30 @@ class Telling:
             return
         if lost.any():
             out.append(Verdict("invalid", time, message=self._waiting(lost, origins)))
-        if over.any():
-            message = f"{self._watched(over)}: where their positions began is known"
+        known = np.isfinite(noise)
+        if (over & known).any():
+            message = f"{self._watched(over & known)}: where their positions began is known"
+            out.append(Verdict("warm-up", time, message=message))
+        if (over & ~known).any():
+            message = self._learning(time, over & ~known)
             out.append(Verdict("warm-up", time, message=message))
         self._waits = (self._waits & waiting) | lost
 
+    def learned(self, time: float, fresh: _Mask, out: list[Verdict]) -> None:
+        """At the end of a row: the noise of `fresh` residuals is known now."""
+        if fresh.any():
+            out.append(Verdict("warm-up", time, message=self._watched(fresh)))
+
     def _watched(self, of: _Mask) -> str:
         return f"{self.names(of)} {'is' if of.sum() == 1 else 'are'} watched from now on"
+
+    def _learning(self, at: float, of: _Mask) -> str:
+        """When enough rows will have been seen, if the machine moves."""
+        every = rows_apart(self._engine)
+        rows = math.ceil((round(at / self._engine.sample_time) + 1) / every) + STEPS
+        until = (rows * every - 1) * self._engine.sample_time
+        noise = f"the noise of {self.names(of)} is learned until {until:.3f} s at least"
+        return f"{noise}, and no alarm given before"
 
     def _waiting(self, of: _Mask, origins: Origins) -> str:
         verb = "waits" if of.sum() == 1 else "wait"

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.doubt import Doubt
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.healthy import Facts, grown, slack, tolerated
 from bondgraph.runtime.monitoring.hypotheses import Bank, Hypothesis, Sizes, hypotheses, rows_apart
@@ -134,19 +135,18 @@ class _Work:
         weight = 1.0 / np.maximum(rough, 1e-12 * size + 1e-300) ** 2
         values, allowed, sound = [], [], []
         for batch, slopes in self._chunks(samples[start:], samples[:start]):
-            more = slack(self.tolerated, slopes)
             for k in range(self.every - 1, len(slopes), self.every):
                 valid = batch.valid[k]
                 history.add(batch.value[k], weight * valid, slopes[k], 1.0)
                 values.append(batch.value[k])
-                allowed.append(batch.bound[k] + more[k])
+                allowed.append(batch.bound[k])
                 sound.append(valid)
         found = np.linalg.solve(history.information(), history.vector)
         rest, excess, rows = [], [], 0
         for batch, slopes in self._chunks(samples[start:], samples[:start]):
             left = batch.value - np.einsum("thr,h->tr", slopes, found)
             rest.append(np.where(batch.valid, left, 0.0))
-            over = np.abs(batch.value) - batch.bound - slack(self.tolerated, slopes)
+            over = np.abs(batch.value) - batch.bound
             excess.append(np.where(batch.valid, over, 0.0).max(axis=0, initial=0.0))
             rows += int(batch.valid.any(axis=1).sum())
         left = np.concatenate(rest)
@@ -163,35 +163,30 @@ class _Work:
 
     def _chunks(self, samples: Array, before: Array) -> Iterator[tuple[Batch, Array]]:
         """Residuals and the slopes of what is tolerated, some thousand samples at a time."""
-        engine = self.engine.configured()
-        bank = Bank(self.engine.configured(bounds=False), self.tolerated, self.nominal)
-        engine.run(before)
-        bank.run(before)
+        whole = _Whole(self)
+        whole.run(before)
         step = self.every * max(1, _CHUNK // self.every)
         for k in range(0, len(samples), step):
-            part = samples[k : k + step]
-            yield engine.run(part), bank.run(part)
+            yield whole.run(samples[k : k + step])
 
     def windows(
         self, samples: Array, limits: Mapping[str, Limit], window: float
     ) -> Iterator[list[_Seen]]:
         """For each window of the log, what of each hypothesis would show if it began there."""
-        engine = self.engine.configured()
+        whole = _Whole(self)
+        engine = whole.engine
         start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
         length = max(2, round(window / self.engine.sample_time))
         never = Limit(math.inf, 0.0, 1.0, math.inf)
         own = [limits.get(name, never) for name in engine.residuals]
         top = np.array([limit.kappa * limit.sigma for limit in own])
-        bank = Bank(self.engine.configured(bounds=False), self.tolerated, self.nominal)
-        engine.run(samples[:start])
-        bank.run(samples[:start])
+        whole.run(samples[:start])
         for begin in range(start, len(samples) - length + 1, length):
             part = samples[begin : begin + length]
             copy = engine.configured(bounds=False)
             copy.follow(engine)
             slopes = np.abs(Bank(copy, self.all, self.nominal, samples[begin - 1]).run(part))
-            batch = engine.run(part)
-            batch = batch._replace(bound=batch.bound + slack(self.tolerated, bank.run(part)))
+            batch, _ = whole.run(part)
             yield [self._seen(h, slopes[:, k], batch, top) for k, h in enumerate(self.all)]
 
     def _seen(self, hypothesis: Hypothesis, slopes: Array, batch: Batch, top: Array) -> _Seen:
@@ -205,6 +200,26 @@ class _Work:
         at, residual = np.unravel_index(int(np.argmin(least)), least.shape)
         size = float(least[at, residual])
         return _Seen(size, (int(at) + 1) * self.engine.sample_time, int(residual))
+
+
+class _Whole:
+    """The residuals with the whole of their thresholds, beside the slopes of what is tolerated."""
+
+    def __init__(self, work: _Work) -> None:
+        self.engine = work.engine.configured()
+        self._bank = Bank(work.engine.configured(bounds=False), work.tolerated, work.nominal)
+        self._doubt, self._tolerated = Doubt(work.engine, work.facts), work.tolerated
+        self._age = 0
+
+    def run(self, samples: Array) -> tuple[Batch, Array]:
+        """Go on with further samples."""
+        batch, slopes = self.engine.run(samples), self._bank.run(samples)
+        doubt, valid = self._doubt.run(
+            samples, batch, self._age, np.zeros(len(self.engine.residuals))
+        )
+        bound = batch.bound + slack(self._tolerated, slopes) + doubt
+        self._age += len(samples)
+        return Batch(batch.value, valid, np.where(valid, bound, 0.0)), slopes
 
 
 def _limits(engine: Engine, noise: Sequence[_Noise], false_alarms: float) -> dict[str, Limit]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 EDITION = 1
@@ -37,6 +37,14 @@ class Tuning(NamedTuple):
     false_alarms: float
     seconds: float
     limits: Mapping[str, Limit]
+
+
+_NEVER = Limit(math.inf, 1.0, 1.0, math.inf)
+
+
+def limits(tuning: Tuning, names: Sequence[str]) -> list[Limit]:
+    """Those of residuals by name; one that the tuning does not know never fires."""
+    return [tuning.limits.get(name, _NEVER) for name in names]
 
 
 def kappa(crossings: float, alarms: float) -> float:

@@ -187,13 +187,17 @@ def test_a_state_is_plain_json_and_keeps_the_fault() -> None:
 def test_without_a_tuning_noise_is_learned() -> None:
     diagnosis = _motor().diagnosis(_engine())
     t, rows = _samples(15, 14.0)
-    assert [v.event for v in _said(t, rows, diagnosis=diagnosis)] == ["warm-up"]
+    settled, watched = _said(t, rows, diagnosis=diagnosis)
+    assert settled.event == watched.event == "warm-up"
+    assert settled.time < 0.5
+    assert f"until {watched.time:.3f} s" in settled.message
+    assert watched.message == "r1 and r2 are watched from now on"
     faulty = rows.copy()
     diagnosis = _motor().diagnosis(_engine())
     late = t >= 9.0
     faulty[late, 2] *= 0.5
     said = _said(t, faulty, diagnosis=diagnosis)
-    assert [v.event for v in said][:2] == ["warm-up", "fault"]
+    assert [v.event for v in said][:3] == ["warm-up", "warm-up", "fault"]
     assert "current" in said[-1].group
 
 

@@ -22,6 +22,7 @@ from tests.unit.runtime.monitoring import motor
 from tests.unit.runtime.monitoring.watch import MOTOR, ROOT, Watch, csv, objects, until
 
 Start = Callable[..., Watch]
+WARM = ("warm-up", "warm-up")  # filters have settled, noise has been learned
 
 
 def monitored(capsys: pytest.CaptureFixture[str], *words: str) -> list[dict[str, object]]:
@@ -44,8 +45,8 @@ def test_a_friction_fault_is_found_and_told_from_electrical_ones(
     suffix: str, logs: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     said = monitored(capsys, str(logs / f"motor.{suffix}"))
-    assert [v["event"] for v in said] == ["start", "warm-up", "fault", "update", "stop"]
-    fault, update = said[2:4]
+    assert [v["event"] for v in said] == ["start", *WARM, "fault", "update", "stop"]
+    fault, update = said[3:5]
     assert motor.ONSET < fault["time"] < motor.ONSET + 0.1  # type: ignore[operator]
     assert not fault["group"] and not fault["candidates"]
     assert fault["time"] < update["time"] < motor.ONSET + 1.5  # type: ignore[operator]
@@ -56,24 +57,27 @@ def test_a_friction_fault_is_found_and_told_from_electrical_ones(
     first = update["candidates"][0]  # type: ignore[index]
     assert first.fault == "f" and first.size == pytest.approx(motor.FAULT, rel=0.05)
     assert first.unit == "N.m.s/rad" and first.probability > 0.9
-    assert "6000 samples" in str(said[4]["message"])
+    assert "6000 samples" in str(said[5]["message"])
 
 
 def test_text_is_one_line_for_each_verdict(logs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["monitor", MOTOR, str(logs / "motor.csv")]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert len(lines) == 5
+    assert len(lines) == 6
     assert "Motor: 2 residuals" in lines[0]
-    assert " s  fault " in lines[2] and re.search(r"r2 .* since [23]\.\d{3} s", lines[2])
-    assert " s  update " in lines[3] and "J, f or load since " in lines[3]
-    assert re.search(r"f \(\d+ %, \+2\.\d+e-05 N\.m\.s/rad\)", lines[3])
-    assert "r2 at " in lines[3] and "its threshold" in lines[3]
+    until = re.search(r"the noise of r1 and r2 is learned until (\d\.\d{3} s)", lines[1])
+    assert until is not None and lines[2].strip().startswith(until[1])
+    assert "watched from now on" in lines[2] and "watched" not in lines[1]
+    assert " s  fault " in lines[3] and re.search(r"r2 .* since [23]\.\d{3} s", lines[3])
+    assert " s  update " in lines[4] and "J, f or load since " in lines[4]
+    assert re.search(r"f \(\d+ %, \+2\.\d+e-05 N\.m\.s/rad\)", lines[4])
+    assert "r2 at " in lines[4] and "its threshold" in lines[4]
 
 
 def test_a_healthy_machine_has_no_fault(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = str(tmp_path / "log.csv")
     write_log(motor.log().part(0, 3000), path)
-    assert [v["event"] for v in monitored(capsys, path)] == ["start", "warm-up", "stop"]
+    assert [v["event"] for v in monitored(capsys, path)] == ["start", *WARM, "stop"]
 
 
 def test_what_was_said_before_a_kill_is_not_lost_and_not_said_twice(
@@ -90,7 +94,8 @@ def test_what_was_said_before_a_kill_is_not_lost_and_not_said_twice(
         one = watch(str(path), "--follow", "--journal", journal)
         with path.open("ab") as file:
             file.write(b"".join(lines[start:end]))
-        one.heard(event) if event else one.heard("resumed")
+        word = "from now on" if event == "warm-up" else ""  # what was not learned yet is forgotten
+        one.heard(event, word) if event else one.heard("resumed")
         one.kill()
         said += one.said
     last = watch(str(path), "--journal", journal)
@@ -98,7 +103,7 @@ def test_what_was_said_before_a_kill_is_not_lost_and_not_said_twice(
     said += last.said
     assert [v["number"] for v in said] == list(range(1, len(said) + 1))
     events = [v["event"] for v in said]
-    told = ["start", "warm-up", "fault", "update", "stop"]
+    told = ["start", *WARM, "fault", "update", "stop"]
     assert [e for e in events if e != "resumed"] == told
     update = said[events.index("update")]
     first = update["candidates"][0]  # type: ignore[index]
@@ -143,7 +148,7 @@ def test_a_journal_goes_on_after_a_proper_end(
     words = [str(logs / "motor.csv"), "--journal", str(tmp_path / "j")]
     first = monitored(capsys, *words)
     again = monitored(capsys, *words)
-    assert [v["event"] for v in first] == ["start", "warm-up", "fault", "update", "stop"]
+    assert [v["event"] for v in first] == ["start", *WARM, "fault", "update", "stop"]
     assert [v["event"] for v in again] == ["resumed", "stop"]
     other = monitored(capsys, str(logs / "motor.parquet"), *words[1:])
     assert "the source was" in str(other[0]["message"])
@@ -324,10 +329,10 @@ def test_a_clock_of_32_bits_may_run_over_and_other_names_are_mapped(
     path.write_text(text + "\n")
     names.write_text('U = { column = "volt", unit = "mV" }\n')
     said = monitored(capsys, str(path), "--map", str(names))
-    assert [v["event"] for v in said] == ["start", "warm-up", "fault", "update", "stop"]
-    assert "f" in said[3]["group"]  # type: ignore[operator]
+    assert [v["event"] for v in said] == ["start", *WARM, "fault", "update", "stop"]
+    assert "f" in said[4]["group"]  # type: ignore[operator]
     start = (2**32 - 1_500_000) / 1e6
-    assert said[2]["since"] == pytest.approx(start + motor.ONSET, abs=0.1)
+    assert said[3]["since"] == pytest.approx(start + motor.ONSET, abs=0.1)
 
 
 def test_the_rate_is_that_of_the_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -338,7 +343,7 @@ def test_the_rate_is_that_of_the_file(tmp_path: Path, capsys: pytest.CaptureFixt
     said = monitored(capsys, path, "--bandwidth", "20")
     assert "250 samples a second" in str(said[0]["message"])
     row = 3.0 / 20.0  # s, three time constants of the filter: as close as the onset is told
-    assert said[2]["since"] == pytest.approx(motor.ONSET, abs=row)
+    assert said[3]["since"] == pytest.approx(motor.ONSET, abs=row)
 
 
 def test_a_file_that_was_empty_at_first_keeps_its_rate(tmp_path: Path, watch: Start) -> None:
@@ -352,7 +357,7 @@ def test_a_file_that_was_empty_at_first_keeps_its_rate(tmp_path: Path, watch: St
     path.write_bytes(csv(log._replace(time=log.time[::4], columns=columns), header=True))
     second = watch(str(path), "--journal", journal)
     assert second.ended() == 0
-    assert second.events() == ["resumed", "warm-up", "fault", "update", "stop"]
+    assert second.events() == ["resumed", *WARM, "fault", "update", "stop"]
 
 
 def test_gaps_are_told_and_a_flood_of_them_is_not(

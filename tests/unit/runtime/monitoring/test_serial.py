@@ -45,7 +45,7 @@ def test_a_device_is_watched_through_noise_and_unplugging(
     device.send(b"37,0.1,4.5\n\xf0\x9f\x00\n" + csv(log, 0, 1300, header=True))
     device.send(csv(log, 1300, 2800))
     one.heard("invalid")
-    one.heard("warm-up")
+    one.heard("warm-up", "from now on")
     device.unplug()
     one.heard("gap", "gone")
     device.plug()

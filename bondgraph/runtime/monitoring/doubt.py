@@ -1,0 +1,143 @@
+"""How far a healthy residual may be from zero for no parameter: by the sampling and the code."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.healthy import Facts
+from bondgraph.runtime.monitoring.hypotheses import rows_apart
+
+_FASTER = 2.0  # times the bandwidth, of the filter that an approximation is held against
+_BIAS = 2.0  # times what that filter is off by: a bias falls with its square, noise is left over
+_DRIFT = 1.5  # times the noise of a row, which is learned with care, and the root of their number
+
+
+class Doubt:
+    """Tells what no tolerance does of a threshold, and which residuals have no value.
+
+    - A switch turns between two samples: the residual may be off by as much as it makes to turn
+      one sample later. Where filtered derivatives stand behind a switch they are of both its
+      positions until the filter has settled, and the residual has no meaning.
+    - A nonlinear law of filtered derivatives is off by what the filter does to the signals. With
+      half the time constants that is a quarter; held against that, by a filter that makes both
+      equally late, it shows how much it is, while a fault makes no difference.
+    - What adds up readings for ever adds up their noise, which walks away with the root of time.
+    """
+
+    def __init__(self, engine: Engine, facts: Facts, walks: bool = False) -> None:
+        """Sums walk away where `walks`; limits of a tuning know how far they come."""
+        self._engine, self._walks = engine, walks
+        self._every = rows_apart(engine)
+        natures = [facts.natures[name] for name in engine.residuals]
+        place = {k.path: at for at, k in enumerate(engine.signals)}
+        self._modes = sorted({place[m] for n in natures for m in n.modes})
+        self._blurred = [
+            (k, [place[m] for m in n.modes], self._samples(n.settle))
+            for k, n in enumerate(natures)
+            if n.modes and n.approximate
+        ]
+        self._bent = [(k, n.stages) for k, n in enumerate(natures) if n.approximate]
+        self._drifts = np.array([n.drifts for n in natures], dtype=bool)
+        self.reset()
+
+    def _samples(self, constants: float) -> int:
+        return math.ceil(constants / self._engine.bandwidth / self._engine.sample_time)
+
+    def reset(self) -> None:
+        """The next sample is the first."""
+        engine = self._engine
+        count = len(engine.residuals)
+        self._late = engine.configured(bounds=False) if self._modes else None
+        faster = engine.bandwidth * _FASTER
+        self._fast = engine.configured(bandwidth=faster, bounds=False) if self._bent else None
+        self._smooth: list[Any] = [np.zeros((2 * n, 1)) for _, n in self._bent]
+        self._sample: Array | None = None
+        self._since = [math.inf for _ in self._blurred]  # samples since a switch was turned
+        self._peak = np.zeros((2, count))  # of this row and the one before
+        self._age = 0
+
+    def run(
+        self, samples: Array, batch: Batch, number: int, noise: Array
+    ) -> tuple[Array, npt.NDArray[np.bool_]]:
+        """By how much each residual is in doubt, and which have a value; both (n, residuals).
+
+        `batch` are the residuals of the samples, of which `number` counts the first one from the
+        start of time. `noise` is the deviation of each residual from row to row.
+        """
+        doubt, valid = np.zeros_like(batch.value), batch.valid.copy()
+        if self._late is not None:
+            self._turned(self._late, samples, batch, doubt, valid)
+        if self._fast is not None:
+            doubt += self._bias(self._fast, samples, batch, valid, number)
+        if self._walks and self._drifts.any():
+            rows = (self._age + 1 + np.arange(len(samples))) / self._every
+            own = np.where(self._drifts & np.isfinite(noise), noise, 0.0)
+            doubt += _DRIFT * own * np.sqrt(rows)[:, None]
+        self._age += len(samples)
+        return doubt, valid
+
+    def _turned(
+        self,
+        late: Engine,
+        samples: Array,
+        batch: Batch,
+        doubt: Array,
+        valid: npt.NDArray[np.bool_],
+    ) -> None:
+        """What it makes that switches may have turned a sample later."""
+        if not len(samples):
+            return
+        last = samples[0] if self._sample is None else self._sample
+        before = np.vstack([last, samples[:-1]])
+        told = samples.copy()
+        told[:, self._modes] = before[:, self._modes]
+        other = late.run(told)
+        doubt += np.where(other.valid & valid, np.abs(batch.value - other.value), 0.0)
+        for at, (k, modes, wait) in enumerate(self._blurred):
+            turned = (samples[:, modes] != before[:, modes]).any(axis=1)
+            since = np.arange(len(samples)) + 1.0 + self._since[at]
+            for j in np.flatnonzero(turned):
+                since[j:] = np.arange(len(samples) - j)
+            self._since[at] = float(since[-1])
+            valid[:, k] &= since > wait
+        self._sample = samples[-1].copy()
+
+    def _bias(
+        self,
+        fast: Engine,
+        samples: Array,
+        batch: Batch,
+        valid: npt.NDArray[np.bool_],
+        number: int,
+    ) -> Array:
+        """What the approximations are off by: the most of this row and the one before."""
+        from scipy.signal import lfilter
+
+        other = fast.run(samples)
+        off = np.zeros_like(batch.value)
+        keep = math.exp(-_FASTER * self._engine.bandwidth * self._engine.sample_time)
+        for at, (k, stages) in enumerate(self._bent):
+            smooth = other.value[:, k]
+            for j in range(round(stages * (_FASTER - 1.0))):  # as late as the filter itself
+                own = self._smooth[at]
+                smooth, own[j] = lfilter([1.0 - keep], [1.0, -keep], smooth, zi=own[j])
+            sound = batch.valid[:, k] & other.valid[:, k]
+            off[:, k] = np.where(sound, _BIAS * np.abs(batch.value[:, k] - smooth), 0.0)
+            valid[:, k] &= sound
+        start = 0
+        while start < len(off):
+            stop = min(len(off), start + self._every - (number + start) % self._every)
+            part = off[start:stop]
+            part[:] = np.maximum(np.maximum.accumulate(part, axis=0), self._peak[1])
+            self._peak[1] = part[-1]
+            part[:] = np.maximum(part, self._peak[0])
+            if (number + stop) % self._every == 0:
+                self._peak[0], self._peak[1] = self._peak[1].copy(), 0.0
+            start = stop
+        return off
