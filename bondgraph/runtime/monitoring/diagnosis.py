@@ -363,8 +363,7 @@ class Diagnosis:
         """All that `resume` needs, as plain JSON."""
         return {
             "limits": numbers(self._limits),
-            "matrix": self._history.matrix.tolist(),
-            "vector": self._history.vector.tolist(),
+            "history": self._history.root.tolist(),
             "fired": self._fired.tolist(),
             "most": numbers(self._most),
             "sums": numbers(self._sums),
@@ -379,8 +378,7 @@ class Diagnosis:
         levels = array(state["limits"], self._limits.shape)
         known = (*self._tolerated[: self._lasting], *starts_in(state["origins"]))
         history = History(array(state["prior"], (len(known),)))
-        history.matrix = array(state["matrix"], history.matrix.shape)
-        history.vector = array(state["vector"], history.vector.shape)
+        history.root = array(state["history"], history.root.shape)
         fired = array(state["fired"], self._fired.shape) != 0.0
         most = array(state["most"], self._most.shape)
         sums = array(state["sums"], self._sums.shape)

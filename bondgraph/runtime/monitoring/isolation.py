@@ -23,6 +23,7 @@ _SCALES = (0.1, 1.0, 10.0, 100.0)  # of the usual change: how large a fault is, 
 _KEEP = 0.95  # correlation of a fault's change between neighbouring chunks
 _CHUNK = 4  # rows in which the change is taken as constant, at least
 _PARTS = 15  # chunks at most
+_SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
 
 
 class Explained(NamedTuple):
@@ -62,20 +63,21 @@ class Rows(NamedTuple):
 class History:
     """What healthy operation has told of parameters that are off within their tolerances.
 
-    `prior` are the standard deviations of the parameters. Kept as information, matrix and vector,
-    so that rows are added one after the other and forgotten slowly.
+    `prior` are the standard deviations of the parameters. What is known is kept as a triangle and
+    what it should give, `root` = (R, q), for parameters z in deviations: the misfit of all rows
+    that were added is |R z - q|^2, forgotten slowly. Sums of squares would lose half of the digits,
+    and encoders beside tolerances of a millionth need all of them (Bierman, 1977).
     """
 
     def __init__(self, prior: Array) -> None:
         self.prior = prior
-        self.matrix = np.zeros((len(prior), len(prior)))
-        self.vector = np.zeros(len(prior))
+        self.root = np.zeros((len(prior), len(prior) + 1))
 
     def add(self, value: Array, weight: Array, slopes: Array, keep: float) -> None:
         """One row: residuals, their weights, slopes of the shape (parameters, residuals)."""
-        weighted = slopes * weight
-        self.matrix = keep * self.matrix + weighted @ slopes.T
-        self.vector = keep * self.vector + weighted @ value
+        root = np.sqrt(weight)
+        row = np.column_stack([(slopes * root).T * self.prior, root * value])
+        self.root = _triangle(np.vstack([math.sqrt(keep) * self.root, row]))[: len(self.root)]
 
     def anew(self, gone: Sequence[int], keep: Sequence[int], more: Sequence[float]) -> History:
         """The same once the parameters `gone` have another value, unknown within their prior.
@@ -83,31 +85,55 @@ class History:
         What the others owe them is integrated out. Then only the parameters `keep` are kept, and
         such with the deviations `more` come behind them.
         """
-        own = list(gone)
+        own, kept = list(gone), list(keep)
         rest = [k for k in range(len(self.prior)) if k not in own]
-        matrix, vector = np.zeros_like(self.matrix), np.zeros_like(self.vector)
-        owed = self.matrix[np.ix_(rest, own)] @ np.linalg.inv(self.information()[np.ix_(own, own)])
-        matrix[np.ix_(rest, rest)] = (
-            self.matrix[np.ix_(rest, rest)] - owed @ self.matrix[np.ix_(own, rest)]
-        )
-        vector[rest] = self.vector[rest] - owed @ self.vector[own]
-        kept = list(keep)
+        order = [*own, *rest, -1]
+        owed = np.vstack([self.root[:, order], np.eye(len(own), len(order))])
+        left = _triangle(owed)[len(own) : len(self.prior), len(own) :]
         found = History(np.concatenate([self.prior[kept], np.array(more, dtype=float)]))
-        found.matrix[: len(kept), : len(kept)] = matrix[np.ix_(kept, kept)]
-        found.vector[: len(kept)] = vector[kept]
+        for at, k in enumerate(kept):
+            if k in rest:
+                found.root[: len(left), at] = left[:, rest.index(k)]
+        found.root[: len(left), -1] = left[:, -1]
         return found
 
-    def information(self) -> Array:
-        """Prior and history together."""
-        return np.diag(1.0 / np.square(self.prior)) + self.matrix
+    def last(self, count: int) -> tuple[Array, Array]:
+        """By how much the last parameters are off, most probably, and the covariance of that."""
+        start = len(self.prior) - count
+        known = self.known()[start:, start:]
+        moved = self.prior[start:, None] * np.linalg.inv(known[:, :-1])
+        return moved @ known[:, -1], moved @ moved.T
+
+    def known(self) -> Array:
+        """Prior and history together, in the form of `root`."""
+        count = len(self.root)
+        return _triangle(np.vstack([np.eye(count, count + 1), self.root]))[:count]
+
+    def fit(self) -> Array:
+        """By how much the parameters are off, most probably."""
+        known = self.known()
+        return np.asarray(self.prior * np.linalg.solve(known[:, :-1], known[:, -1]))
 
     def expected(self, slopes: Array) -> tuple[Array, Array]:
         """The residuals of the healthy machine as far as it is known, and their variances."""
-        if not len(self.prior):
-            nothing = np.zeros(slopes.shape[1])
-            return nothing, nothing
-        spread = np.linalg.inv(self.information())
-        return slopes.T @ (spread @ self.vector), np.einsum("pr,pq,qr->r", slopes, spread, slopes)
+        known = self.known()
+        moved = np.linalg.solve(known[:, :-1].T, slopes * self.prior[:, None])
+        return moved.T @ known[:, -1], np.square(moved).sum(axis=0)
+
+
+def _triangle(rows: Array) -> Array:
+    """A triangle of the same sums of squares and products as these rows; of each of a stack.
+
+    Of many rows in pieces (Demmel et al., 2012): small ones are not shared out among threads, which
+    would wait for each other longer than they work.
+    """
+    *stack, count, columns = rows.shape
+    piece = max(2 * columns, _SMALL // columns)
+    if count > piece:
+        more = np.zeros((*stack, -count % piece, columns))
+        pieces = np.concatenate([rows, more], axis=-2).reshape(*stack, -1, piece, columns)
+        return _triangle(_triangle(pieces).reshape(*stack, -1, columns))
+    return np.asarray(np.linalg.qr(rows, mode="r"))
 
 
 def inverse(weight: Array) -> Array:
@@ -120,42 +146,30 @@ def explain(rows: Rows, hypotheses: Sequence[Hypothesis], history: History) -> l
 
     Raises numpy.linalg.LinAlgError where numbers are too far apart.
     """
-    count = len(rows.value)
-    length = max(_CHUNK, -(-count // _PARTS))
-    chunks = [rows.part(k, k + length) for k in range(0, count, length)]
-    matrix = history.information()
-    vector = history.vector.copy()
-    inner, cross, score = [], [], []
-    misfit = 0.0
-    for chunk in chunks:
-        weighted = chunk.slopes * chunk.weight[:, None, :]
-        rest = chunk.rest * chunk.weight[:, None, :]
-        inner.append(np.einsum("tar,tbr->ab", weighted, chunk.slopes))
-        cross.append(np.einsum("tar,tbr->ab", rest, chunk.slopes))
-        score.append(np.einsum("tar,tr->a", weighted, chunk.value))
-        matrix = matrix + np.einsum("tar,tbr->ab", rest, chunk.rest)
-        vector = vector + np.einsum("tar,tr->a", rest, chunk.value)
-        misfit += float(np.sum(chunk.weight * chunk.value**2))
-    factor = np.linalg.inv(matrix)
-    misfit -= float(vector @ factor @ vector)
-    misfit += float(history.vector @ np.linalg.solve(history.information(), history.vector))
+    seen = _seen(rows, history.prior, np.array([h.usual for h in hypotheses]))
+    known = history.known()
     found = []
     for fault in dict.fromkeys(h.fault for h in hypotheses):
         own = [j for j, h in enumerate(hypotheses) if h.fault == fault]
-        coupling = np.concatenate([c[:, own] for c in cross], axis=1)
-        information = _diagonal([i[np.ix_(own, own)] for i in inner])
-        information -= coupling.T @ factor @ coupling
-        seen = np.concatenate([s[own] for s in score]) - coupling.T @ factor @ vector
-        found.append(_compared([hypotheses[j] for j in own], information, seen, misfit))
+        alone = [_fits(known, seen, [j]) for j in own]
+        every = _fits(known, seen, own) if len(own) > 1 else []
+        found.append(_compared([hypotheses[j] for j in own], alone, every))
     return found
 
 
-def _diagonal(blocks: Sequence[Array]) -> Array:
-    size = len(blocks[0])
-    out = np.zeros((size * len(blocks), size * len(blocks)))
-    for k, block in enumerate(blocks):
-        out[k * size : (k + 1) * size, k * size : (k + 1) * size] = block
-    return out
+def _seen(rows: Rows, prior: Array, usual: Array) -> Array:
+    """What was seen and what would move it, in units of noise: (chunks, moments, columns).
+
+    Columns are the parameters with a tolerance, in deviations, the hypotheses, in their usual
+    changes, and the residuals.
+    """
+    noise = np.sqrt(rows.weight)[:, :, None]
+    rest = rows.rest.transpose(0, 2, 1) * prior
+    slopes = rows.slopes.transpose(0, 2, 1) * usual
+    table = np.concatenate([rest, slopes, rows.value[:, :, None]], axis=2) * noise
+    length = max(_CHUNK, -(-len(table) // _PARTS))
+    more = np.zeros((-len(table) % length, *table.shape[1:]))  # of nothing nothing follows
+    return np.concatenate([table, more]).reshape(-1, length * table.shape[1], table.shape[2])
 
 
 class _Fit(NamedTuple):
@@ -168,54 +182,55 @@ class _Fit(NamedTuple):
 
 
 def _compared(
-    own: Sequence[Hypothesis], information: Array, score: Array, misfit: float
+    own: Sequence[Hypothesis], alone: Sequence[Sequence[_Fit]], every: Sequence[_Fit]
 ) -> Explained:
     """Each hypothesis of a fault by itself, and all at once: one as probable as the other."""
-    size = len(own)
-    alone, every = [], []
-    for j in range(size):
-        pick = np.arange(j, len(score), size)
-        usual = np.array([own[j].usual])
-        fits = [
-            _fit(s * usual, information[np.ix_(pick, pick)], score[pick], misfit) for s in _SCALES
-        ]
-        alone.append(max(fits, key=lambda f: f.evidence))
-        every += fits
-    if size > 1:
-        usual = np.array([h.usual for h in own])
-        every += [_fit(s * usual, information, score, misfit) for s in _SCALES]
-    top = max(f.evidence for f in every)
-    best = max(range(size), key=lambda j: alone[j].evidence)
-    total = -math.inf
-    if math.isfinite(top):
-        weights = sum(math.exp(max(f.evidence - top, -700.0)) for f in every)
-        total = top + math.log(weights / len(every))
-    share = max(every, key=lambda f: f.evidence).share
-    chosen = alone[best]
-    return Explained(own[0].fault, total, share, own[best], chosen.change, chosen.deviation)
+    tops = [max(fits, key=lambda f: f.evidence) for fits in alone]
+    best = max(range(len(own)), key=lambda j: tops[j].evidence)
+    fits = [f for fits in (*alone, every) for f in fits]
+    top = max(fits, key=lambda f: f.evidence)
+    weights = sum(math.exp(max(f.evidence - top.evidence, -700.0)) for f in fits)
+    evidence = top.evidence + math.log(weights / len(fits))
+    hypothesis, chosen = own[best], tops[best]
+    change, deviation = chosen.change * hypothesis.usual, chosen.deviation * hypothesis.usual
+    return Explained(hypothesis.fault, evidence, top.share, hypothesis, change, deviation)
 
 
-def _fit(usual: Array, information: Array, score: Array, misfit: float) -> _Fit:
-    """Evidence for changes with a normal prior that is correlated in time."""
-    size = len(usual)
-    chunks = len(score) // size
+def _fits(known: Array, seen: Array, own: Sequence[int]) -> list[_Fit]:
+    """Evidence for changes with a normal prior that is correlated in time, for each of the scales.
+
+    By least squares: what changes explain is a part of what was seen, which no rounding makes
+    larger than that. So no fault gains by more than half the misfit of what it moves.
+    """
+    rest, size, chunks = len(known), len(own), len(seen)
+    part = _triangle(seen[:, :, [*range(rest), *[rest + j for j in own], -1]])
     steps = np.abs(np.subtract.outer(np.arange(chunks), np.arange(chunks)))
-    scale = np.tile(usual, chunks)  # in units of the usual change numbers are alike
-    information = information * np.outer(scale, scale)
-    score = score * scale
-    prior = np.kron(_KEEP**steps, np.eye(size))
-    inner = np.eye(len(score)) + prior @ information
-    sign, log_size = np.linalg.slogdet(inner)
-    posterior = np.linalg.solve(inner, prior)
-    mean = posterior @ score
-    if sign <= 0 or not np.isfinite(mean).all():
-        return _Fit(-math.inf, 0.0, 0.0, 0.0)
-    gone = float(2 * score @ mean - mean @ information @ mean)
+    spread = np.kron(np.linalg.cholesky(_KEEP**steps), np.eye(size))
+    moved = part[:, :, rest:-1] @ spread.reshape(chunks, size, -1)
+    table = np.concatenate([part[:, :, :rest], moved, part[:, :, -1:]], axis=2)
+    before = np.insert(known, [rest] * (chunks * size), 0.0, axis=1)
+    # The triangle of all, less that of the healthy machine: what only a fault explains.
+    left = _triangle(np.vstack([before, table.reshape(-1, table.shape[2])]))[rest:, rest:]
+    found = []
+    for scale in _SCALES:
+        scaled = np.append(scale * left[:, :-1], left[:, -1:], axis=1)
+        found.append(_fit(scaled, scale * spread[-1]))
+    return found
+
+
+def _fit(left: Array, last: Array) -> _Fit:
+    """From what is left to explain, by one deviation of each change; `last` makes the last one."""
+    count = left.shape[1] - 1
+    root = _triangle(np.vstack([left, np.eye(count, count + 1)]))[:count]
+    root, seen = root[:, :-1], root[:, -1]
+    changes = np.linalg.solve(root, seen)
+    misfit = float(np.square(left[:, -1]).sum())
+    rest = float(np.square(left[:, -1] - left[:, :-1] @ changes).sum())
     return _Fit(
-        0.5 * float(score @ mean) - 0.5 * float(log_size),
-        gone / misfit if misfit > 0 else 0.0,
-        float(mean[-1] * usual[-1]),
-        math.sqrt(max(float(posterior[-1, -1]), 0.0)) * float(usual[-1]),
+        0.5 * float(seen @ seen) - float(np.log(np.abs(np.diagonal(root))).sum()),
+        1.0 - rest / misfit if misfit > 0 else 0.0,
+        float(last @ changes),
+        math.sqrt(float(np.square(np.linalg.solve(root.T, last)).sum())),
     )
 
 

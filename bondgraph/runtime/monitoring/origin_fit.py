@@ -75,9 +75,7 @@ class Fit(NamedTuple):
     doubt: float
 
 
-def replayed(
-    case: Case, start: Array, tolerated: tuple[Hypothesis, ...]
-) -> tuple[Bank, list[Row]]:
+def replayed(case: Case, start: Array, tolerated: tuple[Hypothesis, ...]) -> tuple[Bank, list[Row]]:
     """The rows again, as residuals would have had them that began with another first sample."""
     bank = Bank(case.engine.configured(), tolerated, case.nominal)
     bank.reset()
@@ -221,7 +219,7 @@ class _Trial:
 
     def unique(self, found: Fit, at: int) -> bool:
         """Whether no other start explains the rows too that would matter later."""
-        allowed = np.array([row.bound[self._own] for row in found.rows])[-len(self._ends):]
+        allowed = np.array([row.bound[self._own] for row in found.rows])[-len(self._ends) :]
         allowed = allowed + self._limit
         change = found.start - self._case.start
         own = self.values(change)
@@ -291,15 +289,12 @@ def _posterior(
     case: Case, history: History, rows: Sequence[Row], starts: int
 ) -> tuple[Array, Array]:
     """What the starts, which stand last, are off by: mean and covariance."""
-    matrix, vector = history.information(), history.vector.copy()
     own = list(case.own)
+    found = History(history.prior)
+    found.root = history.root
     for row in rows:
-        slopes = row.slopes[:, own]
-        weighted = slopes * weight(row, case.sigma)[own]
-        matrix = matrix + weighted @ slopes.T
-        vector = vector + weighted @ row.value[own]
-    spread = np.asarray(np.linalg.inv(matrix), dtype=np.float64)
-    return (spread @ vector)[-starts:], spread[-starts:, -starts:]
+        found.add(row.value[own], weight(row, case.sigma)[own], row.slopes[:, own], 1.0)
+    return found.last(starts)
 
 
 def _misfit(case: Case, rows: Sequence[Row]) -> float:
@@ -317,7 +312,7 @@ def _judged(
         return math.inf, math.inf
     allowed = np.array([row.bound[own] + case.limit[own] for row in good])
     level = float((np.abs([row.value[own] for row in good]) / allowed).max())
-    slopes = np.array([row.slopes[-len(columns):][:, own] for row in good])  # (rows, starts, own)
+    slopes = np.array([row.slopes[-len(columns) :][:, own] for row in good])  # (rows, starts, own)
     before = case.steep[np.ix_(own, columns)].T
     slopes = np.concatenate([slopes, before[None]])
     moved = np.sqrt(np.einsum("tsr,su,tur->tr", slopes, spread, slopes))

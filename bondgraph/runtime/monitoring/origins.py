@@ -163,9 +163,7 @@ class Origins:
         if self._groups:
             self._note(time, samples)
 
-    def _begin(
-        self, group: _Group, time: Array, samples: Array, first: int, again: bool
-    ) -> None:
+    def _begin(self, group: _Group, time: Array, samples: Array, first: int, again: bool) -> None:
         """The first sample of a group after a break."""
         group.begun = True
         group.since = float(time[first])
@@ -309,9 +307,9 @@ class Origins:
                 other.waiting, other.next = True, 0  # its start was that of another first sample
                 self._told[other.signals] = math.nan
         for row in settled.rows:
-            row.bound[group.residuals] += self._slack(
-                group, settled.tolerated, row.slopes
-            )[group.residuals]
+            row.bound[group.residuals] += self._slack(group, settled.tolerated, row.slopes)[
+                group.residuals
+            ]
             at = self.waiting
             row.value[at], row.bound[at], row.valid[at] = 0.0, 0.0, False
         return settled._replace(names=group.memory.residuals)

@@ -141,7 +141,7 @@ class _Work:
                 values.append(batch.value[k])
                 allowed.append(batch.bound[k])
                 sound.append(valid)
-        found = np.linalg.solve(history.information(), history.vector)
+        found = history.fit()
         rest, excess, rows = [], [], 0
         for batch, slopes in self._chunks(samples[start:], samples[:start]):
             left = batch.value - np.einsum("thr,h->tr", slopes, found)

@@ -172,7 +172,7 @@ def test_a_journal_of_another_model_is_refused(
         ('"fired": [false, true]', '"fired": [false, false]'),
         ('"latched": {', '"latched": 7, "other": {'),
         ('"latched": {"since": ', '"latched": {"from": '),
-        ('"matrix": [[', '"matrix": [["a", '),
+        ('"history": [[', '"history": [["a", '),
     ],
 )
 def test_a_journal_with_another_kind_of_state_is_refused(
