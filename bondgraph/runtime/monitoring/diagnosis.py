@@ -20,7 +20,7 @@ from bondgraph.runtime.monitoring.learning import Learning
 from bondgraph.runtime.monitoring.naming import LONGEST, named, news, possible, update
 from bondgraph.runtime.monitoring.origins import Origins, starts_in
 from bondgraph.runtime.monitoring.plain import array, numbers
-from bondgraph.runtime.monitoring.rows import Part, Row, weight
+from bondgraph.runtime.monitoring.rows import Part, Row, usual, weight
 from bondgraph.runtime.monitoring.telling import Telling
 from bondgraph.runtime.monitoring.tuning import Tuning, limits
 from bondgraph.runtime.monitoring.verdict import Verdict
@@ -275,7 +275,7 @@ class Diagnosis:
 
     def _onset(self, time: float) -> float:
         """Begin to compare faults at the last row that was as it had been before."""
-        past = list(self._past)
+        past = usual(self._past)
         start = len(past) - 1
         while start > 0 and self._odd(past[start]):
             start -= 1

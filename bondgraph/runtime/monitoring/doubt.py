@@ -40,7 +40,7 @@ class Doubt:
         self._blurred = [
             (k, [place[m] for m in n.modes], self._samples(n.settle))
             for k, n in enumerate(natures)
-            if n.modes and n.approximate
+            if n.modes and (n.approximate or n.gated)
         ]
         self._bent = [(k, n.stages) for k, n in enumerate(natures) if n.approximate]
         self._drifts = np.array([n.drifts for n in natures], dtype=bool)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -49,3 +50,11 @@ def weight(row: Row, sigma: Array) -> Array:
         variance = sigma**2 + (_MODEL_ERROR * row.bound) ** 2 + (_SLOPE_ERROR * row.value) ** 2
         variance += (_DOUBTED * row.doubt) ** 2
     return np.where(row.valid & (variance > 0), 1.0 / np.maximum(variance, 1e-300), 0.0)
+
+
+def usual(rows: Sequence[Row]) -> list[Row]:
+    """The rows with no more doubt than twice the median: a fault that sets in shakes that too."""
+    if not rows:
+        return []
+    most = 2.0 * np.median([row.doubt for row in rows], axis=0)
+    return [row._replace(doubt=np.minimum(row.doubt, most)) for row in rows]
