@@ -72,7 +72,6 @@ class Diagnosis:
 
     def restart(self) -> None:
         """The residuals begin anew, after a gap; what was said is still said."""
-        count = len(self._engine.residuals)
         self._bank = Bank(self._engine.configured(), self._tolerated, self._nominal)
         self._bank.reset()
         self._doubt.reset()
@@ -82,8 +81,8 @@ class Diagnosis:
         self._piece: list[Array] = []
         self._before = self._copy()
         self._ends = False  # whether the present samples complete a row
-        self._streak = np.zeros(count, dtype=int)
-        self._sums = np.zeros((2, count))
+        self._streak = np.zeros(len(self._used), dtype=int)
+        self._sums = np.zeros((2, len(self._used)))
         self._telling.restart()
         self._quiet = 0
         self._after = self._told = 0  # rows since the alarm, and until the last update
@@ -110,6 +109,9 @@ class Diagnosis:
         """What there is to say after further samples, in order."""
         out: list[Verdict] = []
         for part in self._parts(time, batch, samples, out):
+            if self._learning is not None:
+                fresh = self._learning.part(part, healthy=not self._fired.any())
+                self._telling.anew(float(part.time[0]), fresh, out)
             self._alarms(part, out)
             row = self._row(part, out)
             if row is not None:
@@ -263,10 +265,9 @@ class Diagnosis:
         if first:
             since = self._onset(time)
             self._latched = {"since": since, "said": None}
-            names = self._telling.names(fresh)
             self._count += 1
-            what = f"above what a healthy machine does since {since:.3f} s; looking for the fault"
-            message = f"{names} {what}"
+            message = f"{self._telling.names(fresh)} above what a healthy machine does since"
+            message += f" {since:.3f} s; looking for the fault"
             out.append(Verdict("fault", time, since, self._levels(), message=message))
 
     def _levels(self) -> dict[str, float]:
@@ -282,18 +283,15 @@ class Diagnosis:
         begin = max(0, start)  # its samples are still healthy ones, the fault begins behind them
         self._after = self._told = 0
         self._rows, self._wanted = [], None
-        if not past:
-            self._begin(self._before)
-            return time
         chosen = past[begin + 1 :]
         self._begin(chosen[0].engine if chosen else self._before)
         for row in chosen:
             self._step_row(row)
-        return past[begin].time
+        return past[begin].time if past else time
 
     def _begin(self, engine: Engine) -> None:
-        facts = self._facts
-        self._all = hypotheses(self._engine, facts.faults, facts.units, self._sizes.found())
+        own = self._facts
+        self._all = hypotheses(self._engine, own.faults, own.units, self._sizes.found())
         copy = engine.configured(bounds=False)
         copy.follow(engine)
         self._steps = Bank(copy, self._all, self._nominal)
@@ -348,9 +346,9 @@ class Diagnosis:
         self._quiet = 0 if blind or (loud & self._fired).any() else self._quiet + 1
         if self._quiet < min(_BACK * 2 ** min(self._count - 1, 9), LONGEST):
             return
-        names = self._telling.names(self._fired)
         assert self._latched is not None
-        message = f"{names} back to what a healthy machine does; what was said stays said"
+        what = "back to what a healthy machine does; what was said stays said"
+        message = f"{self._telling.names(self._fired)} {what}"
         out.append(Verdict("cleared", row.time, self._latched["since"], message=message))
         self._fired[:] = False
         self._most[:] = 0.0

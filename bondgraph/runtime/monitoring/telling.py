@@ -105,6 +105,12 @@ class Telling:
         if fresh.any():
             out.append(Verdict("warm-up", time, message=self._watched(fresh)))
 
+    def anew(self, time: float, fresh: _Mask, out: list[Verdict]) -> None:
+        """The switches are as never before, and the noise of `fresh` residuals is not known."""
+        if fresh.any():
+            message = f"switches are as never before: {self._learning(time, fresh)}"
+            out.append(Verdict("warm-up", time, message=message))
+
     def _watched(self, of: _Mask) -> str:
         return f"{self.names(of)} {'is' if of.sum() == 1 else 'are'} watched from now on"
 
