@@ -135,7 +135,7 @@ class Diagnosis:
             stop = min(len(time), start + self._every - number % self._every)
             own = slice(start, stop)
             self._ends = (number + stop - start) % self._every == 0
-            self._origins.take(time[own], samples[own], again)
+            self._origins.take(time[own], samples[own], self._past, again)
             slopes = self._bank.run(samples[own])
             given = Batch(batch.value[own], batch.valid[own], batch.bound[own])
             doubt, sound = self._doubt.run(samples[own], given, number, self._limits[:, 0])
@@ -174,7 +174,7 @@ class Diagnosis:
         row = Row(float(part.time[-1]), whole, self._before, *[x[-1].copy() for x in part[2:]])
         self._piece, self._before = [], self._copy()
         self._past.append(row)
-        if self._origins.waiting.any():
+        if self._origins.looking:
             self._settle()
         self._telling.row(row.time, self._limits[:, 0], self._origins, out)
         return self._past[-1]

@@ -12,7 +12,7 @@ from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.healthy import slack
 from bondgraph.runtime.monitoring.hypotheses import COUNT, Bank, Hypothesis
-from bondgraph.runtime.monitoring.isolation import History
+from bondgraph.runtime.monitoring.isolation import History, inverse
 from bondgraph.runtime.monitoring.rows import Row, weight
 
 _SPREAD = 3.0  # standard deviations that a start may be off by
@@ -20,8 +20,12 @@ _LOCAL = 2.0  # counts that a slope is taken over, at least
 _FINE = 2.0**-6  # of the size of a signal: the smallest change of its start that is tried
 _OCTAVES = 22  # from there to the largest one
 _PARTS = 32  # of a turn, so that laws that turn are not stepped over
+_VALLEYS = 6  # places with small residuals from which the smallest are looked for
+_EXACT = 1e-6  # of a start that is no count: nearer it need not be known
 _INSIDE = 9  # points between two where the best one lies
 _STEPS = 6  # of Gauss and Newton
+_VAIN = 4.0  # times the doubt that is allowed: more than the rest of the threshold makes up for
+_BEYOND = 16.0  # squares of a deviation by which another start has to be worse
 _OTHER = 0.3  # share of its slope by which a further start does something else
 
 
@@ -114,6 +118,8 @@ def fitted(case: Case) -> Fit | None:
     more = trial.independent(change, signals)
     for at in [*more[1:], *more[:1]] if len(more) > 1 else []:
         change = trial.scanned(change, at)
+    if trial.hopeless(change, more):
+        return None
     found = _refined(case, trial, change, more)
     sure = found.level > 1.0 or found.doubt >= case.known or trial.unique(found, more[0])
     return found if sure else found._replace(doubt=math.inf)
@@ -175,25 +181,34 @@ class _Trial:
         if turn is not None:
             sizes |= {float(round(turn * k / 2 / _PARTS)) for k in range(1, _PARTS + 1)}
         points = np.array(sorted({0.0, *sizes, *(-s for s in sizes)}))
+        scores = self._scores(change, at, points)
+        found = [self._bottom(change, at, points, scores, k) for k in _valleys(scores)[:_VALLEYS]]
+        return self._moved(change, at, min(found)[1])
+
+    def _bottom(
+        self, change: Array, at: int, points: Array, scores: Array, best: int
+    ) -> tuple[float, float]:
+        """The score and the place of the smallest residuals around one of the points."""
+        whole = self._counts[at] is not None
         while True:
-            scores = [self._score(self._moved(change, at, p)) for p in points]
-            best = int(np.argmin(scores))
             low, high = points[max(best - 1, 0)], points[min(best + 1, len(points) - 1)]
-            near = max(abs(float(points[best])), 1.0) * 1e-6 if turn is None else 2.0
-            if high - low <= near:
-                return self._moved(change, at, float(points[best]))
+            place = float(points[best])
+            if high - low <= (2.0 if whole else max(abs(place), self.unit(at)) * _EXACT):
+                return float(scores[best]), place
             inner = np.linspace(low, high, _INSIDE + 2)
-            points = np.unique(np.append(np.rint(inner) if turn is not None else inner,
-                                         points[best]))  # fmt: skip
+            points = np.unique(np.append(np.rint(inner) if whole else inner, place))
+            scores = self._scores(change, at, points)
+            best = _valleys(scores)[0]
+
+    def _scores(self, change: Array, at: int, points: Array) -> Array:
+        found = [np.sum((self.values(self._moved(change, at, p)) / self._limit) ** 2)
+                 for p in points]  # fmt: skip
+        return np.nan_to_num(np.array(found), nan=math.inf)
 
     def _moved(self, change: Array, at: int, by: float) -> Array:
         moved = change.copy()
         moved[at] += by
         return moved
-
-    def _score(self, change: Array) -> float:
-        score = float(np.sum((self.values(change) / self._limit) ** 2))
-        return score if math.isfinite(score) else math.inf
 
     def slopes(self, change: Array, at: int) -> Array:
         """How the residuals move with the start of one signal, (rows, own)."""
@@ -217,30 +232,71 @@ class _Trial:
                     basis.append(rest / size)
         return found
 
+    def hopeless(self, change: Array, signals: Sequence[int]) -> bool:
+        """Whether not even the noise alone would let the rows tell the start well enough."""
+        value = self.values(change)
+        if (np.abs(value) > self._limit).any():
+            return False  # something is to be explained
+        slopes = np.array([self.slopes(change, at) for at in signals])  # (starts, rows, own)
+        information = np.einsum("str,utr->su", slopes / self._case.sigma[self._own] ** 2, slopes)
+        prior = np.diag([self.most(at) ** -2.0 for at in signals])
+        spread = np.linalg.inv(information + prior)
+        before = self._case.steep[np.ix_(self._own, list(signals))].T
+        seen = np.concatenate([slopes, before[:, None]], axis=1)
+        moved = np.sqrt(np.einsum("str,su,utr->tr", seen, spread, seen)).max(axis=0)
+        engine = self._case.engine.configured()
+        engine.run((self._case.start + change)[None])
+        bound = engine.run(self._samples).bound[self._ends][:, self._own]
+        allowed = self._limit + np.median(bound, axis=0)
+        return bool((_SPREAD * moved > _VAIN * self._case.known * allowed).any())
+
     def unique(self, found: Fit, at: int) -> bool:
         """Whether no other start explains the rows too that would matter later."""
-        allowed = np.array([row.bound[self._own] for row in found.rows])[-len(self._ends) :]
-        allowed = allowed + self._limit
+        rows = found.rows[-len(self._ends) :]
+        allowed = np.array([row.bound[self._own] for row in rows]) + self._limit
+        factor = self._whitening(found)
         change = found.start - self._case.start
         own = self.values(change)
+        worst = float(np.sum((factor @ own.ravel()) ** 2)) + _BEYOND
         near = max(4.0 * self.unit(at), 2.0 * _SPREAD * math.sqrt(found.spread[0, 0]))
         most = self.most(at)
         tries = np.linspace(-most, most, 2 * _PARTS + 1)
-        if self._counts[at] is not None:
-            turn = self._counts[at] or 1.0
-            tries = np.append(tries, np.linspace(-turn / 2, turn / 2, 2 * _PARTS + 1))
-            tries = np.rint(tries)
+        turn = self._counts[at]
+        if turn is not None:
+            tries = np.rint(np.append(tries, np.linspace(-turn / 2, turn / 2, 2 * _PARTS + 1)))
         for by in (float(t) for t in tries if abs(t) > near):
             other = self._moved(change, at, by)
-            if (np.abs(self.values(other)) > allowed).any():
+            value = self.values(other)
+            if not float(np.sum((factor @ value.ravel()) ** 2)) < worst:
                 continue
-            shifts = (0.0, most / 7, -most / 5)
-            for shift in shifts:
-                there, here = self._moved(other, at, shift), self._moved(change, at, shift)
-                values = own if shift == 0.0 else self.values(here)
-                if (np.abs(self.values(there) - values) > 0.1 * allowed).any():
+            for shift in (0.0, most / 7, -most / 5):
+                here = self.values(self._moved(change, at, shift)) if shift else own
+                there = self.values(self._moved(other, at, shift)) if shift else value
+                if not (np.abs(there - here) < 0.1 * allowed).all():
                     return False
         return True
+
+    def _whitening(self, found: Fit) -> Array:
+        """What makes the residuals of the rows independent, with what is known of parameters."""
+        case, rows = self._case, found.rows[-len(self._ends) :]
+        kept = [k for k in range(len(case.tolerated)) if k not in case.starts]
+        known = case.history.anew(case.gone, kept, []).information()
+        slopes = np.concatenate([row.slopes[: len(kept), self._own] for row in rows], axis=1)
+        own = np.concatenate([inverse(weight(row, case.sigma)[self._own]) for row in rows])
+        own = np.minimum(own, 1e12 * float(np.min(own)))
+        spread = slopes.T @ np.linalg.solve(known, slopes) + np.diag(own)
+        return np.asarray(np.linalg.inv(np.linalg.cholesky(spread)))
+
+
+def _valleys(scores: Array) -> list[int]:
+    """Where scores are smaller than beside, the smallest first; of a plain, its ends."""
+    near = 1e-6 * np.minimum(np.append(scores[1:], math.inf), scores) + 1e-12
+    padded = np.concatenate([[math.inf], scores, [math.inf]])
+    before, after = padded[:-2] - scores, padded[2:] - scores
+    with np.errstate(invalid="ignore"):
+        low = (before >= -near) & (after >= -near) & ((before > near) | (after > near))
+    found = [int(k) for k in np.flatnonzero(low)] or [int(np.argmin(scores))]
+    return sorted(found, key=lambda k: (scores[k], k))
 
 
 def _refined(case: Case, trial: _Trial, change: Array, signals: Sequence[int]) -> Fit:

@@ -15,17 +15,19 @@ from bondgraph.runtime.monitoring.hypotheses import COUNT, Bank, Hypothesis
 from bondgraph.runtime.monitoring.isolation import History
 from bondgraph.runtime.monitoring.origin_fit import Case, Fit, fitted, replayed
 from bondgraph.runtime.monitoring.plain import array, numbers
+from bondgraph.runtime.monitoring.readings import Readings
 from bondgraph.runtime.monitoring.remembered import Memory
 from bondgraph.runtime.monitoring.rows import Row, weight
 
 _HOLD = 3  # warm-ups that a start is told before the first sample: encoders may jump far
 _FEW = 3  # rows beyond the warm-up before a start is looked for
 _MANY = 24  # rows that are looked at; with so many something has to explain them
+_HOPELESS = 3.0  # times its threshold a residual is, whatever the start
+_LOST = 16  # rows that are enough then
+_SELDOM = 20  # rows between two looks, at most
 _KNOWN = 0.5  # of the threshold: what an unknown start may do to a residual that is watched
-_FASTER = 1.5  # times as fast as ever before a machine may have moved in a gap
 _SLACK = 3.0  # standard deviations of a start that a threshold leaves room for
 _LATEST = 10  # rows in which slopes before a break are taken
-_TURN = 2.0**32  # counts after which a counter runs over
 _ROOM = 1e-9  # s that times may be off by
 
 
@@ -68,11 +70,13 @@ class _Group:
         self.waiting = waiting
         self.ours = False  # whether residuals are computed here: the given ones began elsewhere
         self.begun = False
+        self.doubtful = False  # whether it is judged by a start that explains nothing
         self.resumed = False
         self.kept = False  # whether the start is what it was before the break
         self.since = math.inf
+        self.seen = math.nan  # s, of the newest row
         self.window = math.nan  # s, of the first sample that the start is that of
-        self.next = 0  # rows with which a start is looked for again
+        self.count = self.next = 0  # rows so far, and those with which a start is looked for again
 
 
 class Origins:
@@ -88,9 +92,7 @@ class Origins:
         self._engine, self._every = engine, every
         self._groups = [_Group(engine, memory) for memory in memories]
         self._told = np.full(len(engine.signals), math.nan)  # the first sample, where it counts
-        self._last = np.full(len(engine.signals), math.nan)  # value of each signal, and when
-        self._when = np.full(len(engine.signals), math.nan)
-        self._fast = np.zeros(len(engine.signals))  # counts a second
+        self._readings = Readings(len(engine.signals), engine.sample_time)
         self._far = np.zeros(len(engine.signals))  # counts from the start
         self._steep = np.zeros((len(engine.residuals), len(engine.signals)))
         self._warm = math.ceil(engine.warm_up / engine.sample_time)
@@ -105,6 +107,11 @@ class Origins:
             if group.waiting:
                 found[group.residuals] = True
         return found
+
+    @property
+    def looking(self) -> bool:
+        """Whether a start is looked for."""
+        return any(group.waiting or group.doubtful for group in self._groups)
 
     @property
     def lost(self) -> npt.NDArray[np.bool_]:
@@ -149,19 +156,24 @@ class Origins:
             most = np.argmax(np.abs(slopes), axis=0)
             self._steep[group.residuals, at] = slopes[most, np.arange(len(most))]
 
-    def take(self, time: Array, samples: Array, again: bool) -> None:
+    def take(self, time: Array, samples: Array, past: Sequence[Row], again: bool) -> None:
         """Note samples before they are run; `again`: they are those of before the watch ended."""
         for group in self._groups:
             whole = np.isfinite(samples[:, group.reads]).all(axis=1)
             first = 0
             if not whole.all():
                 if group.begun:
+                    self._look_back(group, past)
                     group.restart()
                 first = int(np.flatnonzero(~whole)[-1]) + 1
             if not group.begun and first < len(samples):
                 self._begin(group, time, samples, first, again)
-        if self._groups:
-            self._note(time, samples)
+        signals = sorted({at for group in self._groups for at in group.signals})
+        self._readings.note(time, samples, signals, self._every // 2)
+        for at in signals:
+            if math.isfinite(self._told[at]):
+                way = abs(self._readings.last(at) - self._told[at])
+                self._far[at] = max(self._far[at], way)
 
     def _begin(self, group: _Group, time: Array, samples: Array, first: int, again: bool) -> None:
         """The first sample of a group after a break."""
@@ -174,46 +186,15 @@ class Origins:
                 self._told[group.signals] = now[group.signals]
             return
         known = bool(np.isfinite(self._told[group.signals]).all()) and not group.memory.integral
-        sure = (again and group.resumed) or self._goes_on(group, time, samples, first)
-        group.kept = known and sure
+        group.kept = known and (
+            (again and group.resumed)
+            or self._readings.go_on(time, samples, first, group.counters)
+        )
         if not group.kept:
             self._told[group.signals] = math.nan
             self._far[group.signals] = np.maximum(
                 self._far[group.signals], np.abs(now[group.signals])
             )
-
-    def _goes_on(self, group: _Group, time: Array, samples: Array, first: int) -> bool:
-        """Whether all counters stand where they can have come to, and not only by chance.
-
-        One that has begun anew has not come further since than it could either.
-        """
-        sure = not group.counters
-        for at in group.counters:
-            there = np.flatnonzero(np.isfinite(samples[:first, at]))
-            last, when = self._last[at], self._when[at]
-            if len(there):
-                last, when = samples[there[-1], at], time[there[-1]]
-            gap = float(time[first] - when)
-            room = _FASTER * self._fast[at] * gap + 2.0
-            way = (samples[first, at] - last + _TURN / 2) % _TURN - _TURN / 2
-            if not (gap > 0.0 and abs(way) <= room):
-                return False
-            sure |= gap < 1.5 * self._engine.sample_time or abs(samples[first, at]) > room
-        return sure
-
-    def _note(self, time: Array, samples: Array) -> None:
-        """Where signals stand, and how fast encoders go."""
-        for at in sorted({at for group in self._groups for at in group.signals}):
-            there = np.flatnonzero(np.isfinite(samples[:, at]))
-            if not len(there):
-                continue
-            begin, end = there[0], there[-1]
-            self._last[at], self._when[at] = samples[end, at], time[end]
-            if end - begin >= self._every // 2:
-                way = abs(float(samples[end, at] - samples[begin, at]))
-                self._fast[at] = max(self._fast[at], way / float(time[end] - time[begin]))
-            if math.isfinite(self._told[at]):
-                self._far[at] = max(self._far[at], abs(self._last[at] - self._told[at]))
 
     # --------------------------------------------------------------------- samples
 
@@ -254,21 +235,30 @@ class Origins:
         """A group that waits no longer, at the end of a row; None where there is none."""
         for group in self._groups:
             rows = [row for row in past if self._begins(row) >= group.since - _ROOM]
-            if not (group.waiting and group.begun and rows) or len(rows) < group.next:
+            looks = (group.waiting or group.doubtful) and group.begun
+            if not looks or not rows or rows[-1].time == group.seen:
                 continue
-            group.next = len(rows) + max(1, len(rows) // 4)
+            group.seen = rows[-1].time
+            group.count += 1
             case = self._case(group, rows[-_MANY:], tolerated, nominal, history, limits)
+            length = len(rows) * self._every
             if group.kept:
+                if rows[0].valid.any() and length <= self._warm:
+                    continue  # residuals that go on need slopes that have settled
                 bank, again = replayed(case, case.start, tolerated)
                 return self._accepted(group, Settled((), bank, again, tolerated, history))
-            if len(rows) * self._every < self._warm * self._slow(group) + _FEW * self._every:
+            few = length < self._warm * self._slow(group) + _FEW * self._every
+            if few or group.count < group.next:
                 continue
+            group.next = group.count + min(max(1, group.count // 4), _SELDOM)
             try:
-                found = fitted(case)
+                with np.errstate(over="ignore", invalid="ignore"):
+                    found = fitted(case)
             except np.linalg.LinAlgError:
                 continue
-            if found is None or not self._good(found, len(rows)):
+            if found is None or not self._good(group, found):
                 continue
+            group.doubtful = found.level > 1.0
             self._told[group.signals] = found.start[group.signals]
             group.starts, group.spread = found.starts, found.spread
             self._taught(group, found, case)
@@ -284,10 +274,11 @@ class Origins:
     def _begins(self, row: Row) -> float:
         return row.time - (len(row.samples) - 1.5) * self._engine.sample_time
 
-    def _good(self, found: Fit, rows: int) -> bool:
+    def _good(self, group: _Group, found: Fit) -> bool:
         """Whether a start may be used: it is known well, or nothing explains what is seen."""
         if found.level > 1.0:
-            return rows >= _MANY
+            enough = _LOST if found.level > _HOPELESS else _MANY
+            return group.waiting and group.count >= enough
         return found.doubt <= _KNOWN
 
     def _taught(self, group: _Group, found: Fit, case: Case) -> None:
@@ -305,6 +296,7 @@ class Origins:
         for other in self._groups:
             if other.ours and other.memory.integral and other.window != group.window:
                 other.waiting, other.next = True, 0  # its start was that of another first sample
+                other.seen = math.nan
                 self._told[other.signals] = math.nan
         for row in settled.rows:
             row.bound[group.residuals] += self._slack(group, settled.tolerated, row.slopes)[
@@ -327,9 +319,10 @@ class Origins:
         known = np.isfinite(self._told)
         start[known] = self._told[known]
         sigma = limits[:, 0].copy()
-        limit = limits[:, 2] * sigma
+        with np.errstate(invalid="ignore"):
+            limit = limits[:, 2] * sigma
         unknown = ~np.isfinite(limit) | (limit <= 0)
-        if unknown.any():  # until noise has been learned
+        if unknown.any() and not group.kept:  # until noise has been learned
             rough = self._rough(start, rows)
             sigma[unknown], limit[unknown] = 0.1 * rough[unknown], 0.5 * rough[unknown]
         paths = set(group.memory.signals)
@@ -347,8 +340,8 @@ class Origins:
         engine = self._engine.configured()
         engine.run(start[None])
         batch = engine.run(np.concatenate([row.samples for row in rows]))
-        bound = np.median(batch.bound[self._warm :], axis=0)
-        size = np.sqrt(np.mean(np.square(batch.value[self._warm :]), axis=0))
+        bound = np.median(batch.bound[-self._every :], axis=0)
+        size = np.sqrt(np.mean(np.square(batch.value[-self._every :]), axis=0))
         return np.asarray(np.where(bound > 0, bound, size) + 1e-300)
 
     # ---------------------------------------------------------------- persistence
@@ -358,11 +351,10 @@ class Origins:
         return {
             "starts": [[h.fault, h.unit, h.usual] for h in starts],
             "told": numbers(self._told),
-            "last": numbers(self._last),
-            "when": numbers(self._when),
-            "fast": numbers(self._fast),
+            "readings": self._readings.state(),
             "far": numbers(self._far),
             "steep": numbers(self._steep),
+            "fresh": [group.fresh for group in self._groups],
             "waiting": [group.waiting and not group.kept for group in self._groups],
             "spread": [numbers(group.spread) for group in self._groups],
         }
@@ -373,16 +365,14 @@ class Origins:
         own = [tuple(h for h in starts if h.fault in g.memory.signals) for g in self._groups]
         spread = [array(s, (len(h),) * 2) for s, h in zip(state["spread"], own, strict=True)]
         waiting = [bool(w) for w in state["waiting"]]
-        told, last, when, fast, far = (
-            array(state[key], self._told.shape) for key in ("told", "last", "when", "fast", "far")
-        )
+        fresh = [bool(f) for f in state["fresh"]]
+        told, far = array(state["told"], self._told.shape), array(state["far"], self._far.shape)
         steep = array(state["steep"], self._steep.shape)
-        for one in (told, last, when):
-            one[~np.isfinite(one)] = math.nan
-        self._told, self._last, self._when = told, last, when
-        self._fast, self._far, self._steep = fast, far, steep
+        self._readings.resume(state["readings"])
+        self._told = np.where(np.isfinite(told), told, math.nan)
+        self._far, self._steep = far, steep
         for k, group in enumerate(self._groups):
             group.starts, group.spread = own[k], spread[k]
-            group.fresh = not np.isfinite(when[group.signals]).any()
+            group.fresh = fresh[k]
             group.restart(waiting=not group.fresh)
             group.resumed = not waiting[k]
