@@ -280,11 +280,13 @@ class _Trial:
         """What makes the residuals of the rows independent, with what is known of parameters."""
         case, rows = self._case, found.rows[-len(self._ends) :]
         kept = [k for k in range(len(case.tolerated)) if k not in case.starts]
-        known = case.history.anew(case.gone, kept, []).information()
+        history = case.history.anew(case.gone, kept, [])
         slopes = np.concatenate([row.slopes[: len(kept), self._own] for row in rows], axis=1)
         own = np.concatenate([inverse(weight(row, case.sigma)[self._own]) for row in rows])
         own = np.minimum(own, 1e12 * float(np.min(own)))
-        spread = slopes.T @ np.linalg.solve(known, slopes) + np.diag(own)
+        scaled = slopes * history.prior[:, None]
+        moved = np.linalg.solve(history.known()[:, :-1].T, scaled)
+        spread = moved.T @ moved + np.diag(own)
         return np.asarray(np.linalg.inv(np.linalg.cholesky(spread)))
 
 
