@@ -54,9 +54,9 @@ export class Residual extends Strip {
 
   turn(whose) { this.whose = whose; }
 
-  add(whose, t, [low, high, limit]) {
+  add(whose, t, [low, high, limit, out]) {
     const points = this.points[whose];
-    points.push([t, low, high, limit]);
+    points.push([t, low, high, limit, out]);
     recent(points);
   }
 
@@ -91,7 +91,7 @@ export class Residual extends Strip {
     pen.moveTo(0, y(0));
     pen.lineTo(w, y(0));
     pen.stroke();
-    const out = last && last[3] !== null && last[1] !== null && Math.max(-last[1], last[2]) > last[3];
+    const out = last && last[4];
     pen.strokeStyle = style(out ? "clash" : "ink");
     pen.lineWidth = out ? 2 : 1.3;
     pen.beginPath();

@@ -93,17 +93,16 @@ def _watched(compilation: Compilation, run: Run) -> Watched | None:
         if piece.anew:
             engine.reset()
             decision.restart()
-        batch = engine.run(piece.samples)
-        verdicts += decision.update(piece.time, batch, piece.samples)
-        parts.append((piece.time, piece.samples, batch.value, batch.valid, batch.bound))
+        verdicts += decision.update(piece.time, engine.run(piece.samples), piece.samples)
+        parts.append((piece.time, piece.samples, *decision.decided()))
     if not parts:
         return None
     time, samples, value, valid, bound = map(np.concatenate, zip(*parts, strict=True))
-    return Watched(time, samples, value, valid, bound + decision.noise(), tuple(verdicts))
+    return Watched(time, samples, value, valid, bound, tuple(verdicts))
 
 
 def _traces(compilation: Compilation, seen: Watched) -> Iterator[Trace]:
-    """The residuals; a threshold is the adaptive one and what noise alone does."""
+    """The residuals, each with the whole threshold that it is decided by."""
     units = residual_units(compilation)
     for k, info in enumerate(compilation.program.residuals):
         if not info.unavailable:

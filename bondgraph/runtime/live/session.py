@@ -14,9 +14,8 @@ from bondgraph.runtime.live.paced import Paced
 from bondgraph.runtime.live.places import Places
 from bondgraph.runtime.live.setup import Setup, Target, wish
 from bondgraph.runtime.live.twin import Twin
-from bondgraph.runtime.live.watch import Heard, floors
+from bondgraph.runtime.live.watch import Heard
 from bondgraph.runtime.log import Array, LogError
-from bondgraph.runtime.monitoring.decision import Decision
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.monitor import Monitor, Parts, Stop
 from bondgraph.runtime.monitoring.verdict import Verdict, described
@@ -111,8 +110,7 @@ class Session:
         self._source = source
         setup.engine.reset()
         own = setup.engine.configured()  # copies may be run beside it: it is that of the residuals
-        decision = setup.decision(own)
-        heard = Heard(decision, setup.own, lambda *found: self._hear(decision, *found))
+        heard = Heard(setup.decision(own), setup.own, self._hear)
         parts = Parts(
             source,
             setup.columns(),
@@ -128,7 +126,7 @@ class Session:
 
     # --------------------------------------------------------------------------- samples
 
-    def _hear(self, decision: Decision, time: Array, batch: Batch, samples: Array) -> None:
+    def _hear(self, time: Array, batch: Batch, samples: Array) -> None:
         """Samples of the monitored machine have been decided on: let the virtual one follow."""
         if not len(time):
             return
@@ -139,13 +137,12 @@ class Session:
         frame: dict[str, Any] = {
             "type": "frame",
             "t": round(float(time[-1]), 6),
-            "real": {"p": real, "r": _strips(batch, floors(decision))},
+            "real": {"p": real, "r": _strips(batch)},
             "virtual": {"p": self.places.virtual(rows)},
             "desired": {"p": wanted},
         }
         if second is not None:
-            floor = floors(self._second_decision)
-            frame["virtual"]["r"] = _strips(second, floor)
+            frame["virtual"]["r"] = _strips(second)
         if not self.places.names:
             frame["s"] = [
                 [_short(float(told[n][-1]) * self._turn[n]),
@@ -183,7 +180,7 @@ class Session:
         batch = self._second.run(table)
         for verdict in self._second_decision.update(time, batch, table):
             self._verdict("virtual", verdict)
-        return rows, read, batch
+        return rows, read, self._second_decision.decided()
 
     def _stuck(self, why: str) -> None:
         self._trouble = why
@@ -289,20 +286,23 @@ def _merged(before: dict[str, Any], after: dict[str, Any]) -> dict[str, Any]:
             if None not in (old[0], new[0]):
                 new[:2] = [min(old[0], new[0]), max(old[1], new[1])]
                 new[2] = max((x[2] for x in (old, new) if x[2] is not None), default=None)
+                new[3] = old[3] or new[3]
     return after
 
 
-def _strips(batch: Batch, floor: list[float | None]) -> list[list[float | None]]:
-    """Of each residual the least and the largest value in these samples, and its threshold."""
-    found: list[list[float | None]] = []
-    for k, more in enumerate(floor):
+def _strips(batch: Batch) -> list[list[float | bool | None]]:
+    """Of each residual in these samples the least and the largest value, the whole threshold, and
+    whether one of them is further out."""
+    found: list[list[float | bool | None]] = []
+    for k in range(batch.value.shape[1]):
         good = batch.valid[:, k]
         if not good.any():
-            found.append([None, None, None])
+            found.append([None, None, None, False])
             continue
-        value = batch.value[good, k]
-        limit = None if more is None else _short(float(batch.bound[good, k].max()) + more)
-        found.append([_short(float(value.min())), _short(float(value.max())), limit])
+        value, bound = batch.value[good, k], batch.bound[good, k]
+        out = bool((np.abs(value) > bound).any())
+        limit = _short(float(bound.max()))
+        found.append([_short(float(value.min())), _short(float(value.max())), limit, out])
     return found
 
 

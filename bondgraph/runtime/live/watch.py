@@ -1,11 +1,9 @@
-"""What a watch is made of when people look on: samples and batches heard, thresholds as drawn."""
+"""What a watch is made of when people look on: samples are heard, with what they are decided by."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
-
-import numpy as np
 
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Known
@@ -75,7 +73,7 @@ def further(graph: BondGraph, engine: Engine, numbers: Mapping[str, float]) -> t
 
 
 class Heard:
-    """A decision that is overheard: each batch goes to `hear` once it is decided on."""
+    """A decision that is overheard: `hear` gets samples, and by what they were decided on."""
 
     def __init__(self, inner: Decision, signals: int, hear: Hear) -> None:
         self._inner, self._own, self._hear = inner, signals, hear
@@ -83,16 +81,16 @@ class Heard:
     def update(self, time: Array, batch: Batch, samples: Array) -> list[Verdict]:
         """See `Decision`."""
         found = self._inner.update(time, batch, samples[:, : self._own])
-        self._hear(time, batch, samples)
+        self._hear(time, self._inner.decided(), samples)
         return found
 
     def look(self, time: Array, batch: Batch, samples: Array) -> None:
         """See `Decision`."""
         self._inner.look(time, batch, samples[:, : self._own])
 
-    def noise(self) -> Array:
+    def decided(self) -> Batch:
         """See `Decision`."""
-        return self._inner.noise()
+        return self._inner.decided()
 
     def restart(self) -> None:
         """See `Decision`."""
@@ -105,8 +103,3 @@ class Heard:
     def resume(self, state: dict[str, Any]) -> None:
         """See `Decision`."""
         self._inner.resume(state)
-
-
-def floors(decision: Decision) -> list[float | None]:
-    """What comes on top of the adaptive threshold of each residual, None while nobody knows."""
-    return [float(f) if np.isfinite(f) else None for f in decision.noise()]

@@ -20,8 +20,13 @@ class Decision(Protocol):
         """Samples that were decided on before a restart, to warm up by."""
         ...
 
-    def noise(self) -> Array:
-        """What each residual may have above its adaptive threshold; NaN while nobody knows."""
+    def decided(self) -> Batch:
+        """By what the samples of the last `update` were decided on.
+
+        Values may be others than those that came in, where it knows better, and so may be which of
+        them are valid. The bound is the whole threshold: adaptive, for what nobody knows of the
+        machine, and for noise; NaN while that is learned. Further out for long enough is an alarm.
+        """
         ...
 
     def restart(self) -> None:

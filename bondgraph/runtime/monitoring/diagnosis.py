@@ -20,7 +20,7 @@ from bondgraph.runtime.monitoring.learning import Learning
 from bondgraph.runtime.monitoring.naming import LONGEST, named, news, possible, update
 from bondgraph.runtime.monitoring.origins import Origins, starts_in
 from bondgraph.runtime.monitoring.plain import array, numbers
-from bondgraph.runtime.monitoring.rows import Part, Row, usual, weight
+from bondgraph.runtime.monitoring.rows import Part, Row, together, usual, weight
 from bondgraph.runtime.monitoring.telling import Telling
 from bondgraph.runtime.monitoring.tuning import Tuning, limits
 from bondgraph.runtime.monitoring.verdict import Verdict
@@ -68,6 +68,7 @@ class Diagnosis:
         self._count = 0  # alarms so far
         self._fired: npt.NDArray[np.bool_] = np.zeros(len(self._used), dtype=bool)
         self._most = np.zeros(len(self._used))
+        self._last: list[Batch] = []  # of the last update, with whole thresholds
         self.restart()
 
     def restart(self) -> None:
@@ -93,10 +94,9 @@ class Diagnosis:
         self._steps: Bank | None = None
         self._rows: list[Rows] = []
 
-    def noise(self) -> Array:
-        """What each residual may have above its adaptive threshold; NaN while that is learned."""
-        found = self._limits[:, 2] * self._limits[:, 0]
-        return np.where(np.isfinite(found), found, math.nan)
+    def decided(self) -> Batch:
+        """See `Decision`."""
+        return together(self._last, len(self._used))
 
     def _copy(self) -> Engine:
         copy = self._bank.engine.configured(bounds=False)
@@ -108,11 +108,15 @@ class Diagnosis:
     def update(self, time: Array, batch: Batch, samples: Array) -> list[Verdict]:
         """What there is to say after further samples, in order."""
         out: list[Verdict] = []
+        self._last = []
         for part in self._parts(time, batch, samples, out):
             if self._learning is not None:
                 fresh = self._learning.part(part, healthy=not self._fired.any())
                 self._telling.anew(float(part.time[0]), fresh, out)
-            self._alarms(part, out)
+            line = part.bound + self._limits[:, 2] * self._limits[:, 0]
+            line[~np.isfinite(line)] = math.nan
+            self._last.append(Batch(part.value, part.valid, line))
+            self._alarms(part, line, out)
             row = self._row(part, out)
             if row is not None:
                 self._judged(row, out)
@@ -146,21 +150,20 @@ class Diagnosis:
             yield Part(time[own], samples[own], value, valid, bound, doubt, slopes)
             start = stop
 
-    def _alarms(self, part: Part, out: list[Verdict]) -> None:
-        """Sample by sample: is a residual above its limit for long enough?"""
-        sigma, limit = self._limits[:, 0], self._limits[:, 2] * self._limits[:, 0]
-        excess = np.where(part.valid, np.abs(part.value) - part.bound, -math.inf)
-        level = np.where(part.valid, np.abs(part.value) / (part.bound + limit), 0.0)
+    def _alarms(self, part: Part, line: Array, out: list[Verdict]) -> None:
+        """Sample by sample: is a residual above its whole threshold for long enough?"""
+        known = part.valid & np.isfinite(line)
+        level = np.where(known, np.abs(part.value) / line, 0.0)
         past = self._most if self._fired.any() else 0.0  # before: that of the last samples
         self._most = np.maximum(past, level.max(axis=0))
-        over = (excess > limit) & ~self._fired
+        over = (level > 1.0) & ~self._fired
         if not over.any():
             self._streak[:] = 0
             return
         wanted = max(3, self._every // 10)
         for k, at in enumerate(part.time.tolist()):
             self._streak = np.where(over[k], self._streak + 1, 0)
-            fresh = (self._streak >= wanted) & ~self._fired & np.isfinite(sigma)
+            fresh = (self._streak >= wanted) & ~self._fired
             if fresh.any():
                 self._fire(at, fresh, out)
 

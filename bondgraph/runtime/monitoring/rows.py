@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.engine import Batch, Engine
 
 _MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is off by
 _SLOPE_ERROR = 0.05  # of the residual: what its sensitivities are off by
@@ -41,6 +41,13 @@ class Row(NamedTuple):
     bound: Array
     doubt: Array  # the part of it that no parameter explains
     slopes: Array  # of the tolerated parameters, wrong for ever
+
+
+def together(parts: Sequence[Batch], residuals: int) -> Batch:
+    """The residuals of samples that follow each other."""
+    nothing = np.zeros((0, residuals))
+    value, valid, bound = zip(Batch(nothing, nothing > 0, nothing), *parts, strict=True)
+    return Batch(np.concatenate(value), np.concatenate(valid), np.concatenate(bound))
 
 
 def weight(row: Row, sigma: Array) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,6 +12,10 @@ import pytest
 import bondgraph
 from bondgraph.cli.main import main
 from bondgraph.runtime.log import Log
+from bondgraph.runtime.monitoring.diagnosis import Diagnosis
+from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.hypotheses import rows_apart
+from bondgraph.runtime.monitoring.tuning import Limit, Tuning
 from bondgraph.runtime.monitoring.verdict import Verdict, from_json
 from tests.unit.runtime.monitoring import motor
 from tests.unit.runtime.monitoring.watch import MOTOR, ROOT, csv
@@ -113,3 +118,55 @@ def test_a_robot(name: str, robot: Log, tmp_path: Path, capsys: pytest.CaptureFi
     assert [v.event for v in faulty].count("fault") == 1
     last = [v for v in faulty if v.event == "update"][-1]
     assert last.candidates[0].fault == "m[1].wheel"
+
+
+@pytest.mark.parametrize("kind", ["motor", "robot"])
+def test_an_alarm_is_given_by_who_is_outside_the_whole_threshold_for_long_enough(
+    kind: str, robot: Log
+) -> None:
+    if kind == "motor":
+        healthy, faulty = motor.log(6.0, 1.0), motor.log()
+    else:
+        wheel = robot.columns["m[1].wheel"] + 400.0 * (np.arange(robot.rows) >= _STUCK)
+        healthy, faulty = robot, robot._replace(columns={**robot.columns, "m[1].wheel": wheel})
+    compilation = bondgraph.compile(MOTOR if kind == "motor" else ROBOT)
+    engine = compilation.engine()
+    learner = compilation.diagnosis(engine)
+    _decided(learner, engine, healthy)
+    assert not np.isnan(learner.decided().bound).any()
+    limits = {  # without the sums, which nobody can draw
+        name: Limit(*limit)._replace(height=1e300)
+        for name, limit in zip(engine.residuals, learner.state()["limits"], strict=True)
+    }
+    digest, rate = compilation.program.digest, 1.0 / engine.sample_time
+    tuning = Tuning(digest, rate, engine.bandwidth, 1.0, 6.0, limits)
+    alarms, drawn, given = _decided(compilation.diagnosis(engine, tuning), engine, faulty)
+    assert alarms[0] == _crossed(engine, faulty.time, drawn) > 3.0
+    noise = np.array([limit.kappa * limit.sigma for limit in limits.values()])
+    more = np.where(drawn.valid, 1.0 - (noise + given.bound) / drawn.bound, 0.0)
+    assert more.min() > -1e-12
+    assert bool(more.max() > 0.5) is (kind == "robot")  # of the first counts of encoders
+
+
+def _decided(decision: Diagnosis, engine: Engine, log: Log) -> tuple[list[float], Batch, Batch]:
+    """When there was an alarm, by what was decided, and what came from the engine."""
+    samples = np.column_stack([log.columns[k.path] for k in engine.signals])
+    own, alarms, drawn, given = engine.configured(), [], [], []
+    for k in range(0, len(samples), 333):
+        time, part = log.time[k : k + 333], samples[k : k + 333]
+        given.append(own.run(part))
+        said = decision.update(time, given[-1], part)
+        alarms += [v.time for v in said if v.event == "fault"]
+        drawn.append(decision.decided())
+        assert len(drawn[-1].value) == len(part)
+    both = [Batch(*map(np.concatenate, zip(*parts, strict=True))) for parts in (drawn, given)]
+    return alarms, *both
+
+
+def _crossed(engine: Engine, time: np.ndarray, drawn: Batch) -> float:
+    """When the first residual has been outside for a tenth of a row, at least three samples."""
+    wanted = max(3, rows_apart(engine) // 10)
+    outside = drawn.valid & (np.abs(drawn.value) > drawn.bound)
+    long = np.lib.stride_tricks.sliding_window_view(outside, wanted, axis=0).all(axis=-1)
+    found = np.flatnonzero(long.any(axis=1))
+    return float(time[found[0] + wanted - 1]) if len(found) else math.nan
