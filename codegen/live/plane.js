@@ -2,6 +2,7 @@
 const SVG = "http://www.w3.org/2000/svg";
 const ALL = ["desired", "real", "virtual"]; // the last is drawn on top
 const MOST = 2400; // points of a path
+const SEEN = 600; // the last ones, which names keep clear of
 const make = (into, kind, attributes = {}) => {
   const made = document.createElementNS(SVG, kind);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
@@ -17,13 +18,12 @@ export class Plane {
     this.svg = svg;
     this.heading = heading;
     this.grid = make(svg, "path", { class: "grid" });
-    this.line = {}; this.body = {}; this.leader = {}; this.label = {}; this.spot = {};
+    this.line = {}; this.body = {}; this.leader = {}; this.label = {}; this.spot = {}; this.with = {};
     for (const one of ALL) this.line[one] = make(svg, "path", { class: `path ${one}` });
     for (const one of ALL) this.body[one] = make(svg, "path", { class: `body ${one}` });
     for (const one of ALL) {
       this.leader[one] = make(svg, "path", { class: "leader" });
       this.label[one] = make(svg, "text", { class: "name" });
-      this.label[one].textContent = one;
     }
     this.bar = make(svg, "path", { class: "scale" });
     this.length = make(svg, "text", { class: "length" });
@@ -72,11 +72,25 @@ export class Plane {
       this.line[one].setAttribute("d", path.length > 1 ? `M${path.map(at).join("L")}` : "");
       const pose = this.pose[one];
       this.body[one].setAttribute("d", pose ? this.outline(view, pose) : "");
-      if (pose) taken.push([view.x(pose[0]) - 9, view.y(pose[1]) - 9, 18, 18]);
+      if (pose) taken.push([view.x(pose[0]) - 13, view.y(pose[1]) - 13, 26, 26]);
     }
     this.rule(view);
     taken.push([8, h - 36, 180, 30]);
-    for (const one of ALL) this.name(one, view, taken);
+    const lines = ALL.flatMap((one) => this.paths[one].slice(-SEEN).map(([x, y]) => [view.x(x), view.y(y)]));
+    const groups = this.together(view);
+    for (const one of ALL) this.name(one, groups.find((g) => g[0] === one), view, taken, lines);
+  }
+
+  // Machines at about the same place have one label; who has shared one goes on to for a while.
+  together(view) {
+    const groups = [];
+    const near = (a, b, far) => Math.hypot(...[0, 1].map((k) => this.pose[a][k] - this.pose[b][k])) * view.scale < far;
+    for (const one of ALL.filter((o) => this.pose[o])) {
+      const group = groups.find((g) => near(g[0], one, this.with[one] === g[0] ? 22 : 14));
+      if (group) group.push(one); else groups.push([one]);
+      this.with[one] = group ? group[0] : one;
+    }
+    return groups;
   }
 
   outline(view, [x, y, heading]) {
@@ -99,22 +113,30 @@ export class Plane {
     this.length.textContent = metres(long);
   }
 
-  // The name of a machine, beside it where nothing else is; where it was, if that is still free.
-  name(one, view, taken) {
+  // The name of machines, beside them where nothing else is; where it was, if that is as good.
+  name(one, group, view, taken, lines) {
     const pose = this.pose[one], label = this.label[one];
-    label.style.display = pose ? "" : "none";
+    label.style.display = group ? "" : "none";
     this.leader[one].setAttribute("d", "");
-    if (!pose) return;
+    if (!group) return;
+    label.textContent = group.join(", ");
     const w = label.getComputedTextLength() + 6, h = 18, [u, v] = [view.x(pose[0]), view.y(pose[1])];
     const spots = [];
-    for (const far of [14, 30, 48, 66]) for (const turn of [0, -1, 1, -2, 2, -3, 3, 4]) {
+    for (const far of [17, 30, 48, 66]) for (const turn of [0, -1, 1, -2, 2, -3, 3, 4]) {
       const angle = (turn * Math.PI) / 4;
       spots.push([far * Math.cos(angle), far * Math.sin(angle)]);
     }
-    if (this.spot[one]) spots.unshift(this.spot[one]);
     const box = ([dx, dy]) => [dx < -1 ? u + dx - w : dx > 1 ? u + dx : u - w / 2, v + dy - h / 2, w, h];
-    const free = ([x, y, bw, bh]) => x > 2 && y > 2 && x + bw < view.w - 2 && y + bh < view.h - 2 && !taken.some(([p, q, r, s]) => x < p + r && p < x + bw && y < q + s && q < y + bh);
-    const spot = spots.find((s) => free(box(s))) || spots[0], [x, y] = box(spot);
+    const meet = ([x, y, bw, bh], [p, q, r, s]) => x < p + r && p < x + bw && y < q + s && q < y + bh;
+    const cost = (spot) => {
+      const own = box(spot), [x, y, bw, bh] = own;
+      const out = x <= 2 || y <= 2 || x + bw >= view.w - 2 || y + bh >= view.h - 2;
+      const crossed = lines.filter(([p, q]) => x < p && p < x + bw && y < q && q < y + bh).length;
+      return (out ? 1e4 : 0) + 1e3 * taken.filter((t) => meet(own, t)).length + 6 * Math.min(crossed, 40) + Math.hypot(...spot);
+    };
+    let spot = spots.reduce((best, s) => { const c = cost(s); return c < best[0] ? [c, s] : best; }, [Infinity, spots[0]])[1];
+    if (this.spot[one] && cost(this.spot[one]) < cost(spot) + 25) spot = this.spot[one];
+    const [x, y] = box(spot);
     this.spot[one] = spot;
     taken.push(box(spot));
     label.setAttribute("x", x + 3);

@@ -134,6 +134,11 @@ def test_machines_move_and_residuals_scroll(page: Page) -> None:
     assert re.fullmatch(r"threshold ±\d+(\.\d+)?(e−\d+)? N", page.text(".strip .limit"))
     page.until("document.querySelector('#now-real .finding').textContent === 'no fault seen'")
     assert re.fullmatch(r"[\d.]+ c?m", page.text("#plane .length"))
+    # Who are at the same place share a label.
+    names = page.tab.run("[...document.querySelectorAll('#plane .name')]"
+                         ".filter((e) => e.style.display !== 'none').map((e) => e.textContent)"
+                         ".join(', ')")  # fmt: skip
+    assert sorted(names.split(", ")) == ["desired", "real", "virtual"]
     assert page.text("#real-name") == "real: simulated in another process"
     assert page.errors() == []
 
