@@ -17,7 +17,7 @@ from bondgraph.runtime.monitoring.healthy import Facts, grown, slack, tolerated
 from bondgraph.runtime.monitoring.hypotheses import Bank, Sizes, hypotheses, rows_apart
 from bondgraph.runtime.monitoring.isolation import History, Rows, explain, inverse
 from bondgraph.runtime.monitoring.learning import Learning
-from bondgraph.runtime.monitoring.naming import LONGEST, named, news, possible, update
+from bondgraph.runtime.monitoring.naming import LONGEST, classes, named, news, possible, update
 from bondgraph.runtime.monitoring.origins import Origins, starts_in
 from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.runtime.monitoring.rows import Part, Row, together, usual, weight
@@ -201,7 +201,7 @@ class Diagnosis:
         """What a row tells."""
         if self._learning is not None:
             fresh = self._learning.row(row, healthy=not self._fired.any())
-            self._telling.learned(row.time, fresh, out)
+            self._telling.learned(row.time, fresh, self._learning.hopeless, out)
             if self._learning.over:
                 self._learning = None
         self._sum(row, out)
@@ -328,7 +328,10 @@ class Diagnosis:
         except np.linalg.LinAlgError:
             return
         found = [possible(e, self._nominal.get(e.fault)) for e in found]
-        group, leads = named(found, self._facts.groups)
+        known = np.isfinite(self._limits[:, 0])
+        watched = [n for n, own in zip(self._engine.residuals, known, strict=True) if own]
+        groups = classes(self._facts.groups, self._facts.sees, watched)
+        group, leads = named(found, groups)
         sure, self._leads = group if leads == self._leads else (), leads
         if group and not sure and self._latched["said"] is None and self._after == _JUDGE:
             return  # the next row may confirm it

@@ -21,6 +21,10 @@ _CAREFUL = 2.0  # times the deviation that they show: there are few of them
 _NORMAL = 1.4826  # deviation of normal numbers, over the median of their sizes
 _ACCURACY = 1e-4  # of the terms of a residual: no sensor and no sampled law is better
 _ABOVE = 1.2  # times the largest excess of what is healthy that a limit stays above
+_BIASED = 2.0  # the same, where it is no noise and may become more
+_HOPELESS = 1.5  # times what noise may do: an approximation that is that far off tells nothing
+_MANY = 4 * STEPS  # differences after which switches that are turned all the time are known
+_QUARTER = 1.1503  # size that a quarter of normal numbers exceed, over their deviation
 _ALARMS = 1.0  # false ones wanted per hour
 
 _Settings: TypeAlias = frozenset[tuple[float, ...]]  # positions of the switches of a residual
@@ -32,11 +36,11 @@ class Learning:
     Noise is what neighbouring rows differ by. It is not taken for less than a ten-thousandth of
     what signals do to the residual: samples without noise, as of a simulation, are no reason to
     trust their last digits. Of one that drifts or is an approximation, it is also where it has
-    come to: no sample can tell that from a machine that is well, and no sum of it tells anything. A
-    single sample that was far off is noise too.
+    come to: no sample can tell that from a machine that is well, and no sum of it tells anything.
+    Where an approximation is far off it is `hopeless`. A single sample that was far off is noise.
 
     Noise is learned for each position of the switches that a residual reads: it comes from other
-    readings then.
+    readings then. Where they never rest for long, it is learned for all of them together.
     """
 
     def __init__(
@@ -50,8 +54,8 @@ class Learning:
         self._gains = tuple(h for h in known if h.kind == "gain" and h.fault not in counted)
         self._engine = engine
         self._steps: list[dict[_Settings, list[float]]] = [{} for _ in used]
+        self._all: list[list[tuple[float, _Settings]]] = [[] for _ in used]
         self._scale = np.zeros(len(used))
-        self._away = np.zeros(len(used))  # above the threshold, so far
         natures = [facts.natures[n] for n in engine.residuals]
         place = {k.path: at for at, k in enumerate(engine.signals)}
         self._modes = [[place[m] for m in n.modes] for n in natures]
@@ -60,7 +64,9 @@ class Learning:
         self._sigma = np.zeros(len(used))  # in all settings that were learned
         self._peak = np.full(len(used), -math.inf)  # of this row, and of all that counted
         self._highest = np.zeros(len(used))
-        self._stays = np.array([n.drifts or n.approximate for n in natures], dtype=bool)
+        self._approximate = np.array([n.approximate for n in natures], dtype=bool)
+        self._stays = self._approximate | np.array([n.drifts for n in natures], dtype=bool)
+        self.hopeless = np.zeros(len(used), dtype=bool)  # approximations that are too far off
         self._wanted = used.copy()
         alarms = _ALARMS / 3600.0 / (2 * max(1, int(used.sum())))
         crossings = engine.bandwidth / 4.0
@@ -115,8 +121,6 @@ class Learning:
         """
         valid = row.valid & healthy
         fresh = np.zeros_like(valid)
-        away = np.where(valid & self._stays, np.abs(row.value) - row.bound, 0.0)
-        self._away = np.maximum(self._away, away)
         sizes = np.abs(self._bank.run(row.samples)[-1]).max(axis=0, initial=0.0)
         value = np.where(valid, row.value, math.nan)
         step, self._last = np.abs(value - self._last) / math.sqrt(2.0), value
@@ -136,14 +140,21 @@ class Learning:
         self._scale[k] = max(self._scale[k], size)
         steps = [*self._steps[k].get(setting, []), step][-STEPS:]
         self._steps[k][setting] = steps
-        sigma = max(
-            _CAREFUL * _NORMAL * float(np.median(steps)),
-            _ACCURACY * float(self._scale[k]),
-            float(self._away[k]),
-            _ABOVE * float(self._highest[k] / self.limits[k, 2]),
-            float(self._sigma[k]),
-        )
-        if len(steps) < STEPS or not 0.0 < sigma < math.inf:
+        self._all[k] = [*self._all[k], (step, setting)][-_MANY:]
+        spread = _NORMAL * float(np.median(steps))
+        if len(steps) < STEPS:
+            if len(self._all[k]) < _MANY:
+                return False
+            spread = float(np.quantile([s for s, _ in self._all[k]], 0.75)) / _QUARTER
+            setting = frozenset().union(*[own for _, own in self._all[k]])
+        above = _BIASED if self._stays[k] else _ABOVE
+        noise = max(_CAREFUL * spread, _ACCURACY * float(self._scale[k]))
+        highest = float(self._highest[k] / self.limits[k, 2])
+        if self._approximate[k] and highest > _HOPELESS * noise:
+            self.hopeless[k], self._wanted[k] = True, False
+            return False
+        sigma = max(noise, above * highest, float(self._sigma[k]))
+        if not 0.0 < sigma < math.inf:
             return False
         self.limits[k, 0] = self._sigma[k] = sigma
         self._wanted[k], self._learned[k] = False, self._learned[k] | setting

@@ -47,6 +47,25 @@ def news(said: list[Any] | None, wanted: list[Any], again: bool, waited: int) ->
     return again and waited >= min(_AGAIN * 2.0 ** min(times, 9), LONGEST)
 
 
+def classes(
+    groups: Sequence[tuple[str, ...]], sees: Mapping[str, Sequence[str]], watched: Sequence[str]
+) -> Sequence[tuple[str, ...]]:
+    """The classes that are told apart by those residuals that are `watched`.
+
+    >>> classes([("a",), ("b",), ("c",)], {"r1": ["a", "b"], "r2": ["b", "c"]}, ["r2"])
+    [('a',), ('b', 'c')]
+    >>> classes([("a",), ("b",), ("c",)], {"r1": ["a", "b"], "r2": ["b", "c"]}, ["r1", "r2"])
+    [('a',), ('b',), ('c',)]
+    """
+    if set(sees) <= set(watched):
+        return groups
+    found: dict[tuple[str, ...], tuple[str, ...]] = {}
+    for group in groups:
+        own = tuple(r for r in watched if not set(group).isdisjoint(sees.get(r, ())))
+        found[own] = found.get(own, ()) + group
+    return list(found.values())
+
+
 def named(
     found: Sequence[Explained], groups: Sequence[tuple[str, ...]]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:

@@ -24,6 +24,7 @@ class Telling:
 
     def __init__(self, engine: Engine, used: _Mask) -> None:
         self._engine, self._used = engine, used
+        self._hopeless: _Mask = np.zeros(len(used), dtype=np.bool_)  # that were said to be
         self.restart()
 
     def restart(self) -> None:
@@ -100,10 +101,17 @@ class Telling:
             out.append(Verdict("warm-up", time, message=message))
         self._waits = (self._waits & waiting) | lost
 
-    def learned(self, time: float, fresh: _Mask, out: list[Verdict]) -> None:
-        """At the end of a row: the noise of `fresh` residuals is known now."""
+    def learned(self, time: float, fresh: _Mask, hopeless: _Mask, out: list[Verdict]) -> None:
+        """At the end of a row: the noise of `fresh` residuals is known now, or is no noise."""
         if fresh.any():
             out.append(Verdict("warm-up", time, message=self._watched(fresh)))
+        lost = hopeless & ~self._hopeless
+        if lost.any():
+            verb = "is" if lost.sum() == 1 else "are"
+            message = f"{self.names(lost)} {verb} not watched: an approximation that is far off, as"
+            message += " where a machine is faster than the filter (--rate, --bandwidth), or faulty"
+            out.append(Verdict("invalid", time, message=message))
+        self._hopeless = hopeless.copy()
 
     def anew(self, time: float, fresh: _Mask, out: list[Verdict]) -> None:
         """The switches are as never before, and the noise of `fresh` residuals is not known."""
