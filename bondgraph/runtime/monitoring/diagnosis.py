@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.comparison import Comparison
 from bondgraph.runtime.monitoring.doubt import Doubt
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.healthy import Facts, grown, slack, tolerated
 from bondgraph.runtime.monitoring.hypotheses import Bank, Sizes, hypotheses, rows_apart
-from bondgraph.runtime.monitoring.isolation import History, Rows, explain, inverse
+from bondgraph.runtime.monitoring.isolation import History, inverse
 from bondgraph.runtime.monitoring.learning import Learning
 from bondgraph.runtime.monitoring.naming import LONGEST, classes, named, news, possible, update
+from bondgraph.runtime.monitoring.onset import calm, odd
 from bondgraph.runtime.monitoring.origins import Origins, starts_in
 from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.runtime.monitoring.rows import Part, Row, together, usual, weight
@@ -26,14 +28,11 @@ from bondgraph.runtime.monitoring.tuning import Tuning, limits
 from bondgraph.runtime.monitoring.verdict import Verdict
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset
-_MOST = 600  # rows since the onset that are compared
 _FORGET = 1000.0  # rows after which healthy operation counts a third
 _JUDGE = 5  # rows after an alarm before a fault is named
 _AGAIN = 5  # rows between later judgements
 _CALM = 5  # rows that have to be calm behind one before it counts as healthy
 _BACK = 10  # rows that residuals must be quiet before a fault is over, twice as many each time
-_ONSET_ERROR = 0.8  # of the residual, in the first row: somewhere in it the fault began
-_ONSET_FADES = 0.4  # what is left of that in every row after
 
 
 class Diagnosis:
@@ -49,8 +48,8 @@ class Diagnosis:
         self._every = rows_apart(engine)
         self._nominal = {f: v for f, v in facts.faults.items() if v is not None}
         self._sizes = Sizes(engine)
-        self._all = hypotheses(engine, facts.faults, facts.units, {})
-        self._tolerated, spread = tolerated(self._all, facts)
+        known = hypotheses(engine, facts.faults, facts.units, {})
+        self._tolerated, spread = tolerated(known, facts)
         self._lasting = len(spread)  # those that stay; starts that were estimated stand behind
         self._history = History(spread)
         self._used = np.array([name in facts.sees for name in engine.residuals], dtype=bool)
@@ -60,7 +59,7 @@ class Diagnosis:
         self._past: deque[Row] = deque(maxlen=int(_MEMORY))
         self._learning: Learning | None = None
         if tuning is None:
-            self._learning = Learning(engine, self._all, self._used, facts)
+            self._learning = Learning(engine, known, self._used, facts)
             self._limits = self._learning.limits
         else:
             self._limits = np.array(limits(tuning, engine.residuals), dtype=float)
@@ -80,7 +79,7 @@ class Diagnosis:
         self._past.clear()
         self._calm: deque[Row] = deque()
         self._piece: list[Array] = []
-        self._before = self._copy()
+        self._before = self._here()
         self._ends = False  # whether the present samples complete a row
         self._streak = np.zeros(len(self._used), dtype=int)
         self._sums = np.zeros((2, len(self._used)))
@@ -91,14 +90,14 @@ class Diagnosis:
         self._wanted: Any = None  # what the last judgement would have said
         if self._learning is not None:
             self._learning.restart()
-        self._steps: Bank | None = None
-        self._rows: list[Rows] = []
+        self._compared: Comparison | None = None
 
     def decided(self) -> Batch:
         """See `Decision`."""
         return together(self._last, len(self._used))
 
-    def _copy(self) -> Engine:
+    def _here(self) -> Engine:
+        """The engine as it is now."""
         copy = self._bank.engine.configured(bounds=False)
         copy.follow(self._bank.engine)
         return copy
@@ -165,7 +164,7 @@ class Diagnosis:
             self._streak = np.where(over[k], self._streak + 1, 0)
             fresh = (self._streak >= wanted) & ~self._fired
             if fresh.any():
-                self._fire(at, fresh, out)
+                self._fire(at, fresh, [*self._piece, part.samples[: k + 1]], out)
 
     def _row(self, part: Part, out: list[Verdict]) -> Row | None:
         """Add samples to the row; the row, when it is full."""
@@ -175,7 +174,7 @@ class Diagnosis:
         whole = np.concatenate(self._piece)
         self._sizes.add(whole)
         row = Row(float(part.time[-1]), whole, self._before, *[x[-1].copy() for x in part[2:]])
-        self._piece, self._before = [], self._copy()
+        self._piece, self._before = [], self._here()
         self._past.append(row)
         if self._origins.looking:
             self._settle()
@@ -194,8 +193,8 @@ class Diagnosis:
                 self._calm.clear()
             self._bank, self._tolerated, self._history = found.bank, found.tolerated, found.history
             self._past = deque(found.rows, maxlen=self._past.maxlen)
-            self._before = self._copy()
-            self._steps, self._rows = None, []
+            self._before = self._here()
+            self._compared = None
 
     def _judged(self, row: Row, out: list[Verdict]) -> None:
         """What a row tells."""
@@ -208,10 +207,11 @@ class Diagnosis:
         if not self._fired.any():
             self._remember(row)
             return
-        if self._steps is None and not self._begin_again(row):
+        if self._compared is None and not self._begin_again(row):
             return
-        if not self._rows or self._rows[-1].value is not row.value:
-            self._step_row(row)
+        assert self._compared is not None
+        if not self._compared.has(row):
+            self._compared.step(row, self._weight(row))
         self._after += 1
         self._judge(row, out)
         self._over(row, out)
@@ -224,11 +224,11 @@ class Diagnosis:
         rows = [r for r in self._past if self._weight(r).any() and (anew or r.time > since)]
         if not rows:
             return False
-        self._after = self._told = 0
-        self._rows = []
-        self._begin(rows[0].engine)
-        for one in rows:
-            self._step_row(one)
+        first = rows[0]
+        samples = len(first.samples)
+        ago = math.ceil((first.time - since) / self._engine.sample_time)
+        healthy = 0 if anew or ago >= samples else samples - max(1, ago)
+        self._compare(first.engine, first.samples[:healthy], rows)
         return True
 
     def _remember(self, row: Row) -> None:
@@ -258,15 +258,18 @@ class Diagnosis:
         self._sums = np.where(row.valid, after, 0.0)
         fresh = (self._sums.max(axis=0) > top) & ~self._fired
         if fresh.any():
-            self._fire(row.time, fresh, out)
+            self._fire(row.time, fresh, [], out)
 
-    def _fire(self, time: float, fresh: npt.NDArray[np.bool_], out: list[Verdict]) -> None:
+    def _fire(
+        self, time: float, fresh: npt.NDArray[np.bool_], piece: list[Array], out: list[Verdict]
+    ) -> None:
+        """Latch an alarm; `piece` are the samples since the last row."""
         first = not self._fired.any()
         self._fired |= fresh
         self._calm.clear()
         self._quiet = 0
         if first:
-            since = self._onset(time)
+            since = self._onset(time, piece)
             self._latched = {"since": since, "said": None}
             self._count += 1
             message = f"{self._telling.names(fresh)} above what a healthy machine does since"
@@ -277,54 +280,49 @@ class Diagnosis:
         found = zip(self._engine.residuals, self._most, self._fired, strict=True)
         return {name: round(float(most), 3) for name, most, fired in found if fired}
 
-    def _onset(self, time: float) -> float:
-        """Begin to compare faults at the last row that was as it had been before."""
+    def _onset(self, time: float, piece: list[Array]) -> float:
+        """Begin to compare faults at the last sample that was as it had been before."""
         past = usual(self._past)
         start = len(past) - 1
-        while start > 0 and self._odd(past[start]):
+        while start > 0 and self._odd(past[start]).any():
             start -= 1
         begin = max(0, start)  # its samples are still healthy ones, the fault begins behind them
-        self._after = self._told = 0
-        self._rows, self._wanted = [], None
         chosen = past[begin + 1 :]
-        self._begin(chosen[0].engine if chosen else self._before)
-        for row in chosen:
-            self._step_row(row)
-        return past[begin].time if past else time
+        engine = chosen[0].engine if chosen else self._before
+        piece = [chosen[0].samples] if chosen else piece
+        healthy: Array = np.empty((0, len(self._engine.signals)))
+        if past and piece:
+            samples = np.concatenate(piece)
+            noise = inverse(self._weight(past[begin]))
+            count = calm(engine, samples, self._history, past[begin].slopes, noise, self._fired)
+            healthy = samples[:count]
+        self._compare(engine, healthy, chosen)
+        self._wanted = None
+        return past[begin].time + len(healthy) * self._engine.sample_time if past else time
 
-    def _begin(self, engine: Engine) -> None:
+    def _compare(self, engine: Engine, healthy: Array, rows: Sequence[Row]) -> None:
+        """Begin to compare faults, which set in behind the `healthy` samples."""
         own = self._facts
-        self._all = hypotheses(self._engine, own.faults, own.units, self._sizes.found())
-        copy = engine.configured(bounds=False)
-        copy.follow(engine)
-        self._steps = Bank(copy, self._all, self._nominal)
+        self._after = self._told = 0
+        found = hypotheses(self._engine, own.faults, own.units, self._sizes.found())
+        self._compared = Comparison(engine, healthy, found, self._nominal)
+        for row in rows:
+            self._compared.step(row, self._weight(row))
 
-    def _odd(self, row: Row) -> bool:
-        """Whether a fired residual is not what the history lets expect."""
-        expected, variance = self._history.expected(row.slopes)
-        own = inverse(self._weight(row))
-        off = np.abs(row.value - expected) > 3.0 * np.sqrt(variance + own)
-        return bool((off & (self._fired if self._fired.any() else True)).any())
-
-    def _step_row(self, row: Row) -> None:
-        """One more row of what every fault would have done since the onset."""
-        assert self._steps is not None
-        slopes = self._steps.run(row.samples)[-1].copy()
-        early = _ONSET_ERROR * _ONSET_FADES ** len(self._rows)
-        variance = inverse(self._weight(row)) + (early * row.value) ** 2
-        self._rows.append(Rows(row.value, 1.0 / variance, row.slopes, slopes))
-        del self._rows[_MOST:]  # by then it is known as well as it will be
+    def _odd(self, row: Row) -> npt.NDArray[np.bool_]:
+        """Which fired residuals are not what the history lets expect."""
+        off = odd(self._history, row.value, row.slopes, inverse(self._weight(row)))
+        return off & (self._fired if self._fired.any() else True)
 
     # ------------------------------------------------------------------ judgement
 
     def _judge(self, row: Row, out: list[Verdict]) -> None:
         """Name the fault when there is enough to go by, and again when that changes."""
         due = self._after >= _JUDGE and (self._after < 10 or self._after % _AGAIN == 0)
-        if not due or self._latched is None or not self._rows:
+        if not due or self._latched is None or not self._compared:
             return
-        rows = Rows(*[np.array(x) for x in zip(*self._rows, strict=True)])
         try:
-            found = explain(rows, self._all, self._history)
+            found = self._compared.explained(self._history)
         except np.linalg.LinAlgError:
             return
         found = [possible(e, self._nominal.get(e.fault)) for e in found]
@@ -359,7 +357,7 @@ class Diagnosis:
         self._fired[:] = False
         self._most[:] = 0.0
         self._sums[:] = 0.0
-        self._steps, self._rows, self._latched = None, [], None
+        self._compared, self._latched = None, None
 
     # ---------------------------------------------------------------- persistence
 

@@ -44,8 +44,11 @@ class Bank:
     """Engines side by side on the same samples, two for each hypothesis.
 
     The slope of a residual is its central difference between two engines with a parameter a little
-    larger and smaller, or with a signal that is a little wrong. Hypotheses hold from the moment at
-    which the bank begins, with all that `engine` remembers of the time before.
+    larger and smaller, or with a signal that is a little wrong. With one of the `changes` (by the
+    number of the hypothesis) it is the secant up to there: times the change it is what such a fault
+    does, however bent the laws are. Hypotheses hold from the moment at which the bank begins, with
+    all that `engine` remembers of the time before. Raises ValueError for a change that the model
+    cannot take.
     """
 
     def __init__(
@@ -54,26 +57,29 @@ class Bank:
         hypotheses: Sequence[Hypothesis],
         nominal: Mapping[str, float],
         begin: Array | None = None,
+        changes: Mapping[int, float] | None = None,
     ) -> None:
         self.engine = engine
         self.hypotheses = tuple(hypotheses)
         self._place = {k.path: at for at, k in enumerate(engine.signals)}
         self._nominal = nominal
-        self._steps = np.array([self._step(h) for h in hypotheses])
+        steps = [self._step(h) for h in hypotheses]
+        self._ends = [(step, -step) for step in steps]
+        for k, change in (changes or {}).items():
+            self._ends[k] = (0.0, -change)
         self._values = [k for k, h in enumerate(hypotheses) if h.kind == "value"]
         self._signals = [k for k, h in enumerate(hypotheses) if h.kind != "value"]
-        self._wrong = [self._configured(k, sign) for k in self._values for sign in (1.0, -1.0)]
-        self._told = [engine.configured(bounds=False) for _ in self._signals for _ in (1, -1)]
+        self._wrong = [self._configured(k, end) for k in self._values for end in self._ends[k]]
+        self._told = [engine.configured(bounds=False) for _ in self._signals for _ in range(2)]
         for one in (*self._wrong, *self._told):
             one.follow(engine)
         self._begin = begin  # the sample before the first: where encoders count from
         self._age = 0  # samples so far
         self.batch: Batch | None = None  # what came out of `engine` last
 
-    def _configured(self, k: int, sign: float) -> Engine:
+    def _configured(self, k: int, change: float) -> Engine:
         fault = self.hypotheses[k].fault
-        value = self._nominal[fault] + sign * self._steps[k]
-        return self.engine.configured({fault: value}, bounds=False)
+        return self.engine.configured({fault: self._nominal[fault] + change}, bounds=False)
 
     def _step(self, hypothesis: Hypothesis) -> float:
         if hypothesis.kind == "value":
@@ -107,29 +113,30 @@ class Bank:
         if self._wrong:
             value, valid, _ = self._wrong[0].run_with(self._wrong[1:], samples)
             for at, k in enumerate(self._values):
-                slopes[:, k, :] = (value[2 * at] - value[2 * at + 1]) / (2 * self._steps[k])
+                up, down = self._ends[k]
+                slopes[:, k, :] = (value[2 * at] - value[2 * at + 1]) / (up - down)
                 slopes[:, k, :] *= valid[2 * at] & valid[2 * at + 1]
         fresh = self._begin is None
         if fresh and len(samples):
             self._begin = samples[0].copy()
         for at, k in enumerate(self._signals):
-            up = self._told[2 * at].run(self._shifted(samples, k, 1.0, fresh))
-            down = self._told[2 * at + 1].run(self._shifted(samples, k, -1.0, fresh))
-            slopes[:, k, :] = (up.value - down.value) / (2 * self._steps[k])
-            slopes[:, k, :] *= up.valid & down.valid
+            up, down = self._ends[k]
+            more = self._told[2 * at].run(self._shifted(samples, k, up, fresh))
+            less = self._told[2 * at + 1].run(self._shifted(samples, k, down, fresh))
+            slopes[:, k, :] = (more.value - less.value) / (up - down)
+            slopes[:, k, :] *= more.valid & less.valid
         self.batch = self.engine.run(samples)
         self._age += len(samples)
         return slopes
 
-    def _shifted(self, samples: Array, k: int, sign: float, fresh: bool) -> Array:
-        """The samples as they are told when the hypothesis holds, a little.
+    def _shifted(self, samples: Array, k: int, step: float, fresh: bool) -> Array:
+        """The samples as they are told when the hypothesis holds with a change of `step`.
 
         A `fresh` encoder counts from its first sample, which is therefore as it is told.
         """
         hypothesis = self.hypotheses[k]
         at = self._place[hypothesis.fault]
         told = samples.copy()
-        step = sign * self._steps[k]
         column = told[:, at]
         if hypothesis.kind == "offset":
             told[:, at] = column + step

@@ -187,8 +187,7 @@ class Origins:
             return
         known = bool(np.isfinite(self._told[group.signals]).all()) and not group.memory.integral
         group.kept = known and (
-            (again and group.resumed)
-            or self._readings.go_on(time, samples, first, group.counters)
+            (again and group.resumed) or self._readings.go_on(time, samples, first, group.counters)
         )
         if not group.kept:
             self._told[group.signals] = math.nan

@@ -1,0 +1,134 @@
+"""Every fault beside what was seen since it began, each with what it would have done since then."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.hypotheses import Bank, Hypothesis
+from bondgraph.runtime.monitoring.isolation import Explained, History, Rows, explain, inverse
+from bondgraph.runtime.monitoring.onset import early
+from bondgraph.runtime.monitoring.rows import Row
+
+_MOST = 600  # rows that are compared: by then it is known as well as it will be
+_BENT = 60  # rows over which secants are looked for
+_ROUNDS = 8  # of looking for them
+_SMALL = 0.02  # of the usual change: for less a tangent does
+_CLEAR = 2.0  # standard deviations of a change that it is worth a secant
+_LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is taken
+_SAME = 0.01  # share by which changes of two rounds may differ
+_STEEP = 0.8  # of how one change makes the next: steeper, a step is not made longer
+
+
+class Comparison:
+    """Begins at the onset: `engine` stands before the `healthy` samples of its first row.
+
+    Laws may be bent: where a fault is as large as the samples say, its slope is not that of a small
+    one. So once there is something to go by, faults are tried again, each with its own size.
+    """
+
+    def __init__(
+        self,
+        engine: Engine,
+        healthy: Array,
+        hypotheses: Sequence[Hypothesis],
+        nominal: Mapping[str, float],
+    ) -> None:
+        self._engine = engine.configured(bounds=False)
+        self._engine.follow(engine)
+        self._engine.run(healthy)
+        self._begin = healthy[-1] if len(healthy) else None
+        self._skip = len(healthy)
+        self._all, self._nominal = tuple(hypotheses), nominal
+        self._changes: dict[int, float] = {}
+        self._bank = self._started({})
+        self._past: list[Row] = []
+        self._rows: list[Rows] = []
+        self._again = 0  # rows with which secants are looked for again
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def has(self, row: Row) -> bool:
+        """Whether this row was the last one."""
+        return bool(self._rows) and self._rows[-1].value is row.value
+
+    def step(self, row: Row, weight: Array) -> None:
+        """One more row, and one over the variance of its residuals."""
+        samples = row.samples if self._rows else row.samples[self._skip :]
+        slopes = self._bank.run(samples)[-1].copy()
+        if len(self._past) < _BENT:
+            self._past.append(row._replace(samples=samples))
+        if len(self._rows) < _MOST:
+            self._rows.append(Rows(row.value, weight, row.slopes, slopes))
+
+    def explained(self, history: History) -> list[Explained]:
+        """How well each fault explains the rows; raises LinAlgError as `explain` does."""
+        found = explain(self._table(), self._all, history)
+        if len(self._past) < _BENT and len(self._past) >= self._again:
+            self._again = 2 * len(self._past)
+            before: dict[int, tuple[float, float]] = {}
+            for _ in range(_ROUNDS):
+                wanted = self._bent(found)
+                if _alike(wanted, self._changes):
+                    break
+                tried = {k: (self._changes.get(k, 0.0), change) for k, change in wanted.items()}
+                self._try({k: self._within(k, _next(before.get(k), tried[k])) for k in wanted})
+                found, before = explain(self._table(), self._all, history), tried
+        return found
+
+    def _table(self) -> Rows:
+        rows = Rows(*[np.array(x) for x in zip(*self._rows, strict=True)])
+        return rows._replace(weight=1.0 / (inverse(rows.weight) + early(rows.value)))
+
+    def _started(self, changes: Mapping[int, float]) -> Bank:
+        engine = self._engine.configured(bounds=False)
+        engine.follow(self._engine)
+        return Bank(engine, self._all, self._nominal, self._begin, changes)
+
+    def _bent(self, found: Sequence[Explained]) -> dict[int, float]:
+        """Changes that are large and clear enough for a secant, by number of the hypothesis."""
+        changes = {}
+        for one in found:
+            size = abs(one.change)
+            if size >= _SMALL * one.hypothesis.usual and size >= _CLEAR * one.deviation:
+                k = self._all.index(one.hypothesis)
+                changes[k] = self._within(k, one.change)
+        return changes
+
+    def _within(self, k: int, change: float) -> float:
+        """The change, of a parameter only as far as it keeps its sign and size."""
+        hypothesis = self._all[k]
+        nominal = self._nominal[hypothesis.fault] if hypothesis.kind == "value" else 0.0
+        if not nominal:
+            return change
+        return float((1.0 - np.clip(1.0 - change / nominal, _LEFT, _LARGEST)) * nominal)
+
+    def _try(self, changes: dict[int, float]) -> None:
+        """The rows again, with slopes as far as the changes go."""
+        try:
+            bank = self._started(changes)
+        except ValueError:  # the model cannot take one of them
+            bank, changes = self._started({}), {}
+        self._bank, self._changes = bank, changes
+        for k, row in enumerate(self._past):
+            slopes = bank.run(row.samples)[-1].copy()
+            self._rows[k] = self._rows[k]._replace(slopes=slopes)
+
+
+def _next(before: tuple[float, float] | None, now: tuple[float, float]) -> float:
+    """The change to try next, from those that were tried and what they made of it (Steffensen)."""
+    change, wanted = now
+    if before is None or before[0] == change:
+        return wanted
+    slope = (wanted - before[1]) / (change - before[0])
+    return wanted if abs(slope) > _STEEP else (wanted - slope * change) / (1.0 - slope)
+
+
+def _alike(left: Mapping[int, float], right: Mapping[int, float]) -> bool:
+    return left.keys() == right.keys() and all(
+        abs(left[k] - right[k]) <= _SAME * abs(left[k]) for k in left
+    )
