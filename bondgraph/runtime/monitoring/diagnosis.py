@@ -326,9 +326,8 @@ class Diagnosis:
         except np.linalg.LinAlgError:
             return
         found = [possible(e, self._nominal.get(e.fault)) for e in found]
-        known = np.isfinite(self._limits[:, 0])
-        watched = [n for n, own in zip(self._engine.residuals, known, strict=True) if own]
-        groups = classes(self._facts.groups, self._facts.sees, watched)
+        noise = dict(zip(self._engine.residuals, self._limits[:, 0].tolist(), strict=True))
+        groups = classes(self._facts.groups, self._facts.sees, noise)
         group, leads = named(found, groups)
         sure, self._leads = group if leads == self._leads else (), leads
         if group and not sure and self._latched["said"] is None and self._after == _JUDGE:
@@ -346,8 +345,8 @@ class Diagnosis:
         """A fault is over when its residuals have been quiet for long enough."""
         excess = np.abs(row.value) - row.bound
         loud = row.valid & (excess > 0.5 * self._limits[:, 2] * self._limits[:, 0])
-        blind = not row.valid.any() or (self._fired & self._origins.waiting).any()
-        self._quiet = 0 if blind or (loud & self._fired).any() else self._quiet + 1
+        quiet = self._quiet + bool(row.valid[self._fired].all())  # who cannot be seen is not quiet
+        self._quiet = 0 if (loud & self._fired).any() else quiet
         if self._quiet < min(_BACK * 2 ** min(self._count - 1, 9), LONGEST):
             return
         assert self._latched is not None

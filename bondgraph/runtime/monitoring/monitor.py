@@ -15,7 +15,7 @@ from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.journal import Journal, JournalError, Past
 from bondgraph.runtime.monitoring.publisher import Publisher
 from bondgraph.runtime.monitoring.sources.source import Chunk, Source
-from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
+from bondgraph.runtime.monitoring.verdict import Verdict, described, listed, to_json
 from bondgraph.text.tuples import NamedTuple
 
 _EVERY = 1.0  # s between two positions in the journal
@@ -178,6 +178,13 @@ class Monitor:
         message = f"{why}, after {self._samples} samples"
         if self._parts.clock.dropped:
             message += f", {self._parts.clock.dropped} of them too late, twice or empty"
+        lines = self._parts.decision.decided().bound[-1:]
+        blind = [
+            n for k, n in enumerate(self._parts.engine.residuals) if (lines != lines)[:, k].any()
+        ]
+        if blind:
+            verb = "is" if len(blind) == 1 else "are"
+            message += f"; {listed(blind, 'and')} {verb} not watched: the noise is not known"
         self._say(Verdict("stop", self._time, message=message))
         self._commit()
 

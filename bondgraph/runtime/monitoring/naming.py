@@ -48,15 +48,17 @@ def news(said: list[Any] | None, wanted: list[Any], again: bool, waited: int) ->
 
 
 def classes(
-    groups: Sequence[tuple[str, ...]], sees: Mapping[str, Sequence[str]], watched: Sequence[str]
+    groups: Sequence[tuple[str, ...]], sees: Mapping[str, Sequence[str]], noise: Mapping[str, float]
 ) -> Sequence[tuple[str, ...]]:
-    """The classes that are told apart by those residuals that are `watched`.
+    """The classes that are told apart by those residuals whose noise is known, not infinite.
 
-    >>> classes([("a",), ("b",), ("c",)], {"r1": ["a", "b"], "r2": ["b", "c"]}, ["r2"])
+    >>> sees = {"r1": ["a", "b"], "r2": ["b", "c"]}
+    >>> classes([("a",), ("b",), ("c",)], sees, {"r1": math.inf, "r2": 0.1})
     [('a',), ('b', 'c')]
-    >>> classes([("a",), ("b",), ("c",)], {"r1": ["a", "b"], "r2": ["b", "c"]}, ["r1", "r2"])
+    >>> classes([("a",), ("b",), ("c",)], sees, {"r1": 0.2, "r2": 0.1})
     [('a',), ('b',), ('c',)]
     """
+    watched = [name for name, sigma in noise.items() if math.isfinite(sigma)]
     if set(sees) <= set(watched):
         return groups
     found: dict[tuple[str, ...], tuple[str, ...]] = {}

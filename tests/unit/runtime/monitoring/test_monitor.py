@@ -77,7 +77,13 @@ def test_text_is_one_line_for_each_verdict(logs: Path, capsys: pytest.CaptureFix
 def test_a_healthy_machine_has_no_fault(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = str(tmp_path / "log.csv")
     write_log(motor.log().part(0, 3000), path)
-    assert [v["event"] for v in monitored(capsys, path)] == ["start", *WARM, "stop"]
+    said = monitored(capsys, path)
+    assert [v["event"] for v in said] == ["start", *WARM, "stop"]
+    assert "not watched" not in str(said[-1]["message"])
+    write_log(motor.log().part(0, 1500), path)  # too short for the noise to be learned
+    said = monitored(capsys, path)
+    assert [v["event"] for v in said] == ["start", "warm-up", "stop"]
+    assert "r1 and r2 are not watched" in str(said[-1]["message"])
 
 
 def test_what_was_said_before_a_kill_is_not_lost_and_not_said_twice(
