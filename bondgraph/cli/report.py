@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from bondgraph.backends.report.episode import Episode
     from bondgraph.cli.reporting.seen import Assumed
     from bondgraph.ir.program import Program
+    from bondgraph.runtime.simulation.run import Run
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -48,7 +49,7 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Collect, write the page; status 1 where it tells why there are no relations."""
     from bondgraph.backends.report.page import page
-    from bondgraph.cli.reporting.assumed import assumed
+    from bondgraph.cli.reporting.assumed import assumed, observed
     from bondgraph.cli.reporting.collect import STAGES, collect
 
     compilation = compile(
@@ -62,10 +63,15 @@ def run(args: Namespace) -> int:
         if fault not in compilation.graph.faults:
             return console.unknown(fault, "no fault of the model", compilation.graph.faults)
 
+    runs: list[Run] = []
+
     def assume(program: Program) -> Assumed:
         name = no_signal(args, program)
         if name is not None:
             raise UnknownSignal(name, [k.path for k in program.knowns])
+        if args.scenario and not (args.at or args.swing):
+            runs.extend(_simulated(compilation, args.scenario))
+            return observed(args, compilation, program, runs)
         return assumed(args, program)
 
     try:
@@ -74,7 +80,8 @@ def run(args: Namespace) -> int:
     except UnknownSignal as error:
         return console.unknown(error.name, "no known signal of the residuals", error.paths)
     if content.status in ("ok", "no_arr"):
-        content = content._replace(episodes=_episodes(compilation, args.scenario))
+        runs = runs or _simulated(compilation, args.scenario)
+        content = content._replace(episodes=_episodes(compilation, runs))
     stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
     output = args.output or f"{stem}.html"
     console.show(content.findings)
@@ -90,22 +97,30 @@ def run(args: Namespace) -> int:
     return 0 if content.status in ("ok", "no_arr") else 1
 
 
-def _episodes(compilation: Compilation, paths: list[str]) -> tuple[Episode, ...]:
+def _simulated(compilation: Compilation, paths: list[str]) -> list[Run]:
     """The scenarios as they go."""
-    if not paths:
-        return ()
     from importlib.util import find_spec
 
-    if find_spec("matplotlib") is None:
+    if paths and find_spec("matplotlib") is None:
         raise console.Trouble(
             "plots of scenarios need matplotlib: pip install 'bondgraph-arr[robot]'"
         )
+    from bondgraph.cli.reporting.scenarios import simulated
+
+    return [simulated(compilation, path) for path in paths]
+
+
+def _episodes(compilation: Compilation, runs: list[Run]) -> tuple[Episode, ...]:
+    """What there is to show of them."""
+    if not runs:
+        return ()
     from bondgraph.cli.reporting.scenarios import played
 
     found = []
-    for path in paths:
-        with console.progress_bar("simulating") as progress:
-            found.append(played(compilation, path, progress))
+    with console.progress(len(runs)) as advance:
+        for run in runs:
+            advance("watching")
+            found.append(played(compilation, run))
     return tuple(found)
 
 

@@ -60,7 +60,9 @@ class Detection(NamedTuple):
     undefined: tuple[str, ...] = ()
 
 
-class _Fault(NamedTuple):
+class Fault(NamedTuple):
+    """Something that may be wrong, as the program has it; `step` is what it is moved by."""
+
     path: str
     name: str
     nominal: float | None  # None for a signal
@@ -88,15 +90,27 @@ def smallest(
         raise ValueError(f"{missing[0]} has no value in the model")
     if not program.residuals:
         return Detection({}, ())
-    faults = _faults(program, tolerances, situation)
-    moved = _moved(program, faults, situation)
+    known = faults(program, tolerances, situation)
+    moved = _moved(program, known, situation)
     bound: dict[str, Array] = {}
     if thresholds is not None:
         bound = {n: r[:, 0] for n, r in _simulated(thresholds, {}, {}, 1, situation)[0].items()}
     sigma = noise(program, situation)
+    return told(program, known, moved, bound, sigma, situation.kappa)
+
+
+def told(
+    program: Program,
+    known: list[Fault],
+    moved: Mapping[str, Mapping[str, Array]],
+    bound: Mapping[str, Array],
+    sigma: Mapping[str, float | None],
+    kappa: float,
+) -> Detection:
+    """From sensitivities and thresholds at some samples, by fault and residual; see `smallest`."""
     undefined = [i for i in program.residuals if i.name not in sigma]
     rows = []
-    for fault in faults:
+    for fault in known:
         for info in program.residuals:
             if fault.path not in info.faults:
                 continue
@@ -110,14 +124,14 @@ def smallest(
                 continue
             slope = np.abs(moved[fault.path][info.name])
             a = bound.get(info.name, np.zeros(len(slope)))
-            rows.append(_row(base, fault, slope, a, sigma[info.name], situation.kappa))
+            rows.append(_row(base, fault, slope, a, sigma[info.name], kappa))
     own = {i.path: sigma.get(i.name) for i in program.residuals}
     return Detection(own, tuple(rows), tuple(i.path for i in undefined))
 
 
 def _row(
     base: tuple[str, str],
-    fault: _Fault,
+    fault: Fault,
     slope: Array,
     a: Array,
     sigma: float | None,
@@ -139,9 +153,7 @@ def _row(
     return Smallest(*base, least, relative, float(slope[at]), float(a[at]), "")
 
 
-def _faults(
-    program: Program, tolerances: Mapping[str, float], situation: Situation
-) -> list[_Fault]:
+def faults(program: Program, tolerances: Mapping[str, float], situation: Situation) -> list[Fault]:
     """The faults of all residuals that the code knows, in the order of the residuals."""
     params = {f.path: f for f in program.params}
     knowns = {k.path: k for k in program.knowns}
@@ -150,17 +162,17 @@ def _faults(
         if path in params:
             value = float(params[path].default or 0.0)
             step = _STEP * (abs(value) or 1.0)
-            found.append(_Fault(path, params[path].name, value, step, tolerances.get(path, 0.0)))
+            found.append(Fault(path, params[path].name, value, step, tolerances.get(path, 0.0)))
         elif path in knowns:
             size = abs(situation.at.get(path, 0.0)) + abs(situation.swing.get(path, 0.0))
-            found.append(_Fault(path, knowns[path].name, None, _STEP * (size or 1.0), 0.0))
+            found.append(Fault(path, knowns[path].name, None, _STEP * (size or 1.0), 0.0))
         else:  # only in what step leaves out
-            found.append(_Fault(path, "", None, _STEP, 0.0))
+            found.append(Fault(path, "", None, _STEP, 0.0))
     return found
 
 
 def _moved(
-    program: Program, faults: list[_Fault], situation: Situation
+    program: Program, faults: list[Fault], situation: Situation
 ) -> dict[str, dict[str, Array]]:
     """Per fault and residual the sensitivity at each valid sample, 0 where it is rounding."""
     lanes = 2 * len(faults)

@@ -1,17 +1,24 @@
-"""What a report assumes of the signals and their noise where nobody says it."""
+"""What a report takes signals and their noise to be: of scenarios, as told, or assumed."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from bondgraph.cli.detect import situation_of
 from bondgraph.cli.reporting.seen import Assumed
+from bondgraph.runtime.monitoring.verdict import listed
 
 if TYPE_CHECKING:
     from argparse import Namespace
+    from collections.abc import Mapping, Sequence
 
     from bondgraph.ir.program import Program
+    from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.simulation.run import Run
+    from bondgraph.runtime.smallest import Situation
 
 
 def assumed(args: Namespace, program: Program) -> Assumed:
@@ -39,17 +46,85 @@ def assumed(args: Namespace, program: Program) -> Assumed:
         told = [f"{n} at {v:g}" for n, v in given.at.items()]
         told += [f"{n} swings by {v:g}" for n, v in given.swing.items()]
         words.append(f"Signals, as given: {', '.join(told)}, at {given.frequency:g} Hz; others 0.")
-    sensors = [k for k in signals if k.kind == "sensor" and k.counts is None]
+    ranges = {k.path: _range(given.at.get(k.path, 0.0), given.swing.get(k.path, 0.0))
+              for k in signals}  # fmt: skip
+    return _measured(args, program, given, words, ranges)
+
+
+def observed(
+    args: Namespace, compilation: Compilation, program: Program, runs: Sequence[Run]
+) -> Assumed:
+    """The situation of scenarios: their signals until something goes wrong, and their noise.
+
+    As if there were none where their samples are too few or too far apart.
+    """
+    from bondgraph.runtime.monitoring.clock import clock_of
+    from bondgraph.runtime.monitoring.columns import Columns
+
+    engine = compilation.engine()
+    samples, stretches = [], []
+    for run in runs:
+        end = min((f.at for f in run.scenario.faults), default=math.inf)
+        if end < 3.0 * engine.warm_up:  # nothing would be left
+            end = math.inf
+        log = run.log.part(0, int((run.log.time < end).sum()))
+        clock = clock_of(engine)
+        pieces = clock.feed(log.time, Columns(engine.signals)(log)) + clock.finish()
+        enough = engine.warm_up / engine.sample_time
+        samples += [p.samples for p in pieces if len(p.samples) > enough]
+        until = "" if math.isinf(end) else f" (until its fault at {end:g} s)"
+        stretches.append(f"`{run.scenario.name}`{until}")
+    if not samples:
+        return assumed(args, program)
+    every = np.concatenate(samples)
+    at, ranges = {}, {}
+    for k, known in enumerate(engine.signals):
+        column = every[:, k]
+        column = column[np.isfinite(column)]
+        if known.counts is not None and len(column) > 1:
+            turns = np.diff(column) / known.counts
+            column = 2.0 * math.pi * turns / engine.sample_time
+        at[known.path] = float(column.mean()) if len(column) else 0.0
+        ranges[known.path] = float(np.ptp(np.append(column, 0.0))) or 1.0
+    given = situation_of(args, program)._replace(at=at, swing={})
+    words = [
+        f"Signals are those of the scenario{'s' * (len(runs) > 1)} {listed(stretches, 'and')}."
+    ]
+    found = {
+        name: math.hypot(one.noise, one.step / math.sqrt(12))
+        for run in runs
+        for name, one in run.scenario.instruments.items()
+    }
+    found = {name: size for name, size in found.items() if size}
+    if found and not args.noise:
+        given = given._replace(noise=found)
+        told = [f"{name} {size:.3g}" for name, size in found.items()]
+        words.append(f"Noise, as in there: standard deviation of {', '.join(told)}; white.")
+    rest = _measured(args, program, given, words, ranges)
+    return rest._replace(samples=tuple(samples))
+
+
+def _measured(
+    args: Namespace,
+    program: Program,
+    given: Situation,
+    words: list[str],
+    ranges: Mapping[str, float],
+) -> Assumed:
+    """With noise where nobody has told any, and all of it in words."""
+    signals = [k for k in program.knowns if k.kind != "mode"]
+    bare = [k for k in signals
+            if k.kind == "sensor" and k.counts is None and k.path not in given.noise]  # fmt: skip
     if args.noise:
         told = [f"{n} {v:g}" for n, v in given.noise.items()]
         words.append(f"Noise, as given: standard deviation of {', '.join(told)}; white.")
-    elif sensors:
-        ranges = {k.path: _range(given.at.get(k.path, 0.0), given.swing.get(k.path, 0.0))
-                  for k in sensors}  # fmt: skip
+    elif bare:
         size = 2.0**-args.bits / math.sqrt(12)
-        given = given._replace(noise={name: size * r for name, r in ranges.items()})
+        more = {k.path: size * ranges[k.path] for k in bare}
+        what, whose = ("more noise", "every other") if given.noise else ("noise", "every")
+        given = given._replace(noise={**given.noise, **more})
         words.append(
-            "Nothing was said of noise (`--noise`): every sensor has that of"
+            f"Nothing was said of {what} (`--noise`): {whose} sensor has that of"
             f" {args.bits}-bit samples over its range here, white, a step over the square root of"
             " 12."
         )

@@ -28,7 +28,7 @@ _NODES = 1500  # of a drawing that still fits a page
 _QUANTITIES = 500  # of a list that is still one
 
 
-STAGES = 7  # what takes time; `collect` says when each begins
+STAGES = 8  # what takes time; `collect` says when each begins
 
 
 def collect(
@@ -66,6 +66,7 @@ def collect(
                                for v in e.variables]]  # fmt: skip
     typesetter = Typesetter(names, graph.initial_values())
     found = compilation.signatures
+    advance("signals")
     situation = assume(program) if program is not None and found.residuals else None
     advance("formulas")
     told = relations(compilation, typesetter, program)

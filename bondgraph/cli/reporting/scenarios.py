@@ -44,8 +44,10 @@ class Watched(NamedTuple):
     verdicts: tuple[Verdict, ...]
 
 
-def played(compilation: Compilation, path: str, progress: Callable[[float], None]) -> Episode:
-    """The scenario of a file as it goes with a monitor at the rate of its samples.
+def simulated(
+    compilation: Compilation, path: str, progress: Callable[[float], None] = lambda _: None
+) -> Run:
+    """The scenario of a file as it goes.
 
     Raises `CompileError` where the scenario is wrong, Trouble where it cannot be run.
     """
@@ -53,11 +55,16 @@ def played(compilation: Compilation, path: str, progress: Callable[[float], None
 
     scenario = compilation.scenario(path)
     try:
-        run = compilation.simulate(scenario, progress)
+        return compilation.simulate(scenario, progress)
     except SimulationError as error:
         raise console.Trouble(f"{path}: {error}") from error
     except KeyError as error:
         raise console.Trouble(f"{path}: `{error.args[0]}` has no value") from error
+
+
+def played(compilation: Compilation, run: Run) -> Episode:
+    """A run with a monitor at the rate of its samples."""
+    scenario = run.scenario
     rate = scenario.sampling.rate
     if rate != compilation.options.rate:
         options = compilation.options._replace(rate=rate)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.expr import Expr
     from bondgraph.ir.program import Program
     from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.lanes import Array
     from bondgraph.runtime.smallest import Detection, Situation, Smallest
     from bondgraph.views import Relation
 
@@ -23,10 +24,14 @@ _ROOM = 400_000  # characters of all formulas
 
 
 class Assumed(NamedTuple):
-    """The situation that smallest changes are told for, and sentences that say what it is."""
+    """The situation that smallest changes are told for, and sentences that say what it is.
+
+    With `samples`, (n, signals of the engine), these are what the machine does.
+    """
 
     situation: Situation
     words: tuple[str, ...]
+    samples: tuple[Array, ...] = ()
 
 
 def seen(
@@ -61,12 +66,16 @@ def seen(
 def _detection(
     compilation: Compilation, program: Program | None, assumed: Assumed | None
 ) -> tuple[Detection | None, str]:
+    from bondgraph.runtime.shown import shown
     from bondgraph.runtime.smallest import smallest
 
     if program is None or assumed is None:
         return None, "there is no code for it"
     tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
     try:
+        if assumed.samples:
+            engine = compilation.engine()
+            return shown(program, engine, tolerances, assumed.situation, assumed.samples), ""
         return smallest(program, compilation.thresholds, tolerances, assumed.situation), ""
     except ValueError as error:
         return None, str(error)

@@ -262,6 +262,9 @@ def test_a_scenario_is_simulated_watched_and_shown(tmp_path: Path) -> None:
     assert "The winding warms at six seconds." in page.text
     assert "9 s at 500 samples a second, seed 2" in page.text
     assert "R += 10 Ohm at 6 s; R += 10 Ohm: over at 8.9 s" in page.text
+    assert "Signals are those of the scenario warm (until its fault at 6 s)." in page.text
+    assert "standard deviation of current 0.002; white" in page.text
+    assert "every other sensor has that of 12-bit samples" in page.text
     # r1 is the balance of the armature: of the faults it sees alone are L, R and U (a sensor error
     # of the current or of the speed, and k, move the balance of the rotor as well)
     verdict = page.text.split("What the monitor said")[1]

@@ -15,6 +15,7 @@ import bondgraph
 from bondgraph.ir.graph import BondGraph
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.interpret import Interpreter
+from bondgraph.runtime.shown import shown
 from bondgraph.runtime.smallest import Detection, Situation, noise, smallest
 
 _ROOT = Path(__file__).resolve().parents[3]
@@ -136,6 +137,40 @@ def test_a_swing_shows_an_inertia(motor: Compilation) -> None:
         / np.maximum(slope * np.abs(np.cos(times)), 1e-9)
     )
     assert row.change == pytest.approx(best, rel=2e-3)
+
+
+@pytest.mark.parametrize("swing", [{}, {"speed": 300.0, "angle": 0.4}])
+@pytest.mark.parametrize("kind", ["motor", "spindle"])
+def test_recorded_signals_show_what_the_same_signals_show(
+    kind: str, swing: dict[str, float], motor: Compilation, tmp_path: Path
+) -> None:
+    """By the generated code over samples, one engine for each change, against lanes of numbers."""
+    compilation, at = motor, {"U": 6.0, "current": 0.03, "speed": 1000.0}
+    if kind == "spindle":
+        path = tmp_path / "spindle.bg"
+        path.write_text(_ENCODER.replace("m.s/rad", "m.s/rad +- 5%"), encoding="utf-8")
+        compilation, at = bondgraph.compile(path), {"torque": 2.0, "angle": 10.0}
+    own = {name: size for name, size in swing.items() if name in at}
+    situation = Situation(at, own, {"current": 1e-4, "speed": 0.1}, 2.0, 4.0)
+    engine, program = compilation.engine(), compilation.program
+    t = np.arange(math.ceil(engine.warm_up * program.rate) + 502) / program.rate
+    columns = []
+    for known in engine.signals:
+        base, turn = at.get(known.path, 0.0), known.counts
+        course = base + 0 * t if turn is None else base * t
+        course = course + own.get(known.path, 0.0) * np.sin(2 * np.pi * 2.0 * t)
+        columns.append(course if turn is None else np.round(course * turn / (2 * np.pi)))
+    logs = [np.column_stack(columns)]
+    tolerances = _tolerances(compilation.graph)
+    found = shown(program, engine, tolerances, situation, logs)
+    wanted = _found(compilation, situation)
+    assert found.sigma == wanted.sigma
+    # counts are whole: what they jump by moves an inertia
+    close = 1e-3 if kind == "motor" else 0.15
+    for one, other in zip(found.smallest, wanted.smallest, strict=True):
+        assert (one.fault, one.residual, one.reason) == (other.fault, other.residual, other.reason)
+        assert (one.change or 0.0) == pytest.approx(other.change or 0.0, rel=close)
+    assert any(one.change for one in found.smallest)
 
 
 def test_without_numbers_nothing_has_a_size(tmp_path: Path) -> None:
