@@ -195,6 +195,8 @@ class Diagnosis:
             self._past = deque(found.rows, maxlen=self._past.maxlen)
             self._before = self._here()
             self._compared = None
+            if self._latched is not None and self._latched["said"] is not None:
+                self._latched["said"][2] = 0  # there is more to go by
 
     def _judged(self, row: Row, out: list[Verdict]) -> None:
         """What a row tells."""
@@ -245,6 +247,7 @@ class Diagnosis:
         while len(self._calm) > wait:
             old = self._calm.popleft()
             self._history.add(old.value, self._weight(old), old.slopes, 1.0 - 1.0 / _FORGET)
+            self._origins.learn(self._tolerated, self._history)
 
     def _weight(self, row: Row) -> Array:
         return weight(row, self._limits[:, 0])

@@ -97,6 +97,13 @@ class History:
         found.root[: len(left), -1] = left[:, -1]
         return found
 
+    def narrow(self, deviations: Array) -> None:
+        """Take the last parameters for known so well before, around what they are taken for."""
+        start = len(self.prior) - len(deviations)
+        scale = np.append(np.ones(start), deviations / self.prior[start:])
+        self.prior = self.prior * scale
+        self.root = self.root * np.append(scale, 1.0)
+
     def last(self, count: int) -> tuple[Array, Array]:
         """By how much the last parameters are off, most probably, and the covariance of that."""
         start = len(self.prior) - count

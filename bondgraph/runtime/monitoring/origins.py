@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.healthy import slack
 from bondgraph.runtime.monitoring.hypotheses import COUNT, Bank, Hypothesis
 from bondgraph.runtime.monitoring.isolation import History
 from bondgraph.runtime.monitoring.origin_fit import Case, Fit, fitted, replayed
@@ -26,6 +27,7 @@ _HOPELESS = 3.0  # times its threshold a residual is, whatever the start
 _LOST = 16  # rows that are enough then
 _SELDOM = 20  # rows between two looks, at most
 _KNOWN = 0.5  # of the threshold: what an unknown start may do to a residual that is watched
+_NARROW = 10.0  # deviations of a start, within which it stays when all else has been forgotten
 _SLACK = 3.0  # standard deviations of a start that a threshold leaves room for
 _LATEST = 10  # rows in which slopes before a break are taken
 _ROOM = 1e-9  # s that times may be off by
@@ -215,11 +217,27 @@ class Origins:
         bound[~valid] = 0.0
         return Batch(value, valid, bound)
 
+    def learn(self, known: Sequence[Hypothesis], history: History) -> None:
+        """What healthy rows have told of starts since these are used: leave less room for them."""
+        starts = [h for h in known if h.kind == "start"]
+        if not starts:
+            return
+        mean, spread = history.last(len(starts))
+        for group in self._groups:
+            if group.waiting or group.doubtful or not group.starts:
+                continue
+            own = [starts.index(h) for h in group.starts]
+            found = spread[np.ix_(own, own)] + np.outer(mean[own], mean[own]) / _SLACK**2
+            if np.trace(found) < np.trace(group.spread):
+                group.spread = found
+
     def _slack(self, group: _Group, known: Sequence[Hypothesis], slopes: Array) -> Array:
-        """What a start that is not known exactly may do to residuals."""
+        """What a start that is not known exactly may do, beyond what a count more or less does."""
         own = slopes[..., [known.index(h) for h in group.starts], :]
         square = np.einsum("...sr,su,...ur->...r", own, group.spread, own)
-        return np.asarray(_SLACK * np.sqrt(np.maximum(square, 0.0)))
+        paths = set(group.memory.signals)
+        counts = slack(known, slopes * np.array([h.fault in paths for h in known])[:, None])
+        return np.asarray(np.maximum(_SLACK * np.sqrt(np.maximum(square, 0.0)) - counts, 0.0))
 
     # ------------------------------------------------------------------------ starts
 
@@ -288,6 +306,7 @@ class Origins:
         own[group.residuals] = 1.0
         for row in found.rows:
             found.history.add(row.value, weight(row, case.sigma) * own, row.slopes, 1.0)
+        found.history.narrow(_NARROW * np.sqrt(np.diag(found.spread)))
 
     def _accepted(self, group: _Group, settled: Settled) -> Settled:
         group.waiting, group.ours = False, True

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import bondgraph
 from bondgraph.cli.main import main
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.monitoring.diagnosis import Diagnosis
@@ -96,14 +95,6 @@ def test_a_motor(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     for candidate in last.candidates:
         if candidate.fault == "f":
             assert candidate.size == pytest.approx(motor.FAULT, rel=0.1)
-
-
-@pytest.fixture(scope="session")
-def robot() -> Log:
-    """The robot with two encoders a drive, on its errands."""
-    compilation = bondgraph.compile(ROBOT)
-    scenario = compilation.scenario(ROOT / "models" / "scenarios" / "errands.toml")
-    return compilation.simulate(scenario._replace(duration=6.0)).log
 
 
 @pytest.mark.parametrize("name", DISTURBANCES)
