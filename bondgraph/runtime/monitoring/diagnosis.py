@@ -189,8 +189,7 @@ class Diagnosis:
             )
             if found is None:
                 break
-            if found.tolerated != self._tolerated:
-                self._calm.clear()
+            self._calm.clear()
             self._bank, self._tolerated, self._history = found.bank, found.tolerated, found.history
             self._past = deque(found.rows, maxlen=self._past.maxlen)
             self._before = self._here()
@@ -226,8 +225,7 @@ class Diagnosis:
         rows = [r for r in self._past if self._weight(r).any() and (anew or r.time > since)]
         if not rows:
             return False
-        first = rows[0]
-        samples = len(first.samples)
+        first, samples = rows[0], len(rows[0].samples)
         ago = math.ceil((first.time - since) / self._engine.sample_time)
         healthy = 0 if anew or ago >= samples else samples - max(1, ago)
         self._compare(first.engine, first.samples[:healthy], rows)

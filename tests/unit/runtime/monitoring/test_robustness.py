@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import bondgraph
 from bondgraph.cli.main import main
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.monitoring.diagnosis import Diagnosis
