@@ -327,7 +327,8 @@ class Diagnosis:
         except np.linalg.LinAlgError:
             return
         found = [possible(e, self._nominal.get(e.fault)) for e in found]
-        noise = dict(zip(self._engine.residuals, self._limits[:, 0].tolist(), strict=True))
+        sigma = np.where(self._origins.waiting, math.inf, self._limits[:, 0]).tolist()
+        noise = dict(zip(self._engine.residuals, sigma, strict=True))
         groups = classes(self._facts.groups, self._facts.sees, noise)
         group, leads = named(found, groups)
         sure, self._leads = group if leads == self._leads else (), leads
