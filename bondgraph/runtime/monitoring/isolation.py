@@ -151,10 +151,12 @@ def inverse(weight: Array) -> Array:
 def explain(rows: Rows, hypotheses: Sequence[Hypothesis], history: History) -> list[Explained]:
     """How well each fault explains the rows since the onset, in the order of the hypotheses.
 
-    Raises numpy.linalg.LinAlgError where numbers are too far apart.
+    Raises numpy.linalg.LinAlgError where a number is none.
     """
     seen = _seen(rows, history.prior, np.array([h.usual for h in hypotheses]))
     known = history.known()
+    if not (np.isfinite(seen).all() and np.isfinite(known).all()):
+        raise np.linalg.LinAlgError("a residual, a slope or a weight is not finite")
     found = []
     for fault in dict.fromkeys(h.fault for h in hypotheses):
         own = [j for j, h in enumerate(hypotheses) if h.fault == fault]

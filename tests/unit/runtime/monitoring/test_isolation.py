@@ -122,6 +122,17 @@ def _log_density(covariance: np.ndarray, value: np.ndarray) -> mpf:
     return -mpmath.fsum(x**2 for x in seen) / 2 - size
 
 
+def test_what_is_no_number_is_refused_and_gives_no_evidence() -> None:
+    one = (Hypothesis("a", "value", "", 1.0, True),)
+    for where in ("value", "slopes", "rest"):
+        for wrong in (math.nan, math.inf):
+            parts = {"value": (8, 1), "weight": (8, 1), "rest": (8, 1, 1), "slopes": (8, 1, 1)}
+            rows = Rows(**{name: np.ones(shape) for name, shape in parts.items()})
+            getattr(rows, where)[3] = wrong
+            with pytest.raises(np.linalg.LinAlgError, match="not finite"):
+                explain(rows, one, History(np.ones(1)))
+
+
 def test_what_was_there_is_found_with_its_size() -> None:
     draw = np.random.default_rng(5)
     hypotheses = tuple(Hypothesis(n, "value", "", 1.0, True) for n in "abc")
