@@ -87,7 +87,6 @@ def _alarms(said: list[Verdict]) -> list[Verdict]:
     ("model", "memory"),
     [
         ("dc_motor", {}),
-        ("quarter_car", {}),
         ("khepera_encoders", {("r2",): ("m[1].motor", "m[1].wheel"),
                               ("r4",): ("m[2].motor", "m[2].wheel")}),
         ("slider_crank", {("r1",): ("speed",)}),
@@ -96,7 +95,9 @@ def _alarms(said: list[Verdict]) -> list[Verdict]:
 def test_only_laws_of_position_remember_where_it_began(
     model: str, memory: dict[tuple[str, ...], tuple[str, ...]]
 ) -> None:
-    found = bondgraph.compile(ROOT / "models" / f"{model}.bg").facts.memories
+    path = ROOT / "models" / f"{model}.bg"
+    compilation = _robot().compilation if str(path) == _ROBOT else bondgraph.compile(path)
+    found = compilation.facts.memories
     assert {m.residuals: m.signals for m in found} == memory
     assert all(set(m.signals) <= set(m.reads) for m in found)
     assert all(m.integral == (model == "slider_crank") for m in found)
@@ -185,24 +186,21 @@ def test_an_encoder_that_stands_still_while_its_start_is_looked_for_is_found(
     assert last.candidates[0].fault == "angle" and "r2" in last.residuals
 
 
-@pytest.mark.parametrize(("push", "shown"), [(0.0, False), (0.05, True)])
-def test_an_arm_waits_until_it_has_met_its_bumper(push: float, shown: bool, tmp_path: Path) -> None:
+def test_an_arm_waits_until_it_has_met_its_bumper(tmp_path: Path) -> None:
     (tmp_path / "bumper.bg").write_text(stops.BUMPER)
     machine = _Machine(str(tmp_path / "bumper.bg"))
-    columns = stops.bumper(push)
+    columns = stops.bumper(0.05)
     said, own = machine.watch(*machine.anew(columns["t"], machine.samples(columns), 3000))
     assert not _alarms(said)
     assert sum("waits until" in v.message for v in said) == 1
-    assert ("known" in said[-1].message) == shown
-    if shown:
-        (told,) = [t for t in own.state()["origins"]["told"] if t is not None]
-        assert told == pytest.approx(columns["angle"][0] - columns["angle"][3000], abs=5)
-        assert said[-1].time > 2.3  # it meets it 2.4 s after the restart
+    assert "known" in said[-1].message and said[-1].time > 2.3  # it meets it 2.4 s after
+    (told,) = [t for t in own.state()["origins"]["told"] if t is not None]
+    assert told == pytest.approx(columns["angle"][0] - columns["angle"][3000], abs=5)
 
 
 # ------------------------------------------------------------------------------------ the robot
 
-_STUCK = 4200
+_STUCK, _END = 4200, 5300
 
 
 def _stuck(robot: Log) -> tuple[Array, Array]:
@@ -210,7 +208,7 @@ def _stuck(robot: Log) -> tuple[Array, Array]:
     samples = _robot().samples(robot.columns)
     wheel = _robot().signals.index("m[1].wheel")
     samples[_STUCK:, wheel] = samples[_STUCK, wheel]
-    return robot.time.copy(), samples
+    return robot.time[:_END].copy(), samples[:_END]
 
 
 def _found(said: list[Verdict], after: float) -> None:
