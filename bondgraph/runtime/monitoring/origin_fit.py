@@ -109,7 +109,7 @@ def replayed(case: Case, start: Array, tolerated: tuple[Hypothesis, ...]) -> tup
 def fitted(case: Case) -> Fit | None:
     """The start that explains the rows best; None where they tell nothing of it."""
     trial = _Trial(case)
-    signals = trial.order()
+    signals = trial.order() if trial.ready else []
     if not signals:
         return None
     change = np.zeros(len(case.start))
@@ -139,6 +139,11 @@ class _Trial:
         self._counts = [k.counts for k in case.engine.signals]
         size = np.sqrt(np.nanmean(np.square(self._samples), axis=0))
         self._size = np.where(size > 0, size, 1.0)
+
+    @property
+    def ready(self) -> bool:
+        """Whether there is a row with residuals."""
+        return len(self._ends) > 0
 
     def values(self, change: Array) -> Array:
         """The residuals, (rows, own), when the start is changed by that much."""

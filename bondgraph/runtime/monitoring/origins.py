@@ -22,9 +22,9 @@ from bondgraph.runtime.monitoring.rows import Row, weight
 
 _HOLD = 3  # warm-ups that a start is told before the first sample: encoders may jump far
 _FEW = 3  # rows beyond the warm-up before a start is looked for
-_MANY = 24  # rows that are looked at; with so many something has to explain them
+_MANY = 20  # such rows that are looked at; with so many something has to explain them
 _HOPELESS = 3.0  # times its threshold a residual is, whatever the start
-_LOST = 16  # rows that are enough then
+_LOST = 12  # such rows that are enough then
 _SELDOM = 20  # rows between two looks, at most
 _KNOWN = 0.5  # of the threshold: what an unknown start may do to a residual that is watched
 _NARROW = 10.0  # deviations of a start, within which it stays when all else has been forgotten
@@ -257,8 +257,8 @@ class Origins:
                 continue
             group.seen = rows[-1].time
             group.count += 1
-            case = self._case(group, rows[-_MANY:], tolerated, nominal, history, limits)
-            length = len(rows) * self._every
+            recent, length = rows[-self._behind(group, _MANY) :], len(rows) * self._every
+            case = self._case(group, recent, tolerated, nominal, history, limits)
             if group.kept:
                 if rows[0].valid.any() and length <= self._warm:
                     continue  # residuals that go on need slopes that have settled
@@ -284,6 +284,10 @@ class Origins:
             )
         return None
 
+    def _behind(self, group: _Group, rows: int) -> int:
+        """So many rows and those of the warm-up."""
+        return self._warm * self._slow(group) // self._every + rows
+
     def _slow(self, group: _Group) -> int:
         """Warm-ups until nothing is seen of the start itself: an integral begins with a pulse."""
         return 2 if group.memory.integral else 1
@@ -295,7 +299,7 @@ class Origins:
         """Whether a start may be used: it is known well, or nothing explains what is seen."""
         if found.level > 1.0:
             enough = _LOST if found.level > _HOPELESS else _MANY
-            return group.waiting and group.count >= enough
+            return group.waiting and group.count >= self._behind(group, enough)
         return found.doubt <= _KNOWN
 
     def _taught(self, group: _Group, found: Fit, case: Case) -> None:
