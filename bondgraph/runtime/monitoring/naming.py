@@ -10,6 +10,7 @@ from bondgraph.runtime.monitoring.isolation import Explained, probabilities
 from bondgraph.runtime.monitoring.verdict import Candidate, Verdict, described
 
 _SURE = 0.75  # probability from which on a class is named
+_ELSE = 0.5  # of the most probable fault of a class: what none outside may be above
 _SHOWN = 0.02  # probability from which on a candidate is worth telling
 _EXPLAINS = 0.7  # share of the misfit that a single fault has to take away
 _AGAIN = 5  # rows between an update and the next, twice as many each time
@@ -75,7 +76,10 @@ def named(
     chance = probabilities(found)
     classes = {g: sum(chance.get(f, 0.0) for f in g) for g in groups}
     leads = max(classes, key=lambda g: classes[g], default=())
+    inside = max((chance.get(f, 0.0) for f in leads), default=0.0)
+    outside = max((p for f, p in chance.items() if f not in leads), default=0.0)
     sure = classes.get(leads, 0.0) >= _SURE and _best(found).share >= _EXPLAINS
+    sure = sure and outside <= _ELSE * inside  # many members make no fault more probable
     return (leads if sure else ()), leads
 
 
