@@ -18,7 +18,7 @@ from bondgraph.runtime.monitoring.healthy import Facts, grown, slack, tolerated
 from bondgraph.runtime.monitoring.hypotheses import Bank, Sizes, hypotheses, rows_apart
 from bondgraph.runtime.monitoring.isolation import History, inverse
 from bondgraph.runtime.monitoring.learning import Learning
-from bondgraph.runtime.monitoring.naming import LONGEST, classes, named, news, possible, update
+from bondgraph.runtime.monitoring.naming import LONGEST, candidates, classes, named, news, update
 from bondgraph.runtime.monitoring.onset import calm, odd
 from bondgraph.runtime.monitoring.origins import Origins, starts_in
 from bondgraph.runtime.monitoring.plain import array, numbers
@@ -326,7 +326,7 @@ class Diagnosis:
             found = self._compared.explained(self._history)
         except np.linalg.LinAlgError:
             return
-        found = [possible(e, self._nominal.get(e.fault)) for e in found]
+        found = candidates(found, self._facts.faults, self._facts.sees, self._levels())
         sigma = np.where(self._origins.waiting, math.inf, self._limits[:, 0]).tolist()
         noise = dict(zip(self._engine.residuals, sigma, strict=True))
         groups = classes(self._facts.groups, self._facts.sees, noise)

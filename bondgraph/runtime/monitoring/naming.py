@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from bondgraph.runtime.monitoring.isolation import Explained, probabilities
@@ -24,6 +24,28 @@ def possible(explained: Explained, nominal: float | None) -> Explained:
         if left < -0.1 - 3.0 * explained.deviation / abs(nominal):
             return explained._replace(evidence=-math.inf)
     return explained
+
+
+def candidates(
+    found: Sequence[Explained],
+    faults: Mapping[str, float | None],
+    sees: Mapping[str, Sequence[str]],
+    fired: Iterable[str],
+) -> list[Explained]:
+    """With no evidence for what cannot be: see `possible`; nor can what a fired residual sees not.
+
+    Evidence alone is of magnitudes, and where no fault fits well the one that spoils least may
+    leave such a residual unexplained. Where no fault is seen by all that have fired, none is ruled
+    out by that. `faults` are nominal values, `sees` the faults of each residual.
+    """
+    left = [possible(e, faults.get(e.fault)) for e in found]
+    seen = [set(sees.get(name, ())) for name in fired]
+    whole = [all(e.fault in own for own in seen) for e in left]
+    if not any(good and e.evidence > -math.inf for good, e in zip(whole, left, strict=True)):
+        return left
+    return [
+        e if good else e._replace(evidence=-math.inf) for good, e in zip(whole, left, strict=True)
+    ]
 
 
 def news(said: list[Any] | None, wanted: list[Any], again: bool, waited: int) -> bool:
