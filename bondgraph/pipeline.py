@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from bondgraph.ir.structure import StructuralModel
     from bondgraph.ir.syntax import File
     from bondgraph.passes.state_equations import Wanted
-    from bondgraph.runtime.monitoring.diagnosis import Diagnosis
+    from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
+    from bondgraph.runtime.diagnosis.healthy import Facts
+    from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.monitoring.engine import Engine
-    from bondgraph.runtime.monitoring.healthy import Facts
-    from bondgraph.runtime.monitoring.tuning import Tuning
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
     from bondgraph.views import Relations
@@ -326,7 +326,7 @@ class Compilation:
     @cached_property
     def facts(self) -> Facts:
         """What a monitor has to know of the machine beside its residuals."""
-        from bondgraph.runtime.monitoring.healthy import facts
+        from bondgraph.runtime.diagnosis.healthy import facts
 
         return facts(self.graph, self._analysis[0], self.signatures, self.program)
 
@@ -336,7 +336,7 @@ class Compilation:
         Without a `tuning` (`bondgraph tune`) it learns the noise from the first seconds. Raises
         ValueError for a tuning of another model, rate or bandwidth.
         """
-        from bondgraph.runtime.monitoring.diagnosis import Diagnosis
+        from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
 
         if tuning is not None:
             if tuning.model != self.program.digest:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.monitoring.decision import Decision
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.mqtt_client import Address
     from bondgraph.runtime.monitoring.publisher import Publisher
     from bondgraph.runtime.monitoring.sources.source import Source
-    from bondgraph.runtime.monitoring.tuning import Tuning
     from bondgraph.runtime.monitoring.verdict import Verdict
 
 _COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "invalid": "33", "gap": "33"}
@@ -194,7 +194,7 @@ def watching(
 
 def read_tuning(path: str) -> Tuning:
     """The limits that `bondgraph tune` wrote."""
-    from bondgraph.runtime.monitoring.tuning import from_json
+    from bondgraph.runtime.diagnosis.tuning import from_json
 
     try:
         with open(path, encoding="utf-8") as file:

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.diagnosis.tune import Shown, Tuned
     from bondgraph.runtime.log import Array
     from bondgraph.runtime.monitoring.engine import Engine
-    from bondgraph.runtime.monitoring.tune import Shown, Tuned
 
 _FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of the default bandwidth, where none is wanted
 
@@ -51,9 +51,9 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Learn, choose a bandwidth, write the limits, say what follows."""
+    from bondgraph.runtime.diagnosis.tune import tune
+    from bondgraph.runtime.diagnosis.tuning import to_json
     from bondgraph.runtime.log import LogError
-    from bondgraph.runtime.monitoring.tune import tune
-    from bondgraph.runtime.monitoring.tuning import to_json
 
     if bool(args.logs) == bool(args.simulate):
         raise console.Trouble("healthy samples come from LOG files or from --simulate SCENARIO")

@@ -8,9 +8,9 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from bondgraph.ir.program import Program
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis
 from bondgraph.runtime.lanes import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
-from bondgraph.runtime.monitoring.hypotheses import Bank, Hypothesis
 from bondgraph.runtime.smallest import Detection, Fault, Situation, faults, noise, told
 
 _BLOCK = 4000  # samples of which all slopes are in memory

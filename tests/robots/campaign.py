@@ -10,10 +10,10 @@ import numpy as np
 
 import bondgraph
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.tune import Tuned, tune
+from bondgraph.runtime.diagnosis.tuning import Tuning
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.tune import Tuned, tune
-from bondgraph.runtime.monitoring.tuning import Tuning
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.runtime.simulation.scenario import Change, Course, Fault, Scenario
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from scipy.stats import chi2
 
-from bondgraph.runtime.monitoring.tune import Shown, Tuned
+from bondgraph.runtime.diagnosis.tune import Shown, Tuned
 from tests.robots import campaign
 from tests.robots.campaign import BUILT, ENCODERS, KINDS, ONSET, Kind, Robot, Seen
 
@@ -73,6 +73,8 @@ def _healthy(
     say(f"\n## The robot with {robot.name}" if robot.load else f"\n## The robot {robot.name}")
     say(f"\nTuned on {args.tuning} robots, {tuned.tuning.seconds:.0f} s in all, for {args.alarms:g}"
         f" false alarms an hour; filter {tuned.tuning.bandwidth:g} rad/s.\n")  # fmt: skip
+    if not args.healthy:
+        return
     runs = [
         _Run(robot, k, 60.0 * args.minutes, None, 0.0, tuned.tuning) for k in range(args.healthy)
     ]

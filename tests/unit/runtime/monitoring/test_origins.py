@@ -13,12 +13,12 @@ import pytest
 
 import bondgraph
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
+from bondgraph.runtime.diagnosis.isolation import History
+from bondgraph.runtime.diagnosis.readings import Readings
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.monitoring.clock import clock_of
-from bondgraph.runtime.monitoring.diagnosis import Diagnosis
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.isolation import History
-from bondgraph.runtime.monitoring.readings import Readings
 from bondgraph.runtime.monitoring.verdict import Verdict
 from tests.unit.runtime.monitoring import stops
 from tests.unit.runtime.monitoring.watch import ROOT

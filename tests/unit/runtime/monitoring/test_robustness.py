@@ -11,11 +11,11 @@ import pytest
 
 import bondgraph
 from bondgraph.cli.main import main
+from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
+from bondgraph.runtime.diagnosis.hypotheses import rows_apart
+from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
 from bondgraph.runtime.log import Log
-from bondgraph.runtime.monitoring.diagnosis import Diagnosis
 from bondgraph.runtime.monitoring.engine import Batch, Engine
-from bondgraph.runtime.monitoring.hypotheses import rows_apart
-from bondgraph.runtime.monitoring.tuning import Limit, Tuning
 from bondgraph.runtime.monitoring.verdict import Verdict, from_json
 from tests.unit.runtime.monitoring import motor
 from tests.unit.runtime.monitoring.watch import MOTOR, ROOT, csv

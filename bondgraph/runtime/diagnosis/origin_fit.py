@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.healthy import slack
+from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis
+from bondgraph.runtime.diagnosis.isolation import History, inverse
+from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.healthy import slack
-from bondgraph.runtime.monitoring.hypotheses import COUNT, Bank, Hypothesis
-from bondgraph.runtime.monitoring.isolation import History, inverse
-from bondgraph.runtime.monitoring.rows import Row, weight
 
 _SPREAD = 3.0  # standard deviations that a start may be off by
 _LOCAL = 2.0  # counts that a slope is taken over, at least

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis
+from bondgraph.runtime.diagnosis.isolation import Explained, History, Rows, explain, inverse
+from bondgraph.runtime.diagnosis.onset import early
+from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.hypotheses import Bank, Hypothesis
-from bondgraph.runtime.monitoring.isolation import Explained, History, Rows, explain, inverse
-from bondgraph.runtime.monitoring.onset import early
-from bondgraph.runtime.monitoring.rows import Row
 
 _MOST = 600  # rows that are compared: by then it is known as well as it will be
 _BENT = 60  # rows over which secants are looked for

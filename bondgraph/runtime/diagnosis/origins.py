@@ -9,16 +9,16 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.runtime.diagnosis.healthy import slack
+from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis
+from bondgraph.runtime.diagnosis.isolation import History
+from bondgraph.runtime.diagnosis.origin_fit import Case, Fit, fitted, replayed
+from bondgraph.runtime.diagnosis.readings import Readings
+from bondgraph.runtime.diagnosis.remembered import Memory
+from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
-from bondgraph.runtime.monitoring.healthy import slack
-from bondgraph.runtime.monitoring.hypotheses import COUNT, Bank, Hypothesis
-from bondgraph.runtime.monitoring.isolation import History
-from bondgraph.runtime.monitoring.origin_fit import Case, Fit, fitted, replayed
 from bondgraph.runtime.monitoring.plain import array, numbers
-from bondgraph.runtime.monitoring.readings import Readings
-from bondgraph.runtime.monitoring.remembered import Memory
-from bondgraph.runtime.monitoring.rows import Row, weight
 
 _HOLD = 3  # warm-ups that a start is told before the first sample: encoders may jump far
 _FEW = 3  # rows beyond the warm-up before a start is looked for

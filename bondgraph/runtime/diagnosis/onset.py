@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.runtime.diagnosis.isolation import History
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.isolation import History
 
 _ODD = 3.0  # standard deviations that a residual has to be away from what is expected
 _ERROR = 0.4  # of the residual, in the first row: a filter shows late when the fault began

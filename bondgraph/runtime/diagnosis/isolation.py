@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.hypotheses import Hypothesis
 
 _SCALES = (0.1, 1.0, 10.0, 100.0)  # of the usual change: how large a fault is, nobody knows before
 _KEEP = 0.95  # correlation of a fault's change between neighbouring chunks

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from bondgraph.runtime.monitoring.healthy import grown
-from bondgraph.runtime.monitoring.tuning import (
+from bondgraph.runtime.diagnosis.healthy import grown
+from bondgraph.runtime.diagnosis.tuning import (
     Limit,
     Tuning,
     from_json,

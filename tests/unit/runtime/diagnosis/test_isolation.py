@@ -11,15 +11,15 @@ import pytest
 from mpmath import mpf
 from scipy.stats import multivariate_normal
 
-from bondgraph.runtime.monitoring.hypotheses import Hypothesis
-from bondgraph.runtime.monitoring.isolation import (
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.isolation import (
     Explained,
     History,
     Rows,
     explain,
     probabilities,
 )
-from bondgraph.runtime.monitoring.naming import named, update
+from bondgraph.runtime.diagnosis.naming import named, update
 
 _SCALES = (0.1, 1.0, 10.0, 100.0)
 _CHUNK, _PARTS, _KEEP = 4, 15, 0.95

@@ -11,10 +11,10 @@ from scipy.integrate import solve_ivp
 
 import bondgraph
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.monitoring.diagnosis import Diagnosis
+from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
+from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
+from bondgraph.runtime.diagnosis.tune import Tuned, tune
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.hypotheses import Bank, hypotheses
-from bondgraph.runtime.monitoring.tune import Tuned, tune
 from bondgraph.runtime.monitoring.verdict import Verdict
 
 _L, _R, _K, _J, _F = 300e-6, 17.6, 3.51e-3, 1.4e-8, 1.19e-5

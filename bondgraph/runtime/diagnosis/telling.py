@@ -7,11 +7,11 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.runtime.diagnosis.hypotheses import rows_apart
+from bondgraph.runtime.diagnosis.learning import STEPS
+from bondgraph.runtime.diagnosis.origins import Origins
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.hypotheses import rows_apart
-from bondgraph.runtime.monitoring.learning import STEPS
-from bondgraph.runtime.monitoring.origins import Origins
 from bondgraph.runtime.monitoring.verdict import Verdict, listed
 
 _PATIENCE = 5.0  # warm-ups in which a residual should have had a value

@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.doubt import Doubt
+from bondgraph.runtime.diagnosis.healthy import Facts, grown, slack, tolerated
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Sizes, hypotheses, rows_apart
+from bondgraph.runtime.diagnosis.isolation import History
+from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.doubt import Doubt
 from bondgraph.runtime.monitoring.engine import Batch, Engine
-from bondgraph.runtime.monitoring.healthy import Facts, grown, slack, tolerated
-from bondgraph.runtime.monitoring.hypotheses import Bank, Hypothesis, Sizes, hypotheses, rows_apart
-from bondgraph.runtime.monitoring.isolation import History
-from bondgraph.runtime.monitoring.tuning import Limit, Tuning, height, kappa
 
 _TAIL = 3.29  # standard deviations that one normal sample in a thousand exceeds
 _ABOVE = 1.2  # times the largest excess of a healthy machine that a limit stays above

@@ -13,9 +13,9 @@ from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
+from bondgraph.runtime.diagnosis.remembered import Memory, memories
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.hypotheses import COUNT, Hypothesis
-from bondgraph.runtime.monitoring.remembered import Memory, memories
 from bondgraph.runtime.simulation.values import Values
 
 _COUNT = 1.0  # counts by which the first one of an encoder may be off

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.runtime.diagnosis.healthy import Facts
+from bondgraph.runtime.diagnosis.hypotheses import rows_apart
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
-from bondgraph.runtime.monitoring.healthy import Facts
-from bondgraph.runtime.monitoring.hypotheses import rows_apart
 
 _FASTER = 2.0  # times the bandwidth, of the filter that an approximation is held against
 _BIAS = 2.0  # times what that filter is off by: a bias falls with its square, noise is left over

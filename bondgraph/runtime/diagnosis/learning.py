@@ -9,12 +9,12 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.runtime.diagnosis.healthy import Facts
+from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
+from bondgraph.runtime.diagnosis.rows import Part, Row
+from bondgraph.runtime.diagnosis.tuning import height, kappa
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.healthy import Facts
-from bondgraph.runtime.monitoring.hypotheses import COUNT, Bank, Hypothesis, rows_apart
-from bondgraph.runtime.monitoring.rows import Part, Row
-from bondgraph.runtime.monitoring.tuning import height, kappa
 
 STEPS = 10  # differences of neighbouring rows that the noise of a residual is taken from
 _CAREFUL = 2.0  # times the deviation that they show: there are few of them

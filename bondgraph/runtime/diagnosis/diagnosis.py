@@ -10,21 +10,21 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.runtime.diagnosis.comparison import Comparison
+from bondgraph.runtime.diagnosis.doubt import Doubt
+from bondgraph.runtime.diagnosis.healthy import Facts, grown, slack, tolerated
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Sizes, hypotheses, rows_apart
+from bondgraph.runtime.diagnosis.isolation import History, inverse
+from bondgraph.runtime.diagnosis.learning import Learning
+from bondgraph.runtime.diagnosis.naming import LONGEST, candidates, classes, named, news, update
+from bondgraph.runtime.diagnosis.onset import calm, odd
+from bondgraph.runtime.diagnosis.origins import Origins, starts_in
+from bondgraph.runtime.diagnosis.rows import Part, Row, together, usual, weight
+from bondgraph.runtime.diagnosis.telling import Telling
+from bondgraph.runtime.diagnosis.tuning import Tuning, limits
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.comparison import Comparison
-from bondgraph.runtime.monitoring.doubt import Doubt
 from bondgraph.runtime.monitoring.engine import Batch, Engine
-from bondgraph.runtime.monitoring.healthy import Facts, grown, slack, tolerated
-from bondgraph.runtime.monitoring.hypotheses import Bank, Sizes, hypotheses, rows_apart
-from bondgraph.runtime.monitoring.isolation import History, inverse
-from bondgraph.runtime.monitoring.learning import Learning
-from bondgraph.runtime.monitoring.naming import LONGEST, candidates, classes, named, news, update
-from bondgraph.runtime.monitoring.onset import calm, odd
-from bondgraph.runtime.monitoring.origins import Origins, starts_in
 from bondgraph.runtime.monitoring.plain import array, numbers
-from bondgraph.runtime.monitoring.rows import Part, Row, together, usual, weight
-from bondgraph.runtime.monitoring.telling import Telling
-from bondgraph.runtime.monitoring.tuning import Tuning, limits
 from bondgraph.runtime.monitoring.verdict import Verdict
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset

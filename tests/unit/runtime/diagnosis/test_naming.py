@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from bondgraph.runtime.monitoring.hypotheses import Hypothesis
-from bondgraph.runtime.monitoring.isolation import Explained
-from bondgraph.runtime.monitoring.naming import candidates
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.isolation import Explained
+from bondgraph.runtime.diagnosis.naming import candidates
 
 _SEES = {"r1": ("R", "k"), "r2": ("f", "k")}
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from bondgraph.runtime.monitoring.isolation import Explained, probabilities
+from bondgraph.runtime.diagnosis.isolation import Explained, probabilities
 from bondgraph.runtime.monitoring.verdict import Candidate, Verdict, described
 
 _SURE = 0.75  # probability from which on a class is named

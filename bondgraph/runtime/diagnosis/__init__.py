@@ -1,0 +1,1 @@
+"""Is something wrong, since when, and what can it be?"""
