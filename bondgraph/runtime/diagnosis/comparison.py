@@ -13,6 +13,8 @@ from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
 
+#: Time constants of the filter that a residual may show late what has happened.
+_SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0)
 _MOST = 600  # rows that are compared: by then it is known as well as it will be
 _BENT = 60  # rows over which secants are looked for
 _ROUNDS = 8  # of looking for them
@@ -24,27 +26,30 @@ _STEEP = 0.8  # of how one change makes the next: steeper, a step is not made lo
 
 
 class Comparison:
-    """Begins at the onset: `engine` stands before the `healthy` samples of its first row.
+    """Begins at the onset: `engine` stands before samples that look healthy.
 
-    Laws may be bent: where a fault is as large as the samples say, its slope is not that of a small
-    one. So once there is something to go by, faults are tried again, each with its own size.
+    The last `own` of these are of the first row that is compared. A filter shows late what happens,
+    and what looks like one fault now looks like another that began a little earlier: once there is
+    something to go by, each fault gets the onset that suits it best. And laws may be bent: where a
+    fault is as large as the samples say, its slope is not that of a small one. So each is tried
+    again then with its own size.
     """
 
     def __init__(
         self,
         engine: Engine,
         healthy: Array,
+        own: int,
         hypotheses: Sequence[Hypothesis],
         nominal: Mapping[str, float],
     ) -> None:
         self._engine = engine.configured(bounds=False)
         self._engine.follow(engine)
-        self._engine.run(healthy)
-        self._begin = healthy[-1] if len(healthy) else None
-        self._skip = len(healthy)
+        self._healthy, self._own = healthy, own
         self._all, self._nominal = tuple(hypotheses), nominal
         self._changes: dict[int, float] = {}
-        self._bank = self._started({})
+        self._earlier = [0] * len(self._all)  # healthy samples that come behind the onset
+        self._banks = self._started({})
         self._past: list[Row] = []
         self._rows: list[Rows] = []
         self._again = 0  # rows with which secants are looked for again
@@ -58,8 +63,8 @@ class Comparison:
 
     def step(self, row: Row, weight: Array) -> None:
         """One more row, and one over the variance of its residuals."""
-        samples = row.samples if self._rows else row.samples[self._skip :]
-        slopes = self._bank.run(samples)[-1].copy()
+        samples = row.samples if self._rows else row.samples[self._own :]
+        slopes = self._slopes(samples)
         if len(self._past) < _BENT:
             self._past.append(row._replace(samples=samples))
         if len(self._rows) < _MOST:
@@ -67,6 +72,8 @@ class Comparison:
 
     def explained(self, history: History) -> list[Explained]:
         """How well each fault explains the rows; raises LinAlgError as `explain` does."""
+        if not self._again:
+            self._dated(history)
         found = explain(self._table(), self._all, history)
         if len(self._past) < _BENT and len(self._past) >= self._again:
             self._again = 2 * len(self._past)
@@ -84,10 +91,44 @@ class Comparison:
         rows = Rows(*[np.array(x) for x in zip(*self._rows, strict=True)])
         return rows._replace(weight=1.0 / (inverse(rows.weight) + early(rows.value)))
 
-    def _started(self, changes: Mapping[int, float]) -> Bank:
-        engine = self._engine.configured(bounds=False)
-        engine.follow(self._engine)
-        return Bank(engine, self._all, self._nominal, self._begin, changes)
+    def _dated(self, history: History) -> None:
+        """Let each fault begin when it makes what was seen most probable."""
+        best: dict[str, tuple[float, int]] = {}
+        constant = 1.0 / (self._engine.bandwidth * self._engine.sample_time)
+        for earlier in dict.fromkeys(round(constant * shift) for shift in _SHIFTS):
+            if earlier <= len(self._healthy):
+                self._earlier = [earlier] * len(self._all)
+                self._try({})
+                for one in explain(self._table(), self._all, history):
+                    known = best.get(one.fault)
+                    if known is None or one.evidence > known[0]:
+                        best[one.fault] = one.evidence, earlier
+        self._earlier = [best[h.fault][1] for h in self._all]
+        self._try({})
+
+    def _started(self, changes: Mapping[int, float]) -> list[tuple[list[int], Bank]]:
+        """Banks at the first row, one for each onset, with the numbers of their hypotheses."""
+        banks = []
+        for earlier in dict.fromkeys(self._earlier):
+            own = [k for k, e in enumerate(self._earlier) if e == earlier]
+            engine = self._engine.configured(bounds=False)
+            engine.follow(self._engine)
+            count = len(self._healthy) - earlier
+            engine.run(self._healthy[:count])
+            begin = self._healthy[count - 1] if count else None
+            known = [self._all[k] for k in own]
+            bent = {at: changes[k] for at, k in enumerate(own) if k in changes}
+            bank = Bank(engine, known, self._nominal, begin, bent)
+            bank.run(self._healthy[count:])
+            banks.append((own, bank))
+        return banks
+
+    def _slopes(self, samples: Array) -> Array:
+        """What each hypothesis does to the residuals, at the end of the samples."""
+        found = np.zeros((len(self._all), len(self._engine.residuals)))
+        for own, bank in self._banks:
+            found[own] = bank.run(samples)[-1]
+        return found
 
     def _bent(self, found: Sequence[Explained]) -> dict[int, float]:
         """Changes that are large and clear enough for a secant, by number of the hypothesis."""
@@ -110,13 +151,12 @@ class Comparison:
     def _try(self, changes: dict[int, float]) -> None:
         """The rows again, with slopes as far as the changes go."""
         try:
-            bank = self._started(changes)
+            banks = self._started(changes)
         except ValueError:  # the model cannot take one of them
-            bank, changes = self._started({}), {}
-        self._bank, self._changes = bank, changes
+            banks, changes = self._started({}), {}
+        self._banks, self._changes = banks, changes
         for k, row in enumerate(self._past):
-            slopes = bank.run(row.samples)[-1].copy()
-            self._rows[k] = self._rows[k]._replace(slopes=slopes)
+            self._rows[k] = self._rows[k]._replace(slopes=self._slopes(row.samples))
 
 
 def _next(before: tuple[float, float] | None, now: tuple[float, float]) -> float:

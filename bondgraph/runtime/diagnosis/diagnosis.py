@@ -228,7 +228,7 @@ class Diagnosis:
         first, samples = rows[0], len(rows[0].samples)
         ago = math.ceil((first.time - since) / self._engine.sample_time)
         healthy = 0 if anew or ago >= samples else samples - max(1, ago)
-        self._compare(first.engine, first.samples[:healthy], rows)
+        self._compare(first.engine, first.samples[:healthy], healthy, rows)
         return True
 
     def _remember(self, row: Row) -> None:
@@ -291,22 +291,23 @@ class Diagnosis:
         chosen = past[begin + 1 :]
         engine = chosen[0].engine if chosen else self._before
         piece = [chosen[0].samples] if chosen else piece
-        healthy: Array = np.empty((0, len(self._engine.signals)))
-        if past and piece:
-            samples = np.concatenate(piece)
-            noise = inverse(self._weight(past[begin]))
-            count = calm(engine, samples, self._history, past[begin].slopes, noise, self._fired)
-            healthy = samples[:count]
-        self._compare(engine, healthy, chosen)
         self._wanted = None
-        return past[begin].time + len(healthy) * self._engine.sample_time if past else time
+        if not past:
+            self._compare(engine, np.empty((0, len(self._engine.signals))), 0, chosen)
+            return time
+        last = past[begin]
+        noise = inverse(self._weight(last))
+        samples = np.concatenate([last.samples[:0], *piece])
+        count = calm(engine, samples, self._history, last.slopes, noise, self._fired)
+        self._compare(last.engine, np.concatenate([last.samples, samples[:count]]), count, chosen)
+        return last.time + count * self._engine.sample_time
 
-    def _compare(self, engine: Engine, healthy: Array, rows: Sequence[Row]) -> None:
-        """Begin to compare faults, which set in behind the `healthy` samples."""
-        own = self._facts
+    def _compare(self, engine: Engine, healthy: Array, own: int, rows: Sequence[Row]) -> None:
+        """Begin to compare faults behind the `healthy` samples, `own` of these of the first row."""
+        facts = self._facts
         self._after = self._told = 0
-        found = hypotheses(self._engine, own.faults, own.units, self._sizes.found())
-        self._compared = Comparison(engine, healthy, found, self._nominal)
+        found = hypotheses(self._engine, facts.faults, facts.units, self._sizes.found())
+        self._compared = Comparison(engine, healthy, own, found, self._nominal)
         for row in rows:
             self._compared.step(row, self._weight(row))
 

@@ -19,7 +19,9 @@ import numpy as np
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.log import Array
 
-_SCALES = (0.1, 1.0, 10.0, 100.0)  # of the usual change: how large a fault is, nobody knows before
+#: Of the usual change: how large a fault is, nobody knows. Close together, so that no fault is
+#: better off than another for being just as large as one of them.
+_SCALES = tuple(10.0 ** (k / 4.0) for k in range(-4, 9))
 _KEEP = 0.95  # correlation of a fault's change between neighbouring chunks
 _CHUNK = 4  # rows in which the change is taken as constant, at least
 _PARTS = 15  # chunks at most

@@ -10,7 +10,7 @@ from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
 
 _ODD = 3.0  # standard deviations that a residual has to be away from what is expected
-_ERROR = 0.4  # of the residual, in the first row: a filter shows late when the fault began
+_ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
 _GROWS = 3  # rows within which a residual has become as large as the fault makes it
 
@@ -30,6 +30,8 @@ def calm(
 
     `slopes` of the tolerated parameters are those of the last healthy row, (tolerated, residuals).
     """
+    if not len(samples):
+        return 0
     copy = engine.configured(bounds=False)
     copy.follow(engine)
     found = copy.run(samples)

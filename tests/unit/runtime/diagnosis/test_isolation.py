@@ -21,7 +21,7 @@ from bondgraph.runtime.diagnosis.isolation import (
 )
 from bondgraph.runtime.diagnosis.naming import named, update
 
-_SCALES = (0.1, 1.0, 10.0, 100.0)
+_SCALES = [0.1 * 10.0 ** (k / 4.0) for k in range(13)]
 _CHUNK, _PARTS, _KEEP = 4, 15, 0.95
 
 
