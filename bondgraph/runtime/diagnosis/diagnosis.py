@@ -289,12 +289,11 @@ class Diagnosis:
             start -= 1
         begin = max(0, start)  # its samples are still healthy ones, the fault begins behind them
         chosen = past[begin + 1 :]
-        engine = chosen[0].engine if chosen else self._before
-        piece = [chosen[0].samples] if chosen else piece
         self._wanted = None
         if not past:
-            self._compare(engine, np.empty((0, len(self._engine.signals))), 0, chosen)
+            self._compare(self._before, np.empty((0, len(self._engine.signals))), 0, [])
             return time
+        engine, piece = (chosen[0].engine, [chosen[0].samples]) if chosen else (self._before, piece)
         last = past[begin]
         noise = inverse(self._weight(last))
         samples = np.concatenate([last.samples[:0], *piece])
