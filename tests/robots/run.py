@@ -17,7 +17,7 @@ from tests.robots.campaign import BUILT, ENCODERS, KINDS, ONSET, Kind, Robot, Se
 
 _TUNED_ON = 900_000  # the first seed of the robots that only tune
 _FAULTY = 10_000  # the first seed of those with a fault
-_DURATION = 25.0  # s, of a faulty one
+_DURATION = 18.0  # s, of a faulty one
 
 say = partial(print, flush=True)
 

@@ -222,27 +222,33 @@ def _fits(known: Array, seen: Array, own: Sequence[int]) -> list[_Fit]:
     before = np.insert(known, [rest] * (chunks * size), 0.0, axis=1)
     # The triangle of all, less that of the healthy machine: what only a fault explains.
     left = _triangle(np.vstack([before, table.reshape(-1, table.shape[2])]))[rest:, rest:]
-    found = []
-    for scale in _SCALES:
-        scaled = np.append(scale * left[:, :-1], left[:, -1:], axis=1)
-        found.append(_fit(scaled, scale * spread[-1]))
-    return found
+    return _scaled(left, spread[-1])
 
 
-def _fit(left: Array, last: Array) -> _Fit:
-    """From what is left to explain, by one deviation of each change; `last` makes the last one."""
+def _scaled(left: Array, last: Array) -> list[_Fit]:
+    """From what is left to explain, by one deviation of each change, for each of the scales.
+
+    `last` makes of the changes the last one.
+    """
     count = left.shape[1] - 1
-    root = _triangle(np.vstack([left, np.eye(count, count + 1)]))[:count]
-    root, seen = root[:, :-1], root[:, -1]
-    changes = np.linalg.solve(root, seen)
+    scales = np.array(_SCALES)[:, None, None]
+    moved, seen = scales * left[:, :-1], np.tile(left[:, -1:], (len(_SCALES), 1, 1))
+    ones = np.tile(np.eye(count, count + 1), (len(_SCALES), 1, 1))
+    table = np.concatenate([np.concatenate([moved, seen], axis=2), ones], axis=1)
+    root = _triangle(table)[:, :count]
+    root, part = root[:, :, :-1], root[:, :, -1:]
+    changes = np.linalg.solve(root, part)
+    ends = scales * last[:, None]
+    spread = np.linalg.solve(root.transpose(0, 2, 1), ends)
+    size = np.abs(np.diagonal(root, axis1=1, axis2=2))
     misfit = float(np.square(left[:, -1]).sum())
-    rest = float(np.square(left[:, -1] - left[:, :-1] @ changes).sum())
-    return _Fit(
-        0.5 * float(seen @ seen) - float(np.log(np.abs(np.diagonal(root))).sum()),
-        1.0 - rest / misfit if misfit > 0 else 0.0,
-        float(last @ changes),
-        math.sqrt(float(np.square(np.linalg.solve(root.T, last)).sum())),
-    )
+    rest = np.square(seen - moved @ changes).sum(axis=(1, 2))
+    evidence = 0.5 * np.square(part).sum(axis=(1, 2)) - np.log(size).sum(axis=1)
+    share = 1.0 - rest / misfit if misfit > 0 else np.zeros(len(_SCALES))
+    change = (ends * changes).sum(axis=(1, 2))
+    deviation = np.sqrt(np.square(spread).sum(axis=(1, 2)))
+    found = zip(*(x.tolist() for x in (evidence, share, change, deviation)), strict=True)
+    return [_Fit(*numbers) for numbers in found]
 
 
 def probabilities(found: Sequence[Explained]) -> dict[str, float]:
