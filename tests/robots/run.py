@@ -48,17 +48,20 @@ def main() -> None:
     parser.add_argument("--alarms", type=float, default=2.0, help="false alarms wanted an hour")
     parser.add_argument("--share", type=float, default=0.3, help="size of invisible faults")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--only", choices=["encoders", "built"], help="one of the two robots")
+    parser.add_argument("--only", choices=["healthy", "faulty", "below", "built"])
     args = parser.parse_args()
     seeds = range(_TUNED_ON, _TUNED_ON + args.tuning)
     fine = campaign.tuned(seeds, 30.0, args.alarms)
     with ProcessPoolExecutor(args.jobs) as pool:
-        if args.only != "built":
+        if args.only in (None, "healthy"):
             _healthy(pool, ENCODERS, fine, args)
-            for factor in (3.0, args.share):
-                say(f"\n### Faults of {factor:g} times the smallest size\n")
-                _faulty(pool, ENCODERS, fine, fine, factor, args.seeds)
-        if args.only != "encoders":
+        if args.only in (None, "faulty"):
+            say("\n### Faults of 3 times the smallest size\n")
+            _faulty(pool, ENCODERS, fine, fine, 3.0, args.seeds)
+        if args.only in (None, "below"):
+            say(f"\n### Faults of {args.share:g} times the smallest size\n")
+            _faulty(pool, ENCODERS, fine, fine, args.share, args.seeds)
+        if args.only in (None, "built"):
             coarse = campaign.tuned(seeds, 30.0, args.alarms, BUILT)
             _healthy(pool, BUILT, coarse, args)
             say("\n### The same faults as above, of 3 times what two encoders a drive show\n")
@@ -73,8 +76,6 @@ def _healthy(
     say(f"\n## The robot with {robot.name}" if robot.load else f"\n## The robot {robot.name}")
     say(f"\nTuned on {args.tuning} robots, {tuned.tuning.seconds:.0f} s in all, for {args.alarms:g}"
         f" false alarms an hour; filter {tuned.tuning.bandwidth:g} rad/s.\n")  # fmt: skip
-    if not args.healthy:
-        return
     runs = [
         _Run(robot, k, 60.0 * args.minutes, None, 0.0, tuned.tuning) for k in range(args.healthy)
     ]
