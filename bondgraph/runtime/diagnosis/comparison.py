@@ -16,7 +16,7 @@ from bondgraph.runtime.monitoring.engine import Engine
 #: Time constants of the filter that a residual may show late what has happened.
 _SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0)
 _MOST = 600  # rows that are compared: by then it is known as well as it will be
-_BENT = 60  # rows over which secants are looked for
+_BENT = 60  # rows with whose samples onsets and sizes are looked for, while there are no more
 _ROUNDS = 8  # of looking for them
 _SMALL = 0.02  # of the usual change: for less a tangent does
 _CLEAR = 2.0  # standard deviations of a change that it is worth a secant
@@ -72,19 +72,20 @@ class Comparison:
 
     def explained(self, history: History) -> list[Explained]:
         """How well each fault explains the rows; raises LinAlgError as `explain` does."""
+        if not len(self._past) == len(self._rows) >= self._again:
+            return explain(self._table(), self._all, history)
         if not self._again:
             self._dated(history)
         found = explain(self._table(), self._all, history)
-        if len(self._past) < _BENT and len(self._past) >= self._again:
-            self._again = 2 * len(self._past)
-            before: dict[int, tuple[float, float]] = {}
-            for _ in range(_ROUNDS):
-                wanted = self._bent(found)
-                if _alike(wanted, self._changes):
-                    break
-                tried = {k: (self._changes.get(k, 0.0), change) for k, change in wanted.items()}
-                self._try({k: self._within(k, _next(before.get(k), tried[k])) for k in wanted})
-                found, before = explain(self._table(), self._all, history), tried
+        self._again = 2 * len(self._rows)
+        before: dict[int, tuple[float, float]] = {}
+        for _ in range(_ROUNDS):
+            wanted = self._bent(found)
+            if _alike(wanted, self._changes):
+                break
+            tried = {k: (self._changes.get(k, 0.0), change) for k, change in wanted.items()}
+            self._try({k: self._next(k, before.get(k), tried[k]) for k in wanted})
+            found, before = explain(self._table(), self._all, history), tried
         return found
 
     def _table(self) -> Rows:
@@ -135,10 +136,21 @@ class Comparison:
         changes = {}
         for one in found:
             size = abs(one.change)
-            if size >= _SMALL * one.hypothesis.usual and size >= _CLEAR * one.deviation:
+            least = max(_SMALL * one.hypothesis.usual, _CLEAR * one.deviation)
+            if least <= size < np.inf:
                 k = self._all.index(one.hypothesis)
                 changes[k] = self._within(k, one.change)
         return changes
+
+    def _next(self, k: int, before: tuple[float, float] | None, now: tuple[float, float]) -> float:
+        """The change to try next, from what was tried and what came of it (Steffensen)."""
+        change, wanted = now
+        if before is not None and before[0] != change:
+            slope = (wanted - before[1]) / (change - before[0])
+            found = (wanted - slope * change) / (1.0 - slope) if abs(slope) <= _STEEP else wanted
+            if abs(found) >= _SMALL * self._all[k].usual:
+                wanted = found
+        return self._within(k, wanted)
 
     def _within(self, k: int, change: float) -> float:
         """The change, of a parameter only as far as it keeps its sign and size."""
@@ -157,15 +169,6 @@ class Comparison:
         self._banks, self._changes = banks, changes
         for k, row in enumerate(self._past):
             self._rows[k] = self._rows[k]._replace(slopes=self._slopes(row.samples))
-
-
-def _next(before: tuple[float, float] | None, now: tuple[float, float]) -> float:
-    """The change to try next, from those that were tried and what they made of it (Steffensen)."""
-    change, wanted = now
-    if before is None or before[0] == change:
-        return wanted
-    slope = (wanted - before[1]) / (change - before[0])
-    return wanted if abs(slope) > _STEEP else (wanted - slope * change) / (1.0 - slope)
 
 
 def _alike(left: Mapping[int, float], right: Mapping[int, float]) -> bool:

@@ -7,6 +7,10 @@ import pytest
 
 import bondgraph
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.comparison import Comparison
+from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
+from bondgraph.runtime.diagnosis.isolation import History
+from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.text.source import Source
 
@@ -66,3 +70,23 @@ def test_a_fault_is_dated_within_the_time_that_the_filter_takes() -> None:
     for value in (4.0 * _W0, 1.5 * _W0):
         alarm = next(v for v in _said(w0=value) if v.event == "fault")
         assert alarm.since == pytest.approx(_ONSET, abs=0.1)
+
+
+def test_what_is_found_late_goes_on_from_where_the_samples_are() -> None:
+    # more rows than samples are kept of, before anybody asks: slopes go on as in one run
+    brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
+    engine, facts = brake.engine(), brake.facts
+    known = hypotheses(engine, facts.faults, facts.units, {})
+    nominal = {n: v for n, v in facts.faults.items() if v is not None}
+    t = np.arange(70 * 20) / _RATE
+    columns = {"T": np.sin(9.0 * t), "w": 2.0 + np.cos(7.0 * t)}
+    samples = np.column_stack([columns[k.path] for k in engine.signals])
+    slopes = Bank(engine.configured(), known, nominal).run(samples)[19::20]
+    compared = Comparison(engine.configured(), samples[:0], 0, known, nominal)
+    one, nothing = np.ones(1), np.zeros((0, 1))
+    for k in range(70):
+        part = samples[20 * k : 20 * k + 20]
+        compared.step(Row(0.0, part, engine, 0.1 * k * one, one > 0, one, one, nothing), one)
+        if k > 64:
+            compared.explained(History(np.zeros(0)))
+    assert compared._rows[-1].slopes == pytest.approx(slopes[-1], rel=1e-9, abs=1e-12)
