@@ -207,7 +207,7 @@ class Compilation:
         """The fault signature matrix of each mode of a switched machine."""
         from bondgraph.passes.modes import modes
 
-        return modes(self.combined, *self._analysis, self._plant, self.options.seed)
+        return modes(*self._analysis, self._plant, self.options.seed)
 
     @cached_property
     def detectability(self) -> Detectability:
@@ -244,9 +244,7 @@ class Compilation:
         """What the exact check of residuals and signatures did; raises if it failed."""
         from bondgraph.passes.verify import verify
 
-        return self._stage(
-            verify(self.graph, *self._analysis, self.report, self.options.seed, self._plant)
-        )
+        return self._stage(verify(self.graph, *self._analysis, self.report, self.options.seed))
 
     @cached_property
     def program(self) -> Program:

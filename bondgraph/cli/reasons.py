@@ -70,6 +70,11 @@ def reason(compilation: Compilation, fault: str) -> str:
         for residual in found.residuals
         for equation in (residual.closing, *(step.equation for step in residual.steps))
     }
+    apart = [values for (_, f), values in compilation.signatures.apart.items() if f == fault]
+    if apart:
+        values = apart[0]
+        which = f"another value of {' or '.join(_few(list(values)))}" if values else "other values"
+        return f"the declared numbers hide it: with {which} it would be seen"
     if any(id(e) in used for e in holding):
         return "it cancels out of every residual"
     rest = [e for e in found.system.equations if id(e) not in used]

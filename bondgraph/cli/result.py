@@ -109,6 +109,11 @@ def _arr(
         "signature": list(matrix.signature(residual.name)),
         "weak": None if weak is None else list(weak),
     }
+    if elsewhere := matrix.only_off_nominal(residual.name):
+        arr["only_off_nominal"] = {fault: list(values) for fault, values in elsewhere.items()}
+    if residual.name in matrix.unconfirmed:
+        arr["unconfirmed"] = list(matrix.faults)
+        arr["unconfirmed_reason"] = matrix.unconfirmed[residual.name]
     if residual.free_of is not None:
         arr["free_of"] = residual.free_of
     if written.implicit:

@@ -14,6 +14,7 @@ from bondgraph.ir.expr import topological
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from bondgraph.ir.signatures import SignatureMatrix
     from bondgraph.pipeline import Compilation
     from bondgraph.views import Relation
 
@@ -31,6 +32,8 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
         lines += ["", *closed_form(compilation, relation, columns)]
     if matrix.faults and matrix.residuals:
         lines += ["", "Fault signatures", *signature_table(matrix)]
+    lines += _elsewhere(matrix, columns)
+    lines += [f"  {r}  is not confirmed: {why}" for r, why in matrix.unconfirmed.items()]
     lines += _modes(compilation, columns)
     if matrix.undetectable:
         lines += ["", "Undetectable"]
@@ -48,10 +51,32 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
 
 def _checked(compilation: Compilation) -> str:
     done = compilation.verification
+    open_ = [v.name for v in compilation.graph.values if v.value is None and v.fault]
+    at = " at random values of what has none" if open_ else ""
     return (
-        f"checked exactly: {plural(done.residuals, 'residual')} on the healthy model,"
+        f"checked exactly{at}: {plural(done.residuals, 'residual')} on the healthy model,"
         f" {plural(done.faults, 'fault')} one at a time"
     )
+
+
+def _elsewhere(matrix: SignatureMatrix, columns: int) -> list[str]:
+    """What a residual would see if declared numbers were others, those of one reason together."""
+    lines: list[str] = []
+    for residual in matrix.residuals:
+        by_values: dict[tuple[str, ...], list[str]] = {}
+        for fault, values in matrix.only_off_nominal(residual).items():
+            by_values.setdefault(values, []).append(fault)
+        for values, faults in by_values.items():
+            lines += names(faults, columns, f"  {residual}  does not see ")
+            where = f"{_either(values)} differs" if values else "several of them differ"
+            lines.append(f"      as it would where {where}")
+    return ["", "At the declared numbers", *lines] if lines else []
+
+
+def _either(values: Sequence[str]) -> str:
+    """One or another of some names; of many the first."""
+    shown = [*values[:4], "another"] if len(values) > 5 else [*values]
+    return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} or {shown[-1]}"
 
 
 def closed_form(

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from operator import mul as _times
 from typing import NamedTuple, Protocol, TypeVar
 
 from bondgraph.exact import series
-from bondgraph.exact.field import Functions, P, inverse, root, sign
-from bondgraph.exact.series import Series, reciprocal_of
+from bondgraph.exact.field import root
+from bondgraph.exact.numbers import Number, Numbers
+from bondgraph.exact.series import Series
 
 V = TypeVar("V")
 A = TypeVar("A")
@@ -26,17 +28,17 @@ class Mixed(Exception):
 class Values(Protocol[V]):
     """A differential algebra; operations raise `Undefined` where there is no value."""
 
-    functions: Functions
+    numbers: Numbers
 
-    def number(self, x: int) -> V:
+    def number(self, x: Number) -> V:
         """A constant."""
         ...
 
-    def lead(self, a: V) -> int:
+    def lead(self, a: V) -> Number:
         """The value at the point; its sign decides comparisons."""
         ...
 
-    def combine(self, terms: Sequence[tuple[int, V]], n: int) -> V:
+    def combine(self, terms: Sequence[tuple[Number, V]], n: int) -> V:
         """The sum of number times value."""
         ...
 
@@ -56,7 +58,7 @@ class Values(Protocol[V]):
         """The time derivative."""
         ...
 
-    def integral(self, a: V, start: int) -> V:
+    def integral(self, a: V, start: Number) -> V:
         """The integral that begins at `start`."""
         ...
 
@@ -64,11 +66,20 @@ class Values(Protocol[V]):
 class Algebra(Values[V], Protocol[V, A]):
     """Values V with adjoints A for reverse differentiation."""
 
+    @property
+    def kind(self) -> str:
+        """What the values are, for people."""
+        ...
+
     def slopes(self, name: str, args: Sequence[V], value: V, n: int) -> Sequence[V]:
         """The partial derivatives of a function whose value is known."""
         ...
 
-    def seed(self, x: int) -> A:
+    def moves(self, a: V) -> bool:
+        """Whether a value is not zero at all times."""
+        ...
+
+    def seed(self, x: Number) -> A:
         """The adjoint of the result itself, times a number."""
         ...
 
@@ -92,7 +103,7 @@ class Algebra(Values[V], Protocol[V, A]):
         """The adjoint of what was integrated, as far as the present reaches it."""
         ...
 
-    def start_of(self, adjoint: A) -> int:
+    def start_of(self, adjoint: A) -> Number:
         """The part of an adjoint that belongs to the value itself, not to its derivatives."""
         ...
 
@@ -108,59 +119,69 @@ class Algebra(Values[V], Protocol[V, A]):
 class Taylor:
     """Power series around the point; an adjoint has one number a coefficient."""
 
-    def __init__(self, functions: Functions) -> None:
-        self.functions = functions
+    def __init__(self, numbers: Numbers) -> None:
+        self.numbers = numbers
 
-    def number(self, x: int) -> Series:
+    @property
+    def kind(self) -> str:
+        """The kind of numbers."""
+        digits = "in real balls" if self.numbers.real else "modulo a 61-bit prime"
+        return f"Taylor series {digits}"
+
+    def number(self, x: Number) -> Series:
         """A constant."""
-        return [x % P]
+        return [x]
 
-    def lead(self, a: Series) -> int:
+    def lead(self, a: Series) -> Number:
         """The value at the point."""
         return a[0]
 
-    def combine(self, terms: Sequence[tuple[int, Series]], n: int) -> Series:
+    def combine(self, terms: Sequence[tuple[Number, Series]], n: int) -> Series:
         """The sum of number times value."""
-        out = [0] * max(min(n, len(a)) for _, a in terms)
+        out: Series = [0] * max(min(n, len(a)) for _, a in terms)
         for c, a in terms:
             for i, x in enumerate(a[:n]):
                 out[i] += c * x
-        return [x % P for x in out]
+        return out
 
     def product(self, factors: Sequence[tuple[Series, int]], n: int) -> Series:
         """The product of integer powers."""
         out: Series | None = None
         for a, exponent in factors:
             if exponent:
-                value = series.power(a, exponent, n)
+                value = series.power(self.numbers, a, exponent, n)
                 out = value if out is None else series.mul(out, value, n)
         return [1] if out is None else out[:n]
 
     def rational(self, a: Series, exponent: Fraction, n: int) -> Series:
         """A rational power."""
-        return series.rational_power(a, exponent, n)
+        return series.rational_power(self.numbers, a, exponent, n)
 
     def function(self, name: str, args: Sequence[Series], n: int) -> Series:
         """A function of one or two arguments."""
         if len(args) == 1:
-            return series.function(self.functions, name, args[0][:n], n)
-        return series.function_of_two(self.functions, name, args[0][:n], args[1][:n], n)
+            return series.function(self.numbers, name, args[0][:n], n)
+        return series.function_of_two(self.numbers, name, args[0][:n], args[1][:n], n)
 
     def slopes(self, name: str, args: Sequence[Series], value: Series, n: int) -> Sequence[Series]:
         """The partial derivatives of a function."""
         if len(args) == 1:
-            return [series.slope_of(self.functions, name, args[0][:n], value, n)]
-        return series.slopes_of_two(self.functions, name, args[0][:n], args[1][:n], value, n)
+            return [series.slope_of(self.numbers, name, args[0][:n], value, n)]
+        return series.slopes_of_two(self.numbers, name, args[0][:n], args[1][:n], value, n)
 
     def der(self, a: Series) -> Series:
         """The time derivative."""
         return series.derivative(a)
 
-    def integral(self, a: Series, start: int) -> Series:
+    def integral(self, a: Series, start: Number) -> Series:
         """The integral that begins at `start`."""
-        return series.integral(a, start)
+        return series.integral(self.numbers, a, start)
 
-    def seed(self, x: int) -> Series:
+    def moves(self, a: Series) -> bool:
+        """Whether any coefficient is not zero."""
+        return series.moves(self.numbers, a)
+
+    def seed(self, x: Number) -> Series:
         """The adjoint of the result, times a number."""
         return [x]
 
@@ -170,41 +191,41 @@ class Taylor:
 
     def vanishes(self, a: Series) -> bool:
         """Whether an adjoint is zero."""
-        return not any(a)
+        return not series.moves(self.numbers, a)
 
     def back(self, adjoint: Series, slope: Series, n: int) -> Series:
         """The adjoint of an argument."""
         if len(slope) == 1:
             c = slope[0]
-            return [c * x % P for x in adjoint]
+            return [c * x for x in adjoint]
         size = len(adjoint)
-        return [sum(map(int.__mul__, adjoint[m:], slope)) % P for m in range(size)]
+        return [sum(map(_times, adjoint[m:], slope)) for m in range(size)]
 
     def back_der(self, adjoint: Series, argument: Series) -> Series:
         """The adjoint of what was differentiated."""
-        return [0, *[k * x % P for k, x in enumerate(adjoint, 1)]]
+        return [0, *[k * x for k, x in enumerate(adjoint, 1)]]
 
     def back_integral(self, adjoint: Series) -> Series:
         """The adjoint of what was integrated."""
-        return [x * reciprocal_of(k) % P for k, x in enumerate(adjoint[1:], 1)]
+        return [x * self.numbers.reciprocal_of(k) for k, x in enumerate(adjoint[1:], 1)]
 
-    def start_of(self, adjoint: Series) -> int:
+    def start_of(self, adjoint: Series) -> Number:
         """The part that belongs to the value itself."""
         return adjoint[0]
 
     def order(self, adjoint: Series) -> int:
         """The highest derivative with an influence."""
-        return max(k for k, x in enumerate(adjoint) if x)
+        return max(k for k, x in enumerate(adjoint) if self.numbers.nonzero(x))
 
     def lasting(self, adjoint: Series) -> bool:
         """Whether the value itself has an influence, not only its derivatives."""
-        return bool(adjoint[0])
+        return self.numbers.nonzero(adjoint[0])
 
 
 class Wave(NamedTuple):
     """amplitude * e^(degree s t); a constant has degree 0."""
 
-    amplitude: int
+    amplitude: Number
     degree: int
 
 
@@ -215,8 +236,8 @@ class Impulse(NamedTuple):
     below `floor` are not kept. `still` is the number for changes that are constant, sigma = 0.
     """
 
-    value: int
-    still: int
+    value: Number
+    still: Number
     degree: int
     floor: int
     leading: Series
@@ -230,23 +251,24 @@ class Waves:
     time for the adjoints. `terms` leading coefficients are carried to find the order.
     """
 
-    def __init__(self, functions: Functions, s: int, sigma: int, terms: int = 3) -> None:
-        self.functions = functions
+    def __init__(self, numbers: Numbers, s: Number, sigma: Number, terms: int = 3) -> None:
+        self.numbers = numbers
         self.s = s
         self.sigma = sigma
         self.terms = terms
+        self.kind = "exponentials modulo a 61-bit prime"
 
-    def number(self, x: int) -> Wave:
+    def number(self, x: Number) -> Wave:
         """A constant."""
-        return Wave(x % P, 0)
+        return Wave(x, 0)
 
-    def lead(self, a: Wave) -> int:
+    def lead(self, a: Wave) -> Number:
         """The value at the point."""
         if a.degree and a.amplitude:
             raise Mixed("a decision on a signal")
         return a.amplitude
 
-    def combine(self, terms: Sequence[tuple[int, Wave]], n: int) -> Wave:
+    def combine(self, terms: Sequence[tuple[Number, Wave]], n: int) -> Wave:
         """The sum of number times value."""
         degree = None
         total = 0
@@ -256,16 +278,16 @@ class Waves:
                     raise Mixed("a sum of a signal and a constant")
                 degree = d
                 total += c * x
-        return Wave(total % P, degree or 0)
+        return Wave(total, degree or 0)
 
     def product(self, factors: Sequence[tuple[Wave, int]], n: int) -> Wave:
         """The product of integer powers."""
         value, degree = 1, 0
         for (x, d), exponent in factors:
             if exponent == 1:
-                value = value * x % P
+                value = value * x
             elif exponent:
-                value = value * (pow(x, exponent, P) if x else root(0, Fraction(exponent))) % P
+                value = value * (x**exponent if x else root(x, Fraction(exponent)))
             degree += d * exponent
         return Wave(value, degree)
 
@@ -284,14 +306,14 @@ class Waves:
             raise Mixed("a function of a signal")
         constants = self._constants(args)
         if len(args) == 1:
-            return Wave(series.function(self.functions, name, constants[0], 1)[0], 0)
+            return Wave(series.function(self.numbers, name, constants[0], 1)[0], 0)
         a, b = constants
-        return Wave(series.function_of_two(self.functions, name, a, b, 1)[0], 0)
+        return Wave(series.function_of_two(self.numbers, name, a, b, 1)[0], 0)
 
     def slopes(self, name: str, args: Sequence[Wave], value: Wave, n: int) -> Sequence[Wave]:
         """The partial derivatives of a function."""
         constants = self._constants(args)
-        f, of = self.functions, [value.amplitude]
+        f, of = self.numbers, [value.amplitude]
         if len(args) == 1:
             return [Wave(series.slope_of(f, name, constants[0], of, 1)[0], 0)]
         both = series.slopes_of_two(f, name, constants[0], constants[1], of, 1)
@@ -299,15 +321,19 @@ class Waves:
 
     def der(self, a: Wave) -> Wave:
         """The time derivative."""
-        return Wave(a.amplitude * a.degree * self.s % P, a.degree)
+        return Wave(a.amplitude * a.degree * self.s, a.degree)
 
-    def integral(self, a: Wave, start: int) -> Wave:
+    def integral(self, a: Wave, start: Number) -> Wave:
         """The integral that begins at `start`."""
         raise Mixed("an integral from an initial value")
 
-    def seed(self, x: int) -> Impulse:
+    def moves(self, a: Wave) -> bool:
+        """Whether the amplitude is not zero."""
+        return self.numbers.nonzero(a.amplitude)
+
+    def seed(self, x: Number) -> Impulse:
         """The adjoint of the result, times a number."""
-        return Impulse(x % P, x % P, 0, 0, [x % P])
+        return Impulse(x, x, 0, 0, [x])
 
     def join(self, a: Impulse, b: Impulse) -> Impulse:
         """The sum of two adjoints."""
@@ -320,8 +346,8 @@ class Waves:
             degree -= 1
         floor = max(floor, degree - self.terms + 1)
         leading = leading[: max(0, degree - floor + 1)]
-        still = (a.still + b.still) % P
-        return Impulse((a.value + b.value) % P, still, degree, floor, leading)
+        still = (a.still + b.still)
+        return Impulse((a.value + b.value), still, degree, floor, leading)
 
     def vanishes(self, a: Impulse) -> bool:
         """Whether an adjoint is zero."""
@@ -332,24 +358,24 @@ class Waves:
         c = slope.amplitude
         value, still, degree, floor, leading = adjoint
         leading = series.scale(c, leading)
-        return Impulse(value * c % P, still * c % P, degree, floor, leading)
+        return Impulse(value * c, still * c, degree, floor, leading)
 
     def back_der(self, adjoint: Impulse, argument: Wave) -> Impulse:
         """The adjoint of what was differentiated."""
-        own = argument.degree * self.s % P
+        own = argument.degree * self.s
         value, still, degree, floor, leading = adjoint
         # times (sigma + own); the lowest coefficient is complete only if nothing was cut off
         leading = series.add([*leading, 0], [0, *series.scale(own, leading)])
         floor = max(floor + 1 if floor else 0, degree + 2 - self.terms)
         leading = leading[: max(0, degree + 2 - floor)]
-        value = value * (self.sigma + own) % P
-        return Impulse(value, still * own % P, degree + 1, floor, leading)
+        value = value * (self.sigma + own)
+        return Impulse(value, still * own, degree + 1, floor, leading)
 
     def back_integral(self, adjoint: Impulse) -> Impulse:
         """The adjoint of what was integrated."""
         raise Mixed("an integral from an initial value")
 
-    def start_of(self, adjoint: Impulse) -> int:
+    def start_of(self, adjoint: Impulse) -> Number:
         """The part that belongs to the value itself."""
         return adjoint.value
 
@@ -365,12 +391,10 @@ class Waves:
         return bool(adjoint.still)
 
 
-def compare(op: str, left: int, right: int) -> bool:
-    """`<`, `<=` or `==` of two field elements by the sign of their difference."""
+def compare(numbers: Numbers, op: str, left: Number, right: Number) -> bool:
+    """`<`, `<=` or `==` of two numbers by the sign of their difference."""
     if op == "==":
-        return left == right
-    s = sign(right - left)
+        return not numbers.nonzero(right - left)
+    s = numbers.sign(right - left)
     return s == 1 or (op == "<=" and s == 0)
 
-
-__all__ = ["Algebra", "Impulse", "Mixed", "Series", "Taylor", "Wave", "Waves", "compare", "inverse"]

@@ -12,9 +12,9 @@ from typing import NamedTuple
 from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.evaluate import demands, evaluate, values_of
-from bondgraph.exact.field import Functions, P
 from bondgraph.exact.forms import ORDERS, Form, Forms
-from bondgraph.exact.linear import CONSTANT
+from bondgraph.exact.linear import CONSTANT, Row
+from bondgraph.exact.numbers import Number, Numbers
 from bondgraph.exact.series import Series
 from bondgraph.ir.expr import Expr, Op, Symbol, topological
 
@@ -34,16 +34,14 @@ class Equation(NamedTuple):
 class Setting(NamedTuple):
     """Constants of one trajectory: params, consts and modes as series, `n` coefficients.
 
-    `private` are those that one law alone uses and that may be changed to satisfy it; `tuned`
-    collects by how much they were. With `still` a law may be satisfied by a factor that is zero
-    at all times, see `bondgraph.exact.rest`.
+    `shown` is what sensors read. With `still` a law may be satisfied by a factor that is zero at
+    all times, see `bondgraph.exact.rest`.
     """
 
     values: dict[Expr, Series]
-    functions: Functions
+    numbers: Numbers
     n: int
-    private: frozenset[Expr]
-    tuned: dict[Expr, int]
+    shown: tuple[Expr, ...] = ()
     still: bool = False
 
 
@@ -59,7 +57,7 @@ class FormSample:
     """Every variable is an unknown of its own; constants are what the setting says."""
 
     def __init__(self, place: Mapping[Expr, tuple[int, int]], setting: Setting) -> None:
-        self.algebra = Forms(setting.functions)
+        self.algebra = Forms(setting.numbers)
         self._place = place
         self._values = setting.values
 
@@ -70,7 +68,7 @@ class FormSample:
             return {CONSTANT: constant(self._values, symbol)}
         return {where[0] * ORDERS: [where[1]]}
 
-    def start(self, initial: Symbol) -> int:
+    def start(self, initial: Symbol) -> Number:
         """Laws have their integrals as variables."""
         raise Mixed("an integral in a law")
 
@@ -118,7 +116,9 @@ class Writer:
 
     def holds(self, when: Expr) -> bool:
         """Whether a switched junction is on."""
-        return self.sample.algebra.lead(evaluate([when], self.sample)[0]) != 0
+        return self.setting.numbers.nonzero(
+            self.sample.algebra.lead(evaluate([when], self.sample)[0])
+        )
 
     def linear(self, node: int, form: Form) -> Equation:
         """An equation without nonlinear rest."""
@@ -175,7 +175,7 @@ def written(
     if not given:
         return plant, equations
     for symbol in given:
-        setting.values[symbol] = [random.randrange(1, P) for _ in range(setting.n)]
+        setting.values[symbol] = [setting.numbers.any(random) for _ in range(setting.n)]
     place = {s: at for s, at in plant.place.items() if s not in given}
     plant = plant._replace(place=place)
     return plant, Writer(plant, setting).all(readings)
@@ -195,9 +195,9 @@ def _modulating(equations: list[Equation], plant: Assembly) -> list[Expr]:
     return list(out)
 
 
-def coefficient_row(form: Form, order: int, stride: int) -> dict[int, int]:
+def coefficient_row(numbers: Numbers, form: Form, order: int, stride: int) -> Row:
     """The Taylor coefficient `order` of a form, in columns variable * stride + coefficient."""
-    row: dict[int, int] = {}
+    row: Row = {}
     for key, weights in form.items():
         if key == CONSTANT:
             if order < len(weights):
@@ -211,4 +211,4 @@ def coefficient_row(form: Form, order: int, stride: int) -> dict[int, int]:
                     weight *= k
                 column = variable * stride + low + derivative
                 row[column] = row.get(column, 0) + weight
-    return {c: x % P for c, x in row.items() if x % P}
+    return {c: x for c, x in row.items() if numbers.nonzero(x)}

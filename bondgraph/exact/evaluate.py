@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, Protocol
 
 from bondgraph.exact import implicit
 from bondgraph.exact.algebra import Algebra, Mixed, Values, Waves, compare
-from bondgraph.exact.field import P, Undefined, of_fraction
+from bondgraph.exact.numbers import Number, Undefined
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Symbol, topological
 
 
@@ -28,7 +28,7 @@ class Assignment(Protocol):
         """The value of a SYM node; raises KeyError for one that the sample does not know."""
         ...
 
-    def start(self, initial: Symbol) -> int:
+    def start(self, initial: Symbol) -> Number:
         """The value with which integrals from this initial value begin."""
         ...
 
@@ -102,15 +102,8 @@ def holds_root(roots: Sequence[Expr]) -> bool:
 
 
 def telling(roots: Sequence[Expr]) -> int:
-    """How many coefficients of the roots say whether they vanish on a plant, faulty or not.
-
-    A fault that meets an iteration sets in only at the point (see `Plant.sample`).
-    """
-    return integral_depth(roots) + (ONSET + 2 if holds_root(roots) else 1)
-
-
-#: The power of time with which a fault sets in: its square and its cubic root are power series.
-ONSET = 6
+    """How many coefficients of the roots say whether they vanish on a plant, faulty or not."""
+    return integral_depth(roots) + 1
 
 
 def evaluate(roots: Sequence[Expr], sample: Assignment, n: int = 1) -> list[Any]:
@@ -168,7 +161,7 @@ def node_value(
     op = node.op
     if op is Op.ADD:
         terms = [
-            (c.numerator if c.denominator == 1 else of_fraction(c), values[a])
+            (c.numerator if c.denominator == 1 else algebra.numbers.fraction(c), values[a])
             for c, a in zip(node.coefficients, node.args, strict=True)
         ]
         return algebra.combine(terms, n)
@@ -178,7 +171,7 @@ def node_value(
     if op is Op.SYM:
         return sample.value(node)
     if op is Op.NUM:
-        return algebra.number(of_fraction(node.number))
+        return algebra.number(algebra.numbers.fraction(node.number))
     if op is Op.DER:
         return algebra.der(values[node.args[0]])
     if op is Op.INT:
@@ -197,15 +190,15 @@ def node_value(
 def chosen(node: Expr, values: dict[Expr, Any], algebra: Values[Any]) -> Expr:
     """The branch that an IF node takes."""
     condition, yes, no = node.args
-    return yes if algebra.lead(values[condition]) else no
+    return yes if algebra.numbers.nonzero(algebra.lead(values[condition])) else no
 
 
 def holds(node: Expr, values: dict[Expr, Any], algebra: Values[Any]) -> bool:
     """Whether a comparison or a logical node is true."""
     if node.op is Op.CMP:
         left, right = (algebra.lead(values[a]) for a in node.args)
-        return compare(node.name, left, right)
-    truths = [algebra.lead(values[a]) != 0 for a in node.args]
+        return compare(algebra.numbers, node.name, left, right)
+    truths = [algebra.numbers.nonzero(algebra.lead(values[a])) for a in node.args]
     if node.name == "not":
         return not truths[0]
     return all(truths) if node.name == "and" else any(truths)
@@ -227,7 +220,7 @@ def slopes(
     if jumps and node.op is Op.FN and node.name == "sign":
         return [(args[0], algebra.number(_JUMP))]
     if node.op is Op.ADD:
-        numbers = [algebra.number(of_fraction(c)) for c in node.coefficients]
+        numbers = [algebra.number(algebra.numbers.fraction(c)) for c in node.coefficients]
         return list(zip(args, numbers, strict=True))
     if node.op is Op.MUL:
         out = []
@@ -243,7 +236,7 @@ def slopes(
         if node.name == "pow" and args[1].op is Op.NUM:
             exponent = args[1].number
             slope = algebra.rational(values[args[0]], exponent - 1, n)
-            return [(args[0], algebra.combine([(of_fraction(exponent), slope)], n))]
+            return [(args[0], algebra.combine([(algebra.numbers.fraction(exponent), slope)], n))]
         inner = [values[a] for a in args]
         return list(zip(args, algebra.slopes(node.name, inner, values[node], n), strict=True))
     if node.op is Op.ROOT:
@@ -284,7 +277,7 @@ def pull(
     values: dict[Expr, Any],
     algebra: Algebra[Any, Any],
     adjoints: dict[Expr, Any],
-    jumps: bool = True,
+    jumps: bool = False,
 ) -> None:
     """Carry adjoints from the roots, where `adjoints` holds some, down to every node below.
 
@@ -309,8 +302,10 @@ def pull(
                 give(argument, algebra.back(adjoint, slope, need[argument]))
 
 
-def sensitivities(root: Expr, sample: Sample) -> Sensitivity:
+def sensitivities(root: Expr, sample: Sample, jumps: bool = False) -> Sensitivity:
     """What the value of `root` depends on at a point, by reverse mode.
+
+    With `jumps` what a decision rests on counts as having an influence.
 
     Signals and parameters are functions of time. An integral carries dependence on the past: it
     is followed at earlier points of the same plant, one more for each nested integral, with
@@ -319,12 +314,12 @@ def sensitivities(root: Expr, sample: Sample) -> Sensitivity:
     if isinstance(sample.algebra, Waves):
         while True:
             try:
-                return _sensitivities(root, sample)
+                return _sensitivities(root, sample, jumps)
             except Mixed as failure:
                 if "cancel" not in str(failure) or sample.algebra.terms > 1 << 14:
                     raise
                 sample.algebra.terms *= 4
-    return _sensitivities(root, sample)
+    return _sensitivities(root, sample, jumps)
 
 
 def _decides(node: Expr) -> bool:
@@ -332,7 +327,7 @@ def _decides(node: Expr) -> bool:
     return node.op is Op.IF or (node.op is Op.FN and node.name in ("sign", "min", "max"))
 
 
-def _sensitivities(root: Expr, sample: Sample) -> Sensitivity:
+def _sensitivities(root: Expr, sample: Sample, jumps: bool) -> Sensitivity:
     nodes = topological([root])
     integrals = [v for v in nodes if v.op is Op.INT]
     depth = integral_depth([root]) if integrals else 0
@@ -340,7 +335,7 @@ def _sensitivities(root: Expr, sample: Sample) -> Sensitivity:
     alive: dict[Expr, None] = {}
     seen: dict[Expr, None] = {}
     orders: dict[Expr, int] = {}
-    memory: dict[Expr, int] = {}  # weight with which the past of an integral enters
+    memory: dict[Expr, Number] = {}  # weight with which the past of an integral enters
     starts: dict[Symbol, None] = {}
     lasting: set[Expr] = set()
     for back in range(depth + 1):
@@ -363,20 +358,20 @@ def _sensitivities(root: Expr, sample: Sample) -> Sensitivity:
                 part = algebra.seed(weight)
                 known = adjoints.get(node.args[0])
                 adjoints[node.args[0]] = part if known is None else algebra.join(known, part)
-        pull(below, need, values, algebra, adjoints)
+        pull(below, need, values, algebra, adjoints, jumps)
         for node, adjoint in adjoints.items():
             if algebra.vanishes(adjoint):
                 continue
             alive[node] = seen[node] = None
             if node.op is Op.SYM and algebra.lasting(adjoint):
                 lasting.add(node)
-            if node.op is Op.INT and algebra.start_of(adjoint):
-                share = algebra.start_of(adjoint) * (7919 + 2 * back) % P
-                memory[node] = (memory.get(node, 0) + share) % P
+            if node.op is Op.INT and algebra.numbers.nonzero(algebra.start_of(adjoint)):
+                share = algebra.start_of(adjoint) * (7919 + 2 * back)
+                memory[node] = memory.get(node, 0) + share
                 starts[node.symbol] = None
             elif node.op is Op.SYM and node.symbol.kind in KNOWN_SIGNALS:
                 orders[node] = max(orders.get(node, -1), -1 if back else algebra.order(adjoint))
-            elif _decides(node):
+            elif jumps and _decides(node):
                 alive.update(dict.fromkeys(topological(node.args)))
     depends = {v: v in seen for v in nodes if v.op is Op.SYM}
     orders = {v: orders[v] for v in nodes if v in orders}

@@ -12,67 +12,60 @@ from collections.abc import Callable
 from fractions import Fraction
 from random import Random
 
+from flint import nmod
+
+from bondgraph.exact.numbers import Number, Undefined
+
 P = (1 << 61) - 2373
 Q = (P - 1) // 2
 
-
-class Undefined(ArithmeticError):
-    """A value does not exist at this random point (1/0, root of a negative): draw another."""
+ZERO, ONE = nmod(0, P), nmod(1, P)
 
 
-def inverse(x: int) -> int:
+def inverse(x: Number) -> Number:
     """1/x; raises `Undefined` for zero."""
     try:
-        return pow(x, -1, P)
-    except ValueError:
+        return ONE / x
+    except ZeroDivisionError:
         raise Undefined("division by zero") from None
 
 
-def sign(x: int) -> int:
+def sign(x: Number) -> int:
     """The Legendre symbol as 1, 0 or -1 (multiplicative, and odd as P = 3 mod 4)."""
-    power = pow(x, Q, P)
+    power = pow(int(x), Q, P)
     return power if power < 2 else -1
 
 
-def of_fraction(value: Fraction) -> int:
+def of_fraction(value: Fraction) -> Number:
     """A rational number as field element; raises `Undefined` if P divides the denominator."""
-    below = value.denominator
-    if below == 1:
-        return value.numerator % P
-    found = _below.get(below)
-    if found is None:
-        found = _below[below] = inverse(below)
-    return value.numerator * found % P
+    return nmod(value.numerator, P) * inverse(value.denominator)
 
 
-_below: dict[int, int] = {}  # inverses of denominators, which are few
-
-
-def root(x: int, exponent: Fraction) -> int:
+def root(x: Number, exponent: Fraction) -> Number:
     """x**exponent for positive x, itself positive; of zero only a positive power.
 
     Raises `Undefined` for a negative x unless the exponent is an integer.
     """
-    x %= P
+    x = ONE * x
     if exponent.denominator == 1:
-        return pow(x, exponent.numerator, P) if x or exponent > 0 else inverse(0)
-    if x == 0 and exponent > 0:
-        return 0
+        return x**exponent.numerator if x or exponent > 0 else inverse(0)
+    if not x and exponent > 0:
+        return x
     if sign(x) != 1:
         raise Undefined("a fractional power of a number that is not positive")
-    return pow(x, exponent.numerator * pow(exponent.denominator, -1, Q) % Q, P)
+    return x ** (exponent.numerator * pow(exponent.denominator, -1, Q) % Q)
 
 
 _HALF = Fraction(1, 2)
-_TWO = pow(2, -1, P)
+_TWO = inverse(2)
 
 
-def square_root(x: int) -> int:
+def square_root(x: Number) -> Number:
     """The positive square root; raises `Undefined` for a negative x."""
     return root(x, _HALF)
 
 
-class Functions:
+class PrimeField:
     """The functions of the expression graph at field elements; random, the same for one seed.
 
     `exp` is a random bijection onto positive numbers with exp(-x) exp(x) = 1, `log` its inverse;
@@ -81,34 +74,74 @@ class Functions:
     follow. A table has a random value and a random slope at each argument.
     """
 
+    real = False
+    nonzero = staticmethod(bool)
+    inverse = staticmethod(inverse)
+    sign = staticmethod(sign)
+    fraction = staticmethod(of_fraction)
+    power = staticmethod(root)
+
     def __init__(self, seed: int) -> None:
         self.seed = seed
         self._random = Random(seed)
-        self._exp: dict[int, int] = {0: 1}
-        self._log: dict[int, int] = {1: 0}
-        self._half_tangent: dict[int, int] = {0: 0}
-        self._angle: dict[int, int] = {0: 0}
-        self._tables: dict[tuple[str, int], tuple[int, int]] = {}
-        #: solutions of equations by equation and arguments, see `bondgraph.exact.implicit`
-        self.roots: dict[object, int] = {}
+        self._exp: dict[Number, Number] = {ZERO: ONE}
+        self._log: dict[Number, Number] = {ONE: ZERO}
+        self._half_tangent: dict[Number, Number] = {ZERO: ZERO}
+        self._angle: dict[Number, Number] = {ZERO: ZERO}
+        self._tables: dict[tuple[str, Number], tuple[Number, Number]] = {}
+        self.roots: dict[object, Number] = {}
 
-    def draw(self) -> int:
+    def draw(self) -> Number:
         """A random number, each time another."""
-        return self._random.randrange(2, P - 1)
+        return nmod(self._random.randrange(2, P - 1), P)
 
-    def exp(self, x: int) -> int:
+    def number(self, x: int) -> Number:
+        """A whole number."""
+        return nmod(x, P)
+
+    def reciprocal_of(self, k: int) -> Number:
+        """1/k for a small positive integer."""
+        while len(_reciprocals) <= k:
+            _reciprocals.append(inverse(len(_reciprocals)))
+        return _reciprocals[k]
+
+    def label(self, x: Number) -> object:
+        """The number itself."""
+        return int(x)
+
+    def any(self, random: Random) -> Number:
+        """A random number, not zero."""
+        return nmod(random.randrange(1, P), P)
+
+    def around(self, random: Random, value: Number) -> Number:
+        """A random number: nothing is near anything in a field."""
+        return self.any(random)
+
+    def off(self, random: Random, value: Number) -> Number:
+        """A random number."""
+        return self.any(random)
+
+    def size(self, random: Random) -> Number:
+        """One: nothing is large or small in a field."""
+        return ONE
+
+    def argument(self, random: Random, of: str, scales: list[float]) -> Number:
+        """A random number."""
+        return self.any(random)
+
+    def exp(self, x: Number) -> Number:
         """A positive number; exp(-x) = 1/exp(x)."""
-        x %= P
+        x = ONE * x
         found = self._exp.get(x)
         if found is None:
             draw = self.draw()
-            found = draw * draw % P
+            found = draw * draw
             self._pair_exp(x, found)
         return found
 
-    def log(self, x: int) -> int:
+    def log(self, x: Number) -> Number:
         """The inverse of `exp`; raises `Undefined` for what is not positive."""
-        x %= P
+        x = ONE * x
         found = self._log.get(x)
         if found is None:
             if sign(x) != 1:
@@ -117,97 +150,62 @@ class Functions:
             self._pair_exp(found, x)
         return found
 
-    def _pair_exp(self, x: int, value: int) -> None:
+    def _pair_exp(self, x: Number, value: Number) -> None:
         other = inverse(value)
-        self._exp[x], self._exp[P - x] = value, other
-        self._log[value], self._log[other] = x, P - x
+        self._exp[x], self._exp[-x] = value, other
+        self._log[value], self._log[other] = x, -x
 
-    def circle(self, x: int) -> tuple[int, int]:
+    def circle(self, x: Number) -> tuple[Number, Number]:
         """(cos x, sin x)."""
-        x %= P
+        x = ONE * x
         t = self._half_tangent.get(x)
         if t is None:
             t = self.draw()
             self._pair_angle(x, t)
         scale = inverse(1 + t * t)
-        return (1 - t * t) * scale % P, 2 * t * scale % P
+        return (1 - t * t) * scale, 2 * t * scale
 
-    def angle(self, cosine: int, sine: int) -> int:
+    def angle(self, cosine: Number, sine: Number) -> Number:
         """The x with these cos x and sin x."""
-        t = sine * inverse(1 + cosine) % P
+        t = sine * inverse(1 + cosine)
         found = self._angle.get(t)
         if found is None:
             found = self.draw()
             self._pair_angle(found, t)
         return found
 
-    def _pair_angle(self, x: int, t: int) -> None:
-        self._half_tangent[x], self._half_tangent[P - x] = t, P - t
-        self._angle[t], self._angle[P - t] = x, P - x
+    def _pair_angle(self, x: Number, t: Number) -> None:
+        self._half_tangent[x], self._half_tangent[-x] = t, -t
+        self._angle[t], self._angle[-t] = x, -x
 
-    def hyperbola(self, x: int) -> tuple[int, int]:
+    def hyperbola(self, x: Number) -> tuple[Number, Number]:
         """(cosh x, sinh x)."""
         up = self.exp(x)
         down = inverse(up)
-        return (up + down) * _TWO % P, (up - down) * _TWO % P
+        return (up + down) * _TWO, (up - down) * _TWO
 
-    def table(self, name: str, x: int) -> tuple[int, int]:
+    def table(self, name: str, x: Number) -> tuple[Number, Number]:
         """Value and slope of a table at x."""
-        found = self._tables.get((name, x))
+        key = (name, ONE * x)
+        found = self._tables.get(key)
         if found is None:
-            found = self._tables[name, x] = (self.draw(), self.draw())
+            found = self._tables[key] = (self.draw(), self.draw())
         return found
 
-    def force(self, name: str, x: int, value: int) -> None:
-        """Let a function of `FORCED` or a table have a value at x.
-
-        Raises `Undefined` where it has another one already, or cannot have this one.
-        """
-        x, value = x % P, value % P
-        if name.startswith("table:"):
-            if self._tables.setdefault((name, x), (value, self.draw()))[0] != value:
-                raise Undefined("a table that has another value")
-            return
-        match name:
-            case "exp":
-                at, power = x, value
-            case "log":
-                at, power = value, x
-            case "sinh":
-                at, power = x, _positive(value, square_root(1 + value * value))
-            case "asinh":
-                at, power = value, _positive(x, square_root(1 + x * x))
-            case "tanh":
-                at, power = x, square_root((1 + value) * inverse(1 - value))
-            case "atanh":
-                at, power = value, square_root((1 + x) * inverse(1 - x))
-            case "atan" | "tan":
-                at, slope = (value, x) if name == "atan" else (x, value)
-                cosine = inverse(square_root(1 + slope * slope))
-                half = slope * cosine * inverse(1 + cosine) % P
-                if self._half_tangent.get(at, half) != half or half in self._angle:
-                    raise Undefined("an angle that has another tangent")
-                self._pair_angle(at, half)
-                return
-            case _:
-                raise Undefined(f"{name} cannot be given a value")
-        if sign(power) != 1 or self._exp.get(at, power) != power or power in self._log:
-            raise Undefined("an exponential that has another value")
-        self._pair_exp(at, power)
-
-    def value(self, name: str, x: int) -> int:
+    def value(self, name: str, x: Number) -> Number:
         """A function of one argument of `bondgraph.ir.expr.FUNCTIONS`, or `table:<id>`.
 
         Raises `Undefined` where the function has no value.
         """
+        x = ONE * x
         simple = _SIMPLE.get(name)
         if simple is not None:
-            return simple(x % P) % P
+            return simple(x)
         if name.startswith("table:"):
-            return self.table(name, x % P)[0]
-        return self._transcendental(name, x % P) % P
+            return self.table(name, x)[0]
+        return self._transcendental(name, x)
 
-    def _transcendental(self, name: str, x: int) -> int:
+    def _transcendental(self, name: str, x: Number) -> Number:
         match name:
             case "exp":
                 return self.exp(x)
@@ -241,51 +239,29 @@ class Functions:
         raise KeyError(name)
 
 
-def _positive(x: int, w: int) -> int:
+_reciprocals: list[Number] = [ZERO]  # of small whole numbers
+
+
+def _positive(x: Number, w: Number) -> Number:
     """The positive one of x + w and x - w, whose product is -1."""
-    return (x + w) % P if sign(x + w) == 1 else (x - w) % P
+    return x + w if sign(x + w) == 1 else x - w
 
 
-def _signed_root(x: int) -> int:
+def _signed_root(x: Number) -> Number:
     s = sign(x)
     return s * square_root(s * x)
 
 
-def _cube_root(x: int) -> int:
+def _cube_root(x: Number) -> Number:
     s = sign(x)
     return s * root(s * x, Fraction(1, 3))
 
 
-_SIMPLE: dict[str, Callable[[int], int]] = {
+_SIMPLE: dict[str, Callable[[Number], Number]] = {
     "abs": lambda x: sign(x) * x,
-    "sign": sign,
+    "sign": lambda x: ONE * sign(x),
     "sqrt": square_root,
     "cbrt": _cube_root,
     "ssqrt": _signed_root,
     "ssq": lambda x: sign(x) * x * x,
-}
-
-#: Functions that `Functions.force` can give a value.
-FORCED = frozenset("exp log sinh asinh tanh atanh tan atan".split())
-
-#: The function that undoes a function of one argument.
-INVERSES = {
-    "cbrt": "cube",
-    "ssqrt": "ssq",
-    "ssq": "ssqrt",
-    "sqrt": "square",
-    "exp": "log",
-    "log": "exp",
-    "sin": "asin",
-    "cos": "acos",
-    "tan": "atan",
-    "asin": "sin",
-    "acos": "cos",
-    "atan": "tan",
-    "sinh": "asinh",
-    "cosh": "acosh",
-    "tanh": "atanh",
-    "asinh": "sinh",
-    "acosh": "cosh",
-    "atanh": "tanh",
 }

@@ -8,8 +8,8 @@ from typing import TypeAlias
 
 from bondgraph.exact import series
 from bondgraph.exact.algebra import Mixed, Taylor
-from bondgraph.exact.field import Functions
 from bondgraph.exact.linear import CONSTANT
+from bondgraph.exact.numbers import Number, Numbers
 from bondgraph.exact.series import Series
 
 #: Coefficients (series in time) of the unknowns; a key is variable * ORDERS + derivative.
@@ -19,19 +19,20 @@ ORDERS = 16
 
 
 class NotLinear(Mixed):
-    """A form is needed as a number: `form` says which."""
+    """A form is needed as a number: `form` says which, `of` what for (a function's name)."""
 
-    def __init__(self, form: Form) -> None:
+    def __init__(self, form: Form, of: str = "value") -> None:
         super().__init__("not linear")
         self.form = form
+        self.of = of
 
 
 class Forms:
     """The algebra of linear forms whose coefficients are functions of time."""
 
-    def __init__(self, functions: Functions) -> None:
-        self.functions = functions
-        self._taylor = Taylor(functions)
+    def __init__(self, numbers: Numbers) -> None:
+        self.numbers = numbers
+        self._taylor = Taylor(numbers)
 
     def try_known(self, form: Form) -> Series | None:
         """A form without unknowns as a series, None for another."""
@@ -39,22 +40,22 @@ class Forms:
             return [0]
         return form[CONSTANT] if len(form) == 1 and CONSTANT in form else None
 
-    def known(self, form: Form) -> Series:
+    def known(self, form: Form, of: str) -> Series:
         """A form without unknowns as a series; raises `NotLinear` for another."""
         value = self.try_known(form)
         if value is None:
-            raise NotLinear(form)
+            raise NotLinear(form, of)
         return value
 
-    def number(self, x: int) -> Form:
+    def number(self, x: Number) -> Form:
         """A constant."""
         return {CONSTANT: self._taylor.number(x)}
 
-    def lead(self, a: Form) -> int:
+    def lead(self, a: Form) -> Number:
         """The value at the point."""
-        return self.known(a)[0]
+        return self.known(a, "decision")[0]
 
-    def combine(self, terms: Sequence[tuple[int, Form]], n: int) -> Form:
+    def combine(self, terms: Sequence[tuple[Number, Form]], n: int) -> Form:
         """The sum of number times value."""
         out: Form = {}
         for c, form in terms:
@@ -62,7 +63,7 @@ class Forms:
                 scaled = series.scale(c, a)
                 old = out.get(key)
                 out[key] = scaled if old is None else series.add(old, scaled)
-        return {key: a for key, a in out.items() if any(a)}
+        return {key: a for key, a in out.items() if series.moves(self.numbers, a)}
 
     def product(self, factors: Sequence[tuple[Form, int]], n: int) -> Form:
         """The product of integer powers."""
@@ -75,20 +76,20 @@ class Forms:
             elif linear is None and exponent == 1:
                 linear = form
             elif exponent:
-                raise NotLinear(form)
+                raise NotLinear(form, "product")
         coefficient = self._taylor.product(constants, n)
         if linear is None:
             return {CONSTANT: coefficient}
         out = {key: series.mul(coefficient, a, n) for key, a in linear.items()}
-        return {key: a for key, a in out.items() if any(a)}
+        return {key: a for key, a in out.items() if series.moves(self.numbers, a)}
 
     def rational(self, a: Form, exponent: Fraction, n: int) -> Form:
         """A rational power."""
-        return {CONSTANT: self._taylor.rational(self.known(a), exponent, n)}
+        return {CONSTANT: self._taylor.rational(self.known(a, "pow"), exponent, n)}
 
     def function(self, name: str, args: Sequence[Form], n: int) -> Form:
         """A function of one or two arguments."""
-        return {CONSTANT: self._taylor.function(name, [self.known(a) for a in args], n)}
+        return {CONSTANT: self._taylor.function(name, [self.known(a, name) for a in args], n)}
 
     def der(self, a: Form) -> Form:
         """The time derivative."""
@@ -98,10 +99,10 @@ class Forms:
             if key != CONSTANT:
                 parts.append((key + 1, x))
             for at, part in parts:
-                if any(part):
+                if series.moves(self.numbers, part):
                     out[at] = series.add(out[at], part) if at in out else part
         return out
 
-    def integral(self, a: Form, start: int) -> Form:
+    def integral(self, a: Form, start: Number) -> Form:
         """The integral that begins at `start`."""
         raise NotLinear(a)

@@ -7,7 +7,8 @@ from typing import Any
 
 from bondgraph.exact.algebra import Algebra, Taylor, Wave, Waves
 from bondgraph.exact.evaluate import highest_order
-from bondgraph.exact.field import Functions, P
+from bondgraph.exact.field import PrimeField
+from bondgraph.exact.numbers import Number
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, Symbol, topological
 
 
@@ -25,11 +26,11 @@ class FreeSample:
     @classmethod
     def of(cls, expr: Expr, seed: int) -> FreeSample:
         """Exponentials where the expression is linear in its signals, else power series."""
-        functions = Functions(seed)
+        numbers = PrimeField(seed)
         if linear(expr):
             draw = random.Random(seed)
-            return cls(Waves(functions, draw.randrange(1, P), draw.randrange(1, P)), 0, seed)
-        return cls(Taylor(functions), highest_order([expr]), seed)
+            return cls(Waves(numbers, numbers.any(draw), numbers.any(draw)), 0, seed)
+        return cls(Taylor(numbers), highest_order([expr]), seed)
 
     @property
     def algebra(self) -> Algebra[Any, Any]:
@@ -41,17 +42,18 @@ class FreeSample:
         signal = symbol.symbol.kind in KNOWN_SIGNALS
         source = self._seed if signal else self._constants
         draw = random.Random(f"{source}:{symbol.symbol.name}")
+        numbers = self._algebra.numbers
         if isinstance(self._algebra, Waves):
-            return Wave(draw.randrange(1, P), int(signal))
+            return Wave(numbers.any(draw), int(signal))
         if symbol.symbol.kind is Kind.MODE:
             return [draw.randrange(2)]
         if not signal:
-            return [draw.randrange(1, P)]
-        return [draw.randrange(1, P) for _ in range(self._order + 1)]
+            return [numbers.any(draw)]
+        return [numbers.any(draw) for _ in range(self._order + 1)]
 
-    def start(self, initial: Symbol) -> int:
+    def start(self, initial: Symbol) -> Number:
         """A random value for integrals to begin with."""
-        return random.Random(f"{self._seed}:{initial.name}").randrange(1, P)
+        return self._algebra.numbers.any(random.Random(f"{self._seed}:{initial.name}"))
 
     def earlier(self, steps: int) -> FreeSample:
         """Other signals with the same constants."""

@@ -9,7 +9,7 @@ from bondgraph.exact import series
 from bondgraph.exact.algebra import Mixed, Taylor
 from bondgraph.exact.equations import Setting, constant
 from bondgraph.exact.evaluate import demands, pull, values_of
-from bondgraph.exact.field import P, inverse
+from bondgraph.exact.numbers import Number
 from bondgraph.exact.series import Series
 from bondgraph.ir.expr import Expr, Op, topological
 
@@ -23,7 +23,7 @@ class KnownSample:
         setting: Setting,
         variables: Mapping[int, Series] | list[Series],
     ) -> None:
-        self.algebra = Taylor(setting.functions)
+        self.algebra = Taylor(setting.numbers)
         self._place = place
         self._values = setting.values
         self._variables = variables
@@ -43,7 +43,7 @@ class KnownSample:
 
 def gradient(
     rest: Expr, sample: KnownSample, place: Mapping[Expr, tuple[int, int]]
-) -> dict[tuple[int, int], int]:
+) -> dict[tuple[int, int], Number]:
     """The partial derivatives of an expression at the point by (variable, derivative)."""
     nodes = topological([rest])
     need = demands(nodes, [rest], 1)
@@ -51,8 +51,9 @@ def gradient(
     if rest in failures:
         raise failures[rest]
     adjoints: dict[Expr, Any] = {rest: [1]}
-    pull(nodes, need, values, sample.algebra, adjoints, jumps=False)
-    out: dict[tuple[int, int], int] = {}
+    pull(nodes, need, values, sample.algebra, adjoints)
+    out: dict[tuple[int, int], Number] = {}
+    numbers = sample.algebra.numbers
     for node, adjoint in adjoints.items():
         if node.op is Op.SYM and node in place:
             variable, s = place[node]
@@ -61,5 +62,5 @@ def gradient(
                 factorial *= max(order, 1)
                 if x:
                     key = (variable, order)
-                    out[key] = (out.get(key, 0) + s * x * inverse(factorial)) % P
+                    out[key] = out.get(key, 0) + s * x * numbers.inverse(factorial)
     return out

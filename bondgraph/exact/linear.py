@@ -1,4 +1,4 @@
-"""Sparse linear equations over the field, eliminated with the fewest new entries first.
+"""Sparse linear equations over any kind of number, eliminated with the fewest new entries first.
 
 The pivot is taken in a shortest row, in its column with the fewest entries (Markowitz, 1957), so
 that chains and grids keep their sparsity. Rows are dicts column -> coefficient; the column
@@ -11,9 +11,9 @@ from collections.abc import Iterable
 from heapq import heapify, heappop, heappush
 from typing import NamedTuple, TypeAlias
 
-from bondgraph.exact.field import P
+from bondgraph.exact.numbers import Number, Numbers
 
-Row: TypeAlias = dict[int, int]
+Row: TypeAlias = dict[int, Number]
 
 CONSTANT = -1
 
@@ -41,22 +41,24 @@ class Pivot(NamedTuple):
     row: Row
 
 
-def add_multiple(target: Row, factor: int, source: Row) -> None:
+def add_multiple(numbers: Numbers, target: Row, factor: Number, source: Row) -> None:
     """target += factor * source, entries that vanish taken out."""
+    nonzero = numbers.nonzero
     for column, x in source.items():
-        value = (target.get(column, 0) + factor * x) % P
-        if value:
+        value = target.get(column, 0) + factor * x
+        if nonzero(value):
             target[column] = value
         else:
             target.pop(column, None)
 
 
-def eliminate(rows: list[Row], left: list[Row] | None = None) -> list[Pivot]:
+def eliminate(numbers: Numbers, rows: list[Row], left: list[Row] | None = None) -> list[Pivot]:
     """The pivots in the order of elimination; the rows are used up.
 
     Dependent rows vanish; columns without a pivot are free. Negative columns are never
     eliminated: rows that have no others raise `Contradiction`, or are collected in `left`.
     """
+    nonzero = numbers.nonzero
     where: dict[int, set[int]] = {}
     for number, row in enumerate(rows):
         for column in row:
@@ -80,8 +82,8 @@ def eliminate(rows: list[Row], left: list[Row] | None = None) -> list[Pivot]:
                 left.append(row)
             continue
         column = min(columns, key=lambda c: (len(where[c]), c))
-        scale = pow(row.pop(column), -1, P)
-        row = {c: x * scale % P for c, x in row.items()}
+        scale = numbers.inverse(row.pop(column))
+        row = {c: x * scale for c, x in row.items()}
         pivots.append(Pivot(column, row))
         for c in columns:
             where[c].discard(number)
@@ -91,12 +93,12 @@ def eliminate(rows: list[Row], left: list[Row] | None = None) -> list[Pivot]:
             for c, x in row.items():
                 known = target.get(c)
                 if known is None:
-                    target[c] = factor * x % P
+                    target[c] = factor * x
                     if c >= 0:
                         where[c].add(other)
                 else:
-                    value = (known + factor * x) % P
-                    if value:
+                    value = known + factor * x
+                    if nonzero(value):
                         target[c] = value
                     else:
                         del target[c]
@@ -106,28 +108,30 @@ def eliminate(rows: list[Row], left: list[Row] | None = None) -> list[Pivot]:
     return pivots
 
 
-def back_substitute(pivots: Iterable[Pivot], values: dict[int, int]) -> None:
+def back_substitute(pivots: Iterable[Pivot], values: dict[int, Number]) -> None:
     """Complete `values`, which holds the free columns, with all pivots."""
     for column, row in reversed(list(pivots)):
-        total = 0
+        total: Number = 0
         for c, x in row.items():
             total += x if c == CONSTANT else x * values[c]
-        values[column] = -total % P
+        values[column] = -total
 
 
 class Factors:
     """A square matrix factored once, for many right-hand sides."""
 
-    def __init__(self, rows: list[Row]) -> None:
+    def __init__(self, numbers: Numbers, rows: list[Row]) -> None:
         """Columns are 0 ... n-1; raises `Singular`."""
+        self._numbers = numbers
         self._columns: list[int] = []
         self._source: list[int] = []
-        self._scale: list[int] = []
-        self._down: list[list[tuple[int, int]]] = []
-        self._up: list[list[tuple[int, int]]] = []
+        self._scale: list[Number] = []
+        self._down: list[list[tuple[int, Number]]] = []
+        self._up: list[list[tuple[int, Number]]] = []
         self._factor(rows, len(rows))
 
     def _factor(self, rows: list[Row], size: int) -> None:
+        nonzero = self._numbers.nonzero
         work = [dict(r) for r in rows]
         where: dict[int, set[int]] = {}
         for number, row in enumerate(work):
@@ -147,20 +151,20 @@ class Factors:
             column = min(row, key=lambda c: (len(where[c]), c))
             for c in row:
                 where[c].discard(number)
-            scale = pow(row.pop(column), -1, P)
+            scale = self._numbers.inverse(row.pop(column))
             down = []
             for other in sorted(where.pop(column)):
                 target = work[other]
-                factor = -target.pop(column) * scale % P
+                factor = -target.pop(column) * scale
                 down.append((other, factor))
                 for c, x in row.items():
-                    known = target.get(c, 0)
-                    value = (known + factor * x) % P
-                    if value:
+                    known = target.get(c)
+                    value = factor * x if known is None else known + factor * x
+                    if known is None or nonzero(value):
                         target[c] = value
-                        if not known:
+                        if known is None:
                             where[c].add(other)
-                    elif known:
+                    else:
                         del target[c]
                         where[c].discard(other)
                 heappush(queue, (len(target), other))
@@ -172,19 +176,19 @@ class Factors:
         if len(self._columns) != size:
             raise Singular
 
-    def solve(self, right: list[int]) -> list[int]:
+    def solve(self, right: list[Number]) -> list[Number]:
         """x with matrix * x = right."""
         b = right.copy()
         for number, down in zip(self._source, self._down, strict=True):
-            value = b[number] % P
+            value = b[number]
             b[number] = value
             if value:
                 for other, factor in down:
                     b[other] += factor * value
-        x = [0] * len(b)
+        x: list[Number] = [0] * len(b)
         for at in range(len(b) - 1, -1, -1):
             total = b[self._source[at]]
             for c, coefficient in self._up[at]:
                 total -= coefficient * x[c]
-            x[self._columns[at]] = total * self._scale[at] % P
+            x[self._columns[at]] = total * self._scale[at]
         return x

@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from bondgraph.exact.evaluate import demands, evaluate, pull, values_of
-from bondgraph.exact.field import P, Undefined
 from bondgraph.exact.linear import Row, eliminate
+from bondgraph.exact.numbers import Number, Numbers, Undefined
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.point import STRIDE
 from bondgraph.exact.trajectory import Trajectory
@@ -27,17 +27,18 @@ def parity(
     times: int,
     number: int,
     modes: Mapping[Expr, int] | None = None,
-) -> dict[str, list[Row]]:
-    """For each fault its columns in the rows that are free of unknowns.
+) -> tuple[Numbers, dict[str, list[Row]]]:
+    """The kind of numbers, and for each fault its columns in the rows that are free of unknowns.
 
     The equations of the part of the plant that the `roots` are about are differentiated up to
     `times` times. Raises `ExactUnavailable` or `Undefined` like a trajectory does.
     """
     part = plant.part_for(roots)
-    trajectory = plant.trajectory(number, times + 2, modes=modes, part=part)
+    trajectory = plant.trajectory(number, times + 2, modes=modes, part=part, roots=roots)
     rows = _Rows(plant, trajectory, faults, times).all()
     left: list[Row] = []
-    eliminate(rows, left)
+    numbers = trajectory.algebra.numbers
+    eliminate(numbers, rows, left)
     columns: dict[int, Row] = {}
     for at, row in enumerate(left):
         for column, x in row.items():
@@ -45,7 +46,7 @@ def parity(
     found: dict[str, list[Row]] = {fault: [] for fault in faults}
     for column in sorted(columns, reverse=True):
         found[faults[(-column - 1) // STRIDE]].append(columns[column])
-    return found
+    return numbers, found
 
 
 class _Truth:
@@ -82,7 +83,9 @@ class _Rows:
             if variable in self.active:
                 self.plain({variable: 1})
         for _, terms, when, common in part.balances:
-            off = when is not None and not self.truth.algebra.lead(evaluate([when], self.truth)[0])
+            off = when is not None and not self.truth.algebra.numbers.nonzero(
+                self.truth.algebra.lead(evaluate([when], self.truth)[0])
+            )
             self.plain({common: 1} if off else dict(terms))
         for _, law in part.laws:
             self.expression(law)
@@ -112,14 +115,14 @@ class _Rows:
     def plain(self, terms: dict[int, int]) -> None:
         """A sum of variables that is zero."""
         for k in range(self.times + 1):
-            self.rows.append({v * STRIDE + k: c % P for v, c in terms.items() if c % P})
+            self.rows.append({v * STRIDE + k: c for v, c in terms.items() if c})
 
     def known(self, symbol: Expr, variable: int) -> None:
         """A known input: what truly acts differs from what is told by the fault."""
         for k in range(self.times + 3):
-            row = {variable * STRIDE + k: 1}
+            row: Row = {variable * STRIDE + k: 1}
             if symbol in self.fault:
-                row[self.column(symbol, k)] = P - 1
+                row[self.column(symbol, k)] = -1
             self.rows.append(row)
 
     def column(self, symbol: Expr, k: int) -> int:
@@ -140,31 +143,31 @@ class _Rows:
             raise failures[expr]
         for k in range(self.times + 1):
             adjoints: dict[Expr, Any] = {expr: [*[0] * k, 1]}
-            pull(nodes, need, values, self.truth.algebra, adjoints, jumps=False)
+            pull(nodes, need, values, self.truth.algebra, adjoints)
             row: Row = {}
             for node, adjoint in adjoints.items():
                 if node.op is Op.SYM:
                     self.enter(row, node, adjoint)
             if minus is not None:
                 at, weight = (k + 1, -k - 1) if derivative else (k, -1)
-                _add(row, minus * STRIDE + at, weight)
+                self.add(row, minus * STRIDE + at, weight)
             if fault is not None and fault in self.fault:
-                _add(row, self.column(fault, k), 1)
+                self.add(row, self.column(fault, k), 1)
             self.rows.append(row)
 
-    def enter(self, row: Row, symbol: Expr, adjoint: list[int]) -> None:
+    def enter(self, row: Row, symbol: Expr, adjoint: list[Number]) -> None:
         """The share of one symbol, a variable or a faulty parameter."""
         where = self.part.place.get(symbol)
         for k, x in enumerate(adjoint):
             if where is not None:
-                _add(row, where[0] * STRIDE + k, where[1] * x)
+                self.add(row, where[0] * STRIDE + k, where[1] * x)
             elif symbol in self.fault:
-                _add(row, self.column(symbol, k), x)
+                self.add(row, self.column(symbol, k), x)
 
-
-def _add(row: Row, column: int, x: int) -> None:
-    value = (row.get(column, 0) + x) % P
-    if value:
-        row[column] = value
-    else:
-        row.pop(column, None)
+    def add(self, row: Row, column: int, x: Number) -> None:
+        """Add to an entry of a row."""
+        value = row.get(column, 0) + x
+        if self.truth.algebra.numbers.nonzero(value):
+            row[column] = value
+        else:
+            row.pop(column, None)

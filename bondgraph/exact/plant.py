@@ -1,38 +1,39 @@
 """Random exact behaviour of a bond graph, healthy or faulty: what its sensors would show.
 
-A trajectory draws all parameters, initial values and inputs at random from the field and gives
-the Taylor series of every signal. The oracle shares nothing with the elimination that it checks.
+A trajectory has the declared parameters, random initial values and inputs, and gives the Taylor
+series of every signal: in real numbers, or modulo a prime where the plant is rational. The oracle
+starts from the bonds and shares only arithmetic with the elimination that it checks: no
+derivative, inverse, branch or monotony of a function.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cached_property
+from contextlib import suppress
+from copy import copy
 from random import Random
+from typing import NamedTuple
 
 from bondgraph.exact import series
-from bondgraph.exact.algebra import Mixed, Waves
+from bondgraph.exact.algebra import Mixed, Taylor, Waves
 from bondgraph.exact.assembly import Assembly, Parts, assemble
 from bondgraph.exact.equations import Setting, Writer, written
-from bondgraph.exact.evaluate import (
-    ONSET,
-    evaluate,
-    highest_order,
-    holds_root,
-    integral_depth,
-)
-from bondgraph.exact.field import Functions, P, Undefined
+from bondgraph.exact.evaluate import evaluate, highest_order, integral_depth
+from bondgraph.exact.field import PrimeField
 from bondgraph.exact.known import KnownSample
 from bondgraph.exact.linear import Contradiction, Singular
+from bondgraph.exact.numbers import Number, Numbers, Undefined
+from bondgraph.exact.reals import Precision, Reals
 from bondgraph.exact.series import Series
 from bondgraph.exact.taylor import OverDetermined, Solver, solve
 from bondgraph.exact.trajectory import ATTEMPTS, Trajectory
 from bondgraph.exact.waves import WaveSample, amplitudes, linear, tell
-from bondgraph.ir.expr import Expr, Kind, Op, Symbol, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Symbol, symbols, topological
 from bondgraph.ir.graph import BondGraph
 
 _STILL = 5  # points that are tried with factors at rest, where there are no others
 _LOOSE = 6  # nonlinear elements that are left out, one after the other, where these fail too
+_MODULAR = 6  # points that are tried in a prime field, before real ones are
 _LARGE = 4000  # coefficients of a trajectory that are many
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
 
@@ -52,6 +53,68 @@ class Contradictory(ExactUnavailable):
         self.node = node
 
 
+class _Wanted(NamedTuple):
+    """A trajectory that is asked for."""
+
+    seed: int
+    order: int
+    faults: tuple[str, ...]
+    modes: Mapping[Expr, int]
+    part: Assembly
+    solver: Solver
+
+
+class _Declared:
+    """The numbers that a model declares, with random ones where it declares none."""
+
+    def __init__(self, plant: Plant, numbers: Numbers, random: Random) -> None:
+        self.algebra = Taylor(numbers)
+        self._plant = plant
+        self._random = random
+        self._known: dict[Expr, Series] = {}
+
+    def value(self, symbol: Expr) -> Series:
+        """The number of one constant."""
+        if symbol not in self._known:
+            numbers, declared = self.algebra.numbers, self._plant._declared.get(symbol)
+            if declared is None:
+                value = numbers.around(self._random, numbers.number(1))
+            else:
+                value = evaluate([declared], self)[0][0]
+                if symbol in self._plant._apart and declared.op is Op.NUM:
+                    value = numbers.around(self._random, value)
+            self._known[symbol] = [value]
+        return self._known[symbol]
+
+    def start(self, initial: Symbol) -> Number:
+        """Constants have no integrals."""
+        raise Mixed("an integral in a constant")
+
+
+def _changed(numbers: Numbers, random: Random, value: Series, n: int) -> Series:
+    """A parameter with a fault of finite size, a function of time, its sign the declared one."""
+    first = numbers.off(random, value[0])
+    return [first, *[numbers.any(random) * (first - value[0]) for _ in range(n - 1)]]
+
+
+def _error(numbers: Numbers, random: Random, value: Series, n: int) -> Series:
+    """What a faulty sensor or input adds to a signal, a function of time."""
+    size = value[0] if value and numbers.nonzero(value[0]) else numbers.number(1)
+    size = size * numbers.size(random)
+    return [numbers.any(random) * size for _ in range(n)]
+
+
+def _rational(roots: Iterable[Expr]) -> bool:
+    """Whether expressions are rational, decisions by known booleans apart."""
+    decided: dict[Expr, bool] = {}
+    for node in topological(roots):
+        below = all(decided[a] for a in node.args)
+        decided[node] = below and (node.op is not Op.SYM or node.symbol.kind is Kind.MODE)
+        if node.op in (Op.FN, Op.ROOT, Op.CMP) or (node.op is Op.IF and not decided[node.args[0]]):
+            return False
+    return True
+
+
 class Plant:
     """The oracle of one bond graph.
 
@@ -69,7 +132,6 @@ class Plant:
             *[s.reads for s in graph.sensors],
             *[n.when for n in graph.nodes if n.when is not None],
         ]
-        self._roots = tuple(roots)
         roots += [v.symbol for v in graph.values] + [i.symbol for i in graph.inputs if i.mode]
         constant = (Kind.PARAM, Kind.CONST, Kind.INITIAL, Kind.FREE)
         found = [n for n in topological(roots) if n.op is Op.SYM]
@@ -96,15 +158,37 @@ class Plant:
         self._samples: dict[object, Trajectory | WaveSample] = {}
         #: Parts whose laws no second point was found for once their constants were drawn.
         self.momentary: list[Assembly] = []
+        self._declared = {v.symbol: v.value for v in graph.values}
+        self._apart: frozenset[Expr] = frozenset()
+        self._rational: dict[tuple[int, ...], bool] = {}
+        self._precision = Precision()
 
-    @cached_property
-    def _private(self) -> frozenset[Expr]:
-        """Constants that a single law uses, and that may be retuned to satisfy it."""
-        uses: dict[Expr, int] = {}
-        for root in self._roots:
-            for part in topological([root]):
-                uses[part] = uses.get(part, 0) + 1
-        return frozenset(v for v in self.constants if uses.get(v) == 1)
+    def apart(self, constants: Iterable[Expr] | None = None) -> Plant:
+        """The same plant with some constants (None: all) away from their declared numbers.
+
+        Each trajectory draws them anew, over the reals within a factor of two.
+        """
+        other = copy(self)
+        other._apart = frozenset(self._declared if constants is None else constants)
+        other._samples, other.momentary = {}, []
+        return other
+
+    def numbered(self, expr: Expr) -> list[Expr]:
+        """The constants with a declared number that the plant or an expression uses."""
+        used = dict.fromkeys((*self.constants, *symbols(expr)))
+        numbers = [s for s in used if (v := self._declared.get(s)) is not None and v.op is Op.NUM]
+        return sorted(numbers, key=lambda s: s.id)
+
+    def rational(self, part: Assembly, roots: Iterable[Expr] = ()) -> bool:
+        """Whether a part of the plant, and what is asked of it, are rational.
+
+        A prime field is then as good as the real numbers, and faster.
+        """
+        if part.active not in self._rational:
+            parts = [law for _, law in part.laws] + [r.value for r in part.rates]
+            parts += [reads for _, _, reads in (*part.readings, *self._shown(part))]
+            self._rational[part.active] = _rational(parts)
+        return self._rational[part.active] and _rational(roots)
 
     def trajectory(
         self,
@@ -116,46 +200,59 @@ class Plant:
         modes: Mapping[Expr, int] | None = None,
         part: Assembly | None = None,
         solver: Solver = solve,
-        onset: bool = False,
+        roots: Iterable[Expr] = (),
     ) -> Trajectory:
         """A random trajectory to Taylor coefficient `order`; the same for equal arguments.
 
         `fault` and `faults` name faults that act at once, each as a random function of time.
         `modes` fixes known booleans, the others are random. With a `part` (see `part_for`) only
-        that part of the plant is simulated. At the `onset` faults are zero still. Where no point
-        satisfies all laws, elements of laws that contradict the others are left out: what holds
-        without them holds with them. Raises `ExactUnavailable`, KeyError for an unknown fault.
+        that part of the plant is simulated. Numbers are those of a prime field where the plant
+        and the `roots`, which are to be evaluated on it, are rational, else real. Raises
+        `ExactUnavailable`, KeyError for an unknown fault.
         """
         acting = (*faults, *([] if fault is None else [fault]))
         for name in acting:
             self._names[name]
+        wanted = _Wanted(seed, order, acting, modes or {}, part or self.assembly, solver)
+        if self.rational(wanted.part, roots):
+            with suppress(ExactUnavailable):
+                return self._tried(wanted, real=False)
+        return self._tried(wanted, real=True)
+
+    def _tried(self, wanted: _Wanted, real: bool) -> Trajectory:
+        """A trajectory over one kind of numbers, drawn again until all laws can be satisfied.
+
+        Where no real one is found, elements of laws that contradict the others are left out: what
+        holds without them holds with them.
+        """
         failure: Exception | None = None
-        plant, left_out = part or self.assembly, 0
-        for attempt in range(ATTEMPTS + _STILL * (1 + _LOOSE)):
+        plant, left_out = wanted.part, 0
+        for attempt in range(ATTEMPTS + _STILL * (1 + _LOOSE) if real else _MODULAR):
             if attempt >= ATTEMPTS + _STILL * (1 + left_out):
                 node = failure.node if isinstance(failure, Contradiction) else -1
                 if node < 0:
                     break
                 plant = plant._replace(laws=tuple(law for law in plant.laws if law[0] != node))
                 left_out += 1
-            functions = Functions(seed * ATTEMPTS + attempt)
+            seed = wanted.seed * ATTEMPTS + attempt
+            numbers = self._numbers(seed, real)
             try:
-                constants = self.draw_constants(seed, attempt, modes or {})
                 return self.draw(
-                    seed * ATTEMPTS + attempt,
-                    order,
-                    acting,
-                    constants,
-                    functions,
+                    seed,
+                    wanted.order,
+                    wanted.faults,
+                    self.draw_constants(wanted.seed, attempt, wanted.modes, numbers),
+                    numbers,
                     plant,
-                    tunable=True,
-                    solver=solver,
-                    onset=onset,
+                    solver=wanted.solver,
                     still=attempt >= ATTEMPTS,
                 )
             except (Undefined, Contradiction, Singular) as found:
                 failure = found
         raise ExactUnavailable(self._reason(failure))
+
+    def _numbers(self, seed: int, real: bool) -> Numbers:
+        return Reals(self.graph.pool.tables, self._precision) if real else PrimeField(seed)
 
     def wave(
         self,
@@ -171,11 +268,11 @@ class Plant:
         """
         failure: Exception | None = None
         for attempt in range(ATTEMPTS):
-            functions = Functions(seed * ATTEMPTS + attempt)
+            numbers = PrimeField(seed * ATTEMPTS + attempt)
             random = Random(seed * 2011 + attempt)
-            algebra = Waves(functions, random.randrange(2, P), random.randrange(2, P))
+            algebra = Waves(numbers, numbers.any(random), numbers.any(random))
             try:
-                constants = self.draw_constants(seed, attempt, modes or {})
+                constants = self.draw_constants(seed, attempt, modes or {}, numbers)
                 acting = tuple(faults)
                 return self._wave(algebra, random, acting, constants, part or self.assembly)
             except (Undefined, Contradiction) as found:
@@ -190,17 +287,18 @@ class Plant:
         constants: Mapping[Expr, Series],
         plant: Assembly,
     ) -> WaveSample:
+        numbers = algebra.numbers
         true = dict(constants)
-        errors = {self._names[name]: random.randrange(1, P) for name in faults}
+        errors = {self._names[name]: numbers.any(random) for name in faults}
         if any(self._names[name] in errors for name in self._read):
             raise Mixed("a law that uses a faulty reading")
         for symbol, error in errors.items():
             if symbol in true:
-                true[symbol] = [(true[symbol][0] + error) % P]
-        equations = Writer(plant, Setting(true, algebra.functions, 1, frozenset(), {})).all({})
+                true[symbol] = [true[symbol][0] + error]
+        equations = Writer(plant, Setting(true, numbers, 1)).all({})
         if not linear(equations):
             raise Mixed("a law that is not linear")
-        found = amplitudes(plant, equations, algebra.s, random)
+        found = amplitudes(numbers, plant, equations, algebra.s, random)
         sample = WaveSample(algebra, plant.place, constants, found, {})
         inside = frozenset(plant.active)
         reads = {symbol: reads for _, symbol, reads in self._shown(plant)}
@@ -224,9 +322,7 @@ class Plant:
         """A point on which `n` coefficients of all roots can be evaluated.
 
         A trajectory where that is affordable; exponentials where the orders are many and the
-        plant and the roots are linear. A healthy point is remembered. Faults set in at the point
-        where iteration has to find a value: of several solutions in the field it is to find the
-        one that was there before. Raises `ExactUnavailable`.
+        plant and the roots are linear. A healthy point is remembered. Raises `ExactUnavailable`.
         """
         acting = tuple(faults)
         if acting or modes:
@@ -246,24 +342,23 @@ class Plant:
     ) -> Trajectory | WaveSample:
         order = highest_order(roots, n)
         part = self.part_for(roots)
-        if order * len(part.active) > _LARGE and not integral_depth(roots):
+        large = order * len(part.active) > _LARGE and not integral_depth(roots)
+        if large and self.rational(part, roots):
             try:
                 found = self.wave(seed, faults, modes, part)
                 evaluate(roots, found)
                 return found
             except (Mixed, Undefined):
                 pass  # a trajectory can be had where exponentials cannot
-        onset = bool(faults) and holds_root(roots)
-        return self.trajectory(seed, order, faults=faults, modes=modes, part=part, onset=onset)
+        return self.trajectory(seed, order, faults=faults, modes=modes, part=part, roots=roots)
 
     def draw_constants(
-        self, seed: int, attempt: int, modes: Mapping[Expr, int]
+        self, seed: int, attempt: int, modes: Mapping[Expr, int], numbers: Numbers
     ) -> dict[Expr, Series]:
-        """Random parameters, and modes where they are not given."""
+        """The declared parameters, random ones where none is declared, and modes if not given."""
         random = Random(seed * 1009 + attempt)
-        out: dict[Expr, Series] = {}
-        for symbol in self.constants:
-            out[symbol] = [random.randrange(2, P)]
+        declared = _Declared(self, numbers, random)
+        out: dict[Expr, Series] = {symbol: declared.value(symbol) for symbol in self.constants}
         for symbol in self.modes:
             out[symbol] = [modes.get(symbol, random.getrandbits(1))]
         return out
@@ -274,31 +369,27 @@ class Plant:
         order: int,
         faults: Sequence[str],
         constants: Mapping[Expr, Series],
-        functions: Functions,
+        numbers: Numbers,
         part: Assembly,
-        tunable: bool = False,
         solver: Solver = solve,
-        onset: bool = False,
         still: bool = False,
     ) -> Trajectory:
         """A trajectory with these constants; raises `Undefined` and others if there is none.
 
-        The plant's own parameters are the constants plus the faults that act. If they are
-        `tunable`, a law that nothing else can satisfy is satisfied by a parameter of its own.
+        The plant's own parameters are the constants plus the faults that act.
         """
         random = Random(seed * 7 + 3)
         n = order + self._reach + 1 + _EXTRA
-        errors = {name: [random.randrange(1, P) for _ in range(n)] for name in faults}
-        if onset:
-            errors = {name: [0] * ONSET + error[ONSET:] for name, error in errors.items()}
         true = dict(constants)
-        readings = {name: x for name, x in errors.items() if name in self._read}
-        for name, error in errors.items():
+        readings: dict[str, Series] = {}
+        for name in faults:
             symbol = self._names[name]
             if symbol in true:
-                true[symbol] = series.add(true[symbol], error)
-        private = self._private if tunable else frozenset()
-        setting = Setting(true, functions, n, private, {}, still)
+                true[symbol] = _changed(numbers, random, true[symbol], n)
+            elif name in self._read:
+                readings[name] = _error(numbers, random, [], n)
+        shown = tuple(reads for _, _, reads in self._shown(part)) if numbers.real else ()
+        setting = Setting(true, numbers, n, shown, still)
         try:
             plant, equations = written(part, setting, readings, random)
             values = solver(plant, equations, setting, random, order + self._reach)
@@ -308,17 +399,16 @@ class Plant:
             raise ExactUnavailable(f"a law of the model holds {failure}") from None
         truth = KnownSample(plant.place, setting, values)
         told = dict(constants)
-        for symbol, value in setting.tuned.items():
-            told[symbol] = [(constants[symbol][0] + value) % P, *constants[symbol][1:]]
         inside = frozenset(plant.active)
         for name, symbol in self._inputs.items():
-            if name in errors and part.place[symbol][0] in inside:
-                wrong = series.scale(-1, errors[name])
-                told[symbol] = series.add(truth.value(symbol), wrong)
+            if name in faults and part.place[symbol][0] in inside:
+                true_value = truth.value(symbol)
+                told[symbol] = series.add(true_value, _error(numbers, random, true_value, n))
         for name, symbol, reads in self._shown(plant):
             reading = evaluate([reads], truth, order + 1)[0]
-            told[symbol] = series.add(reading, errors.get(name, [0]))
-        starts: dict[Symbol, int] = {}
+            wrong = _error(numbers, random, reading, n) if name in faults else [0]
+            told[symbol] = series.add(reading, wrong)
+        starts: dict[Symbol, Number] = {}
         for initial, state in self._starts.items():
             if plant.place[state][0] in inside:
                 starts[initial.symbol] = truth.value(state)[0]

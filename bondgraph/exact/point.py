@@ -1,8 +1,8 @@
 """A random point that satisfies the plant's equations and all that follows from them there.
 
 Linear equations are eliminated first; then nonlinear laws are made linear one by one: a law with
-one undetermined place is inverted, otherwise an argument of a function gets a random value. What
-stays undetermined in the end, inputs and states alike, is random.
+one undetermined place is inverted, otherwise an argument of a function gets a random value of a
+size at which the function does something. What stays undetermined in the end is random.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
+from math import isfinite
 from random import Random
 
 from bondgraph.exact import series
@@ -20,8 +21,7 @@ from bondgraph.exact.equations import (
     coefficient_row,
     reach,
 )
-from bondgraph.exact.evaluate import chosen, evaluate, values_of
-from bondgraph.exact.field import INVERSES, P, Undefined, inverse, of_fraction, root, sign
+from bondgraph.exact.evaluate import chosen, demands, evaluate, values_of
 from bondgraph.exact.forms import Form, Forms, NotLinear
 from bondgraph.exact.implicit import solve
 from bondgraph.exact.known import KnownSample, gradient
@@ -34,7 +34,7 @@ from bondgraph.exact.linear import (
     back_substitute,
     eliminate,
 )
-from bondgraph.exact.polynomials import trim
+from bondgraph.exact.numbers import INVERSES, Number, Numbers, Undefined
 from bondgraph.exact.series import Series
 from bondgraph.ir.expr import Expr, Op, topological
 
@@ -45,7 +45,7 @@ class _PointForms(Forms):
     """Forms that know what the point has determined so far."""
 
     def __init__(self, point: Point) -> None:
-        super().__init__(point.setting.functions)
+        super().__init__(point.numbers)
         self._point = point
 
     def try_known(self, form: Form) -> Series | None:
@@ -53,7 +53,7 @@ class _PointForms(Forms):
         known = super().try_known(form)
         if known is not None:
             return known[:1]
-        row = self._point.reduce(coefficient_row(form, 0, STRIDE))
+        row = self._point.reduce(self._point.row(form))
         return None if any(c != CONSTANT for c in row) else [row.get(CONSTANT, 0)]
 
 
@@ -73,11 +73,16 @@ class Point:
     ) -> None:
         self.place = place
         self.setting = setting
+        self.numbers: Numbers = setting.numbers
         self.random = random
         self.pivots: list[Pivot] = []
         self.rank: dict[int, int] = {}
 
     # ------------------------------------------------------------------ linear bookkeeping
+
+    def row(self, form: Form, order: int = 0) -> Row:
+        """A Taylor coefficient of a form, in columns."""
+        return coefficient_row(self.numbers, form, order, STRIDE)
 
     def reduce(self, row: Row) -> Row:
         """The row in columns that are not determined by others."""
@@ -95,7 +100,7 @@ class Point:
             for c in pivot:
                 if c not in row and c in rank:
                     heappush(queue, rank[c])
-            add_multiple(row, -x, pivot)
+            add_multiple(self.numbers, row, -x, pivot)
         return row
 
     def add(self, row: Row, number: int = -1) -> None:
@@ -107,17 +112,18 @@ class Point:
                 raise Contradiction(number)
             return
         column = max(columns, key=lambda c: (c % STRIDE, c))
-        factor = inverse(row.pop(column))
+        factor = self.numbers.inverse(row.pop(column))
         self.rank[column] = len(self.pivots)
-        self.pivots.append(Pivot(column, {c: x * factor % P for c, x in row.items()}))
+        self.pivots.append(Pivot(column, {c: x * factor for c, x in row.items()}))
 
-    def fix(self, row: Row) -> int:
-        """The value of a row; a random one is required if it is not determined."""
+    def fix(self, row: Row, value: Number | None = None) -> Number:
+        """The value of a row; if it is not determined it is required to be `value`, or random."""
         row = self.reduce(row)
         if any(c != CONSTANT for c in row):
-            value = self.random.randrange(1, P)
+            if value is None:
+                value = self.numbers.any(self.random)
             required = dict(row)
-            required[CONSTANT] = (row.get(CONSTANT, 0) - value) % P
+            required[CONSTANT] = row.get(CONSTANT, 0) - value
             self.add(required)
             return value
         return row.get(CONSTANT, 0)
@@ -128,10 +134,10 @@ class Point:
         for number, equation in enumerate(equations):
             if equation.rest is None:
                 for order in range(times[number] + 1):
-                    rows.append(coefficient_row(equation.form, order, STRIDE))
+                    rows.append(self.row(equation.form, order))
                     numbers.append(number)
         try:
-            self.pivots = eliminate(rows)
+            self.pivots = eliminate(self.numbers, rows)
         except Contradiction as failure:
             raise Contradiction(numbers[failure.row]) from None
         self.rank = {p.column: at for at, p in enumerate(self.pivots)}
@@ -151,6 +157,8 @@ class Point:
             for i, order in todo[stage]:
                 if order:
                     self.add(self.linearised(equations[i], order), i)
+        for expr in self.setting.shown:
+            self.show(expr)
 
     def values(self, pending: list[tuple[int, Equation]]) -> None:
         """Satisfy nonlinear equations themselves.
@@ -159,116 +167,122 @@ class Point:
         """
         self.random.shuffle(pending)
         while pending:
-            left, block = [], None
+            left, block, law = [], None, self.setting.shown
             for number, equation in pending:
                 found = self.satisfied(number, equation)
                 if found is not None:
                     left.append((number, equation))
-                    block = block or found
+                    if block is None and equation.rest is not None:
+                        block, law = found, (equation.rest,)
             if len(left) == len(pending) and block is not None:
                 solved = next((n for n, e in pending if self.by_itself(e)), None)
                 if solved is not None:
                     pending = [item for item in pending if item[0] != solved]
                     continue
-                self.fix(coefficient_row(block, 0, STRIDE))
+                self.choose(block, law)
             pending = left
 
-    def satisfied(self, number: int, equation: Equation) -> Form | None:
-        """None if the equation could be made true, else a form whose value it waits for."""
+    def choose(self, block: NotLinear, law: tuple[Expr, ...]) -> None:
+        """Give the argument that a law waits for a random value."""
+        scales = self.scales(law)
+        self.fix(self.row(block.form), self.numbers.argument(self.random, block.of, scales))
+
+    def scales(self, law: tuple[Expr, ...]) -> list[float]:
+        """The sizes of the numbers in a law."""
+        if not self.numbers.real:
+            return []
+        values = self.setting.values
+        found = [abs(float(values[n][0])) for n in topological(law) if n in values]
+        found += [abs(float(n.number)) for n in topological(law) if n.op is Op.NUM]
+        return [x for x in found if x and isfinite(x)]
+
+    def show(self, expr: Expr) -> None:
+        """Fix what a sensor's functions are asked for, so that the sensor has a value."""
+        nodes = topological([expr])
+        need = demands(nodes, [expr], 1)
+        while True:
+            failure = values_of(nodes, need, _PointSample(self))[1].get(expr)
+            if failure is None:
+                return
+            if not isinstance(failure, NotLinear):
+                raise failure
+            self.choose(failure, (expr,))
+
+    def satisfied(self, number: int, equation: Equation) -> NotLinear | None:
+        """None if the equation could be made true, else the argument that it waits for."""
         assert equation.rest is not None
         sample = _PointSample(self)
         nodes = topological([equation.rest])
         values, failures = values_of(nodes, dict.fromkeys(nodes, 1), sample)
         failure = failures.get(equation.rest)
-        row = coefficient_row(equation.form, 0, STRIDE)
+        row = self.row(equation.form)
         if failure is None:
-            add_multiple(row, 1, coefficient_row(values[equation.rest], 0, STRIDE))
-            try:
-                self.add(row, number)
-            except Contradiction:
-                if not self.tuned(equation):
-                    raise
+            add_multiple(self.numbers, row, 1, self.row(values[equation.rest]))
+            self.add(row, number)
             return None
         if not isinstance(failure, NotLinear):
             raise failure
         row = self.reduce(row)
         if all(c == CONSTANT for c in row) and self.impose(
-            equation.rest, -row.get(CONSTANT, 0) % P, values, failures, number
+            equation.rest, -row.get(CONSTANT, 0), values, failures, number
         ):
             return None
-        return failure.form
+        return failure
 
     def by_itself(self, equation: Equation) -> bool:
         """Satisfy a law by the one quantity that is still open in it, if it is only one."""
         assert equation.rest is not None
-        rest = self.reduce(coefficient_row(equation.form, 0, STRIDE))
+        if not self.numbers.real:
+            return False
+        rest = self.reduce(self.row(equation.form))
         rows: dict[Expr, Row] = {}
         for node in topological([equation.rest]):
             if node.op is Op.SYM and node in self.place:
-                variable, sign_ = self.place[node]
-                rows[node] = self.reduce({variable * STRIDE: sign_ % P})
+                variable, sign = self.place[node]
+                rows[node] = self.reduce({variable * STRIDE: sign})
             elif node.op is Op.DER:
                 return False
-        free = {c for row in (rest, *rows.values()) for c in row if c != CONSTANT}
-        if len(free) != 1:
+        direction = next((r for r in rows.values() if any(c != CONSTANT for c in r)), None)
+        if direction is None:
             return False
-        (column,) = free
+        lines = {node: self.along(row, direction) for node, row in rows.items()}
+        outside = self.along(rest, direction)
+        straight = {node: line for node, line in lines.items() if line is not None}
+        if outside is None or len(straight) < len(lines):
+            return False
         values = self.setting.values
-        leaves = {
-            n: [values[n][0]]
-            for n in topological([equation.rest])
-            if n.op is Op.SYM and n not in rows and n in values
-        }
-        leaves |= {n: [row.get(CONSTANT, 0), row.get(column, 0)] for n, row in rows.items()}
-        try:
-            found = solve(
-                equation.rest,
-                {n: trim(v) or [0] for n, v in leaves.items()},
-                trim([rest.get(CONSTANT, 0), rest.get(column, 0)]),
-                self.setting.functions,
-            )
-        except (Undefined, KeyError):
-            return False
-        self.add({column: 1, CONSTANT: -found % P})
+        nodes = topological([equation.rest])
+        fixed = {n: values[n][:1] for n in nodes if n.op is Op.SYM and n not in rows}
+        found = solve(self.numbers, equation.rest, fixed, straight, outside, self.random)
+        self.add({**direction, CONSTANT: -found})
         return True
 
-    def tuned(self, equation: Equation) -> bool:
-        """Satisfy a law that contradicts the others by a parameter that it alone uses."""
-        assert equation.rest is not None
-        nodes = topological([equation.rest])
-        values = self.setting.values
-        for symbol in [n for n in nodes if n in self.setting.private]:
-            first = values[symbol]
-            found = []
-            for step in range(3):  # the law must be linear in the parameter
-                values[symbol] = [(first[0] + step) % P, *first[1:]]
-                results, failures = values_of(nodes, dict.fromkeys(nodes, 1), _PointSample(self))
-                if equation.rest in failures:
-                    break
-                row = coefficient_row(equation.form, 0, STRIDE)
-                add_multiple(row, 1, coefficient_row(results[equation.rest], 0, STRIDE))
-                found.append(self.reduce(row).get(CONSTANT, 0))
-            values[symbol] = first
-            if len(found) < 3 or (found[2] - 2 * found[1] + found[0]) % P or found[1] == found[0]:
-                continue
-            change = -found[0] * inverse(found[1] - found[0]) % P
-            values[symbol] = [(first[0] + change) % P, *first[1:]]
-            self.setting.tuned[symbol] = (self.setting.tuned.get(symbol, 0) + change) % P
-            return True
-        return False
+    def along(self, row: Row, direction: Row) -> tuple[Number, Number] | None:
+        """(a, b) of a row that is a + b z, z being the direction without its constant."""
+        start = row.get(CONSTANT, 0)
+        open_ = {c: x for c, x in row.items() if c != CONSTANT}
+        if not open_:
+            return start, 0
+        base = {c: x for c, x in direction.items() if c != CONSTANT}
+        column = next(iter(base))
+        if column not in open_ or len(open_) != len(base):
+            return None
+        slope = open_[column] * self.numbers.inverse(base[column])
+        add_multiple(self.numbers, open_, -slope, base)
+        return None if open_ else (start, slope)
 
     def impose(
         self,
         node: Expr,
-        value: int,
+        value: Number,
         values: dict[Expr, Form],
         failures: dict[Expr, Exception],
         number: int,
     ) -> bool:
         """Give an expression a value through the only place where it is open, if there is one."""
         if node in values:
-            row = coefficient_row(values[node], 0, STRIDE)
-            row[CONSTANT] = (row.get(CONSTANT, 0) - value) % P
+            row = self.row(values[node])
+            row[CONSTANT] = row.get(CONSTANT, 0) - value
             self.add(row, number)
             return True
         if node.op is Op.IF:
@@ -277,26 +291,26 @@ class Point:
             taken = chosen(node, values, _PointForms(self))
             return self.impose(taken, value, values, failures, number)
         open_args = []
-        known: dict[Expr, int] = {}
+        known: dict[Expr, Number] = {}
         for a in node.args:
-            row = self.reduce(coefficient_row(values[a], 0, STRIDE)) if a in values else {0: 1}
+            row = self.reduce(self.row(values[a])) if a in values else {0: 1}
             if all(c == CONSTANT for c in row):
                 known[a] = row.get(CONSTANT, 0)
             else:
                 open_args.append(a)
-        if node.op is Op.MUL and not value:
+        if node.op is Op.MUL and not self.numbers.nonzero(value):
             powers = zip(node.args, node.exponents, strict=True)
-            if any(e > 0 and known.get(a) == 0 for a, e in powers):
+            if any(e > 0 and a in known and not self.numbers.nonzero(known[a]) for a, e in powers):
                 return True  # one factor is zero, whatever the others are
         if len(open_args) != 1:
             return False
         below = open_args[0]
-        inner = _undone(node, value, below, known, self.setting)
+        inner = _undone(self.numbers, node, value, below, known, self.random)
         return inner is not None and self.impose(below, inner, values, failures, number)
 
     def is_open(self, form: Form) -> bool:
         """Whether a form is not determined yet."""
-        return any(c != CONSTANT for c in self.reduce(coefficient_row(form, 0, STRIDE)))
+        return any(c != CONSTANT for c in self.reduce(self.row(form)))
 
     def linearised(self, equation: Equation, order: int) -> Row:
         """A Taylor coefficient (from 1) of a nonlinear equation, linear in its newest unknowns.
@@ -304,7 +318,7 @@ class Point:
         What it rests on below them is fixed first.
         """
         assert equation.rest is not None
-        row = coefficient_row(equation.form, order, STRIDE)
+        row = self.row(equation.form, order)
         variables: dict[int, Series] = {}
         newest: dict[int, int] = {}
         for variable, highest in reach(self.place, equation.rest).items():
@@ -318,21 +332,20 @@ class Point:
         sample = KnownSample(self.place, self.setting, variables)
         value = evaluate([equation.rest], sample, order + 1)[0]
         rest = value[order] if order < len(value) else 0
-        add_multiple(row, 1, {CONSTANT: rest} if rest else {})
+        add_multiple(self.numbers, row, 1, {CONSTANT: rest})
         slopes = gradient(equation.rest, sample, self.place)
         for variable, highest in newest.items():
             slope = slopes.get((variable, highest), 0)
             for k in range(order + 1, order + highest + 1):
-                slope = slope * k % P
-            if slope:
-                add_multiple(row, slope, {variable * STRIDE + order + highest: 1})
+                slope = slope * k
+            add_multiple(self.numbers, row, slope, {variable * STRIDE + order + highest: 1})
         return row
 
     # ------------------------------------------------------------------------ completion
 
-    def complete(self, columns: list[int]) -> dict[int, int]:
+    def complete(self, columns: list[int]) -> dict[int, Number]:
         """All values: what is still open is random; `columns` are wanted in any case."""
-        values: dict[int, int] = {}
+        values: dict[int, Number] = {}
         wanted = dict.fromkeys(columns)
         for _, row in self.pivots:
             for c in row:
@@ -340,51 +353,81 @@ class Point:
                     wanted[c] = None
         for column in sorted(wanted):
             if column not in self.rank:
-                values[column] = self.random.randrange(1, P)
+                values[column] = self.numbers.any(self.random)
         back_substitute(self.pivots, values)
         return values
 
 
 def _undone(
-    node: Expr, value: int, below: Expr, known: dict[Expr, int], setting: Setting
-) -> int | None:
-    """What `below` must be for the node to have a value; None if that cannot be said."""
+    numbers: Numbers,
+    node: Expr,
+    value: Number,
+    below: Expr,
+    known: dict[Expr, Number],
+    random: Random,
+) -> Number | None:
+    """What `below` must be for the node to have a value; None if that cannot be said.
+
+    Of several branches a random one.
+    """
     if node.op is Op.ADD:
-        factor = 1
+        factor: Number = 1
         for c, a in zip(node.coefficients, node.args, strict=True):
             if a is below:
-                factor = of_fraction(c)
+                factor = numbers.fraction(c)
             else:
-                value -= of_fraction(c) * known[a]
-        return value * inverse(factor) % P
+                value -= numbers.fraction(c) * known[a]
+        return value * numbers.inverse(factor)
     if node.op is Op.MUL:
         exponent = 1
         for a, e in zip(node.args, node.exponents, strict=True):
             if a is below:
                 exponent = e
             else:
-                value = value * series.power([known[a]], -e, 1)[0] % P
-        return _root(value, exponent)
+                value = value * series.power(numbers, [known[a]], -e, 1)[0]
+        return _root(numbers, value, exponent, random)
     if node.op is Op.FN and len(node.args) == 1:
-        name = INVERSES.get(node.name)
-        if name is None:
-            return None
-        if name in ("cube", "square"):
-            found = pow(value, 3 if name == "cube" else 2, P)
-        else:
-            found = setting.functions.value(name, value)
-        if setting.functions.value(node.name, found) != value % P:
-            raise Undefined("a value that the function does not take")  # atan beyond a right angle
-        return found
+        return _inverted(numbers, node.name, value, random)
     return None
 
 
-def _root(value: int, exponent: int) -> int:
+def _inverted(numbers: Numbers, name: str, value: Number, random: Random) -> Number | None:
+    """An argument at which a function has a value; None if that cannot be said."""
+    if name == "abs":
+        if numbers.sign(value) < 0:
+            raise Undefined("a negative absolute value")
+        return random.choice((1, -1)) * value
+    inverse = INVERSES.get(name)
+    if inverse is None:
+        return None
+    if inverse in ("cube", "square"):
+        found = value**3 if inverse == "cube" else value * value
+    else:
+        found = numbers.value(inverse, value)
+    if numbers.nonzero(numbers.value(name, found) - value):
+        raise Undefined("a value that the function does not take")
+    if numbers.real and name in ("sin", "cos", "tan", "cosh"):
+        found = _elsewhere(numbers, name, found, random)
+    return found
+
+
+def _elsewhere(numbers: Numbers, name: str, found: Number, random: Random) -> Number:
+    """Another argument at which a function that is not one to one has the same value."""
+    if name == "cosh":
+        return random.choice((1, -1)) * found
+    half_turn = numbers.angle(-1, 0)
+    if name == "tan":
+        return found + random.randrange(-1, 2) * half_turn
+    other = half_turn - found if name == "sin" else -found
+    return random.choice((found, other)) + 2 * random.randrange(-1, 2) * half_turn
+
+
+def _root(numbers: Numbers, value: Number, exponent: int, random: Random) -> Number:
     """A solution of x**exponent = value; raises `Undefined` if there is none."""
     if exponent in (1, -1):
-        return value if exponent == 1 else inverse(value)
-
+        return value if exponent == 1 else numbers.inverse(value)
     if exponent % 2 == 0:
-        return root(value, Fraction(1, exponent))
-    s = sign(value)
-    return s * root(s * value, Fraction(1, exponent)) % P
+        side = random.choice((1, -1)) if numbers.real else 1
+        return side * numbers.power(value, Fraction(1, exponent))
+    s = numbers.sign(value)
+    return s * numbers.power(s * value, Fraction(1, exponent))

@@ -9,14 +9,15 @@ from __future__ import annotations
 
 from contextlib import suppress
 
+from bondgraph.exact import series
 from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.equations import Equation, FormSample, Setting, made_linear, reach
 from bondgraph.exact.evaluate import evaluate
-from bondgraph.exact.field import P, Undefined, inverse
 from bondgraph.exact.forms import ORDERS, Form
 from bondgraph.exact.known import KnownSample
 from bondgraph.exact.linear import CONSTANT, Row, add_multiple
+from bondgraph.exact.numbers import Undefined
 from bondgraph.exact.point import STRIDE, Point
 from bondgraph.exact.structure import square_part
 from bondgraph.ir.expr import Expr, symbols
@@ -52,13 +53,14 @@ def _without_factor(plant: Assembly, equations: list[Equation], point: Point) ->
     for number, equation in enumerate(equations):
         if equation.rest is None or equation.form:
             continue
-        alike: dict[tuple[tuple[int, int], ...], list[Expr]] = {}  # multiples of one another
+        alike: dict[tuple[tuple[int, object], ...], list[Expr]] = {}  # multiples of one another
         for symbol in symbols(equation.rest):
             if symbol in plant.place:
                 row = point.reduce({plant.place[symbol][0] * STRIDE: 1})
                 if row and CONSTANT not in row:
-                    factor = inverse(row[min(row)])
-                    key = tuple(sorted((c, x * factor % P) for c, x in row.items()))
+                    factor = point.numbers.inverse(row[min(row)])
+                    label = point.numbers.label
+                    key = tuple((c, label(row[c] * factor)) for c in sorted(row))
                     alike.setdefault(key, []).append(symbol)
         for factors in alike.values():
             zero = dict.fromkeys(factors, plant.pool.zero)
@@ -142,7 +144,7 @@ def _resting(
         value = evaluate([equation.rest], still)[0]
     except (Undefined, Mixed):
         return None
-    return None if any(value) else list(keys)
+    return None if series.moves(setting.numbers, value) else list(keys)
 
 
 class _Basis:
@@ -155,19 +157,20 @@ class _Basis:
 
     def support(self, key: _Key) -> list[int]:
         """The numbers of the basis signals that a signal depends on."""
+        numbers = self._point.numbers
         row = dict(self._point.reduce({key[0] * STRIDE + key[1]: 1}))
         for column, pivot in self._pivots:
-            x = row.pop(column, 0)
-            if x:
-                add_multiple(row, -x, pivot)
+            x = row.pop(column, None)
+            if x is not None:
+                add_multiple(numbers, row, -x, pivot)
         open_columns = [c for c in row if c >= 0]
         if not open_columns:
             return [-2 - c for c in row]
         number = len(self.keys)
         self.keys.append(key)
-        row[-2 - number] = P - 1
+        row[-2 - number] = -1
         column = min(open_columns)
         scaled: Row = {}
-        add_multiple(scaled, inverse(row.pop(column)), row)
+        add_multiple(numbers, scaled, numbers.inverse(row.pop(column)), row)
         self._pivots.append((column, scaled))
         return [number]

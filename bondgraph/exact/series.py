@@ -1,7 +1,8 @@
-"""Truncated power series over the field: a list of Taylor coefficients, missing ones are zero.
+"""Truncated power series: a list of Taylor coefficients of any kind of number, missing ones zero.
 
 Functions follow the recurrences of automatic differentiation (Griewank and Walther, 2008, ch. 13),
-quadratic in the number of coefficients. `n` is the number of coefficients wanted throughout.
+quadratic in the number of coefficients. `n` is the number of coefficients wanted throughout, `f`
+the kind of the numbers.
 """
 
 from __future__ import annotations
@@ -10,32 +11,14 @@ from fractions import Fraction
 from operator import mul as _times
 from typing import TypeAlias
 
-from bondgraph.exact.field import (
-    Functions,
-    P,
-    Undefined,
-    inverse,
-    of_fraction,
-    root,
-    sign,
-    square_root,
-)
+from bondgraph.exact.numbers import Number, Numbers, Undefined
 
-Series: TypeAlias = list[int]
-
-_inverses: list[int] = [0, 1]
+Series: TypeAlias = list[Number]
 
 
-def reciprocal_of(k: int) -> int:
-    """1/k in the field for a small positive integer."""
-    while len(_inverses) <= k:
-        _inverses.append(pow(len(_inverses), -1, P))
-    return _inverses[k]
-
-
-def scale(c: int, a: Series) -> Series:
+def scale(c: Number, a: Series) -> Series:
     """A number times a series."""
-    return [c * x % P for x in a]
+    return [c * x for x in a]
 
 
 def add(a: Series, b: Series) -> Series:
@@ -44,7 +27,7 @@ def add(a: Series, b: Series) -> Series:
         a, b = b, a
     out = a.copy()
     for i, x in enumerate(b):
-        out[i] = (out[i] + x) % P
+        out[i] = out[i] + x
     return out
 
 
@@ -55,7 +38,7 @@ def mul(a: Series, b: Series, n: int) -> Series:
     size = len(a)
     if size == 1:
         c = a[0]
-        return [c * x % P for x in b[:n]] if c else [0]
+        return [c * x for x in b[:n]] if c else [0]
     length = len(b)
     backwards = b[::-1]
     out = []
@@ -63,28 +46,28 @@ def mul(a: Series, b: Series, n: int) -> Series:
         low = k - length + 1 if k >= length else 0
         high = k + 1 if k < size else size
         shift = length - 1 - k
-        out.append(sum(map(_times, a[low:high], backwards[shift + low : shift + high])) % P)
+        out.append(sum(map(_times, a[low:high], backwards[shift + low : shift + high])))
     return out
 
 
-def reciprocal(a: Series, n: int) -> Series:
+def reciprocal(f: Numbers, a: Series, n: int) -> Series:
     """1/a; raises `Undefined` if a(0) = 0."""
-    first = inverse(a[0])
+    first = f.inverse(a[0])
     if len(a) == 1:
         return [first]
     out = [first]
     for k in range(1, n):
         top = min(k, len(a) - 1)
         total = sum(map(_times, a[1 : top + 1], out[k - top : k][::-1]))
-        out.append(-total * first % P)
+        out.append(-total * first)
     return out
 
 
-def power(a: Series, exponent: int, n: int) -> Series:
+def power(f: Numbers, a: Series, exponent: int, n: int) -> Series:
     """An integer power; raises `Undefined` for a negative one where a(0) = 0."""
     if exponent == 1:
         return a
-    base = a if exponent > 0 else reciprocal(a, n)
+    base = a if exponent > 0 else reciprocal(f, a, n)
     out = base
     for bit in bin(abs(exponent))[3:]:
         out = mul(out, out, n)
@@ -95,151 +78,172 @@ def power(a: Series, exponent: int, n: int) -> Series:
 
 def derivative(a: Series) -> Series:
     """The time derivative; one coefficient shorter."""
-    return [k * x % P for k, x in enumerate(a[1:], 1)] or [0]
+    return [k * x for k, x in enumerate(a[1:], 1)] or [0]
 
 
-def integral(a: Series, start: int) -> Series:
+def integral(f: Numbers, a: Series, start: Number) -> Series:
     """The integral that begins at `start`."""
-    return [start, *[x * reciprocal_of(k) % P for k, x in enumerate(a, 1)]]
+    return [start, *[x * f.reciprocal_of(k) for k, x in enumerate(a, 1)]]
 
 
-def _power_from(a: Series, exponent: int, start: int, n: int) -> Series:
+def moves(f: Numbers, a: Series) -> bool:
+    """Whether a series is not zero in any of its coefficients."""
+    return any(map(f.nonzero, a))
+
+
+def _power_from(f: Numbers, a: Series, exponent: Number, start: Number, n: int) -> Series:
     """The series y with y(0) = start and a y' = exponent a' y."""
     out = [start]
     if len(a) == 1:
         return out
-    first = inverse(a[0])
+    first = f.inverse(a[0])
     for k in range(1, n):
         total = 0
         for j in range(1, min(k, len(a) - 1) + 1):
-            total += (exponent * j - k + j) * a[j] % P * out[k - j]
-        out.append(total % P * first % P * reciprocal_of(k) % P)
+            total += (exponent * j - k + j) * a[j] * out[k - j]
+        out.append(total * first * f.reciprocal_of(k))
     return out
 
 
-def rational_power(a: Series, exponent: Fraction, n: int) -> Series:
+def rational_power(f: Numbers, a: Series, exponent: Fraction, n: int) -> Series:
     """a**exponent, positive for positive a; raises `Undefined` where it does not exist."""
     if exponent.denominator == 1:
-        return power(a, exponent.numerator, n)
-    if not any(a) and exponent > 0:
+        return power(f, a, exponent.numerator, n)
+    if exponent > 0 and not moves(f, a):
         return [0]
-    return _power_from(a, of_fraction(exponent), root(a[0], exponent), n)
+    return _power_from(f, a, f.fraction(exponent), f.power(a[0], exponent), n)
 
 
 _HALF = Fraction(1, 2)
-_HALF_INVERSE = pow(2, -1, P)
 
 
-def _two(first: int, second: int, a: Series, sigma: int, n: int) -> tuple[Series, Series]:
+def _two(
+    f: Numbers, start: tuple[Number, Number], a: Series, sigma: int, n: int
+) -> tuple[Series, Series]:
     """(c, s) with c' = sigma s a', s' = c a': cos and sin for sigma = -1, cosh and sinh for 1."""
-    c, s = [first], [second]
-    weighted = [k * x % P for k, x in enumerate(a)]
+    c, s = [start[0]], [start[1]]
+    weighted = [k * x for k, x in enumerate(a)]
     for k in range(1, n if len(a) > 1 else 1):
         top = min(k, len(a) - 1)
         part = weighted[1 : top + 1]
-        inv = reciprocal_of(k)
-        next_c = sigma * sum(map(_times, part, s[k - top : k][::-1])) * inv % P
-        s.append(sum(map(_times, part, c[k - top : k][::-1])) * inv % P)
+        inv = f.reciprocal_of(k)
+        next_c = sigma * sum(map(_times, part, s[k - top : k][::-1])) * inv
+        s.append(sum(map(_times, part, c[k - top : k][::-1])) * inv)
         c.append(next_c)
     return c, s
 
 
-def exponential(a: Series, start: int, n: int) -> Series:
+def exponential(f: Numbers, a: Series, start: Number, n: int) -> Series:
     """The series y with y(0) = start and y' = a' y."""
     out = [start]
-    weighted = [k * x % P for k, x in enumerate(a)]
+    weighted = [k * x for k, x in enumerate(a)]
     for k in range(1, n if len(a) > 1 else 1):
         top = min(k, len(a) - 1)
         total = sum(map(_times, weighted[1 : top + 1], out[k - top : k][::-1]))
-        out.append(total * reciprocal_of(k) % P)
+        out.append(total * f.reciprocal_of(k))
     return out
 
 
-def _circle(f: Functions, a: Series, n: int) -> tuple[Series, Series]:
-    return _two(*f.circle(a[0]), a, -1, n)
+def _circle(f: Numbers, a: Series, n: int) -> tuple[Series, Series]:
+    return _two(f, f.circle(a[0]), a, -1, n)
 
 
-def _hyperbola(f: Functions, a: Series, n: int) -> tuple[Series, Series]:
-    return _two(*f.hyperbola(a[0]), a, 1, n)
+def _hyperbola(f: Numbers, a: Series, n: int) -> tuple[Series, Series]:
+    return _two(f, f.hyperbola(a[0]), a, 1, n)
 
 
-def _sign_of(a: Series) -> int:
+def _sign_of(f: Numbers, a: Series) -> int:
     """The sign at the point and around it; raises `Undefined` where the series passes zero."""
-    s = sign(a[0])
-    if s == 0 and any(a):
+    s = f.sign(a[0])
+    if s == 0 and moves(f, a):
         raise Undefined("the sign of a signal that passes zero")
     return s
 
 
-def _side_of(a: Series) -> int:
+def _side_of(f: Numbers, a: Series) -> int:
     """The sign just after the point, for functions that are continuous at zero."""
-    return sign(next((x for x in a if x), 0))
+    return f.sign(next((x for x in a if f.nonzero(x)), 0))
 
 
-def _root_from_rest(a: Series, exponent: Fraction, n: int) -> Series:
+def _root_from_rest(f: Numbers, a: Series, exponent: Fraction, n: int) -> Series:
     """A root of a signal that is positive just after the point, and may be zero there.
 
     Raises `Undefined` where the root is no power series.
     """
-    start = next(k for k, x in enumerate(a) if x)
+    start = next(k for k, x in enumerate(a) if f.nonzero(x))
     if start * exponent.numerator % exponent.denominator:
         raise Undefined("the root of a signal that passes zero")
     shift = start * exponent.numerator // exponent.denominator
-    return ([0] * shift + rational_power(a[start:], exponent, n))[:n]
+    return ([0] * shift + rational_power(f, a[start:], exponent, n))[:n]
 
 
-def function(f: Functions, name: str, a: Series, n: int) -> Series:
+def function(f: Numbers, name: str, a: Series, n: int) -> Series:
     """A function of one argument; raises `Undefined` where it has no value."""
     match name:
         case "abs":
-            return scale(_side_of(a), a)
+            return scale(_side_of(f, a), a)
         case "sign":
-            return [_sign_of(a) % P]
+            return [_sign_of(f, a)]
         case "ssq":
-            return scale(_side_of(a), mul(a, a, n))
+            return scale(_side_of(f, a), mul(a, a, n))
         case "sqrt":
-            return rational_power(a, _HALF, n)
+            return rational_power(f, a, _HALF, n)
         case "ssqrt" | "cbrt":
-            s = _side_of(a)
+            s = _side_of(f, a)
             exponent = _HALF if name == "ssqrt" else Fraction(1, 3)
-            return scale(s, _root_from_rest(scale(s, a), exponent, n)) if s else [0]
+            return scale(s, _root_from_rest(f, scale(s, a), exponent, n)) if s else [0]
         case "exp":
-            return exponential(a, f.exp(a[0]), n)
+            return exponential(f, a, f.exp(a[0]), n)
         case "cos" | "sin":
             return _circle(f, a, n)[name == "sin"]
         case "cosh" | "sinh":
             return _hyperbola(f, a, n)[name == "sinh"]
-        case "tan" | "tanh":
-            below, above = _circle(f, a, n) if name == "tan" else _hyperbola(f, a, n)
-            return mul(above, reciprocal(below, n), n)
+        case "tan":
+            below, above = _circle(f, a, n)
+            return mul(above, reciprocal(f, below, n), n)
     if name.startswith("table:"):
         value, slope = f.table(name, a[0])
-        return [value, *[slope * x % P for x in a[1:n]]]
+        return [value, *[slope * x for x in a[1:n]]]
+    if name == "tanh":
+        return _tanh(f, a, n)
     start = f.value(name, a[0])
     if len(a) == 1:
         return [start]
-    return integral(mul(slope_of(f, name, a, [start], n), derivative(a), n), start)[:n]
+    return integral(f, mul(slope_of(f, name, a, [start], n), derivative(a), n), start)[:n]
 
 
-def slope_of(f: Functions, name: str, a: Series, value: Series, n: int) -> Series:
+def _tanh(f: Numbers, a: Series, n: int) -> Series:
+    """The series y with y' = (1 - y^2) a'; cosh may be too large for a number."""
+    out = [f.value("tanh", a[0])]
+    weighted = [k * x for k, x in enumerate(a)]
+    slope: Series = [1 - out[0] * out[0]]
+    for k in range(1, n if len(a) > 1 else 1):
+        top = min(k, len(a) - 1)
+        total = sum(map(_times, weighted[1 : top + 1], slope[k - top : k][::-1]))
+        out.append(total * f.reciprocal_of(k))
+        slope.append(-sum(map(_times, out, reversed(out))))
+    return out
+
+
+def slope_of(f: Numbers, name: str, a: Series, value: Series, n: int) -> Series:
     """The derivative of a function at the series a, where the function is `value`."""
     match name:
         case "abs":
-            return [_side_of(a) % P]
+            return [_side_of(f, a)]
         case "sign":
             return [0]
         case "ssq":
-            return scale(2 * _side_of(a), a)
+            return scale(2 * _side_of(f, a), a)
         case "sqrt":
-            return reciprocal(scale(2, value), n)
+            return reciprocal(f, scale(2, value), n)
         case "ssqrt":
-            return reciprocal(scale(2 * _side_of(value), value), n)
+            return reciprocal(f, scale(2 * _side_of(f, value), value), n)
         case "cbrt":
-            return reciprocal(scale(3, mul(value, value, n)), n)
+            return reciprocal(f, scale(3, mul(value, value, n)), n)
         case "exp":
             return value
         case "log":
-            return reciprocal(a, n)
+            return reciprocal(f, a, n)
         case "sin":
             return _circle(f, a, n)[0]
         case "cos":
@@ -255,87 +259,68 @@ def slope_of(f: Functions, name: str, a: Series, value: Series, n: int) -> Serie
     return _slope_of_inverse(f, name, a, value[0], n)
 
 
-def _slope_of_inverse(f: Functions, name: str, a: Series, value: int, n: int) -> Series:
+def _slope_of_inverse(f: Numbers, name: str, a: Series, value: Number, n: int) -> Series:
     square = mul(a, a, n)
     minus = scale(-1, square)
+    half = -f.reciprocal_of(2)
     match name:
         case "atan":
-            return reciprocal(add([1], square), n)
+            return reciprocal(f, add([1], square), n)
         case "atanh":
-            return reciprocal(add([1], minus), n)
+            return reciprocal(f, add([1], minus), n)
         case "asin":
-            return _power_from(add([1], minus), -_HALF_INVERSE, inverse(f.circle(value)[0]), n)
+            start = f.inverse(f.circle(value)[0])
+            return _power_from(f, add([1], minus), half, start, n)
         case "acos":
-            return scale(
-                -1, _power_from(add([1], minus), -_HALF_INVERSE, inverse(f.circle(value)[1]), n)
-            )
+            start = f.inverse(f.circle(value)[1])
+            return scale(-1, _power_from(f, add([1], minus), half, start, n))
         case "asinh":
-            return _power_from(add([1], square), -_HALF_INVERSE, inverse(f.hyperbola(value)[0]), n)
+            start = f.inverse(f.hyperbola(value)[0])
+            return _power_from(f, add([1], square), half, start, n)
         case "acosh":
-            start = inverse(f.hyperbola(value)[1])
-            return _power_from(add([P - 1], square), -_HALF_INVERSE, start, n)
+            start = f.inverse(f.hyperbola(value)[1])
+            return _power_from(f, add([-1], square), half, start, n)
     raise KeyError(name)
 
 
 # ------------------------------------------------------------ functions of two arguments
 
 
-def function_of_two(f: Functions, name: str, a: Series, b: Series, n: int) -> Series:
+def function_of_two(f: Numbers, name: str, a: Series, b: Series, n: int) -> Series:
     """`pow`, `min`, `max` or `atan2`; raises `Undefined` where it has no value."""
     match name:
         case "pow":
             exponent = mul(b, function(f, "log", a, n), n)
-            return exponential(exponent, f.exp(exponent[0]), n)
+            return exponential(f, exponent, f.exp(exponent[0]), n)
         case "min" | "max":
-            return a if takes_first(name, a, b) else b
+            return a if takes_first(f, name, a, b) else b
         case "atan2":
             square = add(mul(a, a, n), mul(b, b, n))
-            radius = inverse(square_root(square[0]))
-            start = f.angle(b[0] * radius % P, a[0] * radius % P)
+            radius = f.inverse(f.power(square[0], _HALF))
+            start = f.angle(b[0] * radius, a[0] * radius)
             if len(a) == len(b) == 1:
                 return [start]
             turn = add(mul(b, derivative(a), n), scale(-1, mul(a, derivative(b), n)))
-            return integral(mul(turn, reciprocal(square, n), n), start)[:n]
+            return integral(f, mul(turn, reciprocal(f, square, n), n), start)[:n]
     raise KeyError(name)
 
 
-def takes_first(name: str, a: Series, b: Series) -> bool:
+def takes_first(f: Numbers, name: str, a: Series, b: Series) -> bool:
     """Whether `min` or `max` of two series is the first of them."""
-    return (sign(b[0] - a[0]) >= 0) == (name == "min")
+    return (f.sign(b[0] - a[0]) >= 0) == (name == "min")
 
 
 def slopes_of_two(
-    f: Functions, name: str, a: Series, b: Series, value: Series, n: int
+    f: Numbers, name: str, a: Series, b: Series, value: Series, n: int
 ) -> tuple[Series, Series]:
     """The two partial derivatives of a function of two arguments."""
     match name:
         case "pow":
-            inner = mul(b, mul(value, reciprocal(a, n), n), n)
+            inner = mul(b, mul(value, reciprocal(f, a, n), n), n)
             return inner, mul(value, function(f, "log", a, n), n)
         case "min" | "max":
-            return ([1], [0]) if takes_first(name, a, b) else ([0], [1])
+            return ([1], [0]) if takes_first(f, name, a, b) else ([0], [1])
         case "atan2":
-            square = reciprocal(add(mul(a, a, n), mul(b, b, n)), n)
+            square = reciprocal(f, add(mul(a, a, n), mul(b, b, n)), n)
             return mul(b, square, n), scale(-1, mul(a, square, n))
     raise KeyError(name)
-
-
-__all__ = [
-    "Series",
-    "Undefined",
-    "add",
-    "derivative",
-    "exponential",
-    "function",
-    "function_of_two",
-    "integral",
-    "mul",
-    "power",
-    "rational_power",
-    "reciprocal",
-    "reciprocal_of",
-    "scale",
-    "slope_of",
-    "slopes_of_two",
-    "takes_first",
-]

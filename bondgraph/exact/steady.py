@@ -65,7 +65,7 @@ def _with(
     values: list[Series] = [[] for _ in range(plant.count_of)]
     for v in plant.active:
         series = [found[v * STRIDE + k] for k in range(_TOP + 1)]
-        while len(series) > 1 and not series[-1]:
+        while len(series) > 1 and not setting.numbers.nonzero(series[-1]):
             series.pop()
         values[v] = series
     return values

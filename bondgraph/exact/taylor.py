@@ -14,10 +14,10 @@ from typing import NamedTuple, TypeAlias
 from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.equations import Equation, Setting, coefficient_row
 from bondgraph.exact.evaluate import evaluate
-from bondgraph.exact.field import P, inverse
 from bondgraph.exact.forms import ORDERS
 from bondgraph.exact.known import KnownSample, gradient
-from bondgraph.exact.linear import CONSTANT, Contradiction, Factors, Singular
+from bondgraph.exact.linear import CONSTANT, Contradiction, Factors, Row, Singular
+from bondgraph.exact.numbers import Number
 from bondgraph.exact.point import STRIDE, Point
 from bondgraph.exact.rest import settled
 from bondgraph.exact.series import Series
@@ -124,10 +124,10 @@ def _independent(
     out = []
     for number, equation in enumerate(equations):
         if equation.rest is None:
-            if not point.reduce(coefficient_row(equation.form, 0, STRIDE)):
+            if not point.reduce(coefficient_row(setting.numbers, equation.form, 0, STRIDE)):
                 continue
             for order in range(_MARGIN + 1):
-                point.add(coefficient_row(equation.form, order, STRIDE), number)
+                point.add(coefficient_row(setting.numbers, equation.form, order, STRIDE), number)
         out.append(equation)
     return out
 
@@ -148,36 +148,37 @@ def _continue(
     if not inner:
         return
     sample = KnownSample(plant.place, setting, values)
-    matrix = []
+    numbers = setting.numbers
+    matrix: list[Row] = []
     for i, equation in enumerate(system.equations):
-        row: dict[int, int] = {}
+        row: Row = {}
         for key, weights in equation.form.items():
             variable, derivative = divmod(key, ORDERS)
             if key != CONSTANT and variable in position and derivative + c[i] == d[variable]:
-                row[position[variable]] = weights[0] % P
+                row[position[variable]] = weights[0]
         if equation.rest is not None:
             for (variable, derivative), x in gradient(equation.rest, sample, plant.place).items():
                 if variable in position and derivative + c[i] == d[variable]:
                     at = position[variable]
-                    row[at] = (row.get(at, 0) + x) % P
-        matrix.append({at: x for at, x in row.items() if x})
-    factors = Factors(matrix)
+                    row[at] = row.get(at, 0) + x
+        matrix.append({at: x for at, x in row.items() if numbers.nonzero(x)})
+    factors = Factors(numbers, matrix)
     factorial = [1]
     for k in range(1, order + max(d, default=0) + max(c, default=0) + 2):
-        factorial.append(factorial[-1] * k % P)
-    below = [inverse(x) for x in factorial]
+        factorial.append(factorial[-1] * k)
+    below = [numbers.inverse(x) for x in factorial]
     for stage in range(1, order - slack + 1):
         right = []
         for i, equation in enumerate(system.equations):
             at = stage + c[i]
-            right.append(-_residue(equation, at, values, sample) * factorial[at] % P)
+            right.append(-_residue(equation, at, values, sample) * factorial[at])
         for j, x in zip(inner, factors.solve(right), strict=True):
-            values[j].append(x * below[stage + d[j]] % P)
+            values[j].append(x * below[stage + d[j]])
 
 
-def _residue(equation: Equation, order: int, values: list[Series], sample: KnownSample) -> int:
+def _residue(equation: Equation, order: int, values: list[Series], sample: KnownSample) -> Number:
     """A Taylor coefficient of an equation, coefficients not known yet taken as zero."""
-    total = 0
+    total: Number = 0
     for key, weights in equation.form.items():
         if key == CONSTANT:
             total += weights[order] if order < len(weights) else 0
@@ -193,7 +194,7 @@ def _residue(equation: Equation, order: int, values: list[Series], sample: Known
     if equation.rest is not None:
         rest: Series = evaluate([equation.rest], sample, order + 1)[0]
         total += rest[order] if order < len(rest) else 0
-    return total % P
+    return total
 
 
 def _all_at_once(

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.assembly import Assembly
-from bondgraph.exact.field import P, Undefined
 from bondgraph.exact.known import KnownSample
 from bondgraph.exact.linear import Contradiction, Singular
+from bondgraph.exact.numbers import Number, Undefined
 from bondgraph.exact.series import Series
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Symbol
 
@@ -37,7 +37,7 @@ class Trajectory:
         faults: tuple[str, ...],
         told: dict[Expr, Series],
         truth: KnownSample,
-        starts: dict[Symbol, int],
+        starts: dict[Symbol, Number],
         part: Assembly,
         still: bool = False,
     ) -> None:
@@ -69,19 +69,19 @@ class Trajectory:
         """Whether no fault acts."""
         return not self.faults
 
-    def truly(self, variable: Expr) -> int | None:
+    def truly(self, variable: Expr) -> Number | None:
         """The true value of a variable at the point; None for one that the plant has not."""
         try:
             return self._truth.value(variable)[0]
         except Mixed:  # not one of the plant's variables
             return None
 
-    def start(self, initial: Symbol) -> int:
+    def start(self, initial: Symbol) -> Number:
         """The value from which integrals with this initial value begin; random if undeclared."""
         found = self._starts.get(initial)
         if found is None:
             draw = Random(f"{self.seed}:{initial.name}")
-            found = self._starts[initial] = draw.randrange(2, P)
+            found = self._starts[initial] = self.algebra.numbers.any(draw)
         return found
 
     def earlier(self, steps: int) -> Trajectory:
@@ -101,12 +101,12 @@ class Trajectory:
         return found
 
     def _draw_earlier(self, steps: int, constants: dict[Expr, Series]) -> Trajectory | None:
-        functions = self.algebra.functions
+        numbers = self.algebra.numbers
         for attempt in range(0 if any(p is self.part for p in self.plant.momentary) else ATTEMPTS):
             seed = (self.seed * 31 + steps) * ATTEMPTS + attempt
             try:
                 return self.plant.draw(
-                    seed, self.order, (), constants, functions, self.part, still=self.still
+                    seed, self.order, (), constants, numbers, self.part, still=self.still
                 )
             except (Undefined, Contradiction, Singular):
                 continue

@@ -13,9 +13,9 @@ from bondgraph.exact.algebra import Mixed, Wave, Waves
 from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.equations import Equation
 from bondgraph.exact.evaluate import evaluate
-from bondgraph.exact.field import P
 from bondgraph.exact.forms import ORDERS
 from bondgraph.exact.linear import CONSTANT, Row, back_substitute, eliminate
+from bondgraph.exact.numbers import Number, Numbers
 from bondgraph.exact.series import Series
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Symbol
 
@@ -29,29 +29,29 @@ def linear(equations: list[Equation]) -> bool:
 
 
 def amplitudes(
-    plant: Assembly, equations: list[Equation], s: int, random: Random
-) -> dict[int, int]:
+    numbers: Numbers, plant: Assembly, equations: list[Equation], s: Number, random: Random
+) -> dict[int, Number]:
     """The amplitude of every variable; free ones are random.
 
     Raises `Contradiction` if the equations are more than the variables.
     """
-    powers = [1]
+    powers: list[Number] = [1]
     for _ in range(ORDERS):
-        powers.append(powers[-1] * s % P)
+        powers.append(powers[-1] * s)
     rows = []
     for equation in equations:
         row: Row = {}
         for key, weights in equation.form.items():
             variable, derivative = divmod(key, ORDERS)
-            x = (row.get(variable, 0) + weights[0] * powers[derivative]) % P
+            x = row.get(variable, 0) + weights[0] * powers[derivative]
             if x:
                 row[variable] = x
             else:
                 del row[variable]
         rows.append(row)
-    pivots = eliminate(rows)
+    pivots = eliminate(numbers, rows)
     determined = {p.column for p in pivots}
-    values = {j: random.randrange(1, P) for j in plant.active if j not in determined}
+    values = {j: numbers.any(random) for j in plant.active if j not in determined}
     back_substitute(pivots, values)
     return values
 
@@ -64,7 +64,7 @@ class WaveSample:
         algebra: Waves,
         place: Mapping[Expr, tuple[int, int]],
         constants: Mapping[Expr, Series],
-        found: Mapping[int, int],
+        found: Mapping[int, Number],
         told: dict[Expr, Wave],
     ) -> None:
         self.algebra = algebra
@@ -84,9 +84,9 @@ class WaveSample:
         if symbol not in self._place:
             raise Mixed("the initial value of a state")
         variable, sign = self._place[symbol]
-        return Wave(self._found[variable] * sign % P, 1)
+        return Wave(self._found[variable] * sign, 1)
 
-    def start(self, initial: Symbol) -> int:
+    def start(self, initial: Symbol) -> Number:
         """Exponentials have no integrals from an initial value."""
         raise Mixed("an integral from an initial value")
 
@@ -94,12 +94,12 @@ class WaveSample:
         """Linear residuals look the same at every time."""
         return self
 
-    def tell(self, symbol: Expr, amplitude: int) -> None:
+    def tell(self, symbol: Expr, amplitude: Number) -> None:
         """Say what a residual is told about a signal."""
-        self._told[symbol] = Wave(amplitude % P, 1)
+        self._told[symbol] = Wave(amplitude, 1)
 
 
-def tell(sample: WaveSample, readings: Mapping[Expr, Expr], errors: Mapping[Expr, int]) -> None:
+def tell(sample: WaveSample, readings: Mapping[Expr, Expr], errors: Mapping[Expr, Number]) -> None:
     """Fill in what sensors show, and the errors of sensors and known inputs."""
     for symbol, reads in readings.items():
         value = evaluate([reads], sample)[0]

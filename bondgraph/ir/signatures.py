@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from html import escape
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 from bondgraph.text.tuples import NamedTuple
 
@@ -12,17 +14,25 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 
+_NONE: Mapping[Any, Any] = MappingProxyType({})
+
+
 class SignatureMatrix(NamedTuple):
     """Which residual reacts to which fault: `rows[fault][residual]`, exact.
 
     `orders[residual]` gives the highest derivative of each known signal that the residual sees
-    (-1: only under an integral).
+    (-1: only under an integral). An entry says what is seen at the declared numbers. `apart` has
+    those that are seen only elsewhere, by (residual, fault): the declared values of which any one
+    would have to differ, none where it takes several. `unconfirmed` has the residuals whose
+    entries no trajectory of the machine confirms, with the reason.
     """
 
     residuals: tuple[str, ...]
     faults: tuple[str, ...]
     rows: tuple[tuple[bool, ...], ...]
     orders: tuple[dict[str, int], ...]
+    apart: Mapping[tuple[str, str], tuple[str, ...]] = _NONE
+    unconfirmed: Mapping[str, str] = _NONE
 
     def row(self, fault: str) -> tuple[bool, ...]:
         """The signature of a fault; raises KeyError for an unknown name."""
@@ -49,6 +59,11 @@ class SignatureMatrix(NamedTuple):
             if any(row):
                 found.setdefault(row, []).append(fault)
         return tuple(tuple(g) for g in found.values())
+
+    def only_off_nominal(self, residual: str) -> dict[str, tuple[str, ...]]:
+        """The faults that a residual sees only where declared values differ, with these values."""
+        found = {fault: values for (name, fault), values in self.apart.items() if name == residual}
+        return {fault: found[fault] for fault in self.faults if fault in found}
 
     def confused_with(self, fault: str) -> tuple[str, ...]:
         """The other faults with the same signature."""

@@ -19,7 +19,6 @@ from bondgraph.passes.initial import without_free_integrals
 from bondgraph.passes.lowering.derivative import Jets, TooManyOperations
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.reactions import Reactions
-from bondgraph.passes.signatures import moving
 from bondgraph.passes.solve import constant, solve
 from bondgraph.passes.zero import is_zero
 from bondgraph.text.diagnostic import Report
@@ -56,7 +55,7 @@ def decouple(
     where there is none or none could be found in closed form. KeyError for a name that is no
     fault candidate. (Staroswiecki and Comtet-Varga, 2001; Frisk and Nyberg, 2001.)
     """
-    exprs = moving(reduced, residuals)
+    exprs = _moving(reduced, residuals)
     found: list[Closing] = []
     for fault in faults:
         symbol = residuals.system.graph.fault_symbol(fault)
@@ -69,6 +68,25 @@ def decouple(
         if not own:
             _say(report, residuals, fault, [r for r, _ in rows])
     return reduced._replace(closings=(*reduced.closings, *found))
+
+
+_LONG = 2000  # nodes
+
+
+def _moving(reduced: ReducedSystem, residuals: ResidualSet) -> list[Expr]:
+    """The residuals in the form that shows what a parameter does that moves.
+
+    Differentiating takes an undeclared initial value away only while its parameter is constant.
+    A long relation is left as it is: there the random points are exponentials, without integrals.
+    """
+    closings = {id(c.equation): c for c in reduced.closings}
+    out = []
+    for residual in residuals.residuals:
+        raw = closings[id(residual.closing)].raw
+        nodes = topological([raw])
+        moved = any(n.op is Op.INT and n.symbol.kind is Kind.FREE for n in nodes)
+        out.append(raw if moved and len(nodes) <= _LONG else residual.expr)
+    return out
 
 
 def _say(report: Report, residuals: ResidualSet, fault: str, seen: list[Residual]) -> None:

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
+from functools import cached_property, partial
 from random import Random
 from typing import Any
 
 from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.evaluate import Sample, evaluate, highest_order, integral_depth
-from bondgraph.exact.field import P, Undefined
+from bondgraph.exact.numbers import Number, Undefined
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.steady import rest, steady
 from bondgraph.exact.taylor import Solver
-from bondgraph.ir.expr import Expr, Op, Symbol, topological
+from bondgraph.exact.trajectory import Trajectory
+from bondgraph.exact.waves import WaveSample
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Symbol, topological
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signatures import Detectability, SignatureMatrix
 from bondgraph.passes.reactions import Reactions
 
 _TRIES = 12  # points at which a residual or a law may have no value, drawn again
+_SIZES = 5  # of a constant error, until one leaves all laws a value
 
 
 def detectability(
@@ -28,14 +32,15 @@ def detectability(
     A fault is strongly detectable in a residual if a constant fault (a parameter off by a
     constant, a sensor or known input with a constant error) keeps the residual away from zero in
     steady operation: every effort and flow of the machine is constant, known and unknown inputs
-    are, and what the model writes as an integral may grow. It is weakly detectable if the
-    residual reacts, but not so (Chen and Patton, 1999; Nyberg, 2002). So r = U - R i - L i' sees
-    R strongly and L weakly, a residual that had to be differentiated sees no constant error of a
-    sensor for long, and an integral keeps what it has once taken up. Of a machine with switches
-    or branches it is enough that one mode or branch shows the fault.
+    are, and what the model writes as an integral may grow. So is a constant error of a signal
+    that shows as long as the machine moves, as behind the derivative of a nonlinear law. It is
+    weakly detectable if the residual reacts, but not so (Chen and Patton, 1999; Nyberg, 2002). So
+    r = U - R i - L i' sees R strongly and L weakly, a residual that had to be differentiated sees
+    no constant error of a sensor for long, and an integral keeps what it has once taken up. Of a
+    machine with switches or branches it is enough that one mode or branch shows the fault.
 
-    Decided at random points modulo a 61-bit prime, as the signatures are. Where the machine
-    has no steady operation it is taken at rest (no flow), and without that the answer is None.
+    Decided at the declared numbers, as the signatures are. Where the machine has no steady
+    operation it is taken at rest (no flow), and without that the answer is None.
     """
     items = [(r.expr, matrix.signature(r.name)) for r in residuals.residuals]
     columns = _strong(items, plant, seed)
@@ -82,11 +87,16 @@ def _strong(
 
 
 class _Point:
-    """Steady operation, and the same plant in motion for what integrals have taken up."""
+    """Steady operation, and on demand the same plant in motion."""
 
-    def __init__(self, still: Sample, moving: Sample) -> None:
+    def __init__(self, still: Trajectory, move: Callable[[], Trajectory | WaveSample]) -> None:
         self.still = still
-        self.moving = moving
+        self._move = move
+
+    @cached_property
+    def moving(self) -> Trajectory | WaveSample:
+        """The plant in motion."""
+        return self._move()
 
 
 def _point(
@@ -108,36 +118,57 @@ def _at(
     for turn in range(_TRIES):
         at = number + 100_000 * turn
         try:
-            still = plant.trajectory(at, order, modes=modes, part=part, solver=solver)
+            still = plant.trajectory(at, order, modes=modes, part=part, solver=solver, roots=exprs)
             evaluate(exprs, still, n)
         except Undefined:
             continue
         except (ExactUnavailable, Mixed):
             return None
-        moving = plant.sample(exprs, at, n, modes=modes) if n > 2 else still
-        return _Point(still, moving)
+        return _Point(still, partial(plant.sample, exprs, at, n, modes=modes))
     return None
 
 
 def _held(expr: Expr, symbol: Expr, point: _Point) -> bool:
-    """Whether a residual that is told a constantly wrong value stays away from zero."""
-    n = integral_depth([expr]) + 2
-    taken_up: dict[Symbol, int] = {}
-    moving = _Wrong(point.moving, symbol, taken_up)
-    for node in topological([expr]):
-        if node.op is Op.INT and _differ(node.args[0], point.moving, moving):
-            taken_up[node.symbol] = Random(node.symbol.name).randrange(1, P)
-    try:
-        value = evaluate([expr], _Wrong(point.still, symbol, taken_up), n)[0]
-    except (Undefined, Mixed):
+    """Whether a residual that is told a constantly wrong value stays away from zero.
+
+    For a parameter in steady operation, for a signal also in motion: a constant error that the
+    derivative of a nonlinear law lets through shows as long as the machine moves.
+    """
+    if _shows(expr, symbol, point, point.still):
+        return True
+    if symbol.symbol.kind not in KNOWN_SIGNALS:
         return False
-    return any(value)
+    try:
+        moving = point.moving
+    except (ExactUnavailable, Undefined):
+        return False
+    return isinstance(moving, Trajectory) and _shows(expr, symbol, point, moving)
+
+
+def _shows(expr: Expr, symbol: Expr, point: _Point, at: Trajectory) -> bool:
+    """Whether a constant error moves a residual at a point; of several sizes one that it takes."""
+    n = integral_depth([expr]) + 2
+    integrals = [node for node in topological([expr]) if node.op is Op.INT]
+    for turn in range(_SIZES):
+        taken_up: set[Symbol] = set()
+        if integrals:
+            moving = _Wrong(point.moving, symbol, turn, taken_up)
+            for node in integrals:
+                if _differ(node.args[0], point.moving, moving):
+                    taken_up.add(node.symbol)
+        try:
+            value = evaluate([expr], _Wrong(at, symbol, turn, taken_up), n)[0]
+        except (Undefined, Mixed):
+            continue
+        return at.algebra.moves(value)
+    return False
 
 
 def _differ(expr: Expr, right: Sample, wrong: Sample) -> bool:
     """Whether an integrand is wrong while the machine moves."""
     try:
-        return bool(evaluate([expr], right)[0] != evaluate([expr], wrong)[0])
+        one, other = evaluate([expr], right)[0], evaluate([expr], wrong)[0]
+        return right.algebra.moves(right.algebra.combine([(1, one), (-1, other)], 1))
     except (Undefined, Mixed):
         return True
 
@@ -145,22 +176,30 @@ def _differ(expr: Expr, right: Sample, wrong: Sample) -> bool:
 class _Wrong:
     """A point at which one symbol is told wrong by a constant, and integrals by what they hold."""
 
-    def __init__(self, point: Sample, symbol: Expr, taken_up: Mapping[Symbol, int]) -> None:
+    def __init__(
+        self, point: Sample, symbol: Expr, turn: int, taken_up: Collection[Symbol]
+    ) -> None:
         self.algebra = point.algebra
         self._point = point
         self._symbol = symbol
         self._taken_up = taken_up
+        self._numbers = point.algebra.numbers
         true = point.value(symbol)
-        error = Random(symbol.symbol.name).randrange(1, P)
-        self._told: Any = [(true[0] + error) % P, *true[1:]]
+        error = self._numbers.any(Random(f"{turn}:{symbol.symbol.name}"))
+        if self._numbers.nonzero(true[0]):
+            error = error * true[0]
+        self._told: Any = [true[0] + error * self._numbers.inverse(4**turn), *true[1:]]
 
     def value(self, symbol: Expr) -> Any:
         """What the residual is told."""
         return self._told if symbol is self._symbol else self._point.value(symbol)
 
-    def start(self, initial: Symbol) -> int:
+    def start(self, initial: Symbol) -> Number:
         """Where an integral stands."""
-        return (self._point.start(initial) + self._taken_up.get(initial, 0)) % P
+        start: Number = self._point.start(initial)
+        if initial in self._taken_up:
+            start += self._numbers.any(Random(initial.name))
+        return start
 
     def earlier(self, steps: int) -> Sample:
         """Not asked for: nothing is differentiated here."""

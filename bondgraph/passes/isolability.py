@@ -14,6 +14,7 @@ from functools import partial
 
 from bondgraph.exact.evaluate import highest_order, integral_depth
 from bondgraph.exact.linear import Row, eliminate
+from bondgraph.exact.numbers import Numbers
 from bondgraph.exact.parity import parity
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.ir.expr import Expr
@@ -34,7 +35,7 @@ def isolability(
 
     Fault i can be told from fault j if rank [J F_j F_i] > rank [J F_j], with J the Jacobian of the
     plant and its derivatives with respect to all unknowns and F the columns of a fault that is an
-    arbitrary function of time, on healthy trajectories and modulo a 61-bit prime. It is asked for
+    arbitrary function of time, on healthy trajectories at the declared numbers. It is asked for
     faults of equal signatures only: others are told apart. `exprs` are the residuals, of which
     those `combined` from others are passed over. Of a machine with modes it is enough that one
     mode divides them. None where the plant has no trajectory.
@@ -72,11 +73,11 @@ def _divided(
             break
         attempt = partial(_columns, own, faults, plant, modes)
         try:
-            columns = reactions.draw(attempt, 1000 * seed + number)
+            numbers, columns = reactions.draw(attempt, 1000 * seed + number)
         except ExactUnavailable:
             continue
         met = True
-        found = [part for g in found for part in _parallel(g, columns)]
+        found = [part for g in found for part in _parallel(numbers, g, columns)]
     if met or not groups:
         return found
     if len(groups) == 1:
@@ -85,14 +86,16 @@ def _divided(
     return None if None in parts else [g for part in parts if part for g in part]
 
 
-def _parallel(group: list[str], columns: dict[str, list[Row]]) -> list[list[str]]:
+def _parallel(
+    numbers: Numbers, group: list[str], columns: dict[str, list[Row]]
+) -> list[list[str]]:
     """The group divided into faults with proportional columns."""
     parts: list[list[str]] = []
     for fault in group:
         own = columns.get(fault, [])
         for part in parts:
             first = columns.get(part[0], [])
-            if _rank([*first, *own]) == max(_rank(first), _rank(own)):
+            if _rank(numbers, [*first, *own]) == max(_rank(numbers, first), _rank(numbers, own)):
                 part.append(fault)
                 break
         else:
@@ -100,8 +103,8 @@ def _parallel(group: list[str], columns: dict[str, list[Row]]) -> list[list[str]
     return parts
 
 
-def _rank(columns: Iterable[Row]) -> int:
-    return len(eliminate([dict(c) for c in columns]))
+def _rank(numbers: Numbers, columns: Iterable[Row]) -> int:
+    return len(eliminate(numbers, [dict(c) for c in columns]))
 
 
 def _columns(
@@ -110,7 +113,7 @@ def _columns(
     plant: Plant,
     modes: Mapping[Expr, int] | None,
     number: int,
-) -> dict[str, list[Row]]:
+) -> tuple[Numbers, dict[str, list[Row]]]:
     """What each fault does to the prolonged plant, at one healthy point.
 
     Two relations of order n need up to n derivatives each to be combined.

@@ -5,14 +5,12 @@ from __future__ import annotations
 from bondgraph.exact.modes import assignments, modes_of
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.ir.expr import Expr
-from bondgraph.ir.residuals import ReducedSystem, ResidualSet
+from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signatures import ModeSignature, ModeSignatures, SignatureMatrix
 from bondgraph.passes.reactions import Reactions
-from bondgraph.passes.signatures import moving
 
 
 def modes(
-    reduced: ReducedSystem,
     residuals: ResidualSet,
     matrix: SignatureMatrix,
     plant: Plant,
@@ -26,7 +24,7 @@ def modes(
     Zhang, 2010). Of more than six such inputs the first six are varied, the others are off.
     Without boolean inputs the result is empty.
     """
-    exprs = moving(reduced, residuals)
+    exprs = [r.expr for r in residuals.residuals]
     used = modes_of(residuals.system.graph, exprs)
     if not used:
         return ModeSignatures((), (), 0)

@@ -1,14 +1,15 @@
-"""Which symbols move an expression: at free signals, and on healthy trajectories of the plant.
+"""Which symbols move an expression: at free signals, and on trajectories of the plant.
 
-The derivatives are taken by reverse mode over a prime field at random points. Parameters are
-functions of time here, so that a fault is found whatever its course.
+A derivative along a fault that is not zero on a healthy trajectory proves the fault seen; what
+has none is tried with faults of finite size. Parameters are functions of time here, so that a
+fault is found whatever its course.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import Any, TypeVar
+from typing import NamedTuple, TypeVar
 
 from bondgraph.exact.evaluate import (
     Sensitivity,
@@ -17,17 +18,18 @@ from bondgraph.exact.evaluate import (
     sensitivities,
     telling,
 )
-from bondgraph.exact.field import Undefined
 from bondgraph.exact.free import FreeSample
 from bondgraph.exact.modes import assignments, modes_of
+from bondgraph.exact.numbers import Undefined
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.trajectory import Trajectory
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
 
 T = TypeVar("T")
 
-#: Points at which a relation is tried: one is enough for a rational relation (it errs with a
-#: probability of about its degree / 2**61), a branch not taken at one point is taken at another.
+#: Points at which a relation is tried: one is enough for one without branches (it errs with a
+#: probability of about its degree / 2**61 in a field, less over the reals), a branch not taken at
+#: one point is taken at another.
 _POINTS, _POINTS_WITH_BRANCHES = 1, 12
 _TURNS = 5  # points at which faults act, where laws of the plant have branches
 _TRIES = 40  # a point where a square root has no value is drawn again
@@ -42,7 +44,7 @@ class Reactions:
         self.modes = modes
         graph = plant.graph
         laws = [law for _, law in plant.assembly.laws]
-        self.turns = _TURNS if _points(laws, dict.fromkeys(plant.modes, 0)) > 1 else 1
+        self.turns = _TURNS if branches(laws, dict.fromkeys(plant.modes, 0)) else 1
         self.faults = {symbol: name for name, symbol in graph.fault_symbols().items()}
 
     def at_free_signals(self, expr: Expr) -> Sensitivity:
@@ -51,50 +53,23 @@ class Reactions:
         for point in range(_points([expr], None)):
             try:
                 here = self.draw(
-                    lambda n: sensitivities(expr, FreeSample.of(expr, n)), 1000 * self.seed + point
+                    lambda n: sensitivities(expr, FreeSample.of(expr, n), jumps=True),
+                    1000 * self.seed + point,
                 )
             except ExactUnavailable:
                 return _by_presence(expr)
             found = _union(found, here) if point else here
         return found
 
-    def on_trajectories(
-        self, exprs: list[Expr], lost: Sequence[Sequence[Expr]] = ()
-    ) -> list[set[Expr]]:
-        """The symbols that each relation reacts to in the healthy plant.
-
-        One trajectory serves all relations; where the plant as a whole has none, each relation is
-        tried on the part of the plant that it is about. `lost` are for each relation symbols that
-        have cancelled out of it.
-        """
-        if not exprs:
-            return []
-        lost = lost or [()] * len(exprs)
-        try:
-            return self.sensed(exprs, lost)
-        except ExactUnavailable:
-            if len(exprs) > 1:
-                both = zip(exprs, lost, strict=True)
-                return [self.on_trajectories([e], [gone])[0] for e, gone in both]
-            return [self.without_slopes(exprs[0])]
-
-    def without_slopes(self, expr: Expr) -> set[Expr]:
-        """The symbols that move a relation where its derivatives do not exist on the plant."""
-        try:
-            return {s for s in symbols(expr) if self.moves(expr, s)}
-        except ExactUnavailable:
-            return {s for s, hit in self.at_free_signals(expr).depends.items() if hit}
-
     def sensed(self, exprs: list[Expr], lost: Sequence[Sequence[Expr]] = ()) -> list[set[Expr]]:
         """The symbols that each relation reacts to, over enough points to meet every branch.
 
         Where the modes are not given, they take all their values in turn; one in which the plant
-        has no behaviour is passed over.
+        has no behaviour is passed over. `lost` are for each relation symbols that have cancelled
+        out of it. Raises `ExactUnavailable` where the plant has no behaviour at all.
         """
         reacts: list[set[Expr]] = [set() for _ in exprs]
         lasting: list[set[Expr]] = [set() for _ in exprs]
-        failure: ExactUnavailable | None = None
-        met = False
         hopeless: list[Mapping[Expr, int] | None] = []
         for point, modes in enumerate(self.settings(exprs)):
             if modes in hopeless:
@@ -102,23 +77,19 @@ class Reactions:
             try:
                 attempt = partial(self.at_trajectory, exprs, modes)
                 parts = self.draw(attempt, 1000 * self.seed + point)
-            except ExactUnavailable as reason:
-                failure = reason
+            except ExactUnavailable:  # no trajectory, or no slope where a machine rests
                 hopeless.append(modes)
                 continue
-            met = True
             for seen, sure, part in zip(reacts, lasting, parts, strict=True):
                 seen.update(s for s, hit in part.depends.items() if hit)
                 sure.update(part.lasting)
-        if not met and failure is not None:
-            raise failure
         gone = lost or [()] * len(exprs)
         for seen, sure, expr, others in zip(reacts, lasting, exprs, gone, strict=True):
-            unseen = [s for s in dict.fromkeys((*symbols(expr), *others)) if s not in seen]
-            seen.update(self.movers(expr, [s for s in unseen if s in self.faults]))
             # told a parameter that moves, a relation may show what no plant would make it show
             doubtful = [s for s in seen if s.symbol.kind is Kind.PARAM and s not in sure]
-            seen.difference_update(s for s in doubtful if not self.moves(expr, s))
+            seen.difference_update(doubtful)
+            unseen = [s for s in dict.fromkeys((*symbols(expr), *others)) if s not in seen]
+            seen.update(self.movers(expr, [s for s in unseen if s in self.faults]))
         return reacts
 
     def movers(self, expr: Expr, candidates: list[Expr]) -> list[Expr]:
@@ -158,12 +129,13 @@ class Reactions:
             return False
         size = telling([expr])
 
-        def value(modes: Mapping[Expr, int] | None, number: int) -> Any:
+        def value(modes: Mapping[Expr, int] | None, number: int) -> bool:
             sample = self.plant.sample([expr], number, size, faults=faults, modes=modes)
             found = evaluate([expr], sample, size)[0]
-            if isinstance(sample, Trajectory) and sample.still and any(found):
+            moved = sample.algebra.moves(found)
+            if isinstance(sample, Trajectory) and sample.still and moved:
                 raise ExactUnavailable("no point was found at which all its laws hold")
-            return found
+            return moved
 
         free = [] if self.modes is not None else modes_of(self.plant.graph, [expr])
         failure: ExactUnavailable | None = None
@@ -177,7 +149,7 @@ class Reactions:
                 failure = reason
                 continue
             met = True
-            if any(found) if isinstance(found, list) else found.amplitude:
+            if found:
                 return True
         if not met and failure is not None:
             raise failure
@@ -203,19 +175,24 @@ def _by_presence(expr: Expr) -> Sensitivity:
     return Sensitivity(dict.fromkeys(inside, True), orders, frozenset(), (), everything)
 
 
-def _points(exprs: list[Expr], modes: Mapping[Expr, int] | None) -> int:
-    """Several points where an expression takes branches that the modes do not decide."""
+def branches(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None = None) -> bool:
+    """Whether an expression takes branches that the modes do not decide."""
     decided: dict[Expr, bool] = {}
     for n in topological(exprs):
         if n.op is Op.SYM:
             decided[n] = modes is not None and n in modes
-            branches = n.symbol.kind is Kind.MODE and not decided[n]
+            found = n.symbol.kind is Kind.MODE and not decided[n]
         else:
             decided[n] = all(decided[a] for a in n.args)
-            branches = (n.op is Op.IF and not decided[n.args[0]]) or _branching(n)
-        if branches:
-            return _POINTS_WITH_BRANCHES
-    return _POINTS
+            found = (n.op is Op.IF and not decided[n.args[0]]) or _branching(n)
+        if found:
+            return True
+    return False
+
+
+def _points(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:
+    """Several points where an expression takes branches that the modes do not decide."""
+    return _POINTS_WITH_BRANCHES if branches(exprs, modes) else _POINTS
 
 
 def _branching(node: Expr) -> bool:
@@ -223,7 +200,76 @@ def _branching(node: Expr) -> bool:
     if node.op is Op.ROOT:
         inside = topological([node.root.zero])
         return any(n.op is Op.IF or _branching(n) for n in inside)
-    return node.op is Op.FN and node.name in ("sign", "min", "max", "abs")
+    if node.op is not Op.FN:
+        return False
+    return node.name in ("sign", "min", "max", "abs") or node.name.startswith("table:")
+
+
+class Entries(NamedTuple):
+    """The faults that one relation sees at the declared numbers.
+
+    `apart` has those that it sees only elsewhere: the declared constants of which any one would
+    have to differ, none where it takes several. `reason` says why no trajectory confirms this.
+    """
+
+    seen: frozenset[Expr]
+    apart: dict[Expr, tuple[Expr, ...]]
+    reason: str
+
+
+def entries(
+    plant: Plant, seed: int, relations: Sequence[tuple[Expr, Sequence[Expr]]]
+) -> list[Entries]:
+    """What each relation sees; with each the symbols that have cancelled out of it."""
+    if not relations:
+        return []
+    exprs, lost = [e for e, _ in relations], [gone for _, gone in relations]
+    declared = Reactions(plant, seed)
+    try:
+        found = declared.sensed(exprs, lost)
+    except ExactUnavailable as reason:
+        if len(relations) == 1:
+            return [_unconfirmed(plant, seed, exprs[0], lost[0], str(reason))]
+        return [entries(plant, seed, [relation])[0] for relation in relations]
+    return [
+        Entries(frozenset(own), _apart(declared, expr, own), "")
+        for expr, own in zip(exprs, found, strict=True)
+    ]
+
+
+def _apart(declared: Reactions, expr: Expr, seen: set[Expr]) -> dict[Expr, tuple[Expr, ...]]:
+    """The faults in a relation that only other numbers let it see, and which numbers."""
+    hidden = [s for s in symbols(expr) if s in declared.faults and s not in seen]
+    plant, seed = declared.plant, declared.seed
+    if not hidden:
+        return {}
+    try:
+        elsewhere = Reactions(plant.apart(), seed).sensed([expr])[0]
+        hidden = [s for s in hidden if s in elsewhere]
+        found: dict[Expr, list[Expr]] = {s: [] for s in hidden}
+        for constant in plant.numbered(expr) if hidden else []:
+            sees = Reactions(plant.apart([constant]), seed).sensed([expr])[0]
+            for symbol in hidden:
+                if symbol in sees:
+                    found[symbol].append(constant)
+    except ExactUnavailable:
+        return {}
+    return {symbol: tuple(constants) for symbol, constants in found.items()}
+
+
+def _unconfirmed(
+    plant: Plant, seed: int, expr: Expr, lost: Sequence[Expr], reason: str
+) -> Entries:
+    """What a relation sees where the machine has no trajectory at the declared numbers.
+
+    At other numbers, or else with signals that are independent of each other.
+    """
+    try:
+        seen = Reactions(plant.apart(), seed).sensed([expr], [lost])[0]
+        return Entries(frozenset(seen), {}, f"{reason} at the declared numbers")
+    except ExactUnavailable:
+        depends = Reactions(plant, seed).at_free_signals(expr).depends
+        return Entries(frozenset(s for s, hit in depends.items() if hit), {}, reason)
 
 
 def _union(a: Sensitivity, b: Sensitivity) -> Sensitivity:

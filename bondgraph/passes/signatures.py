@@ -1,10 +1,9 @@
 """Find which fault moves which relation, exactly, and take out of the relations what cancels.
 
-A relation is differentiated with respect to every parameter and signal by reverse mode, over a
-prime field, at a random point: once at free signals, which shows what cancels for every signal
-(the backlash torque in the drives' first relation), and once on a healthy trajectory of the
-plant, which decides the signature. Parameters are functions of time here, so that a fault is
-found whatever its course. Presence of a symbol proves nothing; a derivative that vanishes does.
+A relation is differentiated with respect to every parameter and signal by reverse mode at random
+points: over a prime field at free signals, which shows what cancels for every signal and number (the
+backlash torque in the drives' first relation), and on trajectories of the plant at its declared
+numbers, which decide the signature (`reactions`). Presence of a symbol proves nothing.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.passes.cleared import cleared, moduli, nothings
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.present import upright
-from bondgraph.passes.reactions import Reactions
+from bondgraph.passes.reactions import Reactions, entries
 from bondgraph.text.diagnostic import Report
 
 _LONG = 2000  # nodes
@@ -28,8 +27,8 @@ def signatures(
 ) -> tuple[ResidualSet, SignatureMatrix]:
     """The relations, named in the order of the model, and their fault signature matrix.
 
-    Exact up to a probability below 1e-12 (Schwartz and Zippel). Where no trajectory of the plant
-    can be had, the signatures are those at free signals and the verification says so.
+    Where no trajectory of the plant can be had at the declared numbers, the signatures are those at
+    other numbers, or at free signals, and the matrix says that they are unconfirmed.
     """
     return _Analysis(reduced, seed, plant or Plant(reduced.system.graph)).run()
 
@@ -39,6 +38,7 @@ class _Analysis:
         self.reduced = reduced
         self.graph = reduced.system.graph
         self.pool = self.graph.pool
+        self.plant, self.seed = plant, seed
         self.reactions = Reactions(plant, seed)
         self.nominal = Nominal(self.graph)
 
@@ -54,22 +54,28 @@ class _Analysis:
                 expr = upright(self.pool, expr)
                 if all(expr is not other for _, other, _ in relations):  # two equal gyrators
                     relations.append((own, expr, free.orders))
-        reacts = self.reactions.on_trajectories(
-            [with_moving_parameters(c, e) for c, e, _ in relations],
-            [_behind(c) for c, _, _ in relations],
-        )
         names = [f"r{i + 1}" for i in range(len(relations))]
+        seen = entries(self.plant, self.seed, [(e, _behind(c)) for c, e, _ in relations])
         residuals = tuple(
             Residual(name, expr, c.equation, c.steps, c.differentiated, c.free_of)
             for name, (c, expr, _) in zip(names, relations, strict=True)
         )
         faults = self.graph.fault_symbols()
-        rows = [tuple(symbol in seen for seen in reacts) for symbol in faults.values()]
+        rows = [tuple(symbol in own.seen for own in seen) for symbol in faults.values()]
+        apart = {
+            (name, fault): tuple(v.symbol.name for v in own.apart[symbol])
+            for name, own in zip(names, seen, strict=True)
+            for fault, symbol in faults.items()
+            if symbol in own.apart
+        }
+        unconfirmed = {n: own.reason for n, own in zip(names, seen, strict=True) if own.reason}
         orders = tuple({s.symbol.name: k for s, k in own.items()} for _, _, own in relations)
         reduced = self.reduced
         return (
             ResidualSet(reduced.system, residuals, reduced.unsolved, reduced.unmonitored),
-            SignatureMatrix(tuple(names), tuple(faults), tuple(rows), orders),
+            SignatureMatrix(
+                tuple(names), tuple(faults), tuple(rows), orders, apart, unconfirmed
+            ),
         )
 
 
@@ -82,23 +88,6 @@ def _behind(closing: Closing) -> list[Expr]:
         return symbols(closing.raw)
     zeros = [s.equation.zero for s in closing.steps]
     return symbols(closing.raw, closing.equation.zero, *zeros)
-
-
-def with_moving_parameters(closing: Closing, expr: Expr) -> Expr:
-    """The form of a relation that shows what a parameter does that moves.
-
-    Differentiating takes an undeclared initial value away only while its parameter is constant.
-    A long relation is left as it is: there the random points are exponentials, without integrals.
-    """
-    nodes = topological([closing.raw])
-    moved = any(n.op is Op.INT and n.symbol.kind is Kind.FREE for n in nodes)
-    return closing.raw if moved and len(nodes) <= _LONG else expr
-
-
-def moving(reduced: ReducedSystem, residuals: ResidualSet) -> list[Expr]:
-    """The residuals of a model in the form that shows what a parameter does that moves."""
-    closings = {id(c.equation): c for c in reduced.closings}
-    return [with_moving_parameters(closings[id(r.closing)], r.expr) for r in residuals.residuals]
 
 
 def pruned(pool: Pool, closing: Closing, free: Sensitivity) -> Closing:

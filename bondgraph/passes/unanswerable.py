@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from bondgraph.exact.algebra import Mixed
-from bondgraph.exact.evaluate import Assignment, Sample, demands, values_of
+from bondgraph.exact.evaluate import Sample, demands, values_of
 from bondgraph.exact.plant import ExactUnavailable
 from bondgraph.exact.trajectory import Trajectory
 from bondgraph.ir.expr import Expr, Op, Pool, topological
@@ -71,7 +71,7 @@ def _slope(pool: Pool, step: Step) -> Expr:
     return pool.one if parts is None or parts[0] is pool.zero else pool.power(parts[0], -1)
 
 
-def _resting(expr: Expr, points: Sequence[Assignment]) -> Expr | None:
+def _resting(expr: Expr, points: Sequence[Sample | _Truth]) -> Expr | None:
     """A divisor in an expression that is zero at all points."""
     nodes = topological([expr])
     bases = [
@@ -90,7 +90,10 @@ def _resting(expr: Expr, points: Sequence[Assignment]) -> Expr | None:
         return None
     for base in bases:
         own = [v.get(base) for v in values]
-        if all(isinstance(value, list) and not any(value[:_TERMS]) for value in own):
+        if all(
+            isinstance(value, list) and not p.algebra.moves(value[:_TERMS])
+            for value, p in zip(own, points, strict=True)
+        ):
             return base
     return None
 
@@ -104,7 +107,8 @@ def blame(exprs: Sequence[Expr], point: Sample, terms: int) -> None:
             if node.op is Op.MUL:
                 for base, power in zip(node.args, node.exponents, strict=True):
                     value = values.get(base)
-                    if power < 0 and isinstance(value, list) and not any(value):
+                    still = isinstance(value, list) and not point.algebra.moves(value)
+                    if power < 0 and still:
                         raise Resting(at, base)
 
 

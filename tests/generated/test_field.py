@@ -18,7 +18,7 @@ from bondgraph.backends.target import load
 from bondgraph.backends.write import write
 from bondgraph.exact.algebra import Taylor
 from bondgraph.exact.evaluate import evaluate, highest_order
-from bondgraph.exact.field import Functions
+from bondgraph.exact.field import PrimeField
 from bondgraph.exact.free import FreeSample
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
 from bondgraph.ir.program import Ref
@@ -83,12 +83,12 @@ def _inputs(c: Any, exprs: list[Expr], sample: FreeSample) -> dict[Ref, int]:
         factorial = 1
         for order, x in enumerate(series):
             factorial *= max(order, 1)
-            found[Ref("known", name, order)] = x * factorial
+            found[Ref("known", name, order)] = int(x * factorial)
     for node in topological(exprs):
         if node.op is Op.INT:
             assert node.args[0].op is Op.SYM, "choose a model that integrates plain signals"
             name = symbol_of[node.args[0].symbol.name]
-            found[Ref("known", name, -1)] = sample.start(node.symbol)
+            found[Ref("known", name, -1)] = int(sample.start(node.symbol))
     return found
 
 
@@ -118,15 +118,15 @@ def test_exact_over_a_prime_field(model: str, tmp_path: Path, root: Path) -> Non
     library = ctypes.CDLL(str(tmp_path / "run.so"))
     callback = ctypes.CFUNCTYPE(ctypes.c_uint64, ctypes.c_char_p, ctypes.c_uint64, ctypes.c_uint64)
     for seed in (1, 2):
-        functions = Functions(seed)
+        functions = PrimeField(seed)
         sample = FreeSample(Taylor(functions), highest_order(exprs), seed)
-        wanted = [v[0] for v in evaluate(exprs, sample)]
+        wanted = [int(v[0]) for v in evaluate(exprs, sample)]
         given = _inputs(c, exprs, sample)
         values = [
-            sample.value(next(s for s in symbols(*exprs) if s.symbol.name == f.path))[0]
+            int(sample.value(next(s for s in symbols(*exprs) if s.symbol.name == f.path))[0])
             for f in program.params
         ]
-        lookup = callback(lambda name, x, _, f=functions: f.value(name.decode(), x))  # type: ignore[misc]
+        lookup = callback(lambda name, x, _, f=functions: int(f.value(name.decode(), x)))  # type: ignore[misc]
         outputs = (ctypes.c_uint64 * len(program.residuals))()
         prime = (1 << 61) - 2373
         numbers = [given[ref] % prime for ref in refs]

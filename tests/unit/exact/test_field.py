@@ -7,9 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import isprime
 
-from bondgraph.exact.field import INVERSES, Functions, P, Q, Undefined, inverse, root, sign
+from bondgraph.exact.field import ONE, P, PrimeField, Q, inverse, root, sign
+from bondgraph.exact.numbers import INVERSES, Number, Undefined
 
-numbers = st.integers(2, P - 2)
+numbers = st.integers(2, P - 2).map(lambda x: ONE * x)
 
 
 def test_prime_is_safe_and_gives_odd_signs() -> None:
@@ -20,7 +21,7 @@ def test_prime_is_safe_and_gives_odd_signs() -> None:
 
 @given(numbers, numbers)
 @settings(max_examples=50)
-def test_signs_multiply_and_are_odd(x: int, y: int) -> None:
+def test_signs_multiply_and_are_odd(x: Number, y: Number) -> None:
     assert sign(x) in (1, -1)
     assert sign(x * y) == sign(x) * sign(y)
     assert sign(-x) == -sign(x)
@@ -29,15 +30,15 @@ def test_signs_multiply_and_are_odd(x: int, y: int) -> None:
 
 @given(numbers, st.fractions(-5, 5, max_denominator=12), st.fractions(-5, 5, max_denominator=12))
 @settings(max_examples=50)
-def test_powers_of_positive_numbers_obey_their_laws(x: int, a: Fraction, b: Fraction) -> None:
-    x = sign(x) * x % P
-    assert root(x, a) * root(x, b) % P == root(x, a + b)
+def test_powers_of_positive_numbers_obey_their_laws(x: Number, a: Fraction, b: Fraction) -> None:
+    x = sign(x) * x
+    assert root(x, a) * root(x, b) == root(x, a + b)
     assert root(root(x, a), b) == root(x, a * b)
     assert sign(root(x, a)) == 1
 
 
 def test_a_root_of_a_negative_number_is_undefined() -> None:
-    negative = -pow(3, 2, P) % P
+    negative = -ONE * 9
     with pytest.raises(Undefined):
         root(negative, Fraction(1, 2))
     with pytest.raises(Undefined):
@@ -46,24 +47,24 @@ def test_a_root_of_a_negative_number_is_undefined() -> None:
 
 @given(numbers)
 @settings(max_examples=50)
-def test_functions_keep_symmetry_and_curves(x: int) -> None:
-    f = Functions(5)
+def test_functions_keep_symmetry_and_curves(x: Number) -> None:
+    f = PrimeField(5)
     for odd in ("sinh", "tanh", "sin", "tan", "cbrt", "ssqrt", "ssq"):
-        assert f.value(odd, -x) == -f.value(odd, x) % P
+        assert f.value(odd, -x) == -f.value(odd, x)
     for even in ("cos", "cosh", "abs"):
         assert f.value(even, -x) == f.value(even, x)
-    assert (f.value("cos", x) ** 2 + f.value("sin", x) ** 2) % P == 1
-    assert (f.value("cosh", x) ** 2 - f.value("sinh", x) ** 2) % P == 1
-    assert f.value("exp", x) == (f.value("cosh", x) + f.value("sinh", x)) % P
-    assert f.value("tan", x) * f.value("cos", x) % P == f.value("sin", x)
-    assert f.value("exp", -x) * f.value("exp", x) % P == 1
+    assert (f.value("cos", x) ** 2 + f.value("sin", x) ** 2) == 1
+    assert (f.value("cosh", x) ** 2 - f.value("sinh", x) ** 2) == 1
+    assert f.value("exp", x) == (f.value("cosh", x) + f.value("sinh", x))
+    assert f.value("tan", x) * f.value("cos", x) == f.value("sin", x)
+    assert f.value("exp", -x) * f.value("exp", x) == 1
 
 
 @pytest.mark.parametrize("name", [n for n in INVERSES if n not in ("cbrt", "sqrt")])
 def test_inverse_functions_undo_each_other(name: str) -> None:
-    f = Functions(7)
+    f = PrimeField(7)
     tried = 0
-    for x in range(10**9, 10**9 + 40):
+    for x in [ONE * k for k in range(10**9, 10**9 + 40)]:
         if name in ("asin", "atan") and sign(f.circle(x)[0]) != 1:
             continue  # outside the main branch, as for real numbers
         if name == "acos" and sign(f.circle(x)[1]) != 1:

@@ -55,7 +55,7 @@ def test_right_residuals_pass(text: str) -> None:
     assert report.diagnostics == []
     assert found.residuals == len(c.residuals.residuals) > 0
     assert found.faults == found.candidates == len(c.graph.faults)
-    assert found.trajectories > found.residuals
+    assert found.trajectories > 1  # at the declared numbers and at others
 
 
 @pytest.mark.parametrize("text", [DRIVE, NONLINEAR])
@@ -70,9 +70,8 @@ def test_every_wrong_entry_of_the_matrix_is_found(text: str) -> None:
             report = Report()
             verify(c.graph, c.residuals, right._replace(rows=rows), report, 1)
             [found] = report.diagnostics
-            assert found.code == "verification-failed"
+            assert found.code == "signature-unconfirmed" and found.severity == "warning"
             assert fault in found.message and right.residuals[residual] in found.message
-            assert "compiler" in found.help
 
 
 def test_a_wrong_residual_is_found() -> None:
