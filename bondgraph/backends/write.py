@@ -1,19 +1,33 @@
-"""Files to the disk: all of them or none, and never over a file that somebody else wrote."""
+"""Files to the disk: all of them or none, never over what somebody else wrote, nor elsewhere.
+
+The folder may come from a stranger, with a manifest and links of his choice. So the manifest is a
+hint and never an order: a name in it counts only if it is a plain path below the folder, every
+folder on the way to a file is looked at and none may be a link, and what is read, replaced or
+removed is a regular file. Links are refused, not followed and not removed.
+"""
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import shutil
+import stat
 import tempfile
 from collections.abc import Iterable
-from hashlib import sha256
+from hashlib import file_digest, sha256
 from pathlib import Path
+from typing import Literal
 
 from bondgraph.ir.artifact import Artifact
 
 #: Lists what was generated into a folder, with the hash of each file as it was written.
 MANIFEST = ".bondgraph.json"
+
+#: A manifest has some hundred bytes a file; one of more bytes than this is not ours.
+_LARGEST = 10_000_000
+#: What the system says of a place where nothing stands, or can.
+_NOTHING = {errno.ENOENT, errno.ENOTDIR, errno.ENAMETOOLONG}
 
 
 class ForeignFiles(Exception):
@@ -31,66 +45,119 @@ class ForeignFiles(Exception):
 def write(artifacts: Iterable[Artifact], folder: str | os.PathLike[str]) -> tuple[str, ...]:
     """Write the files below `folder`, and return their paths (folder included), in order.
 
-    Everything is first written to a folder beside it and then moved, so that a failure before
-    that leaves everything as it was. Files that an earlier run wrote and this one does not are
-    removed; what the manifest does not know, or what was edited since, is never touched. Raises
-    `ForeignFiles` if such a file is in the way, OSError if the disk refuses, ValueError for a
-    path that leads out of the folder.
+    Everything is first written to a folder inside and then moved, so that a failure before that
+    leaves everything as it was. Files that an earlier run wrote and this one does not are removed;
+    what the manifest does not know, what was edited since, and what is behind a link is never
+    touched. `folder` itself may be a link: it was named by who called. Raises `ForeignFiles` if
+    something is in the way, OSError if the disk refuses, ValueError for a path that leads out of
+    the folder.
     """
     files = {a.path: a.text.encode() for a in artifacts}
     for path in files:
-        if Path(path).is_absolute() or ".." in Path(path).parts or path == MANIFEST:
+        if not _is_below(path):
             raise ValueError(f"{path} is not a path below the output folder")
     home = Path(folder)
     known = _manifest(home)
-    foreign = tuple(p for p in files if _is_foreign(home / p, known.get(p), files[p]))
-    if foreign:
-        raise ForeignFiles(home, foreign)
     hashes = {path: sha256(data).hexdigest() for path, data in files.items()}
+    foreign = [p for p in files if _is_foreign(home, p, known.get(p), hashes[p])]
+    if _at(home, MANIFEST) == "obstacle":
+        foreign.append(MANIFEST)
+    if foreign:
+        raise ForeignFiles(home, tuple(foreign))
     manifest = json.dumps({"files": hashes}, indent=1) + "\n"
-    home.parent.mkdir(parents=True, exist_ok=True)
-    temporary = Path(tempfile.mkdtemp(prefix=f".{home.name}.", dir=home.parent))
-    try:
-        for path, data in {**files, MANIFEST: manifest.encode()}.items():
-            place = temporary / path
-            place.parent.mkdir(parents=True, exist_ok=True)
-            place.write_bytes(data)
-        _move(temporary, home, [*files, MANIFEST])
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
-    for path in [p for p in known if p not in files]:
-        if not _is_foreign(home / path, known[path], None):
-            (home / path).unlink(missing_ok=True)
+    _fill(home, {**files, MANIFEST: manifest.encode()})
+    for path, written in known.items():
+        if path not in files and _is_ours(home, path, written):
+            (home / path).unlink()
     return tuple(str(home / path) for path in files)
 
 
-def _move(temporary: Path, home: Path, paths: list[str]) -> None:
-    """Move the files in; those that are already as they should be keep their time."""
-    home.mkdir(exist_ok=True)
-    for path in paths:
-        place = home / path
-        if place.is_file() and place.read_bytes() == (temporary / path).read_bytes():
-            continue
-        place.parent.mkdir(parents=True, exist_ok=True)
-        (temporary / path).replace(place)
+def _fill(home: Path, files: dict[str, bytes]) -> None:
+    """Write all files to a folder of their own, then move them; a new `home` goes if that fails."""
+    is_new = not home.exists()
+    home.mkdir(parents=True, exist_ok=True)
+    temporary = Path(tempfile.mkdtemp(prefix=".bondgraph.", dir=home))
+    try:
+        for path, data in files.items():
+            place = temporary / path
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(data)
+        for path, data in files.items():
+            place = home / path
+            if _at(home, path) == "file" and place.read_bytes() == data:
+                continue  # it keeps its time: make need not compile it again
+            place.parent.mkdir(parents=True, exist_ok=True)
+            (temporary / path).replace(place)
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+        if is_new and not any(home.iterdir()):
+            home.rmdir()
 
 
 def _manifest(home: Path) -> dict[str, str]:
-    """The files that an earlier run wrote, with their hashes."""
+    """The files that an earlier run wrote, with their hashes; what cannot be one is left out."""
+    if _at(home, MANIFEST) != "file":
+        return {}
+    place = home / MANIFEST
     try:
-        found = json.loads((home / MANIFEST).read_text(encoding="utf-8"))["files"]
-    except (OSError, ValueError, KeyError, TypeError):
+        if place.stat().st_size > _LARGEST:
+            return {}
+        found = json.loads(place.read_text(encoding="utf-8"))["files"]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return {}
     if not isinstance(found, dict):
         return {}
-    return {p: h for p, h in found.items() if isinstance(h, str) and ".." not in Path(p).parts}
+    return {p: h for p, h in found.items() if isinstance(h, str) and _is_below(p)}
 
 
-def _is_foreign(place: Path, written: str | None, wanted: bytes | None) -> bool:
-    """Whether something other than the generated file stands there."""
-    if not place.exists():
+def _is_below(path: str) -> bool:
+    """Whether it is the one plain way to write a path below the folder, and not the manifest's.
+
+    >>> names = "a.c", "a/b.c", "", ".", "/a", "../a", "a/../b", "./a", "a//b"
+    >>> [name for name in names if _is_below(name)]
+    ['a.c', 'a/b.c']
+    """
+    parts = path.split("/")
+    if any(part in ("", ".", "..") for part in parts) or "\0" in path or "\\" in path:
         return False
-    if not place.is_file():
-        return True
-    data = place.read_bytes()
-    return data != wanted and sha256(data).hexdigest() != written
+    try:
+        os.fsencode(path)
+    except UnicodeError:  # half a character
+        return False
+    return path != MANIFEST and not Path(path).is_absolute() and not Path(path).drive
+
+
+def _at(home: Path, path: str) -> Literal["nothing", "file", "obstacle"]:
+    """What stands at a path below `home`: a regular file in real folders, or something in the way.
+
+    No link is followed, neither at the end of the path nor on the way there.
+    """
+    *folders, name = path.split("/")
+    place = home
+    try:
+        for folder in folders:
+            place = place / folder
+            if not stat.S_ISDIR(place.lstat().st_mode):
+                return "obstacle"
+        return "file" if stat.S_ISREG((place / name).lstat().st_mode) else "obstacle"
+    except OSError as error:
+        if error.errno in _NOTHING:
+            return "nothing"
+        raise
+
+
+def _is_foreign(home: Path, path: str, *own: str | None) -> bool:
+    """Whether something stands there, or on the way there, that has none of our `own` hashes."""
+    standing = _at(home, path)
+    if standing == "file":
+        with open(home / path, "rb") as file:
+            return file_digest(file, "sha256").hexdigest() not in own
+    return standing == "obstacle"
+
+
+def _is_ours(home: Path, path: str, written: str) -> bool:
+    """Whether a file stands there as it was `written`; not if it cannot be looked at."""
+    try:
+        return _at(home, path) == "file" and not _is_foreign(home, path, written)
+    except OSError:
+        return False

@@ -124,9 +124,20 @@ def _write(compilation: Compilation, output: str | None) -> list[str]:
         return []
     from bondgraph.backends.write import ForeignFiles, write
 
-    stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
-    folder = output or os.path.join("generated", stem)
+    folder = output or _default(compilation.source.path)
     try:
         return list(write(compilation.artifacts, folder))
     except ForeignFiles as error:
         raise console.Trouble(str(error)) from error
+
+
+def _default(model: str) -> str:
+    """Where to write if nobody said it; a link there could lead anywhere, so it is refused."""
+    stem = os.path.splitext(os.path.basename(model))[0]
+    folder = os.path.join("generated", stem)
+    for place in ("generated", folder):
+        if os.path.islink(place):
+            raise console.Trouble(
+                f"{place} is a link to {os.readlink(place)}; say with -o where to write"
+            )
+    return folder
