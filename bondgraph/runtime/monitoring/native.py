@@ -30,10 +30,10 @@ from bondgraph.runtime.monitoring.engine import (
     one_by_one,
     setting,
 )
+from bondgraph.runtime.monitoring.library_cache import library_cache
 
 #: One rounding for each operation, as in Python; nothing of the residuals is seen from outside.
 _FLAGS = "-std=c99 -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden".split()
-_KEPT = 100  # libraries in the cache
 
 _STATUS = (
     "no finite number for a parameter",
@@ -58,39 +58,45 @@ def start(
     """An engine with nominal parameters: C where it can be compiled, else Python.
 
     `native` True insists on C and raises NativeError, False takes Python. What goes wrong
-    otherwise is told once, in one line, to `tell` (a RuntimeWarning if there is none). Raises
+    otherwise is told, in one line, to `tell` (a RuntimeWarning if there is none). Raises
     ValueError for a model whose parameters have no values.
     """
     made = setting(residuals, thresholds)
     if native is False:
         return PythonEngine(made)
+    say = tell or _warn
     try:
-        return NativeEngine(made, Library(made.programs))
+        return NativeEngine(made, Library(made.programs, say))
     except NativeError as error:
         if native:
             raise
-        message = f"{error}; the residuals are run in Python, some hundred times slower"
-        if tell is not None:
-            tell(message)
-        else:
-            warnings.warn(message, RuntimeWarning, stacklevel=2)
+        say(f"{error}; the residuals are run in Python, some hundred times slower")
         return PythonEngine(made)
 
 
-class Library:
-    """The compiled code of programs, loaded; raises NativeError where that cannot be done."""
+def _warn(message: str) -> None:
+    warnings.warn(message, RuntimeWarning, stacklevel=3)
 
-    def __init__(self, programs: Sequence[Runnable]) -> None:
+
+class Library:
+    """The compiled code of programs, loaded; raises NativeError where that cannot be done.
+
+    `tell` is told, in one line, of a cache that cannot be trusted.
+    """
+
+    def __init__(
+        self, programs: Sequence[Runnable], tell: Callable[[str], None] = _warn
+    ) -> None:
         compiler = shlex.split(os.environ.get("CC", "")) or ["cc"]
         name = _digest(programs, [*compiler, *_FLAGS], _version(tuple(compiler)))
-        folder = _cache()
-        path = folder / f"{name}.so" if folder else None
-        library = _load(path, programs) if path else None
+        libraries = library_cache(tell)
+        kept = libraries.find(name) if libraries else iter(())
+        library = next((found for path in kept if (found := _load(path, programs))), None)
         if library is None:
             with tempfile.TemporaryDirectory(prefix="bondgraph-") as temporary:
                 built = Path(temporary) / f"{name}.so"
                 _compile(programs, compiler, Path(temporary), built)
-                library = _load(_kept(built, path) if path else built, programs)
+                library = _load(libraries.keep(name, built) if libraries else built, programs)
                 if library is None:
                     library = _load(built, programs)
         if library is None:
@@ -232,18 +238,6 @@ def _digest(programs: Sequence[Runnable], *facts: Sequence[str] | str) -> str:
     return hashlib.sha256(everything.encode("utf-8", "surrogatepass")).hexdigest()[:32]
 
 
-def _cache() -> Path | None:
-    """The folder of compiled libraries; None where there can be none."""
-    own = os.environ.get("XDG_CACHE_HOME", "")
-    try:
-        base = Path(own) if os.path.isabs(own) else Path.home() / ".cache"
-        folder = base / "bondgraph"
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    except (OSError, RuntimeError):
-        return None
-    return folder
-
-
 def _compile(
     programs: Sequence[Runnable], compiler: list[str], folder: Path, library: Path
 ) -> None:
@@ -258,28 +252,8 @@ def _compile(
         raise NativeError(f"{compiler[0]} does not compile the residuals: {why.strip()}")
 
 
-def _kept(built: Path, path: Path) -> Path:
-    """Put a library into the cache, whole or not at all; where it is then."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        temporary.write_bytes(built.read_bytes())
-        temporary.replace(path)
-        kept = sorted(path.parent.glob("*.so"), key=lambda p: p.stat().st_mtime)
-        for old in kept[:-_KEPT]:
-            old.unlink()
-    except OSError:
-        temporary.unlink(missing_ok=True)
-        return built
-    return path
-
-
 def _load(path: Path, programs: Sequence[Runnable]) -> ctypes.CDLL | None:
-    """The library in a file; None if it is not there, damaged or of other programs."""
-    try:
-        os.utime(path)  # it is used: others are older
-    except OSError:
-        if not path.exists():
-            return None
+    """The library in a file; None if it cannot be loaded here, or is of other programs."""
     try:
         library = ctypes.CDLL(str(path))
         for runnable in programs:

@@ -1,0 +1,127 @@
+"""Where compiled libraries are kept: in a folder of one's own, each named by what is in it.
+
+To load a library is to run it, and one that is cut short kills the process that touches its end.
+So nothing is loaded that others could have written, nor anything whose content has not the hash
+that its name says. Because of that hash a name stands for one content for ever: what the loader
+has in memory under a name is what is on the disk.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from hashlib import file_digest, sha256
+from pathlib import Path
+
+_KEPT = 100  # libraries in the cache
+_STALE = 3600.0  # s; what a process that was killed had begun to write
+_WRITABLE = stat.S_IWGRP | stat.S_IWOTH
+
+
+class LibraryCache:
+    """A folder with libraries `name.hash.so`, the hash being that of the file."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def find(self, name: str) -> Iterator[Path]:
+        """The sound libraries of this name; those that are not are removed."""
+        for path in sorted(self.folder.glob(f"{name}.*.so")):
+            sound = _is_sound(path)
+            with suppress(OSError):
+                if sound:
+                    os.utime(path)  # it is used: others are older
+                else:
+                    path.unlink()
+            if sound:
+                yield path
+
+    def keep(self, name: str, built: Path) -> Path:
+        """Take a library in, whole or not at all, and forget the oldest; where it is then."""
+        data = built.read_bytes()
+        path = self.folder / f"{name}.{sha256(data).hexdigest()}.so"
+        temporary = None
+        try:
+            descriptor, temporary = tempfile.mkstemp(".tmp", ".", self.folder)  # only ours
+            with open(descriptor, "wb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(descriptor)  # the name is given to what is on the disk
+            os.replace(temporary, path)
+        except OSError:
+            if temporary is not None:
+                Path(temporary).unlink(missing_ok=True)
+            return built
+        self._tidy()
+        return path
+
+    def _tidy(self) -> None:
+        with suppress(OSError):  # another process may be at it
+            kept = sorted(self.folder.glob("*.so"), key=lambda p: p.stat().st_mtime)
+            begun = [
+                p for p in self.folder.glob(".*.tmp") if p.stat().st_mtime < time.time() - _STALE
+            ]
+            for old in kept[:-_KEPT] + begun:
+                old.unlink()
+
+
+def library_cache(tell: Callable[[str], None]) -> LibraryCache | None:
+    """The cache of this user, None where there can be none; `tell` is told of one not to trust.
+
+    Its folder is `$XDG_CACHE_HOME/bondgraph`, or `~/.cache/bondgraph`.
+    """
+    if not hasattr(os, "geteuid"):
+        return None  # nothing here says whose a file is
+    own = os.environ.get("XDG_CACHE_HOME", "")
+    try:
+        base = Path(own) if os.path.isabs(own) else Path.home() / ".cache"
+        folder = base / "bondgraph"
+        base.mkdir(mode=0o700, parents=True, exist_ok=True)
+        folder.mkdir(mode=0o700, exist_ok=True)
+        why = _mistrust(folder)
+    except (OSError, RuntimeError):
+        return None
+    if why:
+        tell(f"the cache {folder} is not used: {why}; the residuals are compiled at each start")
+        return None
+    return LibraryCache(folder)
+
+
+def _mistrust(folder: Path) -> str | None:
+    """Why others could put a library into a folder, or another folder in its place."""
+    state = folder.lstat()
+    if stat.S_ISLNK(state.st_mode):
+        return "it is a link"
+    if state.st_uid != os.geteuid():
+        return "it belongs to another user"
+    if state.st_mode & _WRITABLE:
+        return f"others can write to it (`chmod go-w {folder}`)"
+    for above in folder.resolve().parents:
+        mode = above.stat().st_mode
+        if mode & stat.S_IWOTH and not mode & stat.S_ISVTX:
+            return f"others can write to {above}"
+    return None
+
+
+def _is_sound(path: Path) -> bool:
+    """Whether a file is ours alone and has the content that its name says."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    except OSError:
+        return False
+    try:
+        state = os.fstat(descriptor)
+        if not stat.S_ISREG(state.st_mode) or state.st_mode & _WRITABLE:
+            return False
+        if state.st_uid != os.geteuid():
+            return False
+        with open(descriptor, "rb", closefd=False) as file:
+            return path.suffixes[-2:-1] == ["." + file_digest(file, "sha256").hexdigest()]
+    except OSError:
+        return False
+    finally:
+        os.close(descriptor)
