@@ -21,6 +21,11 @@ from bondgraph.passes.elaboration.instantiate import Opener
 from bondgraph.passes.elaboration.laws import Laws
 from bondgraph.passes.elaboration.lookup import Lookup
 from bondgraph.passes.elaboration.numbers import check_numbers
+from bondgraph.passes.elaboration.oversights import (
+    report_nameless,
+    report_parts,
+    report_unused,
+)
 from bondgraph.passes.elaboration.problems import Abort, Skip, fail
 from bondgraph.passes.elaboration.quantities import Quantities
 from bondgraph.passes.elaboration.records import Records
@@ -118,6 +123,10 @@ class _Elaboration:
             events=tuple(records.events.values()),
         )  # fmt: skip
         check_numbers(graph, self.report)
+        if not self.report.failed:
+            report_parts(graph, self.report)
+            report_unused(self.entries, values.used, self.report)
+            report_nameless(laws.nameless, self.report)
         return None if self.report.failed else graph
 
     def connect(self) -> None:

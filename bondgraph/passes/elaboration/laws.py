@@ -10,7 +10,14 @@ from bondgraph.library.elements import ElementKind
 from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.problems import Skip, fail, listed
 from bondgraph.passes.elaboration.quantities import PURE
-from bondgraph.passes.elaboration.scope import Array, NodeEntry, PortVariables, Typed, ValueEntry
+from bondgraph.passes.elaboration.scope import (
+    Array,
+    Bound,
+    NodeEntry,
+    PortVariables,
+    Typed,
+    ValueEntry,
+)
 from bondgraph.passes.elaboration.values import Values
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
@@ -37,6 +44,8 @@ class Laws:
         self.pool: Pool = values.pool
         self.report: Report = values.report
         self.coefficients: list[Coefficient] = []
+        #: Elements whose coefficient is written as a number other than zero.
+        self.nameless: list[NodeEntry] = []
 
     def laws(self, node: NodeEntry) -> tuple[Law, ...]:
         """All laws of an element; raises Skip when they are wrong."""
@@ -91,6 +100,10 @@ class Laws:
         place = Place(node.scope, node.env, node.path)
         if written.value is not None:
             value = values.quantity(written.value, place)
+            bound = Bound(written.value, node.scope, node.env, written.value.origin)
+            is_number = value[0].op is Op.NUM and value[0] is not self.pool.zero
+            if is_number and next(values.mentioned(bound), None) is None:
+                self.nameless.append(node)
             return value if written.tolerance is None else self.uncertain(node, written, value)
         named = node.scope.values.get(node.name)
         entry = named.entries.get(node.place or 0) if isinstance(named, Array) else named
@@ -107,6 +120,7 @@ class Laws:
                  f"{element.coefficient}: there is no value `{node.name}`.", written.origin,
                  help=f"Declare `param {node.name} = ...`, or write `{written.type}:{node.name} = "
                  f"...`, or a law in braces, `{{ {element.law} }}`.")  # fmt: skip
+        values.used.add(entry)
         node_, term = values.value(entry)
         if term is None:
             fail(self.report, "wrong-type", f"`{node.name}` is true or false: a number is needed "

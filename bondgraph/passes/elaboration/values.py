@@ -54,6 +54,8 @@ class Values(Expressions):
         self.quiet = Lookup(Report())
         self.bonds = bonds
         self.pi = pool.num(PI)
+        #: What laws, sensors and other values name.
+        self.used: set[ValueEntry] = set()
         # by identity: arguments and declarations outlive this object
         self._aliases: dict[tuple[int, int], Typed] = {}
 
@@ -86,6 +88,7 @@ class Values(Expressions):
         """The value of a name of the value namespace of an instance."""
         entry = self.lookup.value(part, inside, place.scope, place.env)
         if entry is not None:
+            self.used.add(entry)
             return self.value(entry)
         if part.first is None:
             generic = inside.generics.get(part.name)

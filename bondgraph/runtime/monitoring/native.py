@@ -84,9 +84,7 @@ class Library:
     `tell` is told, in one line, of a cache that cannot be trusted.
     """
 
-    def __init__(
-        self, programs: Sequence[Runnable], tell: Callable[[str], None] = _warn
-    ) -> None:
+    def __init__(self, programs: Sequence[Runnable], tell: Callable[[str], None] = _warn) -> None:
         compiler = shlex.split(os.environ.get("CC", "")) or ["cc"]
         name = _digest(programs, [*compiler, *_FLAGS], _version(tuple(compiler)))
         libraries = library_cache(tell)

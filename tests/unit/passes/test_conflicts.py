@@ -153,7 +153,7 @@ def test_a_loop_is_proved_by_two_cases() -> None:
 def test_what_instances_repeat_is_told_once_and_mended_in_all() -> None:
     source = Source(
         "m.bg",
-        "bg 1\nmodel Cell { port a : in electrical; a -> 0:n <- Se:inner; n -> R:r = 1 }\n"
+        "bg 1\nmodel Cell { port a : in electrical; a -> 0:n <- Se:inner; n -> R:r; const r = 1 }\n"
         "model M { Se:u -> 0:bus; Cell:cell[5]; for j in 1..5 { bus -> cell[j].a } }\n",
     )
     with pytest.raises(CompileError) as caught:

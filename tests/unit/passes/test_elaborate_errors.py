@@ -295,7 +295,7 @@ def test_any_words_give_a_model_or_a_diagnostic(words: list[str]) -> None:
 )
 def test_both_relations_of_a_transformer_may_stand_where_they_agree(law: str) -> None:
     said = run(f"model M {{\n{BASE}input a\nj -> TF:x {{ {law} }} -> R:z = 1\n}}")[1]
-    assert said == []
+    assert {d.code for d in said} <= {"value-not-used", "value-without-name"}
 
 
 @pytest.mark.parametrize(
@@ -311,4 +311,5 @@ def test_both_relations_of_a_transformer_may_stand_where_they_agree(law: str) ->
 )
 def test_an_m_without_a_signal_is_told(line: str, told: bool) -> None:
     codes = [d.code for d in run(f"model M {{\n{BASE}{line}\n}}")[1]]
-    assert codes == (["not-modulated"] if told else [])
+    assert ("not-modulated" in codes) == told
+    assert set(codes) <= {"not-modulated", "value-without-name"}

@@ -1,0 +1,277 @@
+"""Say what a model is silent about: parts that nothing joins, values that nothing uses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import chain
+
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.graph import BondGraph, Node, Sensor
+from bondgraph.ir.syntax import Input, Param
+from bondgraph.passes.elaboration.problems import listed
+from bondgraph.passes.elaboration.scope import NodeEntry, ValueEntry
+from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.source import Span
+
+_SHOWN = 4  # places of one finding
+
+# ------------------------------------------------------------------------------- values
+
+
+def report_unused(entries: Iterable[ValueEntry], used: set[ValueEntry], report: Report) -> None:
+    """Declared params, consts and inputs that no instance of their model uses."""
+    unused: dict[Span, ValueEntry] = {}
+    somewhere: set[Span] = set()
+    for entry in entries:
+        if isinstance(entry.declaration, (Param, Input)):
+            if entry in used:
+                somewhere.add(entry.origin)
+            else:
+                unused.setdefault(entry.origin, entry)
+    for origin, entry in unused.items():
+        if origin not in somewhere:
+            what, example = _use(entry)
+            report.warning(
+                "value-not-used",
+                f"Nothing uses the {what} `{entry.local}`: it does not matter what it is.",
+                origin,
+                help=f"Use it where it belongs, as in {example} or in a law, or leave it out.",
+            )
+
+
+def _use(entry: ValueEntry) -> tuple[str, str]:
+    """What a value is, and a use of it."""
+    declaration = entry.declaration
+    if isinstance(declaration, Param):
+        return declaration.keyword, f"`R:{declaration.name.name}`"
+    assert isinstance(declaration, Input)
+    name = declaration.name.name
+    return "input", f"`when {name}`" if declaration.boolean else f"`Se:{name}`"
+
+
+def report_nameless(nodes: Iterable[NodeEntry], report: Report) -> None:
+    """Elements whose coefficient is a plain number, once for all."""
+    first: dict[Span, NodeEntry] = {}
+    for node in nodes:
+        first.setdefault(node.origin, node)
+    if not first:
+        return
+    names = [node.path for node in first.values()]
+    many = len(names) > 1
+    example = next(iter(first.values()))
+    assert example.declaration is not None and example.declaration.value is not None
+    number = example.declaration.value.origin.text
+    report.info(
+        "value-without-name",
+        f"{listed(names, len(names))} {'have' if many else 'has'} a number for a value: "
+        f"{'they are' if many else 'it is'} no fault {'candidates' if many else 'candidate'}.",
+        *[Label(origin, "a number") for origin in list(first)[:_SHOWN]],
+        help=f"What may fail is a param: `param {example.name} = {number}` and "
+        f"`{example.type}:{example.name}`. What cannot is a const.",
+    )
+
+
+# ------------------------------------------------------------------------------- parts
+
+
+def report_parts(graph: BondGraph, report: Report) -> None:
+    """Parts of a machine that nothing joins with the rest, unless they are machines themselves.
+
+    A part that is measured and driven is a machine of its own, and two of them in one model are
+    as good as one. Nothing can be said of a part without a sensor; one that nothing drives rests
+    for ever, or moves only by what its storages hold at the start. Linear in the size of the model.
+    """
+    parts = _parts(graph)
+    measured = _measured(graph, parts)
+    driven = [_is_driven(graph, part) for part in parts]
+    seen: set[tuple[Span, ...]] = set()
+    for part, sensors, moving in zip(parts, measured, driven, strict=True):
+        places = tuple([graph.nodes[i].origin for i in part])
+        if places in seen:
+            continue  # the same part of another instance of a model
+        seen.add(places)
+        if sensors and not moving:
+            _undriven(graph, part, sensors, any(driven), report)
+        elif not sensors and any(measured):
+            _unmeasured(graph, part, report)
+
+
+def _unmeasured(graph: BondGraph, part: list[int], report: Report) -> None:
+    report.warning(
+        "part-not-measured",
+        f"No bond and no signal joins {_names(graph, part)} with the rest of the model, and no "
+        "sensor reads anything there: no fault of this part can be detected.",
+        Label(graph.nodes[part[0]].origin, "stands apart with what it is bonded to"),
+        help="Add the bond that is missing, or measure something there. A part that is not of "
+        "interest can be left out.",
+    )
+
+
+def _undriven(
+    graph: BondGraph, part: list[int], sensors: list[Sensor], others: bool, report: Report
+) -> None:
+    """A part in which rest is a solution of all laws: it needs a push from the start to move."""
+    begin = f"Nothing drives {_names(graph, part)}"
+    read = listed([s.name for s in sensors])
+    labels = [
+        Label(graph.nodes[part[0]].origin, "nothing drives this part"),
+        *[Label(s.origin, "measured here") for s in sensors[:_SHOWN]],
+    ]
+    missing = "Add the source that moves it, as in `Se:F -> ...`"
+    if others:
+        begin += ", which no bond and no signal joins with the rest"
+        missing = "Add the bond that is missing, or the source that moves it, as in `Se:F -> ...`"
+    if not _may_start(graph, part):
+        report.warning(
+            "part-not-driven",
+            f"{begin}: this part rests for ever, and what {read} should read is always the same.",
+            *labels,
+            help=f"{missing}, or a storage with a value to start from, `C:C(q0 = 1)`.",
+        )
+        return
+    say = report.warning if others else report.info
+    say(
+        "part-not-driven",
+        f"{begin}: this part moves by nothing but what its storages hold at the start, and while "
+        f"it rests {read} can show no fault of it.",
+        *labels,
+        help=f"{missing}. Nothing is wrong if it is to swing or to run down by itself.",
+    )
+
+
+def _names(graph: BondGraph, part: list[int]) -> str:
+    return listed([f"{graph.nodes[i].keyword}:{graph.nodes[i].path}" for i in part], 5)
+
+
+class _Signals:
+    """What the symbols of a graph belong to, and what is behind those that stand for others."""
+
+    def __init__(self, graph: BondGraph) -> None:
+        self.owner = {s: i for i, node in enumerate(graph.nodes) for s in _own(node)}
+        self.behind = {i.symbol: i.integrand for i in graph.integrals}
+        self.behind |= {s.symbol: s.reads for s in graph.sensors}
+
+    def of(self, *roots: Expr) -> list[Expr]:
+        """The signals that expressions depend on, through sensors and integrals too."""
+        found: dict[Expr, None] = {}
+        while roots:
+            fresh = [s for s in symbols(*roots) if s not in found]
+            found.update(dict.fromkeys(fresh))
+            roots = tuple([self.behind[s] for s in fresh if s in self.behind])
+        return [s for s in found if s.symbol.kind not in CONSTANTS]
+
+
+def _own(node: Node) -> list[Expr]:
+    """The variables of a node."""
+    found = [v for p in node.ports for v in (p.effort, p.flow, p.state) if v is not None]
+    return found if node.common is None else [*found, node.common]
+
+
+def _parts(graph: BondGraph) -> list[list[int]]:
+    """The nodes in groups that no bond and no signal joins; all that is outside is one."""
+    joined = _Groups(len(graph.nodes))
+    for bond in graph.bonds:
+        joined.join(bond.tail.node, bond.head.node)
+    outside = [i for i, node in enumerate(graph.nodes) if node.keyword == "port"]
+    for node in outside:
+        joined.join(outside[0], node)
+    groups = joined.groups()
+    if len(groups) == 1:
+        return groups
+    signals = _Signals(graph)
+    owner = dict(signals.owner)
+    for i, element in enumerate(graph.nodes):
+        read = [law.zero for law in element.laws]
+        for symbol in signals.of(*read, *([] if element.when is None else [element.when])):
+            joined.join(i, owner.setdefault(symbol, i))
+    for sensor in graph.sensors:
+        met = [owner[s] for s in signals.of(sensor.reads) if s in owner]
+        for other in met:
+            joined.join(met[0], other)
+    return joined.groups()
+
+
+class _Groups:
+    """Numbers in groups that grow together (union by smallest number, with path halving)."""
+
+    def __init__(self, size: int) -> None:
+        self._above = list(range(size))
+
+    def _top(self, number: int) -> int:
+        above = self._above
+        while above[number] != number:
+            above[number] = above[above[number]]
+            number = above[number]
+        return number
+
+    def join(self, one: int, other: int) -> None:
+        """The groups of both become one."""
+        a, b = self._top(one), self._top(other)
+        self._above[max(a, b)] = min(a, b)
+
+    def groups(self) -> list[list[int]]:
+        """All groups, by their smallest number."""
+        found: dict[int, list[int]] = {}
+        for number in range(len(self._above)):
+            found.setdefault(self._top(number), []).append(number)
+        return list(found.values())
+
+
+def _measured(graph: BondGraph, parts: list[list[int]]) -> list[list[Sensor]]:
+    """The sensors that read each part."""
+    if len(parts) == 1:
+        return [list(graph.sensors)]
+    signals = _Signals(graph)
+    part_of = {node: i for i, part in enumerate(parts) for node in part}
+    found: list[list[Sensor]] = [[] for _ in parts]
+    for sensor in graph.sensors:
+        owners = [signals.owner[s] for s in signals.of(sensor.reads) if s in signals.owner]
+        for owner in owners[:1]:  # all are of one part
+            found[part_of[owner]].append(sensor)
+    return found
+
+
+def _is_driven(graph: BondGraph, part: list[int]) -> bool:
+    """Whether rest is no solution: an input or a number in a law keeps something in motion."""
+    nodes = [graph.nodes[i] for i in part]
+    if any(node.keyword == "port" for node in nodes):
+        return True  # the world may drive it
+    pool = Pool()  # what is worked out here leaves no trace in the order of the graph's own
+    sources = [node for node in nodes if node.kind in ("Se", "Sf")]
+    return any(
+        _at_rest(law.zero, pool) is not pool.zero
+        for node in chain(sources, nodes)  # mostly a source settles it
+        for law in node.laws
+    )
+
+
+#: Signals that a part itself makes: those of other parts are not in its laws.
+_RESTING = frozenset({Kind.EFFORT, Kind.FLOW, Kind.STATE, Kind.INTEGRAL, Kind.SENSOR})
+
+
+def _at_rest(expr: Expr, pool: Pool) -> Expr | None:
+    """An expression with zero for all signals but inputs; None where it has no value there."""
+    new: dict[Expr, Expr] = {}
+    try:
+        for node in topological([expr]):
+            if node.op is Op.SYM:
+                symbol = node.symbol
+                rests = symbol.kind in _RESTING
+                new[node] = pool.zero if rests else pool.symbol(symbol.name, symbol.kind)
+            elif node.op is Op.NUM:
+                new[node] = pool.num(node.number)
+            else:
+                new[node] = pool.rebuild(node, tuple([new[a] for a in node.args]))
+    except ZeroDivisionError:
+        return None
+    return new[expr]
+
+
+def _may_start(graph: BondGraph, part: list[int]) -> bool:
+    """Whether anything holds a value at the start, or holds one that nobody declared."""
+    starts = [
+        port.initial_value for i in part for port in graph.nodes[i].ports if port.state is not None
+    ]
+    used = set(symbols(*[law.zero for i in part for law in graph.nodes[i].laws]))
+    starts += [i.initial_value for i in graph.integrals if i.symbol in used]
+    return any(start is not graph.pool.zero for start in starts)
