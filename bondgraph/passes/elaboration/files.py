@@ -86,9 +86,6 @@ class Files:
         before = len(self.report.diagnostics)
         file = self.load(path, origin)
         said = any(d.severity == "error" for d in self.report.diagnostics[before:])
-        if file is None and not said:
-            fail(self.report, "import-failed", f'"{path}" cannot be imported.', origin,
-                 help="Check the path: it is taken from the folder of this file.")  # fmt: skip
         if file is None or said:
             raise Skip
         source = file.origin.source

@@ -27,7 +27,10 @@ def run(
     def load(name: str, span: Span) -> File | None:
         found = (others or {}).get(name)
         place = str(PurePosixPath(path).parent / name)
-        return None if found is None else parse(Source(place, "bg 1\n" + found), report)
+        if found is None:
+            report.error("file-not-found", f"{place} does not exist.", span, help="There is none.")
+            return None
+        return parse(Source(place, "bg 1\n" + found), report)
 
     file = parse(source, report)
     assert file is not None and not report.failed, report.diagnostics

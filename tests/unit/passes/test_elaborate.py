@@ -121,7 +121,7 @@ def test_imports() -> None:
     g, _ = run(text, others=others)
     assert g is not None
     assert bonds(g) == [("U", "load.r")]
-    assert [d.code for d in run(text)[1]] == ["import-failed"]
+    assert [d.code for d in run(text)[1]] == ["file-not-found"]
     cyclic = {"parts.bg": 'import M from "model.bg"\nmodel Load { port p : in any; p -> R:r = 1 }',
               "model.bg": text}  # fmt: skip
     assert [d.code for d in run(text, others=cyclic)[1]] == ["import-cycle"]
