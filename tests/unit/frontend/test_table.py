@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from bondgraph import errors
 from bondgraph.frontend.table import read_table
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source
@@ -82,14 +81,3 @@ def test_every_fault_is_reported_at_once() -> None:
     report = Report()
     read_table(Source("t.csv", "e,a,x:b\ns,1,?\nt,1,1,1\n"), report)
     assert [d.code for d in report.diagnostics] == ["table-column", "table-mark", "table-row"]
-
-
-@pytest.mark.parametrize("code", ["table-column", "table-empty", "table-mark", "table-row"])
-def test_the_tables_of_the_pages(code: str) -> None:
-    page = errors.page(code)
-    assert page is not None
-    wrong, mended = (part.split("```")[0] for part in page.split("```text\n")[1:])
-    report = Report()
-    assert read_table(Source("t.csv", wrong), report) is None
-    assert {d.code for d in report.diagnostics} == {code}
-    assert read_table(Source("t.csv", mended), Report()) is not None
