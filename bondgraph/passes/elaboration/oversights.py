@@ -7,7 +7,7 @@ from itertools import chain
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph, Node, Sensor
-from bondgraph.ir.syntax import Input, Param
+from bondgraph.ir.syntax import For, If, Input, Model, Param, Part
 from bondgraph.passes.elaboration.problems import listed
 from bondgraph.passes.elaboration.scope import NodeEntry, ValueEntry
 from bondgraph.text.diagnostic import Label, Report
@@ -19,7 +19,7 @@ _SHOWN = 4  # places of one finding
 
 
 def report_unused(entries: Iterable[ValueEntry], used: set[ValueEntry], report: Report) -> None:
-    """Declared params, consts and inputs that no instance of their model uses."""
+    """Declared params, consts and inputs that no instance of their model uses, nor could."""
     unused: dict[Span, ValueEntry] = {}
     somewhere: set[Span] = set()
     for entry in entries:
@@ -28,15 +28,36 @@ def report_unused(entries: Iterable[ValueEntry], used: set[ValueEntry], report: 
                 somewhere.add(entry.origin)
             else:
                 unused.setdefault(entry.origin, entry)
+    optional: dict[Span, set[str]] = {}
     for origin, entry in unused.items():
-        if origin not in somewhere:
-            what, example = _use(entry)
-            report.warning(
-                "value-not-used",
-                f"Nothing uses the {what} `{entry.local}`: it does not matter what it is.",
-                origin,
-                help=f"Use it where it belongs, as in {example} or in a law, or leave it out.",
-            )
+        model = entry.scope.model
+        if origin in somewhere:
+            continue
+        if model.origin not in optional:
+            optional[model.origin] = _optional(model)
+        if entry.declaration.name.name in optional[model.origin]:
+            continue
+        what, example = _use(entry)
+        report.warning(
+            "value-not-used",
+            f"Nothing uses the {what} `{entry.local}`: it does not matter what it is.",
+            origin,
+            help=f"Use it where it belongs, as in {example} or in a law, or leave it out.",
+        )
+
+
+def _optional(model: Model) -> set[str]:
+    """All names in what a model builds for some arguments only: in the bodies of `if` and `for`."""
+    found: set[str] = set()
+    stack: list[tuple[object, bool]] = [(model.body, False)]
+    while stack:
+        item, inside = stack.pop()
+        if isinstance(item, Part) and inside:
+            found.add(item.name)
+        if isinstance(item, tuple):
+            inside = inside or isinstance(item, (If, For))
+            stack += [(part, inside) for part in item]
+    return found
 
 
 def _use(entry: ValueEntry) -> tuple[str, str]:
@@ -90,9 +111,10 @@ def report_parts(graph: BondGraph, report: Report) -> None:
         if places in seen:
             continue  # the same part of another instance of a model
         seen.add(places)
+        outside = any(graph.nodes[i].keyword == "port" for i in part)  # the world may measure it
         if sensors and not moving:
             _undriven(graph, part, sensors, any(driven), report)
-        elif not sensors and any(measured):
+        elif not sensors and any(measured) and not outside:
             _unmeasured(graph, part, report)
 
 

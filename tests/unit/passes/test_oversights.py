@@ -111,6 +111,8 @@ def test_nothing_is_said_of_parts_where_nothing_is_measured() -> None:
 def test_the_world_drives_and_joins_what_has_ports() -> None:
     body = "port a : in any; port b : out any; a -> 1:i; i -> Df:y; 0:n -> b; n -> C:C; param C = 1"
     assert said(body, open_ports=True) == []
+    beside = "port a : in any; 0:n -> R:b; a -> n; param b = 1; "
+    assert said(beside + MACHINE, open_ports=True) == []
 
 
 def test_equal_parts_of_instances_are_said_once() -> None:
@@ -156,6 +158,14 @@ def test_a_value_is_used_if_one_instance_uses_it() -> None:
     bonds = "; P:p(on = true); P:q(on = false); i -> p.a; i -> q.a"
     (one,) = said(MACHINE + bonds, part.replace("; ", "\n"))
     assert "`s`" in one.message and one.code == "value-not-used"
+
+
+@pytest.mark.parametrize(("option", "said_of"), [("if on { x -> R:k }", []), ("", ["`k`"])])
+def test_what_another_choice_would_use_is_not_mentioned(option: str, said_of: list[str]) -> None:
+    part = f"model P(on : bool) {{ port a : in any; param k = 1; a -> 1:x; x -> R:r; {option}; "
+    part += "param r = 2 }"
+    found = said(MACHINE + "P:p(on = false); i -> p.a", part.replace("; ", "\n"))
+    assert [name for d in found for name in ["`k`"] if name in d.message] == said_of
 
 
 def test_what_an_argument_binds_is_unused_where_it_is_declared() -> None:
