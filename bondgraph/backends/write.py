@@ -111,20 +111,23 @@ def _manifest(home: Path) -> dict[str, str]:
 
 
 def _is_below(path: str) -> bool:
-    """Whether it is the one plain way to write a path below the folder, and not the manifest's.
+    """Whether it is the one plain way to write a path below the folder, with no hidden name in it.
 
-    >>> names = "a.c", "a/b.c", "", ".", "/a", "../a", "a/../b", "./a", "a//b"
+    Hidden files are other programs' affairs (`.git/HEAD`), but for the manifest.
+
+    >>> names = "a.c", "a/b.c", "", ".", "/a", "../a", "a/../b", "./a", "a//b", ".git/HEAD"
     >>> [name for name in names if _is_below(name)]
     ['a.c', 'a/b.c']
     """
-    parts = path.split("/")
-    if any(part in ("", ".", "..") for part in parts) or "\0" in path or "\\" in path:
+    if any(not part or part.startswith(".") for part in path.split("/")):
+        return False
+    if "\0" in path or "\\" in path or Path(path).is_absolute() or Path(path).drive:
         return False
     try:
         os.fsencode(path)
     except UnicodeError:  # half a character
         return False
-    return path != MANIFEST and not Path(path).is_absolute() and not Path(path).drive
+    return True
 
 
 def _at(home: Path, path: str) -> Literal["nothing", "file", "obstacle"]:

@@ -79,6 +79,16 @@ def test_a_name_in_the_manifest(name: str, place: Place) -> None:
     assert json.loads((place.out / MANIFEST).read_text())["files"].keys() == {"a.c"}
 
 
+def test_hidden_files_are_not_ours(place: Place) -> None:
+    """Of a repository whose content everybody can guess, where one compiles into its top."""
+    head = place.out / ".git" / "HEAD"
+    head.parent.mkdir()
+    head.write_text("ref: refs/heads/main\n")
+    place.manifest({".git/HEAD": sha256(head.read_bytes()).hexdigest()})
+    write(_FILES, place.out)
+    assert head.exists()
+
+
 def test_a_link_that_the_manifest_lists(place: Place) -> None:
     """Neither what it leads to is removed, nor the link: it was not we who made it."""
     (place.out / "old.c").symlink_to(place.loot)
