@@ -133,10 +133,12 @@ def _undriven(
     graph: BondGraph, part: list[int], sensors: list[Sensor], others: bool, report: Report
 ) -> None:
     """A part in which rest is a solution of all laws: it needs a push from the start to move."""
-    begin = f"Nothing drives {_names(graph, part)}"
+    whole = len(part) == len(graph.nodes)
+    begin = "Nothing drives this model" if whole else f"Nothing drives {_names(graph, part)}"
+    what = "it" if whole else "this part"
     read = listed([s.name for s in sensors])
     labels = [
-        Label(graph.nodes[part[0]].origin, "nothing drives this part"),
+        Label(graph.nodes[part[0]].origin, "the model" if whole else "nothing drives this part"),
         *[Label(s.origin, "measured here") for s in sensors[:_SHOWN]],
     ]
     missing = "Add the source that moves it, as in `Se:F -> ...`"
@@ -146,7 +148,7 @@ def _undriven(
     if not _may_start(graph, part):
         report.warning(
             "part-not-driven",
-            f"{begin}: this part rests for ever, and what {read} should read is always the same.",
+            f"{begin}: {what} rests for ever, and what {read} should read is always the same.",
             *labels,
             help=f"{missing}, or a storage with a value to start from, `C:C(q0 = 1)`.",
         )
@@ -154,7 +156,7 @@ def _undriven(
     say = report.warning if others else report.info
     say(
         "part-not-driven",
-        f"{begin}: this part moves by nothing but what its storages hold at the start, and while "
+        f"{begin}: {what} moves by nothing but what its storages hold at the start, and while "
         f"it rests {read} can show no fault of it.",
         *labels,
         help=f"{missing}. Nothing is wrong if it is to swing or to run down by itself.",
