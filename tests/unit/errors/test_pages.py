@@ -195,7 +195,23 @@ def _large(monkeypatch: pytest.MonkeyPatch, wrong: bool) -> str:
 
 
 def _mistaken(monkeypatch: pytest.MonkeyPatch, wrong: bool) -> str:
-    """Only a mistake of the compiler: here it denies that the residual sees the first fault."""
+    """Only a mistake of the compiler: here it forgets a term of the residual."""
+
+    def forgetful(*args: Any) -> Any:
+        residuals, matrix = signatures(*args)
+        first, *others = residuals.residuals
+        pool = residuals.system.graph.pool
+        sensor = residuals.system.graph.sensors[0].symbol
+        wrong_one = first._replace(expr=pool.add((1, first.expr), (1, pool.der(sensor))))
+        return residuals._replace(residuals=(wrong_one, *others)), matrix
+
+    if wrong:
+        monkeypatch.setattr("bondgraph.passes.signatures.signatures", forgetful)
+    return BRIEF.format("")
+
+
+def _denied(monkeypatch: pytest.MonkeyPatch, wrong: bool) -> str:
+    """A branch that only the points of the check meet; here an entry is turned round."""
 
     def denied(*args: Any) -> Any:
         residuals, matrix = signatures(*args)
@@ -220,6 +236,7 @@ PROVOKED: dict[str, Callable[[pytest.MonkeyPatch, bool], str]] = {
     "expression-too-deep": _deep,
     "syntax-many": _many,
     "loop-too-large": _large,
+    "signature-unconfirmed": _denied,
     "verification-failed": _mistaken,
     "relations-missing": _short,
 }
