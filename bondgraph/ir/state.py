@@ -12,8 +12,9 @@ class Block(NamedTuple):
     """Variables that are found together, once all blocks before are.
 
     A single one with a closed form has its `value`; else all `zeros` vanish, where `slopes[i][j]`
-    is the derivative of zero i by unknown j. A `linear` block has no unknown in its slopes.
-    `names` and `origins` are the elements whose laws these are.
+    is the derivative of zero i by unknown j. Of a linear block `rests` are the zeros without the
+    terms in the unknowns, of another one nothing. `names` and `origins` are the elements whose laws
+    these are.
     """
 
     unknowns: tuple[Expr, ...]
@@ -22,7 +23,7 @@ class Block(NamedTuple):
     origins: tuple[Span, ...]
     zeros: tuple[Expr, ...] = ()
     slopes: tuple[tuple[Expr, ...], ...] = ()
-    linear: bool = False
+    rests: tuple[Expr, ...] = ()
 
 
 class State(NamedTuple):

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.passes.cancelled import without
 from bondgraph.passes.solve import affine, constant
 from bondgraph.passes.summands import summands
 from bondgraph.passes.zero import is_zero
@@ -93,17 +93,21 @@ def _chosen(pool: Pool, expr: Expr, choices: dict[Expr, Expr]) -> Expr:
 def _telling(pool: Pool, expr: Expr) -> Expr:
     """The expression without the integrals of unknown start that cancel in it.
 
-    One cancels if the value is the same whatever signal stands in its place.
+    One cancels if the value is the same whatever signal stands in its place; so may a function of
+    one, as its logarithm.
     """
     if len(topological([expr])) > _LARGE:
         return expr
     one, other = (pool.symbol(name, Kind.TEAR) for name in ("?one", "?other"))
-    for node in [n for n in _holding(expr) if n.op is Op.INT]:
+    holding = _holding(expr)
+    functions = [n for n in reversed(holding) if n.op is Op.FN]
+    for node in (*functions, *[n for n in holding if n.op is Op.INT]):
         at = [pool.substitute([expr], {node: x})[0] for x in (one, other)]
-        if is_zero(pool.sub(*at)):
+        if at[0] is not expr and is_zero(pool.sub(*at)):
             for number in (pool.zero, pool.one):  # zero may stand below a fraction
-                with suppress(ZeroDivisionError):
-                    expr = _flat(pool, pool.substitute([expr], {node: number})[0])
+                free = without(pool, expr, [node], number=number)[0]
+                if free is not expr:
+                    expr = _flat(pool, free)
                     break
     return expr
 

@@ -8,6 +8,7 @@ from bondgraph.ir.equations import Equation, EquationSystem
 from bondgraph.ir.expr import VARIABLES, Expr, Op, topological
 from bondgraph.ir.graph import Node
 from bondgraph.passes.sensitivity import sensitivity
+from bondgraph.passes.solve import rest
 
 _STRUCTURE = ("0", "1", "TF", "GY")
 _ROUNDING = 1e-9  # of the coefficients of a balance
@@ -88,7 +89,7 @@ def _linear(system: EquationSystem, zero: Expr, number: Number) -> dict[Expr, fl
     """The coefficients of a homogeneous linear equation; empty where it is none."""
     pool = system.graph.pool
     unknown = [n for n in topological([zero]) if n.op is Op.SYM and n.symbol.kind in VARIABLES]
-    if pool.substitute([zero], dict.fromkeys(unknown, pool.zero))[0] is not pool.zero:
+    if rest(pool, zero, unknown) is not pool.zero:
         return {}
     found = {}
     for variable, slope in sensitivity(pool, zero, unknown).items():

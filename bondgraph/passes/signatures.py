@@ -13,6 +13,7 @@ from bondgraph.exact.plant import Plant
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.passes.cancelled import without
 from bondgraph.passes.cleared import cleared, moduli, nothings
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.present import upright
@@ -94,18 +95,12 @@ def pruned(pool: Pool, closing: Closing, free: Sensitivity) -> Closing:
     """The relation without the parts that cancel whatever the signals are.
 
     A part cancels when the relation's derivative with respect to it vanishes; the relation keeps
-    its value when the part is put to zero. (What decides between branches counts as influence.)
+    its value `without` it. (What decides between branches counts as influence.)
     What the equation of an iteration holds stays: its root is then still the variable it is of.
     """
     nodes = topological([closing.expr])
     kept = set(topological([a for n in nodes if n.op is Op.ROOT for a in n.args]))
-    dead = {n: pool.zero for n in nodes if n in free.dead and n not in kept}
-    dead = {n: zero for n, zero in dead.items() if n.op is not Op.NUM}
-    if not dead:
-        return closing
-    try:
-        expr, *values = pool.substitute([closing.expr, *[s.closed for s in closing.steps]], dead)
-    except ZeroDivisionError:
-        return closing
+    dead = [n for n in nodes if n in free.dead and n not in kept]
+    expr, *values = without(pool, closing.expr, dead, [s.closed for s in closing.steps])
     steps = [s._replace(closed=v) for s, v in zip(closing.steps, values, strict=True)]
     return closing._replace(expr=expr, steps=tuple(steps))

@@ -6,7 +6,7 @@ variable more than once in a nonlinear way goes to SymPy.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from typing import NamedTuple
@@ -190,6 +190,20 @@ def affine(pool: Pool, node: Expr, variable: Expr) -> tuple[Expr, Expr] | None:
         else:
             return None
     return parts[node]
+
+
+def rest(pool: Pool, zero: Expr, variables: Sequence[Expr]) -> Expr | None:
+    """What is left of a linear equation beside its variables; None where it is not linear in them.
+
+    Zero in place of the variables would not do: it is no value of log(2 f) - log(3 f).
+    """
+    wanted = set(variables)
+    for variable in [n for n in topological([zero]) if n in wanted]:
+        parts = affine(pool, zero, variable)
+        if parts is None or any(n in wanted for n in topological([parts[0]])):
+            return None
+        zero = parts[1]
+    return zero
 
 
 def _holders(node: Expr, variable: Expr) -> dict[Expr, None]:

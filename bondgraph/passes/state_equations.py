@@ -24,7 +24,7 @@ from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.reduce_index import Column, Reduced, reduce_index
 from bondgraph.passes.rings import rings
 from bondgraph.passes.sensitivity import sensitivity
-from bondgraph.passes.solve import solve
+from bondgraph.passes.solve import rest, solve
 from bondgraph.text.diagnostic import Report
 
 _UNKNOWN = (VARIABLES | {Kind.SENSOR}) - {Kind.UNKNOWN}
@@ -313,10 +313,9 @@ class _Causaliser:
             if found is not None:
                 return Block(tuple(unknowns), found.value, names, origins)
         slopes = tuple(tuple(sensitivity(pool, zero, unknowns).values()) for zero in zeros)
-        inside = set(unknowns)
-        linear = not any(
-            s in inside for row in slopes for slope in row for s in topological([slope])
-        )
+        rests = [rest(pool, zero, unknowns) for zero in zeros]
+        linear = tuple(r for r in rests if r is not None)
+        linear = linear if len(linear) == len(zeros) else ()
         return Block(tuple(unknowns), None, names, origins, tuple(zeros), slopes, linear)
 
     def _wish(self, variable: Expr) -> tuple[int, int]:

@@ -26,7 +26,27 @@ def is_zero(expr: Expr) -> bool:
     >>> is_zero(p.sub(square, cross))
     True
     """
-    return all(_value(expr, seed) == 0 for seed in (1, 2))
+    return all(_values([expr], seed)[expr] == 0 for seed in (1, 2))
+
+
+def agree(pairs: Sequence[tuple[Expr, Expr]]) -> list[bool]:
+    """Whether two expressions are identically equal, for each of the pairs, in one pass over all.
+
+    Errs towards "not equal", as `is_zero` does; one that divides by zero at a point equals itself.
+
+    >>> from bondgraph.ir.expr import Pool, Kind
+    >>> p = Pool(); a = p.symbol("a", Kind.PARAM); b = p.symbol("b", Kind.PARAM)
+    >>> agree([(p.add((2, p.add((1, a), (1, b))), (-2, b)), p.scale(2, a)), (a, b)])
+    [True, False]
+    """
+    told = [(one, other) for one, other in pairs if one is not other]
+    same = dict.fromkeys(told, True)
+    for seed in (1, 2):
+        at = _values([e for pair in told for e in pair], seed)
+        for one, other in told:
+            value = at[one]
+            same[one, other] &= value is not None and value == at[other]
+    return [one is other or same[one, other] for one, other in pairs]
 
 
 def share_factor(a: list[Expr], b: list[Expr]) -> bool:
@@ -34,7 +54,8 @@ def share_factor(a: list[Expr], b: list[Expr]) -> bool:
 
     Euclid's algorithm on their values at a random point; a division by zero there counts as yes.
     """
-    left, right = ([_value(c, 3) for c in p] for p in (a, b))
+    at = _values([*a, *b], 3)
+    left, right = ([at[c] for c in p] for p in (a, b))
     if None in left or None in right:
         return True
     one, other = _trimmed(left), _trimmed(right)
@@ -57,32 +78,43 @@ def _trimmed(values: Sequence[int | None]) -> list[int]:
     return known
 
 
-def _value(expr: Expr, seed: int) -> int | None:
-    values: dict[Expr, int] = {}
-    for node in topological([expr]):
-        args = [values[a] for a in node.args]
-        if node.op is Op.NUM:
-            number = node.number
-            if number.denominator % _P == 0:
+def _values(exprs: Sequence[Expr], seed: int) -> dict[Expr, int | None]:
+    """The nodes of some expressions at a random point; None where one divides by zero there."""
+    values: dict[Expr, int | None] = {}
+    for node in topological(exprs):
+        args = []
+        for a in node.args:
+            x = values[a]
+            if x is None:
+                break
+            args.append(x)
+        values[node] = _one(node, args, seed) if len(args) == len(node.args) else None
+    return values
+
+
+def _one(node: Expr, args: list[int], seed: int) -> int | None:
+    """One node from its arguments."""
+    if node.op is Op.NUM:
+        number = node.number
+        if number.denominator % _P == 0:
+            return None
+        value = number.numerator * pow(number.denominator, -1, _P)
+    elif node.op is Op.ADD:
+        value = 0
+        for c, x in zip(node.coefficients, args, strict=True):
+            value += x * c.numerator * pow(c.denominator, -1, _P)
+    elif node.op is Op.MUL:
+        value = 1
+        for e, x in zip(node.exponents, args, strict=True):
+            if x == 0 and e < 0:
                 return None
-            value = number.numerator * pow(number.denominator, -1, _P)
-        elif node.op is Op.ADD:
-            value = 0
-            for c, x in zip(node.coefficients, args, strict=True):
-                value += x * c.numerator * pow(c.denominator, -1, _P)
-        elif node.op is Op.MUL:
-            value = 1
-            for e, x in zip(node.exponents, args, strict=True):
-                if x == 0 and e < 0:
-                    return None
-                value = value * pow(x, e, _P) % _P
-        elif node.op is Op.SYM:
-            value = _mix(seed, node.symbol.name)
-        else:
-            data = node.root.zero.id if node.op is Op.ROOT else node.data
-            value = _mix(seed, f"{node.op.value}:{data}:{args}")
-        values[node] = value % _P
-    return values[expr]
+            value = value * pow(x, e, _P) % _P
+    elif node.op is Op.SYM:
+        value = _mix(seed, node.symbol.name)
+    else:
+        data = node.root.zero.id if node.op is Op.ROOT else node.data
+        value = _mix(seed, f"{node.op.value}:{data}:{args}")
+    return value % _P
 
 
 def _mix(seed: int, text: str) -> int:

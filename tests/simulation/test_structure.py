@@ -104,6 +104,19 @@ def test_a_diode_and_a_resistor_are_solved_where_they_meet() -> None:
     assert near(found.columns["y"], np.array(wanted), 1e-9)
 
 
+def test_a_law_whose_slope_is_constant_where_it_has_no_value_at_zero() -> None:
+    """2 f + log(2 f) - log(3 f) is 2 f + log(2/3), and so is the other one."""
+    found = run(
+        "Se:U -> 1:i\ni -> R:a { e = 2*f + log(2*f) - log(3*f) }\ni -> 0:n\nn -> R:c = 5\n"
+        "n -> R:b { e = 3*f + 4*log(f*2) - 4*log(f*3) }\nn -> De:y",
+        "duration = 0.01\nsampling.rate = 100\ninputs.U = 10",
+    ).truth
+    # 10 - 2 i - c = u, i = u/5 + (u - 4 c)/3 with c = log(2/3)
+    c = math.log(2 / 3)
+    u = (10 - c + 8 / 3 * c) / (1 + 2 / 5 + 2 / 3)
+    assert near(found.columns["y"], np.full(len(found.time), u), 1e-9)
+
+
 @pytest.mark.parametrize(
     ("law", "inverse"),
     [

@@ -196,7 +196,7 @@ class Machine:
             if block.value is not None:
                 text = code.write(block.value)
                 code.known[block.unknowns[0]] = text
-            elif block.linear:
+            elif block.rests:
                 self._linear(code, number, block, more)
             else:
                 self._iterated(code, number, block, more)
@@ -230,8 +230,7 @@ class Machine:
     def _linear(self, code: Code, number: int, block: Block, more: dict[str, object]) -> None:
         """Matrix times unknowns = right side; factorised once where the matrix is constant."""
         pool = code.pool
-        at_zero = pool.substitute(block.zeros, dict.fromkeys(block.unknowns, pool.zero))
-        right = [code.write(pool.neg(z)) for z in at_zero]
+        right = [code.write(pool.neg(r)) for r in block.rests]
         size = len(right)
         entries = [
             (i, j, slope)

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
-from bondgraph.passes.solve import affine, solve
+from bondgraph.passes.solve import affine, rest, solve
 
 NUMBERS = {"R": 3.0, "k": 0.7, "f": 0.4, "g": -1.3, "c": 2.5}
 FUNCTIONS = {
@@ -119,7 +119,16 @@ def test_affine_splits_exactly(pool: Pool) -> None:
     expr = pool.add((Fraction(1, 3), pool.mul(s["R"], s["f"])), (2, s["f"]), (-1, s["c"]))
     parts = affine(pool, expr, s["f"])
     assert parts is not None
-    slope, rest = (evaluate(p, NUMBERS) for p in parts)
-    assert slope * 0.4 + rest == pytest.approx(evaluate(expr, NUMBERS))
+    slope, left = (evaluate(p, NUMBERS) for p in parts)
+    assert slope * 0.4 + left == pytest.approx(evaluate(expr, NUMBERS))
     assert affine(pool, pool.power(s["f"], 2), s["f"]) is None
     assert affine(pool, s["c"], s["f"]) == (pool.zero, s["c"])
+
+
+def test_what_is_left_of_a_linear_equation(pool: Pool) -> None:
+    s = symbols(pool)
+    f, g, c = s["f"], s["g"], s["c"]
+    logs = pool.sub(pool.fn("log", pool.mul(s["R"], f)), pool.fn("log", pool.mul(s["k"], f)))
+    assert rest(pool, pool.add((2, f), (3, g), (1, c)), [f, g]) is c
+    assert rest(pool, pool.add((2, f), (1, logs)), [f]) is None  # though its slope is 2
+    assert rest(pool, pool.mul(f, g), [f, g]) is None
