@@ -228,9 +228,12 @@ class Compilation:
 
     @cached_property
     def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:
+        from bondgraph.passes.shortfall import stop_without_any
         from bondgraph.passes.signatures import signatures
 
-        return self._stage(signatures(self.combined, self.report, self.options.seed, self._plant))
+        found = signatures(self.combined, self.report, self.options.seed, self._plant)
+        stop_without_any(self.report, found[0])
+        return self._stage(found)
 
     @cached_property
     def _plant(self) -> Plant:

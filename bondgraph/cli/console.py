@@ -57,6 +57,7 @@ def failure(error: CompileError) -> dict[str, object]:
         "n_arr": 0,
         "files": [],
         "arrs": [],
+        "missing": [],
         "undetectable": [],
         "groups": [],
     }

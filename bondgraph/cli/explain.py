@@ -85,6 +85,7 @@ def about(compilation: Compilation, name: str) -> list[str]:
     parts += [_bond(compilation, bond) for bond in _bonds(graph, name)]
     if name in graph.faults:
         parts.append(_fault(compilation, name))
+    parts += _missing(compilation, name)
     # A residual needs all of the analysis, so it is looked for last; `r1` may name a node as well.
     if not parts or re.fullmatch(r"r\d+", name):
         for relation in compilation.residuals:
@@ -94,6 +95,31 @@ def about(compilation: Compilation, name: str) -> list[str]:
     for part in parts:
         lines += ["", *part] if lines else part
     return lines
+
+
+def _missing(compilation: Compilation, name: str) -> list[list[str]]:
+    """The relations that could not be had and are about a name, or fail because of it."""
+    from bondgraph.cli.layout import prose, width
+    from bondgraph.ir.dump import equation_name
+    from bondgraph.text.diagnostic import CompileError
+
+    try:
+        found = compilation.reduced.missing
+    except CompileError:  # a model that is wrong, or of which no relation can be had, says so
+        return []
+    columns = width()
+    parts = []
+    for missing in found:
+        if name == missing.about.name or name in missing.elements:
+            head = f"missing  {equation_name(missing.about, compilation.source)}"
+            parts.append(
+                [
+                    head,
+                    *prose(missing.finding.message, columns, "  "),
+                    *prose(missing.finding.help, columns, "  "),
+                ]
+            )
+    return parts
 
 
 def _bonds(graph: BondGraph, name: str) -> list[Bond]:

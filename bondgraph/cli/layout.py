@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import textwrap
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -72,6 +73,17 @@ def names(items: Iterable[str], columns: int, lead: str) -> list[str]:
         line += piece
         empty = False
     return [*lines, line]
+
+
+def prose(text: str, columns: int, lead: str) -> list[str]:
+    """A sentence broken between words, every line behind the same lead.
+
+    >>> prose("as long as it is", 10, "  ")
+    ['  as long', '  as it is']
+    """
+    lines = textwrap.wrap(text, columns, break_long_words=False, break_on_hyphens=False,
+                          initial_indent=lead, subsequent_indent=lead)  # fmt: skip
+    return lines or [lead]
 
 
 def signature_table(matrix: SignatureMatrix) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bondgraph.cli.console import plural
+from bondgraph.ir.dump import equation_name
 from bondgraph.ir.expr import Expr, symbols
 from bondgraph.passes.matching import decompose
 
@@ -24,13 +25,17 @@ def message(compilation: Compilation) -> str:
     '2 residuals detect 9 of 9 faults, in 3 groups'
     """
     matrix = compilation.signatures
+    number = len(compilation.residuals.stage.missing)
     if not matrix.residuals:
+        if number:
+            return f"no residual: {plural(number, 'relation')} could not be derived"
         return f"no residual: {_nothing(compilation)}"
     found = len(matrix.faults) - len(matrix.undetectable)
     verb = "detects" if len(matrix.residuals) == 1 else "detect"
     return (
         f"{plural(len(matrix.residuals), 'residual')} {verb} {found} of"
         f" {plural(len(matrix.faults), 'fault')}, in {plural(len(matrix.groups), 'group')}"
+        + (f"; {plural(number, 'relation')} could not be had" if number else "")
     )
 
 
@@ -48,6 +53,14 @@ def _nothing(compilation: Compilation) -> str:
         unknown = _and(_few([f"`{u.symbol.name}`" for u in hidden]))
         return f"{names} {verb} needed to tell the unknown {unknown}, so no fault can be detected"
     return "nothing is measured twice over, so no fault can be detected"
+
+
+def missing(compilation: Compilation) -> list[tuple[str, str]]:
+    """The relations that could not be had, each with the reason; those of one equation once."""
+    source = compilation.source
+    found = compilation.residuals.stage.missing
+    told = ((equation_name(m.about, source), m.finding.message) for m in found)
+    return list(dict.fromkeys(told))
 
 
 def reasons(compilation: Compilation) -> dict[str, list[str]]:
@@ -75,6 +88,12 @@ def reason(compilation: Compilation, fault: str) -> str:
         values = apart[0]
         which = f"another value of {' or '.join(_few(list(values)))}" if values else "other values"
         return f"the declared numbers hide it: with {which} it would be seen"
+    own = {id(e) for e in holding}
+    lost = [m for m in found.missing if any(id(e) in own for e in m.equations)]
+    if lost:
+        names = _and(_few([f"`{name}`" for name in dict.fromkeys(m.about.name for m in lost)]))
+        noun = "the relation" if len(lost) == 1 else "the relations"
+        return f"{noun} at {names} might see it, and could not be had"
     if any(id(e) in used for e in holding):
         return "it cancels out of every residual"
     rest = [e for e in found.system.equations if id(e) not in used]

@@ -45,6 +45,14 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
         "n_arr": len(arrs),
         "files": list(files),
         "arrs": [arr for arr, _ in arrs],
+        "missing": [
+            {
+                "about": missing.about.name,
+                "reason": missing.finding.message,
+                "elements": list(missing.elements),
+            }
+            for missing in compilation.residuals.stage.missing
+        ],
         "symbols": [plain for plain in names.by_model.values() if plain in used],
         "names": {
             plain: names.known_as.get(plain, name)

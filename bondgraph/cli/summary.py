@@ -6,8 +6,8 @@ import os
 from typing import TYPE_CHECKING
 
 from bondgraph.cli.console import plural
-from bondgraph.cli.layout import formula, names, signature_table, width
-from bondgraph.cli.reasons import message, reasons
+from bondgraph.cli.layout import formula, names, prose, signature_table, width
+from bondgraph.cli.reasons import message, missing, reasons
 from bondgraph.ir.dump import equation_name
 from bondgraph.ir.expr import topological
 
@@ -30,6 +30,10 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
         lines.append(_checked(compilation))
     for relation in compilation.residuals:
         lines += ["", *closed_form(compilation, relation, columns)]
+    if compilation.residuals.stage.missing:
+        lines += ["", "Missing"]
+        for name, why in missing(compilation):
+            lines += [f"  {name}", *prose(why, columns, "    ")]
     if matrix.faults and matrix.residuals:
         lines += ["", "Fault signatures", *signature_table(matrix)]
     lines += _elsewhere(matrix, columns)

@@ -253,6 +253,9 @@ def dump_residuals(found: ResidualSet) -> str:
     """Each residual with the steps that lead to it, and what is not monitored."""
     source = found.system.graph.source
     blocks = [residual_path(r, source) for r in found.residuals]
+    if found.missing:
+        lines = [f"missing: {equation_name(m.about, source)}" for m in found.missing]
+        blocks.append("\n".join(lines))
     if found.unmonitored:
         names = dict.fromkeys(e.name for e in found.unmonitored)
         blocks.append("not monitored: " + ", ".join(names))

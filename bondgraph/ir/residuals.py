@@ -6,6 +6,7 @@ from typing import Literal
 
 from bondgraph.ir.equations import Equation, EquationSystem
 from bondgraph.ir.expr import Expr
+from bondgraph.text.diagnostic import Diagnostic
 from bondgraph.text.tuples import NamedTuple
 
 How = Literal["solved", "inverted", "differentiated", "integrated", "loop", "known"]
@@ -42,16 +43,38 @@ class Residual(NamedTuple):
     free_of: str | None = None
 
 
+class Missing(NamedTuple):
+    """A relation that the model has but that could not be had.
+
+    `about` is the equation that would have become the relation, `elements` the names of what stands
+    in the way, `equations` what the relation would rest on, as far as that is known. `finding` says
+    why, where and what to do: an error, which it is only where no relation at all is had, or a
+    warning where no reason is known.
+    """
+
+    about: Equation
+    elements: tuple[str, ...]
+    equations: tuple[Equation, ...]
+    finding: Diagnostic
+
+    @property
+    def explained(self) -> bool:
+        """Whether it is known why the relation could not be had."""
+        return self.finding.severity == "error"
+
+
 class ResidualSet(NamedTuple):
     """All ARRs in stable order; `unsolved` are the variables that no sensor reaches.
 
-    `unmonitored` are the equations of the part that has no redundancy.
+    `unmonitored` are the equations of the part that has no redundancy, `missing` the relations that
+    could not be had.
     """
 
     system: EquationSystem
     residuals: tuple[Residual, ...]
     unsolved: tuple[Expr, ...]
     unmonitored: tuple[Equation, ...]
+    missing: tuple[Missing, ...] = ()
 
 
 class Closing(NamedTuple):
@@ -75,11 +98,11 @@ class ReducedSystem(NamedTuple):
     """The equations after elimination, before what cancels is taken out.
 
     `unsolved` are variables that no sensor reaches, `unmonitored` the equations that hold them.
-    `missing` counts relations that exist but could not be brought to known signals.
+    `missing` are relations that exist but could not be brought to known signals.
     """
 
     system: EquationSystem
     closings: tuple[Closing, ...]
     unsolved: tuple[Expr, ...]
     unmonitored: tuple[Equation, ...]
-    missing: int
+    missing: tuple[Missing, ...]

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from bondgraph.ir.equations import Equation, EquationSystem
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
-from bondgraph.ir.residuals import Closing, How, ReducedSystem, Step
+from bondgraph.ir.residuals import Closing, How, Missing, ReducedSystem, Step
 from bondgraph.passes.colour import colours
 from bondgraph.passes.cost import FREE_START, ITERATION, LOOP, Cost, after
 from bondgraph.passes.initial import without_free_integrals
@@ -25,14 +25,8 @@ from bondgraph.passes.linear_block import LARGEST, linear_equations, products, s
 from bondgraph.passes.loops import Loops
 from bondgraph.passes.matching import components, decompose
 from bondgraph.passes.nominal import Nominal
-from bondgraph.passes.shortfall import (
-    initial_value_needed,
-    loop_too_large,
-    loop_unsolvable,
-    relations_missing,
-)
+from bondgraph.passes.shortfall import initial_value_needed, loop_unsolvable, unaccounted
 from bondgraph.passes.solve import ITERATED, Solution, solve
-from bondgraph.text.diagnostic import Report
 
 #: Relations are tangled that rest on every step so many times, few steps not counted.
 _TANGLED, _FEW = 4, 1000
@@ -75,14 +69,13 @@ class Way(NamedTuple):
 class Chain:
     """The state of one elimination."""
 
-    def __init__(self, system: EquationSystem, report: Report, way: Way | None = None) -> None:
+    def __init__(self, system: EquationSystem, way: Way | None = None) -> None:
         way = way or Way()
         self.system = system
         self.free = way.free
         self.starts = way.starts
         self.eager = way.eager
         self.pool = system.graph.pool
-        self.report = report
         self.colour, self.variable_colour = colours(system)
         self.position = {v: i for i, v in enumerate(system.unknowns)}
         self.waiting = [len(e.variables) for e in system.equations]
@@ -360,39 +353,38 @@ class Chain:
         return False
 
     def result(self) -> ReducedSystem:
-        """The relations that were found, and what no sensor reaches."""
-        relations, lost = self.loops.relations()
+        """The relations that were found, those that are missing, and what no sensor reaches."""
+        relations = self.loops.relations()
         final = self.loops.solutions()
         closings = []
+        missing = []
         done: dict[Expr, Step] = {}
         for rows, expr in sorted(relations, key=lambda r: r[0][-1]):
             steps = tuple(self.finished(v, final, done) for v in self.resting_on(rows))
             found = without_free_integrals(self.pool, expr)
             equation = self.system.equations[rows[-1]]
             if found is None:
-                initial_value_needed(self.report, equation, expr, steps)
-                lost += 1
+                missing.append(initial_value_needed(equation, expr, steps))
             elif found.expr is not self.pool.zero:
                 closings.append(Closing(equation, found.expr, steps, found.order, found.raw))
         unsolved = tuple(v for v in self.system.unknowns if v not in self.closed)
         unmonitored = tuple(e for r, e in enumerate(self.system.equations) if not self.used[r])
-        self.report_shortfall(self.loops.identities + len(closings) + lost)
-        return ReducedSystem(self.system, tuple(closings), unsolved, unmonitored, lost)
+        for rows, about in self.loops.lost:
+            below = [self.steps[v] for v in self.resting_on(rows)]
+            inside = [s for s in below if self.loops.open_in(s.closed)]
+            costs, closing = ([self.system.equations[r] for r in own] for own in (about, rows))
+            missing += loop_unsolvable(costs, inside, closing, below)
+        missing += self.unaccounted([*[c.equation for c in closings], *[m.about for m in missing]])
+        return ReducedSystem(self.system, tuple(closings), unsolved, unmonitored, tuple(missing))
 
-    def report_shortfall(self, found: int) -> None:
-        """Say which loops cost a relation, and hold the number of relations to theory."""
-        for loop in self.oversized:
-            loop_too_large(self.report, loop)
-        if self.oversized:
-            return
-        for rows in self.loops.refused():
-            steps = [self.steps[v] for v in self.resting_on(rows)]
-            steps = [s for s in steps if self.loops.open_in(s.closed)]
-            loop_unsolvable(self.report, steps, [self.system.equations[r] for r in rows])
+    def unaccounted(self, told: list[Equation]) -> list[Missing]:
+        """Hold the number of relations to theory: what is neither found nor told to be missing."""
         stuck = any(n == 1 and not u for n, u in zip(self.waiting, self.used, strict=True))
         hidden = len(self.used) <= _CHECKED and not all(self.used)  # what cancels out of sight
         certain = not stuck and not self.loops.pending and not hidden  # misleads the matching
-        relations_missing(self.report, self.system, self.steps.values(), found, certain)
+        found = self.loops.identities + len(told)
+        steps = self.steps.values()
+        return unaccounted(self.system, steps, told, found, certain, self.oversized)
 
 
 def _differentiates(value: Expr) -> bool:

@@ -18,13 +18,12 @@ from bondgraph.ir.residuals import Closing, ReducedSystem, Step
 from bondgraph.passes.branches import in_mode
 from bondgraph.passes.rank import relations
 from bondgraph.passes.summands import summands
-from bondgraph.text.diagnostic import Report
 
 _MOST = 6  # modes; each doubles the work and the relations
 
 _Setting = dict[Expr, bool]
 _Leaves = Sequence[Expr | None]
-_Eliminate = Callable[[EquationSystem, Report], ReducedSystem | None]
+_Eliminate = Callable[[EquationSystem], ReducedSystem]
 
 
 def each_mode(system: EquationSystem, eliminate: _Eliminate) -> ReducedSystem | None:
@@ -51,9 +50,8 @@ def each_mode(system: EquationSystem, eliminate: _Eliminate) -> ReducedSystem | 
         if more > min(surplus) and _contradictory(own, eliminate):
             answers.append(None)
             continue
-        said = Report()
-        found = eliminate(own, said)
-        if found is None or any(d.code == "relations-missing" for d in said.diagnostics):
+        found = eliminate(own)
+        if found.missing:
             return None
         answers.append(found)
     return _Join(system, modes, held, answers).joined()
@@ -99,8 +97,8 @@ def _contradictory(system: EquationSystem, eliminate: _Eliminate) -> bool:
     They may say the same thing twice, as of the flow of a junction that is off and has no other
     bond than to a junction with nothing on it.
     """
-    found = eliminate(_blind(system), Report())
-    return found is None or bool(found.closings)
+    found = eliminate(_blind(system))
+    return bool(found.closings) or any(m.explained for m in found.missing)
 
 
 class _Join:
@@ -135,7 +133,7 @@ class _Join:
             tuple(self.closing(row, column) for row, column in closings),
             tuple(v for v in self.system.unknowns if v in unsolved),
             tuple(self.system.equations[r] for r in sorted(set.intersection(*dark))),
-            0,
+            (),
         )
 
     def columns(self) -> list[tuple[int, list[Closing | None]]]:

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from bondgraph.exact.evaluate import highest_order
 from bondgraph.ir.equations import EquationSystem
-from bondgraph.ir.residuals import ReducedSystem
+from bondgraph.ir.residuals import Missing, ReducedSystem
 from bondgraph.passes.chain import Chain, Way
 from bondgraph.passes.cost import FREE_START, ITERATION
 from bondgraph.passes.each_mode import each_mode
 from bondgraph.passes.regroup import regroup
+from bondgraph.passes.shortfall import tell
 from bondgraph.text.diagnostic import Report
 
 #: What is tried where the first elimination misses a relation for the reason given, in this order.
@@ -23,47 +24,48 @@ _OTHER_WAYS = (
 )
 
 
-def eliminate(system: EquationSystem, report: Report) -> ReducedSystem | None:
+def eliminate(system: EquationSystem, report: Report) -> ReducedSystem:
     """Compute every variable that sensors and sources reach, and keep what is left over.
 
     Near-linear in the number of bonds. Derivatives are avoided as far as possible; where that makes
     long detours, relations of the same order with shorter paths are taken, and where it misses an
     initial value, no integral without one is used; where a loop cannot be solved, integrals come
     before loops, or the rates of hidden states go into other rows. A loop that no one order of
-    elimination solves in all modes is solved in each. Reports `loop-unsolvable` for a nonlinear
-    loop without a closed solution, `loop-too-large` for a linear one of ten thousand bonds,
-    `initial-value-needed` where a relation needs an undeclared initial value.
+    elimination solves in all modes is solved in each. A relation that cannot be had all the same is
+    `missing` and costs no other: `loop-unsolvable` for a nonlinear loop without a closed solution,
+    `loop-too-large` for a linear one of ten thousand bonds, `initial-value-needed` where a relation
+    needs an undeclared initial value. Where nothing else can be had they are errors.
     """
-    said = Report()
-    result = _eliminated(system, said)
-    if result is None:
-        result = each_mode(system, _eliminated)
-        if result is not None:
-            return regroup(result)
-    for diagnostic in said.diagnostics:
-        report.add(diagnostic)
-    return None if result is None else regroup(result)
+    result = _eliminated(system)
+    if _lacking(result):
+        result = each_mode(system, _eliminated) or result
+    tell(report, result)
+    return regroup(result)
 
 
-def _eliminated(system: EquationSystem, report: Report) -> ReducedSystem | None:
-    said = Report()
-    chain = _run(Chain(system, said))
+def _eliminated(system: EquationSystem) -> ReducedSystem:
+    chain = _run(Chain(system))
     if chain.tangled():
         order = highest_order([row.expr for row in chain.loops.plain])
-        near = _run(Chain(system, said, Way(free=order)))
+        near = _run(Chain(system, Way(free=order)))
         if len(near.loops.plain) >= len(chain.loops.plain):
             chain = near
-    result = chain.result()
-    codes = {d.code for d in said.diagnostics}
+    best = chain.result()
+    lacking = _lacking(best)
+    codes = {m.finding.code for m in lacking}
+    whole = len(best.closings) + len(lacking)
     for way in [way for code, way in _OTHER_WAYS if code in codes]:
-        other = Report()
-        anew = _run(Chain(system, other, way)).result()
-        if not other.failed and len(anew.closings) >= len(result.closings) + result.missing:
-            result, said = anew, other
-            break
-    for diagnostic in said.diagnostics:
-        report.add(diagnostic)
-    return None if said.failed else result
+        anew = _run(Chain(system, way)).result()
+        if not _lacking(anew) and len(anew.closings) >= whole:
+            return anew
+        if len(anew.closings) > len(best.closings):
+            best = anew
+    return best
+
+
+def _lacking(result: ReducedSystem) -> list[Missing]:
+    """The relations of which it is known why they could not be had."""
+    return [m for m in result.missing if m.explained]
 
 
 def _run(chain: Chain) -> Chain:

@@ -42,11 +42,20 @@ class _Pivot(NamedTuple):
 class _Knot(NamedTuple):
     """Places of pending rows that torn variables tie to a nonlinear one.
 
-    `surplus` is how many relations they would give if these variables could be computed.
+    `surplus` is how many relations they would give if these variables could be computed, `linear`
+    are those of the rows that are linear.
     """
 
     members: list[int]
     surplus: int
+    linear: list[LinearRow]
+
+
+class Lost(NamedTuple):
+    """A loop that could not be solved: its equations, and those that it cost as relations."""
+
+    rows: tuple[int, ...]
+    about: tuple[int, ...]
 
 
 class Loops:
@@ -68,7 +77,7 @@ class Loops:
         self.solved: dict[Expr, _Row] = {}  # tear symbol to its value and rows
         self.pending: list[_Row] = []
         self.plain: list[_Row] = []
-        self.lost: list[tuple[int, ...]] = []
+        self.lost: list[Lost] = []  # what cost a relation
         self.tears: dict[Expr, list[Expr]] = {}  # expression to the torn variables in it
         self.gentle: dict[Expr, _Pivot | None] = {}  # row to the pivot that it offers
         self.unsolvable: set[tuple[Expr, Expr]] = set()
@@ -102,10 +111,6 @@ class Loops:
         if symbol in self.solved:
             return self.solved[symbol].rows
         return self.crosswise.spent.get(symbol, ())
-
-    def refused(self) -> list[tuple[int, ...]]:
-        """The equations of each loop that could not be solved and so cost a relation."""
-        return self.lost
 
     def solutions(self) -> dict[Expr, Expr]:
         """The value of each solved tear, free of solved tears; none where it divides by zero."""
@@ -227,10 +232,11 @@ class Loops:
 
     # ----------------------------------------------------- differential loops
 
-    def relations(self) -> tuple[list[tuple[tuple[int, ...], Expr]], int]:
+    def relations(self) -> list[tuple[tuple[int, ...], Expr]]:
         """All relations free of torn variables, with the equations each was combined from.
 
-        The second value counts relations that exist but were lost in a nonlinear loop.
+        Those that exist but are lost in a nonlinear loop are then in `lost`; what the linear rows
+        among the others say of each other is not.
         """
         self.solve_algebraic()
         knots, linear = self._knots()
@@ -239,11 +245,16 @@ class Loops:
             knots, linear = self._knots()
         found = [(item.rows, item.expr) for item in self.plain] + self.crosswise.relations(linear)
         for knot in knots:
-            if knot.surplus:
-                self.lost.append(tuple(r for at in knot.members for r in self.pending[at].rows))
+            alone = self.crosswise.relations(knot.linear)
+            found += alone
+            surplus = knot.surplus - len(alone)
+            if surplus > 0:
+                items = [self.pending[at] for at in knot.members]
+                rows = tuple(r for item in items for r in item.rows)
+                self.lost.append(Lost(rows, tuple(i.rows[-1] for i in items[-surplus:])))
         telling = [(rows, expr) for rows, expr in found if not is_zero(expr)]
         self.identities = len(found) - len(telling)
-        return telling, sum(knot.surplus for knot in knots)
+        return telling
 
     def _knots(self) -> tuple[list[_Knot], list[LinearRow]]:
         """Pending rows that are tied to a nonlinear one by torn variables, and the linear rest."""
@@ -271,7 +282,9 @@ class Loops:
                         tied = [r for r in holders.pop(symbol) if r not in held]
                         held.update(tied)
                         members += tied
-            knots.append(_Knot(sorted(members), max(0, len(members) - variables)))
+            members.sort()
+            inside = [form for at in members if (form := forms[at]) is not None]
+            knots.append(_Knot(members, max(0, len(members) - variables), inside))
         return knots, [f for at, f in enumerate(forms) if f is not None and at not in held]
 
     def _lower(self, knots: list[_Knot]) -> bool:

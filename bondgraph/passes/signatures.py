@@ -73,7 +73,9 @@ class _Analysis:
         orders = tuple({s.symbol.name: k for s, k in own.items()} for _, _, own in relations)
         reduced = self.reduced
         return (
-            ResidualSet(reduced.system, residuals, reduced.unsolved, reduced.unmonitored),
+            ResidualSet(
+                reduced.system, residuals, reduced.unsolved, reduced.unmonitored, reduced.missing
+            ),
             SignatureMatrix(
                 tuple(names), tuple(faults), tuple(rows), orders, apart, unconfirmed
             ),

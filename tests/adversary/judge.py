@@ -120,14 +120,16 @@ def judge(plant: Plant, answer: dict[str, Any], modes: dict[str, bool] | None = 
     sim = Simulator(plant, highest + 10, modes=modes)
     healthy = sim.solve()
     seen_by_ranks = counts(sim)
-    if seen_by_ranks.n_arr != plant.n_arr:
-        wrong.append(f"(by hand n_arr {plant.n_arr}, by ranks {seen_by_ranks.n_arr})")
+    missing = len(answer["missing"])
+    if seen_by_ranks.n_arr != plant.n_arr + missing:
+        wrong.append(f"(by hand {plant.n_arr} + {missing}, by ranks {seen_by_ranks.n_arr})")
     back = {v: k for k, v in plant.alias.items()}
     by_plain = {plain(f): f for g in [answer["undetectable"], *answer["groups"]] for f in g}
     hidden = {by_plain.get(back.get(x, x), back.get(x, x)) for x in seen_by_ranks.undetectable}
     # A trajectory that starts at a declared value may start where nothing can be seen yet.
     blind = hidden != set(answer["undetectable"])
-    if not set(answer["undetectable"]) <= hidden or (blind and not plant.starts):
+    more = not set(answer["undetectable"]) <= hidden
+    if (more or (blind and not plant.starts)) and not missing:
         wrong.append(f"undetectable {answer['undetectable']}, by ranks {sorted(hidden)}")
     rename = answer["names"]
     to_plain = {v: k for k, v in rename.items()}

@@ -59,12 +59,15 @@ def _answered(graph: Graph, compilation: Compilation) -> Verdict:
     if not (method.startswith("exact") or not count or "verification-unavailable" in codes):
         wrong = f"neither verified nor said why not: {method}"
     expected = graph.relations()
-    if expected > count and "relations-missing" in codes:
-        return Verdict("fewer than there are, and says so", notes, wrong)
-    if expected != count and not graph.generic:
+    missing = compilation.residuals.stage.missing
+    total = count + len(missing)
+    if expected != total and not graph.generic:
         return Verdict("other count than by rank, with products or switches", notes, wrong)
-    if expected != count:
-        wrong = f"{count} relations, by rank there are {expected}"
+    if expected != total:
+        wrong = f"{count} relations and {len(missing)} missing, by rank there are {expected}"
+    if missing:
+        why = "" if all(m.explained for m in missing) else ", some without a reason"
+        return Verdict(f"a part, and says what is missing{why}", notes, wrong)
     return Verdict("ok" if count else "no_arr", notes, wrong)
 
 

@@ -129,3 +129,4 @@ class Content(NamedTuple):
     quantities: tuple[Quantity, ...]
     findings: tuple[Diagnostic, ...]
     episodes: tuple[Episode, ...] = ()
+    missing: tuple[tuple[str, str], ...] = ()  # relation, why it could not be had

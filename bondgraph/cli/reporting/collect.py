@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bondgraph.backends.report.content import Content, Drawing, Quantity
 from bondgraph.backends.report.formulas import Typesetter
 from bondgraph.cli.console import plural, status
-from bondgraph.cli.reasons import message
+from bondgraph.cli.reasons import message, missing
 from bondgraph.cli.reporting.matrix import matrix
 from bondgraph.cli.reporting.relations import relations
 from bondgraph.cli.reporting.seen import Assumed, seen
@@ -78,6 +78,7 @@ def collect(
         message=message(compilation),
         facts=tuple(_facts(compilation, program)),
         relations=told,
+        missing=tuple(missing(compilation)),
         signatures=marked,
         seen=seen(compilation, typesetter, program, situation) if found.residuals else None,
         quantities=tuple(_quantities(graph, typesetter)),

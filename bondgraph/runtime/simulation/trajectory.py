@@ -16,7 +16,6 @@ from bondgraph.runtime.simulation import courses
 from bondgraph.runtime.simulation.code import Code
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.values import Values
-from bondgraph.text.diagnostic import Report
 
 Array = npt.NDArray[np.float64]
 
@@ -249,7 +248,7 @@ def desired(
 
 def _closed(system: EquationSystem) -> dict[Expr, Expr]:
     """Every variable that forward elimination reaches, in known signals."""
-    chain = Chain(system, Report())
+    chain = Chain(system)
     chain.start()
     chain.run()
     return chain.closed

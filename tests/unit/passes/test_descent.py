@@ -75,8 +75,8 @@ def test_a_loop_without_a_surplus_does_not_hide_what_another_loses() -> None:
     loops.row(0, pool.sub(pool.add((1, turning(x)), (1, turning(y))), known))
     loops.row(1, pool.sub(pool.mul(z, turning(z)), known))
     loops.row(2, pool.add((1, pool.fn("sin", turning(z))), (1, turning(z)), (-1, known)))
-    assert loops.relations() == ([], 1)
-    assert loops.refused() == [(1, 2)]
+    assert loops.relations() == []
+    assert loops.lost == [((1, 2), (2,))]
 
 
 def test_fluxes_of_unknown_start_are_not_multiplied_by_how_the_speed_changes() -> None:
