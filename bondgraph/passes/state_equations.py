@@ -149,7 +149,7 @@ class _Causaliser:
     def _rows(self) -> list[_Row]:
         """The equations of the mode, with what may be wrong and without what is nothing."""
         pool, system = self.pool, self.system
-        replaced = self._disturbed() | self._nothings()
+        replaced, nothings = self._disturbed(), self._nothings()
         truth = {i.symbol: self.wanted.modes[i.name] for i in self.graph.inputs if i.mode}
         errors = {d.name: d for d in self.disturbances}
         rows = []
@@ -163,7 +163,10 @@ class _Causaliser:
                 zero, counted = self._misread(equation, errors[equation.name])
                 if counted is not None:
                     rows.append(counted)
-            zero = pool.substitute([zero], replaced)[0]
+            try:
+                zero = pool.substitute([zero], replaced | nothings)[0]
+            except ZeroDivisionError:  # a law has no value: the run says so
+                zero = pool.substitute([zero], replaced)[0]
             zero = in_mode(pool, [zero], truth)[0] if truth else zero
             zero = self.jets.of(zero)
             rows.append(_Row(equation, zero, _orders(zero)))

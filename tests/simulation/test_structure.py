@@ -310,3 +310,11 @@ def test_two_switches_that_fix_one_thing_twice_are_told_in_their_mode() -> None:
     text = "input on : bool\nSe:U -> 0:a\nR:R0 = 1 <- a\n1:s when on { <- a; -> 0:b }\nSe:V -> b"
     with pytest.raises(CompileError):
         run(text, 'duration = 1\nsampling.rate = 10\ninputs.on = "t > 0.5"')
+
+
+def test_a_law_that_divides_by_a_parameter_of_zero_has_no_value() -> None:
+    with pytest.raises(SimulationError, match="the law of `a` has no value there"):
+        run(
+            "param k = 0\nSe:U -> 1:i\ni -> R:a { e = f/k }\ni -> I:L = 1\ni -> Df:y",
+            "duration = 1\ninputs.U = 1",
+        )
