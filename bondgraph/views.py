@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, overload
 
 from bondgraph.ir.expr import ZERO_START, Expr, Kind
 from bondgraph.ir.graph import BondGraph
-from bondgraph.ir.residuals import Residual, ResidualSet
+from bondgraph.ir.residuals import Missing, Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
 
 if TYPE_CHECKING:
@@ -166,6 +166,11 @@ class Relations(Sequence[Relation]):
     def residuals(self) -> tuple[Residual, ...]:
         """The residuals as the passes know them."""
         return self.stage.residuals
+
+    @property
+    def missing(self) -> tuple[Missing, ...]:
+        """The relations that the model has as well but that could not be had, and why."""
+        return self.stage.missing
 
     def __len__(self) -> int:
         return len(self._all)

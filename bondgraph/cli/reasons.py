@@ -25,7 +25,7 @@ def message(compilation: Compilation) -> str:
     '2 residuals detect 9 of 9 faults, in 3 groups'
     """
     matrix = compilation.signatures
-    number = len(compilation.residuals.stage.missing)
+    number = len(compilation.residuals.missing)
     if not matrix.residuals:
         if number:
             return f"no residual: {plural(number, 'relation')} could not be derived"
@@ -58,7 +58,7 @@ def _nothing(compilation: Compilation) -> str:
 def missing(compilation: Compilation) -> list[tuple[str, str]]:
     """The relations that could not be had, each with the reason; those of one equation once."""
     source = compilation.source
-    found = compilation.residuals.stage.missing
+    found = compilation.residuals.missing
     told = ((equation_name(m.about, source), m.finding.message) for m in found)
     return list(dict.fromkeys(told))
 

@@ -51,7 +51,7 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
                 "reason": missing.finding.message,
                 "elements": list(missing.elements),
             }
-            for missing in compilation.residuals.stage.missing
+            for missing in compilation.residuals.missing
         ],
         "symbols": [plain for plain in names.by_model.values() if plain in used],
         "names": {

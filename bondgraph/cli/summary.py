@@ -30,7 +30,7 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
         lines.append(_checked(compilation))
     for relation in compilation.residuals:
         lines += ["", *closed_form(compilation, relation, columns)]
-    if compilation.residuals.stage.missing:
+    if compilation.residuals.missing:
         lines += ["", "Missing"]
         for name, why in missing(compilation):
             lines += [f"  {name}", *prose(why, columns, "    ")]

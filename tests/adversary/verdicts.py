@@ -42,6 +42,9 @@ VERDICTS = [
     Verdict("deadzone_inv", "refused", 0, "loop-unsolvable", "one that would have to be inverted"),
     Verdict("loop_of_many", "refused", 0, "loop-unsolvable", "a loop of several solutions"),
     Verdict("start_needed", "refused", 0, "initial-value-needed", "a start that is not declared"),
+    Verdict(
+        "partly_known", "ok", 1, "initial-value-needed", "the same beside a part that is known"
+    ),
     Verdict("implicit_ambiguous", "ok", 1, "", "an implicit law that is used in its one direction"),
     Verdict("kepler", "ok", 1, "", "a law without inverse, used as written"),
     Verdict("expon", "ok", 1, "", "another"),

@@ -40,7 +40,8 @@ SAID = """
 ## Answers, refusals and what is said of them
 
 An `ok` has relations, a `no_arr` is an answer without any. An `error` is a mistake of the model, a
-`refused` a sound model that the compiler cannot solve with certainty; both name the elements.
+`refused` a sound model of which the compiler can solve no relation with certainty; both name the
+elements. An `ok` with relations that are missing names them and their elements in a warning.
 
 | Situation | Model | Status | Residuals | Said |
 |---|---|---|---|---|

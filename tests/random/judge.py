@@ -59,7 +59,7 @@ def _answered(graph: Graph, compilation: Compilation) -> Verdict:
     if not (method.startswith("exact") or not count or "verification-unavailable" in codes):
         wrong = f"neither verified nor said why not: {method}"
     expected = graph.relations()
-    missing = compilation.residuals.stage.missing
+    missing = compilation.residuals.missing
     explained = all(m.explained for m in missing)
     # a law of quotients may have more relations than the random rows that stand for it
     agreed = expected == count + len(missing) or (not explained and expected == count)

@@ -79,7 +79,7 @@ def model(body: str) -> Compilation:
 def test_what_can_be_had_is_had(case: str) -> None:
     body, expected, found, missing = CASES[case]
     c = model(body)
-    told = c.residuals.stage.missing
+    told = c.residuals.missing
     assert len(c.residuals) == found
     assert len(c.residuals) + len(told) == expected == relations(c.equations)
     assert len(told) == len(missing)
@@ -118,7 +118,7 @@ def test_a_linear_loop_too_large_beside_a_coil(monkeypatch: pytest.MonkeyPatch) 
     c = compiled(f"{text[:end]}\n{COIL}\n}}")
     assert len(c.residuals) == 1
     sensors = sum(s.same_as is None for s in c.graph.sensors)
-    told = c.residuals.stage.missing
+    told = c.residuals.missing
     assert [m.finding.code for m in told] == ["loop-too-large"] * (sensors - 1)
     assert all("l1" in m.elements for m in told)
 
