@@ -25,11 +25,11 @@ def initial_value_needed(equation: Equation, expr: Expr, steps: Sequence[Step]) 
     if step is not None:
         storage, origin = step.equation.name, step.equation.origin
         name = "q0" if step.variable.symbol.name.endswith(".q") else "p0"
-    finding = _finding(
+    finding = Diagnostic(
         "initial-value-needed",
         f"The relation at `{equation.name}` needs the initial value of"
         f" `{storage}`, which the model does not declare.",
-        [origin],
+        _labels([origin]),
         help="The storage enters it nonlinearly, so differentiating does not remove"
         f" the initial value: declare it, for example `({name} = 0)` after the"
         " element's name.",
@@ -47,11 +47,11 @@ def loop_unsolvable(
     equations = [*[s.equation for s in inside], *closing]
     laws = [e for e in equations if e.kind in ("law", "sensor")] or equations
     names = tuple(dict.fromkeys(e.name for e in laws))
-    finding = _finding(
+    finding = Diagnostic(
         "loop-unsolvable",
         f"The loop of nonlinear equations through {', '.join(f'`{n}`' for n in names)} cannot be"
         " solved with certainty: it has no closed solution, and may have several.",
-        [*dict.fromkeys(e.origin for e in laws)],
+        _labels(dict.fromkeys(e.origin for e in laws)),
         help="Measure a variable inside the loop, give one of its laws in the other"
         " direction, or a law that rises everywhere, which iteration can invert.",
     )
@@ -63,11 +63,11 @@ def _too_large(loop: Sequence[Equation]) -> tuple[tuple[str, ...], Diagnostic]:
     """What is said of a linear loop whose solution is too long to be written out."""
     laws = {e.name: e.origin for e in loop if e.kind == "law"}
     names = [f"`{name}`" for name in laws]
-    return tuple(laws), _finding(
+    return tuple(laws), Diagnostic(
         "loop-too-large",
         f"The linear loop through {', '.join(names[:3])} and {len(names) - 3} more has a solution"
         " that takes more than a million products to write out.",
-        [*laws.values()][:3],
+        _labels([*laws.values()][:3]),
         help="Measure inside it: sensors along a line through the loop cut it into parts that are"
         " solved alone. Or describe what is far from every sensor by fewer elements.",
     )
@@ -118,15 +118,15 @@ def unaccounted(
 
 
 def _without_reason(system: EquationSystem, expected: int, found: int) -> Diagnostic:
-    finding = _finding(
+    return Diagnostic(
         "relations-missing",
         f"The structure of the model has {expected} independent relations, of which"
         f" {found} could be derived.",
-        [system.graph.nodes[0].origin],
+        _labels([system.graph.nodes[0].origin]),
         help="Measure one more variable in the part that the relations found leave out;"
         " `bondgraph dump --stage residuals` shows it.",
+        severity="warning",
     )
-    return finding._replace(severity="warning")
 
 
 def _resting_on(row: int, rows: list[list[int]], matched: list[int]) -> list[int]:
@@ -161,5 +161,5 @@ def stop_without_any(report: Report, found: ResidualSet) -> None:
         raise CompileError((*others, *reasons))
 
 
-def _finding(code: str, message: str, places: Sequence[Span], help: str) -> Diagnostic:
-    return Diagnostic(code, message, tuple(Label(p) for p in places), help)
+def _labels(places: Iterable[Span]) -> tuple[Label, ...]:
+    return tuple(Label(place) for place in places)
