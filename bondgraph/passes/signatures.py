@@ -2,7 +2,7 @@
 
 A relation is differentiated with respect to every parameter and signal by reverse mode at random
 points: over a prime field at free signals, which shows what cancels for every signal and number (the
-backlash torque in the drives' first relation), and on trajectories of the plant at its declared
+backlash torque in the first relation of a drive), and on trajectories of the plant at its declared
 numbers, which decide the signature (`reactions`). Presence of a symbol proves nothing.
 """
 
