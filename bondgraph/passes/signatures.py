@@ -1,9 +1,9 @@
 """Find which fault moves which relation, exactly, and take out of the relations what cancels.
 
 A relation is differentiated with respect to every parameter and signal by reverse mode at random
-points: over a prime field at free signals, which shows what cancels for every signal and number (the
-backlash torque in the first relation of a drive), and on trajectories of the plant at its declared
-numbers, which decide the signature (`reactions`). Presence of a symbol proves nothing.
+points: over a prime field at free signals, which shows what cancels for every signal and number (as
+the backlash torque in the first relation of a drive does), and on trajectories of the plant at its
+declared numbers, which decide the signature (`reactions`). Presence of a symbol proves nothing.
 """
 
 from __future__ import annotations
