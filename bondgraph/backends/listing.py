@@ -28,7 +28,9 @@ def words(*parts: str) -> str:
 
 def harmless(text: str, target: Target) -> str:
     """Text of the model made fit for a comment: one line, nothing that ends or extends it."""
-    text = "".join(c if c.isprintable() else " " for c in " ".join(text.split()))
+    text = " ".join(text.split())
+    if not text.isprintable():
+        text = "".join(c if c.isprintable() else " " for c in text)
     for bad, good in target.statements.unforeseen:
         while bad in text:
             text = text.replace(bad, good)
@@ -42,7 +44,9 @@ def comment(text: str, target: Target, indent: int) -> list[str]:
     width = target.width - indent - max(len(opening), len(middle)) - len(closing) - 2
     found: list[str] = []
     for paragraph in text.split("\n"):
-        lines = textwrap.wrap(harmless(paragraph, target), width, break_on_hyphens=False)
+        line = harmless(paragraph, target)
+        fits = len(line) <= width  # as nearly all do
+        lines = [line] * bool(line) if fits else textwrap.wrap(line, width, break_on_hyphens=False)
         if len(lines) > _COMMENT_LINES:
             lines[_COMMENT_LINES:] = ["..."]
         found += lines

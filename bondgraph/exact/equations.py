@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.assembly import Assembly
-from bondgraph.exact.evaluate import demands, evaluate, values_of
+from bondgraph.exact.evaluate import demands, evaluate, plan, values_of
 from bondgraph.exact.forms import ORDERS, Form, Forms
 from bondgraph.exact.linear import CONSTANT, Row
 from bondgraph.exact.numbers import Number, Numbers
@@ -140,8 +140,7 @@ class Writer:
 
 def reach(place: Mapping[Expr, tuple[int, int]], rest: Expr) -> dict[int, int]:
     """The highest derivative of each variable in an expression, free ones included."""
-    nodes = topological([rest])
-    need = demands(nodes, [rest], 1)
+    nodes, need = plan(rest, 1)
     out: dict[int, int] = {}
     for v in nodes:
         if v.op is Op.SYM and v in place:

@@ -8,6 +8,7 @@ pass more (Griewank and Walther, 2008, ch. 3).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple, Protocol
 
 from bondgraph.exact import implicit
@@ -80,6 +81,13 @@ def demands(nodes: Sequence[Expr], roots: Sequence[Expr], n: int) -> dict[Expr, 
     return need
 
 
+@lru_cache(maxsize=512)
+def plan(root: Expr, n: int) -> tuple[list[Expr], dict[Expr, int]]:
+    """The nodes below a law, arguments first, and what each must deliver; asked again and again."""
+    nodes = topological([root])
+    return nodes, demands(nodes, [root], n)
+
+
 def highest_order(roots: Sequence[Expr], n: int = 1) -> int:
     """The highest derivative of any symbol that `n` coefficients of the roots ask for."""
     nodes = topological(roots)
@@ -112,8 +120,12 @@ def evaluate(roots: Sequence[Expr], sample: Assignment, n: int = 1) -> list[Any]
     Raises `Undefined` if a value that a root rests on does not exist at this point, `Mixed` if
     an operation leads out of the sample's algebra.
     """
-    nodes = topological(roots)
-    values, failures = values_of(nodes, demands(nodes, roots, n), sample)
+    if len(roots) == 1:
+        nodes, need = plan(roots[0], n)
+    else:
+        nodes = topological(roots)
+        need = demands(nodes, roots, n)
+    values, failures = values_of(nodes, need, sample)
     for root in roots:
         if root in failures:
             raise failures[root]

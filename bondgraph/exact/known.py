@@ -8,10 +8,10 @@ from typing import Any
 from bondgraph.exact import series
 from bondgraph.exact.algebra import Mixed, Taylor
 from bondgraph.exact.equations import Setting, constant
-from bondgraph.exact.evaluate import demands, pull, values_of
+from bondgraph.exact.evaluate import plan, pull, values_of
 from bondgraph.exact.numbers import Number
 from bondgraph.exact.series import Series
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.expr import Expr, Op
 
 
 class KnownSample:
@@ -45,8 +45,7 @@ def gradient(
     rest: Expr, sample: KnownSample, place: Mapping[Expr, tuple[int, int]]
 ) -> dict[tuple[int, int], Number]:
     """The partial derivatives of an expression at the point by (variable, derivative)."""
-    nodes = topological([rest])
-    need = demands(nodes, [rest], 1)
+    nodes, need = plan(rest, 1)
     values, failures = values_of(nodes, need, sample)
     if rest in failures:
         raise failures[rest]

@@ -21,7 +21,7 @@ from bondgraph.exact.equations import (
     coefficient_row,
     reach,
 )
-from bondgraph.exact.evaluate import chosen, demands, evaluate, values_of
+from bondgraph.exact.evaluate import chosen, evaluate, plan, values_of
 from bondgraph.exact.forms import Form, Forms, NotLinear
 from bondgraph.exact.implicit import solve
 from bondgraph.exact.known import KnownSample, gradient
@@ -198,8 +198,7 @@ class Point:
 
     def show(self, expr: Expr) -> None:
         """Fix what a sensor's functions are asked for, so that the sensor has a value."""
-        nodes = topological([expr])
-        need = demands(nodes, [expr], 1)
+        nodes, need = plan(expr, 1)
         while True:
             failure = values_of(nodes, need, _PointSample(self))[1].get(expr)
             if failure is None:
@@ -212,8 +211,7 @@ class Point:
         """None if the equation could be made true, else the argument that it waits for."""
         assert equation.rest is not None
         sample = _PointSample(self)
-        nodes = topological([equation.rest])
-        values, failures = values_of(nodes, dict.fromkeys(nodes, 1), sample)
+        values, failures = values_of(*plan(equation.rest, 1), sample)
         failure = failures.get(equation.rest)
         row = self.row(equation.form)
         if failure is None:
