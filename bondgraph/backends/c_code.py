@@ -168,8 +168,15 @@ class Code:
             "first": self._run(block, block.first, "count_from"),
             "step": self._run(block, block.step, "count_on"),
             "numbers": numbers,
+            "valid": [self._valid(r) for r in block.residuals],
             "finite": self._if_finite([*samples, *results]),
         }
+
+    def _valid(self, residual: str) -> str:
+        number = self._number(residual)
+        progress = self.spelling.progress.get(residual)
+        begun = "" if progress is None else f" && monitor->x.{progress} >= {self.real(1.0)}"
+        return f"residuals->valid[{number}] = age > monitor->settle[{number}]{begun};"
 
     def _if_finite(self, names: list[str]) -> list[str]:
         test = "if (finite_number({0})) \1"

@@ -316,7 +316,23 @@ class _Module:
                 "if self._age[block] > settle",
                 "        )",
             ]
-        return found
+        return found + self._opened()
+
+    def _opened(self) -> list[str]:
+        """What takes back the validity of residuals that started anew a moment ago."""
+        rows = [f'("{name}", "{state}"),' for name, state in self.spelling.progress.items()]
+        if not rows:
+            return []
+        return [
+            "        # one that a switch has started anew has to come to 1 first",
+            "        begun = (",
+            *[f"            {row}" for row in rows],
+            "        )",
+            "        r.valid -= {",
+            "            name for name, state in begun "
+            "if name in r.valid and not getattr(self._x, state) >= 1.0",
+            "        }",
+        ]
 
     def _block(self, number: int, block: Block) -> dict[str, object]:
         spelling = self.spelling

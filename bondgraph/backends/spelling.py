@@ -47,6 +47,7 @@ class Spelling:
         self.locals = spellings(_locals(program), target.reserved)
         self.inputs = self._inputs(program)
         self.blocks = blocks(program)
+        self._openings = program.openings
         self.encoders = self._encoders()
 
     def _numbers(self, program: Program) -> dict[str, str]:
@@ -57,6 +58,11 @@ class Spelling:
                 own += "_"
             free[name] = own
         return free
+
+    @property
+    def progress(self) -> dict[str, str]:
+        """The memory that has to be 1 before a residual is valid, by residual."""
+        return {o.residual: self.states[o.progress] for o in self._openings}
 
     def _encoders(self) -> dict[tuple[str, str], str]:
         """The memory of an encoder by (block, signal): each block starts anew on its own."""

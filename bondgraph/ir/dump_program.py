@@ -51,6 +51,9 @@ def dump_program(program: Program) -> str:
             ("invisible", ", ".join(info.invisible)),
         ]
         lines += [f"    {title}: {note}" for title, note in notes if note]
+    for opening in program.openings:
+        when = f", anew where {' or '.join(opening.modes)} changes" if opening.modes else ""
+        lines.append(f"  {opening.residual} is valid when {opening.progress} is 1{when}")
     for title, statements in (
         ("configure", program.configure),
         ("exact", program.exact),

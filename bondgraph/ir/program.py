@@ -280,6 +280,18 @@ class ResidualInfo(NamedTuple):
     unwritten: str = ""
 
 
+class Opening(NamedTuple):
+    """How a residual starts anew: it is not valid before the state `progress` has come to 1.
+
+    That state falls back to 0 where one of the `modes` has changed since the sample before,
+    because that change may make something jump that the residual differentiates.
+    """
+
+    residual: str
+    progress: str
+    modes: tuple[str, ...]
+
+
 class Program(NamedTuple):
     """The residual program of one model. `digest` is a hash of the model and the options.
 
@@ -309,3 +321,4 @@ class Program(NamedTuple):
     time_unit: float = 1.0  # s, default of configure
     roots: tuple[NewtonBlock, ...] = ()  # each may use those before it
     bounds: str = ""  # the program whose residuals these results are thresholds of
+    openings: tuple[Opening, ...] = ()  # of the residuals that start anew where switches turn

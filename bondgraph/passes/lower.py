@@ -12,6 +12,7 @@ from bondgraph.ir.program import (
     Assign,
     Dropped,
     Field,
+    Opening,
     Program,
     Ref,
     ResidualInfo,
@@ -20,7 +21,6 @@ from bondgraph.ir.program import (
 from bondgraph.ir.residuals import Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.chain import Chain
 from bondgraph.passes.lowering.derivative import TooManyOperations
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
@@ -28,6 +28,7 @@ from bondgraph.passes.lowering.names import brief, identifier, short
 from bondgraph.passes.lowering.newton import newton_blocks, roots_in
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.prune import pruned
+from bondgraph.passes.lowering.switched import Switched, order
 from bondgraph.passes.lowering.tape import Large, large
 from bondgraph.passes.lowering.visible import Seen, seen, unseen_faults
 from bondgraph.passes.normalise import LIMIT, normalise
@@ -63,12 +64,18 @@ class LowerOptions(NamedTuple):
 DEFAULT = LowerOptions()
 
 
+def fastest(options: LowerOptions) -> float:
+    """The largest bandwidth * sample_time that the coefficients of the filter are made for."""
+    return max(3.0, 1.01 * (options.bandwidth or options.rate / 50) / options.rate)
+
+
 class _Lowered(NamedTuple):
     info: ResidualInfo
     first: list[Assign]
     step: list[Assign]
     states: list[Field]
     dropped: list[Dropped]
+    opening: Opening | None = None
 
 
 def lower(
@@ -87,7 +94,8 @@ def lower(
     forms = [normalise(graph.pool, r.expr, LIMIT, builder.initials) for r in residuals.residuals]
     builder.scaled = any(f.tape is not None for f in forms)
     exactly = Exactly(builder)
-    filter = Filter(builder)
+    filter = Filter(builder, fastest(options))
+    switched = Switched(builder, filter, residuals.system)
     tapes: list[Large | None] = []
     time_unit = options.time_unit
     for residual, form in zip(residuals.residuals, forms, strict=True):
@@ -102,8 +110,10 @@ def lower(
         builder.origin = residual.closing.origin
         arrays = {} if tape is None else tape.arrays
         order = exactly.residual(residual, form, arrays, text)
+        if tape is None:
+            form = switched.form(residual, form)
         found = _visible(builder, form, tape, options)
-        low = _realise(builder, filter, residual, signatures, found, options, text)
+        low = _realise(builder, filter, residual, signatures, found, options, text, switched)
         if order is None:
             info = low.info._replace(order=_highest(form), unwritten=_TOO_LONG)
         else:
@@ -122,7 +132,7 @@ def lower(
         source=graph.source.path.replace("\\", "/").rpartition("/")[2],
         digest="",
         params=builder.param_fields(wanted),
-        knowns=builder.known_fields([r.expr for r in residuals.residuals]),
+        knowns=builder.known_fields([*[r.expr for r in residuals.residuals], *switched.read]),
         coefs=tuple(builder.fields),
         states=tuple(s for low in lowered for s in low.states),
         residuals=tuple(low.info for low in lowered),
@@ -133,11 +143,12 @@ def lower(
         dropped=tuple(d for low in lowered for d in low.dropped),
         rate=options.rate,
         bandwidth=options.bandwidth or options.rate / 50,
-        warmup=max([low.info.settle for low in lowered], default=0.0),
+        warmup=max([_warmup(low.info) for low in lowered], default=0.0),
         tables=tables(graph, [r.expr for r in residuals.residuals]),
         roots=newton_blocks(graph.pool, [r.expr for r in residuals.residuals]),
         integrals=tuple(builder.integrals.values()),
         time_unit=time_unit,
+        openings=tuple(low.opening for low in lowered if low.opening is not None),
     )
     program = pruned(program)
     return program._replace(digest=digest(program, graph.source.text))
@@ -151,6 +162,7 @@ def _realise(
     found: Seen | str,
     options: LowerOptions,
     text: str,
+    switched: Switched,
 ) -> _Lowered:
     """One residual of `step`, or the reason why it has none."""
     faults = signatures.signature(residual.name)
@@ -158,12 +170,13 @@ def _realise(
     origin = residual.closing.origin
     info = ResidualInfo(name, residual.name, text, 0, 0, faults, (), origin)
     if not isinstance(found, str):
-        stages = max([_order(t) for t in found.kept], default=0) + options.extra_order
+        stages = max([order(t) for t in found.kept], default=0) + options.extra_order
         if stages > HIGHEST + options.extra_order:
             found = f"its order {stages - options.extra_order} is above {HIGHEST}"
     if not isinstance(found, str):
         stages = max(stages, 1)
-        chain = Chain(builder, filter, residual, stages)
+        window = switched.window(residual, found.kept, stages)
+        chain = switched.chain(residual, stages, window)
         try:
             chain.run(found.kept, text)
         except TooManyOperations:
@@ -176,11 +189,25 @@ def _realise(
     info = info._replace(
         stages=stages,
         invisible=unseen_faults(builder, faults, found, options.rate, options.resolution),
-        settle=settle(stages),
+        settle=settle(stages) if window is None else window.over,
         approximate=_reason(moving),
     )
     dropped = [Dropped(name, brief(t.atom), t.order, share) for t, share in found.dropped]
-    return _Lowered(info, chain.first, chain.step, chain.states, dropped)
+    if window is None:
+        return _Lowered(info, chain.first, chain.step, chain.states, dropped)
+    return _Lowered(
+        info,
+        [*window.first, *chain.first],
+        [*window.step, *chain.step],
+        [*window.states, *chain.states],
+        dropped,
+        window.opening,
+    )
+
+
+def _warmup(info: ResidualInfo) -> float:
+    """Time constants after which nothing in step is left of a start."""
+    return 0.0 if info.unavailable else max(info.settle, settle(info.stages))
 
 
 def _visible(
@@ -191,29 +218,12 @@ def _visible(
     return seen(builder, form.terms, options.rate, options.resolution)
 
 
-def _order(term: Term) -> int:
-    """The highest derivative that a term needs, those inside its atom counted."""
-    if term.static:
-        return max(term.order, 0)
-    inside: dict[Expr, int] = {}
-    deepest = 0
-    for node in reversed(topological([term.atom])):
-        own = inside.get(node, 0)
-        deepest = max(deepest, own)
-        below = own + 1 if node.op is Op.DER else own
-        if node.op is Op.INT:
-            below = max(own - 1, 0)
-        for arg in node.args:
-            inside[arg] = max(inside.get(arg, 0), below)
-    return max(term.order, 0) + deepest
-
-
 def _highest(form: NormalForm) -> int:
     """The highest derivative in a residual that exact does not have."""
     terms = list(form.terms)
     if form.tape is not None:
         terms = [Term(f.atom, f.degree, f.atom, f.static) for f in form.tape.leaves]
-    return max(map(_order, terms), default=0)
+    return max(map(order, terms), default=0)
 
 
 def _reason(moving: list[Term]) -> str:
@@ -248,6 +258,8 @@ def digest(program: Program, text: str) -> str:
     """A hash of the model and of everything that the program computes, in hexadecimal."""
     lines = [text.replace("\r\n", "\n")]
     for name in program._fields:
+        if name == "openings" and not program.openings:
+            continue  # what a program without switches computes is what it was before
         if name not in ("source", "digest", "bounds"):
             lines.append(f"{name}: {_plain(getattr(program, name))!r}")
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]

@@ -46,14 +46,19 @@ class _TooLarge(Exception):
 
 
 def normalise(
-    pool: Pool, expr: Expr, limit: int = LIMIT, initials: Mapping[Expr, Expr] = _NONE
+    pool: Pool,
+    expr: Expr,
+    limit: int = LIMIT,
+    initials: Mapping[Expr, Expr] = _NONE,
+    held: bool = False,
 ) -> NormalForm:
     """The normal form of an expression of known signals, parameters, D and Int.
 
     Integrals are split from their declared initial values, D(y, k) and Int(y) of the same atom
     are collected, coefficients that are exactly zero are dropped. y**n D(y) and a few functions
     of y times D(y) become total derivatives. Beyond `limit` coefficient operations the result is
-    a tape. `initials` gives the values of initial values where they are known.
+    a tape. `initials` gives the values of initial values where they are known. `held` says that
+    boolean inputs stay as they are: if(on, D(x), 0) is D(if(on, x, 0)) then, and can be filtered.
 
     >>> p = Pool(); y = p.symbol("y", Kind.SENSOR); a = p.symbol("a", Kind.PARAM)
     >>> form = normalise(p, p.add((1, p.der(p.mul(a, y))), (3, y)))
@@ -61,7 +66,7 @@ def normalise(
     [(y, 0, 3), (y, 1, a)]
     """
     expr = _at_rest(pool, expr)
-    work = _Normaliser(pool, limit, initials)
+    work = _Normaliser(pool, limit, initials, held)
     try:
         form = work.form(expr)
     except _TooLarge:
@@ -114,6 +119,14 @@ def constant(node: Expr) -> bool:
     return True
 
 
+def decided(condition: Expr) -> bool:
+    """Whether boolean inputs alone decide a condition."""
+    return all(
+        n.op in (Op.NUM, Op.LOGIC) or (n.op is Op.SYM and n.symbol.kind is Kind.MODE)
+        for n in topological([condition])
+    )
+
+
 def _at_rest(pool: Pool, expr: Expr) -> Expr:
     """The expression with the derivatives of constants set to zero."""
     while True:
@@ -131,8 +144,11 @@ def _at_rest(pool: Pool, expr: Expr) -> Expr:
 
 
 class _Normaliser:
-    def __init__(self, pool: Pool, limit: int, initials: Mapping[Expr, Expr]) -> None:
+    def __init__(
+        self, pool: Pool, limit: int, initials: Mapping[Expr, Expr], held: bool = False
+    ) -> None:
         self.pool = pool
+        self.held = held
         self.initials = initials
         self.limit = limit
         self.work = 0
@@ -176,6 +192,8 @@ class _Normaliser:
                 return self._shift(inner)
             case Op.INT:
                 return self._integral(node)
+            case Op.IF if self.held and not static(node) and decided(node.args[0]):
+                return self._choice(node)
             case _:
                 args = tuple(self.canonical(a) for a in node.args)
                 return {(self.pool.rebuild(node, args), 0): self.pool.one}
@@ -221,6 +239,18 @@ class _Normaliser:
                     inner = self.pool.der(inner)
                 key = self.pool.integral(inner, self.start), 0
             self._add(out, {key: coefficient}, self.pool.one)
+        return out
+
+    def _choice(self, node: Expr) -> Form:
+        """A choice by boolean inputs: what each branch adds, behind a switch of its own."""
+        pool, condition = self.pool, node.args[0]
+        out: Form = {}
+        for position in (1, 2):
+            for (atom, order), coefficient in self._forms[node.args[position]].items():
+                key = self._term(atom, min(order, 0))
+                both = (key, pool.zero) if position == 1 else (pool.zero, key)
+                self._add(out, {(pool.choose(condition, *both), max(order, 0)): coefficient},
+                          pool.one)  # fmt: skip
         return out
 
     # ----------------------------------------------------------- products

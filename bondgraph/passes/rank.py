@@ -11,11 +11,13 @@ from __future__ import annotations
 import random
 
 from bondgraph.ir.equations import EquationSystem
-from bondgraph.ir.expr import VARIABLES, Expr, Op, topological
+from bondgraph.ir.expr import VARIABLES, Expr, Kind, Op, topological
 
-_P = (1 << 61) - 1
+#: The order of the field.
+P = (1 << 61) - 1
 
-_Row = dict[Expr, int]
+#: The derivative of something by each variable.
+Row = dict[Expr, int]
 
 
 def relations(system: EquationSystem) -> int:
@@ -24,67 +26,70 @@ def relations(system: EquationSystem) -> int:
     It equals sensors minus the rank of the unknown inputs that they see where the model without
     sensors determines its variables. Time grows with the fill of the elimination: for checks.
     """
-    point = _Point()
+    point = Point()
     rows = [point.gradient(e.zero) for e in system.equations]
     return len(rows) - _rank(rows)
 
 
-class _Point:
-    def __init__(self) -> None:
+class Point:
+    """A random point at which equations are linearised, in the variables of some kinds."""
+
+    def __init__(self, kinds: frozenset[Kind] = VARIABLES) -> None:
+        self.kinds = kinds
         self.draw = random.Random(7)
         self.values: dict[Expr, int] = {}
-        self.s = self.draw.randrange(2, _P)
+        self.s = self.draw.randrange(2, P)
 
-    def gradient(self, zero: Expr) -> _Row:
-        """The derivative of an equation by each of its unknowns."""
-        rows: dict[Expr, _Row] = {}
+    def gradient(self, zero: Expr) -> Row:
+        """The derivative of an expression by each of its variables."""
+        rows: dict[Expr, Row] = {}
         for node in topological([zero]):
-            rows[node] = self.node(node, rows)
+            rows[node] = self._node(node, rows)
         return {v: c for v, c in rows[zero].items() if c}
 
-    def node(self, node: Expr, rows: dict[Expr, _Row]) -> _Row:
-        value = self.value(node)
+    def _node(self, node: Expr, rows: dict[Expr, Row]) -> Row:
+        value = self._value(node)
         if node.op is Op.SYM:
-            return {node: 1} if node.symbol.kind in VARIABLES else {}
+            return {node: 1} if node.symbol.kind in self.kinds else {}
         if node.op is Op.ADD:
-            slopes = [c.numerator * pow(c.denominator, -1, _P) for c in node.coefficients]
+            slopes = [c.numerator * pow(c.denominator, -1, P) for c in node.coefficients]
         elif node.op is Op.MUL:
             slopes = [
-                e * value * pow(self.values[a], -1, _P)
+                e * value * pow(self.values[a], -1, P)
                 for a, e in zip(node.args, node.exponents, strict=True)
             ]
         elif node.op is Op.DER:
             slopes = [self.s]
         elif node.op is Op.INT:
-            slopes = [pow(self.s, -1, _P)]
+            slopes = [pow(self.s, -1, P)]
         else:
-            slopes = [self.draw.randrange(1, _P) for _ in node.args]
-        total: _Row = {}
+            slopes = [self.draw.randrange(1, P) for _ in node.args]
+        total: Row = {}
         for slope, arg in zip(slopes, node.args, strict=True):
             for variable, c in rows[arg].items():
-                total[variable] = (total.get(variable, 0) + slope * c) % _P
+                total[variable] = (total.get(variable, 0) + slope * c) % P
         return total
 
-    def value(self, node: Expr) -> int:
+    def _value(self, node: Expr) -> int:
         """The value at the point; what is no sum, product or number is drawn."""
         if node not in self.values:
             args = [self.values[a] for a in node.args]
             if node.op is Op.NUM:
-                found = node.number.numerator * pow(node.number.denominator, -1, _P)
+                found = node.number.numerator * pow(node.number.denominator, -1, P)
             elif node.op is Op.ADD:
                 terms = zip(node.coefficients, args, strict=True)
-                found = sum(c.numerator * pow(c.denominator, -1, _P) * x for c, x in terms)
+                found = sum(c.numerator * pow(c.denominator, -1, P) * x for c, x in terms)
             elif node.op is Op.MUL:
                 found = 1
                 for x, e in zip(args, node.exponents, strict=True):
-                    found = found * pow(x, e, _P) % _P
+                    found = found * pow(x, e, P) % P
             else:
-                found = self.draw.randrange(1, _P)
-            self.values[node] = found % _P or self.draw.randrange(1, _P)
+                found = self.draw.randrange(1, P)
+            self.values[node] = found % P or self.draw.randrange(1, P)
         return self.values[node]
 
 
-def _rank(rows: list[_Row]) -> int:
+def _rank(rows: list[Row]) -> int:
     """Rank by elimination, shortest row first, each pivot in its rarest column."""
     rows = [r for r in rows if r]
     holders: dict[Expr, set[int]] = {}
@@ -103,11 +108,11 @@ def _rank(rows: list[_Row]) -> int:
             continue
         rank += 1
         pivot = min(row, key=lambda v: (len(holders[v]), v.id))
-        inverse = pow(row[pivot], -1, _P)
+        inverse = pow(row[pivot], -1, P)
         for other in sorted(holders[pivot]):
-            factor = rows[other][pivot] * inverse % _P
+            factor = rows[other][pivot] * inverse % P
             for variable, c in row.items():
-                left = (rows[other].get(variable, 0) - factor * c) % _P
+                left = (rows[other].get(variable, 0) - factor * c) % P
                 if left:
                     rows[other][variable] = left
                     holders[variable].add(other)

@@ -9,21 +9,22 @@ from bondgraph.ir.program import (
     Expression,
     Field,
     Function,
+    Opening,
     Program,
     Ref,
     ResidualInfo,
     Sum,
 )
 from bondgraph.ir.residuals import Residual, ResidualSet
-from bondgraph.passes.lower import LowerOptions, digest, tables
+from bondgraph.passes.lower import LowerOptions, digest, fastest, tables
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.chain import Chain
 from bondgraph.passes.lowering.derivative import TooManyOperations
 from bondgraph.passes.lowering.exactly import LARGEST
 from bondgraph.passes.lowering.filter import Filter
 from bondgraph.passes.lowering.newton import newton_blocks
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.prune import pruned
+from bondgraph.passes.lowering.switched import Switched
 from bondgraph.passes.lowering.uncertain import Share, shares
 from bondgraph.passes.lowering.visible import seen
 from bondgraph.passes.normalise import LIMIT, normalise
@@ -43,6 +44,7 @@ class _Threshold:
         self.step: list[Assign] = []
         self.states: list[Field] = []
         self.exprs: list[Expr] = []
+        self.opening: Opening | None = None
 
 
 def thresholds(
@@ -59,9 +61,10 @@ def thresholds(
     if not any(v.tolerance for v in graph.values):
         return None
     builder = Builder(graph)
-    filter = Filter(builder)
+    filter = Filter(builder, fastest(options))
+    switched = Switched(builder, filter, residuals.system)
     found = [
-        _threshold(builder, filter, residual, info, options)
+        _threshold(builder, switched, residual, info, options)
         for residual, info in zip(residuals.residuals, program.residuals, strict=True)
     ]
     configure = builder.configure()
@@ -71,7 +74,7 @@ def thresholds(
         title=f"Adaptive thresholds of {program.name}: how far each residual of the healthy machine"
         " can be from zero if every parameter is within its tolerance.",
         params=builder.param_fields(builder.used),
-        knowns=builder.known_fields(exprs),
+        knowns=builder.known_fields([*exprs, *switched.read]),
         coefs=tuple(builder.fields),
         states=tuple(s for one in found for s in one.states),
         residuals=tuple(one.info for one in found),
@@ -84,6 +87,7 @@ def thresholds(
         integrals=(),
         time_unit=1.0,
         bounds=program.name,
+        openings=tuple(one.opening for one in found if one.opening is not None),
     )
     refused = [one.info.unavailable for one in found if one.info.unavailable]
     if not any(one.exprs for one in found) and set(refused) <= {
@@ -96,7 +100,7 @@ def thresholds(
 
 def _threshold(
     builder: Builder,
-    filter: Filter,
+    switched: Switched,
     residual: Residual,
     info: ResidualInfo,
     options: LowerOptions,
@@ -109,20 +113,26 @@ def _threshold(
     form = normalise(builder.graph.pool, residual.expr, LIMIT, builder.initials)
     if form.tape is not None:
         return _none(out, "its residual is too long to be differentiated")
+    form = switched.form(residual, form)
     kept = seen(builder, form.terms, options.rate, options.resolution).kept
     amounts: list[tuple[bool, Expression]] = []
     words: list[str] = []
     found = shares(builder, kept, _STAGES // max(info.stages, 1))
     if found is None:
         return _none(out, f"its uncertain signals need more than {_STAGES} stages of the filter")
+    window = switched.window(residual, kept, info.stages)
+    if window is not None:
+        out.first, out.step, out.states = [*window.first], [*window.step], [*window.states]
+        out.opening = window.opening
     for number, share in enumerate(found, 1):
         form = normalise(builder.graph.pool, share.expr, LIMIT, builder.initials)
         if form.tape is not None:
             return _none(out, "its uncertain signals are too long")
+        form = switched.form(residual._replace(expr=share.expr), form)
         if not form.terms:
             continue
         name = f"{info.name}_w{number}"
-        chain = Chain(builder, filter, residual._replace(name=name), info.stages)
+        chain = switched.chain(residual._replace(name=name), info.stages, window)
         try:
             chain.run(form.terms, f"{info.path}: {_named(share)}")
         except TooManyOperations:

@@ -170,6 +170,8 @@ class Interpreter:
         passed = self.age * self.options["sample_time"] * self.options["bandwidth"]
         self.age += 1
         valid = {r.name: not r.unavailable and passed >= r.settle for r in self.program.residuals}
+        for opening in self.program.openings:
+            valid[opening.residual] &= bool(self.states[opening.progress] >= 1)
         return Outcome(residuals, valid)
 
     def _count(self, samples: Mapping[str, Real], spaces: dict[str, dict[str, Real]]) -> None:

@@ -21,6 +21,18 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
+/* The same number; the model asks for it. */
+static bool equal(real left, real right)
+{
+    return left <= right && left >= right;
+}
+
+/* The smaller of two numbers. */
+static real least(real left, real right)
+{
+    return right < left ? right : left;
+}
+
 /* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
 static real exponential(real value)
 {
@@ -83,17 +95,83 @@ static void compute_coefficients(oven_monitor *monitor, const oven_parameters *p
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* exp(x) from x^35 on */
+    const real series36 = x_ * (x_ * (x_ / REAL(38.0) + REAL(1.0)) / REAL(37.0)
+            + REAL(1.0)) / REAL(36.0)
+        + REAL(1.0);
+
+    /* exp(x) from x^29 on */
+    const real series30 = x_
+            * (x_
+                * (REAL(0.03125) * x_
+                    * (x_ * (x_ * (x_ * series36 / REAL(35.0) + REAL(1.0)) / REAL(34.0)
+                        + REAL(1.0)) / REAL(33.0)
+                    + REAL(1.0))
+                + REAL(1.0)) / REAL(31.0)
+            + REAL(1.0)) / REAL(30.0)
+        + REAL(1.0);
+
+    /* exp(x) from x^23 on */
+    const real series24 = x_
+            * (x_
+                * (x_
+                    * (x_ * (x_ * (x_ * series30 / REAL(29.0) + REAL(1.0)) / REAL(28.0)
+                        + REAL(1.0)) / REAL(27.0)
+                    + REAL(1.0)) / REAL(26.0)
+                + REAL(1.0)) / REAL(25.0)
+            + REAL(1.0)) / REAL(24.0)
+        + REAL(1.0);
+
+    /* exp(x) from x^17 on */
+    const real series18 = x_
+            * (x_
+                * (x_
+                    * (x_ * (x_ * (x_ * series24 / REAL(23.0) + REAL(1.0)) / REAL(22.0)
+                        + REAL(1.0)) / REAL(21.0)
+                    + REAL(1.0)) / REAL(20.0)
+                + REAL(1.0)) / REAL(19.0)
+            + REAL(1.0)) / REAL(18.0)
+        + REAL(1.0);
+
+    /* exp(x) from x^11 on */
+    const real series12 = x_
+            * (x_
+                * (x_
+                    * (x_ * (REAL(0.0625) * x_ * (x_ * series18 / REAL(17.0) + REAL(1.0))
+                        + REAL(1.0)) / REAL(15.0)
+                    + REAL(1.0)) / REAL(14.0)
+                + REAL(1.0)) / REAL(13.0)
+            + REAL(1.0)) / REAL(12.0)
+        + REAL(1.0);
+
+    /* exp(x) from x^5 on */
+    const real series6 = x_
+            * (x_
+                * (REAL(0.125) * x_
+                    * (x_ * (x_ * (x_ * series12 / REAL(11.0) + REAL(1.0)) / REAL(10.0)
+                        + REAL(1.0)) / REAL(9.0)
+                    + REAL(1.0))
+                + REAL(1.0)) / REAL(7.0)
+            + REAL(1.0)) / REAL(6.0)
+        + REAL(1.0);
+
     /* exp(-x) */
     const real t = exponential(-x_);
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* min(x/2, 0.025) */
+    const real t_2 = least(REAL(0.5) * x_, REAL(1.0) / REAL(40.0));
+
+    /* x*(x*series6/5 + 1)/4 + 1 */
+    const real t_3 = REAL(0.25) * x_ * (x_ * series6 / REAL(5.0) + REAL(1.0)) + REAL(1.0);
+
+    /* x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1 */
+    const real t_4 = x_ * t_3 / REAL(3.0) + REAL(1.0);
+
+    /* x*exp(-x)*(x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1) */
+    const real t_5 = x_ * t * t_4;
+
+    /* x^2*exp(-x)*(x*(x*series6/5 + 1)/4 + 1) */
+    const real t_6 = x_ * x_ * t * t_3;
 
     /* oven.bg:15: r1: factor of Th: Gh */
     c->r1_Th = p->Gh;
@@ -101,23 +179,35 @@ static void compute_coefficients(oven_monitor *monitor, const oven_parameters *p
     /* oven.bg:15: r1: factor of Th': Ch */
     c->r1_Th_1 = p->Ch;
 
+    /* part of the start that a sample is */
+    c->r1_pace = t_2;
+
+    /* a time constant of the filter as part of the start, to the power 1 */
+    c->r1_slope1 = t_2 / x_;
+
     /* oven.bg:15: r1: factor of Th in stage 1 */
     c->r1_v1_Th = p->Ch * bandwidth;
 
     /* oven.bg:15: r1: factor of Th in stage 2 */
     c->r1_v2_Th = p->Ch * bandwidth - p->Gh;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* filter: weight of the new sample 0 stages further */
+    c->n0 = x_ * t * (REAL(0.5) * x_ * t_4 + REAL(1.0)) - REAL(0.5) * t_5;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
+    /* filter: weight of the new sample 1 stages further */
+    c->n1 = REAL(0.5) * x_ * x_ * t * t_4 - t_6 / REAL(3.0);
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
+    /* filter: what is left of a memory 0 stages further */
+    c->m0 = t;
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
+    /* filter: weight of the sample before 0 stages further */
+    c->o0 = REAL(0.5) * t_5;
+
+    /* filter: what is left of a memory 1 stages further */
+    c->m1 = x_ * t;
+
+    /* filter: weight of the sample before 1 stages further */
+    c->o1 = t_6 / REAL(3.0);
 
     /* oven.bg:15: r2: factor of Ta: Go */
     c->r2_Ta = p->Go;
@@ -142,8 +232,9 @@ static bool parameters_are_finite(const oven_parameters *p)
 
 static bool coefficients_are_finite(const oven_monitor *monitor)
 {
-    return finite_number(monitor->c.r1_Th + monitor->c.r1_Th_1 + monitor->c.r1_v1_Th
-            + monitor->c.r1_v2_Th + monitor->c.a + monitor->c.b0 + monitor->c.b1 + monitor->c.rest
+    return finite_number(monitor->c.r1_Th + monitor->c.r1_Th_1 + monitor->c.r1_pace
+            + monitor->c.r1_slope1 + monitor->c.r1_v1_Th + monitor->c.r1_v2_Th + monitor->c.n0
+            + monitor->c.n1 + monitor->c.m0 + monitor->c.o0 + monitor->c.m1 + monitor->c.o1
             + monitor->c.r2_Ta + monitor->c.r2_To + monitor->c.r2_To_1 + monitor->c.r2_v1_To
             + monitor->c.r2_v2_To);
 }
@@ -186,8 +277,8 @@ oven_status oven_configure(
     if (!coefficients_are_finite(monitor)) {
         return OVEN_BAD_COEFFICIENT;
     }
-    monitor->settle[OVEN_R1] = samples(REAL(9.233413476451586), sample_time, bandwidth);
-    monitor->settle[OVEN_R2] = samples(REAL(9.233413476451586), sample_time, bandwidth);
+    monitor->settle[OVEN_R1] = samples(REAL(2.0), sample_time, bandwidth);
+    monitor->settle[OVEN_R2] = samples(REAL(2.0), sample_time, bandwidth);
     return OVEN_OK;
 }
 
@@ -213,32 +304,22 @@ void oven_exact(
 static void start_r1(
     oven_monitor *monitor, const oven_samples *s, real *r)
 {
-    const oven_coefficients *c = &monitor->c;
     oven_memory *x = &monitor->x;
 
-    /* oven.bg:15: if(on, P, 0) */
-    const real r1_choice = s->on ? s->P : REAL(0.0);
+    /* oven.bg:15: r1: on for the next sample */
+    x->r1_on = s->on ? REAL(1.0) : REAL(0.0);
 
-    /* oven.bg:15: r1: input of stage 2 */
-    const real r1_u2 = r1_choice + c->r1_v2_Th * s->Th + c->r1_Th * s->To;
+    /* oven.bg:15: r1: the same, for the next sample */
+    x->r1_open = REAL(0.0);
 
-    /* oven.bg:15: r1: stage 2, at rest */
-    const real r1_y2 = r1_u2;
+    /* oven.bg:15: r1: memory of stage 2 */
+    x->r1_s2 = REAL(0.0);
 
-    /* oven.bg:15: r1: stage 2: memory */
-    x->r1_s2 = c->rest * r1_u2;
-
-    /* oven.bg:15: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_Th * s->Th;
-
-    /* oven.bg:15: r1: stage 1, at rest */
-    const real r1_y1 = r1_u1;
-
-    /* oven.bg:15: r1: stage 1: memory */
-    x->r1_s1 = c->rest * r1_u1;
+    /* oven.bg:15: r1: memory of stage 1 */
+    x->r1_s1 = REAL(0.0);
 
     /* oven.bg:15: r1 = if(on, P, 0) - Gh*(Th - To) - Ch*D(Th) */
-    r[OVEN_R1] = r1_y1;
+    r[OVEN_R1] = REAL(0.0);
 }
 
 /* r1 on every further sample. */
@@ -248,26 +329,49 @@ static void next_r1(
     const oven_coefficients *c = &monitor->c;
     oven_memory *x = &monitor->x;
 
+    /* oven.bg:15: r1: 0 where on changes */
+    const real r1_kept = equal(x->r1_on, (s->on ? REAL(1.0) : REAL(0.0))) ? REAL(1.0) : REAL(0.0);
+
+    /* oven.bg:15: r1: on for the next sample */
+    x->r1_on = s->on ? REAL(1.0) : REAL(0.0);
+
+    /* oven.bg:15: r1: how much of the start is over */
+    const real r1_u = r1_kept * least(REAL(1.0), x->r1_open + c->r1_pace);
+
+    /* oven.bg:15: r1: the same, for the next sample */
+    x->r1_open = r1_u;
+
+    /* oven.bg:15: r1: how much is to come */
+    const real r1_rest = REAL(1.0) - r1_u;
+
+    /* oven.bg:15: r1: the window */
+    const real r1_phi0 = r1_u * r1_u * r1_u * (REAL(1.0)
+            + r1_rest * (REAL(3.0) + r1_rest * REAL(6.0)));
+
+    /* oven.bg:15: r1: derivative 1 of the window */
+    const real r1_phi1 = c->r1_slope1 * (REAL(30.0) * (r1_u * r1_u) * (r1_rest * r1_rest));
+
     /* oven.bg:15: if(on, P, 0) */
     const real r1_choice = s->on ? s->P : REAL(0.0);
 
     /* oven.bg:15: r1: input of stage 2 */
-    const real r1_u2 = r1_choice + c->r1_v2_Th * s->Th + c->r1_Th * s->To;
-
-    /* oven.bg:15: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
-
-    /* oven.bg:15: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    const real r1_v2 = r1_phi0 * (r1_choice + c->r1_v2_Th * s->Th + c->r1_Th * s->To)
+        + r1_phi1 * (c->r1_v1_Th * s->Th);
 
     /* oven.bg:15: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_Th * s->Th;
+    const real r1_v1 = -r1_phi0 * (c->r1_v1_Th * s->Th);
+
+    /* oven.bg:15: r1: stage 2 */
+    const real r1_y2 = r1_kept * x->r1_s2 + c->n0 * r1_v2;
 
     /* oven.bg:15: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = r1_kept * x->r1_s1 + c->n1 * r1_v2 + c->n0 * r1_v1;
 
-    /* oven.bg:15: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    /* oven.bg:15: r1: memory of stage 2 */
+    x->r1_s2 = c->m0 * r1_y2 + c->o0 * r1_v2;
+
+    /* oven.bg:15: r1: memory of stage 1 */
+    x->r1_s1 = c->m1 * r1_y2 + c->o1 * r1_v2 + c->m0 * r1_y1 + c->o0 * r1_v1;
 
     /* oven.bg:15: r1 = if(on, P, 0) - Gh*(Th - To) - Ch*D(Th) */
     r[OVEN_R1] = r1_y1;
@@ -293,36 +397,28 @@ static void run_r1(
         r[OVEN_R1] = REAL(0.0);
     }
     monitor->age[0] = age;
-    residuals->valid[OVEN_R1] = age > monitor->settle[OVEN_R1];
+    residuals->valid[OVEN_R1] = age > monitor->settle[OVEN_R1] && monitor->x.r1_open >= REAL(1.0);
 }
 
 /* r2 on its first sample: the filter as if it had always been so. */
 static void start_r2(
     oven_monitor *monitor, const oven_samples *s, real *r)
 {
-    const oven_coefficients *c = &monitor->c;
     oven_memory *x = &monitor->x;
 
-    /* oven.bg:15: r2: input of stage 2 */
-    const real r2_u2 = c->r2_Ta * s->Ta + c->r2_v2_To * s->To + c->r1_Th * s->Th;
+    (void)s;
 
-    /* oven.bg:15: r2: stage 2, at rest */
-    const real r2_y2 = r2_u2;
+    /* oven.bg:15: r2: the same, for the next sample */
+    x->r2_open = REAL(0.0);
 
-    /* oven.bg:15: r2: stage 2: memory */
-    x->r2_s2 = c->rest * r2_u2;
+    /* oven.bg:15: r2: memory of stage 2 */
+    x->r2_s2 = REAL(0.0);
 
-    /* oven.bg:15: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_To * s->To;
-
-    /* oven.bg:15: r2: stage 1, at rest */
-    const real r2_y1 = r2_u1;
-
-    /* oven.bg:15: r2: stage 1: memory */
-    x->r2_s1 = c->rest * r2_u1;
+    /* oven.bg:15: r2: memory of stage 1 */
+    x->r2_s1 = REAL(0.0);
 
     /* oven.bg:15: r2 = Gh*(Th - To) - Go*(To - Ta) - Co*D(To) */
-    r[OVEN_R2] = r2_y1;
+    r[OVEN_R2] = REAL(0.0);
 }
 
 /* r2 on every further sample. */
@@ -332,23 +428,40 @@ static void next_r2(
     const oven_coefficients *c = &monitor->c;
     oven_memory *x = &monitor->x;
 
+    /* oven.bg:15: r2: how much of the start is over */
+    const real r2_u = least(REAL(1.0), x->r2_open + c->r1_pace);
+
+    /* oven.bg:15: r2: the same, for the next sample */
+    x->r2_open = r2_u;
+
+    /* oven.bg:15: r2: how much is to come */
+    const real r2_rest = REAL(1.0) - r2_u;
+
+    /* oven.bg:15: r2: the window */
+    const real r2_phi0 = r2_u * r2_u * r2_u * (REAL(1.0)
+            + r2_rest * (REAL(3.0) + r2_rest * REAL(6.0)));
+
+    /* oven.bg:15: r2: derivative 1 of the window */
+    const real r2_phi1 = c->r1_slope1 * (REAL(30.0) * (r2_u * r2_u) * (r2_rest * r2_rest));
+
     /* oven.bg:15: r2: input of stage 2 */
-    const real r2_u2 = c->r2_Ta * s->Ta + c->r2_v2_To * s->To + c->r1_Th * s->Th;
-
-    /* oven.bg:15: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
-
-    /* oven.bg:15: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    const real r2_v2 = r2_phi0 * (c->r2_Ta * s->Ta + c->r2_v2_To * s->To + c->r1_Th * s->Th)
+        + r2_phi1 * (c->r2_v1_To * s->To);
 
     /* oven.bg:15: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_To * s->To;
+    const real r2_v1 = -r2_phi0 * (c->r2_v1_To * s->To);
+
+    /* oven.bg:15: r2: stage 2 */
+    const real r2_y2 = x->r2_s2 + c->n0 * r2_v2;
 
     /* oven.bg:15: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->n1 * r2_v2 + c->n0 * r2_v1;
 
-    /* oven.bg:15: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    /* oven.bg:15: r2: memory of stage 2 */
+    x->r2_s2 = c->m0 * r2_y2 + c->o0 * r2_v2;
+
+    /* oven.bg:15: r2: memory of stage 1 */
+    x->r2_s1 = c->m1 * r2_y2 + c->o1 * r2_v2 + c->m0 * r2_y1 + c->o0 * r2_v1;
 
     /* oven.bg:15: r2 = Gh*(Th - To) - Go*(To - Ta) - Co*D(To) */
     r[OVEN_R2] = r2_y1;
@@ -374,7 +487,7 @@ static void run_r2(
         r[OVEN_R2] = REAL(0.0);
     }
     monitor->age[1] = age;
-    residuals->valid[OVEN_R2] = age > monitor->settle[OVEN_R2];
+    residuals->valid[OVEN_R2] = age > monitor->settle[OVEN_R2] && monitor->x.r2_open >= REAL(1.0);
 }
 
 void oven_reset(oven_monitor *monitor)

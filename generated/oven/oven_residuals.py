@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "d93009d6370d5e3a"
+DIGEST = "0861aca0235ee241"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -68,28 +68,35 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
-    r1_Th: float     # r1: factor of Th: Gh
-    r1_Th_1: float   # r1: factor of Th': Ch
-    r1_v1_Th: float  # r1: factor of Th in stage 1
-    r1_v2_Th: float  # r1: factor of Th in stage 2
-    a: float         # filter: exp(-bandwidth*sample_time)
-    b0: float        # filter: weight of the new sample
-    b1: float        # filter: weight of the sample before
-    rest: float      # filter: 1 - b0, the memory of a constant 1
-    r2_Ta: float     # r2: factor of Ta: Go
-    r2_To: float     # r2: factor of To: Gh + Go
-    r2_To_1: float   # r2: factor of To': Co
-    r2_v1_To: float  # r2: factor of To in stage 1
-    r2_v2_To: float  # r2: factor of To in stage 2
+    r1_Th: float      # r1: factor of Th: Gh
+    r1_Th_1: float    # r1: factor of Th': Ch
+    r1_pace: float    # part of the start that a sample is
+    r1_slope1: float  # a time constant of the filter as part of the start, to the power 1
+    r1_v1_Th: float   # r1: factor of Th in stage 1
+    r1_v2_Th: float   # r1: factor of Th in stage 2
+    n0: float         # filter: weight of the new sample 0 stages further
+    n1: float         # filter: weight of the new sample 1 stages further
+    m0: float         # filter: what is left of a memory 0 stages further
+    o0: float         # filter: weight of the sample before 0 stages further
+    m1: float         # filter: what is left of a memory 1 stages further
+    o1: float         # filter: weight of the sample before 1 stages further
+    r2_Ta: float      # r2: factor of Ta: Go
+    r2_To: float      # r2: factor of To: Gh + Go
+    r2_To_1: float    # r2: factor of To': Co
+    r2_v1_To: float   # r2: factor of To in stage 1
+    r2_v2_To: float   # r2: factor of To in stage 2
 
 
 class Memory:
     """What the filters remember from sample to sample."""
 
-    r1_s2: float  # memory of r1: stage 2
-    r1_s1: float  # memory of r1: stage 1
-    r2_s2: float  # memory of r2: stage 2
-    r2_s1: float  # memory of r2: stage 1
+    r1_open: float  # how far r1 has come since its last start, to 1
+    r1_on: float    # on at the sample before
+    r1_s2: float    # memory of r1: stage 2
+    r1_s1: float    # memory of r1: stage 1
+    r2_open: float  # how far r2 has come since its last start, to 1
+    r2_s2: float    # memory of r2: stage 2
+    r2_s1: float    # memory of r2: stage 1
 
 
 class Monitor:
@@ -121,17 +128,18 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_Th + self._c.r1_Th_1 + self._c.r1_v1_Th + self._c.r1_v2_Th
-                    + self._c.a + self._c.b0 + self._c.b1 + self._c.rest + self._c.r2_Ta
-                    + self._c.r2_To + self._c.r2_To_1 + self._c.r2_v1_To + self._c.r2_v2_To
+                    self._c.r1_Th + self._c.r1_Th_1 + self._c.r1_pace + self._c.r1_slope1
+                    + self._c.r1_v1_Th + self._c.r1_v2_Th + self._c.n0 + self._c.n1 + self._c.m0
+                    + self._c.o0 + self._c.m1 + self._c.o1 + self._c.r2_Ta + self._c.r2_To
+                    + self._c.r2_To_1 + self._c.r2_v1_To + self._c.r2_v2_To
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
             raise ValueError("the parameters make a coefficient that is not finite") from error
         # a residual is valid when its block has seen more samples than it needs
         self._settle = (
-            ("r1", 0, math.ceil(9.233413476451586 / (bandwidth * sample_time))),
-            ("r2", 1, math.ceil(9.233413476451586 / (bandwidth * sample_time))),
+            ("r1", 0, math.ceil(2.0 / (bandwidth * sample_time))),
+            ("r2", 1, math.ceil(2.0 / (bandwidth * sample_time))),
         )
         self.reset()
 
@@ -147,6 +155,14 @@ class Monitor:
         r.valid = frozenset(
             name for name, block, settle in self._settle if self._age[block] > settle
         )
+        # one that a switch has started anew has to come to 1 first
+        begun = (
+            ("r1", "r1_open"),
+            ("r2", "r2_open"),
+        )
+        r.valid -= {
+            name for name, state in begun if name in r.valid and not getattr(self._x, state) >= 1.0
+        }
         return r
 
     def exact(self, d: Derivatives) -> Residuals:
@@ -171,16 +187,81 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # exp(x) from x^35 on
+        series36 = x_ * (x_ * (x_ / 38.0 + 1.0) / 37.0 + 1.0) / 36.0 + 1.0
+
+        # exp(x) from x^29 on
+        series30 = (
+            x_
+                * (x_
+                    * (0.03125 * x_ * (x_ * (x_ * (x_ * series36 / 35.0 + 1.0) / 34.0 + 1.0) / 33.0
+                        + 1.0)
+                    + 1.0) / 31.0
+                + 1.0) / 30.0
+            + 1.0
+        )
+
+        # exp(x) from x^23 on
+        series24 = (
+            x_
+                * (x_
+                    * (x_ * (x_ * (x_ * (x_ * series30 / 29.0 + 1.0) / 28.0 + 1.0) / 27.0
+                        + 1.0) / 26.0
+                    + 1.0) / 25.0
+                + 1.0) / 24.0
+            + 1.0
+        )
+
+        # exp(x) from x^17 on
+        series18 = (
+            x_
+                * (x_
+                    * (x_ * (x_ * (x_ * (x_ * series24 / 23.0 + 1.0) / 22.0 + 1.0) / 21.0
+                        + 1.0) / 20.0
+                    + 1.0) / 19.0
+                + 1.0) / 18.0
+            + 1.0
+        )
+
+        # exp(x) from x^11 on
+        series12 = (
+            x_
+                * (x_
+                    * (x_ * (x_ * (0.0625 * x_ * (x_ * series18 / 17.0 + 1.0) + 1.0) / 15.0
+                        + 1.0) / 14.0
+                    + 1.0) / 13.0
+                + 1.0) / 12.0
+            + 1.0
+        )
+
+        # exp(x) from x^5 on
+        series6 = (
+            x_
+                * (x_
+                    * (0.125 * x_ * (x_ * (x_ * (x_ * series12 / 11.0 + 1.0) / 10.0 + 1.0) / 9.0
+                        + 1.0)
+                    + 1.0) / 7.0
+                + 1.0) / 6.0
+            + 1.0
+        )
+
         # exp(-x)
         t = _exponential(-x_)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # min(x/2, 0.025)
+        t_2 = min(0.5 * x_, 1.0 / 40.0)
+
+        # x*(x*series6/5 + 1)/4 + 1
+        t_3 = 0.25 * x_ * (x_ * series6 / 5.0 + 1.0) + 1.0
+
+        # x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1
+        t_4 = x_ * t_3 / 3.0 + 1.0
+
+        # x*exp(-x)*(x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1)
+        t_5 = x_ * t * t_4
+
+        # x^2*exp(-x)*(x*(x*series6/5 + 1)/4 + 1)
+        t_6 = x_ * x_ * t * t_3
 
         # oven.bg:15: r1: factor of Th: Gh
         c.r1_Th = p.Gh
@@ -188,23 +269,35 @@ class Monitor:
         # oven.bg:15: r1: factor of Th': Ch
         c.r1_Th_1 = p.Ch
 
+        # part of the start that a sample is
+        c.r1_pace = t_2
+
+        # a time constant of the filter as part of the start, to the power 1
+        c.r1_slope1 = t_2 / x_
+
         # oven.bg:15: r1: factor of Th in stage 1
         c.r1_v1_Th = p.Ch * bandwidth
 
         # oven.bg:15: r1: factor of Th in stage 2
         c.r1_v2_Th = p.Ch * bandwidth - p.Gh
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: weight of the new sample 0 stages further
+        c.n0 = x_ * t * (0.5 * x_ * t_4 + 1.0) - 0.5 * t_5
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: weight of the new sample 1 stages further
+        c.n1 = 0.5 * x_ * x_ * t * t_4 - t_6 / 3.0
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
+        # filter: what is left of a memory 0 stages further
+        c.m0 = t
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
+        # filter: weight of the sample before 0 stages further
+        c.o0 = 0.5 * t_5
+
+        # filter: what is left of a memory 1 stages further
+        c.m1 = x_ * t
+
+        # filter: weight of the sample before 1 stages further
+        c.o1 = t_6 / 3.0
 
         # oven.bg:15: r2: factor of Ta: Go
         c.r2_Ta = p.Go
@@ -223,58 +316,72 @@ class Monitor:
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
-        c = self._c
         x = self._x
 
-        # oven.bg:15: if(on, P, 0)
-        r1_choice = s.P if s.on else 0.0
+        # oven.bg:15: r1: on for the next sample
+        x.r1_on = 1.0 if s.on else 0.0
 
-        # oven.bg:15: r1: input of stage 2
-        r1_u2 = r1_choice + c.r1_v2_Th * s.Th + c.r1_Th * s.To
+        # oven.bg:15: r1: the same, for the next sample
+        x.r1_open = 0.0
 
-        # oven.bg:15: r1: stage 2, at rest
-        r1_y2 = r1_u2
+        # oven.bg:15: r1: memory of stage 2
+        x.r1_s2 = 0.0
 
-        # oven.bg:15: r1: stage 2: memory
-        x.r1_s2 = c.rest * r1_u2
-
-        # oven.bg:15: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_Th * s.Th
-
-        # oven.bg:15: r1: stage 1, at rest
-        r1_y1 = r1_u1
-
-        # oven.bg:15: r1: stage 1: memory
-        x.r1_s1 = c.rest * r1_u1
+        # oven.bg:15: r1: memory of stage 1
+        x.r1_s1 = 0.0
 
         # oven.bg:15: r1 = if(on, P, 0) - Gh*(Th - To) - Ch*D(Th)
-        r.r1 = r1_y1
+        r.r1 = 0.0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
         c = self._c
         x = self._x
 
+        # oven.bg:15: r1: 0 where on changes
+        r1_kept = 1.0 if x.r1_on == (1.0 if s.on else 0.0) else 0.0
+
+        # oven.bg:15: r1: on for the next sample
+        x.r1_on = 1.0 if s.on else 0.0
+
+        # oven.bg:15: r1: how much of the start is over
+        r1_u = r1_kept * min(1.0, x.r1_open + c.r1_pace)
+
+        # oven.bg:15: r1: the same, for the next sample
+        x.r1_open = r1_u
+
+        # oven.bg:15: r1: how much is to come
+        r1_rest = 1.0 - r1_u
+
+        # oven.bg:15: r1: the window
+        r1_phi0 = r1_u * r1_u * r1_u * (1.0 + r1_rest * (3.0 + r1_rest * 6.0))
+
+        # oven.bg:15: r1: derivative 1 of the window
+        r1_phi1 = c.r1_slope1 * (30.0 * (r1_u * r1_u) * (r1_rest * r1_rest))
+
         # oven.bg:15: if(on, P, 0)
         r1_choice = s.P if s.on else 0.0
 
         # oven.bg:15: r1: input of stage 2
-        r1_u2 = r1_choice + c.r1_v2_Th * s.Th + c.r1_Th * s.To
-
-        # oven.bg:15: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
-
-        # oven.bg:15: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        r1_v2 = (
+            r1_phi0 * (r1_choice + c.r1_v2_Th * s.Th + c.r1_Th * s.To)
+            + r1_phi1 * (c.r1_v1_Th * s.Th)
+        )
 
         # oven.bg:15: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_Th * s.Th
+        r1_v1 = -r1_phi0 * (c.r1_v1_Th * s.Th)
+
+        # oven.bg:15: r1: stage 2
+        r1_y2 = r1_kept * x.r1_s2 + c.n0 * r1_v2
 
         # oven.bg:15: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = r1_kept * x.r1_s1 + c.n1 * r1_v2 + c.n0 * r1_v1
 
-        # oven.bg:15: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        # oven.bg:15: r1: memory of stage 2
+        x.r1_s2 = c.m0 * r1_y2 + c.o0 * r1_v2
+
+        # oven.bg:15: r1: memory of stage 1
+        x.r1_s1 = c.m1 * r1_y2 + c.o1 * r1_v2 + c.m0 * r1_y1 + c.o0 * r1_v1
 
         # oven.bg:15: r1 = if(on, P, 0) - Gh*(Th - To) - Ch*D(Th)
         r.r1 = r1_y1
@@ -297,52 +404,60 @@ class Monitor:
 
     def _start_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on its first sample: the filter as if it had always been so."""
-        c = self._c
         x = self._x
 
-        # oven.bg:15: r2: input of stage 2
-        r2_u2 = c.r2_Ta * s.Ta + c.r2_v2_To * s.To + c.r1_Th * s.Th
+        # oven.bg:15: r2: the same, for the next sample
+        x.r2_open = 0.0
 
-        # oven.bg:15: r2: stage 2, at rest
-        r2_y2 = r2_u2
+        # oven.bg:15: r2: memory of stage 2
+        x.r2_s2 = 0.0
 
-        # oven.bg:15: r2: stage 2: memory
-        x.r2_s2 = c.rest * r2_u2
-
-        # oven.bg:15: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_To * s.To
-
-        # oven.bg:15: r2: stage 1, at rest
-        r2_y1 = r2_u1
-
-        # oven.bg:15: r2: stage 1: memory
-        x.r2_s1 = c.rest * r2_u1
+        # oven.bg:15: r2: memory of stage 1
+        x.r2_s1 = 0.0
 
         # oven.bg:15: r2 = Gh*(Th - To) - Go*(To - Ta) - Co*D(To)
-        r.r2 = r2_y1
+        r.r2 = 0.0
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
         c = self._c
         x = self._x
 
+        # oven.bg:15: r2: how much of the start is over
+        r2_u = min(1.0, x.r2_open + c.r1_pace)
+
+        # oven.bg:15: r2: the same, for the next sample
+        x.r2_open = r2_u
+
+        # oven.bg:15: r2: how much is to come
+        r2_rest = 1.0 - r2_u
+
+        # oven.bg:15: r2: the window
+        r2_phi0 = r2_u * r2_u * r2_u * (1.0 + r2_rest * (3.0 + r2_rest * 6.0))
+
+        # oven.bg:15: r2: derivative 1 of the window
+        r2_phi1 = c.r1_slope1 * (30.0 * (r2_u * r2_u) * (r2_rest * r2_rest))
+
         # oven.bg:15: r2: input of stage 2
-        r2_u2 = c.r2_Ta * s.Ta + c.r2_v2_To * s.To + c.r1_Th * s.Th
-
-        # oven.bg:15: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
-
-        # oven.bg:15: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        r2_v2 = (
+            r2_phi0 * (c.r2_Ta * s.Ta + c.r2_v2_To * s.To + c.r1_Th * s.Th)
+            + r2_phi1 * (c.r2_v1_To * s.To)
+        )
 
         # oven.bg:15: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_To * s.To
+        r2_v1 = -r2_phi0 * (c.r2_v1_To * s.To)
+
+        # oven.bg:15: r2: stage 2
+        r2_y2 = x.r2_s2 + c.n0 * r2_v2
 
         # oven.bg:15: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.n1 * r2_v2 + c.n0 * r2_v1
 
-        # oven.bg:15: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        # oven.bg:15: r2: memory of stage 2
+        x.r2_s2 = c.m0 * r2_y2 + c.o0 * r2_v2
+
+        # oven.bg:15: r2: memory of stage 1
+        x.r2_s1 = c.m1 * r2_y2 + c.o1 * r2_v2 + c.m0 * r2_y1 + c.o0 * r2_v1
 
         # oven.bg:15: r2 = Gh*(Th - To) - Go*(To - Ta) - Co*D(To)
         r.r2 = r2_y1

@@ -118,6 +118,10 @@ class Builder:
             self._wanted.append(_Coef(found, value, doc, origin))
         return found
 
+    def expression(self, value: Expr) -> Expression:
+        """A value of configure that is written out in one place."""
+        return Procedure(self.pool, self.leaf, lambda _: None, Names(), "").value(value, None)
+
     def number(self, value: Expr) -> Expression:
         """A NUM node as an expression of the program."""
         return Procedure(self.pool, lambda _: None, lambda _: None, Names(), "").value(value, None)

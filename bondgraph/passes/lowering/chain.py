@@ -29,7 +29,14 @@ from bondgraph.passes.lowering.procedure import ONE, Procedure, positive_part
 class Chain:
     """Writes `first` and `step` of one residual; nothing is shared with another residual."""
 
-    def __init__(self, builder: Builder, filter: Filter, residual: Residual, stages: int) -> None:
+    def __init__(
+        self,
+        builder: Builder,
+        filter: Filter,
+        residual: Residual,
+        stages: int,
+        names: Names | None = None,
+    ) -> None:
         self.builder = builder
         self.pool = builder.pool
         self.filter = filter
@@ -40,7 +47,7 @@ class Chain:
         self.first: list[Assign] = []
         self.step: list[Assign] = []
         self.states: list[Field] = []
-        self.names = Names()
+        self.names = names or Names()
         self._leaves: dict[tuple[Expr, bool], Expression] = {}
         self._atoms: dict[Expr, Expression] = {}
         self._speeds: dict[str, Expression] = {}

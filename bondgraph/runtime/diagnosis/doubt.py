@@ -37,17 +37,9 @@ class Doubt:
         natures = [facts.natures[name] for name in engine.residuals]
         place = {k.path: at for at, k in enumerate(engine.signals)}
         self._modes = sorted({place[m] for n in natures for m in n.modes})
-        self._blurred = [
-            (k, [place[m] for m in n.modes], self._samples(n.settle))
-            for k, n in enumerate(natures)
-            if n.modes and (n.approximate or n.gated)
-        ]
         self._bent = [(k, n.stages) for k, n in enumerate(natures) if n.approximate]
         self._drifts = np.array([n.drifts for n in natures], dtype=bool)
         self.reset()
-
-    def _samples(self, constants: float) -> int:
-        return math.ceil(constants / self._engine.bandwidth / self._engine.sample_time)
 
     def reset(self) -> None:
         """The next sample is the first."""
@@ -58,7 +50,6 @@ class Doubt:
         self._fast = engine.configured(bandwidth=faster, bounds=False) if self._bent else None
         self._smooth: list[Any] = [np.zeros((2 * n, 1)) for _, n in self._bent]
         self._sample: Array | None = None
-        self._since = [math.inf for _ in self._blurred]  # samples since a switch was turned
         self._peak = np.zeros((2, count))  # of this row and the one before
         self._age = 0
 
@@ -99,13 +90,6 @@ class Doubt:
         told[:, self._modes] = before[:, self._modes]
         other = late.run(told)
         doubt += np.where(other.valid & valid, np.abs(batch.value - other.value), 0.0)
-        for at, (k, modes, wait) in enumerate(self._blurred):
-            turned = (samples[:, modes] != before[:, modes]).any(axis=1)
-            since = np.arange(len(samples)) + 1.0 + self._since[at]
-            for j in np.flatnonzero(turned):
-                since[j:] = np.arange(len(samples) - j)
-            self._since[at] = float(since[-1])
-            valid[:, k] &= since > wait
         self._sample = samples[-1].copy()
 
     def _bias(

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bondgraph.ir.expr import Expr, Kind, Op, topological
+from bondgraph.ir.expr import Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
@@ -24,17 +24,14 @@ _COUNT = 1.0  # counts by which the first one of an encoder may be off
 class Nature(NamedTuple):
     """How the code of a residual is off where nothing is wrong.
 
-    `modes` are the switches that it reads, `gated` if it has a derivative behind one of them.
-    `approximate` says that it puts filtered derivatives into a nonlinear law, `stages` how long its
-    filter is, `settle` how many time constants pass until that has forgotten. `drifts` if it adds
-    up readings, and their noise, for ever.
+    `modes` are the switches that it reads. `approximate` says that it puts filtered derivatives
+    into a nonlinear law, `stages` how long its filter is. `drifts` if it adds up readings, and
+    their noise, for ever.
     """
 
     modes: tuple[str, ...]
-    gated: bool
     approximate: bool
     stages: int
-    settle: float
     drifts: bool
 
 
@@ -89,34 +86,11 @@ def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict
         nodes = topological([residual.expr])
         found[info.name] = Nature(
             tuple(modes[n] for n in nodes if n in modes),
-            _gated(nodes),
             bool(info.approximate),
             info.stages,
-            info.settle,
             any(n.op is Op.INT for n in nodes),
         )
     return found
-
-
-def _gated(nodes: Sequence[Expr]) -> bool:
-    """Whether a switch multiplies or selects a derivative; nodes with arguments before what has
-    them."""
-    switched: dict[Expr, bool] = {}
-    moving: dict[Expr, bool] = {}
-    for node in nodes:
-        own = [a for a in node.args if switched[a]]
-        switched[node] = node.op is not Op.DER and (bool(own) or _switch(node))
-        moving[node] = node.op is Op.DER or any(moving[a] for a in node.args)
-        if own and node.op is Op.MUL:
-            if any(moving[a] for a in node.args if own != [a]):
-                return True
-        elif own and node.op is not Op.ADD and node.op is not Op.DER and moving[node]:
-            return True
-    return False
-
-
-def _switch(node: Expr) -> bool:
-    return node.op is Op.SYM and node.symbol.kind is Kind.MODE
 
 
 def tolerated(known: Sequence[Hypothesis], facts: Facts) -> tuple[tuple[Hypothesis, ...], Array]:

@@ -115,9 +115,7 @@ class Setting(NamedTuple):
     def warm_up(self) -> float:
         """Seconds from the first sample until all residuals are valid."""
         program = self.residuals.program
-        settle = [r.settle for r in program.residuals if not r.unavailable]
-        waits = [math.ceil(s * program.rate / self.bandwidth) for s in settle]
-        return max(waits, default=0) / program.rate
+        return math.ceil(program.warmup * program.rate / self.bandwidth) / program.rate
 
     @property
     def has_bound(self) -> list[bool]:

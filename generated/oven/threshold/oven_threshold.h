@@ -31,7 +31,7 @@ typedef double oven_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define OVEN_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(oven_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define OVEN_THRESHOLD_DIGEST "552b24277150b9a2"
+#define OVEN_THRESHOLD_DIGEST "696886b93bc918b0"
 
 /* What the code was made for: arguments of oven_threshold_configure, in s, rad/s and s. */
 #define OVEN_THRESHOLD_SAMPLE_TIME OVEN_THRESHOLD_CONSTANT(0.001)
@@ -63,6 +63,7 @@ typedef struct oven_threshold_parameters {
 
 /* One sample of every known signal. */
 typedef struct oven_threshold_samples {
+    bool on;                 /* - (oven.bg:7) */
     oven_threshold_real Ta;  /* K (oven.bg:9) */
     oven_threshold_real Th;  /* K (oven.bg:18) */
     oven_threshold_real To;  /* K (oven.bg:23) */
@@ -70,6 +71,7 @@ typedef struct oven_threshold_samples {
 
 /* Every known signal with the derivatives that the residuals contain. */
 typedef struct oven_threshold_derivatives {
+    bool on;                 /* - (oven.bg:7) */
     oven_threshold_real Ta;  /* K (oven.bg:9) */
     oven_threshold_real Th;  /* K (oven.bg:18) */
     oven_threshold_real To;  /* K (oven.bg:23) */
@@ -85,18 +87,24 @@ typedef struct oven_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct oven_threshold_coefficients {
+    oven_threshold_real r1_pace;      /* part of the start that a sample is */
     oven_threshold_real r1_w1_v2_Th;  /* r1_w1: factor of Th in stage 2 */
-    oven_threshold_real a;            /* filter: exp(-bandwidth*sample_time) */
-    oven_threshold_real b0;           /* filter: weight of the new sample */
-    oven_threshold_real b1;           /* filter: weight of the sample before */
-    oven_threshold_real rest;         /* filter: 1 - b0, the memory of a constant 1 */
+    oven_threshold_real n0;           /* filter: weight of the new sample 0 stages further */
+    oven_threshold_real n1;           /* filter: weight of the new sample 1 stages further */
+    oven_threshold_real m0;           /* filter: what is left of a memory 0 stages further */
+    oven_threshold_real o0;           /* filter: weight of the sample before 0 stages further */
+    oven_threshold_real m1;           /* filter: what is left of a memory 1 stages further */
+    oven_threshold_real o1;           /* filter: weight of the sample before 1 stages further */
     oven_threshold_real r2_w2_v2_Ta;  /* r2_w2: factor of Ta in stage 2 */
 } oven_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */
 typedef struct oven_threshold_memory {
+    oven_threshold_real r1_open;   /* how far r1 has come since its last start, to 1 */
+    oven_threshold_real r1_on;     /* on at the sample before */
     oven_threshold_real r1_w1_s2;  /* memory of r1_w1: stage 2 */
     oven_threshold_real r1_w1_s1;  /* memory of r1_w1: stage 1 */
+    oven_threshold_real r2_open;   /* how far r2 has come since its last start, to 1 */
     oven_threshold_real r2_w1_s2;  /* memory of r2_w1: stage 2 */
     oven_threshold_real r2_w1_s1;  /* memory of r2_w1: stage 1 */
     oven_threshold_real r2_w2_s2;  /* memory of r2_w2: stage 2 */

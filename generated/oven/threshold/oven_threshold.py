@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "552b24277150b9a2"
+DIGEST = "696886b93bc918b0"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -34,6 +34,7 @@ class Parameters:
 class Samples:
     """One sample of every known signal."""
 
+    on: bool   # - (oven.bg:7)
     Ta: float  # K (oven.bg:9)
     Th: float  # K (oven.bg:18)
     To: float  # K (oven.bg:23)
@@ -43,6 +44,7 @@ class Samples:
 class Derivatives:
     """Every known signal with the derivatives that the residuals contain."""
 
+    on: bool   # - (oven.bg:7)
     Ta: float  # K (oven.bg:9)
     Th: float  # K (oven.bg:18)
     To: float  # K (oven.bg:23)
@@ -66,19 +68,25 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
+    r1_pace: float      # part of the start that a sample is
     r1_w1_v2_Th: float  # r1_w1: factor of Th in stage 2
-    a: float            # filter: exp(-bandwidth*sample_time)
-    b0: float           # filter: weight of the new sample
-    b1: float           # filter: weight of the sample before
-    rest: float         # filter: 1 - b0, the memory of a constant 1
+    n0: float           # filter: weight of the new sample 0 stages further
+    n1: float           # filter: weight of the new sample 1 stages further
+    m0: float           # filter: what is left of a memory 0 stages further
+    o0: float           # filter: weight of the sample before 0 stages further
+    m1: float           # filter: what is left of a memory 1 stages further
+    o1: float           # filter: weight of the sample before 1 stages further
     r2_w2_v2_Ta: float  # r2_w2: factor of Ta in stage 2
 
 
 class Memory:
     """What the filters remember from sample to sample."""
 
+    r1_open: float   # how far r1 has come since its last start, to 1
+    r1_on: float     # on at the sample before
     r1_w1_s2: float  # memory of r1_w1: stage 2
     r1_w1_s1: float  # memory of r1_w1: stage 1
+    r2_open: float   # how far r2 has come since its last start, to 1
     r2_w1_s2: float  # memory of r2_w1: stage 2
     r2_w1_s1: float  # memory of r2_w1: stage 1
     r2_w2_s2: float  # memory of r2_w2: stage 2
@@ -114,16 +122,16 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_w1_v2_Th + self._c.a + self._c.b0 + self._c.b1 + self._c.rest
-                    + self._c.r2_w2_v2_Ta
+                    self._c.r1_pace + self._c.r1_w1_v2_Th + self._c.n0 + self._c.n1 + self._c.m0
+                    + self._c.o0 + self._c.m1 + self._c.o1 + self._c.r2_w2_v2_Ta
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
             raise ValueError("the parameters make a coefficient that is not finite") from error
         # a residual is valid when its block has seen more samples than it needs
         self._settle = (
-            ("r1", 0, math.ceil(9.233413476451586 / (bandwidth * sample_time))),
-            ("r2", 1, math.ceil(9.233413476451586 / (bandwidth * sample_time))),
+            ("r1", 0, math.ceil(2.0 / (bandwidth * sample_time))),
+            ("r2", 1, math.ceil(2.0 / (bandwidth * sample_time))),
         )
         self.reset()
 
@@ -139,6 +147,14 @@ class Monitor:
         r.valid = frozenset(
             name for name, block, settle in self._settle if self._age[block] > settle
         )
+        # one that a switch has started anew has to come to 1 first
+        begun = (
+            ("r1", "r1_open"),
+            ("r2", "r2_open"),
+        )
+        r.valid -= {
+            name for name, state in begun if name in r.valid and not getattr(self._x, state) >= 1.0
+        }
         return r
 
     def exact(self, d: Derivatives) -> Residuals:
@@ -162,60 +178,127 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # exp(x) from x^35 on
+        series36 = x_ * (x_ * (x_ / 38.0 + 1.0) / 37.0 + 1.0) / 36.0 + 1.0
+
+        # exp(x) from x^29 on
+        series30 = (
+            x_
+                * (x_
+                    * (0.03125 * x_ * (x_ * (x_ * (x_ * series36 / 35.0 + 1.0) / 34.0 + 1.0) / 33.0
+                        + 1.0)
+                    + 1.0) / 31.0
+                + 1.0) / 30.0
+            + 1.0
+        )
+
+        # exp(x) from x^23 on
+        series24 = (
+            x_
+                * (x_
+                    * (x_ * (x_ * (x_ * (x_ * series30 / 29.0 + 1.0) / 28.0 + 1.0) / 27.0
+                        + 1.0) / 26.0
+                    + 1.0) / 25.0
+                + 1.0) / 24.0
+            + 1.0
+        )
+
+        # exp(x) from x^17 on
+        series18 = (
+            x_
+                * (x_
+                    * (x_ * (x_ * (x_ * (x_ * series24 / 23.0 + 1.0) / 22.0 + 1.0) / 21.0
+                        + 1.0) / 20.0
+                    + 1.0) / 19.0
+                + 1.0) / 18.0
+            + 1.0
+        )
+
+        # exp(x) from x^11 on
+        series12 = (
+            x_
+                * (x_
+                    * (x_ * (x_ * (0.0625 * x_ * (x_ * series18 / 17.0 + 1.0) + 1.0) / 15.0
+                        + 1.0) / 14.0
+                    + 1.0) / 13.0
+                + 1.0) / 12.0
+            + 1.0
+        )
+
+        # exp(x) from x^5 on
+        series6 = (
+            x_
+                * (x_
+                    * (0.125 * x_ * (x_ * (x_ * (x_ * series12 / 11.0 + 1.0) / 10.0 + 1.0) / 9.0
+                        + 1.0)
+                    + 1.0) / 7.0
+                + 1.0) / 6.0
+            + 1.0
+        )
+
         # exp(-x)
         t = _exponential(-x_)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # min(x/2, 0.025)
+        t_2 = min(0.5 * x_, 1.0 / 40.0)
+
+        # x*(x*series6/5 + 1)/4 + 1
+        t_3 = 0.25 * x_ * (x_ * series6 / 5.0 + 1.0) + 1.0
+
+        # x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1
+        t_4 = x_ * t_3 / 3.0 + 1.0
+
+        # x*exp(-x)*(x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1)
+        t_5 = x_ * t * t_4
+
+        # x^2*exp(-x)*(x*(x*series6/5 + 1)/4 + 1)
+        t_6 = x_ * x_ * t * t_3
+
+        # part of the start that a sample is
+        c.r1_pace = t_2
 
         # oven.bg:15: r1_w1: factor of Th in stage 2
         c.r1_w1_v2_Th = p.Gh / 20.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: weight of the new sample 0 stages further
+        c.n0 = x_ * t * (0.5 * x_ * t_4 + 1.0) - 0.5 * t_5
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: weight of the new sample 1 stages further
+        c.n1 = 0.5 * x_ * x_ * t * t_4 - t_6 / 3.0
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
+        # filter: what is left of a memory 0 stages further
+        c.m0 = t
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
+        # filter: weight of the sample before 0 stages further
+        c.o0 = 0.5 * t_5
+
+        # filter: what is left of a memory 1 stages further
+        c.m1 = x_ * t
+
+        # filter: weight of the sample before 1 stages further
+        c.o1 = t_6 / 3.0
 
         # oven.bg:15: r2_w2: factor of Ta in stage 2
         c.r2_w2_v2_Ta = p.Go / 10.0
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
-        c = self._c
         x = self._x
 
-        # oven.bg:15: r1_w1: input of stage 2
-        r1_w1_u2 = c.r1_w1_v2_Th * s.To - c.r1_w1_v2_Th * s.Th
+        # oven.bg:15: r1: on for the next sample
+        x.r1_on = 1.0 if s.on else 0.0
 
-        # oven.bg:15: r1_w1: stage 2, at rest
-        r1_w1_y2 = r1_w1_u2
+        # oven.bg:15: r1: the same, for the next sample
+        x.r1_open = 0.0
 
-        # oven.bg:15: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.rest * r1_w1_u2
+        # oven.bg:15: r1_w1: memory of stage 2
+        x.r1_w1_s2 = 0.0
 
-        # oven.bg:15: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
-
-        # oven.bg:15: r1_w1: stage 1, at rest
-        r1_w1_y1 = r1_w1_u1
-
-        # oven.bg:15: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.rest * r1_w1_u1
+        # oven.bg:15: r1_w1: memory of stage 1
+        x.r1_w1_s1 = 0.0
 
         # oven.bg:15: r1: what the tolerance of Gh can do
-        r1_w1 = r1_w1_y1
+        r1_w1 = 0.0
 
         # oven.bg:15: r1: how far r1 can be from zero if no parameter is out of tolerance
         r.r1 = abs(r1_w1)
@@ -225,23 +308,38 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # oven.bg:15: r1: 0 where on changes
+        r1_kept = 1.0 if x.r1_on == (1.0 if s.on else 0.0) else 0.0
+
+        # oven.bg:15: r1: on for the next sample
+        x.r1_on = 1.0 if s.on else 0.0
+
+        # oven.bg:15: r1: how much of the start is over
+        r1_u = r1_kept * min(1.0, x.r1_open + c.r1_pace)
+
+        # oven.bg:15: r1: the same, for the next sample
+        x.r1_open = r1_u
+
+        # oven.bg:15: r1: how much is to come
+        r1_rest = 1.0 - r1_u
+
+        # oven.bg:15: r1: the window
+        r1_phi0 = r1_u * r1_u * r1_u * (1.0 + r1_rest * (3.0 + r1_rest * 6.0))
+
         # oven.bg:15: r1_w1: input of stage 2
-        r1_w1_u2 = c.r1_w1_v2_Th * s.To - c.r1_w1_v2_Th * s.Th
+        r1_w1_v2 = r1_phi0 * (c.r1_w1_v2_Th * s.To - c.r1_w1_v2_Th * s.Th)
 
         # oven.bg:15: r1_w1: stage 2
-        r1_w1_y2 = x.r1_w1_s2 + c.b0 * r1_w1_u2
-
-        # oven.bg:15: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b1 * r1_w1_u2
-
-        # oven.bg:15: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_y2 = r1_kept * x.r1_w1_s2 + c.n0 * r1_w1_v2
 
         # oven.bg:15: r1_w1: stage 1
-        r1_w1_y1 = x.r1_w1_s1 + c.b0 * r1_w1_u1
+        r1_w1_y1 = r1_kept * x.r1_w1_s1 + c.n1 * r1_w1_v2
 
-        # oven.bg:15: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b1 * r1_w1_u1
+        # oven.bg:15: r1_w1: memory of stage 2
+        x.r1_w1_s2 = c.m0 * r1_w1_y2 + c.o0 * r1_w1_v2
+
+        # oven.bg:15: r1_w1: memory of stage 1
+        x.r1_w1_s1 = c.m1 * r1_w1_y2 + c.o1 * r1_w1_v2 + c.m0 * r1_w1_y1
 
         # oven.bg:15: r1: what the tolerance of Gh can do
         r1_w1 = r1_w1_y1
@@ -267,50 +365,28 @@ class Monitor:
 
     def _start_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on its first sample: the filter as if it had always been so."""
-        c = self._c
         x = self._x
 
-        # oven.bg:15: r2_w1: input of stage 2
-        r2_w1_u2 = c.r1_w1_v2_Th * s.Th - c.r1_w1_v2_Th * s.To
+        # oven.bg:15: r2: the same, for the next sample
+        x.r2_open = 0.0
 
-        # oven.bg:15: r2_w1: stage 2, at rest
-        r2_w1_y2 = r2_w1_u2
+        # oven.bg:15: r2_w1: memory of stage 2
+        x.r2_w1_s2 = 0.0
 
-        # oven.bg:15: r2_w1: stage 2: memory
-        x.r2_w1_s2 = c.rest * r2_w1_u2
-
-        # oven.bg:15: r2_w1: input of stage 1
-        r2_w1_u1 = r2_w1_y2
-
-        # oven.bg:15: r2_w1: stage 1, at rest
-        r2_w1_y1 = r2_w1_u1
-
-        # oven.bg:15: r2_w1: stage 1: memory
-        x.r2_w1_s1 = c.rest * r2_w1_u1
+        # oven.bg:15: r2_w1: memory of stage 1
+        x.r2_w1_s1 = 0.0
 
         # oven.bg:15: r2: what the tolerance of Gh can do
-        r2_w1 = r2_w1_y1
+        r2_w1 = 0.0
 
-        # oven.bg:15: r2_w2: input of stage 2
-        r2_w2_u2 = c.r2_w2_v2_Ta * s.Ta - c.r2_w2_v2_Ta * s.To
+        # oven.bg:15: r2_w2: memory of stage 2
+        x.r2_w2_s2 = 0.0
 
-        # oven.bg:15: r2_w2: stage 2, at rest
-        r2_w2_y2 = r2_w2_u2
-
-        # oven.bg:15: r2_w2: stage 2: memory
-        x.r2_w2_s2 = c.rest * r2_w2_u2
-
-        # oven.bg:15: r2_w2: input of stage 1
-        r2_w2_u1 = r2_w2_y2
-
-        # oven.bg:15: r2_w2: stage 1, at rest
-        r2_w2_y1 = r2_w2_u1
-
-        # oven.bg:15: r2_w2: stage 1: memory
-        x.r2_w2_s1 = c.rest * r2_w2_u1
+        # oven.bg:15: r2_w2: memory of stage 1
+        x.r2_w2_s1 = 0.0
 
         # oven.bg:15: r2: what the tolerance of Go can do
-        r2_w2 = r2_w2_y1
+        r2_w2 = 0.0
 
         # oven.bg:15: r2: how far r2 can be from zero if no parameter is out of tolerance
         r.r2 = abs(r2_w1) + abs(r2_w2)
@@ -320,44 +396,50 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # oven.bg:15: r2: how much of the start is over
+        r2_u = min(1.0, x.r2_open + c.r1_pace)
+
+        # oven.bg:15: r2: the same, for the next sample
+        x.r2_open = r2_u
+
+        # oven.bg:15: r2: how much is to come
+        r2_rest = 1.0 - r2_u
+
+        # oven.bg:15: r2: the window
+        r2_phi0 = r2_u * r2_u * r2_u * (1.0 + r2_rest * (3.0 + r2_rest * 6.0))
+
         # oven.bg:15: r2_w1: input of stage 2
-        r2_w1_u2 = c.r1_w1_v2_Th * s.Th - c.r1_w1_v2_Th * s.To
+        r2_w1_v2 = r2_phi0 * (c.r1_w1_v2_Th * s.Th - c.r1_w1_v2_Th * s.To)
 
         # oven.bg:15: r2_w1: stage 2
-        r2_w1_y2 = x.r2_w1_s2 + c.b0 * r2_w1_u2
-
-        # oven.bg:15: r2_w1: stage 2: memory
-        x.r2_w1_s2 = c.a * r2_w1_y2 + c.b1 * r2_w1_u2
-
-        # oven.bg:15: r2_w1: input of stage 1
-        r2_w1_u1 = r2_w1_y2
+        r2_w1_y2 = x.r2_w1_s2 + c.n0 * r2_w1_v2
 
         # oven.bg:15: r2_w1: stage 1
-        r2_w1_y1 = x.r2_w1_s1 + c.b0 * r2_w1_u1
+        r2_w1_y1 = x.r2_w1_s1 + c.n1 * r2_w1_v2
 
-        # oven.bg:15: r2_w1: stage 1: memory
-        x.r2_w1_s1 = c.a * r2_w1_y1 + c.b1 * r2_w1_u1
+        # oven.bg:15: r2_w1: memory of stage 2
+        x.r2_w1_s2 = c.m0 * r2_w1_y2 + c.o0 * r2_w1_v2
+
+        # oven.bg:15: r2_w1: memory of stage 1
+        x.r2_w1_s1 = c.m1 * r2_w1_y2 + c.o1 * r2_w1_v2 + c.m0 * r2_w1_y1
 
         # oven.bg:15: r2: what the tolerance of Gh can do
         r2_w1 = r2_w1_y1
 
         # oven.bg:15: r2_w2: input of stage 2
-        r2_w2_u2 = c.r2_w2_v2_Ta * s.Ta - c.r2_w2_v2_Ta * s.To
+        r2_w2_v2 = r2_phi0 * (c.r2_w2_v2_Ta * s.Ta - c.r2_w2_v2_Ta * s.To)
 
         # oven.bg:15: r2_w2: stage 2
-        r2_w2_y2 = x.r2_w2_s2 + c.b0 * r2_w2_u2
-
-        # oven.bg:15: r2_w2: stage 2: memory
-        x.r2_w2_s2 = c.a * r2_w2_y2 + c.b1 * r2_w2_u2
-
-        # oven.bg:15: r2_w2: input of stage 1
-        r2_w2_u1 = r2_w2_y2
+        r2_w2_y2 = x.r2_w2_s2 + c.n0 * r2_w2_v2
 
         # oven.bg:15: r2_w2: stage 1
-        r2_w2_y1 = x.r2_w2_s1 + c.b0 * r2_w2_u1
+        r2_w2_y1 = x.r2_w2_s1 + c.n1 * r2_w2_v2
 
-        # oven.bg:15: r2_w2: stage 1: memory
-        x.r2_w2_s1 = c.a * r2_w2_y1 + c.b1 * r2_w2_u1
+        # oven.bg:15: r2_w2: memory of stage 2
+        x.r2_w2_s2 = c.m0 * r2_w2_y2 + c.o0 * r2_w2_v2
+
+        # oven.bg:15: r2_w2: memory of stage 1
+        x.r2_w2_s1 = c.m1 * r2_w2_y2 + c.o1 * r2_w2_v2 + c.m0 * r2_w2_y1
 
         # oven.bg:15: r2: what the tolerance of Go can do
         r2_w2 = r2_w2_y1

@@ -1,0 +1,99 @@
+"""What a switch that is turned does to a residual, and how its chain deals with that."""
+
+from __future__ import annotations
+
+from bondgraph.ir.equations import EquationSystem
+from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.normal import NormalForm, Term
+from bondgraph.ir.residuals import Residual
+from bondgraph.passes.lowering.builder import Builder
+from bondgraph.passes.lowering.chain import Chain
+from bondgraph.passes.lowering.coupled import CoupledChain
+from bondgraph.passes.lowering.filter import Filter, settle
+from bondgraph.passes.lowering.jumps import Jumps
+from bondgraph.passes.lowering.names import identifier
+from bondgraph.passes.lowering.opening import Window
+from bondgraph.passes.normalise import LIMIT, normalise
+
+_HIGHEST = 4  # order up to which a residual fades in; above, the filter has to forget
+_LEFT = 1e-8  # of what jumped, when the filter counts as having forgotten
+
+
+class Switched:
+    """Decides for each residual of a model with boolean inputs; without these it does nothing.
+
+    A residual whose terms all have the same order zero holds at every sample by itself, whatever
+    jumps between two of them. Any other one mixes what is filtered with what is differentiated,
+    and starts anew at every mode that may make one of its terms jump.
+    """
+
+    def __init__(self, builder: Builder, filter: Filter, system: EquationSystem) -> None:
+        self._builder, self._filter = builder, filter
+        #: The modes that some residual starts anew at.
+        self.read: dict[Expr, None] = {}
+        some = any(i.mode for i in system.graph.inputs)
+        self._jumps = Jumps(system) if some else None
+
+    def form(self, residual: Residual, form: NormalForm) -> NormalForm:
+        """The normal form for `step`: between two starts a mode stays as it is."""
+        if self._jumps is None or form.exact:
+            return form
+        builder = self._builder
+        held = normalise(builder.pool, residual.expr, LIMIT, builder.initials, held=True)
+        return form if held.tape is not None else held
+
+    def window(self, residual: Residual, terms: tuple[Term, ...], stages: int) -> Window | None:
+        """How a residual with these terms starts anew; None if it never needs to."""
+        if self._jumps is None or not any(t.order > 0 or not t.static for t in terms):
+            return None
+        modes = tuple(m for m in self._jumps.modes if self._jump(m, terms))
+        highest = max(order(t) for t in terms)
+        fades = all(map(self._fades, terms)) and highest <= min(_HIGHEST, stages - 1)
+        if not fades and not modes:
+            return None
+        self.read |= dict.fromkeys(modes)
+        over = float(stages) if fades else settle(stages, _LEFT)
+        return Window(
+            self._builder,
+            self._filter,
+            identifier(residual.name),
+            residual.closing.origin,
+            modes,
+            over,
+            highest if fades else None,
+        )
+
+    def chain(self, residual: Residual, stages: int, window: Window | None) -> Chain:
+        """The chain that goes with a window."""
+        if window is None or window.order is None:
+            names = None if window is None else window.names
+            return Chain(self._builder, self._filter, residual, stages, names)
+        return CoupledChain(self._builder, self._filter, residual, stages, window)
+
+    def _jump(self, mode: Expr, terms: tuple[Term, ...]) -> bool:
+        """Whether a change of this mode may make some term jump."""
+        assert self._jumps is not None
+        return any(self._jumps.level(mode, t.atom) <= max(t.order, 0) for t in terms)
+
+    def _fades(self, term: Term) -> bool:
+        """Whether a term can be multiplied by a window; counts are never made a position."""
+        signal = self._builder.signals.get(term.atom)
+        counts = signal is not None and signal.scale is not None
+        return term.static and not (counts and term.order > 0)
+
+
+def order(term: Term) -> int:
+    """The highest derivative that a term needs, those inside its atom counted."""
+    if term.static:
+        return max(term.order, 0)
+    inside: dict[Expr, int] = {}
+    deepest = 0
+    for node in reversed(topological([term.atom])):
+        own = inside.get(node, 0)
+        deepest = max(deepest, own)
+        below = own + 1 if node.op is Op.DER else own
+        if node.op is Op.INT:
+            below = max(own - 1, 0)
+        for arg in node.args:
+            inside[arg] = max(inside.get(arg, 0), below)
+    return max(term.order, 0) + deepest
