@@ -1,0 +1,191 @@
+"""Residuals where switches turn, on exact samples: silent while healthy, awake to every fault."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import factorial
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.monitoring.engine import Batch
+from bondgraph.text.source import Source
+from tests.switched.plants import BOOST, CAPACITORS, CARRIAGE, COIL, Log, Plant, log
+
+_RATE = 1000.0
+_TOLERATED = 1e-6  # of the sum of the terms, for a healthy residual
+_SEEN = 1e-3  # of the same, for a faulty one
+_PLANTS = {"boost": BOOST, "capacitors": CAPACITORS, "coil": COIL, "carriage": CARRIAGE}
+#: Ten time constants of the filter, and no whole number of samples.
+_LASTS = 10 / 20.0 + 0.00037
+
+Signals = dict[str, npt.NDArray[np.float64]]
+
+
+@cache
+def _compiled(name: str) -> Compilation:
+    return Compilation(Source(f"{name}.bg", _PLANTS[name].text))
+
+
+def _run(name: str, signals: Signals, native: bool) -> Batch:
+    engine = _compiled(name).engine(native=native)
+    return engine.run(np.column_stack([signals[k.path] for k in engine.signals]))
+
+
+@cache
+def _healthy(name: str, lasts: float = _LASTS) -> Log:
+    return log(_PLANTS[name], lasts, _RATE)
+
+
+def _worst(batch: Batch, found: Log, k: int, residual: str) -> float:
+    """The largest valid residual; where all its terms are zero it has to be zero itself."""
+    valid, size = batch.valid[:, k], found.sizes[residual]
+    value = np.abs(batch.value[:, k])
+    floor = 1e-9 * size.max()  # what is left when a coil has no current
+    return float((value / np.maximum(size, floor))[valid].max())
+
+
+@pytest.mark.parametrize("lasts", [_LASTS, 0.5], ids=["between samples", "at a sample"])
+@pytest.mark.parametrize("name", _PLANTS)
+def test_healthy_residuals_stay_silent_and_are_seldom_invalid(name: str, lasts: float) -> None:
+    """Modes of ten time constants: below 1e-6 of the terms, and valid in 70 % of the samples."""
+    found = _healthy(name, lasts)
+    batch = _run(name, found.signals, native=True)
+    for k, residual in enumerate(_compiled(name).program.residuals):
+        assert _worst(batch, found, k, residual.name) < _TOLERATED
+        assert batch.valid[:, k].mean() >= 0.7
+
+
+@pytest.mark.parametrize("name", _PLANTS)
+def test_c_and_python_agree(name: str) -> None:
+    found = _healthy(name)
+    signals = {s: v[:2000] for s, v in found.signals.items()}
+    c, python = (_run(name, signals, native) for native in (True, False))
+    assert np.array_equal(c.valid, python.valid)
+    for k, residual in enumerate(_compiled(name).program.residuals):
+        size = found.sizes[residual.name][:2000].max()
+        assert np.abs(c.value[:, k] - python.value[:, k]).max() <= 1e-12 * size
+
+
+def _faulty(name: str, fault: str) -> Log:
+    plant = _PLANTS[name]
+    if fault in plant.values:
+        return log(plant, _LASTS, _RATE, {fault: 1.2 * plant.values[fault]})
+    found = _healthy(name)
+    signal = found.signals[fault]
+    offset = 0.05 * np.abs(signal).max()
+    return found._replace(signals={**found.signals, fault: signal + offset})
+
+
+@pytest.mark.parametrize("name", _PLANTS)
+def test_every_fault_of_a_mode_is_seen_in_that_mode(name: str) -> None:
+    """A parameter 20 % off, a reading or an input 5 % of its largest value off."""
+    compilation, plant = _compiled(name), _PLANTS[name]
+    residuals = [r.name for r in compilation.program.residuals]
+    tried = 0
+    for fault in compilation.signatures.faults:
+        found = _faulty(name, fault)
+        batch = _run(name, found.signals, native=True)
+        for told in compilation.modes.modes:
+            if told.matrix is None:
+                continue
+            at = [told.modes[m] for m in plant.modes]
+            there = np.array([list(m) == at for m in found.modes])
+            if not there.any():
+                continue
+            for k, residual in enumerate(residuals):
+                if not told.matrix.row(fault)[k]:
+                    continue
+                size = np.maximum(found.sizes[residual], 1e-9 * found.sizes[residual].max())
+                rel = (np.abs(batch.value[:, k]) / size)[there & batch.valid[:, k]]
+                assert rel.max() > _SEEN, f"{residual} does not see {fault} in mode {at}"
+                tried += 1
+    assert tried >= len(residuals)
+
+
+_BEYOND = """bg 1
+model Beyond {
+    input closed : bool
+    input U : V
+    param R = 2 Ohm
+    param L = 0.3 H
+    param Rs = 5 Ohm
+    param C = 0.02 F
+    param Ld = 0.4 H
+    param Rd = 3 Ohm
+    param C2 = 0.1 F
+    param G2 = 0.2 S
+    input I : A
+    Se:U -> 1:feed { -> R:Rs }
+    feed -> 0:bus { -> C:C; -> De:v }
+    bus -> 1:coil when closed { -> I:L; -> R:R; -> Df:i }
+    bus -> 1:lamp { -> I:Ld; -> R:Rd; -> Df:j }
+    Sf:I -> 0:apart { -> C:C2; -> R:leak = 1/G2; -> De:w; -> De:again }
+}
+"""
+
+
+def test_what_cannot_jump_stays_valid() -> None:
+    """The lamp has the voltage of a capacitor; the circuit apart does not know of the switch."""
+    compilation = Compilation(Source("beyond.bg", _BEYOND))
+    openings = {o.residual: o.modes for o in compilation.program.openings}
+    sees = {r.name: set(r.faults) for r in compilation.program.residuals}
+    lamp = next(r for r, faults in sees.items() if {"Ld", "Rd"} <= faults and "Rs" not in faults)
+    apart = next(r for r, faults in sees.items() if "C2" in faults)
+    twice = next(r for r, faults in sees.items() if faults == {"w", "again"})
+    bus = next(r for r, faults in sees.items() if "Rs" in faults)
+    coil = next(r for r, faults in sees.items() if "L" in faults)
+    assert openings[lamp] == openings[apart] == ()
+    assert twice not in openings  # without a derivative it holds at each sample by itself
+    assert openings[bus] == openings[coil] == ("closed",)
+    engine = compilation.engine(native=False)
+    rows = np.zeros((600, len(engine.signals)))
+    rows[:, [k.path for k in engine.signals].index("closed")] = np.arange(600) // 60 % 2
+    valid = engine.run(rows).valid[500:]
+    for name in (lamp, apart, twice):
+        assert valid[:, engine.residuals.index(name)].all()
+    for name in (bus, coil):
+        assert not valid[:, engine.residuals.index(name)].any()  # 60 samples are less than 100
+
+
+def test_a_start_comes_with_the_sample_of_the_change() -> None:
+    """Not valid from the sample at which the mode is another one, for two time constants."""
+    engine = _compiled("coil").engine(native=True)
+    rows = np.zeros((1000, len(engine.signals)))
+    rows[300:, [k.path for k in engine.signals].index("closed")] = 1.0
+    valid = engine.run(rows).valid[:, 0]
+    assert np.flatnonzero(np.diff(valid.astype(int))).tolist() == [99, 299, 399]
+
+
+_NARROW = """bg 1
+model Narrow {
+    input open : bool
+    input Q
+    param A = 0.5
+    param kv = 0.02
+    param Rp = 8
+    Sf:Q -> 0:tank { -> C:volume = A; -> De:p }
+    tank -> 1:pipe { -> R:Rp }
+    pipe -> 0:end { -> R:valve { f = if(open, kv*ssqrt(e), 0.5*kv*ssqrt(e)) } }
+}
+"""
+
+
+def test_an_approximation_waits_until_its_filter_has_forgotten() -> None:
+    """Derivatives inside a nonlinear law are not faded in: it takes until 1e-8 is left."""
+    compilation = Compilation(Source("narrow.bg", _NARROW))
+    (residual,) = compilation.program.residuals
+    assert residual.approximate
+    assert [o.modes for o in compilation.program.openings] == [("open",)]
+    engine = compilation.engine(native=True)
+    rows = np.ones((4000, len(engine.signals)))
+    rows[2000:, [k.path for k in engine.signals].index("open")] = 0.0
+    valid = engine.run(rows).valid[:, 0]
+    x = residual.settle
+    # the step response of n equal stages is short of 1 by so much after x time constants
+    left = np.exp(-x) * sum(x**k / factorial(k) for k in range(residual.stages))
+    assert left == pytest.approx(1e-8, rel=1e-6)
+    wait = round(x * 50)
+    assert np.flatnonzero(~valid[1500:])[[0, -1]] + 1500 == pytest.approx([2000, 1999 + wait], abs=1)
