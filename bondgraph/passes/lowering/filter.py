@@ -93,6 +93,8 @@ def settle(stages: int, part: float = 1e-3) -> float:
         return exp(-x) * sum(x**k / factorial(k) for k in range(stages))
 
     low, high = 0.0, 10.0 + 4.0 * stages
+    while missing(high) > part:
+        low, high = high, 2.0 * high
     for _ in range(60):
         middle = (low + high) / 2
         low, high = (middle, high) if missing(middle) > part else (low, middle)
