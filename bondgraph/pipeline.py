@@ -113,11 +113,14 @@ class Compilation:
     def equations(self) -> EquationSystem:
         """The acausal equations."""
         from bondgraph.passes.equations import equations
+        from bondgraph.passes.initial_values import initial_values
         from bondgraph.passes.nominal_loops import nominal_loops
 
         system = equations(self.integral.graph)
         if self.integral.loops:
             nominal_loops(system, self.report)
+        if self.integral.dependent:
+            initial_values(system, self.report)
         return self._stage(system)
 
     def state_equations(self, wanted: Wanted | None = None) -> StateEquations:

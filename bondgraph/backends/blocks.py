@@ -42,6 +42,8 @@ def blocks(program: Program) -> tuple[Block, ...]:
             for ref in references(statement.value):
                 if ref.space in ("state", "local", "residual"):
                     groups.join(key, _key(ref, procedure))
+    for opening in program.openings:  # what is valid and when is decided together with the value
+        groups.join(("residual", opening.residual), ("state", opening.progress))
     members: dict[_Key, list[str]] = {}
     for info in program.residuals:
         members.setdefault(groups.find(("residual", info.name)), []).append(info.name)

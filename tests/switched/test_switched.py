@@ -12,7 +12,7 @@ import pytest
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.monitoring.engine import Batch
 from bondgraph.text.source import Source
-from tests.switched.plants import BOOST, CAPACITORS, CARRIAGE, COIL, Log, Plant, log
+from tests.switched.plants import BOOST, CAPACITORS, CARRIAGE, COIL, Log, log
 
 _RATE = 1000.0
 _TOLERATED = 1e-6  # of the sum of the terms, for a healthy residual
@@ -188,4 +188,6 @@ def test_an_approximation_waits_until_its_filter_has_forgotten() -> None:
     left = np.exp(-x) * sum(x**k / factorial(k) for k in range(residual.stages))
     assert left == pytest.approx(1e-8, rel=1e-6)
     wait = round(x * 50)
-    assert np.flatnonzero(~valid[1500:])[[0, -1]] + 1500 == pytest.approx([2000, 1999 + wait], abs=1)
+    assert np.flatnonzero(~valid[1500:])[[0, -1]] + 1500 == pytest.approx(
+        [2000, 1999 + wait], abs=1
+    )
