@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from bondgraph.backends.walk import references
-from bondgraph.ir.program import Assign, Program, Ref
+from bondgraph.ir.program import Assign, Const, Program, Ref
 
 
 class Block(NamedTuple):
@@ -20,6 +20,7 @@ class Block(NamedTuple):
     states: tuple[str, ...]
     first: tuple[Assign, ...]
     step: tuple[Assign, ...]
+    begins: str  # what the filter does on its first sample
 
 
 _Key = tuple[str, str]
@@ -66,6 +67,8 @@ def _block(
     signals = {ref.name for ref in refs if ref.space in _SIGNALS}
     memory = {ref.name for ref in refs if ref.space == "state"}
     few = len(residuals) <= 3
+    zeros = [s for s in first if s.target.space == "residual" and isinstance(s.value, Const)]
+    empty = bool(memory) and len(zeros) == len(residuals)
     return Block(
         "_".join(residuals) if few else f"{residuals[0]}_to_{residuals[-1]}",
         tuple(residuals),
@@ -73,6 +76,7 @@ def _block(
         tuple(s.name for s in program.states if s.name in memory),
         first,
         step,
+        "nothing is known yet" if empty else "the filter as if it had always been so",
     )
 
 

@@ -72,6 +72,7 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
             4,
         ),
         "unavailable": code.unavailable(),
+        "opens": any(o.modes for o in program.openings),
     }
 
 

@@ -165,6 +165,7 @@ class Code:
             "name": block.name,
             "number": number,
             "title": together(block.residuals),
+            "begins": block.begins,
             "first": self._run(block, block.first, "count_from"),
             "step": self._run(block, block.step, "count_on"),
             "numbers": numbers,

@@ -347,6 +347,7 @@ class _Module:
             "name": block.name,
             "number": number,
             "title": together(block.residuals),
+            "begins": block.begins,
             "first": self._run(block, block.first, "count_from"),
             "step": self._run(block, block.step, "count_on"),
             "finite": self._if("not math.isfinite({0})", [*measured, *results], 12),

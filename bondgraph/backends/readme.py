@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from bondgraph.backends import listing
+from bondgraph.backends.c_code import together
 from bondgraph.backends.facts import Facts
 from bondgraph.backends.names import identifier, snake
 from bondgraph.ir.program import Dropped, Field, Known, Program, ResidualInfo
@@ -173,6 +174,31 @@ def _python_example(stem: str, text: str, facts: Facts) -> dict[str, object]:
 _EXAMPLES = {"c": _c_example, "python": _python_example}
 
 
+def _switches(program: Program) -> list[str]:
+    """What a change of a mode does, for a program in which one does something."""
+    path = {k.name: k.path for k in program.knowns}
+    settle = {r.name: r.settle for r in program.residuals}
+    when: dict[tuple[str, ...], list[str]] = {}
+    for opening in program.openings:
+        when.setdefault(tuple(path[m] for m in opening.modes), []).append(opening.residual)
+    goes_on = [r.name for r in program.residuals if all(r.name not in own for own in when.values())]
+    goes_on += when.pop((), [])
+    if not when:
+        return []
+    told = [
+        f"{together(residuals)} where {' or '.join(f'`{m}`' for m in modes)} changes"
+        for modes, residuals in when.items()
+    ]
+    wait = max(settle[r] for own in when.values() for r in own) / program.bandwidth
+    text = (
+        "- **Switches**: a change of mode may make something jump that a residual differentiates. "
+        f"So there it starts anew, and is not valid for {wait:.2g} s: {'; '.join(told)}. Log the "
+        "mode with the samples that it holds for; the sample of the change itself does not count."
+    )
+    rest = f" {together(goes_on)} {'go' if len(goes_on) > 1 else 'goes'} on." if goes_on else ""
+    return [text + rest]
+
+
 def _usage(program: Program, facts: Facts, targets: Sequence[str]) -> list[str]:
     settle = max((r.settle for r in program.residuals), default=0.0)
     wait = settle / program.bandwidth
@@ -185,6 +211,7 @@ def _usage(program: Program, facts: Facts, targets: Sequence[str]) -> list[str]:
         "is the residual itself, filtered, without forming a derivative.",
         f"- **Warm-up**: a residual is flagged valid {wait:.2g} s after the first sample "
         f"({settle:g} time constants of the filter). Until then, do not judge it.",
+        *_switches(program),
         "- **Bad samples**: NaN or infinity in a signal, or a law outside its domain, makes the "
         "residuals that see it 0 and invalid, and starts their filter anew at the next good "
         "sample; integrals begin again at their initial values. Other residuals go on. After a "

@@ -300,7 +300,7 @@ void oven_exact(
         - c->r2_To_1 * d->To[1];
 }
 
-/* r1 on its first sample: the filter as if it had always been so. */
+/* r1 on its first sample: nothing is known yet. */
 static void start_r1(
     oven_monitor *monitor, const oven_samples *s, real *r)
 {
@@ -400,7 +400,7 @@ static void run_r1(
     residuals->valid[OVEN_R1] = age > monitor->settle[OVEN_R1] && monitor->x.r1_open >= REAL(1.0);
 }
 
-/* r2 on its first sample: the filter as if it had always been so. */
+/* r2 on its first sample: nothing is known yet. */
 static void start_r2(
     oven_monitor *monitor, const oven_samples *s, real *r)
 {

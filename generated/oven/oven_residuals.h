@@ -80,7 +80,7 @@ typedef struct oven_derivatives {
 typedef struct oven_residuals {
     /* near 0 while all is well */
     oven_real value[OVEN_RESIDUALS];
-    /* false while the filter settles, and after a bad sample */
+    /* false while the filter settles, and after a bad sample, and where a switch turns */
     bool valid[OVEN_RESIDUALS];
 } oven_residuals;
 

@@ -315,7 +315,7 @@ class Monitor:
         c.r2_v2_To = -p.Gh - p.Go + p.Co * bandwidth
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
-        """r1 on its first sample: the filter as if it had always been so."""
+        """r1 on its first sample: nothing is known yet."""
         x = self._x
 
         # oven.bg:15: r1: on for the next sample
@@ -403,7 +403,7 @@ class Monitor:
             r.r1 = 0.0
 
     def _start_r2(self, s: Samples, r: Residuals) -> None:
-        """r2 on its first sample: the filter as if it had always been so."""
+        """r2 on its first sample: nothing is known yet."""
         x = self._x
 
         # oven.bg:15: r2: the same, for the next sample

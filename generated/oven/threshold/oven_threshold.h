@@ -81,7 +81,7 @@ typedef struct oven_threshold_derivatives {
 typedef struct oven_threshold_residuals {
     /* near 0 while all is well */
     oven_threshold_real value[OVEN_THRESHOLD_RESIDUALS];
-    /* false while the filter settles, and after a bad sample */
+    /* false while the filter settles, and after a bad sample, and where a switch turns */
     bool valid[OVEN_THRESHOLD_RESIDUALS];
 } oven_threshold_residuals;
 

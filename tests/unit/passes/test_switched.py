@@ -1,0 +1,137 @@
+"""What a switch makes jump, and the filter that starts anew, against physics and closed forms."""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+import pytest
+from numpy.polynomial import Polynomial
+from scipy.linalg import expm
+
+import bondgraph
+from bondgraph.ir.program import Const, Expression, Function, Product, Ref, Sum
+from bondgraph.passes.lowering.jumps import Jumps
+from bondgraph.passes.lowering.opening import _shape
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.interpret import Interpreter
+from bondgraph.text.source import Source
+from tests.switched.plants import BOOST, CAPACITORS, CARRIAGE, COIL
+
+
+def _levels(text: str, mode: str) -> dict[str, float]:
+    """The lowest derivative of each sensor that may jump."""
+    system = Compilation(Source("m.bg", text)).equations
+    jumps = Jumps(system)
+    (symbol,) = [m for m in jumps.modes if m.symbol.name == mode]
+    return {s.name: jumps.level(symbol, s.symbol) for s in system.graph.sensors}
+
+
+def test_a_coil_that_is_cut_off_loses_its_current_and_the_voltage_its_slope() -> None:
+    assert _levels(COIL.text, "closed") == {"v": 1, "i": 0}
+
+
+def test_joined_capacitors_jump() -> None:
+    assert _levels(CAPACITORS.text, "joined") == {"v1": 0, "v2": 0}
+
+
+def test_a_brake_changes_the_acceleration_and_so_the_second_derivative_of_a_spring() -> None:
+    assert _levels(CARRIAGE.text, "braked") == {"s": 2}
+
+
+def test_the_current_of_a_converter_may_be_cut_off() -> None:
+    assert _levels(BOOST.text, "diode")["i"] == 0
+
+
+def test_heat_goes_through_one_storage_after_the_other() -> None:
+    system = bondgraph.compile("models/oven.bg").equations
+    jumps = Jumps(system)
+    (on,) = jumps.modes
+    assert [jumps.level(on, s.symbol) for s in system.graph.sensors] == [1, 2]
+    assert jumps.level(on, system.graph.pool.der(system.graph.sensors[0].symbol)) == 0
+    assert jumps.level(on, on) == 0
+
+
+def test_what_is_not_connected_never_jumps() -> None:
+    text = """bg 1
+model M {
+    input on : bool
+    Sf:I -> 0:a
+    a -> C:C1 = 1 F
+    a -> R:R1 { f = if(on, 2, 1)*e }
+    a -> De:y
+    Sf:J -> 0:b
+    b -> C:C2 = 1 F
+    b -> De:z
+}
+"""
+    assert _levels(text, "on") == {"y": 1, "z": inf}
+
+
+def test_three_capacitors_move_together_where_a_switch_joins_two() -> None:
+    """C3 has always had the voltage of C2, through a lever of two; C4 is behind a resistor."""
+    text = """bg 1
+model M {
+    input on : bool
+    Sf:I -> 0:a
+    a -> C:C1 = 1 F
+    a -> 1:sw when on { -> 0:b }
+    b -> C:C2 = 1 F
+    b -> TF:n { f1 = 2*f2 } -> 0:c
+    c -> C:C3 = 1 F
+    c -> 1:r -> 0:d
+    r -> R:R = 1 Ohm
+    d -> C:C4 = 1 F
+    a -> De:y1
+    b -> De:y2
+    c -> De:y3
+    d -> De:y4
+}
+"""
+    assert _levels(text, "on") == {"y1": 0, "y2": 0, "y3": 0, "y4": 1}
+
+
+@pytest.mark.parametrize("x", [1e-6, 0.02, 0.4, 2.9])
+def test_the_coupled_stages_are_those_of_the_matrix_exponential(x: float) -> None:
+    """Three stages y_k' = (y_(k-1) - y_k) with an input that goes from v to w in the time x."""
+    program = Compilation(Source("m.bg", CARRIAGE.text)).program
+    run = Interpreter(program, bandwidth=x * program.rate)
+    n = 3
+    whole = np.zeros((n + 2, n + 2))  # the stages, then the input and its slope
+    whole[:n, :n] = np.eye(n, k=-1) - np.eye(n)
+    whole[0, n], whole[n, n + 1] = 1.0, 1.0
+    by_hand = expm(whole * x)
+    for q in range(n):
+        new = by_hand[q, n + 1] / x
+        assert run.coefs[f"m{q}"] == pytest.approx(by_hand[q, 0], rel=1e-12)
+        assert run.coefs[f"n{q}"] == pytest.approx(new, rel=2e-10 if x < 1e-3 else 1e-12)
+        assert run.coefs[f"o{q}"] == pytest.approx(by_hand[q, n] - new, rel=1e-9)
+
+
+def _at(value: Expression, u: float) -> float:
+    match value:
+        case Const():
+            return value.value
+        case Ref():
+            return u if value.name == "u" else 1.0 - u
+        case Sum():
+            return sum(_at(t, u) * (1 if plus else -1) for plus, t in value.terms)
+        case Product():
+            return float(np.prod([_at(f, u) for f in value.factors]))
+        case Function(name="pow"):
+            return _at(value.args[0], u) ** _at(value.args[1], u)
+    raise AssertionError(value)
+
+
+@pytest.mark.parametrize("smooth", [2, 3, 5])
+def test_the_window_is_the_integral_of_a_bump(smooth: int) -> None:
+    """S' = (u (1-u))**smooth, scaled so that S comes from 0 to 1; and the derivatives of that."""
+    bump = (Polynomial([0, 1]) * Polynomial([1, -1])) ** smooth
+    curve = bump.integ()
+    curve = curve / curve(1.0)
+    u, rest = Ref("local", "u"), Ref("local", "rest")
+    for j in range(smooth):
+        for at in (0.0, 0.1, 0.5, 0.83, 1.0):
+            size = np.abs(curve.deriv(j)(np.linspace(0, 1, 50))).max()
+            found = _at(_shape(smooth, j, u, rest), at)
+            assert found == pytest.approx(curve.deriv(j)(at), abs=1e-9 * size)
