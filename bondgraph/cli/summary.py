@@ -140,6 +140,8 @@ def _numerics(compilation: Compilation, columns: int) -> list[str]:
     """What the sampled code cannot see, although the equations do."""
     program, bounds = compilation.program, compilation.thresholds
     unbounded = {} if bounds is None else {r.name: r.unavailable for r in bounds.residuals}
+    path = {k.name: k.path for k in program.knowns}
+    anew = {o.residual: [path[m] for m in o.modes] for o in program.openings if o.modes}
     lines: list[str] = []
     for info in program.residuals:
         notes = []
@@ -147,6 +149,12 @@ def _numerics(compilation: Compilation, columns: int) -> list[str]:
             notes.append(names(info.invisible, columns, f"  {info.name}  cannot see "))
         if info.approximate:
             notes.append([f"  {info.name}  is approximate: {info.approximate}"])
+        if info.name in anew:
+            modes = " or ".join(anew[info.name])
+            wait = info.settle / program.bandwidth
+            notes.append(
+                [f"  {info.name}  starts anew where {modes} changes, valid {wait:.2g} s later"]
+            )
         if info.unavailable:
             notes.append([f"  {info.name}  is never valid: {info.unavailable}"])
         if info.unwritten:

@@ -276,3 +276,48 @@ CARRIAGE = Plant(
     lambda m, x, d, u, p: {"s": p["k"] * x[0]},
     _carriage_terms,
 )
+
+# --------------------------------------------- a buck converter: behind the coil nothing may jump
+
+_BUCK = """bg 1
+model Buck {
+    input on : bool
+    input E : V
+    param L = 0.5 H
+    param R = 1 Ohm
+    param C = 0.05 F
+    param G = 0.1 S
+    Se:E -> transistor
+    1:transistor when on { -> 0:node }
+    Se:ground = 0 V -> diode
+    1:diode when not on { -> node }
+    node -> 1:coil
+    coil { -> I:L; -> R:R; -> Df:i; -> 0:out }
+    out { -> C:C; -> R:load = 1/G; -> De:v }
+}
+"""
+
+
+def _buck_law(mode: Mode, p: Values) -> tuple[list[list[float]], list[float]]:
+    a = [[-p["R"] / p["L"], -1 / p["L"]], [1 / p["C"], -p["G"] / p["C"]]]
+    return a, [1 / p["L"] if mode[0] else 0.0, 0.0]
+
+
+def _buck_terms(m: Mode, x: Array, d: Array, u: float, p: Values) -> dict[str, list[float]]:
+    coil = [u if m[0] else 0.0, p["R"] * x[0], p["L"] * d[0], x[1]]
+    return {"coil": coil, "out": [x[0], p["G"] * x[1], p["C"] * d[1]]}
+
+
+BUCK = Plant(
+    _BUCK,
+    ("on",),
+    "E",
+    (24.0, 4.0),
+    {"L": 0.5, "R": 1.0, "C": 0.05, "G": 0.1},
+    ((True,), (False,)) * 5,
+    (10.0, 9.0),
+    _buck_law,
+    lambda m, x, p: [*x],
+    lambda m, x, d, u, p: {"i": x[0], "v": x[1]},
+    _buck_terms,
+)

@@ -12,7 +12,7 @@ import pytest
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.monitoring.engine import Batch
 from bondgraph.text.source import Source
-from tests.switched.plants import BOOST, CAPACITORS, CARRIAGE, COIL, Log, log
+from tests.switched.plants import BOOST, BUCK, CAPACITORS, CARRIAGE, COIL, Log, log
 
 _RATE = 1000.0
 _TOLERATED = 1e-6  # of the sum of the terms, for a healthy residual
@@ -56,6 +56,17 @@ def test_healthy_residuals_stay_silent_and_are_seldom_invalid(name: str, lasts: 
     for k, residual in enumerate(_compiled(name).program.residuals):
         assert _worst(batch, found, k, residual.name) < _TOLERATED
         assert batch.valid[:, k].mean() >= 0.7
+
+
+@pytest.mark.parametrize("name", _PLANTS)
+def test_a_mode_may_be_logged_a_sample_early(name: str) -> None:
+    found = _healthy(name)
+    signals = dict(found.signals)
+    for mode in _PLANTS[name].modes:
+        signals[mode] = np.append(signals[mode][1:], signals[mode][-1])
+    batch = _run(name, signals, native=True)
+    for k, residual in enumerate(_compiled(name).program.residuals):
+        assert _worst(batch, found, k, residual.name) < _TOLERATED
 
 
 @pytest.mark.parametrize("name", _PLANTS)
@@ -103,6 +114,28 @@ def test_every_fault_of_a_mode_is_seen_in_that_mode(name: str) -> None:
                 assert rel.max() > _SEEN, f"{residual} does not see {fault} in mode {at}"
                 tried += 1
     assert tried >= len(residuals)
+
+
+@pytest.mark.parametrize("lasts", [_LASTS, 0.5], ids=["between samples", "at a sample"])
+def test_behind_a_coil_only_slopes_jump_and_the_residual_goes_on(lasts: float) -> None:
+    """The charge of a buck converter: valid throughout, off by no more than a kink may cost.
+
+    The current gains or loses 48 A/s at a switch, which is (bandwidth T)(T/tau)/8 of the terms at
+    most, with tau the size of the terms over that change of slope.
+    """
+    compilation = Compilation(Source("buck.bg", BUCK.text))
+    found = log(BUCK, lasts, _RATE)
+    engine = compilation.engine(native=True)
+    batch = engine.run(np.column_stack([found.signals[k.path] for k in engine.signals]))
+    sees = {r.name: r.faults for r in compilation.program.residuals}
+    (out,) = [k for k, name in enumerate(engine.residuals) if "C" in sees[name]]
+    (coil,) = [k for k, name in enumerate(engine.residuals) if "L" in sees[name]]
+    assert batch.valid[100:, out].all()
+    assert 0.79 < batch.valid[:, coil].mean() < 0.81
+    kink = (24.0 + 4.0) / 0.5 * 20.0 / _RATE**2 / 8
+    assert np.abs(batch.value[:, out][batch.valid[:, out]]).max() < kink
+    size = found.sizes["coil"]
+    assert (np.abs(batch.value[:, coil]) / size)[batch.valid[:, coil]].max() < _TOLERATED
 
 
 _BEYOND = """bg 1
