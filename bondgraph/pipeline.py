@@ -253,13 +253,23 @@ class Compilation:
         return self._stage(verify(self.graph, *self._analysis, self.report, self.options.seed))
 
     @cached_property
-    def program(self) -> Program:
-        """The residual program, for a verified model only."""
+    def received(self) -> Program:
+        """The residual program in which the readings that laws received are signals of their own.
+
+        It tells what a wrong sensor does. For a verified model only.
+        """
         from bondgraph.passes.lower import LowerOptions, lower
 
         assert self.verification
         options = LowerOptions(*self.options[:2], resolution=self.options.resolution)
         return self._stage(lower(self.graph, *self._analysis, options))
+
+    @cached_property
+    def program(self) -> Program:
+        """The residual program, for a verified model only."""
+        from bondgraph.passes.lower import as_logged
+
+        return as_logged(self.graph, self.received)
 
     @cached_property
     def thresholds(self) -> Program | None:
@@ -283,7 +293,7 @@ class Compilation:
         from bondgraph.backends.runnable import runnable
 
         bounds = self._bounds
-        return runnable(self.program), None if bounds is None else runnable(bounds)
+        return runnable(self.received), None if bounds is None else runnable(bounds)
 
     def engine(
         self, native: bool | None = None, tell: Callable[[str], None] | None = None
@@ -332,7 +342,7 @@ class Compilation:
         """What a monitor has to know of the machine beside its residuals."""
         from bondgraph.runtime.diagnosis.healthy import facts
 
-        return facts(self.graph, self._analysis[0], self.signatures, self.program)
+        return facts(self.graph, self._analysis[0], self.signatures, self.received)
 
     def diagnosis(self, engine: Engine, tuning: Tuning | None = None) -> Diagnosis:
         """What says verdicts about the residuals of an engine of this model.

@@ -89,7 +89,7 @@ def run(args: Namespace) -> int:
     situation = situation_of(args, program)
     tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
     try:
-        found = smallest(program, compilation.thresholds, tolerances, situation)
+        found = smallest(compilation.received, compilation.thresholds, tolerances, situation)
     except ValueError as error:
         raise console.Trouble(f"{error}, and without it nothing has a size") from error
     if args.json:

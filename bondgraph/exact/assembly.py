@@ -202,7 +202,7 @@ class _Builder:
 
     def readings(self, expressions: list[Expr]) -> tuple[tuple[str, int, Expr], ...]:
         """The sensors whose readings occur in the expressions, with what these read."""
-        own = {s.symbol: s for s in self.graph.sensors if s.same_as is None}
+        own = self.graph.readings
         used: dict[Expr, None] = {}
         while expressions:
             found = [n for n in topological(expressions) if n in own and n not in used]

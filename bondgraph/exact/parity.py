@@ -91,12 +91,12 @@ class _Rows:
             self.expression(law)
         for _, variable, value in part.rates:
             self.expression(value, variable, derivative=True)
-        read = {name for name, _, _ in part.readings}
+        read = {name: at for name, at, _ in part.readings}
         for sensor in graph.sensors:
             if sensor.same_as is not None or not self.inside(sensor.reads):
                 continue
             if sensor.name in read:
-                at = part.place[sensor.symbol][0]
+                at = read[sensor.name]
                 self.expression(sensor.reads, at, fault=sensor.symbol)
                 self.plain({at: 1})  # the reading itself is known
             else:

@@ -416,12 +416,12 @@ class Plant:
         return Trajectory(self, seed, order, tuple(faults), told, truth, starts, part, still)
 
     def _shown(self, plant: Assembly) -> list[tuple[str, Expr, Expr]]:
-        """The sensors of a part of the plant whose readings no law uses: name, symbol, reads."""
+        """The sensors of a part of the plant: name, symbol, reads."""
         inside, place = frozenset(plant.active), plant.place
         return [
             (s.name, s.symbol, s.reads)
             for s in self.graph.sensors
-            if s.same_as is None and s.name not in self._read
+            if s.same_as is None
             if all(place[n][0] in inside for n in topological([s.reads]) if n in place)
         ]
 

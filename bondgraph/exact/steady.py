@@ -17,7 +17,7 @@ from bondgraph.exact.series import Series
 from bondgraph.ir.expr import Kind
 
 _TOP = 3  # coefficients that are solved for: an integral of an integral of a constant has as many
-_MAY_GROW = frozenset({Kind.STATE, Kind.INTEGRAL, Kind.SENSOR})
+_MAY_GROW = frozenset({Kind.STATE, Kind.INTEGRAL, Kind.READING})
 
 
 def steady(

@@ -47,7 +47,8 @@ class Kind(Enum):
     INPUT = "input"  # known input
     UNKNOWN = "unknown"  # unknown input
     MODE = "mode"  # known boolean input
-    SENSOR = "sensor"  # a measured signal
+    SENSOR = "sensor"  # a measured signal: what a sensor says of the quantity that it measures
+    READING = "reading"  # the same number as a law or another sensor received it: never wrong
     EFFORT = "effort"  # effort of a port or of a 0-junction
     FLOW = "flow"  # flow of a port or of a 1-junction
     STATE = "state"  # q of a C, p of an I
@@ -57,7 +58,7 @@ class Kind(Enum):
     TEAR = "tear"  # a variable taken as known while a loop is solved
 
 
-KNOWN_SIGNALS = frozenset({Kind.INPUT, Kind.SENSOR, Kind.MODE})
+KNOWN_SIGNALS = frozenset({Kind.INPUT, Kind.SENSOR, Kind.READING, Kind.MODE})
 ZERO_START = "0"  # the initial value of an integral that starts at zero
 CONSTANTS = frozenset({Kind.PARAM, Kind.CONST, Kind.INITIAL, Kind.FREE})
 VARIABLES = frozenset({Kind.UNKNOWN, Kind.EFFORT, Kind.FLOW, Kind.STATE, Kind.INTEGRAL, Kind.TEAR})
@@ -197,8 +198,21 @@ class Pool:
         return self._make(Op.NUM, (), Fraction(value))
 
     def symbol(self, name: str, kind: Kind) -> Expr:
-        """The symbol `name`; the same name always has the same kind."""
+        """The symbol `name`; only a sensor and its reading share a name."""
         return self._make(Op.SYM, (), Symbol(name, kind))
+
+    def logged(self, roots: Iterable[Expr]) -> list[Expr]:
+        """The roots with each reading as the signal of its sensor: both are one logged number.
+
+        >>> p = Pool(); y, got = p.symbol("y", Kind.SENSOR), p.symbol("y", Kind.READING)
+        >>> p.logged([p.add((1, y), (-1, got))])
+        [0]
+        """
+        found = list(roots)
+        own = [n for n in topological(found) if n.op is Op.SYM and n.symbol.kind is Kind.READING]
+        if not own:
+            return found
+        return self.substitute(found, {n: self.symbol(n.symbol.name, Kind.SENSOR) for n in own})
 
     # --------------------------------------------------------- arithmetic
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from bondgraph.ir.expr import Expr, Pool, Symbol
+from bondgraph.ir.expr import Expr, Kind, Pool, Symbol
 from bondgraph.ir.units import Dimension
 from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple
@@ -199,6 +199,12 @@ class BondGraph(NamedTuple):
         found = {v.name: v.symbol for v in self.values if v.fault}
         found |= {i.name: i.symbol for i in self.inputs if i.known and not i.mode}
         return found | {s.name: s.symbol for s in self.sensors if s.same_as is None}
+
+    @property
+    def readings(self) -> dict[Expr, Sensor]:
+        """The sensor of each reading that laws or other sensors may use."""
+        own = [s for s in self.sensors if s.same_as is None]
+        return {self.pool.symbol(s.name, Kind.READING): s for s in own}
 
     def to_networkx(self) -> nx.MultiDiGraph:
         """The graph for networkx: nodes by path (`kind`, `keyword`, `doc`), one edge a bond from

@@ -228,6 +228,8 @@ class Known(NamedTuple):
     """A known signal: `highest` derivative that exact needs (-1: only its integral),
     `integral` whether its integral is needed too, `counts` of an encoder a turn.
 
+    A `reading` is the number that a law received of the sensor with the same `path`. The code that
+    is emitted has none: there both are the signal of the sensor.
     `lowest` is -2 where exact needs the integral of the integral, -1 where it needs the integral;
     `start` says that exact needs the value at the start; `sampled` that step reads it.
     """
@@ -236,7 +238,7 @@ class Known(NamedTuple):
     path: str
     unit: str
     doc: str
-    kind: Literal["input", "sensor", "mode"]
+    kind: Literal["input", "sensor", "reading", "mode"]
     highest: int
     integral: bool
     counts: float | None

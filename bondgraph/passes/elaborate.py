@@ -28,6 +28,7 @@ from bondgraph.passes.elaboration.oversights import (
 )
 from bondgraph.passes.elaboration.problems import Abort, Skip, fail
 from bondgraph.passes.elaboration.quantities import Quantities
+from bondgraph.passes.elaboration.received import Received
 from bondgraph.passes.elaboration.records import Records
 from bondgraph.passes.elaboration.scope import Array, NodeEntry, Scope, ValueEntry, flattened
 from bondgraph.passes.elaboration.values import Values
@@ -102,7 +103,12 @@ class _Elaboration:
         for entry in self.entries:
             records.entry(entry)
         nodes = [self.node(n, laws) for n in self.nodes]
+        integrands = values.functions.integrands
+        received = Received(self.pool, self.report, self.quantities, integrands, self.entries)
+        nodes = [received.node(e, n) for e, n in zip(self.nodes, nodes, strict=True)]
         self.opener.check_arguments()
+        for delivery in received.deliveries.values():
+            records.delivery(delivery)
         for event in self.opener.events:
             records.event(event)
         for coefficient in laws.coefficients:

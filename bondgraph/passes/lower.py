@@ -24,6 +24,7 @@ from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.derivative import TooManyOperations
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
+from bondgraph.passes.lowering.logged import logged
 from bondgraph.passes.lowering.names import brief, identifier, short
 from bondgraph.passes.lowering.newton import newton_blocks, roots_in
 from bondgraph.passes.lowering.procedure import ZERO
@@ -85,6 +86,9 @@ def lower(
     options: LowerOptions = DEFAULT,
 ) -> Program:
     """The residual program of a model: coefficients, exact residuals, realisable residuals.
+
+    The reading that a law received is a known signal of its own; `as_logged` joins it with what
+    its sensor measures.
 
     A residual whose visible order exceeds `HIGHEST` stages, or that has no numbers to tell what
     is visible, gets no step (`ResidualInfo.unavailable`); one of more than `LARGEST` operations no
@@ -152,6 +156,14 @@ def lower(
     )
     program = pruned(program)
     return program._replace(digest=digest(program, graph.source.text))
+
+
+def as_logged(graph: BondGraph, program: Program) -> Program:
+    """The program for who has one number for each sensor; the same where no law has a reading."""
+    made = logged(program)
+    if made is program:
+        return program
+    return made._replace(digest=digest(made, graph.source.text))
 
 
 def _realise(

@@ -120,7 +120,8 @@ class Parts(NamedTuple):
 def parts(graph: BondGraph, residual: Residual) -> Parts:
     """The relation, tidied, with the parts that occur more than once."""
     known = [s for s in residual.steps if s.closed.args]
-    root, *values = tidy(graph.pool, residual.expr, *[s.closed for s in known])
+    both = graph.pool.logged([residual.expr, *[s.closed for s in known]])
+    root, *values = tidy(graph.pool, *both)
     names: dict[Expr, str] = {}
     for step, value in zip(known, values, strict=True):
         if value.args:

@@ -168,7 +168,7 @@ class Reactions:
 def _by_presence(expr: Expr) -> Sensitivity:
     """What a relation may depend on, where it has no value at any random point."""
     inside = symbols(expr)
-    signals = [s for s in inside if s.symbol.kind in (Kind.INPUT, Kind.SENSOR)]
+    signals = [s for s in inside if s.symbol.kind in (Kind.INPUT, Kind.SENSOR, Kind.READING)]
     order = highest_order([expr])
     orders = dict.fromkeys(signals, order)
     everything = frozenset(inside)

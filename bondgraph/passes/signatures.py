@@ -8,6 +8,8 @@ declared numbers, which decide the signature (`reactions`). Presence of a symbol
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from bondgraph.exact.evaluate import Sensitivity
 from bondgraph.exact.plant import Plant
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
@@ -18,6 +20,7 @@ from bondgraph.passes.cleared import cleared, moduli, nothings
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.present import upright
 from bondgraph.passes.reactions import Reactions, entries
+from bondgraph.passes.zero import is_zero
 from bondgraph.text.diagnostic import Report
 
 _LONG = 2000  # nodes
@@ -47,7 +50,8 @@ class _Analysis:
         relations: list[tuple[Closing, Expr, dict[Expr, int]]] = []
         for closing in self.reduced.closings:
             free = self.reactions.at_free_signals(closing.expr)
-            if any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items()):
+            seen = any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items())
+            if seen and self._says_something(closing.expr):
                 own = pruned(self.pool, closing, free)
                 bases = moduli(self.reduced.system, own.steps)
                 bases += [b for b in nothings(self.nominal, own.expr) if symbols(b)]
@@ -70,7 +74,7 @@ class _Analysis:
             if symbol in own.apart
         }
         unconfirmed = {n: own.reason for n, own in zip(names, seen, strict=True) if own.reason}
-        orders = tuple({s.symbol.name: k for s, k in own.items()} for _, _, own in relations)
+        orders = tuple(_by_name(own) for _, _, own in relations)
         reduced = self.reduced
         return (
             ResidualSet(
@@ -80,6 +84,20 @@ class _Analysis:
                 tuple(names), tuple(faults), tuple(rows), orders, apart, unconfirmed
             ),
         )
+
+    def _says_something(self, expr: Expr) -> bool:
+        """Whether a relation holds more than that a reading is what its sensor says."""
+        merged = self.pool.logged([expr])[0]
+        return merged is expr or not is_zero(merged)
+
+
+def _by_name(orders: Mapping[Expr, int]) -> dict[str, int]:
+    """The order of each known signal; a sensor and its reading are one."""
+    found: dict[str, int] = {}
+    for symbol, order in orders.items():
+        name = symbol.symbol.name
+        found[name] = max(found.get(name, order), order)
+    return found
 
 
 def _behind(closing: Closing) -> list[Expr]:

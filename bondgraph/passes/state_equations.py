@@ -142,7 +142,7 @@ class _Causaliser:
                 own, *pairs = sensitivity(pool, law.zero, [variable, *others]).values()
                 found += [pool.div(pair, own) for pair in pairs if pair is not pool.zero is not own]
         replaced = {**self._disturbed(), **self.system.shared}
-        return tuple(pool.substitute(found, replaced))
+        return tuple(pool.substitute(pool.logged(found), replaced))
 
     # ---------------------------------------------------------------- equations
 
@@ -153,14 +153,15 @@ class _Causaliser:
         truth = {i.symbol: self.wanted.modes[i.name] for i in self.graph.inputs if i.mode}
         errors = {d.name: d for d in self.disturbances}
         rows = []
-        for equation in system.equations:
-            zero = equation.zero
+        logged = pool.logged([e.zero for e in system.equations])  # a law gets what a sensor says
+        for equation, zero in zip(system.equations, logged, strict=True):
             if equation.kind == "state" and self._at_rest(equation.name):
                 assert equation.rate is not None
                 zero = equation.rate
                 self.static.append(equation.name)
             if equation.kind == "sensor" and equation.name in errors:
-                zero, counted = self._misread(equation, errors[equation.name])
+                own = equation._replace(zero=zero)
+                zero, counted = self._misread(own, errors[equation.name])
                 if counted is not None:
                     rows.append(counted)
             try:

@@ -9,12 +9,10 @@ from typing import Any
 import sympy as sp
 from sympy.logic.boolalg import Boolean
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, Symbol, topological
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, Symbol, topological
 
 #: Time, on which every known signal depends in the SymPy form of a relation.
 t = sp.Symbol("t", real=True)
-
-SIGNALS = frozenset({Kind.INPUT, Kind.SENSOR, Kind.MODE})
 
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "abs": sp.Abs,
@@ -75,7 +73,7 @@ def _convert(node: Expr, args: list[Any]) -> Any:
         case Op.NUM:
             return sp.Rational(node.number.numerator, node.number.denominator)
         case Op.SYM:
-            if node.symbol.kind in SIGNALS:
+            if node.symbol.kind in KNOWN_SIGNALS:
                 return sp.Function(node.symbol.name, real=True)(t)
             return sp.Symbol(node.symbol.name, real=True)
         case Op.ADD:

@@ -110,7 +110,8 @@ def _threshold(
     if info.unavailable:
         return _none(out, info.unavailable)
     builder.origin = residual.closing.origin
-    form = normalise(builder.graph.pool, residual.expr, LIMIT, builder.initials)
+    pool = builder.graph.pool
+    form = normalise(pool, pool.logged([residual.expr])[0], LIMIT, builder.initials)
     if form.tape is not None:
         return _none(out, "its residual is too long to be differentiated")
     form = switched.form(residual, form)

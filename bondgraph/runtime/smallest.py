@@ -78,6 +78,9 @@ def smallest(
 ) -> Detection:
     """What each residual can show of each fault that it sees.
 
+    `program` has what laws received as signals of their own (`Compilation.received`): an error or
+    the noise of a sensor is in what it measures, and a law acted on just what it received.
+
     A change d of a fault is sure to be seen where s d, with s = dr/dfault through the filter, is
     above the threshold a + kappa sigma even if all other parameters work against it with a minus
     the share of the fault itself: d = (2 a - own + kappa sigma)/|s|, at the best moment of the
@@ -156,7 +159,7 @@ def _row(
 def faults(program: Program, tolerances: Mapping[str, float], situation: Situation) -> list[Fault]:
     """The faults of all residuals that the code knows, in the order of the residuals."""
     params = {f.path: f for f in program.params}
-    knowns = {k.path: k for k in program.knowns}
+    knowns = {k.path: k for k in program.knowns if k.kind != "reading"}
     found = []
     for path in dict.fromkeys(f for r in program.residuals for f in r.faults):
         if path in params:
@@ -348,7 +351,9 @@ def _with_noise(
     for k in coders:
         turn = (k.counts or 0.0) / (2 * math.pi)
         deviation.append(math.hypot(situation.noise.get(k.path, 0.0) * turn, math.sqrt(1 / 12)))
-    scale = np.array(deviation)
+    # what a law received is a number in the log: noise is in what was measured
+    noisy = [k.kind != "reading" for k in (*plain, *coders)]
+    scale = np.where(noisy, deviation, 0.0)
 
     def split(rows: Array) -> tuple[Array, Array]:
         of_states, of_plain = rows[:, :size], rows[:, size : size + p]

@@ -58,7 +58,8 @@ class Plant(NamedTuple):
 
     `equations` vanish; `D(x)` is the time derivative; names are those of the JSON (`a.b[1]` is
     `a__b__1`). `params` and `inputs` (known), `unknown` (inputs) and `modes` are separated from
-    the variables, which are all other names. `starts`: declared initial values. `n_arr` is the
+    the variables, which are all other names. A sensor that they name, or another sensor does, is
+    its reading: what it measures plus its error, and the machine runs on that. `starts`: declared initial values. `n_arr` is the
     right count; `undetectable` the faults that nothing can see (None: taken from the signatures).
     `values` overrides the random value of a parameter, the lead of an input or a guess.
     """
@@ -119,6 +120,9 @@ class Simulator:
         scope["exactly"] = sympy.Rational
         self.equations = [read(x, scope) for x in texts]
         self.sensors = {k: read(v, scope) for k, v in plant.sensors.items()}
+        self.readings = [x for x in self.variables if x in plant.sensors]
+        self.errors = {x: sympy.Symbol(f"{x}__error", real=True) for x in self.readings}
+        self.equations += [scope[x] - self.sensors[x] - self.errors[x] for x in self.readings]
         self.starts = {k: read(v, scope) for k, v in plant.starts.items()}
         self.slopes = []
         for e in self.equations:
@@ -131,6 +135,7 @@ class Simulator:
             self.slopes.append(rows)
         self.nominal = {x: self.poly(self.lead(x), False) for x in self.params}
         self.nominal |= {x: self.poly(str(v), False) for x, v in plant.consts.items()}
+        self.nominal |= {e.name: [mpf(0)] * n for e in self.errors.values()}
         self.signals = {x: self.poly(self.lead(x), True) for x in self.inputs + self.unknown}
 
     def lead(self, name: str) -> Any:
@@ -240,15 +245,17 @@ class Simulator:
         move = [mpf(self.random.random() + 0.2) * size for _ in range(min(self.n, 8))]
         move += [mpf(0)] * (self.n - len(move))
         known = self.nominal | self.signals
-        if fault in self.sensors:
+        if fault in self.sensors and fault not in self.readings:
             y = self._measured(known, self.x)
             y[fault] = jets.add(y[fault], move)
             return y
-        known = known | {fault: jets.add(known[fault], move)}
+        moved = self.errors[fault].name if fault in self.readings else fault
+        known = known | {moved: jets.add(known[moved], move)}
         x = self.polish(known, self.x)
         if x is None:
             return None if size < 1e-8 else self.perturbed(fault, size / 100)
-        return self._measured(known, x)
+        y = self._measured(known, x)
+        return y | {fault: jets.add(y[fault], move)} if fault in self.readings else y
 
 
 class Counts(NamedTuple):
@@ -296,6 +303,8 @@ def counts(sim: Simulator, x: list[Jet] | None = None) -> Counts:
     for k, name in enumerate(sim.sensors):
         column = np.zeros((len(whole), 1))
         column[len(rows) + k] = 1
+        if name in sim.readings:  # the machine runs on the error, too
+            column[len(rows) - len(sim.readings) + sim.readings.index(name)] = -1
         if rank(np.hstack([whole[:, :first], column])) == base:
             hidden.add(name)
     return Counts(regular, n_arr, hidden)

@@ -183,10 +183,10 @@ PLANTS = [
     Plant(
         "alias_sensor",
         model("alias_sensor"),
-        equations=("U - D(p) - i - (-c__kp*(goal - i)); p - L*i"),
-        sensors={"c__y": "i", "e": "goal - i"},
+        equations=("U - D(p) - i + c__kp*(goal - c__y) + c__d; p - L*i"),
+        sensors={"c__y": "i", "e": "goal - c__y"},
         n_arr=2,
-        params="c__kp L",
+        params="c__kp L c__d",
         inputs="U goal",
     ),
     Plant(

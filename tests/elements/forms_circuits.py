@@ -63,10 +63,12 @@ FORMS = [
         [
             Relation(
                 "voltage law with a proportional controller of the current",
-                "U + c__kp*(goal - c__y) - c__y - L*D(c__y, 1)",
-                "L c.kp goal U c.y",
+                "U + c__kp*(goal - c__y) + c__d - c__y - L*D(c__y, 1)",
+                "L c.kp c.d goal U c.y",
             ),
-            Relation("the controller's error is measured too", "e - (goal - c__y)", "goal c.y e"),
+            Relation(
+                "the controller's error, of the reading that it gets", "e - (goal - c__y)", "goal e"
+            ),
         ],
     ),
     Form(

@@ -75,8 +75,11 @@ def _detection(
     try:
         if assumed.samples:
             engine = compilation.engine()
-            return shown(program, engine, tolerances, assumed.situation, assumed.samples), ""
-        return smallest(program, compilation.thresholds, tolerances, assumed.situation), ""
+            received = compilation.received
+            return shown(received, engine, tolerances, assumed.situation, assumed.samples), ""
+        found = smallest(compilation.received, compilation.thresholds, tolerances,
+                         assumed.situation)  # fmt: skip
+        return found, ""
     except ValueError as error:
         return None, str(error)
 

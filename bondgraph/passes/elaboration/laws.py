@@ -121,7 +121,7 @@ class Laws:
                  help=f"Declare `param {node.name} = ...`, or write `{written.type}:{node.name} = "
                  f"...`, or a law in braces, `{{ {element.law} }}`.")  # fmt: skip
         values.used.add(entry)
-        node_, term = values.value(entry)
+        node_, term = values.received(entry)
         if term is None:
             fail(self.report, "wrong-type", f"`{node.name}` is true or false: a number is needed "
                  "here.", written.origin, help="Use a number.")  # fmt: skip

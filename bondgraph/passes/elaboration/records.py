@@ -16,7 +16,8 @@ from bondgraph.passes.elaboration.bonds import FlatEnd
 from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.laws import Coefficient
 from bondgraph.passes.elaboration.problems import Skip, fail
-from bondgraph.passes.elaboration.scope import Bound, Scope, ValueEntry
+from bondgraph.passes.elaboration.received import Delivery
+from bondgraph.passes.elaboration.scope import Bound, NodeEntry, Scope, ValueEntry
 from bondgraph.passes.elaboration.structure import index
 from bondgraph.passes.elaboration.values import Values
 from bondgraph.text.diagnostic import Label
@@ -39,6 +40,7 @@ class Records:
         self.lets: list[tuple[Let, Term | None, str | None]] = []
         self.events: dict[str, Event] = {}
         self.numbers: dict[Expr, Expr | None] = {}
+        self.deliveries: dict[str, Delivery] = {}  # of controllers, by path
 
     def entry(self, entry: ValueEntry) -> None:
         """The record of one value; nothing for an alias."""
@@ -88,6 +90,16 @@ class Records:
         record = Value(entry.path, symbol, value, tolerance, None, None, False, declaration.doc,
                        entry.origin)  # fmt: skip
         self.params.append((record, term, unit))
+
+    def delivery(self, item: Delivery) -> None:
+        """What a controller gives beyond its command: nothing, as long as it works."""
+        name, node = item.symbol.symbol.name, item.node
+        self.deliveries[node.path] = item
+        self.numbers[item.symbol] = self.values.pool.zero
+        doc = f"what {node.path} delivers beyond its command"
+        record = Value(name, item.symbol, self.values.pool.zero, None, None, None, True, doc,
+                       node.origin)  # fmt: skip
+        self.params.append((record, item.term, None))
 
     def coefficient(self, item: Coefficient) -> None:
         """A coefficient of an element with a tolerance."""
@@ -168,7 +180,7 @@ class Records:
         assert term is not None
         self.values.alike(term, own, declaration.value.origin, f"sensor `{entry.local}` has the "
                           "unit of what it reads")  # fmt: skip
-        if symbol in symbols(reads):
+        if symbol in symbols(*self.values.pool.logged([reads])):
             fail(self.report, "circular-definition", f"Sensor `{entry.local}` reads itself.",
                  declaration.value.origin, help="A sensor reads signals of nodes, as in `rotor.f`."
                  )  # fmt: skip
@@ -253,12 +265,28 @@ class Records:
         """The param, input or sensor that a fault acts on."""
         for part in ref.parts:
             index(part, scope, event.env, self.report)
+        delivery = self.delivered(ref, scope, event)
+        if delivery is not None:
+            return delivery.symbol, delivery.term, delivery.symbol.symbol.name
         place = Place(scope, event.env, scope.path + event.local)
         symbol, term = self.values.reference(ref, place)
+        symbol = self.values.pool.logged([symbol])[0]
         faulty = (Kind.PARAM, Kind.INPUT, Kind.SENSOR)
         if symbol.op is not Op.SYM or symbol.symbol.kind not in faulty:
             self.no_target(ref, symbol)
         return symbol, term, symbol.symbol.name
+
+    def delivered(self, ref: Ref, scope: Scope, event: instantiate.Event) -> Delivery | None:
+        """What a controller gives beyond its command, by the name that this has as a fault."""
+        try:
+            entry, left = self.values.quiet.node(ref, scope, event.env)
+        except Skip:
+            return None
+        if not isinstance(entry, NodeEntry) or entry.path not in self.deliveries:
+            return None
+        found = self.deliveries[entry.path]
+        meant = ".".join([entry.path, *[p.name for p in left]])
+        return found if found.symbol.symbol.name == meant else None
 
     def no_target(self, ref: Ref, symbol: Expr) -> None:
         """Report a target that cannot fail."""

@@ -89,7 +89,7 @@ class Values(Expressions):
         entry = self.lookup.value(part, inside, place.scope, place.env)
         if entry is not None:
             self.used.add(entry)
-            return self.value(entry)
+            return self.received(entry)
         if part.first is None:
             generic = inside.generics.get(part.name)
             if isinstance(generic, bool):
@@ -200,6 +200,13 @@ class Values(Expressions):
         if entry.typed is None:
             raise Skip
         return entry.typed
+
+    def received(self, entry: ValueEntry) -> Typed:
+        """The value as an expression uses it: of a sensor its reading."""
+        node, term = self.value(entry)
+        if node.op is Op.SYM and node.symbol.kind is Kind.SENSOR:
+            return self.pool.symbol(node.symbol.name, Kind.READING), term
+        return node, term
 
     def settle(self, entry: ValueEntry) -> None:
         """Find a value and, first, all that it is made of: a stack, as chains may be long."""
@@ -370,7 +377,7 @@ class Values(Expressions):
             return self.pool.symbol(entry.path, Kind.SENSOR), term
         place = Place(entry.scope, entry.env, entry.path)
         symbol, other = self.quantity(declaration.value, place)
-        if symbol.op is not Op.SYM or symbol.symbol.kind is not Kind.SENSOR:
+        if symbol.op is not Op.SYM or symbol.symbol.kind is not Kind.READING:
             fail(self.report, "not-a-sensor", f"`{declaration.value.origin.text}` is no sensor.",
                  declaration.value.origin, help="After `=` a detector names the sensor whose "
                  "instrument it reads; a measured expression is `sensor name = ...`."
@@ -379,7 +386,7 @@ class Values(Expressions):
             pair = self.quantities.pair(node.ports[0].slot)
             own = pair[0] if node.element.kind == "De" else pair[1]
             self.alike(own, other, entry.origin, "one instrument has one unit")
-        return symbol, other
+        return self.pool.logged([symbol])[0], other
 
     def constant_value(self, bound: Bound, owner: str, what: str) -> tuple[Expr, Term]:
         """An expression that may not depend on signals."""

@@ -219,13 +219,15 @@ class Builder:
     def _known(self, signal: Signal) -> Known:
         declared = signal.declared
         low, high = self.extent.get(signal.name, [0, 0])
-        kind: Literal["input", "sensor", "mode"] = "sensor"
+        kind: Literal["input", "sensor", "reading", "mode"] = "sensor"
         counts = None
         if isinstance(declared, Input):
             kind = "mode" if declared.mode else "input"
         elif declared.counts is not None:
             value = evaluate(self.resolve([declared.counts])[0], self.floats)
             counts = 0.0 if value is None else float(value)
+        if signal.symbol.symbol.kind is Kind.READING:
+            kind = "reading"
         return Known(
             signal.name,
             declared.name,
@@ -286,4 +288,18 @@ def _signals(pool: Pool, graph: BondGraph) -> list[Signal]:
             scale = pool.div(pool.num(Fraction(2 * math.pi)), s.counts)
             offset = starts.get(s.reads)
         found.append(Signal(identifier(s.name), s.symbol, s, scale, offset))
+    return [*found, *_received(graph, found)]
+
+
+def _received(graph: BondGraph, signals: list[Signal]) -> list[Signal]:
+    """The readings of the sensors as signals of their own."""
+    own = {s.declared.name: s for s in signals}
+    taken = {s.name for s in signals}
+    found = []
+    for symbol, sensor in graph.readings.items():
+        name = f"{own[sensor.name].name}_read"
+        while name in taken:
+            name += "_"
+        taken.add(name)
+        found.append(own[sensor.name]._replace(name=name, symbol=symbol))
     return found

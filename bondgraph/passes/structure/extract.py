@@ -11,9 +11,10 @@ def extract(system: EquationSystem) -> StructuralModel:
     """Which unknowns, known signals and faults each equation holds.
 
     A fault is a parameter, a known input or a sensor, in every equation with its symbol; a
-    sensor and an input are a known signal as well. The equation of a state, and every other that
-    holds a derivative, is a differential constraint: the variable under the derivative is
-    integrated (I), the others are or make up its derivative (D).
+    sensor and an input are a known signal as well. A law that uses the reading of a sensor holds
+    the signal without the fault: it acts on the number that it got. The equation of a state, and
+    every other that holds a derivative, is a differential constraint: the variable under the
+    derivative is integrated (I), the others are or make up its derivative (D).
     """
     graph = system.graph
     fault_of = {s: i for i, s in enumerate(graph.fault_symbols().values())}
@@ -22,16 +23,16 @@ def extract(system: EquationSystem) -> StructuralModel:
     rows = []
     for equation in system.equations:
         held = symbols(equation.zero)
-        for symbol in held:
-            if symbol.symbol.kind in KNOWN_SIGNALS:
-                known.setdefault(symbol, len(known))
+        signals = [s for s in held if s.symbol.kind in KNOWN_SIGNALS]
+        for symbol in graph.pool.logged(signals):
+            known.setdefault(symbol, len(known))
         marked = sorted(_marks(equation, column))
         rows.append(
             StructuralEquation(
                 f"{equation.kind} {equation.name}",
                 tuple(c for c, _ in marked),
                 tuple(m for _, m in marked),
-                tuple(sorted(known[s] for s in held if s in known)),
+                tuple(sorted({known[s] for s in graph.pool.logged(signals)})),
                 tuple(sorted(fault_of[s] for s in held if s in fault_of)),
                 equation.origin,
             )

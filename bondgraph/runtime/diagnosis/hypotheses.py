@@ -29,6 +29,8 @@ class Hypothesis(NamedTuple):
     `drift`: an encoder misses so many counts a second (it stands still); `start`: only the first
     sample of a signal is, so that what is remembered of it is wrong. `unit` is that of the change,
     `usual` the size that is expected of it before anything is seen.
+    A wrong sensor is so for who measures with it: a law that uses its reading acted on just this
+    number, so that only the measurement is changed.
     `turned` says that a change of the machine moves residuals like the opposite change of what the
     program is told: so it is with parameters and commands, not with readings.
     """
@@ -119,10 +121,13 @@ class Bank:
         fresh = self._begin is None
         if fresh and len(samples):
             self._begin = samples[0].copy()
+        got = samples[:, self.engine.readings] if self.engine.readings else None
         for at, k in enumerate(self._signals):
             up, down = self._ends[k]
-            more = self._told[2 * at].run(self._shifted(samples, k, up, fresh))
-            less = self._told[2 * at + 1].run(self._shifted(samples, k, down, fresh))
+            # laws acted on what they received, wrong or not; where a log begins is no fault
+            same = None if self.hypotheses[k].kind == "start" else got
+            more = self._told[2 * at].run(self._shifted(samples, k, up, fresh), same)
+            less = self._told[2 * at + 1].run(self._shifted(samples, k, down, fresh), same)
             slopes[:, k, :] = (more.value - less.value) / (up - down)
             slopes[:, k, :] *= more.valid & less.valid
         self.batch = self.engine.run(samples)

@@ -67,8 +67,8 @@ def memories(program: Program) -> tuple[Memory, ...]:
     return tuple(
         Memory(
             tuple(r for r in order if r in own),
-            tuple(path for name, path in paths.items() if name in signals),
-            tuple(path for name, path in modes.items() if name in reads),
+            tuple(dict.fromkeys(path for name, path in paths.items() if name in signals)),
+            tuple(dict.fromkeys(path for name, path in modes.items() if name in reads)),
             integral,
         )
         for own, signals, reads, integral in found

@@ -23,12 +23,13 @@ class Wide:
         self._own = len(engine.signals)
         self.residuals = engine.residuals
         self.signals: tuple[Known, ...] = (*engine.signals, *more)
+        self.readings = engine.readings
         self.sample_time, self.bandwidth = engine.sample_time, engine.bandwidth
         self.warm_up, self.parameters = engine.warm_up, engine.parameters
 
-    def run(self, samples: Array) -> Batch:
+    def run(self, samples: Array, received: Array | None = None) -> Batch:
         """See `Engine`."""
-        return self._engine.run(samples[:, : self._own])
+        return self._engine.run(samples[:, : self._own], received)
 
     def run_with(self, others: Sequence[Engine], samples: Array) -> Batch:
         """See `Engine`."""

@@ -60,11 +60,17 @@ class Engine(Protocol):
     def parameters(self) -> Mapping[str, float]:
         """The value of every parameter that the code reads, in SI units, by path."""
 
-    def run(self, samples: Array) -> Batch:
+    @property
+    def readings(self) -> tuple[int, ...]:
+        """The columns of the sensors whose readings laws use, as controllers do."""
+
+    def run(self, samples: Array, received: Array | None = None) -> Batch:
         """Go on with (n, signals) samples from where the last call ended.
 
         Encoders in whole counts, modes as 0 and 1. A sample that is not finite restarts the
-        residuals that read it, and no other.
+        residuals that read it, and no other. `received` (n, readings) is what laws got of the
+        sensors in `readings`, by default what `samples` say: who asks what a wrong sensor does
+        changes its samples and not what was received.
         """
 
     def run_with(self, others: Sequence[Engine], samples: Array) -> Batch:
@@ -103,6 +109,7 @@ class Setting(NamedTuple):
     residuals: Runnable
     thresholds: Runnable | None
     signals: tuple[Known, ...]  # all that the programs read
+    readings: tuple[int, ...]  # those of them that laws received besides
     parameters: dict[str, float]  # by path, those without a value left out
     bandwidth: float
 
@@ -125,9 +132,22 @@ class Setting(NamedTuple):
         return [not info.unavailable for info in self.thresholds.program.residuals]
 
     def columns(self, runnable: Runnable) -> list[int]:
-        """Where the signals of one program are among all."""
+        """Where the signals of one program are among all; behind them is what laws received."""
         place = {k.path: at for at, k in enumerate(self.signals)}
-        return [place[k.path] for k in runnable.program.knowns]
+        behind = {at: len(place) + k for k, at in enumerate(self.readings)}
+        columns = [(k.kind == "reading", place[k.path]) for k in runnable.program.knowns]
+        return [behind[at] if reading else at for reading, at in columns]
+
+    def table(self, samples: Array, received: Array | None) -> Array:
+        """Samples as the programs take them, with what laws received behind the signals.
+
+        Raises ValueError for another number of columns.
+        """
+        taken = checked(samples, len(self.signals))
+        if not self.readings:
+            return taken
+        got = taken[:, self.readings] if received is None else received
+        return np.hstack([taken, checked(got, len(self.readings))])
 
     def values(self, runnable: Runnable) -> list[float]:
         """The parameters of one program, in its order."""
@@ -157,11 +177,16 @@ def setting(residuals: Runnable, thresholds: Runnable | None = None) -> Setting:
     programs = [residuals.program] + ([thresholds.program] if thresholds else [])
     nominal = {f.path: f.default for p in programs for f in p.params if f.default is not None}
     signals: dict[str, Known] = {}
+    received: dict[str, None] = {}
     for known in (k for p in programs for k in p.knowns):
+        if known.kind == "reading":
+            received[known.path] = None
+            known = known._replace(kind="sensor")
         old = signals.setdefault(known.path, known)
         signals[known.path] = old._replace(sampled=old.sampled or known.sampled)
     bandwidth = residuals.program.bandwidth
-    return Setting(residuals, thresholds, tuple(signals.values()), nominal, bandwidth)
+    readings = tuple(at for at, path in enumerate(signals) if path in received)
+    return Setting(residuals, thresholds, tuple(signals.values()), readings, nominal, bandwidth)
 
 
 def checked(samples: Array, signals: int) -> Array:
@@ -187,7 +212,7 @@ class PythonEngine:
         self._setting = setting
         self._modules = tuple(modules) or tuple(map(_loaded, setting.programs))
         self.residuals = tuple(r.name for r in setting.residuals.program.residuals)
-        self.signals = setting.signals
+        self.signals, self.readings = setting.signals, setting.readings
         self.sample_time = 1.0 / setting.residuals.program.rate
         self.bandwidth, self.warm_up = setting.bandwidth, setting.warm_up
         self.parameters: Mapping[str, float] = setting.parameters
@@ -221,9 +246,9 @@ class PythonEngine:
         """See `Engine`."""
         return one_by_one([self, *others], samples)
 
-    def run(self, samples: Array) -> Batch:
+    def run(self, samples: Array, received: Array | None = None) -> Batch:
         """See `Engine`."""
-        rows = checked(samples, len(self.signals)).tolist()
+        rows = self._setting.table(samples, received).tolist()
         shape = (len(rows), len(self.residuals))
         value, valid = self._monitors[0].run(rows, shape)
         bound = np.zeros(shape)

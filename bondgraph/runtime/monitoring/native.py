@@ -26,7 +26,6 @@ from bondgraph.runtime.monitoring.engine import (
     Engine,
     PythonEngine,
     Setting,
-    checked,
     one_by_one,
     setting,
 )
@@ -129,7 +128,7 @@ class NativeEngine:
     def __init__(self, setting: Setting, library: Library) -> None:
         self._setting, self._library = setting, library
         self.residuals = tuple(r.name for r in setting.residuals.program.residuals)
-        self.signals = setting.signals
+        self.signals, self.readings = setting.signals, setting.readings
         self.sample_time = 1.0 / setting.residuals.program.rate
         self.bandwidth, self.warm_up = setting.bandwidth, setting.warm_up
         self.parameters: Mapping[str, float] = setting.parameters
@@ -160,9 +159,9 @@ class NativeEngine:
         """See `Engine`; costs a tenth of a millisecond, the library is shared."""
         return NativeEngine(self._setting.changed(parameters, bandwidth, bounds), self._library)
 
-    def run(self, samples: Array) -> Batch:
+    def run(self, samples: Array, received: Array | None = None) -> Batch:
         """See `Engine`."""
-        return Batch(*[array[0] for array in _run([self], samples)])
+        return Batch(*[array[0] for array in _run([self], samples, received)])
 
     def run_with(self, others: Sequence[Engine], samples: Array) -> Batch:
         """See `Engine`; one call where all are of the same library, with thresholds or without."""
@@ -194,10 +193,10 @@ class _Monitor:
             raise ValueError(f"{runnable.stem} refuses {_STATUS[status - 1]}")
 
 
-def _run(engines: list[NativeEngine], samples: Array) -> Batch:
+def _run(engines: list[NativeEngine], samples: Array, received: Array | None = None) -> Batch:
     """All engines over the same samples, in one call for each program."""
     first = engines[0]
-    taken = checked(samples, len(first.signals))
+    taken = first._setting.table(samples, received)
     shape = (len(engines), len(taken), len(first.residuals))
     value = np.empty(shape)
     valid = np.empty(shape, dtype=np.bool_)

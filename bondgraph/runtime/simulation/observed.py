@@ -36,7 +36,7 @@ def observed(system: EquationSystem, equations: StateEquations, record: Sequence
     wanted |= {name: everything[name] for name in record}
     found = {u for b in equations.blocks for u in b.unknowns}
     found |= {s.symbol for s in equations.states}
-    own = pool.substitute(wanted.values(), system.shared)
+    own = pool.substitute(pool.logged(wanted.values()), system.shared)
     kept = {n: e for n, e in zip(wanted, own, strict=True) if _computable(e, found)}
     return Observed(tuple(kept), tuple(kept.values()))
 

@@ -290,8 +290,8 @@ def test_sources() -> None:
     assert [(i.name, i.known, i.unit) for i in g.inputs] == [
         ("road", False, "m/s"), ("F[1]", True, "N"), ("F[2]", True, "N"),
     ]  # fmt: skip
-    assert laws(g, "extra") == ["extra.e - 3*y"]
-    assert g.faults == ("F[1]", "F[2]", "y")
+    assert laws(g, "extra") == ["extra.e - 3*y - extra"]  # a controller may deliver wrongly
+    assert g.faults == ("extra", "F[1]", "F[2]", "y")
 
 
 # ---------------------------------------------------------------- signals, sensors, values
