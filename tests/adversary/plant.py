@@ -59,9 +59,9 @@ class Plant(NamedTuple):
     `equations` vanish; `D(x)` is the time derivative; names are those of the JSON (`a.b[1]` is
     `a__b__1`). `params` and `inputs` (known), `unknown` (inputs) and `modes` are separated from
     the variables, which are all other names. A sensor that they name, or another sensor does, is
-    its reading: what it measures plus its error, and the machine runs on that. `starts`: declared initial values. `n_arr` is the
-    right count; `undetectable` the faults that nothing can see (None: taken from the signatures).
-    `values` overrides the random value of a parameter, the lead of an input or a guess.
+    its reading: what it measures plus its error, and the machine runs on that. `starts`: declared
+    initial values. `n_arr` is the right count; `undetectable` the faults that nothing can see
+    (None: taken from the signatures). `values` overrides the random value of a parameter, the lead of an input or a guess.
     """
 
     name: str
