@@ -61,7 +61,8 @@ class Plant(NamedTuple):
     the variables, which are all other names. A sensor that they name, or another sensor does, is
     its reading: what it measures plus its error, and the machine runs on that. `starts`: declared
     initial values. `n_arr` is the right count; `undetectable` the faults that nothing can see
-    (None: taken from the signatures). `values` overrides the random value of a parameter, the lead of an input or a guess.
+    (None: taken from the signatures). `values` overrides the random value of a parameter, the lead
+    of an input or a guess.
     """
 
     name: str

@@ -74,7 +74,7 @@ SITUATIONS: dict[str, tuple[str, str, dict[str, str]]] = {
     "a coefficient that cancels": (
         """param R=1; param c=2
         Se:U -> 1:a; a { -> R:R; -> Df:i; <- MSe:p = c*i; -> MSe:n = c*i }""",
-        "1 residual detects 3 of 4 faults",
+        "1 residual detects 5 of 6 faults",  # U, R, i and what p and n deliver
         {"c": "it cancels out of every residual"},
     ),
 }
