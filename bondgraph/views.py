@@ -40,7 +40,7 @@ class Relation:
         from bondgraph.passes.present import tidy
         from bondgraph.passes.symbolic import to_sympy
 
-        root = tidy(self._graph.pool, self.residual.expr)[0]
+        root = tidy(self._graph.pool, *self._graph.pool.logged([self.residual.expr]))[0]
         return to_sympy(root, starts=self._graph.initial_values())
 
     @cached_property
@@ -61,7 +61,7 @@ class Relation:
         from bondgraph.ir.latex import latex
         from bondgraph.passes.present import tidy
 
-        root = tidy(self._graph.pool, self.residual.expr)[0]
+        root = tidy(self._graph.pool, *self._graph.pool.logged([self.residual.expr]))[0]
         return latex(root, self._graph.initial_values())
 
     @property

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 from bondgraph.exact.evaluate import Sensitivity
 from bondgraph.exact.plant import Plant
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
 from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.passes.cancelled import without
@@ -88,7 +88,10 @@ class _Analysis:
     def _says_something(self, expr: Expr) -> bool:
         """Whether a relation holds more than that a reading is what its sensor says."""
         merged = self.pool.logged([expr])[0]
-        return merged is expr or not is_zero(merged)
+        if merged is expr:
+            return True
+        free = self.reactions.at_free_signals(merged)
+        return any(v and s.symbol.kind in KNOWN_SIGNALS for s, v in free.depends.items())
 
 
 def _by_name(orders: Mapping[Expr, int]) -> dict[str, int]:
