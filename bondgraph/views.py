@@ -98,7 +98,8 @@ class Relation:
             raise KeyError(fault)
         symbol = self._graph.fault_symbol(fault)
         starts = self._graph.initial_values()
-        return sensitivity(self._graph.pool, self.residual.expr, [symbol], starts)[symbol]
+        slope = sensitivity(self._graph.pool, self.residual.expr, [symbol], starts)[symbol]
+        return self._graph.pool.logged([slope])[0]
 
     def effect(self, fault: str, signals: Mapping[str, Any], at: float = 0.0) -> float:
         """The relative sensitivity theta dr/dtheta: by how much the relation is off for 100 %.

@@ -28,10 +28,11 @@ def residual_units(compilation: Compilation) -> dict[str, str]:
     known |= {s.symbol: s.dimension for s in graph.sensors if s.same_as is None}
     found = {}
     for residual in (r.residual for r in compilation.residuals):
-        for node in topological([residual.expr], stop=known.__contains__):
+        root = graph.pool.logged([residual.expr])[0]
+        for node in topological([root], stop=known.__contains__):
             if node not in known:
                 known[node] = _dimension(node, known)
-        own = known[residual.expr]
+        own = known[root]
         found[residual.name] = "" if own is None else describe(own)
     return found
 

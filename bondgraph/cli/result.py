@@ -106,7 +106,7 @@ def _arr(
     names: Names,
     initial: dict[str, Expr],
 ) -> tuple[dict[str, object], tuple[str, ...]]:
-    root = tidy(graph.pool, residual.expr)[0]
+    root = tidy(graph.pool, *graph.pool.logged([residual.expr]))[0]
     matrix, weak = lasting.matrix, lasting.weak(residual.name)
     written = parsable(graph.pool, root, names, initial)
     arr: dict[str, object] = {

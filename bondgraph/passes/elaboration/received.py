@@ -64,9 +64,8 @@ class Received:
         if node.kind not in ("Se", "Sf"):
             self._note(entry, node, used)
             return node
-        self._pool.logged(
-            [law.zero for law in node.laws]
-        )  # older than the error: printed before it
+        # what is printed is older than the error, and so stands before it
+        self._pool.logged([law.zero for law in node.laws])
         name = f"{node.path}.{ERROR}" if node.path in self._taken else node.path
         effort, flow = self._quantities.pair(entry.ports[0].slot)
         symbol = self._pool.symbol(name, Kind.PARAM)

@@ -51,7 +51,8 @@ class Reckoning:
         self.lacking: dict[str, str] = {}
         chosen: dict[str, Expr] = {}
         for name, value in roots.items():
-            found = graph.pool.substitute([value], system.shared | closed)[0]
+            known = graph.pool.substitute([value], system.shared | closed)
+            found = graph.pool.logged(known)[0]
             unknown = _unknown(found)
             if unknown is None:
                 chosen[name] = found

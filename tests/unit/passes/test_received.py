@@ -1,4 +1,4 @@
-"""Controllers act on readings: signatures by hand, and what residuals do on loops simulated by hand.
+"""Controllers act on readings: signatures by hand, and residuals on loops simulated by hand.
 
 Every machine below is integrated here, with the wrong reading fed back to its controller; nothing
 of the compiler is used but the residuals that it made. Constant errors, at the end of transients.
