@@ -1,0 +1,204 @@
+"""Machines that run on wrong readings: slopes, smallest changes and verdicts.
+
+The loops are those of `tests/unit/passes/test_received.py`, integrated by hand.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from functools import cache
+
+import numpy as np
+import pytest
+
+from bondgraph.cli.main import main
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
+from bondgraph.runtime.diagnosis.tune import tune
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.runtime.simulation.scenario import Course, Fault, Scenario
+from bondgraph.runtime.smallest import Situation, smallest
+from tests.unit.passes.relations import compiled
+from tests.unit.passes.test_received import LOOPS, Loop
+
+_STEP, _ONSET, _SECONDS = 1e-3, 12.0, 24.0
+_G, _C, _K = 0.5, 2.0, 1.5  # of the tank
+
+HIDDEN, LOGGED, CASCADE = (
+    "P, its command hidden", "PI, its command logged", "two controllers in a cascade",
+)  # fmt: skip
+
+
+@cache
+def _compiled(name: str) -> Compilation:
+    return compiled(f"model M {{\n{LOOPS[name].text}\n}}")
+
+
+def _log(loop: Loop, wrong: Mapping[str, float], noise: Mapping[str, float], seed: int) -> Array:
+    """Samples of all that is logged, noise fed back as everything that a sensor says."""
+    draw, x, h, rows = np.random.default_rng(seed), np.array(loop.start), _STEP, []
+    for n in range(round(_SECONDS / h)):
+        t = n * h
+        now = {name: sigma * draw.normal() for name, sigma in noise.items()}
+        for name, size in wrong.items() if t >= _ONSET else ():
+            now[name] = now.get(name, 0.0) + size
+        rows.append(list(loop.run(t, x, now)[1].values()))
+        k1 = np.array(loop.run(t, x, now)[0])
+        k2 = np.array(loop.run(t + h / 2, x + h / 2 * k1, now)[0])
+        x = x + h * k2
+    return np.array(rows)
+
+
+def _samples(name: str, wrong: Mapping[str, float], noise: Mapping[str, float], seed: int) -> Array:
+    loop = LOOPS[name]
+    names = list(loop.run(0.0, np.array(loop.start), {})[1])
+    table = _log(loop, wrong, noise, seed)
+    return table[:, [names.index(k.path) for k in _compiled(name).engine().signals]]
+
+
+def _said(name: str, samples: Array) -> list[Verdict]:
+    engine = _compiled(name).engine()
+    base, diagnosis = engine.configured(), _compiled(name).diagnosis(engine)
+    time, out = np.arange(len(samples)) * _STEP, []
+    for k in range(0, len(samples), 700):
+        part = samples[k : k + 700]
+        out += diagnosis.update(time[k : k + 700], base.run(part), part)
+    return out
+
+
+# ------------------------------------------------------------------------- slopes
+
+
+@pytest.mark.parametrize("native", [None, False], ids=["as it can", "python"])
+def test_a_wrong_sensor_changes_what_it_measures_and_not_what_was_commanded(
+    native: bool | None,
+) -> None:
+    # at rest: r1 = K(r - y) + pump - g y and r2 = u - K(r - y) - Ki int(r - y), y = 1, r = 3
+    c = _compiled(LOGGED)
+    engine = c.engine(native)
+    known = hypotheses(engine, c.facts.faults, c.facts.units, {})
+    nominal = {n: v for n, v in c.facts.faults.items() if v is not None}
+    at = {(h.fault, h.kind): k for k, h in enumerate(known)}
+    row = {"r": 3.0, "y": 1.0, "u": 2.0}
+    rows = np.tile([[row[k.path] for k in engine.signals]], (2000, 1))
+    slopes = Bank(engine.configured(bounds=False), known, nominal).run(rows)[-1]
+    assert slopes[at["y", "offset"]] == pytest.approx([-_G, 0.0], rel=1e-6, abs=1e-9)
+    assert slopes[at["y", "gain"]] == pytest.approx([-_G * 1.0, 0.0], rel=1e-6, abs=1e-9)
+    assert slopes[at["pump", "value"]] == pytest.approx([1.0, 0.0], rel=1e-6, abs=1e-9)
+    assert slopes[at["u", "offset"]] == pytest.approx([0.0, 1.0], rel=1e-6, abs=1e-9)
+    assert abs(slopes[at["r", "offset"]][1]) > _K  # the integral adds to it
+
+
+def test_an_engine_is_told_what_laws_received_where_that_is_not_what_it_is_told() -> None:
+    engine = _compiled(HIDDEN).engine().configured(bounds=False)
+    assert [engine.signals[k].path for k in engine.readings] == ["y"]
+    rows = np.tile([[3.0, 1.0]], (1500, 1))  # r, y
+    other = engine.configured().run(rows, np.full((1500, 1), 0.5))
+    assert engine.run(rows).value[-1] == pytest.approx([_K * 2.0 - _G], rel=1e-6)
+    assert other.value[-1] == pytest.approx([_K * 2.5 - _G], rel=1e-6)
+    with pytest.raises(ValueError, match="needed"):
+        engine.run(rows, np.zeros((1500, 2)))
+
+
+# ---------------------------------------------------------------- smallest changes
+
+
+def test_the_noise_of_a_reading_that_a_controller_follows_is_that_of_its_measurement() -> None:
+    # K(r - y) was received and is known like a command: the same machine with that as an input
+    other = compiled(
+        f"model M {{ param c = {_C}; param g = {_G}; Sf:Q -> 0:t; t -> C:c; t -> De:y"
+        "; t -> R:out { f = g*e } }"
+    )
+    noisy = Situation(at={"r": 3.0, "y": 1.0, "Q": 3.0}, noise={"y": 0.01})
+    c = _compiled(HIDDEN)
+    found = smallest(c.received, c.thresholds, {}, noisy)
+    same = smallest(other.received, other.thresholds, {}, noisy)
+    sigma = found.sigma["r1"]
+    assert sigma is not None and sigma > 0.0
+    assert sigma == pytest.approx(same.sigma["r1"], rel=1e-9)
+    change = {s.fault: s.change for s in found.smallest}
+    assert change["y"] == pytest.approx(5.0 * sigma / _G, rel=1e-6)
+    assert change["pump"] == pytest.approx(5.0 * sigma, rel=1e-6)
+
+
+def test_detect_lists_what_can_be_seen(
+    capsys: pytest.CaptureFixture[str], tmp_path: object
+) -> None:
+    path = f"{tmp_path}/tank.bg"
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(f"bg 1\nmodel M {{\n{LOOPS[LOGGED].text}\n}}\n")
+    assert main(["detect", path, "--at", "y=1", "--at", "r=3", "--noise", "y=0.01"]) == 0
+    rows = [line.split()[:2] for line in capsys.readouterr().out.splitlines()]
+    assert ["y", "r1"] in rows and ["pump", "r1"] in rows and ["u", "r2"] in rows
+    assert ["y", "r2"] not in rows and ["pump", "r2"] not in rows
+
+
+def test_tuning_tells_the_smallest_wrong_delivery() -> None:
+    c = _compiled(LOGGED)
+    noise = {"y": 2e-3, "u": 2e-3}
+    logs = [_samples(LOGGED, {}, noise, 50 + k)[: round(8.0 / _STEP)] for k in range(2)]
+    found = tune(c.engine(), c.facts, logs, c.program.digest, 1.0)
+    shown = {(s.hypothesis.fault, s.hypothesis.kind): s for s in found.shown}
+    pump, y = shown["pump", "value"], shown["y", "offset"]
+    assert pump.residual == y.residual == "r1"
+    assert pump.size is not None and y.size is not None
+    # r1 holds pump and g y + c y': both rise like a step through the filter, y faster at first
+    assert y.size <= pump.size / _G
+    assert {s.residual for k, s in shown.items() if k[0] == "u"} == {"r2"}
+
+
+# ------------------------------------------------------------------------ verdicts
+
+
+@pytest.mark.parametrize("name", [CASCADE, LOGGED])
+def test_a_healthy_loop_is_quiet(name: str) -> None:
+    noise = {"w": 2e-3, "i": 2e-3, "y": 2e-3, "u": 2e-3}
+    assert {v.event for v in _said(name, _samples(name, {}, noise, 3))} == {"warm-up"}
+
+
+@pytest.mark.parametrize(
+    ("name", "fault", "size", "group"),
+    [
+        (CASCADE, "w", 0.1, {"k", "i", "w"}),
+        (CASCADE, "i", 0.1, {"k", "i", "w"}),
+        (CASCADE, "drive", 0.3, {"L", "R", "Kc", "Kw", "drive", "r"}),
+        (LOGGED, "u", 0.1, {"u"}),
+        (LOGGED, "y", 0.1, {"c", "g", "pump", "y"}),
+    ],
+)
+def test_what_is_wrong_in_a_loop_is_named(
+    name: str, fault: str, size: float, group: set[str]
+) -> None:
+    noise = {"w": 2e-3, "i": 2e-3, "y": 2e-3, "u": 2e-3}
+    said = _said(name, _samples(name, {fault: size}, noise, 4))
+    first = next(v for v in said if v.event == "fault")
+    assert first.since == pytest.approx(_ONSET, abs=0.2)
+    updates = [v for v in said if v.event == "update"]
+    assert updates and all(set(v.group) == group for v in updates)
+    assert fault in [c.fault for c in updates[-1].candidates]
+    if fault != "y":  # by itself, an error of this level is much like a smaller tank
+        first_one = updates[-1].candidates[0]
+        assert first_one.fault == fault
+        assert first_one.size == pytest.approx(size, rel=0.1)
+
+
+# ---------------------------------------------------------------------- simulation
+
+
+@pytest.mark.parametrize(
+    ("of", "size", "shown"),
+    [("y", 0.4, (-_G * 0.4, 0.0)), ("pump", 0.3, (-0.3, 0.0)), ("u", 0.2, (0.0, 0.2))],
+)
+def test_the_virtual_machine_runs_on_the_reading(
+    of: str, size: float, shown: tuple[float, float]
+) -> None:
+    c = _compiled("P, its command logged")
+    wrong = Fault(of, "+=", size, 2.0, math.inf, 0.0, 0.0, 1.0, of)
+    scenario = Scenario("wrong", duration=8.0, inputs={"r": Course(None, ((0.0, 3.0),))},
+                        faults=(wrong,))  # fmt: skip
+    log = c.simulate(scenario).log
+    engine = c.engine()
+    table = np.column_stack([log.columns[k.path] for k in engine.signals])
+    assert engine.run(table).value[-1] == pytest.approx(shown, rel=1e-3, abs=1e-4)
