@@ -124,13 +124,10 @@ def test_the_noise_of_a_reading_that_a_controller_follows_is_that_of_its_measure
     assert change["pump"] == pytest.approx(5.0 * sigma, rel=1e-6)
 
 
-def test_detect_lists_what_can_be_seen(
-    capsys: pytest.CaptureFixture[str], tmp_path: object
-) -> None:
-    path = f"{tmp_path}/tank.bg"
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(f"bg 1\nmodel M {{\n{LOOPS[LOGGED].text}\n}}\n")
-    assert main(["detect", path, "--at", "y=1", "--at", "r=3", "--noise", "y=0.01"]) == 0
+def test_detect_lists_what_is_seen(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = tmp_path / "tank.bg"
+    path.write_text(f"bg 1\nmodel M {{\n{LOOPS[LOGGED].text}\n}}\n", encoding="utf-8")
+    assert main(["detect", str(path), "--at", "y=1", "--at", "r=3", "--noise", "y=0.01"]) == 0
     rows = [line.split()[:2] for line in capsys.readouterr().out.splitlines()]
     assert ["y", "r1"] in rows and ["pump", "r1"] in rows and ["u", "r2"] in rows
     assert ["y", "r2"] not in rows and ["pump", "r2"] not in rows
