@@ -260,16 +260,22 @@ class Compilation:
         """
         from bondgraph.passes.lower import LowerOptions, lower
 
-        assert self.verification
+        residuals = self._analysis[0].residuals
+        relations = [r.expr for r in residuals]
+        if self.graph.pool.logged(relations) == relations:
+            return self.program
         options = LowerOptions(*self.options[:2], resolution=self.options.resolution)
-        return self._stage(lower(self.graph, *self._analysis, options))
+        assert self.program
+        return self._stage(lower(self.graph, *self._analysis, options, received=True))
 
     @cached_property
     def program(self) -> Program:
         """The residual program, for a verified model only."""
-        from bondgraph.passes.lower import as_logged
+        from bondgraph.passes.lower import LowerOptions, lower
 
-        return as_logged(self.graph, self.received)
+        assert self.verification
+        options = LowerOptions(*self.options[:2], resolution=self.options.resolution)
+        return self._stage(lower(self.graph, *self._analysis, options))
 
     @cached_property
     def thresholds(self) -> Program | None:

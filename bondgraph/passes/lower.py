@@ -24,7 +24,6 @@ from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.derivative import TooManyOperations
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
-from bondgraph.passes.lowering.logged import logged
 from bondgraph.passes.lowering.names import brief, identifier, short
 from bondgraph.passes.lowering.newton import newton_blocks, roots_in
 from bondgraph.passes.lowering.procedure import ZERO
@@ -84,18 +83,22 @@ def lower(
     residuals: ResidualSet,
     signatures: SignatureMatrix,
     options: LowerOptions = DEFAULT,
+    received: bool = False,
 ) -> Program:
     """The residual program of a model: coefficients, exact residuals, realisable residuals.
 
-    The reading that a law received is a known signal of its own; `as_logged` joins it with what
-    its sensor measures.
+    What a law received of a sensor is the signal of the sensor; with `received` it is a known
+    signal of its own, and all else is the same: the terms that are kept, the stages of the filter.
 
     A residual whose visible order exceeds `HIGHEST` stages, or that has no numbers to tell what
     is visible, gets no step (`ResidualInfo.unavailable`); one of more than `LARGEST` operations no
     exact (`ResidualInfo.unwritten`). See METHOD 4.1, 4.2, 4.5 for the theory.
     """
     builder = Builder(graph)
-    forms = [normalise(graph.pool, r.expr, LIMIT, builder.initials) for r in residuals.residuals]
+    apart = [r.expr for r in residuals.residuals]
+    joined = graph.pool.logged(apart)
+    exprs, others = (apart, joined) if received else (joined, apart)
+    forms = [normalise(graph.pool, e, LIMIT, builder.initials) for e in exprs]
     builder.scaled = any(f.tape is not None for f in forms)
     exactly = Exactly(builder)
     filter = Filter(builder, fastest(options))
@@ -109,15 +112,24 @@ def lower(
     if time_unit is None:
         time_unit = max([t.time_unit for t in tapes if t is not None], default=1.0)
     lowered: list[_Lowered] = []
-    for residual, form, tape in zip(residuals.residuals, forms, tapes, strict=True):
+    own_and_other = zip(exprs, others, strict=True)
+    for residual, form, tape, (expr, other) in zip(
+        residuals.residuals, forms, tapes, own_and_other, strict=True
+    ):
         text = _text(graph, residual)
         builder.origin = residual.closing.origin
         arrays = {} if tape is None else tape.arrays
         order = exactly.residual(residual, form, arrays, text)
         if tape is None:
-            form = switched.form(residual, form)
+            form = switched.form(expr, form)
         found = _visible(builder, form, tape, options)
-        low = _realise(builder, filter, residual, signatures, found, options, text, switched)
+        both: Seen | None = None
+        if other is not expr and not isinstance(found, str):
+            twin = normalise(builder.pool, other, LIMIT, builder.initials)
+            if twin.tape is None:
+                twin = switched.form(other, twin)
+                found, both = _apart(builder, found, twin, options, received)
+        low = _realise(builder, filter, residual, signatures, found, both, options, text, switched)
         if order is None:
             info = low.info._replace(order=_highest(form), unwritten=_TOO_LONG)
         else:
@@ -136,7 +148,7 @@ def lower(
         source=graph.source.path.replace("\\", "/").rpartition("/")[2],
         digest="",
         params=builder.param_fields(wanted),
-        knowns=builder.known_fields([*[r.expr for r in residuals.residuals], *switched.read]),
+        knowns=builder.known_fields([*exprs, *switched.read]),
         coefs=tuple(builder.fields),
         states=tuple(s for low in lowered for s in low.states),
         residuals=tuple(low.info for low in lowered),
@@ -148,8 +160,8 @@ def lower(
         rate=options.rate,
         bandwidth=options.bandwidth or options.rate / 50,
         warmup=max([_warmup(low.info) for low in lowered], default=0.0),
-        tables=tables(graph, [r.expr for r in residuals.residuals]),
-        roots=newton_blocks(graph.pool, [r.expr for r in residuals.residuals]),
+        tables=tables(graph, exprs),
+        roots=newton_blocks(graph.pool, exprs),
         integrals=tuple(builder.integrals.values()),
         time_unit=time_unit,
         openings=tuple(low.opening for low in lowered if low.opening is not None),
@@ -158,31 +170,28 @@ def lower(
     return program._replace(digest=digest(program, graph.source.text))
 
 
-def as_logged(graph: BondGraph, program: Program) -> Program:
-    """The program for who has one number for each sensor; the same where no law has a reading."""
-    made = logged(program)
-    if made is program:
-        return program
-    return made._replace(digest=digest(made, graph.source.text))
-
-
 def _realise(
     builder: Builder,
     filter: Filter,
     residual: Residual,
     signatures: SignatureMatrix,
     found: Seen | str,
+    apart: Seen | None,
     options: LowerOptions,
     text: str,
     switched: Switched,
 ) -> _Lowered:
-    """One residual of `step`, or the reason why it has none."""
+    """One residual of `step`, or the reason why it has none.
+
+    `found` are its visible terms, `apart` the same with what laws received as signals of its own.
+    """
     faults = signatures.signature(residual.name)
     name = identifier(residual.name)
     origin = residual.closing.origin
     info = ResidualInfo(name, residual.name, text, 0, 0, faults, (), origin)
     if not isinstance(found, str):
-        stages = max([order(t) for t in found.kept], default=0) + options.extra_order
+        kept = found.kept if apart is None else (*found.kept, *apart.kept)
+        stages = max([order(t) for t in kept], default=0) + options.extra_order
         if stages > HIGHEST + options.extra_order:
             found = f"its order {stages - options.extra_order} is above {HIGHEST}"
     if not isinstance(found, str):
@@ -200,7 +209,7 @@ def _realise(
     moving = [t for t in found.kept if not t.static]
     info = info._replace(
         stages=stages,
-        invisible=unseen_faults(builder, faults, found, options.rate, options.resolution),
+        invisible=unseen_faults(builder, faults, apart or found, options.rate, options.resolution),
         settle=settle(stages) if window is None else window.over,
         approximate=_reason(moving),
     )
@@ -228,6 +237,27 @@ def _visible(
     if tape is not None:
         return tape.seen(builder, options.rate, options.resolution, HIGHEST)
     return seen(builder, form.terms, options.rate, options.resolution)
+
+
+def _apart(
+    builder: Builder, found: Seen, other: NormalForm, options: LowerOptions, received: bool
+) -> tuple[Seen, Seen | None]:
+    """The visible terms of a relation, and those with what laws received as signals of their own.
+
+    `found` are its own, `other` is the same relation in the other form. What cannot be seen of a
+    signal is left out of both.
+    """
+    also = seen(builder, other.terms, options.rate, options.resolution)
+    apart, joined = (found, also) if received else (also, found)
+    every = [*((t, 0.0) for t in apart.kept), *apart.dropped]
+    ones = builder.pool.logged([t.atom for t, _ in every])
+    gone = {(t.atom, t.order): share for t, share in joined.dropped}
+    keys = [(one, t.order) for one, (t, _) in zip(ones, every, strict=True)]
+    apart = apart._replace(
+        kept=tuple(t for key, (t, _) in zip(keys, every, strict=True) if key not in gone),
+        dropped=tuple((t, gone[k]) for k, (t, _) in zip(keys, every, strict=True) if k in gone),
+    )
+    return (apart, apart) if received else (found, apart)
 
 
 def _highest(form: NormalForm) -> int:

@@ -20,7 +20,6 @@ from bondgraph.passes.cleared import cleared, moduli, nothings
 from bondgraph.passes.nominal import Nominal
 from bondgraph.passes.present import upright
 from bondgraph.passes.reactions import Reactions, entries
-from bondgraph.passes.zero import is_zero
 from bondgraph.text.diagnostic import Report
 
 _LONG = 2000  # nodes
@@ -50,8 +49,8 @@ class _Analysis:
         relations: list[tuple[Closing, Expr, dict[Expr, int]]] = []
         for closing in self.reduced.closings:
             free = self.reactions.at_free_signals(closing.expr)
-            seen = any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items())
-            if seen and self._says_something(closing.expr):
+            alive = any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items())
+            if alive and self._says_something(closing.expr):
                 own = pruned(self.pool, closing, free)
                 bases = moduli(self.reduced.system, own.steps)
                 bases += [b for b in nothings(self.nominal, own.expr) if symbols(b)]

@@ -34,12 +34,12 @@ class Switched:
         some = any(i.mode for i in system.graph.inputs)
         self._jumps = Jumps(system) if some else None
 
-    def form(self, residual: Residual, form: NormalForm) -> NormalForm:
-        """The normal form for `step`: between two starts a mode stays as it is."""
+    def form(self, expr: Expr, form: NormalForm) -> NormalForm:
+        """The normal form of a relation for `step`: between two starts a mode stays as it is."""
         if self._jumps is None or form.exact:
             return form
         builder = self._builder
-        held = normalise(builder.pool, residual.expr, LIMIT, builder.initials, held=True)
+        held = normalise(builder.pool, expr, LIMIT, builder.initials, held=True)
         return form if held.tape is not None else held
 
     def window(self, residual: Residual, terms: tuple[Term, ...], stages: int) -> Window | None:
