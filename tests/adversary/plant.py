@@ -58,8 +58,8 @@ class Plant(NamedTuple):
 
     `equations` vanish; `D(x)` is the time derivative; names are those of the JSON (`a.b[1]` is
     `a__b__1`). `params` and `inputs` (known), `unknown` (inputs) and `modes` are separated from
-    the variables, which are all other names. A sensor that they name, or another sensor does, is
-    its reading: what it measures plus its error, and the machine runs on that. `starts`: declared
+    the variables, which are all other names. Of the sensors in `readings` the equations and other
+    sensors hold what they read, which is what they measure plus their error. `starts`: declared
     initial values. `n_arr` is the right count; `undetectable` the faults that nothing can see
     (None: taken from the signatures). `values` overrides the random value of a parameter, the lead
     of an input or a guess.
@@ -81,6 +81,7 @@ class Plant(NamedTuple):
     consts: Mapping[str, float] = NOTHING
     groups: int | None = None
     alias: Mapping[str, str] = NOTHING
+    readings: str = ""
 
 
 def read(text: str, scope: dict[str, Any]) -> Any:
@@ -121,7 +122,7 @@ class Simulator:
         scope["exactly"] = sympy.Rational
         self.equations = [read(x, scope) for x in texts]
         self.sensors = {k: read(v, scope) for k, v in plant.sensors.items()}
-        self.readings = [x for x in self.variables if x in plant.sensors]
+        self.readings = plant.readings.split()
         self.errors = {x: sympy.Symbol(f"{x}__error", real=True) for x in self.readings}
         self.equations += [scope[x] - self.sensors[x] - self.errors[x] for x in self.readings]
         self.starts = {k: read(v, scope) for k, v in plant.starts.items()}

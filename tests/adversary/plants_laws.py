@@ -187,6 +187,7 @@ PLANTS = [
         sensors={"c__y": "i", "e": "goal - c__y"},
         n_arr=2,
         params="c__kp L c__d",
+        readings="c__y",
         inputs="U goal",
     ),
     Plant(
