@@ -94,7 +94,8 @@ class Value(NamedTuple):
     """A `param` or `const`: a symbol with an expression of other values (None: given at configure).
 
     `fault` says that it is an unbound param that a law uses, and so a fault candidate.
-    `tolerance` is relative (1/20 for 5%).
+    `tolerance` is relative (1/20 for 5%). `delivery` marks what a controller gives beyond its
+    command.
     """
 
     name: str
@@ -106,6 +107,7 @@ class Value(NamedTuple):
     fault: bool
     doc: str
     origin: Span
+    delivery: bool = False
 
 
 class Input(NamedTuple):

@@ -98,7 +98,7 @@ class Records:
         self.numbers[item.symbol] = self.values.pool.zero
         doc = f"what {node.path} delivers beyond its command"
         record = Value(name, item.symbol, self.values.pool.zero, None, None, None, True, doc,
-                       node.origin)  # fmt: skip
+                       node.origin, delivery=True)  # fmt: skip
         self.params.append((record, item.term, None))
 
     def coefficient(self, item: Coefficient) -> None:

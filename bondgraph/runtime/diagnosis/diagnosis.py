@@ -13,7 +13,7 @@ import numpy.typing as npt
 from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.diagnosis.healthy import Facts, grown, slack, tolerated
-from bondgraph.runtime.diagnosis.hypotheses import Bank, Sizes, hypotheses, rows_apart
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Sizes, hypotheses, rows_apart, sized
 from bondgraph.runtime.diagnosis.isolation import History, inverse
 from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import LONGEST, candidates, classes, named, news, update
@@ -306,6 +306,8 @@ class Diagnosis:
         facts = self._facts
         self._after = self._told = 0
         found = hypotheses(self._engine, facts.faults, facts.units, self._sizes.found())
+        samples = np.concatenate([healthy, *[row.samples for row in rows]])
+        found = sized(engine, found, facts.deliveries, self._nominal, samples)
         self._compared = Comparison(engine, healthy, own, found, self._nominal)
         for row in rows:
             self._compared.step(row, self._weight(row))

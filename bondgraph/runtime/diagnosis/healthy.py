@@ -41,7 +41,7 @@ class Facts(NamedTuple):
     `faults` that some residual sees, with the nominal value of a parameter and None for a signal;
     `tolerances` relative; `sees` for each residual its faults; `groups` the faults that structure
     does not tell apart; `memories` are what residuals keep of their first sample; `natures` by
-    residual.
+    residual; `deliveries` are the faults that are what a controller gives beyond its command.
     """
 
     faults: Mapping[str, float | None]
@@ -51,6 +51,7 @@ class Facts(NamedTuple):
     groups: Sequence[tuple[str, ...]]
     memories: tuple[Memory, ...]
     natures: Mapping[str, Nature]
+    deliveries: frozenset[str]
 
 
 def facts(
@@ -76,6 +77,7 @@ def facts(
         matrix.groups,
         memories(program),
         _natures(graph, residuals, program),
+        frozenset(v.name for v in graph.values if v.delivery),
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -193,6 +193,36 @@ def hypotheses(
             if counts is not None:
                 rate = _USUAL * size * counts / (2 * math.pi)
                 found.append(Hypothesis(path, "drift", "count/s", rate, turned))
+    return tuple(found)
+
+
+def sized(
+    engine: Engine,
+    known: tuple[Hypothesis, ...],
+    deliveries: Container[str],
+    nominal: Mapping[str, float],
+    samples: Array,
+) -> tuple[Hypothesis, ...]:
+    """The same with usual sizes of what controllers deliver wrongly, which is nominally nothing.
+
+    How much a source delivers no log tells. But some signal of the same balance is as large: usual
+    is the share `_USUAL` of what moves a residual as that signal does, over (n, signals) samples
+    from where the engine is.
+    """
+    own = [k for k, h in enumerate(known) if h.kind == "value" and h.fault in deliveries]
+    gains = [k for k, h in enumerate(known) if h.kind == "gain"]
+    if not own or not gains or not len(samples):
+        return known
+    copy = engine.configured(bounds=False)
+    copy.follow(engine)
+    bank = Bank(copy, [known[k] for k in (*own, *gains)], nominal)
+    moved = np.abs(bank.run(samples)).max(axis=0)
+    largest = moved[len(own) :].max(axis=0)
+    found = list(known)
+    for k, slopes in zip(own, moved, strict=False):
+        seen = (slopes > 0) & (largest > 0)
+        if seen.any():
+            found[k] = known[k]._replace(usual=_USUAL * float(np.min(largest[seen] / slopes[seen])))
     return tuple(found)
 
 

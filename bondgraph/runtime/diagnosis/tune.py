@@ -10,7 +10,14 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.diagnosis.healthy import Facts, grown, slack, tolerated
-from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Sizes, hypotheses, rows_apart
+from bondgraph.runtime.diagnosis.hypotheses import (
+    Bank,
+    Hypothesis,
+    Sizes,
+    hypotheses,
+    rows_apart,
+    sized,
+)
 from bondgraph.runtime.diagnosis.isolation import History
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa
 from bondgraph.runtime.log import Array
@@ -116,7 +123,9 @@ class _Work:
         sizes = Sizes(engine)
         for log in logs:
             sizes.add(log)
-        self.all = hypotheses(engine, facts.faults, facts.units, sizes.found())
+        found = hypotheses(engine, facts.faults, facts.units, sizes.found())
+        longest = max(logs, key=len, default=np.empty((0, len(engine.signals))))[:_CHUNK]
+        self.all = sized(engine, found, facts.deliveries, self.nominal, longest)
         self.tolerated, self.spread = tolerated(self.all, facts)
         self.every = rows_apart(engine)
 

@@ -15,7 +15,7 @@ import pytest
 
 from bondgraph.cli.main import main
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
+from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, sized
 from bondgraph.runtime.diagnosis.tune import tune
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
@@ -30,11 +30,34 @@ _G, _C, _K = 0.5, 2.0, 1.5  # of the tank
 HIDDEN, LOGGED, CASCADE = (
     "P, its command hidden", "PI, its command logged", "two controllers in a cascade",
 )  # fmt: skip
+SMALL = "a tank in SI units"
+
+
+def _small(t: float, x: Array, wrong: Mapping[str, float]) -> tuple[list[float], dict[str, float]]:
+    r = 1e4 + 3e3 * math.sin(1.3 * t) + 2e3 * math.sin(0.4 * t)
+    y = x[0] + wrong.get("y", 0.0)
+    cmd = 2e-9 * (r - y)
+    rates = [(cmd + wrong.get("pump", 0.0) - 1e-9 * x[0]) / 1e-8]
+    return rates, {"r": r, "y": y, "u": cmd + wrong.get("u", 0.0)}
+
+
+_LOOPS = {**LOOPS, SMALL: Loop(
+    """
+    input r : Pa
+    param K = 2e-9 m^3/s.Pa^-1
+    param c = 1e-8 m^3/Pa
+    param R = 1e9 Pa.s/m^3
+    Sf:pump = K*(r - y)
+    0:t { <- pump; -> C:c; -> R:R; -> De:y }
+    sensor u = K*(r - y)
+    """,
+    (), (5000.0,), _small, {}, {},
+)}  # fmt: skip
 
 
 @cache
 def _compiled(name: str) -> Compilation:
-    return compiled(f"model M {{\n{LOOPS[name].text}\n}}")
+    return compiled(f"model M {{\n{_LOOPS[name].text}\n}}")
 
 
 def _log(loop: Loop, wrong: Mapping[str, float], noise: Mapping[str, float], seed: int) -> Array:
@@ -53,7 +76,7 @@ def _log(loop: Loop, wrong: Mapping[str, float], noise: Mapping[str, float], see
 
 
 def _samples(name: str, wrong: Mapping[str, float], noise: Mapping[str, float], seed: int) -> Array:
-    loop = LOOPS[name]
+    loop = _LOOPS[name]
     names = list(loop.run(0.0, np.array(loop.start), {})[1])
     table = _log(loop, wrong, noise, seed)
     return table[:, [names.index(k.path) for k in _compiled(name).engine().signals]]
@@ -90,6 +113,19 @@ def test_a_wrong_sensor_changes_what_it_measures_and_not_what_was_commanded(
     assert slopes[at["pump", "value"]] == pytest.approx([1.0, 0.0], rel=1e-6, abs=1e-9)
     assert slopes[at["u", "offset"]] == pytest.approx([0.0, 1.0], rel=1e-6, abs=1e-9)
     assert abs(slopes[at["r", "offset"]][1]) > _K  # the integral adds to it
+
+
+def test_a_usual_wrong_delivery_is_a_share_of_the_largest_signal() -> None:
+    # r1 = K(r - y) + pump - g y - c y' at rest: K r = 4.5 is the largest, beside g y = 0.5
+    c = _compiled(HIDDEN)
+    engine = c.engine()
+    known = hypotheses(engine, c.facts.faults, c.facts.units, {})
+    nominal = {n: v for n, v in c.facts.faults.items() if v is not None}
+    rows = np.tile([[3.0, 1.0]], (3000, 1))  # r, y
+    found = sized(engine.configured(), known, c.facts.deliveries, nominal, rows)
+    changed = {h.fault: h.usual for h, old in zip(found, known, strict=True) if h != old}
+    assert changed == {"pump": pytest.approx(0.3 * _K * 3.0, rel=1e-3)}
+    assert sized(engine.configured(), known, (), nominal, rows) == known
 
 
 def test_an_engine_is_told_what_laws_received_where_that_is_not_what_it_is_told() -> None:
@@ -180,6 +216,14 @@ def test_what_is_wrong_in_a_loop_is_named(
         first_one = updates[-1].candidates[0]
         assert first_one.fault == fault
         assert first_one.size == pytest.approx(size, rel=0.1)
+
+
+def test_a_pump_of_a_millionth_of_a_unit_is_among_what_it_can_be() -> None:
+    said = _said(SMALL, _samples(SMALL, {"pump": 3e-6}, {"y": 10.0, "u": 2e-8}, 1))
+    (last,) = [v for v in said if v.event == "update"]
+    assert set(last.group) == {"c", "R", "pump", "y"}
+    sizes = {c.fault: c.size for c in last.candidates}
+    assert sizes["pump"] == pytest.approx(3e-6, rel=0.05)
 
 
 # ---------------------------------------------------------------------- simulation
