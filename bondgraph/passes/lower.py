@@ -120,16 +120,14 @@ def lower(
         builder.origin = residual.closing.origin
         arrays = {} if tape is None else tape.arrays
         order = exactly.residual(residual, form, arrays, text)
+        twin: NormalForm | None = None
+        if other is not expr:
+            twin = switched.form(other, normalise(builder.pool, other, LIMIT, builder.initials))
         if tape is None:
             form = switched.form(expr, form)
-        found = _visible(builder, form, tape, options)
-        both: Seen | None = None
-        if other is not expr and not isinstance(found, str):
-            twin = normalise(builder.pool, other, LIMIT, builder.initials)
-            if twin.tape is None:
-                twin = switched.form(other, twin)
-                found, both = _apart(builder, found, twin, options, received)
-        low = _realise(builder, filter, residual, signatures, found, both, options, text, switched)
+        visible = _visible(builder, form, tape, options)
+        found = _terms(builder, visible, twin, options, received)
+        low = _realise(builder, filter, residual, signatures, found, options, text, switched)
         if order is None:
             info = low.info._replace(order=_highest(form), unwritten=_TOO_LONG)
         else:
@@ -175,45 +173,41 @@ def _realise(
     filter: Filter,
     residual: Residual,
     signatures: SignatureMatrix,
-    found: Seen | str,
-    apart: Seen | None,
+    found: _Terms | str,
     options: LowerOptions,
     text: str,
     switched: Switched,
 ) -> _Lowered:
-    """One residual of `step`, or the reason why it has none.
-
-    `found` are its visible terms, `apart` the same with what laws received as signals of its own.
-    """
+    """One residual of `step`, or the reason why it has none."""
     faults = signatures.signature(residual.name)
     name = identifier(residual.name)
     origin = residual.closing.origin
     info = ResidualInfo(name, residual.name, text, 0, 0, faults, (), origin)
     if not isinstance(found, str):
-        kept = found.kept if apart is None else (*found.kept, *apart.kept)
+        kept = (*found.joined.kept, *found.apart.kept)
         stages = max([order(t) for t in kept], default=0) + options.extra_order
         if stages > HIGHEST + options.extra_order:
             found = f"its order {stages - options.extra_order} is above {HIGHEST}"
     if not isinstance(found, str):
         stages = max(stages, 1)
-        window = switched.window(residual, found.kept, stages)
+        window = switched.window(residual, found.joined.kept, stages)
         chain = switched.chain(residual, stages, window)
         try:
-            chain.run(found.kept, text)
+            chain.run(found.own.kept, text)
         except TooManyOperations:
             found = _TOO_LONG
     if isinstance(found, str):
         nothing = Assign(Ref("residual", name), ZERO, f"{residual.name}: {found}", origin)
         info = info._replace(invisible=faults, unavailable=found)
         return _Lowered(info, [nothing], [nothing], [], [])
-    moving = [t for t in found.kept if not t.static]
+    moving = [t for t in found.own.kept if not t.static]
     info = info._replace(
         stages=stages,
-        invisible=unseen_faults(builder, faults, apart or found, options.rate, options.resolution),
+        invisible=unseen_faults(builder, faults, found.apart, options.rate, options.resolution),
         settle=settle(stages) if window is None else window.over,
         approximate=_reason(moving),
     )
-    dropped = [Dropped(name, brief(t.atom), t.order, share) for t, share in found.dropped]
+    dropped = [Dropped(name, brief(t.atom), t.order, share) for t, share in found.own.dropped]
     if window is None:
         return _Lowered(info, chain.first, chain.step, chain.states, dropped)
     return _Lowered(
@@ -239,14 +233,30 @@ def _visible(
     return seen(builder, form.terms, options.rate, options.resolution)
 
 
-def _apart(
-    builder: Builder, found: Seen, other: NormalForm, options: LowerOptions, received: bool
-) -> tuple[Seen, Seen | None]:
-    """The visible terms of a relation, and those with what laws received as signals of their own.
+class _Terms(NamedTuple):
+    """The visible terms of a relation: those that are lowered, and those of both its forms.
 
-    `found` are its own, `other` is the same relation in the other form. What cannot be seen of a
-    signal is left out of both.
+    `apart` have what laws received of sensors as signals of their own, `joined` have not. What
+    cannot be seen of a signal is left out of both.
     """
+
+    own: Seen
+    apart: Seen
+    joined: Seen
+
+
+def _terms(
+    builder: Builder,
+    found: Seen | str,
+    other: NormalForm | None,
+    options: LowerOptions,
+    received: bool,
+) -> _Terms | str:
+    """The terms of a relation; `other` is it in the other form, None where both are the same."""
+    if isinstance(found, str):
+        return found
+    if other is None or other.tape is not None:
+        return _Terms(found, found, found)
     also = seen(builder, other.terms, options.rate, options.resolution)
     apart, joined = (found, also) if received else (also, found)
     every = [*((t, 0.0) for t in apart.kept), *apart.dropped]
@@ -257,7 +267,7 @@ def _apart(
         kept=tuple(t for key, (t, _) in zip(keys, every, strict=True) if key not in gone),
         dropped=tuple((t, gone[k]) for k, (t, _) in zip(keys, every, strict=True) if k in gone),
     )
-    return (apart, apart) if received else (found, apart)
+    return _Terms(apart if received else joined, apart, joined)
 
 
 def _highest(form: NormalForm) -> int:

@@ -111,10 +111,11 @@ def _threshold(
         return _none(out, info.unavailable)
     builder.origin = residual.closing.origin
     pool = builder.graph.pool
-    form = normalise(pool, pool.logged([residual.expr])[0], LIMIT, builder.initials)
+    joined = pool.logged([residual.expr])[0]
+    form = normalise(pool, joined, LIMIT, builder.initials)
     if form.tape is not None:
         return _none(out, "its residual is too long to be differentiated")
-    form = switched.form(residual, form)
+    form = switched.form(joined, form)
     kept = seen(builder, form.terms, options.rate, options.resolution).kept
     amounts: list[tuple[bool, Expression]] = []
     words: list[str] = []
@@ -129,7 +130,7 @@ def _threshold(
         form = normalise(builder.graph.pool, share.expr, LIMIT, builder.initials)
         if form.tape is not None:
             return _none(out, "its uncertain signals are too long")
-        form = switched.form(residual._replace(expr=share.expr), form)
+        form = switched.form(share.expr, form)
         if not form.terms:
             continue
         name = f"{info.name}_w{number}"

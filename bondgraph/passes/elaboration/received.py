@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols
 from bondgraph.ir.graph import Law, Node
 from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration.problems import listed
@@ -82,18 +82,11 @@ class Received:
         return law._replace(zero=self._pool.add(*terms, (-1, symbol)))
 
     def _note(self, entry: NodeEntry, node: Node, used: list[str]) -> None:
-        own = {
-            s.symbol.name
-            for law in node.laws
-            for s in topological([law.zero])
-            if s.op is Op.SYM and s.symbol.kind is Kind.READING
-        }
-        places = [law.origin for law in node.laws if law.origin is not None]
         self._report.info(
             "reading-in-law",
-            f"`{entry.type}:{entry.local}` obeys what {listed(own or used)} "
-            f"{'reads' if len(own or used) == 1 else 'read'}, not the quantity itself.",
-            places[0],
+            f"`{entry.type}:{entry.local}` obeys what {listed(used)} "
+            f"{'reads' if len(used) == 1 else 'read'}, not the quantity itself.",
+            node.laws[0].origin,
             help="The name of a sensor is its reading, which is wrong when the sensor is. Physics "
             "obeys the quantity: write `x.e`, `x.f`, `x.q` or `x.p` of the node that is measured.",
         )
