@@ -397,3 +397,14 @@ def test_a_relation_that_says_only_what_is_read_is_none() -> None:
     # the source gives its junction what the sensor reads there: y = y
     c = compiled("model M { param R1 = 2; Se:s = y -> 0:t; t -> R:R1; t -> De:y }")
     assert [str(r) for r in c.residuals] == []
+
+
+def test_a_controller_within_its_tolerance_stays_below_the_threshold() -> None:
+    # a gain that is 4 % too high moves the balance by -0.04 K(r - y); it may be off by 5 %
+    text = P_HIDDEN.text.replace(f"K = {_K}", f"K = {_K} +- 5%")
+    engine = compiled(f"model M {{\n{text}\n}}").engine()
+    rows = _log(P_HIDDEN, {"K": 0.04 * _K}, [k.path for k in engine.signals])
+    batch = engine.run(rows)
+    value, bound = np.abs(batch.value[batch.valid]), batch.bound[batch.valid]
+    assert (value <= bound + 2e-6).all()
+    assert value[-1] == pytest.approx(0.8 * bound[-1], rel=1e-3)
