@@ -120,9 +120,11 @@ class Setting(NamedTuple):
 
     @property
     def warm_up(self) -> float:
-        """Seconds from the first sample until all residuals are valid."""
+        """Seconds from the first sample until all residuals are valid and nothing of it is left."""
         program = self.residuals.program
-        return math.ceil(program.warmup * program.rate / self.bandwidth) / program.rate
+        settle = [r.settle for r in program.residuals if not r.unavailable]
+        waits = [math.ceil(s * program.rate / self.bandwidth) for s in (*settle, program.warmup)]
+        return max(waits) / program.rate
 
     @property
     def has_bound(self) -> list[bool]:
