@@ -55,7 +55,7 @@ def _samples(rows: int, seed: int = 1) -> np.ndarray:
     random = np.random.default_rng(seed)
     by_path = {
         "U": random.normal(6.0, 1.0, rows),
-        "on": random.integers(0, 2, rows).astype(float),
+        "on": np.ones(rows),
         "i": random.normal(1.0, 0.1, rows),
         "angle": 2.0**31 - 500 + np.cumsum(random.integers(-3, 40, rows)),
     }
@@ -95,6 +95,15 @@ def test_bounds_and_values_agree_across_a_counter_that_runs_over() -> None:
     for ours, other in zip(fast, slow, strict=True):
         np.testing.assert_allclose(ours, other, rtol=1e-9, atol=1e-12)
     assert fast.valid[-1].all() and (fast.bound[-1] > 0).any()
+
+
+def test_c_and_python_start_anew_alike_where_a_mode_changes() -> None:
+    samples = _samples(1500)
+    samples[1300:, _column("on")] = 0.0
+    fast, slow = [engine.run(samples) for engine in _engines()]
+    for ours, other in zip(fast, slow, strict=True):
+        np.testing.assert_allclose(ours, other, rtol=1e-9, atol=1e-12)
+    assert fast.valid[1299].all() and not fast.valid[1300].all()
 
 
 @given(st.lists(st.integers(0, 400), max_size=6), st.booleans())
