@@ -117,7 +117,7 @@ class PrimeField:
         """A random number: nothing is near anything in a field."""
         return self.any(random)
 
-    def off(self, random: Random, value: Number) -> Number:
+    def off(self, random: Random, value: Number, turn: bool) -> Number:
         """A random number."""
         return self.any(random)
 

@@ -93,8 +93,8 @@ class Numbers(Protocol):
         """A random number that a parameter of this value may have instead."""
         ...
 
-    def off(self, random: Random, value: Number) -> Number:
-        """What a parameter may be instead that a fault of any size has changed."""
+    def off(self, random: Random, value: Number, turn: bool) -> Number:
+        """What a parameter may be that a fault of any size has changed; with `turn` of any sign."""
         ...
 
     def size(self, random: Random) -> Number:

@@ -35,6 +35,7 @@ _STILL = 5  # points that are tried with factors at rest, where there are no oth
 _LOOSE = 6  # nonlinear elements that are left out, one after the other, where these fail too
 _MODULAR = 6  # points that are tried in a prime field, before real ones are
 _LARGE = 4000  # coefficients of a trajectory that are many
+_TURNED = 1 / 3  # of the trajectories have faults that may turn the sign of a parameter
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
 
 
@@ -91,9 +92,9 @@ class _Declared:
         raise Mixed("an integral in a constant")
 
 
-def _changed(numbers: Numbers, random: Random, value: Series, n: int) -> Series:
-    """A parameter with a fault of finite size, a function of time, its sign the declared one."""
-    first = numbers.off(random, value[0])
+def _changed(numbers: Numbers, random: Random, value: Series, n: int, turn: bool) -> Series:
+    """A parameter with a fault of finite size, a function of time."""
+    first = numbers.off(random, value[0], turn)
     return [first, *[numbers.any(random) * (first - value[0]) for _ in range(n - 1)]]
 
 
@@ -382,10 +383,11 @@ class Plant:
         n = order + self._reach + 1 + _EXTRA
         true = dict(constants)
         readings: dict[str, Series] = {}
+        turn = random.random() < _TURNED
         for name in faults:
             symbol = self._names[name]
             if symbol in true:
-                true[symbol] = _changed(numbers, random, true[symbol], n)
+                true[symbol] = _changed(numbers, random, true[symbol], n, turn)
             elif name in self._read:
                 readings[name] = _error(numbers, random, [], n)
         shown = tuple(reads for _, _, reads in self._shown(part)) if numbers.real else ()

@@ -171,17 +171,18 @@ class Reals:
             return value * arb(2) ** arb(random.uniform(-1, 1))
         return arb(random.uniform(-1, 1))
 
-    def off(self, random: Random, value: Number) -> Number:
-        """A value of the same sign, larger or smaller by a factor of 1.03 to 4; of zero any."""
+    def off(self, random: Random, value: Number, turn: bool) -> Number:
+        """A value larger or smaller by a factor of 1.03 to 11; of zero any."""
         size = self.size(random)
+        side = random.choice((-1, 1))
         if not self.nonzero(value):
-            return random.choice((-1, 1)) * size
+            return side * size
         factor = 1 + size
-        return value * factor if random.random() < 0.5 else value / factor
+        return (side if turn else 1) * (value * factor if random.random() < 0.5 else value / factor)
 
     def size(self, random: Random) -> Number:
-        """Between 0.03 and 3."""
-        return arb(10.0 ** random.uniform(-1.5, 0.5))
+        """Between 0.03 and 10."""
+        return arb(10.0 ** random.uniform(-1.5, 1))
 
     def argument(self, random: Random, of: str, scales: list[float]) -> Number:
         """An argument at which a function does something, or near the numbers beside it."""

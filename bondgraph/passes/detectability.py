@@ -157,10 +157,9 @@ def _shows(expr: Expr, symbol: Expr, point: _Point, at: Trajectory) -> bool:
                 if _differ(node.args[0], point.moving, moving):
                     taken_up.add(node.symbol)
         try:
-            value = evaluate([expr], _Wrong(at, symbol, turn, taken_up), n)[0]
+            return at.algebra.moves(evaluate([expr], _Wrong(at, symbol, turn, taken_up), n)[0])
         except (Undefined, Mixed):
             continue
-        return at.algebra.moves(value)
     return False
 
 

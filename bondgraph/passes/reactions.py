@@ -31,7 +31,7 @@ T = TypeVar("T")
 #: probability of about its degree / 2**61 in a field, less over the reals), a branch not taken at
 #: one point is taken at another.
 _POINTS, _POINTS_WITH_BRANCHES = 1, 12
-_TURNS = 5  # points at which faults act, where laws of the plant have branches
+_TURNS = 8  # points at which faults act, where laws of the plant have branches
 _TRIES = 40  # a point where a square root has no value is drawn again
 
 

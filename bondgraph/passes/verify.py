@@ -8,7 +8,6 @@ is assembled anew (translation validation: Pnueli, Siegel and Singerman, 1998).
 from __future__ import annotations
 
 from contextlib import suppress
-from typing import Any
 
 from bondgraph.exact.evaluate import Sample, evaluate, sensitivities, telling
 from bondgraph.exact.modes import assignments, modes_of
@@ -146,15 +145,15 @@ class _Check:
         met = False
         for number, modes in enumerate(self.assignments()):
             try:
-                point, values = self.at(plant, number, modes)
+                point, moved = self.at(plant, number, modes)
             except ExactUnavailable as reason:
                 if failure is None or isinstance(failure, Contradictory):
                     failure = reason  # not every combination of switches leaves a plant
                 continue
             met = True
             self.points.append(point)
-            for at, value in enumerate(values):
-                if point.algebra.moves(value):
+            for at, moves in enumerate(moved):
+                if moves:
                     name = self.residuals[at].name
                     raise _Failed(at, f"residual {name} is not zero on the healthy model")
         if not met:
@@ -228,21 +227,21 @@ class _Check:
 
     def at(
         self, plant: Plant, number: int, modes: dict[Expr, int] | None
-    ) -> tuple[Sample, list[Any]]:
-        """A healthy point and the values of the residuals there."""
+    ) -> tuple[Sample, list[bool]]:
+        """A healthy point, and which residuals do not vanish there."""
         for turn in range(_TRIES):
             number_ = self.seed * 1000 + number + 5000 * turn
             point: Sample = plant.sample(self.exprs, number_, self.terms, modes=modes)
             try:
-                values = evaluate(self.exprs, point, self.terms)
+                moved = list(map(point.algebra.moves, evaluate(self.exprs, point, self.terms)))
             except Undefined:
                 continue
             still = isinstance(point, Trajectory) and point.still
-            if still and any(map(point.algebra.moves, values)):
+            if still and any(moved):
                 raise ExactUnavailable("no point was found at which all its laws hold")
             self.trajectories += 1
             self.kinds[point.algebra.kind] = None
-            return point, values
+            return point, moved
         unanswerable.blame(self.exprs, point, self.terms)
         raise ExactUnavailable("no random point was found where all residuals have a value")
 

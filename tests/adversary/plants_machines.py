@@ -110,6 +110,7 @@ PLANTS = [
         n_arr=2,
         params="m Jz a b Cf Cr",
         inputs="delta u",
+        values={"m": 1.2, "Jz": 0.9, "a": 0.8, "b": 0.8, "Cf": 2.3, "Cr": 2.3},
     ),
     Plant(
         "induction",

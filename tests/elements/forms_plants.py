@@ -166,9 +166,11 @@ FORMS = [
                 "law of the rear tyre",
                 "F = (b*m*ay + Jz*D(r, 1))/(a + b); v = u*(delta - F/Cf) - a*r; "
                 "m*ay - F + Cr*(v - b*r)/u",
-                "m Jz a b Cf Cr delta u r ay",
+                # the lateral force cancels: a/(a + b) = b*Cr/((a + b)*Cf) where a*Cf = b*Cr
+                "Jz a b Cf Cr delta u r",
             ),
         ],
+        values={"m": 1.2, "Jz": 0.9, "a": 0.8, "b": 0.8, "Cf": 2.3, "Cr": 2.3},
     ),
     Form(
         "induction",

@@ -42,7 +42,7 @@ def test_a_parameter_that_only_a_wrong_tale_of_it_would_show() -> None:
     G, R, L = (next(v.symbol for v in c.graph.values if v.name == n) for n in "GRL")
     i = next(s.symbol for s in c.graph.sensors if s.name == "i")
     relation = pool.add((1, pool.mul(G, R, i)), (1, pool.mul(L, pool.der(pool.mul(G, i)))))
-    (seen,) = Reactions(Plant(c.graph), 1).on_trajectories([relation])
+    (seen,) = Reactions(Plant(c.graph), 1).sensed([relation])
     assert seen == {R, L, i}
 
 
