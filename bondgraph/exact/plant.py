@@ -33,6 +33,7 @@ from bondgraph.ir.graph import BondGraph
 
 _STILL = 5  # points that are tried with factors at rest, where there are no others
 _LOOSE = 6  # nonlinear elements that are left out, one after the other, where these fail too
+_LARGE_FIRST = 4  # points that are tried with signals about one, before smaller ones are
 _MODULAR = 6  # points that are tried in a prime field, before real ones are
 _LARGE = 4000  # coefficients of a trajectory that are many
 _TURNED = 1 / 3  # of the trajectories have faults that may turn the sign of a parameter
@@ -163,6 +164,7 @@ class Plant:
         self._apart: frozenset[Expr] = frozenset()
         self._rational: dict[tuple[int, ...], bool] = {}
         self._precision = Precision()
+        self._hopeless: dict[object, str] = {}  # no trajectory was found, and why
 
     def apart(self, constants: Iterable[Expr] | None = None) -> Plant:
         """The same plant with some constants (None: all) away from their declared numbers.
@@ -171,7 +173,7 @@ class Plant:
         """
         other = copy(self)
         other._apart = frozenset(self._declared if constants is None else constants)
-        other._samples, other.momentary = {}, []
+        other._samples, other.momentary, other._hopeless = {}, [], {}
         return other
 
     def numbered(self, expr: Expr) -> list[Expr]:
@@ -218,7 +220,15 @@ class Plant:
         if self.rational(wanted.part, roots):
             with suppress(ExactUnavailable):
                 return self._tried(wanted, real=False)
-        return self._tried(wanted, real=True)
+        key = (wanted.part.active, tuple(wanted.modes.items()), solver)
+        if key in self._hopeless:
+            raise ExactUnavailable(self._hopeless[key])
+        try:
+            return self._tried(wanted, real=True)
+        except ExactUnavailable as reason:
+            if not acting and not isinstance(reason, Contradictory):
+                self._hopeless[key] = str(reason)
+            raise
 
     def _tried(self, wanted: _Wanted, real: bool) -> Trajectory:
         """A trajectory over one kind of numbers, drawn again until all laws can be satisfied.
@@ -236,7 +246,7 @@ class Plant:
                 plant = plant._replace(laws=tuple(law for law in plant.laws if law[0] != node))
                 left_out += 1
             seed = wanted.seed * ATTEMPTS + attempt
-            numbers = self._numbers(seed, real)
+            numbers = self._numbers(seed, attempt if real else None)
             try:
                 return self.draw(
                     seed,
@@ -252,8 +262,15 @@ class Plant:
                 failure = found
         raise ExactUnavailable(self._reason(failure))
 
-    def _numbers(self, seed: int, real: bool) -> Numbers:
-        return Reals(self.graph.pool.tables, self._precision) if real else PrimeField(seed)
+    def _numbers(self, seed: int, attempt: int | None) -> Numbers:
+        """A prime field, or for an attempt the real numbers: smaller signals where large ones fail.
+
+        A law that saturates has an inverse only near zero.
+        """
+        if attempt is None:
+            return PrimeField(seed)
+        scale = 1.0 if attempt < _LARGE_FIRST else 10.0 ** -Random(seed).uniform(0, 3)
+        return Reals(self.graph.pool.tables, self._precision, scale)
 
     def wave(
         self,

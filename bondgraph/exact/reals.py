@@ -50,7 +50,10 @@ class Reals:
 
     real = True
 
-    def __init__(self, tables: Mapping[str, Table], precision: Precision | None = None) -> None:
+    def __init__(
+        self, tables: Mapping[str, Table], precision: Precision | None = None, scale: float = 1.0
+    ) -> None:
+        self._scale = scale  # of random signals
         self._tables = tables
         self._precision = precision or Precision()
         self.roots: dict[object, Number] = {}
@@ -162,8 +165,8 @@ class Reals:
     # ------------------------------------------------------------------------ random numbers
 
     def any(self, random: Random) -> Number:
-        """A signal about one, of either sign."""
-        return arb(random.choice((-1, 1)) * random.lognormvariate(0, 0.7))
+        """A signal of about the scale, of either sign."""
+        return arb(random.choice((-1, 1)) * random.lognormvariate(0, 0.7) * self._scale)
 
     def around(self, random: Random, value: Number) -> Number:
         """A value within a factor of two, or within one of zero."""
@@ -200,7 +203,7 @@ class Reals:
                 size *= random.choice(near)
         if of in ("log", "sqrt", "pow", "acosh"):
             return arb(size + (of == "acosh"))
-        return arb(random.choice((-1, 1)) * size)
+        return arb(random.choice((-1, 1)) * size * self._scale)
 
 
 def _sqrt(f: Reals, x: Number) -> Number:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from bondgraph.exact.plant import Plant
 
 #: Random points that are tried before a plant is said to have none.
-ATTEMPTS = 60
+ATTEMPTS = 40
 
 
 class Trajectory:
