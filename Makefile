@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 .DEFAULT_GOAL := help
-.PHONY: help run demo robots test check lint types imports docs wheel bench update fuzz random clean
+.PHONY: help run demo robots test check lint types imports docs wheel bench update fuzz random mutants clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -86,11 +86,14 @@ update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
 fuzz: $(VENV)/dev.stamp ## 100 000 broken models through `check`
 	$(BIN)/python -m tests.fuzz.run --count 100000 --jobs 2
 
-random: $(VENV)/dev.stamp ## 10 000 random bond graphs, each verified or refused with a reason
-	$(BIN)/python -m tests.random.run --count 10000 --jobs 2
+random: $(VENV)/dev.stamp ## 10 000 random bond graphs, others each time but for START=..., each verified or refused with a reason
+	$(BIN)/python -m tests.random.run --count 10000 --jobs 2 $(if $(START),--start $(START))
 
 robots: $(VENV)/dev.stamp ## a hundred healthy robots and many faulty ones through the monitor; hours
-	$(BIN)/python -m tests.robots.run --healthy 100 --minutes 2 --seeds 20 --jobs 2
+	$(BIN)/python -m tests.robots.run --jobs 2 $(if $(START),--start $(START))
+
+mutants: $(VENV)/dev.stamp ## 300 mutants of the compiler (or COUNT=...) through the tests that reach them; hours
+	$(BIN)/python -m tests.mutants --count $(or $(COUNT),300) --jobs 2 $(if $(SEED),--seed $(SEED))
 
 clean: ## remove what this file made
 	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

@@ -14,6 +14,10 @@ from tests.random.graphs import Graph
 
 _SECONDS = 20
 
+#: Outcomes that are no code of a refusal and not `ok` or `no_arr`.
+TOLD = "fewer than there are, and says so"
+OTHER_COUNT = "other count than by rank, with products or switches"
+
 
 class Verdict(NamedTuple):
     """`outcome` in a word or the code of the refusal; `notes` are codes worth counting;
@@ -64,7 +68,7 @@ def _answered(graph: Graph, compilation: Compilation) -> Verdict:
     # a law of quotients may have more relations than the random rows that stand for it
     agreed = expected == count + len(missing) or (not explained and expected == count)
     if not agreed and not graph.generic:
-        return Verdict("other count than by rank, with products or switches", notes, wrong)
+        return Verdict(OTHER_COUNT, notes, wrong)
     if not agreed:
         wrong = f"{count} relations and {len(missing)} missing, by rank there are {expected}"
     if missing:

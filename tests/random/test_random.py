@@ -13,11 +13,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from tests.measured import measured
 from tests.random.graphs import Graph, generate
 from tests.random.judge import judge
 from tests.random.rank import P, rank, relations
 from tests.random.rings import rings, surplus
-from tests.random.run import of_seed
+from tests.random.run import PAGE, counted, of_seed, table, verdict
 
 _BATCH = 20
 
@@ -26,6 +27,14 @@ _BATCH = 20
 def test_the_answers_stand(first: int) -> None:
     wrong = {n: judge(of_seed(n)).wrong for n in range(first, first + _BATCH)}
     assert {n: text for n, text in wrong.items() if text} == {}
+
+
+def test_the_sample_on_the_page_is_what_is_answered_now() -> None:
+    samples = [re.search(r"--start (\d+) --count (\d\d)$", m.command) for m in measured(PAGE)]
+    (sample,) = filter(None, samples)
+    start, count = int(sample[1]), int(sample[2])
+    (text,) = [m.text for m in measured(PAGE) if m.command == sample.string]
+    assert text == table(counted(map(verdict, range(start, start + count))))
 
 
 @settings(

@@ -1,4 +1,8 @@
-"""The campaign as a command: `python -m tests.robots.run --healthy 100 --seeds 20 --jobs 2`."""
+"""The campaign as a command: `python -m tests.robots.run --healthy 100 --seeds 20 --jobs 2`.
+
+Its parts can be run by themselves (`--only below`). `--write` puts each table into docs/robots.md,
+where the command of the part stands.
+"""
 
 from __future__ import annotations
 
@@ -6,20 +10,33 @@ import argparse
 import statistics
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from functools import partial
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from scipy.stats import chi2
 
 from bondgraph.runtime.diagnosis.tune import Shown, Tuned
+from tests import measured
 from tests.robots import campaign
 from tests.robots.campaign import BUILT, ENCODERS, KINDS, ONSET, Kind, Robot, Seen
 
-_TUNED_ON = 900_000  # the first seed of the robots that only tune
-_FAULTY = 10_000  # the first seed of those with a fault
-_DURATION = 18.0  # s, of a faulty one
+PAGE = Path(__file__).parents[2] / "docs" / "robots.md"
 
-say = partial(print, flush=True)
+_FAULTY = 10_000  # from the first healthy seed to the first one of those with a fault
+_TUNED_ON = 900_000  # and to the first one of the robots that only tune
+
+#: The parts of the campaign, each with the options that matter to it.
+PARTS = {
+    "healthy": "healthy minutes",
+    "faulty": "seeds kinds",
+    "below": "share seeds kinds",
+    "built": "healthy minutes",
+    "built-same": "seeds kinds",
+    "built-own": "seeds kinds",
+}
+_ALWAYS = "start tuning seconds alarms"
+
+_DURATION = 18.0  # s, of a faulty one
 
 
 class _Run(NamedTuple):
@@ -38,76 +55,105 @@ def _one(run: _Run) -> Seen:
     return campaign.seen(said, None if run.kind is None else ONSET)
 
 
-def main() -> None:
-    """Tune, watch the healthy, then the faulty; print what came out, as Markdown."""
+def parsed(words: Sequence[str] | None = None) -> argparse.Namespace:
+    """The options of the command line, or of these words."""
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--start", type=int, default=0, help="the first seed")
     parser.add_argument("--healthy", type=int, default=100)
     parser.add_argument("--minutes", type=float, default=2.0, help="of each healthy robot")
-    parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--seeds", type=int, default=20, help="robots for each fault")
+    parser.add_argument("--kinds", default="all", help="numbers of faults: 0,6")
     parser.add_argument("--tuning", type=int, default=10, help="robots to tune on")
+    parser.add_argument("--seconds", type=float, default=30.0, help="of each of these")
     parser.add_argument("--alarms", type=float, default=2.0, help="false alarms wanted an hour")
     parser.add_argument("--share", type=float, default=0.3, help="size of invisible faults")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--only", choices=["healthy", "faulty", "below", "built"])
-    args = parser.parse_args()
-    seeds = range(_TUNED_ON, _TUNED_ON + args.tuning)
-    fine = campaign.tuned(seeds, 30.0, args.alarms)
-    with ProcessPoolExecutor(args.jobs) as pool:
-        if args.only in (None, "healthy"):
-            _healthy(pool, ENCODERS, fine, args)
-        if args.only in (None, "faulty"):
-            say("\n### Faults of 3 times the smallest size\n")
-            _faulty(pool, ENCODERS, fine, fine, 3.0, args.seeds)
-        if args.only in (None, "below"):
-            say(f"\n### Faults of {args.share:g} times the smallest size\n")
-            _faulty(pool, ENCODERS, fine, fine, args.share, args.seeds)
-        if args.only in (None, "built"):
-            coarse = campaign.tuned(seeds, 30.0, args.alarms, BUILT)
-            _healthy(pool, BUILT, coarse, args)
-            say("\n### The same faults as above, of 3 times what two encoders a drive show\n")
-            _faulty(pool, BUILT, fine, coarse, 3.0, args.seeds)
-            say("\n### Faults of 3 times the smallest size of the robot as built\n")
-            _faulty(pool, BUILT, coarse, coarse, 3.0, args.seeds)
+    parser.add_argument("--only", choices=PARTS)
+    parser.add_argument("--write", action="store_true", help="put the tables into their page")
+    return parser.parse_args(words)
+
+
+def command(part: str, options: argparse.Namespace) -> str:
+    """What has to be typed for a part alone, as far as it is not what is meant without."""
+    usual, words = parsed([]), ["python -m tests.robots.run", f"--only {part}"]
+    for name in f"{PARTS[part]} {_ALWAYS}".split():
+        value = getattr(options, name)
+        if value != getattr(usual, name) or name in ("healthy", "seeds"):
+            words.append(f"--{name} {value:g}" if isinstance(value, float) else f"--{name} {value}")
+    return " ".join(words)
+
+
+def main() -> None:
+    """Run the parts, print what came out as Markdown, and write it into the page."""
+    options = parsed()
+    for part in PARTS if options.only is None else [options.only]:
+        text = ran(part, options)
+        print(f"\n{command(part, options)}\n\n{text}", flush=True)
+        if options.write:
+            measured.write(PAGE, command(part, options), text)
+
+
+def ran(part: str, options: argparse.Namespace) -> str:
+    """Tune, and send the robots of a part through the monitor."""
+    first = options.start + _TUNED_ON
+    seeds = range(first, first + options.tuning)
+    robot = BUILT if part.startswith("built") else ENCODERS
+    own = campaign.tuned(seeds, options.seconds, options.alarms, robot)
+    with ProcessPoolExecutor(options.jobs) as pool:
+        if part in ("healthy", "built"):
+            return _healthy(pool, robot, own, options)
+        sized, factor = own, options.share if part == "below" else 3.0
+        if part == "built-same":  # the sizes that two encoders a drive show
+            sized = campaign.tuned(seeds, options.seconds, options.alarms)
+        return _faulty(pool, robot, sized, own, factor, options)
 
 
 def _healthy(
-    pool: ProcessPoolExecutor, robot: Robot, tuned: Tuned, args: argparse.Namespace
-) -> None:
-    say(f"\n## The robot with {robot.name}" if robot.load else f"\n## The robot {robot.name}")
-    say(f"\nTuned on {args.tuning} robots, {tuned.tuning.seconds:.0f} s in all, for {args.alarms:g}"
-        f" false alarms an hour; filter {tuned.tuning.bandwidth:g} rad/s.\n")  # fmt: skip
-    runs = [
-        _Run(robot, k, 60.0 * args.minutes, None, 0.0, tuned.tuning) for k in range(args.healthy)
-    ]
-    found = list(pool.map(_one, runs))
+    pool: ProcessPoolExecutor, robot: Robot, tuned: Tuned, options: argparse.Namespace
+) -> str:
+    duration = 60.0 * options.minutes
+    seeds = range(options.start, options.start + options.healthy)
+    found = list(pool.map(_one, [_Run(robot, k, duration, None, 0.0, tuned.tuning) for k in seeds]))
     alarms, named = sum(s.alarms for s in found), sum(bool(s.named) for s in found)
-    hours = args.healthy * args.minutes / 60.0
+    hours = options.healthy * options.minutes / 60.0
     bound = chi2.ppf(0.95, 2 * (alarms + 1)) / 2 / hours
-    say(f"Healthy: {args.healthy} robots, {hours:.2f} h: {alarms} false alarms,"
-        f" {alarms / hours:.2f} an hour, below {bound:.2f} with 95 % confidence;"
-        f" {named} false names.")  # fmt: skip
+    return "\n".join([
+        "| robots | tuned on | filter | watched | false alarms | an hour | with 95 % confidence"
+        " | false names |",
+        "|---|---|---|---|---|---|---|---|",
+        f"| {options.healthy} | {options.tuning}, {tuned.tuning.seconds:.0f} s"
+        f" | {tuned.tuning.bandwidth:g} rad/s | {hours:.2f} h | {alarms}"
+        f" | {alarms / hours:.2f} | below {bound:.2f} | {named} |",
+    ])  # fmt: skip
 
 
 def _faulty(
-    pool: ProcessPoolExecutor, robot: Robot, sized: Tuned, tuned: Tuned, factor: float, seeds: int
-) -> None:
+    pool: ProcessPoolExecutor, robot: Robot, sized: Tuned, tuned: Tuned, factor: float,
+    options: argparse.Namespace,
+) -> str:  # fmt: skip
     """A row for each kind; sizes are those of `sized`, the limits those of `tuned`."""
     sizes = {(s.hypothesis.fault, s.hypothesis.kind): s for s in sized.shown}
     groups = {f: g for g in campaign.compiled(robot.model).facts.groups for f in g}
-    say("| fault | size | detected | delay | right class | until named | wrong at the end"
-        " | wrong at times | itself first | false before |")  # fmt: skip
-    say("|---|---|---|---|---|---|---|---|---|---|")
-    for kind in KINDS:
+    rows = ["| fault | size | detected | delay | right class | until named | wrong at the end"
+            " | wrong at times | itself first | false before |",
+            "|---|---|---|---|---|---|---|---|---|---|"]  # fmt: skip
+    first = options.start + _FAULTY
+    wanted = [*range(len(KINDS))] if options.kinds == "all" else options.kinds.split(",")
+    for kind in (KINDS[int(k)] for k in wanted):
         shown = sizes.get((kind.target, kind.hypothesis))
         if shown is None or shown.size is None:
-            say(f"| {kind.name} | cannot be seen |" + " |" * 8)
+            rows.append(f"| {kind.name} | cannot be seen |" + " |" * 8)
             continue
         size = factor * shown.size
         if kind.op == "*=" and size >= 1.0:
-            say(f"| {kind.name} | {size:.3g}: there is no such fault |" + " |" * 8)
+            rows.append(f"| {kind.name} | {size:.3g}: there is no such fault |" + " |" * 8)
             continue
-        runs = [_Run(robot, _FAULTY + k, _DURATION, kind, size, tuned.tuning) for k in range(seeds)]
-        say(_row(kind, size, shown, groups.get(kind.target, ()), list(pool.map(_one, runs))))
+        seeds = range(first, first + options.seeds)
+        runs = [_Run(robot, k, _DURATION, kind, size, tuned.tuning) for k in seeds]
+        rows.append(
+            _row(kind, size, shown, groups.get(kind.target, ()), list(pool.map(_one, runs)))
+        )
+    return "\n".join(rows)
 
 
 def _row(

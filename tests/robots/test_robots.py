@@ -7,8 +7,10 @@ from functools import cache
 import pytest
 
 from bondgraph.runtime.diagnosis.tune import Tuned
+from tests.measured import measured
 from tests.robots import campaign
 from tests.robots.campaign import KINDS, ONSET, Seen
+from tests.robots.run import PAGE, command, parsed, ran
 
 
 @cache
@@ -39,3 +41,20 @@ def test_a_fault_of_three_times_the_smallest_size_is_found_and_named(number: int
     assert found.alarms == 0
     assert found.delay is not None and found.delay < 1.0
     assert found.last == groups[KINDS[number].target]
+
+
+def test_the_sample_on_the_page_is_what_is_measured_now() -> None:
+    (sample,) = [m for m in measured(PAGE) if "--tuning 2 " in m.command]
+    options = parsed([*sample.command.split()[3:], "--jobs", "1"])
+    assert command(options.only, options) == sample.command
+    assert ran(options.only, options) == sample.text
+
+
+def test_a_command_says_all_that_matters_to_its_part() -> None:
+    words = "--seeds 3 --minutes 1 --alarms 1.5 --start 7 --share 0.5".split()
+    assert command("healthy", parsed(words)) == (
+        "python -m tests.robots.run --only healthy --healthy 100 --minutes 1 --start 7 --alarms 1.5"
+    )
+    assert command("below", parsed(words)) == (
+        "python -m tests.robots.run --only below --share 0.5 --seeds 3 --start 7 --alarms 1.5"
+    )

@@ -1,0 +1,74 @@
+"""The modules that are mutated, in groups of the same weight, and the tests that may be asked."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+#: Patterns below bondgraph/.
+GROUPS: dict[str, tuple[str, ...]] = {
+    "causality": ("passes/causality.py", "passes/causal/*.py"),
+    "elimination": tuple(
+        f"passes/{name}.py"
+        for name in (
+            "chain cleared colour cost crosswise descent each_mode eliminate equations implicit"
+            " initial linear_block loops matching nominal nominal_loops rates reduce_index regroup"
+            " rings solve solve_symbolic state_equations"
+        ).split()
+    ),
+    "signatures": tuple(
+        f"passes/{name}.py"
+        for name in "signatures reactions detectability isolability modes verify decouple".split()
+    ),
+    "lowering": ("passes/lower.py", "passes/lowering/*.py"),
+    "oracle": ("exact/*.py",),
+    "diagnosis": ("runtime/diagnosis/*.py",),
+    "monitoring": ("runtime/monitoring/*.py", "runtime/monitoring/sources/*.py"),
+    "code generation": tuple(
+        f"backends/{name}.py"
+        for name in (
+            "blocks c c_code emit evaluate golden members names procedure python roots runnable"
+            " spell spelling target vectors walk"
+        ).split()
+    ),
+}
+
+#: Tests that take minutes, wait for a clock or a browser, or look at nothing that is mutated.
+_NOT_ASKED = tuple(
+    f"tests/{place}/"
+    for place in "adversary bench docs fuzz mutants random robots unit/runtime/live".split()
+)
+_DOCTESTS = "tests/unit/test_doctests.py"
+
+
+def modules(group: str) -> list[str]:
+    """The modules of a group; an error for a pattern without any."""
+    found: list[str] = []
+    for pattern in GROUPS[group]:
+        files = sorted((ROOT / "bondgraph").glob(pattern))
+        if not files:
+            raise FileNotFoundError(f"{group}: no module bondgraph/{pattern}")
+        found += [str(f.relative_to(ROOT)) for f in files if f.name != "__init__.py"]
+    return found
+
+
+def asked() -> list[str]:
+    """The test files that may be asked about a mutant."""
+    files = sorted(str(f.relative_to(ROOT)) for f in (ROOT / "tests").rglob("test_*.py"))
+    return [f for f in files if not f.startswith(_NOT_ASKED) and f != _DOCTESTS]
+
+
+def examples(module: str) -> str:
+    """The test of the examples in the docstrings of a module."""
+    return f"{_DOCTESTS}::test_examples[{module.removesuffix('.py').replace('/', '.')}]"
+
+
+def mirror(test: str, module: str) -> bool:
+    """Whether a test file is the one that belongs to a module by its name or its folder.
+
+    >>> mirror("tests/unit/passes/test_lower_jets.py", "bondgraph/passes/lower.py")
+    True
+    """
+    name, place = Path(test).stem, Path(module)
+    return name.startswith((f"test_{place.stem}", f"test_{place.parent.name}"))

@@ -1,0 +1,207 @@
+"""Mutants through the tests: python -m tests.mutants --count 300 --seed 1 --jobs 2.
+
+Each mutant is put into a copy of the checkout, and the tests that reach its function are run there,
+those of its name first, then the fastest, until one fails. What no test notices is listed; what
+nobody could notice is kept, with the reason, in `equivalent.toml`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tomllib
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache, partial
+from pathlib import Path
+from queue import Queue
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+from tests.mutants.groups import GROUPS, ROOT, asked, examples, mirror, modules
+from tests.mutants.mutate import Mutant, mutants
+
+_KEPT = ROOT / "build" / "mutants"
+_EQUIVALENT = Path(__file__).with_name("equivalent.toml")
+_OUTCOMES = ("killed", "timed out", "equivalent", "survived")
+_PYTEST = ("-m", "pytest", "-q", "-x", "--tb=no", "--no-header", "-p", "no:cacheprovider")
+
+say = partial(print, flush=True)
+
+
+class Reach(NamedTuple):
+    """What a test file reaches and how many seconds it takes."""
+
+    test: str
+    seconds: float
+    functions: frozenset[str]
+
+
+class Answer(NamedTuple):
+    """What the tests say of a mutant, and which of them were asked."""
+
+    mutant: Mutant
+    group: str
+    outcome: str
+    tests: tuple[str, ...]
+
+
+def drawn(count: int, seed: int, groups: list[str]) -> list[tuple[str, Mutant]]:
+    """As many mutants of each group, by chance; those of other code change nothing in the draw."""
+    found = []
+    for i, group in enumerate(groups):
+        share = count // len(groups) + (i < count % len(groups))
+        every = [m for name in modules(group) for m in mutants(name, (ROOT / name).read_bytes())]
+        every.sort(key=lambda m: m.rank(seed))
+        found += [(group, m) for m in every[:share]]
+    return found
+
+
+@cache
+def judged() -> dict[tuple[str, str, str], str]:
+    """The reasons why mutants are equivalent."""
+    entries = tomllib.loads(_EQUIVALENT.read_text(encoding="utf-8"))["mutant"]
+    return {(e["module"], e["line"], e["change"]): e["reason"] for e in entries}
+
+
+def reached(test: str) -> Reach | None:
+    """What a test file reaches, from the last time it was the same; None if it does not pass."""
+    digest = hashlib.sha256((ROOT / test).read_bytes()).hexdigest()[:16]
+    kept = _KEPT / "reach" / f"{test.replace('/', '.')}.{digest}.json"
+    if not kept.exists():
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        command = [sys.executable, *_PYTEST, "-p", "tests.mutants.reach", test]
+        environment = {**os.environ, "BONDGRAPH_REACH": str(kept), "PYTHONPATH": str(ROOT)}
+        subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, check=False)
+    found = json.loads(kept.read_text(encoding="utf-8"))
+    if found["status"] != 0:
+        say(f"not asked, as it does not pass: {test}")
+        kept.unlink()
+        return None
+    return Reach(test, found["seconds"], frozenset(found["functions"]))
+
+
+def chosen(mutant: Mutant, reaches: list[Reach], budget: float) -> list[Reach]:
+    """The tests to ask: they reach the function; those of its name first, then the fastest."""
+    name = f"{mutant.module}:{mutant.function}"
+    fits = [r for r in reaches if name in r.functions]
+    fits.sort(key=lambda r: (not mirror(r.test, mutant.module), r.seconds))
+    found: list[Reach] = []
+    for reach in fits:
+        if not found or sum(r.seconds for r in found) + reach.seconds <= budget:
+            found.append(reach)
+    return found
+
+
+def copied(place: Path) -> Path:
+    """A copy of the checkout, as it is on the disk."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT, capture_output=True, check=True, text=True,
+    ).stdout  # fmt: skip
+    for name in filter(None, listed.split("\0")):
+        if (ROOT / name).is_file():
+            (place / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, place / name)
+    return place
+
+
+def put(module: Path, source: bytes) -> None:
+    """Write a module and forget its bytecode, which might look as new as the module."""
+    module.write_bytes(source)
+    for old in (module.parent / "__pycache__").glob(f"{module.stem}.*"):
+        old.unlink()
+
+
+def ask(copy: Path, mutant: Mutant, tests: list[Reach]) -> str:
+    """Run the tests in a copy with the mutant; the copy is as before in the end."""
+    source = (ROOT / mutant.module).read_bytes()
+    put(copy / mutant.module, mutant.applied(source))
+    command = [sys.executable, *_PYTEST, examples(mutant.module), *(r.test for r in tests)]
+    environment = {**os.environ, "PYTHONPATH": str(copy)}
+    process = subprocess.Popen(
+        command, cwd=copy, env=environment, start_new_session=True,
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    try:
+        status = process.wait(60.0 + 5.0 * sum(r.seconds for r in tests))
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        return "timed out"
+    finally:
+        put(copy / mutant.module, source)
+    if status in (4, 5):
+        raise RuntimeError(f"no tests ran: {' '.join(command)}")
+    return "survived" if status == 0 else "killed"
+
+
+def answers(
+    wanted: list[tuple[str, Mutant]], reaches: list[Reach], jobs: int, budget: float
+) -> list[Answer]:
+    """Ask about all mutants, several at a time, each in a copy of its own."""
+    copies: Queue[Path] = Queue()
+
+    def answer(group: str, mutant: Mutant) -> Answer:
+        if mutant.key in judged():
+            return Answer(mutant, group, "equivalent", ())
+        tests = chosen(mutant, reaches, budget)
+        copy = copies.get()
+        try:
+            outcome = ask(copy, mutant, tests)
+        finally:
+            copies.put(copy)
+        say(f"{outcome}: {mutant.module}:{mutant.line}: {mutant.change}")
+        return Answer(mutant, group, outcome, tuple(r.test for r in tests))
+
+    with TemporaryDirectory(prefix="mutants") as folder:
+        for job in range(jobs):
+            copies.put(copied(Path(folder, str(job))))
+        with ThreadPoolExecutor(jobs) as pool:
+            return list(pool.map(lambda pair: answer(*pair), wanted))
+
+
+def table(found: list[Answer]) -> str:
+    """A row for each group, and one for all."""
+    rows = ["| group | " + " | ".join(_OUTCOMES) + " | not survived |", "|---|" + "---:|" * 5]
+    for group in [*dict.fromkeys(a.group for a in found), ""]:
+        counts = Counter(a.outcome for a in found if group in ("", a.group))
+        share = 1.0 - counts["survived"] / max(counts.total(), 1)
+        cells = [group or "all", *(str(counts[o]) for o in _OUTCOMES), f"{share:.0%}"]
+        rows.append("| " + " | ".join(cells) + " |")
+    return "\n".join(rows)
+
+
+def main() -> int:
+    """Status 1 if fewer mutants than wanted were noticed."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", "--sample", type=int, default=300, help="mutants in all")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--groups", default=",".join(GROUPS), help="of: %(default)s")
+    parser.add_argument("--budget", type=float, default=60.0, help="seconds of tests a mutant")
+    parser.add_argument("--least", type=float, default=0.0, help="share that must not survive")
+    parser.add_argument("--again", action="store_true", help="only those that survived last time")
+    options = parser.parse_args()
+    wanted = drawn(options.count, options.seed, options.groups.split(","))
+    last = _KEPT / "survived.json"
+    if options.again:
+        before = {tuple(key) for key in json.loads(last.read_text(encoding="utf-8"))}
+        wanted = [(g, m) for g, m in wanted if m.key in before]
+    with ThreadPoolExecutor(options.jobs) as pool:
+        reaches = [r for r in pool.map(reached, asked()) if r is not None]
+    found = answers(wanted, reaches, options.jobs, options.budget)
+    say(f"\nseed {options.seed}, {len(found)} mutants\n\n{table(found)}")
+    survived = [a for a in found if a.outcome == "survived"]
+    for mutant, _, _, tests in survived:
+        say(f"\n{mutant.module}:{mutant.line} in {mutant.function}: {len(tests)} test files")
+        say(f"    {mutant.text}\n    {mutant.change}")
+    last.parent.mkdir(parents=True, exist_ok=True)
+    last.write_text(json.dumps([a.mutant.key for a in survived], indent=0), encoding="utf-8")
+    return int(len(found) - len(survived) < options.least * len(found))
