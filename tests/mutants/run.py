@@ -12,7 +12,6 @@ import hashlib
 import json
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import tomllib
@@ -30,7 +29,7 @@ from tests.mutants.mutate import Mutant, mutants
 _KEPT = ROOT / "build" / "mutants"
 _EQUIVALENT = Path(__file__).with_name("equivalent.toml")
 _OUTCOMES = ("killed", "timed out", "equivalent", "survived")
-_PYTEST = ("-m", "pytest", "-q", "-x", "--tb=no", "--no-header", "-p", "no:cacheprovider")
+_PYTEST = ("-q", "-x", "--tb=no", "--no-header", "-p", "no:cacheprovider")
 
 say = partial(print, flush=True)
 
@@ -76,7 +75,7 @@ def reached(test: str) -> Reach | None:
     kept = _KEPT / "reach" / f"{test.replace('/', '.')}.{digest}.json"
     if not kept.exists():
         kept.parent.mkdir(parents=True, exist_ok=True)
-        command = [sys.executable, *_PYTEST, "-p", "tests.mutants.reach", test]
+        command = [sys.executable, "-m", "pytest", *_PYTEST, "-p", "tests.mutants.reach", test]
         environment = {**os.environ, "BONDGRAPH_REACH": str(kept), "PYTHONPATH": str(ROOT)}
         subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, check=False)
     found = json.loads(kept.read_text(encoding="utf-8"))
@@ -119,34 +118,46 @@ def put(module: Path, source: bytes) -> None:
         old.unlink()
 
 
-def ask(copy: Path, mutant: Mutant, tests: list[Reach]) -> str:
-    """Run the tests in a copy with the mutant; the copy is as before in the end."""
-    source = (ROOT / mutant.module).read_bytes()
-    put(copy / mutant.module, mutant.applied(source))
-    command = [sys.executable, *_PYTEST, examples(mutant.module), *(r.test for r in tests)]
-    environment = {**os.environ, "PYTHONPATH": str(copy)}
-    process = subprocess.Popen(
-        command, cwd=copy, env=environment, start_new_session=True,
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
-    try:
-        status = process.wait(60.0 + 5.0 * sum(r.seconds for r in tests))
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-        return "timed out"
-    finally:
-        put(copy / mutant.module, source)
-    if status in (4, 5):
-        raise RuntimeError(f"no tests ran: {' '.join(command)}")
-    return "survived" if status == 0 else "killed"
+class Copy:
+    """A copy of the checkout and a process that runs tests in it."""
+
+    def __init__(self, place: Path) -> None:
+        self.place = copied(place)
+        environment = {**os.environ, "PYTHONPATH": str(place), "OPENBLAS_NUM_THREADS": "1"}
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "tests.mutants.serve"],
+            cwd=place, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+        )  # fmt: skip
+
+    def ask(self, mutant: Mutant, tests: list[Reach]) -> str:
+        """Run the tests with the mutant; the copy is as before in the end."""
+        source = (ROOT / mutant.module).read_bytes()
+        put(self.place / mutant.module, mutant.applied(source))
+        limit = 60.0 + 5.0 * sum(r.seconds for r in tests)
+        arguments = [*_PYTEST, examples(mutant.module), *(r.test for r in tests)]
+        status = self.run(limit, arguments)
+        put(self.place / mutant.module, source)
+        if status in ("4", "5"):
+            raise RuntimeError(f"no tests ran: {' '.join(arguments)}")
+        return {"0": "survived", "timed out": "timed out"}.get(status, "killed")
+
+    def run(self, limit: float, arguments: list[str]) -> str:
+        """The status of pytest."""
+        assert self.process.stdin is not None and self.process.stdout is not None
+        self.process.stdin.write(json.dumps([limit, *arguments]) + "\n")
+        self.process.stdin.flush()
+        return self.process.stdout.readline().strip()
+
+    def close(self) -> None:
+        """End the process."""
+        self.process.communicate()
 
 
 def answers(
     wanted: list[tuple[str, Mutant]], reaches: list[Reach], jobs: int, budget: float
 ) -> list[Answer]:
     """Ask about all mutants, several at a time, each in a copy of its own."""
-    copies: Queue[Path] = Queue()
+    copies: Queue[Copy] = Queue()
 
     def answer(group: str, mutant: Mutant) -> Answer:
         if mutant.key in judged():
@@ -154,7 +165,7 @@ def answers(
         tests = chosen(mutant, reaches, budget)
         copy = copies.get()
         try:
-            outcome = ask(copy, mutant, tests)
+            outcome = copy.ask(mutant, tests)
         finally:
             copies.put(copy)
         say(f"{outcome}: {mutant.module}:{mutant.line}: {mutant.change}")
@@ -162,9 +173,12 @@ def answers(
 
     with TemporaryDirectory(prefix="mutants") as folder:
         for job in range(jobs):
-            copies.put(copied(Path(folder, str(job))))
+            copies.put(Copy(Path(folder, str(job))))
         with ThreadPoolExecutor(jobs) as pool:
-            return list(pool.map(lambda pair: answer(*pair), wanted))
+            found = list(pool.map(lambda pair: answer(*pair), wanted))
+        for _ in range(jobs):
+            copies.get().close()
+    return found
 
 
 def table(found: list[Answer]) -> str:
