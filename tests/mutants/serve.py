@@ -10,11 +10,13 @@ from __future__ import annotations
 import importlib
 import json
 import os
+import resource
 import signal
 import sys
 import time
 
 _PACKAGES = "igraph jinja2 networkx numpy pytest scipy.optimize scipy.stats sympy".split()
+_MEMORY = 3 << 30  # bytes; a mutant may make a loop endless
 
 
 def main() -> None:
@@ -30,10 +32,11 @@ def main() -> None:
 
 
 def _pytest(arguments: list[str]) -> int:
-    """Pytest without a word, in a group of processes of its own."""
+    """Pytest without a word, in a group of processes of its own, with an end to its memory."""
     import pytest
 
     os.setsid()
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
     silent = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):
         os.dup2(silent, stream)

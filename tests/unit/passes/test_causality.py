@@ -13,6 +13,7 @@ from bondgraph.passes.causal.matching import Matching
 from bondgraph.passes.causal.network import demands, network
 from bondgraph.passes.causal.strokes import Strokes
 from bondgraph.passes.causality import assign
+from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source, Span
 from tests.unit.passes.causality_graphs import assemble, broken_rules, build, receivers
@@ -74,6 +75,20 @@ def test_a_detector_that_would_conflict_stays(
     graph = causal(text, "derivative")
     assert names(graph, graph.dualised) == dualised
     assert names(graph, graph.not_dualised) == plain
+
+
+def test_a_law_that_is_not_linear_in_one_case_is_used_as_it_is_written() -> None:
+    # both R could impose the flow; a would have to invert its square for it, b only divides
+    model = Compilation(
+        Source(
+            "m.bg",
+            "bg 1\nmodel M {\ninput on : bool\nparam g = 1\n"
+            "1:s { <- Se:u; -> R:b = 1; -> R:a { e = if(on, f*abs(f), f) } }\n}\n",
+        )
+    )
+    strokes = dict(zip("uba", model.integral.strokes, strict=True))
+    assert strokes["a"].reason.cause == "law"
+    assert [strokes[name].at for name in "uba"] == ["head", "head", "tail"]
 
 
 @pytest.mark.parametrize(

@@ -113,6 +113,22 @@ def test_all_members_are_named_and_shown(case: str) -> None:
     assert error.help.count("\n- ") >= 2
 
 
+@pytest.mark.parametrize(
+    ("case", "roles"),
+    [
+        # into the tank flows what q says, and nothing into its gauge: the pipe has to answer
+        ("detectors", {"tank": "only 1:pipe is left to impose its effort",
+                       "pipe": "has the flow of 0:tank", "q": "imposes a flow"}),
+        ("field", {"t": "passes the effort on", "n": "has the effort of TF:t"}),
+        ("gyrators", {"shaft": "has the flow of Sf:w", "g": "makes an effort of it"}),
+    ],
+)  # fmt: skip
+def test_what_each_member_does_on_the_way(case: str, roles: dict[str, str]) -> None:
+    (error,) = findings(CASES[case][0])
+    told = {re.split(r"[ :=]", label.span.text)[1]: label.text for label in error.labels}
+    assert {name: told[name] for name in roles} == roles
+
+
 def test_the_lines_proposed_can_be_written_into_the_model() -> None:
     text = CASES["pumps"][0].replace("; ", "\n")
     (error,) = findings(text)

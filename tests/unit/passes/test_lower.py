@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 import sympy
 
-from bondgraph.ir.program import Assign, Dot, PolynomialTape, Program
+from bondgraph.ir.program import Assign, Const, Dot, PolynomialTape, Product, Program, Ref, Sum
 from bondgraph.passes.lower import LowerOptions
 from bondgraph.passes.lowering.filter import settle
 from bondgraph.runtime.interpret import Interpreter
@@ -57,6 +57,15 @@ def test_exact_drive_against_sympy() -> None:
         (2, 3, ""),
         (1, 2, ""),
     ]
+
+
+def test_what_is_added_is_written_before_what_is_subtracted() -> None:
+    bench = Bench()
+    x, y = bench.sensor("x"), bench.sensor("y")
+    (r1,) = bench.program(bench.pool.add((-2, x), (1, y))).exact
+    assert isinstance(r1, Assign) and isinstance(r1.value, Sum)
+    x_term = Product((Const(2.0), Ref("known", "x")))
+    assert r1.value.terms == ((True, Ref("known", "y")), (False, x_term))
 
 
 def test_exact_nonlinear_derivatives_against_sympy() -> None:
