@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import statistics
 import tempfile
+import time
 from pathlib import Path
 
+import bondgraph
 from tests.bench import batch, growth, instructions, peers, toolbox
 from tests.bench.clock import in_turn, python
 
@@ -41,6 +44,21 @@ def commands(runs: int) -> None:
     row("compile Cable(n = 1000)", long.median, "import sympy", sympy, "<= 10x")
 
 
+def verification(runs: int) -> None:
+    """The check that every compilation ends with, beside the stages before it; both once warm."""
+    before, check = [], []
+    for _ in range(runs + 1):
+        compilation = bondgraph.compile(ROBOT)
+        start = time.perf_counter()
+        _ = compilation.signatures
+        middle = time.perf_counter()
+        _ = compilation.verification
+        before.append(middle - start)
+        check.append(time.perf_counter() - middle)
+    own, other = statistics.median(check[1:]), statistics.median(before[1:])
+    row("verify models/khepera.bg", own, "text to matrix", other, "")
+
+
 def main() -> None:
     """Run all benchmarks; `--short` takes fewer runs and smaller models."""
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
@@ -48,6 +66,7 @@ def main() -> None:
     short = parser.parse_args().short
     print("Medians of runs taken in turn on this machine, in this run.\n")
     commands(3 if short else 11)
+    verification(3 if short else 11)
     print()
     instructions.report()
     print()

@@ -133,7 +133,7 @@ class Copy:
         """Run the tests with the mutant; the copy is as before in the end."""
         source = (ROOT / mutant.module).read_bytes()
         put(self.place / mutant.module, mutant.applied(source))
-        limit = 60.0 + 5.0 * sum(r.seconds for r in tests)
+        limit = 20 + 3 * round(sum(r.seconds for r in tests))
         arguments = [*_PYTEST, examples(mutant.module), *(r.test for r in tests)]
         status = self.run(limit, arguments)
         put(self.place / mutant.module, source)
@@ -141,8 +141,8 @@ class Copy:
             raise RuntimeError(f"no tests ran: {' '.join(arguments)}")
         return {"0": "survived", "timed out": "timed out"}.get(status, "killed")
 
-    def run(self, limit: float, arguments: list[str]) -> str:
-        """The status of pytest."""
+    def run(self, limit: int, arguments: list[str]) -> str:
+        """The status of pytest within so many seconds of processor time."""
         assert self.process.stdin is not None and self.process.stdout is not None
         self.process.stdin.write(json.dumps([limit, *arguments]) + "\n")
         self.process.stdin.flush()

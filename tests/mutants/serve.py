@@ -1,8 +1,8 @@
 """Runs pytest again and again, each time in a fork that has the heavy packages already.
 
-A line of standard input is a JSON list: seconds at most, and the arguments of pytest. The answer is
-a line with its status, `timed out` when it took longer. Importing the packages takes longer than
-most mutants live.
+A line of standard input is a JSON list: seconds of processor time at most, and the arguments of
+pytest. The answer is a line with its status, `timed out` when it took longer, or waited for very
+long. Importing the packages takes longer than most mutants live.
 """
 
 from __future__ import annotations
@@ -27,16 +27,17 @@ def main() -> None:
         seconds, *arguments = json.loads(line)
         child = os.fork()
         if child == 0:
-            os._exit(_pytest(arguments))
-        print(_waited(child, time.monotonic() + seconds), flush=True)
+            os._exit(_pytest(seconds, arguments))
+        print(_waited(child, time.monotonic() + 60.0 + 10.0 * seconds), flush=True)
 
 
-def _pytest(arguments: list[str]) -> int:
-    """Pytest without a word, in a group of processes of its own, with an end to its memory."""
+def _pytest(seconds: int, arguments: list[str]) -> int:
+    """Pytest without a word, in a group of processes of its own, with an end to what it takes."""
     import pytest
 
     os.setsid()
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
     silent = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):
         os.dup2(silent, stream)
@@ -48,7 +49,9 @@ def _waited(child: int, until: float) -> str:
     while time.monotonic() < until:
         pid, status = os.waitpid(child, os.WNOHANG)
         if pid:
-            return str(os.waitstatus_to_exitcode(status))
+            found = os.waitstatus_to_exitcode(status)
+            late = found in (-signal.SIGXCPU, -signal.SIGKILL)  # the second ends every excess
+            return "timed out" if late else str(found)
         time.sleep(0.02)
     os.killpg(child, signal.SIGKILL)
     os.waitpid(child, 0)

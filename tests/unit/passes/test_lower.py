@@ -8,6 +8,7 @@ from fractions import Fraction
 import pytest
 import sympy
 
+from bondgraph.ir.expr import ZERO_START, Kind
 from bondgraph.ir.program import Assign, Const, Dot, PolynomialTape, Product, Program, Ref, Sum
 from bondgraph.passes.lower import LowerOptions
 from bondgraph.passes.lowering.filter import settle
@@ -203,6 +204,29 @@ def test_tape_and_written_form_agree(rate: float, monkeypatch: pytest.MonkeyPatc
         samples = {"Uin": math.sin(0.3 * i), "Us": math.cos(0.2 * i)}
         a, b = (run.step(samples).residuals["r1"] for run in runs)
         assert a == pytest.approx(b, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("limit", [10**6, 10])
+def test_time_itself_is_given_in_the_time_unit(limit: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("bondgraph.passes.lower.LIMIT", limit)
+    bench = Bench()
+    pool = bench.pool
+    seconds = pool.integral(pool.one, pool.symbol(ZERO_START, Kind.INITIAL))
+    r1 = pool.add((1, cable(bench, 2)), (1, pool.fn("sin", seconds)))
+    program = bench.program(r1)
+    assert (program.time_unit == 1.0) == (limit > 10)
+    known = {k.name: {n: 0.0 for n in range(-2, 9)} for k in program.knowns}
+    found = Interpreter(program).exact(known, time=0.5 / program.time_unit)
+    assert found["r1"] == pytest.approx(math.sin(0.5))
+
+
+@pytest.mark.parametrize("number", [Fraction(-1, 3), Fraction(2, 3), Fraction(-5), Fraction(1)])
+def test_a_number_that_no_double_is_stays_a_quotient(number: Fraction) -> None:
+    bench = Bench()
+    x = bench.sensor("x")
+    program = bench.program(bench.pool.fn("max", x, bench.pool.num(number)))
+    found = Interpreter(program).exact({"x": {0: Fraction(-9)}})
+    assert found["r1"] == pytest.approx(float(number), rel=1e-15)
 
 
 def test_a_small_term_is_kept_where_it_is_all_there_is() -> None:
