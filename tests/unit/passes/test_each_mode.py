@@ -39,6 +39,16 @@ def test_what_the_modes_share_stays_outside_the_choice() -> None:
     assert "if(on, E, 0)" in relation
 
 
+def test_the_path_to_a_relation_has_a_choice_where_the_modes_part() -> None:
+    (relation,) = compiled(CONVERTER.format("on", "not on")).residuals.residuals
+    steps = {show(s.variable): (show(s.value), show(s.closed)) for s in relation.steps}
+    assert steps["coil.f"] == ("i", "i")
+    assert steps["r.e"] == ("coil.f/2", "i/2")
+    assert steps["L.e"] == ("D(L.p)", "0.3*D(i)")
+    # the transistor lays the source on the node, the diode the ground
+    assert steps["x.e"] == ("if(on, E.e, gnd.e)", "if(on, E, 0)")
+
+
 def test_a_mode_without_current_has_a_relation_of_its_own() -> None:
     """Both switches open: the coil carries nothing. Both closed: there is no such machine."""
     model = compiled("input d : bool\n" + CONVERTER.format("on", "d"))
