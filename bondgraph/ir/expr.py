@@ -127,7 +127,7 @@ class Expr:
     def coefficients(self) -> tuple[Fraction, ...]:
         """The rational coefficients of an ADD node.
 
-        Whole ones are stored as ints, which add up ten times faster and have the interface of a
+        Whole ones are stored as ints, which add up faster and have the interface of a
         Fraction but for division: write `Fraction(1) / c`.
         """
         assert isinstance(self.data, tuple)

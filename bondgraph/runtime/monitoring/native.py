@@ -156,7 +156,7 @@ class NativeEngine:
         bandwidth: float | None = None,
         bounds: bool = True,
     ) -> NativeEngine:
-        """See `Engine`; costs a tenth of a millisecond, the library is shared."""
+        """See `Engine`; it costs little, as the library is shared."""
         return NativeEngine(self._setting.changed(parameters, bandwidth, bounds), self._library)
 
     def run(self, samples: Array, received: Array | None = None) -> Batch:
