@@ -1,7 +1,8 @@
 """Small semantic mutants of Python code: one operator, constant, condition or statement is changed.
 
 Nothing that a test need not see is touched: docstrings, annotations, assertions, `raise`,
-`__repr__`, texts (of messages, too) and what only a type checker reads.
+`__repr__`, texts (of messages, too), what only a type checker reads, and numbers that have a name
+as they are a matter of choice (`_FEW = 3`).
 """
 
 from __future__ import annotations
@@ -137,6 +138,10 @@ def _left_alone(node: ast.AST) -> bool:
         return True
     if isinstance(node, ast.AugAssign) and _is_text(node.value):
         return True
+    if isinstance(node, ast.keyword) and node.arg == "strict":  # of zip: an assertion
+        return True
+    if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant):
+        return isinstance(node.targets[0], ast.Name) and node.targets[0].id.isupper()
     if isinstance(node, ast.If) and isinstance(node.test, ast.Name):
         return node.test.id == "TYPE_CHECKING"
     return isinstance(node, ast.Call) and _name(node) in _WORDS
