@@ -1,0 +1,120 @@
+"""Limits and smallest faults of a resistor, where all of them follow from its law by hand.
+
+U - R i = 0 behind one lag of bandwidth b, signals being straight between samples: noise x reaches
+the residual as y[k] = p y[k-1] + (1 - p) (x[k] + x[k-1])/2, nearly, with p = exp(-b T). Its variance
+is (1 - p)/2 of that of x, and neighbours are correlated by (1 + p)/2.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bondgraph.pipeline import Compilation, Options
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis
+from bondgraph.runtime.diagnosis.tune import Tuned, tune
+from bondgraph.runtime.diagnosis.tuning import height, kappa
+from bondgraph.text.source import Source
+
+_R, _I, _NOISE = 2.0, 3.0, 0.01
+_STEP, _COUNT, _WINDOW = 1e-3, 20_000, 0.5
+_TEXT = """bg 1
+model M {
+    param R = 2 Ohm
+    1:s { <- Se:U; -> R:r = R; -> Df:i }
+}
+"""
+
+
+@cache
+def model() -> Compilation:
+    return Compilation(Source(str(Path("m.bg")), _TEXT), None, Options(rate=1 / _STEP))
+
+
+@cache
+def tuned() -> Tuned:
+    """Of two logs of different length, and one that is too short to count."""
+    engine = model().engine(native=False)
+    assert [k.path for k in engine.signals] == ["U", "i"]
+    logs = []
+    for seed, count in ((1, _COUNT), (2, _COUNT // 2), (3, 5)):
+        current = _I + np.random.default_rng(seed).normal(0.0, _NOISE, count)
+        logs.append(np.column_stack([np.full(count, _R * _I), current]))
+    return tune(engine, model().facts, logs, "digest", 2.0, _WINDOW)
+
+
+def _sigma() -> float:
+    """Of white noise behind the lag."""
+    pole = math.exp(-tuned().tuning.bandwidth * _STEP)
+    return _R * _NOISE * math.sqrt((1.0 - pole) / 2.0)
+
+
+def test_the_noise_is_that_of_the_lag() -> None:
+    limit = tuned().tuning.limits["r1"]
+    assert limit.sigma == pytest.approx(_sigma(), rel=0.1)
+    # normal neighbours with a correlation c are of opposite sign acos(c)/pi of the time, half of
+    # that on the way up
+    pole = math.exp(-tuned().tuning.bandwidth * _STEP)
+    crossings = math.acos((1.0 + pole) / 2.0) / (2.0 * math.pi) / _STEP
+    assert limit.crossings == pytest.approx(crossings, rel=0.15)
+    alarms = 2.0 / 3600.0 / 2  # one residual, two tests
+    assert limit.kappa == pytest.approx(kappa(limit.crossings, alarms), rel=1e-6)
+    row = math.ceil(3.0 / tuned().tuning.bandwidth / _STEP) * _STEP
+    assert limit.height == pytest.approx(height(1.0 / row, alarms), rel=1e-6)
+
+
+def test_what_was_learned_from_is_told() -> None:
+    found = tuned().tuning
+    assert (found.model, found.false_alarms) == ("digest", 2.0)
+    assert found.rate == pytest.approx(1.0 / _STEP)
+    warm = 2 * model().engine(native=False).warm_up
+    assert found.seconds == pytest.approx(1.5 * _COUNT * _STEP - warm, abs=4 * _STEP)
+
+
+def test_the_smallest_fault_is_the_limit_over_the_slope_at_the_end_of_a_window() -> None:
+    """Behind one lag a step is larger the longer it lasts: it shows last, at 1 - exp(-b t)."""
+    limit = tuned().tuning.limits["r1"]
+    top = limit.kappa * limit.sigma / (1.0 - math.exp(-tuned().tuning.bandwidth * _WINDOW))
+    slopes = {
+        ("R", "value"): _I,
+        ("i", "offset"): _R,
+        ("i", "gain"): _R * _I,
+        ("U", "offset"): 1.0,
+        ("U", "gain"): _R * _I,
+    }
+    found = {(s.hypothesis.fault, s.hypothesis.kind): s for s in tuned().shown}
+    assert set(found) == set(slopes)
+    for key, slope in slopes.items():
+        size, delay = found[key].size, found[key].delay
+        assert size is not None and delay is not None
+        # the current is noisy: so are the slopes of what it multiplies
+        assert size == pytest.approx(top / slope, rel=5e-3), key
+        assert delay == pytest.approx(_WINDOW, rel=0.1), key
+        assert found[key].residual == "r1"
+
+
+def test_logs_that_are_too_short_teach_nothing() -> None:
+    engine = model().engine(native=False)
+    with pytest.raises(ValueError, match="nothing can be learned"):
+        tune(engine, model().facts, [np.zeros((4, 2))], "digest", 2.0)
+
+
+def test_slopes_are_what_a_change_makes_of_the_residual() -> None:
+    """dr/dR = -i, dr/di = -R and -R i, dr/dU = 1, each behind the lag, from the first sample on."""
+    engine = model().engine(native=False)
+    ways = (
+        ("R", "value", True),
+        ("i", "offset", False),
+        ("i", "gain", False),
+        ("U", "offset", True),
+    )
+    hypotheses = tuple(Hypothesis(f, kind, "", 0.1, turned) for f, kind, turned in ways)
+    bank = Bank(engine.configured(bounds=False), hypotheses, {"R": _R})
+    samples = np.tile([_R * _I, _I], (3000, 1))
+    found = np.concatenate([bank.run(samples[:1000]), bank.run(samples[1000:])])
+    sign = np.sign(found[-1, 3, 0])  # whether the relation is U - R i or its negative
+    assert sign * found[-1, :, 0] == pytest.approx([-_I, -_R, -_R * _I, 1.0], rel=1e-6)
