@@ -1,8 +1,8 @@
 """Limits and smallest faults of a resistor, where all of them follow from its law by hand.
 
 U - R i = 0 behind one lag of bandwidth b, signals being straight between samples: noise x reaches
-the residual as y[k] = p y[k-1] + (1 - p) (x[k] + x[k-1])/2, nearly, with p = exp(-b T). Its variance
-is (1 - p)/2 of that of x, and neighbours are correlated by (1 + p)/2.
+the residual as y[k] = p y[k-1] + (1 - p) (x[k] + x[k-1])/2, nearly, with p = exp(-b T). Its
+variance is (1 - p)/2 of that of x, and neighbours are correlated by (1 + p)/2.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from bondgraph.runtime.diagnosis.tuning import height, kappa
 from bondgraph.text.source import Source
 
 _R, _I, _NOISE = 2.0, 3.0, 0.01
-_STEP, _COUNT, _WINDOW = 1e-3, 20_000, 0.5
+_STEP, _COUNT, _WINDOW = 1e-3, 10_000, 0.5
 _TEXT = """bg 1
 model M {
     param R = 2 Ohm
