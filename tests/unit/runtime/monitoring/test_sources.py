@@ -81,6 +81,9 @@ def test_a_table_that_became_shorter_is_told(tmp_path: Path) -> None:
     path = str(tmp_path / "log.parquet")
     write_log(Log(np.arange(5.0), {"a": np.arange(5.0)}, {}, {}), path)
     assert "5 samples" in TableFile(path, Form(path)).go({"place": {"row": 6}})
+    source = TableFile(path, Form(path))
+    assert source.go({"place": {"row": 5}, "back": {"row": 3}}) == ""  # to its very end
+    assert times(source.chunks(Event())) == [3.0, 4.0]
 
 
 def test_a_last_line_without_an_end_counts_once(

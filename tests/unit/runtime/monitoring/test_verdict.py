@@ -84,3 +84,6 @@ def test_candidates_that_nothing_tells_apart_are_named_once() -> None:
 
 def test_long_lists_are_cut_with_what_is_left_out() -> None:
     assert listed([str(k) for k in range(20)], "or") == "0, 1, 2, 3, 4, 5, 6 and 13 more"
+    assert listed(list("abcdefghi"), "or") == "a, b, c, d, e, f, g and 2 more"
+    assert listed(list("abcdefgh"), "or") == "a, b, c, d, e, f, g or h"
+    assert (listed([], "or"), listed(["a"], "or"), listed(["a", "b"], "or")) == ("", "a", "a or b")
