@@ -191,6 +191,18 @@ def test_reset_and_bandwidth_and_warm_up(native: bool) -> None:
         engine.run(samples[:, :2])
 
 
+def test_what_is_unavailable_is_not_waited_for() -> None:
+    made, _ = _motor().runnables
+    first, second = made.program.residuals
+    rows = (first._replace(settle=2.0), second._replace(settle=500.0, unavailable="too long"))
+    program = made.program._replace(residuals=rows, rate=1000.0)
+    found = setting(made._replace(program=program))._replace(bandwidth=30.0)
+    assert found.warm_up == 0.067  # two time constants of 1/30 s, in whole samples
+    both = tuple(r._replace(unavailable="too long") for r in rows)
+    nothing = setting(made._replace(program=program._replace(residuals=both)))
+    assert nothing.warm_up == 0.0
+
+
 def test_a_model_without_values_says_which_are_missing() -> None:
     program = programs.encoder()
     unset = [f.path for f in program.params if f.default is None]

@@ -410,3 +410,16 @@ def test_a_robot_with_encoders_is_watched(
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[2] for line in lines] == ["start", "warm-up", "stop"]
     assert np.all([r in lines[1] for r in ("r1", "r5")])
+
+
+def test_lines_that_are_none_are_counted_at_the_first_and_when_they_have_doubled(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rows = [json.dumps(o) + "\n" for o in objects(motor.log(), 0, 3000)]
+    path = tmp_path / "log.jsonl"
+    path.write_text("what\n" + "".join(rows), encoding="utf-8")
+    said = [v["message"] for v in monitored(capsys, str(path)) if v["event"] == "invalid"]
+    assert said == ["1 line is no sample, the last is `what`"]
+    path.write_text("what\nis\nthis\n" + "".join(rows), encoding="utf-8")
+    said = [v["message"] for v in monitored(capsys, str(path)) if v["event"] == "invalid"]
+    assert said == ["3 lines are no samples, the last is `this`"]
