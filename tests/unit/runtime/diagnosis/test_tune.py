@@ -97,6 +97,19 @@ def test_the_smallest_fault_is_the_limit_over_the_slope_at_the_end_of_a_window()
         assert found[key].residual == "r1"
 
 
+@pytest.mark.parametrize("first", [True, False])
+def test_a_limit_stays_above_what_a_healthy_machine_has_reached(first: bool) -> None:
+    engine = model().engine(native=False).configured(bandwidth=300.0)
+    noise = np.random.default_rng(4).normal(0.0, _NOISE, 6000)
+    quiet = np.column_stack([np.full(6000, _R * _I), _I + noise])
+    pulse = quiet.copy()
+    pulse[3000, 1] += 1.0  # of too few samples to count as noise
+    logs = [pulse, quiet] if first else [quiet, pulse]
+    limit = tune(engine, model().facts, logs, "digest", 2.0, _WINDOW).tuning.limits["r1"]
+    reached = np.abs(engine.configured().run(pulse).value).max()
+    assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached)
+
+
 def test_logs_that_are_too_short_teach_nothing() -> None:
     engine = model().engine(native=False)
     with pytest.raises(ValueError, match="nothing can be learned"):
