@@ -46,6 +46,7 @@ def test_a_friction_fault_is_found_and_told_from_electrical_ones(
 ) -> None:
     said = monitored(capsys, str(logs / f"motor.{suffix}"))
     assert [v["event"] for v in said] == ["start", *WARM, "fault", "update", "stop"]
+    assert said[0]["time"] == 0.0
     fault, update = said[3:5]
     assert motor.ONSET < fault["time"] < motor.ONSET + 0.1  # type: ignore[operator]
     assert not fault["group"] and not fault["candidates"]
