@@ -89,10 +89,12 @@ def reached(test: str) -> Reach | None:
 def chosen(mutant: Mutant, reaches: list[Reach], budget: float) -> list[Reach]:
     """The tests to ask: they reach the function; those of its name first, then the fastest.
 
-    All of them take no longer than `budget` seconds, unless the fastest does.
+    All of them take no longer than `budget` seconds, unless the fastest does. What only runs in
+    processes of their own is seen by none: then those of the same folder are asked.
     """
-    name = f"{mutant.module}:{mutant.function}"
+    name, folder = f"{mutant.module}:{mutant.function}", Path(mutant.module).parent.name
     fits = [r for r in reaches if name in r.functions]
+    fits = fits or [r for r in reaches if Path(r.test).parent.name == folder]
     fits.sort(key=lambda r: (not mirror(r.test, mutant.module), r.seconds))
     found: list[Reach] = []
     for reach in fits:

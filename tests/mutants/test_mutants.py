@@ -88,6 +88,9 @@ def test_tests_that_reach_the_function_are_asked_its_own_first() -> None:
     fast, slow = Reach("tests/x/test_fast.py", 1.0, here), Reach("tests/x/test_slow.py", 99.0, here)
     other = Reach("tests/x/test_other.py", 1.0, frozenset())
     assert chosen(mutant, [slow, other, fast, own], 20.0) == [own, fast]
+    assert chosen(mutant, [slow, other], 20.0) == [slow]
+    near = Reach("tests/unit/passes/test_near.py", 1.0, frozenset())
+    assert chosen(mutant, [other, near], 20.0) == [near]
     assert "tests/paper/test_paper.py" in asked()
 
 
