@@ -1,0 +1,107 @@
+"""Verdicts on their way to a broker that takes its time, is away, or says no; without a broker."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from threading import Timer
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from bondgraph.runtime.monitoring import publisher
+from bondgraph.runtime.monitoring.mqtt_client import Address, address
+from bondgraph.runtime.monitoring.publisher import Publisher
+
+
+class _Client:
+    """Numbers messages; says that one was taken when the test says so."""
+
+    on_publish: Callable[..., None]
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+
+    def publish(self, topic: str, line: str, qos: int, retain: bool) -> Any:
+        assert (topic, qos, retain) == ("robot/verdicts", 1, True)
+        self.lines.append(line)
+        return SimpleNamespace(mid=len(self.lines))
+
+    def take(self, mid: int, failed: bool = False) -> None:
+        self.on_publish(self, None, mid, SimpleNamespace(is_failure=failed), None)
+
+
+class _Link:
+    def __init__(self, at: Address, identity: str, say: Callable[[str], None]) -> None:
+        self.client = _Client()
+        self.connected, self.away, self.stopped = True, False, False
+
+    def start(self) -> None: ...
+
+    def stop(self) -> None:
+        self.stopped = True
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> tuple[Publisher, _Link]:
+    links: list[_Link] = []
+
+    def link(*given: Any) -> _Link:
+        links.append(_Link(*given))
+        return links[0]
+
+    monkeypatch.setattr(publisher, "Link", link)
+    return Publisher(address("here/robot/verdicts"), "me", taken=4), links[0]
+
+
+def test_a_line_waits_until_all_before_it_are_taken(made: tuple[Publisher, _Link]) -> None:
+    sender, link = made
+    link.connected = False
+    for number in (5, 6):
+        sender.publish(number, f"line {number}")
+    assert link.client.lines == [] and sender.taken == 4
+    link.connected = True
+    assert sender.news() == [] and link.client.lines == ["line 5", "line 6"]
+    sender.publish(7, "line 7")
+    assert link.client.lines == ["line 5", "line 6"]  # two are on their way
+    link.client.take(2)
+    assert sender.taken == 4  # the one before is not
+    link.client.take(1)
+    assert sender.taken == 6
+    sender.news()
+    assert link.client.lines[2:] == ["line 7"]
+
+
+def test_the_end_waits_for_a_slow_broker(made: tuple[Publisher, _Link]) -> None:
+    sender, link = made
+    sender.publish(5, "line 5")
+    Timer(0.2, link.client.take, [1]).start()
+    assert sender.close(30.0) == 0
+    assert sender.taken == 5 and link.stopped
+
+
+def test_the_end_waits_no_longer_than_it_has_patience(made: tuple[Publisher, _Link]) -> None:
+    sender, link = made
+    sender.publish(5, "line 5")
+    start = time.monotonic()
+    assert sender.close(0.3) == 1
+    assert time.monotonic() - start >= 0.3
+    assert sender.taken == 4 and link.stopped
+
+
+def test_a_broker_that_is_away_is_not_waited_for(made: tuple[Publisher, _Link]) -> None:
+    sender, link = made
+    link.connected, link.away = False, True
+    sender.publish(5, "line 5")
+    start = time.monotonic()
+    assert sender.close(30.0) == 1
+    assert time.monotonic() - start < 15.0
+
+
+def test_a_broker_that_takes_no_verdict_is_told_of(made: tuple[Publisher, _Link]) -> None:
+    sender, link = made
+    sender.publish(5, "line 5")
+    link.client.take(1, failed=True)
+    (text,) = sender.news()
+    assert text.startswith("the broker does not take verdicts on robot/verdicts")
