@@ -3,7 +3,7 @@
 The motor of models/dc_motor.bg, its two differential equations written here and solved by scipy,
 measured by converters of 16 bits (their rounding as noise). The threshold is five standard
 deviations of each residual on a log without trouble, the samples are a millisecond apart, the
-filter has a time constant of 50 ms.
+filter has a time constant of 50 ms. As a program it writes the table of docs/decisions/clock.md.
 """
 
 from __future__ import annotations
@@ -19,7 +19,9 @@ from scipy.integrate import solve_ivp
 import bondgraph
 from bondgraph.runtime.monitoring.clock import WRAP_32, Piece, clock_of
 from bondgraph.runtime.monitoring.engine import Engine
+from tests.measured import measured, write
 
+_PAGE = Path(__file__).parents[4] / "docs" / "decisions" / "clock.md"
 _MODEL = Path(__file__).parents[4] / "models" / "dc_motor.bg"
 _L, _R, _K, _J, _F = 300e-6, 17.6, 3.51e-3, 1.4e-8, 1.19e-5
 _RANGE = {"current": 0.2, "speed": 200.0}  # A, rad/s
@@ -114,6 +116,48 @@ def _restart() -> Stream:
     return np.where(time < 4.0, time, time - 4.731), samples
 
 
+def _off() -> Stream:
+    """Each sample up to 5 % of a period before or after its place on a true grid."""
+    places = np.arange(_COUNT) + np.random.default_rng(2).uniform(-0.05, 0.05, _COUNT)
+    return _STEP * places, _measured(_STEP * places)
+
+
+def _nan() -> Stream:
+    time, samples = _kept([])
+    samples[5000, [k.path for k in _engine().signals].index("speed")] = np.nan
+    return time, samples
+
+
+_TROUBLES: dict[str, Callable[[], Stream]] = {
+    "nothing wrong": lambda: _kept([]),
+    "one sample lost": lambda: _kept([5003]),
+    "a gap of 10 ms every 0.7 s": _gaps,
+    "each period 5 % longer or shorter, at random": _jitter,
+    "samples 5 % off a true grid": _off,
+    "the logger restarts, 0.731 s are lost": _restart,
+    "one NaN": _nan,
+}
+
+
+def table() -> str:
+    """The largest residual in standard deviations, and how long the residuals were valid."""
+    rows = ["| | taken as uniform | valid | with the clock | valid |", "|---|---:|---:|---:|---:|"]
+    for name, trouble in _TROUBLES.items():
+        time, samples = trouble()
+        clock = clock_of(_engine())
+        cells = [name]
+        for pieces in (_uniform(samples), clock.feed(time, samples) + clock.finish()):
+            size, valid = _run(pieces)
+            cells += [f"{float(np.max(5.0 * size / _threshold())):.3g}", f"{100 * valid:.1f} %"]
+        rows.append(f"| {' | '.join(cells)} |")
+    return "\n".join(rows)
+
+
+def test_the_table_of_the_decision_is_what_is_measured_now() -> None:
+    (page,) = measured(_PAGE)
+    assert page.text == table()
+
+
 @pytest.mark.parametrize(
     "trouble",
     [lambda: _kept([5003]), _gaps, _jitter, _restart],
@@ -152,3 +196,7 @@ def test_a_clock_that_wraps_is_not_noticed() -> None:
         assert np.all(size < _threshold())
         assert (told == []) == (wraps is not None)
         assert (valid == _run(_uniform(_measured(time)))[1]) == (wraps is not None)
+
+
+if __name__ == "__main__":
+    write(_PAGE, "python -m tests.unit.runtime.monitoring.test_clock_plant", table())
