@@ -219,6 +219,22 @@ def test_dependent_storages_name_their_partner() -> None:
     )
 
 
+def test_three_coils_at_a_node_have_two_states() -> None:
+    report = Report()
+    text = "Se:u -> 1:a -> I:j1; Se:v -> 1:b -> I:j2; a -> 0:n; b -> n; n -> 1:c -> I:j3"
+    assert assign(build(text), "integral", report) is not None
+    (note,) = report.diagnostics
+    assert note.message == (
+        "I:j3 is in derivative causality: its flow is fixed by I:j1 and I:j2, which have the state."
+    )
+    assert [(label.span.text, label.text) for label in note.labels] == [
+        ("I:j3", "takes its flow from the others"),
+        ("I:j1", "holds the state"),
+        ("I:j2", "holds the state"),
+    ]
+    assert note.help.startswith("This is no error: these storages share their states.")
+
+
 def test_a_capacitor_across_a_source_is_told_as_such() -> None:
     report = Report()
     assert assign(build("Se:u -> 0:a -> C:c; a -> R:r"), "integral", report) is not None
