@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from bondgraph.runtime.monitoring import publisher
-from bondgraph.runtime.monitoring.mqtt_client import Address, address
+from bondgraph.runtime.monitoring.mqtt_client import Address, Link, address
 from bondgraph.runtime.monitoring.publisher import Publisher
 
 
@@ -105,3 +105,19 @@ def test_a_broker_that_takes_no_verdict_is_told_of(made: tuple[Publisher, _Link]
     link.client.take(1, failed=True)
     (text,) = sender.news()
     assert text.startswith("the broker does not take verdicts on robot/verdicts")
+
+
+def test_a_broker_that_is_away_is_told_of_once_each_time() -> None:
+    pytest.importorskip("paho.mqtt.client")
+    said: list[str] = []
+    link = Link(address("here/robot/verdicts"), "me", said.append)
+    refused, accepted = SimpleNamespace(is_failure=True), SimpleNamespace(is_failure=False)
+    client: Any = link.client
+    assert not link.away
+    client.on_connect_fail(client, None)
+    client.on_connect_fail(client, None)
+    assert link.away and len(said) == 1 and "here:1883" in said[0] and "tried again" in said[0]
+    client.on_connect(client, None, None, accepted, None)
+    assert link.connected and not link.away
+    client.on_disconnect(client, None, None, refused, None)
+    assert link.away and not link.connected and "is gone" in said[-1]
