@@ -12,6 +12,8 @@ from bondgraph.backends.emit import emit
 from bondgraph.backends.target import load, targets
 from bondgraph.backends.templates import codegen
 from bondgraph.ir.program import Field, ResidualInfo
+from bondgraph.pipeline import Compilation
+from bondgraph.text.source import Source
 from tests.unit.backends import programs
 
 
@@ -82,6 +84,20 @@ def test_every_field_says_unit_and_meaning() -> None:
     assert "motor_real R;  /* Ohm: resistance, el.R (motor.bg:3) */" in text
     assert '#define MOTOR_DIGEST "0123456789abcdef"' in text
     assert "#define MOTOR_ABI (1u * 256u + (uint32_t)sizeof(motor_real))" in text
+
+
+@pytest.mark.parametrize(
+    ("parameter", "head"),
+    [
+        ("2", "compute_coefficients(m_monitor *monitor, real sample_time, real bandwidth)"),
+        ("R", "compute_coefficients(m_monitor *monitor, const m_parameters *p, real sample_time,"),
+    ],
+)
+def test_coefficients_are_given_the_parameters_that_they_read(parameter: str, head: str) -> None:
+    text = f"bg 1\nmodel M {{ param R = 2; 1:s {{ <- Se:u; -> R:r = {parameter}; -> Df:y }} }}\n"
+    artifacts = Compilation(Source("m.bg", text)).artifacts
+    code = next(a.text for a in artifacts if a.path.endswith("residuals.c"))
+    assert f"static void {head}\n" in code
 
 
 def test_a_comment_cannot_break_out() -> None:
