@@ -15,7 +15,8 @@ from tests.random.graphs import Graph
 _SECONDS = 20
 
 #: Outcomes that are no code of a refusal and not `ok` or `no_arr`.
-TOLD = "fewer than there are, and says so"
+PART = "a part, and says what is missing"
+UNEXPLAINED = f"{PART}, some without a reason"
 OTHER_COUNT = "other count than by rank, with products or switches"
 
 
@@ -72,8 +73,7 @@ def _answered(graph: Graph, compilation: Compilation) -> Verdict:
     if not agreed:
         wrong = f"{count} relations and {len(missing)} missing, by rank there are {expected}"
     if missing:
-        why = "" if explained else ", some without a reason"
-        return Verdict(f"a part, and says what is missing{why}", notes, wrong)
+        return Verdict(PART if explained else UNEXPLAINED, notes, wrong)
     return Verdict("ok" if count else "no_arr", notes, wrong)
 
 

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from tests import measured
 from tests.random.graphs import Graph, generate
-from tests.random.judge import OTHER_COUNT, TOLD, Verdict, judge
+from tests.random.judge import OTHER_COUNT, PART, UNEXPLAINED, Verdict, judge
 
 PAGE = Path(__file__).parents[2] / "docs" / "random_graphs.md"
 
@@ -26,7 +26,8 @@ _WORDS = {
     "ok": "relations, as many as the rank says, verified exactly",
     OTHER_COUNT: "another count than the rank says, with products or switches",
     "no_arr": "no relation, as the rank says",
-    TOLD: "fewer relations than the rank says, and a warning of it",
+    PART: "a part of the relations, verified exactly, and what is missing",
+    UNEXPLAINED: "a part of the relations, verified exactly, and some missing without a reason",
     "time-out": "no answer in time",
 }
 _NOT_VERIFIED = "relations, told to be not verified"
