@@ -164,6 +164,7 @@ class Plant:
         self._apart: frozenset[Expr] = frozenset()
         self._rational: dict[tuple[int, ...], bool] = {}
         self._precision = Precision()
+        self._reached: dict[tuple[int, ...], frozenset[Expr]] = {}
         self._hopeless: dict[object, str] = {}  # no trajectory was found, and why
 
     def apart(self, constants: Iterable[Expr] | None = None) -> Plant:
@@ -181,6 +182,19 @@ class Plant:
         used = dict.fromkeys((*self.constants, *symbols(expr)))
         numbers = [s for s in used if (v := self._declared.get(s)) is not None and v.op is Op.NUM]
         return sorted(numbers, key=lambda s: s.id)
+
+    def reached(self, part: Assembly) -> frozenset[Expr]:
+        """The symbols that a part of the plant is made of; no other fault can act in it."""
+        found = self._reached.get(part.active)
+        if found is None:
+            inside = frozenset(part.active)
+            roots = [law for _, law in part.laws] + [r.value for r in part.rates]
+            roots += [reads for _, _, reads in (*part.readings, *self._shown(part))]
+            roots += [b.when for b in part.balances if b.when is not None]
+            own = [s for s, (v, _) in part.place.items() if v in inside]
+            own += [symbol for _, symbol, _ in self._shown(part)]
+            found = self._reached[part.active] = frozenset((*symbols(*roots), *own))
+        return found
 
     def rational(self, part: Assembly, roots: Iterable[Expr] = ()) -> bool:
         """Whether a part of the plant, and what is asked of it, are rational.

@@ -124,7 +124,8 @@ class Reactions:
         of finite size shows; and a parameter may cancel out of a relation only while it is
         constant.
         """
-        faults = tuple(self.faults[s] for s in acting if s in self.faults)
+        reached = self.plant.reached(self.plant.part_for([expr]))
+        faults = tuple(self.faults[s] for s in acting if s in self.faults and s in reached)
         if not faults:
             return False
         size = telling([expr])
