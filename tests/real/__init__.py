@@ -1,0 +1,1 @@
+"""Random real plants, simulated in multiple precision, against the verdicts of the compiler."""

@@ -1,0 +1,56 @@
+"""What the compiler says of a model: its JSON, from the command as a user runs it."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import os
+import signal
+import tempfile
+import traceback
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from bondgraph.cli.main import main
+from tests.real.build import Model
+
+
+class Slow(Exception):
+    """The compiler has had its time."""
+
+
+@contextlib.contextmanager
+def _limited(seconds: int) -> Iterator[None]:
+    def ring(*_: object) -> None:
+        raise Slow
+
+    before = signal.signal(signal.SIGPROF, ring)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
+
+
+def answer(model: Model, seconds: int = 30) -> dict[str, Any]:
+    """The object that `compile --json` prints; an exception gives a status and a traceback."""
+    os.environ["BONDGRAPH_TRACEBACK"] = "1"
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "model.bg"
+        path.write_text(model.text, encoding="utf-8")
+        for name, text in model.files.items():
+            (Path(folder) / name).write_text(text, encoding="utf-8")
+        out = io.StringIO()
+        words = ["compile", str(path), "--json", "--target", "python", "-o", folder + "/out"]
+        try:
+            with _limited(seconds), contextlib.redirect_stdout(out):
+                main(words)
+        except Slow:
+            return {"status": "slow"}
+        except Exception:
+            return {"status": "exception", "message": traceback.format_exc(limit=-4)}
+    found: dict[str, Any] = json.loads(out.getvalue())
+    return found
