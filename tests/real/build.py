@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from random import Random
+from types import MappingProxyType
 from typing import NamedTuple
 
 from tests.real.nodes import Node, der, integral, node, number, replaced, sym, text, total
@@ -39,7 +40,7 @@ class Law(NamedTuple):
 
     left: str
     right: Node
-    inverse: Mapping[str, Node] = {}  # noqa: RUF012
+    inverse: Mapping[str, Node] = MappingProxyType({})
 
 
 def equal(name: str, value: Node, inverse: Mapping[str, Node] | None = None) -> Equation:
@@ -177,7 +178,9 @@ class Build:
                 Equation(left - product, {str(left.data): product, str(right.data): quotient})
             )
         if kind == "TF":
-            self.body.append(f"{a.name} -> TF:{name} {{ f1 = {text(ratio * sym('f2'))} }} -> {b.name}")
+            self.body.append(
+                f"{a.name} -> TF:{name} {{ f1 = {text(ratio * sym('f2'))} }} -> {b.name}"
+            )
         else:
             self.body.append(f"{a.name} -> GY:{name} = {text(ratio)} -> {b.name}")
 

@@ -129,7 +129,9 @@ class Drawing:
         build.element(feed, "R", laws.resistor(build, 0.2))
         build.bond(feed, top)
         balanced = self.chance(0.6)
-        values = self.random.choice((("1", "2", "3", "6"), ("2", "1", "4", "2"), ("1", "1", "1", "1")))
+        values = self.random.choice(
+            (("1", "2", "3", "6"), ("2", "1", "4", "2"), ("1", "1", "1", "1"))
+        )
         arms = [build.param(v if balanced else None, 0) for v in values]
         pairs = ((top, left), (left, None), (top, right), (right, None))
         for (a, b), k in zip(pairs, arms, strict=True):
@@ -225,7 +227,11 @@ class Drawing:
             a, b = self.quantity(), self.quantity()
             while b.data == a.data:
                 b = self.quantity()
-            build.sensor(laws.readings(build, a, b))
+            if self.chance(0.3):
+                for reads in laws.related(build, a, b):
+                    build.sensor(reads)
+            else:
+                build.sensor(laws.readings(build, a, b))
         if self.chance(0.1):
             j = self.random.choice(build.junctions)
             build.sensor(fn("sin", build.integrated(j.common, "0.5")))

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from random import Random
 from typing import Any, NamedTuple
 
-from flint import arb, arb_series, ctx
+from flint import arb
 
 from tests.real.plant import NoPoint, Plant, Point, Simulator, course, wrong
 from tests.real.residual import Evaluator, NoValue, Residual, residuals
@@ -16,6 +16,7 @@ from tests.real.series import constant, exact, prepare
 HEALTHY = 1e-25  # of its terms: below this a residual vanishes
 SEEN = 1e-20  # above this it has moved
 _POINTS = 4
+_MOST_POINTS = 16  # where residuals have no value at most points
 _STARTS = 25  # random starts for each of them
 _SAID = 48  # trajectories with a fault, while an entry that is said to be seen is not
 _UNSAID = 8  # for entries that are said not to be seen
@@ -57,6 +58,14 @@ def candidates(answer: Mapping[str, Any]) -> list[str]:
     return [*answer["undetectable"], *[f for group in answer["groups"] for f in group]]
 
 
+class _World(NamedTuple):
+    """A simulator and healthy points: at the start of a run, or anywhere in it."""
+
+    simulator: Simulator
+    points: list[Point]
+    residuals: list[Evaluator]  # those that have a value at points of this kind
+
+
 class _Judge:
     def __init__(
         self,
@@ -70,12 +79,17 @@ class _Judge:
         self.residuals = found
         self.answer = answer
         self.random = Random(f"judge {seed}")
-        self.simulator = Simulator(plant, length)
-        prepare(self.simulator.length)
+        self.length = Simulator(plant, length).length
+        prepare(self.length)
         self.evaluators = [Evaluator(r) for r in found]
         self.count = 5 if any(r.integrates for r in found) else 3
-        self.points: list[Point] = []
-        self.failures = 0
+        self.broken: dict[str, str] = {}
+        # Integrals begin at the start, where declared initial values hold. What has no integral
+        # can be looked at anywhere in a run.
+        self.worlds = [self.world(plant, length, self.evaluators)]
+        if plant.starts:
+            later = [e for e in self.evaluators if not e.residual.integrates]
+            self.worlds.append(self.world(plant._replace(starts={}), length, later))
 
     def run(self) -> Judgement:
         strange = {x for r in self.residuals for x in r.symbols} - {
@@ -83,15 +97,19 @@ class _Judge:
         }  # fmt: skip
         if strange:
             return Judgement(unjudged=f"symbols {sorted(strange)}")
-        broken = self.healthy()
-        if len(self.points) < 2:
-            return Judgement(broken=tuple(broken), unjudged="no trajectory was found")
-        if broken:
-            return Judgement(broken=tuple(broken))
+        if not any(world.points for world in self.worlds):
+            return Judgement(unjudged="no trajectory was found")
+        if self.broken:
+            return Judgement(broken=tuple(self.broken[name] for name in sorted(self.broken)))
         entries: list[Entry] = []
         listed = candidates(self.answer)
         for fault in self.plant.faults:
-            entries += self.fault(fault, fault in listed)
+            seen, tried = self.told_apart(fault, self.plant.declared)
+            for e in self.evaluators:
+                name = e.residual.name
+                entries.append(
+                    self.entry(e.residual, fault, fault in listed, name in seen, tried[name])
+                )
         return Judgement(tuple(entries))
 
     # ---------------------------------------------------------------------------- points
@@ -104,58 +122,106 @@ class _Judge:
         out.update((x, point.signals[x]) for x in self.plant.sensors)
         return out
 
-    def point(self, declared: Mapping[str, Fraction], starts: int = _STARTS) -> Point | None:
+    def point(
+        self, simulator: Simulator, declared: Mapping[str, Fraction], starts: int = _STARTS
+    ) -> Point | None:
         """A healthy trajectory."""
         for _ in range(starts):
             try:
-                known = self.simulator.known(declared, self.random)
-                return self.simulator.solve(known, self.simulator.start(self.random))
+                known = simulator.known(declared, self.random)
+                return simulator.solve(known, simulator.start(self.random))
             except NoPoint:
                 continue
         return None
 
-    def healthy(self) -> list[str]:
-        """Finds points where all residuals have values; those that do not vanish there."""
-        broken: dict[str, str] = {}
-        valued: set[str] = set()
-        for _ in range(3 * _POINTS):
-            if len(self.points) >= _POINTS:
+    def world(self, plant: Plant, length: int, wanted: list[Evaluator]) -> _World:
+        """Healthy points, at which residuals vanish; each residual has a value at some."""
+        simulator = Simulator(plant, length)
+        points: list[Point] = []
+        valued: dict[str, int] = {e.residual.name: 0 for e in wanted}
+        for turn in range(_MOST_POINTS):
+            if not wanted or (turn >= _POINTS and min(valued.values()) >= 2):
                 break
-            point = self.point(self.plant.declared)
+            point = self.point(simulator, plant.declared)
             if point is None:
                 break
-            told = self.told(point, self.plant.declared)
-            some = False
-            for evaluator in self.evaluators:
+            told = self.told(point, plant.declared)
+            before = sum(valued.values())
+            for evaluator in wanted:
                 name = evaluator.residual.name
                 try:
                     value = evaluator(told, self.count)
                 except NoValue:
                     continue
-                some = True
-                valued.add(name)
+                valued[name] += 1
                 if value.part() > HEALTHY:
-                    broken[name] = f"{name} does not vanish: {value.part():.1e} of its terms"
-            if some:
-                self.points.append(point)
-        self.valued = valued
-        return [broken[name] for name in sorted(broken)]
+                    self.broken[name] = f"{name} does not vanish: {value.part():.1e} of its terms"
+            if sum(valued.values()) > before:
+                points.append(point)
+        return _World(simulator, points, [e for e in wanted if valued[e.residual.name]])
 
     # ---------------------------------------------------------------------------- faults
 
-    def fault(self, fault: str, listed: bool) -> Iterator[Entry]:
-        """The entries of one fault."""
-        seen, tried = self.seen(fault, self.plant.declared, self.points)
-        for r in self.residuals:
-            yield self.entry(r, fault, listed, r.name in seen, tried)
+    def told_apart(
+        self, fault: str, declared: Mapping[str, Fraction]
+    ) -> tuple[set[str], dict[str, int]]:
+        """The residuals that a fault moves, and at how many trajectories each had a value."""
+        tried = {r.name: 0 for r in self.residuals}
+        seen: set[str] = set()
+        for number, world in enumerate(self.worlds):
+            # Anywhere in a run a plant may be where it cannot get from its start: that speaks for
+            # the compiler, never against it, unless the start itself cannot be simulated.
+            wanted = [
+                e
+                for e in world.residuals
+                if e.residual.name not in seen
+                and (not number or self.said(e.residual, fault) or not tried[e.residual.name])
+            ]
+            seen |= self.seen(world, fault, declared, wanted, tried)
+        return seen, tried
+
+    def said(self, r: Residual, fault: str) -> bool:
+        return fault in r.signature and fault not in r.only_off
+
+    def seen(
+        self,
+        world: _World,
+        fault: str,
+        declared: Mapping[str, Fraction],
+        wanted: list[Evaluator],
+        tried: dict[str, int],
+        hope: bool = False,
+    ) -> set[str]:
+        """The residuals among those wanted that some course of a fault moves."""
+        seen: set[str] = set()
+        pool = list(world.points)
+        for turn in range(_SAID if pool else 0):
+            left = [e for e in wanted if e.residual.name not in seen]
+            hoped = hope or any(self.said(e.residual, fault) for e in left)
+            if not left or (turn >= _UNSAID and not hoped):
+                break
+            if turn >= 2 * _POINTS and turn % 4 == 0:
+                extra = self.point(world.simulator, declared, 3)
+                pool += [extra] if extra is not None else []
+            point = self.faulty(world.simulator, fault, declared, pool[turn % len(pool)], turn)
+            if point is None:
+                continue
+            told = self.told(point, declared)
+            for evaluator in left:
+                try:
+                    value = evaluator(told, self.count)
+                except NoValue:
+                    continue
+                tried[evaluator.residual.name] += 1
+                if value.part() > SEEN:
+                    seen.add(evaluator.residual.name)
+        return seen
 
     def entry(self, r: Residual, fault: str, listed: bool, seen: bool, tried: int) -> Entry:
         if not listed:
             return Entry(r.name, fault, "not a candidate", "seen" if seen else "")
-        if r.name not in self.valued:
-            return Entry(r.name, fault, "not judged: no value on a healthy plant")
         if not tried:
-            return Entry(r.name, fault, "not judged: no faulty trajectory")
+            return Entry(r.name, fault, "not judged: no trajectory on which it has a value")
         said = fault in r.signature
         if said == seen and fault not in r.only_off:
             return Entry(r.name, fault, "unconfirmed" if fault in r.unconfirmed else "right")
@@ -168,50 +234,17 @@ class _Judge:
             if blind is None:
                 return Entry(r.name, fault, "off nominal")
             return Entry(r.name, fault, "wrong", f"said off nominal, not seen with other {blind}")
-        detail = "seen, not said" if seen else "said, not seen"
-        return Entry(r.name, fault, "wrong", detail)
-
-    def seen(
-        self,
-        fault: str,
-        declared: Mapping[str, Fraction],
-        points: list[Point],
-        only: Residual | None = None,
-    ) -> tuple[set[str], int]:
-        """The residuals that some course of a fault moves, and how many trajectories it had."""
-        wanted = [e for e in self.evaluators if only is None or e.residual is only]
-        seen: set[str] = set()
-        tried = 0
-        pool = list(points)
-        for turn in range(_SAID):
-            left = [e for e in wanted if e.residual.name not in seen]
-            hoped = [
-                e for e in left if only is not None
-                or (fault in e.residual.signature and fault not in e.residual.only_off)
-            ]  # fmt: skip
-            if not left or (turn >= _UNSAID and not hoped):
-                break
-            if turn >= 2 * _POINTS and turn % 4 == 0:
-                extra = self.point(declared, 3)
-                pool += [extra] if extra is not None else []
-            point = self.faulty(fault, declared, pool[turn % len(pool)], turn)
-            if point is None:
-                continue
-            told = self.told(point, declared)
-            valued = False
-            for evaluator in left:
-                try:
-                    value = evaluator(told, self.count)
-                except NoValue:
-                    continue
-                valued = True
-                if value.part() > SEEN:
-                    seen.add(evaluator.residual.name)
-            tried += valued
-        return seen, tried
+        if said and r.integrates and r.decides:
+            return Entry(r.name, fault, "not judged: branches that a run may reach later")
+        return Entry(r.name, fault, "wrong", "seen, not said" if seen else "said, not seen")
 
     def faulty(
-        self, fault: str, declared: Mapping[str, Fraction], healthy: Point, turn: int
+        self,
+        simulator: Simulator,
+        fault: str,
+        declared: Mapping[str, Fraction],
+        healthy: Point,
+        turn: int,
     ) -> Point | None:
         """The same inputs with a random course of a fault, which may be large."""
         random = self.random
@@ -219,7 +252,7 @@ class _Judge:
         if fault in declared:
             size *= abs(float(declared[fault])) or 1
         lead = size * random.choice((-1, 1))
-        error = course(random, lead, self.simulator.length)
+        error = course(random, lead, self.length)
         known = dict(healthy.known)
         if fault in declared:
             known[fault] = known[fault] + error
@@ -227,12 +260,11 @@ class _Judge:
             known[wrong(fault)] = error
         start = list(healthy.torn)
         if turn > 2 and random.random() < 0.4:
-            start = [a + (b - a) * arb(0.3) for a, b in zip(
-                start, self.simulator.start(random), strict=True)]  # fmt: skip
+            other = simulator.start(random)
+            start = [a + (b - a) * arb(0.3) for a, b in zip(start, other, strict=True)]
         try:
-            return self.simulator.solve(known, start)
+            return simulator.solve(known, start)
         except NoPoint:
-            self.failures += 1
             return None
 
     def blind_off_nominal(self, r: Residual, fault: str) -> str | None:
@@ -248,12 +280,16 @@ class _Judge:
                     return f"{x}, which is no declared number"
                 factor = Fraction(self.random.randint(60, 190), 100)
                 declared[x] = declared[x] * factor or Fraction(3, 10)
-            points = [p for p in (self.point(declared) for _ in range(3)) if p is not None]
-            if not points or r.name not in self.seen(fault, declared, points, only=r)[0]:
+            if not any(self.seen_elsewhere(w, r, fault, declared) for w in self.worlds):
                 return ", ".join(names)
         return None
 
-
-def random_series(random: Random) -> Any:
-    """A series for tests."""
-    return arb_series([arb(random.uniform(0.5, 2)) for _ in range(ctx.cap)], ctx.cap)
+    def seen_elsewhere(
+        self, world: _World, r: Residual, fault: str, declared: Mapping[str, Fraction]
+    ) -> bool:
+        """Whether a fault is seen where other numbers are declared."""
+        points = [self.point(world.simulator, declared) for _ in range(3)]
+        there = world._replace(points=[p for p in points if p is not None])
+        wanted = [e for e in world.residuals if e.residual is r]
+        tried = {r.name: 0}
+        return bool(self.seen(there, fault, declared, wanted, tried, hope=True))

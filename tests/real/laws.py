@@ -141,3 +141,28 @@ def readings(build: Build, a: Node, b: Node) -> Node:
         lambda: fn("ssqrt", a - b),
     ]
     return build.random.choice(made)()
+
+
+def related(build: Build, a: Node, b: Node) -> tuple[Node, ...]:
+    """Readings that functions tie together."""
+    k = build.coefficient
+    shared = build.param()
+    made: list[Callable[[], tuple[Node, ...]]] = [
+        lambda: (fn("log", a), fn("log", b), fn("log", a * b)),
+        lambda: (fn("log", a), fn("log", shared * a)),
+        lambda: (fn("log", a / shared), fn("log", b / shared), a / b),
+        lambda: (fn("sin", a), fn("cos", a)),
+        lambda: (fn("exp", a), fn("exp", b), fn("exp", a + b)),
+        lambda: (fn("abs", a), a**2),
+        lambda: (fn("max", a, b), fn("min", a, b), a + b),
+        lambda: (a * b, a / b),
+        lambda: (shared * a, shared * b),
+        lambda: (shared * a, fn("exp", shared * a)),
+        lambda: (fn("tanh", a), fn("exp", 2 * a)),
+        lambda: (fn("min", a, 1), fn("max", a, 1)),
+        lambda: (fn("sqrt", a), a * fn("sqrt", a) * k()),
+        lambda: (fn("sinh", a), fn("cosh", a)),
+        lambda: (fn("ssqrt", a), a * fn("abs", a)),
+        lambda: (fn("sin", 2 * a), fn("sin", a) * fn("cos", a)),
+    ]
+    return build.random.choice(made)()

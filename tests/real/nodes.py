@@ -156,7 +156,10 @@ def _written(n: Node, spelled: Callable[[str], str]) -> tuple[str, int]:
         case "pow":
             assert isinstance(n.data, Fraction)
             exponent = number(n.data)
-            return f"{inner(n.args[0], _ATOM)}^{exponent if n.data > 0 else f'({exponent})'}", _POWER
+            return (
+                f"{inner(n.args[0], _ATOM)}^{exponent if n.data > 0 else f'({exponent})'}",
+                _POWER,
+            )
         case "fn":
             return f"{n.data}({', '.join(inner(a, _SUM) for a in n.args)})", _ATOM
         case "if":

@@ -295,8 +295,8 @@ class _Newton:
                     falling = float(perm(c, k))
                     low = c - k
                     if low < height:
-                        out[at + low : at + height, j * n + c] += (
-                            falling * np.array(own[: height - low])
+                        out[at + low : at + height, j * n + c] += falling * np.array(
+                            own[: height - low]
                         )
             at += height
         if not np.all(np.isfinite(out)):

@@ -17,6 +17,7 @@ _LOGIC = {"And": "and", "Or": "or", "Not": "not"}
 _SIGNS: dict[type[ast.cmpop], str] = {
     ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="
 }  # fmt: skip
+_BRANCHES = ("abs", "sign", "min", "max", "ssqrt", "cbrt")
 _ROOT = 1e-70
 _NOISE = 1e-10  # terms below this, of signals near one, have cancelled already
 
@@ -34,6 +35,7 @@ class Residual(NamedTuple):
     symbols: frozenset[str]
     orders: int
     integrates: bool
+    decides: bool  # whether it has branches
     signature: frozenset[str]
     only_off: Mapping[str, tuple[str, ...]]
     unconfirmed: frozenset[str]
@@ -47,8 +49,7 @@ def residuals(answer: Mapping[str, Any]) -> list[Residual]:
 def _residual(arr: Mapping[str, Any], named: Mapping[str, str]) -> Residual:
     inner = dict(arr.get("implicit", {}))
     known: dict[str, Node] = {
-        plain: sym(plain if plain in inner else named.get(plain, plain))
-        for plain in arr["symbols"]
+        plain: sym(plain if plain in inner else named.get(plain, plain)) for plain in arr["symbols"]
     }
     for name, text in arr.get("defs", []):
         known[name] = parsed(text, known)
@@ -62,6 +63,7 @@ def _residual(arr: Mapping[str, Any], named: Mapping[str, str]) -> Residual:
         frozenset(str(n.data) for n in every if n.op == "sym") - frozenset(roots),
         max([0, *arr["orders"].values()]),
         any(n.op == "int" for n in every),
+        any(n.op in ("if", "table") or (n.op == "fn" and n.data in _BRANCHES) for n in every),
         frozenset(arr["signature"]),
         {x: tuple(numbers) for x, numbers in arr.get("only_off_nominal", {}).items()},
         frozenset(arr.get("unconfirmed", ())),
@@ -277,7 +279,5 @@ class _Scale:
         out = [1.0] + [0.0] * (self.count - 1)
         for i in below:
             factor = self.of(i)
-            out = [
-                sum(out[j] * factor[k - j] for j in range(k + 1)) for k in range(self.count)
-            ]
+            out = [sum(out[j] * factor[k - j] for j in range(k + 1)) for k in range(self.count)]
         return out

@@ -99,10 +99,7 @@ def _tanh(s: Series) -> Series:
 def _atan2(y: Series, x: Series) -> Series:
     if not (x[0] > 0 or y[0] > 0 or y[0] < 0):
         return nothing()
-    if abs(x[0].mid()) > abs(y[0].mid()):
-        out = (y / x).atan()
-    else:
-        out = -(x / y).atan()
+    out = (y / x).atan() if abs(x[0].mid()) > abs(y[0].mid()) else -(x / y).atan()
     return arb_series([arb.atan2(y[0], x[0]), *out.coeffs()[1:]], out.prec)
 
 
@@ -300,9 +297,7 @@ def _logic(op: str, args: list[Any]) -> bool | None:
 Tangent = dict[tuple[int, int], Any]  # of an unknown and an order of derivative: its factor
 
 
-def tangents(
-    program: Program, values: list[Any], unknown: Mapping[str, int]
-) -> list[Tangent]:
+def tangents(program: Program, values: list[Any], unknown: Mapping[str, int]) -> list[Tangent]:
     """How the value of every step moves with the unknowns: sum of factor * d^k/dt^k unknown."""
     out: list[Tangent] = []
     for (n, at), v in zip(program.steps, values, strict=True):
@@ -322,9 +317,7 @@ def tangents(
     return out
 
 
-def _factors(
-    n: Node, args: list[Any], v: Any, below: list[Tangent]
-) -> list[tuple[Any, Tangent]]:
+def _factors(n: Node, args: list[Any], v: Any, below: list[Tangent]) -> list[tuple[Any, Tangent]]:
     """Pairs of a factor (None: one, text: so many derivatives) and the tangent it multiplies."""
     match n.op:
         case "add":
