@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import cache
 from math import perm
 from random import Random
 from typing import Any, NamedTuple
@@ -125,6 +126,15 @@ def _divides(root: Node, zero: set[str]) -> bool:
     return any(n.op == "sym" and n.data in zero for n in below)
 
 
+def _needed(given: Mapping[str, Node], zeros: list[Node]) -> dict[str, Node]:
+    """Those given variables that the zeros hold, or that these are given by."""
+    found = names(*zeros)
+    for x in reversed(given):
+        if x in found:
+            found |= names(given[x])
+    return {x: how for x, how in given.items() if x in found}
+
+
 class Point(NamedTuple):
     """A trajectory near a point: the torn unknowns, and the value of every name."""
 
@@ -147,7 +157,9 @@ class Simulator:
         given = self.order.given
         starts = [sym(x) - v for x, v in plant.starts.items()]
         self.starts = len(starts)
-        self.program = Program([*self.order.left, *starts], given)
+        zeros = [*self.order.left, *starts]
+        self.program = Program(zeros, _needed(given, zeros))
+        self.rest = Program([], given)
         self.unknown = {x: k for k, x in enumerate(self.order.torn)}
 
     def known(self, declared: Mapping[str, Fraction], random: Random) -> dict[str, Any]:
@@ -175,10 +187,9 @@ class Simulator:
     def solve(self, known: Mapping[str, Any], start: list[Any]) -> Point:
         """The trajectory with these known signals next to a start."""
         found = _Newton(self, known).run(list(start))
-        values = self.program.values({**known, **dict(zip(self.order.torn, found, strict=True))})
-        signals = dict(known)
-        signals.update(zip(self.order.torn, found, strict=True))
-        signals.update((x, values[k]) for x, k in self.program.bound.items())
+        signals = {**known, **dict(zip(self.order.torn, found, strict=True))}
+        values = self.rest.values(signals)
+        signals.update((x, values[k]) for x, k in self.rest.bound.items())
         return Point(tuple(found), signals, known)
 
 
@@ -289,19 +300,25 @@ class _Newton:
         at = 0
         for root, height in zip(program.roots, rows, strict=True):
             for (j, k), factor in all_tangents[root].items():
-                own = [float(factor[i].mid()) for i in range(min(height, factor.prec))]
-                own += [0.0] * (height - len(own))
-                for c in range(k, n):
-                    falling = float(perm(c, k))
-                    low = c - k
-                    if low < height:
-                        out[at + low : at + height, j * n + c] += falling * np.array(
-                            own[: height - low]
-                        )
+                own = np.zeros(2 * n + 1)  # behind the coefficients the zeros above the diagonal
+                own[:n] = [float(factor[i].mid()) for i in range(n)]
+                where, falling = _shifted(n, k)
+                out[at : at + height, j * n : (j + 1) * n] += (own[where] * falling)[:height]
             at += height
         if not np.all(np.isfinite(out)):
             raise NoPoint
         return out
+
+
+@cache
+def _shifted(n: int, order: int) -> tuple[Any, Any]:
+    """Where the coefficients of a factor stand in its product with a derivative, and times what.
+
+    Coefficient r of a(t) d^k/dt^k x is the sum over c of a[r - c + k] c!/(c - k)! x[c].
+    """
+    places = np.arange(n)[:, None] - np.arange(n)[None, :] + order
+    places = np.where((places < 0) | (places >= n), 2 * n, places)
+    return places, np.array([float(perm(c, order)) for c in range(n)])[None, :]
 
 
 class _Factors:

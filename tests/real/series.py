@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from functools import reduce
 from typing import Any
 
 from flint import arb, arb_series, ctx, fmpq
@@ -212,6 +213,7 @@ class Program:
 
     def __init__(self, roots: Sequence[Node], bound: Mapping[str, Node] | None = None) -> None:
         self.steps: list[tuple[Node, tuple[int, ...]]] = []
+        self.makers: list[Maker] = []
         self.place: dict[int, int] = {}
         self.bound: dict[str, int] = {}
         self.kept = [*roots, *(bound or {}).values()]
@@ -228,64 +230,77 @@ class Program:
                 continue
             self.place[id(n)] = len(self.steps)
             self.steps.append((n, tuple(self.place[id(a)] for a in n.args)))
+            self.makers.append(_maker(*self.steps[-1]))
         return self.place[id(root)]
 
     def values(self, given: Mapping[str, Any]) -> list[Any]:
         """The value of every step."""
         out: list[Any] = []
-        for n, at in self.steps:
-            out.append(value(n, [out[i] for i in at], given))
+        for make in self.makers:
+            out.append(make(out, given))
         return out
 
 
-def value(n: Node, args: list[Any], given: Mapping[str, Any]) -> Any:
-    """The value of one operation: a series, or a truth of a comparison (None: it has none)."""
+Maker = Callable[[list[Any], Mapping[str, Any]], Any]
+
+
+def _maker(n: Node, at: tuple[int, ...]) -> Maker:
+    """What computes one operation from the steps before it: a series, or a truth (None: none)."""
+    data: Any = n.data
+    i, j = (*at, -1, -1)[:2]
     match n.op:
         case "sym":
-            return given[n.data]  # type: ignore[index]
+            return lambda _, given: given[data]
         case "num":
-            return constant(exact(n.data))  # type: ignore[arg-type]
+            number = exact(data)
+            return lambda *_: constant(number)
         case "add":
-            terms = zip(n.data, args, strict=True)  # type: ignore[call-overload]
-            out = None
-            for c, x in terms:
-                term = x if c == 1 else -x if c == -1 else x * exact(c)
-                out = term if out is None else out + term
-            return out
-        case "mul":
-            out = args[0]
-            for x in args[1:]:
-                out = out * x
-            return out
+            return _sum(at, data)
+        case "mul" if len(at) == 2:
+            return lambda v, _: v[i] * v[j]
         case "div":
-            return quotient(args[0], args[1])
+            return lambda v, _: quotient(v[i], v[j])
         case "pow":
-            return power(args[0], n.data)  # type: ignore[arg-type]
+            return lambda v, _: power(v[i], data)
+        case "fn" if data in ("min", "max"):
+            pick = FUNCTIONS[data]
+            return lambda v, _: reduce(pick, [v[k] for k in at])
         case "fn":
-            return _function(str(n.data), args)
+            function = FUNCTIONS[data]
+            return lambda v, _: function(*[v[k] for k in at])
         case "if":
-            return nothing() if args[0] is None else args[1] if args[0] else args[2]
+            return lambda v, _: nothing() if v[i] is None else v[j] if v[i] else v[at[2]]
         case "cmp":
-            return _holds(str(n.data), args[0] - args[1])
+            return lambda v, _: _holds(data, v[i] - v[j])
         case "and" | "or" | "not":
-            return _logic(n.op, args)
+            return lambda v, _: _logic(n.op, [v[k] for k in at])
         case "der":
-            return derivative(args[0], n.data)  # type: ignore[arg-type]
+            return lambda v, _: derivative(v[i], data)
         case "int":
-            return args[0].integral() + args[1][0]
+            return lambda v, _: v[i].integral() + v[j][0]
         case "table":
-            return _interpolated(n.data, args[0])[0]  # type: ignore[arg-type]
+            return lambda v, _: _interpolated(data, v[i])[0]
     raise ValueError(n.op)
 
 
-def _function(name: str, args: list[Any]) -> Any:
-    made = FUNCTIONS[name]
-    if name in ("min", "max"):
-        out = args[0]
-        for x in args[1:]:
-            out = made(out, x)
+def _sum(at: tuple[int, ...], coefficients: Any) -> Maker:
+    terms = [
+        (k, int(c) if c in (1, -1) else exact(c)) for k, c in zip(at, coefficients, strict=True)
+    ]
+    if len(terms) == 2 and terms[0][1] == 1 and terms[1][1] in (1, -1):
+        i, j = at
+        if terms[1][1] == 1:
+            return lambda v, _: v[i] + v[j]
+        return lambda v, _: v[i] - v[j]
+
+    def add(v: list[Any], _: Mapping[str, Any]) -> Any:
+        out = None
+        for k, c in terms:
+            term = v[k] if c == 1 else v[k] * c
+            out = term if out is None else out + term
         return out
-    return made(*args)
+
+    return add
 
 
 def _logic(op: str, args: list[Any]) -> bool | None:
