@@ -228,11 +228,13 @@ class _Judge:
         if not tried:
             return Entry(r.name, fault, "not judged: no trajectory on which it has a value")
         said = fault in r.signature
+        if said and fault in r.only_off:
+            return Entry(r.name, fault, "wrong", "said both seen and only off nominal")
         if said == seen and fault not in r.only_off:
             return Entry(r.name, fault, "unconfirmed" if fault in r.unconfirmed else "right")
         if fault in r.unconfirmed:
             return Entry(r.name, fault, "unconfirmed")
-        if fault in r.only_off and not said:
+        if fault in r.only_off:
             if seen:
                 return Entry(r.name, fault, "wrong", "said only off nominal, seen at them")
             blind = self.blind_off_nominal(r, fault)
