@@ -10,16 +10,16 @@ from typing import Any, NamedTuple
 from flint import arb
 
 from tests.real.plant import NoPoint, Plant, Point, Simulator, course, wrong
-from tests.real.residual import Evaluator, NoValue, Residual, residuals
+from tests.real.residual import Evaluator, NoValue, Residual, decides, residuals
 from tests.real.series import constant, exact, prepare
 
 HEALTHY = 1e-25  # of its terms: below this a residual vanishes
 SEEN = 1e-20  # above this it has moved
-_POINTS = 4
+_POINTS, _BRANCHED_POINTS = 4, 6
 _MOST_POINTS = 16  # where residuals have no value at most points
 _STARTS = 25  # random starts for each of them
 _SAID = 32  # trajectories with a fault, while an entry that is said to be seen is not
-_UNSAID = 6  # for entries that are said not to be seen
+_UNSAID, _BRANCHED_UNSAID = 5, 12  # for entries that are said not to be seen
 _LONGEST = 40  # coefficients
 
 
@@ -88,6 +88,9 @@ class _Judge:
         self.evaluators = [Evaluator(r) for r in found]
         self.count = 5 if any(r.integrates for r in found) else 3
         self.broken: dict[str, str] = {}
+        branches = any(r.decides for r in found) or any(map(decides, plant.laws()))
+        self.enough = _BRANCHED_POINTS if branches else _POINTS
+        self.unsaid = _BRANCHED_UNSAID if branches else _UNSAID
         # Integrals begin at the start, where declared initial values hold. What has no integral
         # can be looked at anywhere in a run.
         self.worlds = [self.world(plant, length, self.evaluators)]
@@ -128,12 +131,16 @@ class _Judge:
         return out
 
     def point(
-        self, simulator: Simulator, declared: Mapping[str, Fraction], starts: int = _STARTS
+        self,
+        simulator: Simulator,
+        declared: Mapping[str, Fraction],
+        positive: bool = False,
+        starts: int = _STARTS,
     ) -> Point | None:
-        """A healthy trajectory."""
+        """A healthy trajectory; `positive`: with inputs that begin above zero."""
         for _ in range(starts):
             try:
-                known = simulator.known(declared, self.random)
+                known = simulator.known(declared, self.random, positive)
                 return simulator.solve(known, simulator.start(self.random))
             except NoPoint:
                 continue
@@ -145,9 +152,9 @@ class _Judge:
         points: list[Point] = []
         valued: dict[str, int] = {e.residual.name: 0 for e in wanted}
         for turn in range(_MOST_POINTS):
-            if not wanted or (turn >= _POINTS and min(valued.values()) >= 2):
+            if not wanted or (turn >= self.enough and min(valued.values()) >= 2):
                 break
-            point = self.point(simulator, plant.declared)
+            point = self.point(simulator, plant.declared, turn % 2 == 0)
             if point is None:
                 break
             told = self.told(point, plant.declared)
@@ -203,10 +210,10 @@ class _Judge:
         for turn in range(_SAID if pool else 0):
             left = [e for e in wanted if e.residual.name not in seen]
             hoped = hope or any(self.said(e.residual, fault) for e in left)
-            if not left or (turn >= _UNSAID and not hoped):
+            if not left or (turn >= self.unsaid and not hoped):
                 break
-            if turn >= 2 * _POINTS and turn % 4 == 0:
-                extra = self.point(world.simulator, declared, 3)
+            if turn >= 2 * self.enough and turn % 4 == 0:
+                extra = self.point(world.simulator, declared, starts=3)
                 pool += [extra] if extra is not None else []
             point = self.faulty(world.simulator, fault, declared, pool[turn % len(pool)], turn)
             if point is None:

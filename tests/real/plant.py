@@ -54,6 +54,10 @@ class Plant(NamedTuple):
     states: tuple[str, ...]
     starts: Mapping[str, Fraction]
 
+    def laws(self) -> list[Node]:
+        """All that vanishes."""
+        return [equation.zero for equation in self.equations]
+
     @property
     def faults(self) -> tuple[str, ...]:
         return (*self.params, *self.inputs, *self.sensors, *self.sources)
@@ -162,12 +166,14 @@ class Simulator:
         self.rest = Program([], given)
         self.unknown = {x: k for k, x in enumerate(self.order.torn)}
 
-    def known(self, declared: Mapping[str, Fraction], random: Random) -> dict[str, Any]:
+    def known(
+        self, declared: Mapping[str, Fraction], random: Random, positive: bool = True
+    ) -> dict[str, Any]:
         """Random inputs, declared numbers, and nothing wrong."""
         plant = self.plant
         out = {x: constant(exact(v)) for x, v in declared.items()}
         for x in (*plant.inputs, *plant.unknown):
-            out[x] = course(random, _lead(random), self.length)
+            out[x] = course(random, _lead(random, positive), self.length)
         zero = constant(0)
         out.update((wrong(x), zero) for x in (*plant.inputs, *plant.sensors, *plant.sources))
         return out
@@ -193,9 +199,9 @@ class Simulator:
         return Point(tuple(found), signals, known)
 
 
-def _lead(random: Random) -> float:
+def _lead(random: Random, positive: bool) -> float:
     size = 10 ** random.uniform(-0.5, 0.7)
-    return size if random.random() < 0.7 else -size
+    return size if positive or random.random() < 0.5 else -size
 
 
 def course(random: Random, lead: float, length: int) -> Any:

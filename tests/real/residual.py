@@ -63,11 +63,17 @@ def _residual(arr: Mapping[str, Any], named: Mapping[str, str]) -> Residual:
         frozenset(str(n.data) for n in every if n.op == "sym") - frozenset(roots),
         max([0, *arr["orders"].values()]),
         any(n.op == "int" for n in every),
-        any(n.op in ("if", "table") or (n.op == "fn" and n.data in _BRANCHES) for n in every),
+        decides(root) or any(decides(zero) for zero, _ in roots.values()),
         frozenset(arr["signature"]),
         {x: tuple(numbers) for x, numbers in arr.get("only_off_nominal", {}).items()},
         frozenset(arr.get("unconfirmed", ())),
     )
+
+
+def decides(root: Node) -> bool:
+    """Whether an expression has branches."""
+    every = ordered([root])
+    return any(n.op in ("if", "table") or (n.op == "fn" and n.data in _BRANCHES) for n in every)
 
 
 def parsed(text: str, known: Mapping[str, Node]) -> Node:
