@@ -134,13 +134,13 @@ class _Judge:
         self,
         simulator: Simulator,
         declared: Mapping[str, Fraction],
-        positive: bool = False,
+        sign: int = 0,
         starts: int = _STARTS,
     ) -> Point | None:
-        """A healthy trajectory; `positive`: with inputs that begin above zero."""
+        """A healthy trajectory; its inputs begin with a sign (0: any)."""
         for _ in range(starts):
             try:
-                known = simulator.known(declared, self.random, positive)
+                known = simulator.known(declared, self.random, sign)
                 return simulator.solve(known, simulator.start(self.random))
             except NoPoint:
                 continue
@@ -154,7 +154,7 @@ class _Judge:
         for turn in range(_MOST_POINTS):
             if not wanted or (turn >= self.enough and min(valued.values()) >= 2):
                 break
-            point = self.point(simulator, plant.declared, turn % 2 == 0)
+            point = self.point(simulator, plant.declared, (1, -1, 1, 0)[turn % 4])
             if point is None:
                 break
             told = self.told(point, plant.declared)

@@ -167,13 +167,13 @@ class Simulator:
         self.unknown = {x: k for k, x in enumerate(self.order.torn)}
 
     def known(
-        self, declared: Mapping[str, Fraction], random: Random, positive: bool = True
+        self, declared: Mapping[str, Fraction], random: Random, sign: int = 0
     ) -> dict[str, Any]:
         """Random inputs, declared numbers, and nothing wrong."""
         plant = self.plant
         out = {x: constant(exact(v)) for x, v in declared.items()}
         for x in (*plant.inputs, *plant.unknown):
-            out[x] = course(random, _lead(random, positive), self.length)
+            out[x] = course(random, _lead(random, sign), self.length)
         zero = constant(0)
         out.update((wrong(x), zero) for x in (*plant.inputs, *plant.sensors, *plant.sources))
         return out
@@ -199,9 +199,8 @@ class Simulator:
         return Point(tuple(found), signals, known)
 
 
-def _lead(random: Random, positive: bool) -> float:
-    size = 10 ** random.uniform(-0.5, 0.7)
-    return size if positive or random.random() < 0.5 else -size
+def _lead(random: Random, sign: int) -> float:
+    return (sign or random.choice((-1, 1))) * 10.0 ** random.uniform(-0.5, 0.7)
 
 
 def course(random: Random, lead: float, length: int) -> Any:
