@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 .DEFAULT_GOAL := help
-.PHONY: help run demo robots test check lint types imports docs wheel bench update fuzz random mutants clean
+.PHONY: help run demo robots test check lint types imports docs wheel bench update fuzz random real mutants clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -88,6 +88,9 @@ fuzz: $(VENV)/dev.stamp ## 100 000 broken models through `check`
 
 random: $(VENV)/dev.stamp ## 10 000 random bond graphs, others each time but for START=..., each verified or refused with a reason
 	$(BIN)/python -m tests.random.run --count 10000 --jobs 2 $(if $(START),--start $(START))
+
+real: $(VENV)/dev.stamp ## 2 000 random plants: every signature compared with real trajectories
+	$(BIN)/python -m tests.real.run --count 2000 --jobs 2
 
 robots: $(VENV)/dev.stamp ## a hundred healthy robots and many faulty ones through the monitor; hours
 	$(BIN)/python -m tests.robots.run --jobs 2 $(if $(START),--start $(START))

@@ -16,9 +16,10 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import NamedTuple
 
-from tests.real.answer import answer
+from tests.real.answer import answer, unverified
+from tests.real.build import Model
 from tests.real.draw import of_seed
-from tests.real.judge import Judgement, judge
+from tests.real.judge import Entry, Judgement, judge
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "real_trajectories.md"
 _BEGIN, _END = "<!-- campaign begins -->", "<!-- campaign ends -->"
@@ -51,6 +52,21 @@ def outcome(seed: int) -> Outcome:
     judged = judge(model.plant, found, seed) if found["arrs"] else Judgement()
     spent = time.process_time() - compiled
     return Outcome(seed, status, judged, "", compiled - begin, spent)
+
+
+def refused(model: Model) -> str:
+    """What the judge says of residuals that the compiler took for a mistake of its own."""
+    found = unverified(model)
+    if not found["arrs"]:
+        return f"nothing can be said: {found['status']}"
+    judged = judge(model.plant, found)
+    wrong = [f"{e.residual} and {e.fault}: {e.detail}" for e in judged.entries if _bad(e)]
+    said = [*judged.broken, *wrong] or [judged.unjudged or "all residuals and signatures are right"]
+    return "; ".join(said)
+
+
+def _bad(entry: Entry) -> bool:
+    return entry.verdict == "wrong"
 
 
 def show(seed: int) -> None:
@@ -98,14 +114,13 @@ def commit() -> str:
     return subprocess.run(words, capture_output=True, text=True, check=False).stdout.strip()
 
 
-def write_page(first: int, count: int, rows: list[str], wrong: list[str]) -> None:
+def write_page(first: int, rows: list[str], count: int) -> None:
     """Puts the table of this run into the page."""
     told = [
         f"`python -m tests.real.run --seed {first} --count {count}` at commit {commit()}:",
         "",
         *rows,
         "",
-        *wrong,
     ]
     text = PAGE.read_text(encoding="utf-8")
     new = "\n".join([_BEGIN, "", *told, _END])
@@ -120,7 +135,7 @@ def problems(found: Outcome) -> list[str]:
     if any(word in found.status for word in bad):
         out.append(f"{found.seed}: {found.status}: {found.note.strip()[-600:]}")
     for e in found.judged.entries:
-        if e.verdict == "wrong":
+        if _bad(e):
             out.append(f"{found.seed}: {e.residual} and {e.fault}: {e.detail}")
     return out
 
@@ -158,7 +173,7 @@ def main() -> int:
         f" {judging:.0f} s for judging"
     )
     if options.page:
-        write_page(seeds.start, len(outcomes), rows, [])
+        write_page(seeds.start, rows, len(outcomes))
     return int(bool(wrong))
 
 
