@@ -21,11 +21,13 @@ from tests.real.build import Model
 
 
 class Slow(Exception):
-    """The compiler has had its time."""
+    """The compiler or the judge has had its time."""
 
 
 @contextlib.contextmanager
-def _limited(seconds: int) -> Iterator[None]:
+def limited(seconds: int) -> Iterator[None]:
+    """Raises `Slow` after so many seconds of processor time."""
+
     def ring(*_: object) -> None:
         raise Slow
 
@@ -56,7 +58,7 @@ def answer(model: Model, seconds: int = 30) -> dict[str, Any]:
     with _written(model) as path:
         words = ["compile", str(path), "--json", "--target", "python", "-o", f"{path.parent}/out"]
         try:
-            with _limited(seconds), contextlib.redirect_stdout(out):
+            with limited(seconds), contextlib.redirect_stdout(out):
                 main(words)
         except Slow:
             return {"status": "slow"}
@@ -70,7 +72,7 @@ def unverified(model: Model, seconds: int = 30) -> dict[str, Any]:
     """The same without the compiler's own check: what it refused as a mistake of its own."""
     with _written(model) as path:
         try:
-            with _limited(seconds):
+            with limited(seconds):
                 compilation = bondgraph.compile(str(path))
                 found: dict[str, Any] = json.loads(json.dumps(result(compilation, ())))
         except (Slow, CompileError) as reason:

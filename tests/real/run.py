@@ -12,16 +12,19 @@ import subprocess
 import sys
 import time
 from collections import Counter
+from collections.abc import Mapping
 from multiprocessing import get_context
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from tests.real.answer import answer, unverified
+from tests.real.answer import Slow, answer, limited, unverified
 from tests.real.build import Model
 from tests.real.draw import of_seed
 from tests.real.judge import Entry, Judgement, judge
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "real_trajectories.md"
+_PATIENCE = 120  # seconds of a processor for one model
+_FAILED = "the judge failed"
 _BEGIN, _END = "<!-- campaign begins -->", "<!-- campaign ends -->"
 
 
@@ -49,9 +52,21 @@ def outcome(seed: int) -> Outcome:
         codes = ", ".join(sorted({d["code"] for d in errors}))
         named = f"{status}: {codes}" if codes else status
         return Outcome(seed, named, Judgement(), note or found.get("message", ""), compiled - begin)
-    judged = judge(model.plant, found, seed) if found["arrs"] else Judgement()
+    judged = judgement(model, found, seed) if found["arrs"] else Judgement()
     spent = time.process_time() - compiled
     return Outcome(seed, status, judged, "", compiled - begin, spent)
+
+
+def judgement(model: Model, found: Mapping[str, Any], seed: int) -> Judgement:
+    """What the judge says; a failure of its own is one of what is wrong."""
+    try:
+        with limited(_PATIENCE):
+            return judge(model.plant, found, seed)
+    except Slow:
+        return Judgement(unjudged=f"not done in {_PATIENCE} s")
+    except Exception as failure:
+        told = f"the judge failed: {type(failure).__name__}: {failure}"
+        return Judgement(broken=(told,), unjudged=_FAILED)
 
 
 def refused(model: Model) -> str:
@@ -59,7 +74,7 @@ def refused(model: Model) -> str:
     found = unverified(model)
     if not found["arrs"]:
         return f"nothing can be said: {found['status']}"
-    judged = judge(model.plant, found)
+    judged = judgement(model, found, 0)
     wrong = [f"{e.residual} and {e.fault}: {e.detail}" for e in judged.entries if _bad(e)]
     said = [*judged.broken, *wrong] or [judged.unjudged or "all residuals and signatures are right"]
     return "; ".join(said)
@@ -94,7 +109,7 @@ def table(outcomes: list[Outcome]) -> list[str]:
         if e.verdict in ("wrong", "not a candidate") and e.detail
     )
     unjudged = Counter(o.judged.unjudged for o in outcomes if o.judged.unjudged)
-    broken = sum(len(o.judged.broken) for o in outcomes)
+    broken = sum(len(o.judged.broken) for o in outcomes if o.judged.unjudged != _FAILED)
     rows = [("models", len(outcomes)), ("compiled, with residuals", statuses.pop("ok", 0))]
     rows.append(("compiled, without redundancy", statuses.pop("no_arr", 0)))
     rows += [(f"not compiled: {name}", n) for name, n in statuses.most_common()]

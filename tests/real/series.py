@@ -94,13 +94,14 @@ def _tanh(s: Series) -> Series:
     if abs(s[0]) > 100:
         return constant(1 if s[0] > 0 else -1)
     e = (s * 2).exp()
-    return (e - 1) / (e + 1)
+    return quotient(e - 1, e + 1)
 
 
 def _atan2(y: Series, x: Series) -> Series:
     if not (x[0] > 0 or y[0] > 0 or y[0] < 0):
         return nothing()
-    out = (y / x).atan() if abs(x[0].mid()) > abs(y[0].mid()) else -(x / y).atan()
+    flat = abs(x[0].mid()) > abs(y[0].mid())
+    out = quotient(y, x).atan() if flat else -quotient(x, y).atan()
     return arb_series([arb.atan2(y[0], x[0]), *out.coeffs()[1:]], out.prec)
 
 
@@ -160,7 +161,7 @@ def _slope(name: str, s: Series, value: Series) -> Series:
         case "acos":
             return quotient(constant(-1), (1 - s * s).sqrt())
         case "atan":
-            return 1 / (s * s + 1)
+            return quotient(constant(1), s * s + 1)
         case "sinh":
             return FUNCTIONS["cosh"](s)
         case "cosh":
@@ -168,7 +169,7 @@ def _slope(name: str, s: Series, value: Series) -> Series:
         case "tanh":
             return 1 - value * value
         case "asinh":
-            return 1 / (s * s + 1).sqrt()
+            return quotient(constant(1), (s * s + 1).sqrt())
         case "sqrt":
             return quotient(constant(0.5), value)
         case "ssqrt":
