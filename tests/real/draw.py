@@ -188,28 +188,29 @@ class Drawing:
         """Couplings that are declared as nothing, laws that other signals modulate."""
         build = self.build
         if self.chance(0.25):
-            j = self.random.choice(build.junctions)
-            k = build.param("0")
-            other = self.random.choice(build.junctions).common
+            j, other = self.random.choice(build.junctions), self.random.choice(build.junctions)
             x, y = ("e", "f") if j.kind == "1" else ("f", "e")
-            if self.chance(0.5):
-                build.element(j, "R", Law(x, k * sym(y)))
-            elif other is not j.common:
-                build.element(j, "R", Law(x, build.coefficient() * sym(y) + k * other))
-        if self.chance(0.2):
-            j = self.random.choice(build.junctions)
-            other = self.random.choice(build.junctions).common
-            x, y = ("e", "f") if j.kind == "1" else ("f", "e")
-            k = build.coefficient()
-            law = self.random.choice(
-                (
-                    (k + fn("abs", other)) * sym(y),
-                    k * fn("exp", other) * sym(y),
-                    k * (1 + other**2) * fn("ssqrt", sym(y)),
-                )
-            )
-            if other.data != j.common.data:
+            none = build.param("0")
+            if other is j or self.chance(0.5):
+                build.element(j, "R", Law(x, none * sym(y)))
+            else:
+                law = build.coefficient() * sym(y) + none * other.common
                 build.element(j, "R", Law(x, law))
+        if self.chance(0.2):
+            j, other = self.random.choice(build.junctions), self.random.choice(build.junctions)
+            if other is not j:
+                x, y = ("e", "f") if j.kind == "1" else ("f", "e")
+                build.element(j, "R", Law(x, self.modulated(sym(y), other.common)))
+
+    def modulated(self, x: Node, other: Node) -> Node:
+        """A law that another signal moves."""
+        k = self.build.coefficient()
+        laws_of = (
+            (k + fn("abs", other)) * x,
+            k * fn("exp", other) * x,
+            k * (1 + other**2) * fn("ssqrt", x),
+        )
+        return self.random.choice(laws_of)
 
     def quantity(self) -> Node:
         """The common variable of a junction, or a variable of an element."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import cache
 
 from tests.real.build import Build, Law, Points
 from tests.real.nodes import Node, choose, compare, fn, node, sym, table
@@ -107,6 +108,7 @@ def storage(build: Build, kind: str, bent: float) -> Law:
 def readings(build: Build, a: Node, b: Node) -> Node:
     """What a sensor may show of two quantities."""
     k = build.coefficient
+    shared = cache(k)  # the same each time
 
     def diodes() -> Node:
         v, i = k(), k()
@@ -139,6 +141,14 @@ def readings(build: Build, a: Node, b: Node) -> Node:
         lambda: choose(compare(">", a, b), a, b),
         lambda: a / (a + b),
         lambda: fn("ssqrt", a - b),
+        lambda: k() * fn("max", fn("tanh", a) - 1, 0) + b,  # never
+        lambda: k() * choose(compare(">", fn("sin", a), 2), a, 0) + b,  # never
+        lambda: fn("exp", shared() * fn("log", a)) / fn("exp", shared() * fn("log", 2 * a)),
+        lambda: fn("sqrt", (shared() * a) ** 2) / shared(),
+        lambda: shared() * a / (shared() * b),
+        lambda: fn("exp", shared() * a) * fn("exp", -(shared() * b)),
+        lambda: fn("abs", shared() * a) - shared() * fn("abs", b),
+        lambda: fn("atan2", shared() * a, shared() * b),
     ]
     return build.random.choice(made)()
 
@@ -146,18 +156,18 @@ def readings(build: Build, a: Node, b: Node) -> Node:
 def related(build: Build, a: Node, b: Node) -> tuple[Node, ...]:
     """Readings that functions tie together."""
     k = build.coefficient
-    shared = build.param()
+    shared = cache(build.param)  # the same each time
     made: list[Callable[[], tuple[Node, ...]]] = [
         lambda: (fn("log", a), fn("log", b), fn("log", a * b)),
-        lambda: (fn("log", a), fn("log", shared * a)),
-        lambda: (fn("log", a / shared), fn("log", b / shared), a / b),
+        lambda: (fn("log", a), fn("log", shared() * a)),
+        lambda: (fn("log", a / shared()), fn("log", b / shared()), a / b),
         lambda: (fn("sin", a), fn("cos", a)),
         lambda: (fn("exp", a), fn("exp", b), fn("exp", a + b)),
         lambda: (fn("abs", a), a**2),
         lambda: (fn("max", a, b), fn("min", a, b), a + b),
         lambda: (a * b, a / b),
-        lambda: (shared * a, shared * b),
-        lambda: (shared * a, fn("exp", shared * a)),
+        lambda: (shared() * a, shared() * b),
+        lambda: (shared() * a, fn("exp", shared() * a)),
         lambda: (fn("tanh", a), fn("exp", 2 * a)),
         lambda: (fn("min", a, 1), fn("max", a, 1)),
         lambda: (fn("sqrt", a), a * fn("sqrt", a) * k()),

@@ -129,10 +129,10 @@ def commit() -> str:
     return subprocess.run(words, capture_output=True, text=True, check=False).stdout.strip()
 
 
-def write_page(first: int, rows: list[str], count: int) -> None:
+def write_page(judged: str, first: int, rows: list[str], count: int) -> None:
     """Puts the table of this run into the page."""
     told = [
-        f"`python -m tests.real.run --seed {first} --count {count}` at commit {commit()}:",
+        f"`python -m tests.real.run --seed {first} --count {count}` at commit {judged}:",
         "",
         *rows,
         "",
@@ -172,6 +172,7 @@ def main() -> int:
     else:
         seeds = range(options.seed, options.seed + options.count)
     begin = time.monotonic()
+    judged = commit()
     outcomes: list[Outcome] = []
     wrong: list[str] = []
     with get_context("spawn").Pool(options.jobs) as pool:
@@ -188,7 +189,7 @@ def main() -> int:
         f" {judging:.0f} s for judging"
     )
     if options.page:
-        write_page(seeds.start, rows, len(outcomes))
+        write_page(judged, seeds.start, rows, len(outcomes))
     return int(bool(wrong))
 
 
