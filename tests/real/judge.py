@@ -15,9 +15,10 @@ from tests.real.series import constant, exact, prepare
 
 HEALTHY = 1e-25  # of its terms: below this a residual vanishes
 SEEN = 1e-20  # above this it has moved
-_POINTS, _BRANCHED_POINTS = 4, 6
+_POINTS, _BRANCHED_POINTS = 4, 9
+_FAR = 6  # the scale of every third point, beyond the ends of tables and of saturations
 _MOST_POINTS = 16  # where residuals have no value at most points
-_STARTS = 25  # random starts for each of them
+_STARTS = 12  # random starts for each of them
 _SAID = 32  # trajectories with a fault, while an entry that is said to be seen is not
 _UNSAID, _BRANCHED_UNSAID = 5, 12  # for entries that are said not to be seen
 _LONGEST = 40  # coefficients
@@ -135,13 +136,14 @@ class _Judge:
         simulator: Simulator,
         declared: Mapping[str, Fraction],
         sign: int = 0,
+        scale: float = 1,
         starts: int = _STARTS,
     ) -> Point | None:
-        """A healthy trajectory; its inputs begin with a sign (0: any)."""
+        """A healthy trajectory; its inputs begin with a sign (0: any), all about at a scale."""
         for _ in range(starts):
             try:
-                known = simulator.known(declared, self.random, sign)
-                return simulator.solve(known, simulator.start(self.random))
+                known = simulator.known(declared, self.random, sign, scale)
+                return simulator.solve(known, simulator.start(self.random, scale))
             except NoPoint:
                 continue
         return None
@@ -154,9 +156,12 @@ class _Judge:
         for turn in range(_MOST_POINTS):
             if not wanted or (turn >= self.enough and min(valued.values()) >= 2):
                 break
-            point = self.point(simulator, plant.declared, (1, -1, 1, 0)[turn % 4])
+            far = _FAR if turn % 3 == 2 else 1
+            point = self.point(simulator, plant.declared, (1, -1, 1, 0)[turn % 4], far)
             if point is None:
-                break
+                if not points and turn >= 3:
+                    break
+                continue
             told = self.told(point, plant.declared)
             before = sum(valued.values())
             for evaluator in wanted:

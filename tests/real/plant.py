@@ -167,21 +167,21 @@ class Simulator:
         self.unknown = {x: k for k, x in enumerate(self.order.torn)}
 
     def known(
-        self, declared: Mapping[str, Fraction], random: Random, sign: int = 0
+        self, declared: Mapping[str, Fraction], random: Random, sign: int = 0, scale: float = 1
     ) -> dict[str, Any]:
         """Random inputs, declared numbers, and nothing wrong."""
         plant = self.plant
         out = {x: constant(exact(v)) for x, v in declared.items()}
         for x in (*plant.inputs, *plant.unknown):
-            out[x] = course(random, _lead(random, sign), self.length)
+            out[x] = course(random, scale * _lead(random, sign), self.length)
         zero = constant(0)
         out.update((wrong(x), zero) for x in (*plant.inputs, *plant.sensors, *plant.sources))
         return out
 
-    def start(self, random: Random) -> list[Any]:
+    def start(self, random: Random, scale: float = 1) -> list[Any]:
         """Random torn unknowns, often all positive."""
         positive = random.random() < 0.6
-        size = 10 ** random.uniform(-0.7, 0.7)
+        size = scale * 10 ** random.uniform(-0.7, 0.7)
         out = []
         for _ in self.order.torn:
             lead = size * random.uniform(0.2, 2)

@@ -48,6 +48,11 @@ def middle(s: Series) -> Series:
     return arb_series([c.mid() for c in s.coeffs()], s.prec)
 
 
+def positive(s: Series) -> bool:
+    """Whether a value is above zero by more than what rounding leaves of nothing."""
+    return s[0].is_finite() and s[0].mid() > _SMALL
+
+
 def quotient(a: Series, b: Series) -> Series:
     lead = b[0]
     if not lead.is_finite() or lead.contains(0) or abs(lead.mid()) < _SMALL:
@@ -85,9 +90,9 @@ def power(s: Series, c: Fraction) -> Series:
             out = out * s
         return out if c >= 0 else quotient(constant(1), out)
     if c.denominator == 2 and 0 < c < 3:
-        root = s.sqrt()
+        root = FUNCTIONS["sqrt"](s)
         return root if c == Fraction(1, 2) else root * s
-    return (s.log() * exact(c)).exp() if s[0] > 0 else nothing()
+    return (s.log() * exact(c)).exp() if positive(s) else nothing()
 
 
 def _tanh(s: Series) -> Series:
@@ -98,7 +103,7 @@ def _tanh(s: Series) -> Series:
 
 
 def _atan2(y: Series, x: Series) -> Series:
-    if not (x[0] > 0 or y[0] > 0 or y[0] < 0):
+    if not (positive(x) or positive(y) or positive(-y)):
         return nothing()
     flat = abs(x[0].mid()) > abs(y[0].mid())
     out = quotient(y, x).atan() if flat else -quotient(x, y).atan()
@@ -118,7 +123,7 @@ def _inverse_hyperbolic(s: Series) -> Series:
 
 FUNCTIONS: dict[str, Callable[..., Series]] = {
     "exp": lambda s: s.exp(),
-    "log": lambda s: s.log() if s[0] > 0 else nothing(),
+    "log": lambda s: s.log() if positive(s) else nothing(),
     "sin": lambda s: s.sin(),
     "cos": lambda s: s.cos(),
     "tan": lambda s: quotient(s.sin(), s.cos()),
@@ -131,15 +136,15 @@ FUNCTIONS: dict[str, Callable[..., Series]] = {
     "asinh": _inverse_hyperbolic,
     "acosh": lambda s: (s + (s * s - 1).sqrt()).log(),
     "atanh": lambda s: quotient(s + 1, 1 - s).log() / 2,
-    "sqrt": lambda s: s.sqrt() if s[0] > 0 else nothing(),
-    "ssqrt": lambda s: _by_sign(s, lambda x: x.sqrt()),
-    "cbrt": lambda s: _by_sign(s, lambda x: (x.log() / 3).exp()),
+    "sqrt": lambda s: s.sqrt() if positive(s) else nothing(),
+    "ssqrt": lambda s: _by_sign(s, lambda x: FUNCTIONS["sqrt"](x)),
+    "cbrt": lambda s: _by_sign(s, lambda x: (FUNCTIONS["log"](x) / 3).exp()),
     "abs": lambda s: _by_sign(s, lambda x: x) * (sign_of(s) or 1),
     "sign": lambda s: nothing() if sign_of(s) == 2 else constant(sign_of(s)),
     "min": lambda a, b: _pick(a, b, True),
     "max": lambda a, b: _pick(a, b, False),
     "atan2": _atan2,
-    "pow": lambda a, b: (a.log() * b).exp() if a[0] > 0 else nothing(),
+    "pow": lambda a, b: (a.log() * b).exp() if positive(a) else nothing(),
 }
 
 
