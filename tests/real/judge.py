@@ -267,7 +267,7 @@ class _Judge:
     ) -> Point | None:
         """The same inputs with a random course of a fault, which may be large."""
         random = self.random
-        size = 0.3 if turn == 0 else 10 ** random.uniform(-2, 1.3)
+        size = 0.3 if turn == 0 else 10 ** random.uniform(-2, 1.3 if fault in declared else 2)
         if fault in declared:
             size *= abs(float(declared[fault])) or 1
         lead = size * random.choice((-1, 1))

@@ -182,12 +182,14 @@ class Simulator:
         """Random torn unknowns, often all positive."""
         positive = random.random() < 0.6
         size = scale * 10 ** random.uniform(-0.7, 0.7)
+        # now and then faster, so that rates take what they feed to other branches
+        rate = 10 ** random.uniform(0, 1.3) if random.random() < 0.4 else 1.0
         out = []
         for _ in self.order.torn:
             lead = size * random.uniform(0.2, 2)
             if not positive and random.random() < 0.5:
                 lead = -lead
-            out.append(course(random, lead, self.length))
+            out.append(course(random, lead, self.length, rate))
         return out
 
     def solve(self, known: Mapping[str, Any], start: list[Any]) -> Point:
@@ -203,9 +205,10 @@ def _lead(random: Random, sign: int) -> float:
     return (sign or random.choice((-1, 1))) * 10.0 ** random.uniform(-0.5, 0.7)
 
 
-def course(random: Random, lead: float, length: int) -> Any:
+def course(random: Random, lead: float, length: int, rate: float = 1) -> Any:
     """A smooth signal: a random series that begins with `lead`."""
-    tail = [random.uniform(-1, 1) * 0.6**k * max(abs(lead), 0.1) for k in range(1, length)]
+    size = rate * max(abs(lead), 0.1)
+    tail = [random.uniform(-1, 1) * 0.6**k * size for k in range(1, length)]
     return arb_series([arb(lead), *[arb(x) for x in tail]], ctx.cap)
 
 

@@ -36,8 +36,8 @@ def constant(value: Any) -> Series:
 
 
 def nothing() -> Series:
-    """What has no value."""
-    return arb_series([arb.nan()], ctx.cap)
+    """What has no value, in any coefficient: a derivative of it has none either."""
+    return arb_series([arb.nan()] * ctx.cap, ctx.cap)
 
 
 def sound(s: Series) -> bool:
@@ -51,6 +51,12 @@ def middle(s: Series) -> Series:
 def positive(s: Series) -> bool:
     """Whether a value is above zero by more than what rounding leaves of nothing."""
     return s[0].is_finite() and s[0].mid() > _SMALL
+
+
+def product(a: Series, b: Series) -> Series:
+    """The product; nothing times what has no value has none."""
+    out = a * b
+    return out if out.length() or (sound(a) and sound(b)) else nothing()
 
 
 def quotient(a: Series, b: Series) -> Series:
@@ -263,7 +269,7 @@ def _maker(n: Node, at: tuple[int, ...]) -> Maker:
         case "add":
             return _sum(at, data)
         case "mul" if len(at) == 2:
-            return lambda v, _: v[i] * v[j]
+            return lambda v, _: product(v[i], v[j])
         case "div":
             return lambda v, _: quotient(v[i], v[j])
         case "pow":

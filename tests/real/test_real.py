@@ -17,7 +17,9 @@ from tests.real.draw import of_seed
 from tests.real.judge import Judgement, judge
 from tests.real.laws import E, F
 from tests.real.nodes import Node, choose, compare, fn, node, sym
+from tests.real.plant import course
 from tests.real.run import outcome
+from tests.real.series import Program, prepare, sound
 
 _SAMPLE = range(200, 208)
 
@@ -297,6 +299,16 @@ def test_functions_keep_their_identities() -> None:
         assert seen(model, expr) == "k1 u1 y1"
     for expr in ("sin(k1)**2 + cos(k1)**2 + y1 - k1*u1 - 2", "y1 - k1*u1 - exp(log(k1)) + k1 - 1"):
         assert seen(model, expr) == "k1 u1 y1"
+
+
+def test_the_rate_of_what_has_no_value_has_none() -> None:
+    prepare(6)
+    started = course(Random(1), -1, 6)
+    for name in ("log", "sqrt"):
+        for n in (fn(name, sym("x")), nodes.der(fn(name, sym("x"))), fn(name, sym("x")) * 0):
+            program = Program([n])
+            assert not sound(program.values({"x": started})[program.roots[0]])
+            assert sound(program.values({"x": -started})[program.roots[0]])
 
 
 # ------------------------------------------------------------------------------- the campaign
