@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from itertools import chain
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
@@ -174,6 +174,7 @@ class _Signals:
         self.owner = {s: i for i, node in enumerate(graph.nodes) for s in _own(node)}
         self.behind = {i.symbol: i.integrand for i in graph.integrals}
         self.behind |= {s.symbol: s.reads for s in graph.sensors}
+        self._read = {s.name: s.reads for s in graph.sensors}
 
     def of(self, *roots: Expr) -> list[Expr]:
         """The signals that expressions depend on, through sensors and integrals too."""
@@ -181,7 +182,8 @@ class _Signals:
         while roots:
             fresh = [s for s in symbols(*roots) if s not in found]
             found.update(dict.fromkeys(fresh))
-            roots = tuple([self.behind[s] for s in fresh if s in self.behind])
+            received = [self._read[s.symbol.name] for s in fresh if s.symbol.kind is Kind.READING]
+            roots = (*received, *[self.behind[s] for s in fresh if s in self.behind])
         return [s for s in found if s.symbol.kind not in CONSTANTS]
 
 
@@ -262,25 +264,31 @@ def _is_driven(graph: BondGraph, part: list[int]) -> bool:
         return True  # the world may drive it
     pool = Pool()  # what is worked out here leaves no trace in the order of the graph's own
     sources = [node for node in nodes if node.kind in ("Se", "Sf")]
+    nothing = {v.symbol for v in graph.values if v.value is graph.pool.zero}
     return any(
-        _at_rest(law.zero, pool) is not pool.zero
+        _at_rest(law.zero, pool, nothing) is not pool.zero
         for node in chain(sources, nodes)  # mostly a source settles it
         for law in node.laws
     )
 
 
 #: Signals that a part itself makes: those of other parts are not in its laws.
-_RESTING = frozenset({Kind.EFFORT, Kind.FLOW, Kind.STATE, Kind.INTEGRAL, Kind.SENSOR})
+_RESTING = frozenset(
+    {Kind.EFFORT, Kind.FLOW, Kind.STATE, Kind.INTEGRAL, Kind.SENSOR, Kind.READING}
+)
 
 
-def _at_rest(expr: Expr, pool: Pool) -> Expr | None:
-    """An expression with zero for all signals but inputs; None where it has no value there."""
+def _at_rest(expr: Expr, pool: Pool, nothing: Container[Expr]) -> Expr | None:
+    """An expression with zero for all signals but inputs, and for what is declared zero.
+
+    None where it has no value there.
+    """
     new: dict[Expr, Expr] = {}
     try:
         for node in topological([expr]):
             if node.op is Op.SYM:
                 symbol = node.symbol
-                rests = symbol.kind in _RESTING
+                rests = symbol.kind in _RESTING or node in nothing
                 new[node] = pool.zero if rests else pool.symbol(symbol.name, symbol.kind)
             elif node.op is Op.NUM:
                 new[node] = pool.num(node.number)

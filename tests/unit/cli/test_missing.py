@@ -59,7 +59,7 @@ def test_json_names_it(three: Path, tmp_path: Path, bondgraph: Command) -> None:
     found = json.loads(done.out)
     assert (done.status, found["status"], found["n_arr"]) == (0, "ok", 2)
     assert found["missing"] == [{"about": "v", "reason": WHY, "elements": ["pend"]}]
-    (finding,) = found["diagnostics"]
+    (finding,) = [d for d in found["diagnostics"] if d["severity"] != "info"]
     assert (finding["severity"], finding["code"]) == ("warning", "initial-value-needed")
     assert "`(q0 = 0)`" in finding["help"] and finding["labels"][0]["line"] == 6
     assert found["message"].endswith("; 1 relation could not be had")
@@ -90,7 +90,7 @@ def test_the_terminal_says_it_in_words(three: Path, tmp_path: Path, bondgraph: C
     assert done.status == 0
     assert f"Missing\n  balance of v, line 6\n    {WHY}\n" in done.out
     assert f"  m, F, y\n    {SEES}\n" in done.out
-    assert done.err.startswith("warning[initial-value-needed]")
+    assert "warning[initial-value-needed]" in done.err
 
 
 def test_explain_tells_why_and_what_to_do(three: Path, bondgraph: Command) -> None:

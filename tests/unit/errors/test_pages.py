@@ -226,7 +226,7 @@ def _denied(monkeypatch: pytest.MonkeyPatch, wrong: bool) -> str:
 def _short(monkeypatch: pytest.MonkeyPatch, wrong: bool) -> str:
     """Only a model that the compiler does not master; here theory asks for one relation more."""
     if wrong:
-        monkeypatch.setattr(shortfall, "match", lambda rows, *_: ([], [-1] * (len(rows) + 1)))
+        monkeypatch.setattr(shortfall, "match", lambda rows, n, _: ([-1] * n, [-1] * len(rows)))
         monkeypatch.setattr(shortfall, "independent", lambda system: 2)
     return BRIEF.format("")
 
