@@ -94,7 +94,7 @@ class Numbers(Protocol):
         ...
 
     def off(self, random: Random, value: Number, turn: bool) -> Number:
-        """What a parameter may be that a fault of any size has changed; with `turn` of any sign."""
+        """A parameter after a fault of any size; at a `turn` of the other sign."""
         ...
 
     def size(self, random: Random) -> Number:

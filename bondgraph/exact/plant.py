@@ -36,7 +36,6 @@ _LOOSE = 6  # nonlinear elements that are left out, one after the other, where t
 _LARGE_FIRST = 4  # points that are tried with signals about one, before smaller ones are
 _MODULAR = 6  # points that are tried in a prime field, before real ones are
 _LARGE = 4000  # coefficients of a trajectory that are many
-_TURNED = 1 / 3  # of the trajectories have faults that may turn the sign of a parameter
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
 
 
@@ -64,6 +63,8 @@ class _Wanted(NamedTuple):
     modes: Mapping[Expr, int]
     part: Assembly
     solver: Solver
+    read: frozenset[Expr] | None
+    turned: bool
 
 
 class _Declared:
@@ -218,19 +219,25 @@ class Plant:
         part: Assembly | None = None,
         solver: Solver = solve,
         roots: Iterable[Expr] = (),
+        turned: bool = False,
     ) -> Trajectory:
         """A random trajectory to Taylor coefficient `order`; the same for equal arguments.
 
         `fault` and `faults` name faults that act at once, each as a random function of time.
+        Where they are `turned` a faulty parameter has the other sign, of several every second one.
         `modes` fixes known booleans, the others are random. With a `part` (see `part_for`) only
         that part of the plant is simulated. Numbers are those of a prime field where the plant
-        and the `roots`, which are to be evaluated on it, are rational, else real. Raises
-        `ExactUnavailable`, KeyError for an unknown fault.
+        and the `roots`, which are to be evaluated on it, are rational, else real. Where roots are
+        given, only the sensors in them have to have a value. Raises `ExactUnavailable`, KeyError
+        for an unknown fault.
         """
         acting = (*faults, *([] if fault is None else [fault]))
         for name in acting:
             self._names[name]
-        wanted = _Wanted(seed, order, acting, modes or {}, part or self.assembly, solver)
+        roots = list(roots)
+        read = frozenset(symbols(*roots)) if roots else None
+        inside = part or self.assembly
+        wanted = _Wanted(seed, order, acting, modes or {}, inside, solver, read, turned)
         if self.rational(wanted.part, roots):
             with suppress(ExactUnavailable):
                 return self._tried(wanted, real=False)
@@ -271,6 +278,8 @@ class Plant:
                     plant,
                     solver=wanted.solver,
                     still=attempt >= ATTEMPTS,
+                    read=wanted.read,
+                    turned=wanted.turned,
                 )
             except (Undefined, Contradiction, Singular) as found:
                 failure = found
@@ -350,6 +359,7 @@ class Plant:
         *,
         faults: Iterable[str] = (),
         modes: Mapping[Expr, int] | None = None,
+        turned: bool = False,
     ) -> Trajectory | WaveSample:
         """A point on which `n` coefficients of all roots can be evaluated.
 
@@ -358,10 +368,10 @@ class Plant:
         """
         acting = tuple(faults)
         if acting or modes:
-            return self._sample(roots, seed, n, acting, modes)
+            return self._sample(roots, seed, n, acting, modes, turned)
         key = (tuple(roots), seed, n)
         if key not in self._samples:
-            self._samples[key] = self._sample(roots, seed, n, (), None)
+            self._samples[key] = self._sample(roots, seed, n, (), None, False)
         return self._samples[key]
 
     def _sample(
@@ -371,6 +381,7 @@ class Plant:
         n: int,
         faults: tuple[str, ...],
         modes: Mapping[Expr, int] | None,
+        turned: bool,
     ) -> Trajectory | WaveSample:
         order = highest_order(roots, n)
         part = self.part_for(roots)
@@ -382,7 +393,9 @@ class Plant:
                 return found
             except (Mixed, Undefined):
                 pass  # a trajectory can be had where exponentials cannot
-        return self.trajectory(seed, order, faults=faults, modes=modes, part=part, roots=roots)
+        return self.trajectory(
+            seed, order, faults=faults, modes=modes, part=part, roots=roots, turned=turned
+        )
 
     def draw_constants(
         self, seed: int, attempt: int, modes: Mapping[Expr, int], numbers: Numbers
@@ -405,23 +418,27 @@ class Plant:
         part: Assembly,
         solver: Solver = solve,
         still: bool = False,
+        read: frozenset[Expr] | None = None,
+        turned: bool = False,
     ) -> Trajectory:
         """A trajectory with these constants; raises `Undefined` and others if there is none.
 
-        The plant's own parameters are the constants plus the faults that act.
+        The plant's own parameters are the constants plus the faults that act. Only sensors among
+        those to be `read` (None: all) are told.
         """
         random = Random(seed * 7 + 3)
         n = order + self._reach + 1 + _EXTRA
         true = dict(constants)
         readings: dict[str, Series] = {}
-        turn = random.random() < _TURNED
         for name in faults:
             symbol = self._names[name]
             if symbol in true:
+                turn = turned and (len(faults) == 1 or random.random() < 0.5)
                 true[symbol] = _changed(numbers, random, true[symbol], n, turn)
             elif name in self._read:
                 readings[name] = _error(numbers, random, [], n)
-        shown = tuple(reads for _, _, reads in self._shown(part)) if numbers.real else ()
+        told_sensors = [s for s in self._shown(part) if read is None or s[1] in read]
+        shown = tuple(reads for _, _, reads in told_sensors) if numbers.real else ()
         setting = Setting(true, numbers, n, shown, still)
         try:
             plant, equations = written(part, setting, readings, random)
@@ -437,7 +454,7 @@ class Plant:
             if name in faults and part.place[symbol][0] in inside:
                 true_value = truth.value(symbol)
                 told[symbol] = series.add(true_value, _error(numbers, random, true_value, n))
-        for name, symbol, reads in self._shown(plant):
+        for name, symbol, reads in told_sensors:
             reading = evaluate([reads], truth, order + 1)[0]
             wrong = _error(numbers, random, reading, n) if name in faults else [0]
             told[symbol] = series.add(reading, wrong)
@@ -446,7 +463,7 @@ class Plant:
             if plant.place[state][0] in inside:
                 starts[initial.symbol] = truth.value(state)[0]
                 told.setdefault(initial, [starts[initial.symbol]])
-        return Trajectory(self, seed, order, tuple(faults), told, truth, starts, part, still)
+        return Trajectory(self, seed, order, tuple(faults), told, truth, starts, part, still, read)
 
     def _shown(self, plant: Assembly) -> list[tuple[str, Expr, Expr]]:
         """The sensors of a part of the plant: name, symbol, reads."""

@@ -177,11 +177,11 @@ class Reals:
     def off(self, random: Random, value: Number, turn: bool) -> Number:
         """A value larger or smaller by a factor of 1.03 to 11; of zero any."""
         size = self.size(random)
-        side = random.choice((-1, 1))
         if not self.nonzero(value):
-            return side * size
+            return random.choice((-1, 1)) * size
         factor = 1 + size
-        return (side if turn else 1) * (value * factor if random.random() < 0.5 else value / factor)
+        other = value * factor if random.random() < 0.5 else value / factor
+        return -other if turn else other
 
     def size(self, random: Random) -> Number:
         """Between 0.03 and 10."""

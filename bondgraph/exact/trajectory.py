@@ -40,7 +40,9 @@ class Trajectory:
         starts: dict[Symbol, Number],
         part: Assembly,
         still: bool = False,
+        read: frozenset[Expr] | None = None,
     ) -> None:
+        self.read = read
         self.plant = plant
         self.part = part
         self.still = still
@@ -106,7 +108,14 @@ class Trajectory:
             seed = (self.seed * 31 + steps) * ATTEMPTS + attempt
             try:
                 return self.plant.draw(
-                    seed, self.order, (), constants, numbers, self.part, still=self.still
+                    seed,
+                    self.order,
+                    (),
+                    constants,
+                    numbers,
+                    self.part,
+                    still=self.still,
+                    read=self.read,
                 )
             except (Undefined, Contradiction, Singular):
                 continue

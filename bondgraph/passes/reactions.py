@@ -32,6 +32,8 @@ T = TypeVar("T")
 #: one point is taken at another.
 _POINTS, _POINTS_WITH_BRANCHES = 1, 12
 _TURNS = 8  # points at which faults act, where laws of the plant have branches
+#: Functions with sides: what is on one of them says nothing of the other.
+_SIDED = frozenset({"sign", "min", "max", "abs", "atan2"})
 _TRIES = 40  # a point where a square root has no value is drawn again
 
 
@@ -130,8 +132,10 @@ class Reactions:
             return False
         size = telling([expr])
 
-        def value(modes: Mapping[Expr, int] | None, number: int) -> bool:
-            sample = self.plant.sample([expr], number, size, faults=faults, modes=modes)
+        def value(modes: Mapping[Expr, int] | None, turned: bool, number: int) -> bool:
+            sample = self.plant.sample(
+                [expr], number, size, faults=faults, modes=modes, turned=turned
+            )
             found = evaluate([expr], sample, size)[0]
             moved = sample.algebra.moves(found)
             if isinstance(sample, Trajectory) and sample.still and moved:
@@ -142,10 +146,11 @@ class Reactions:
         failure: ExactUnavailable | None = None
         met = False
         known = assignments(free) if free else [self.modes]
-        turns = max(1, self.turns // len(known))
+        turns = _TURNS if self.turns == 1 and branches([expr], self.modes) else self.turns
+        turns = max(1, turns // len(known))
         for turn, modes in [(turn, modes) for turn in range(turns) for modes in known]:
             try:
-                found = self.draw(partial(value, modes), 3000 * self.seed + turn)
+                found = self.draw(partial(value, modes, turn % 2 > 0), 3000 * self.seed + turn)
             except ExactUnavailable as reason:
                 failure = reason
                 continue
@@ -203,7 +208,7 @@ def _branching(node: Expr) -> bool:
         return any(n.op is Op.IF or _branching(n) for n in inside)
     if node.op is not Op.FN:
         return False
-    return node.name in ("sign", "min", "max", "abs") or node.name.startswith("table:")
+    return node.name in _SIDED or node.name.startswith("table:")
 
 
 class Entries(NamedTuple):

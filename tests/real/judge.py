@@ -102,7 +102,7 @@ class _Judge:
     def run(self, faults: Collection[str] | None = None) -> Judgement:
         """All entries, or those of some faults."""
         strange = {x for r in self.residuals for x in r.symbols} - {
-            *self.plant.declared, *self.plant.inputs, *self.plant.sensors
+            *self.plant.declared, *self.plant.inputs, *self.plant.sensors, *self.plant.sources
         }  # fmt: skip
         if strange:
             return Judgement(unjudged=f"symbols {sorted(strange)}")
@@ -126,6 +126,7 @@ class _Judge:
     def told(self, point: Point, declared: Mapping[str, Fraction]) -> dict[str, Any]:
         """What a residual is told: declared numbers, inputs and readings with their errors."""
         out = {x: constant(exact(v)) for x, v in declared.items()}
+        out.update((x, constant(exact(Fraction(0)))) for x in self.plant.sources)
         for x in self.plant.inputs:
             out[x] = point.signals[x] + point.signals[wrong(x)]
         out.update((x, point.signals[x]) for x in self.plant.sensors)

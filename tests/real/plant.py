@@ -311,7 +311,9 @@ class _Newton:
                 own = np.zeros(2 * n + 1)  # behind the coefficients the zeros above the diagonal
                 own[:n] = [float(factor[i].mid()) for i in range(n)]
                 where, falling = _shifted(n, k)
-                out[at : at + height, j * n : (j + 1) * n] += (own[where] * falling)[:height]
+                with np.errstate(all="ignore"):  # what overflows is no point, see below
+                    part = (own[where] * falling)[:height]
+                    out[at : at + height, j * n : (j + 1) * n] += part
             at += height
         if not np.all(np.isfinite(out)):
             raise NoPoint

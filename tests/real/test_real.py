@@ -341,7 +341,6 @@ def test_residuals_of_a_sample_vanish(sample: dict[int, Judgement]) -> None:
     assert sum(len(found.entries) for found in sample.values()) > 100
 
 
-@pytest.mark.xfail(reason="verdicts over the prime field are not yet those of a machine")
 def test_signatures_of_a_sample_are_those_of_the_machine(sample: dict[int, Judgement]) -> None:
     wrong = [
         (seed, e) for seed, found in sample.items() for e in found.entries if e.verdict == "wrong"
