@@ -143,10 +143,15 @@ class Reals:
         return arb.atan2(arb(sine), arb(cosine))
 
     def table(self, name: str, x: Number) -> tuple[Number, Number]:
-        """Value and slope of a table: straight between its points, constant beyond its ends."""
+        """Value and slope of a table: straight between its points, constant beyond its ends.
+
+        One that is read backwards (its name ends in ') has no value there: it could be any.
+        """
         points = self._tables[name.removeprefix("table:")]
         at = bisect_right(points, 0, key=lambda p: -self.sign(x - self.fraction(p[0])))
         if at in (0, len(points)):
+            if name.endswith("'"):
+                raise Undefined("a table read backwards beyond its ends")
             return self.fraction(points[min(at, len(points) - 1)][1]), arb(0)
         (x0, y0), (x1, y1) = points[at - 1], points[at]
         slope = self.fraction((y1 - y0) / (x1 - x0))
@@ -190,9 +195,11 @@ class Reals:
     def argument(self, random: Random, of: str, scales: list[float]) -> Number:
         """An argument at which a function does something, or near the numbers beside it."""
         if of.startswith("table:"):
-            points = self._tables[of.removeprefix("table:")]
-            # within its points: an inverse that holds there knows nothing beyond the ends
-            return arb(random.uniform(float(points[0][0]), float(points[-1][0])))
+            name = of.removeprefix("table:")
+            first, last = (float(self._tables[name][k][0]) for k in (0, -1))
+            # beyond the ends, too, but where a relation reads the table backwards: no value there
+            margin = 0.0 if f"{name}'" in self._tables else 0.2 * (last - first)
+            return arb(random.uniform(first - margin, last + margin))
         size = random.lognormvariate(0, 0.7)
         if of in ("asin", "acos", "atanh"):
             return arb(random.uniform(-0.95, 0.95))

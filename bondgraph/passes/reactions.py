@@ -34,6 +34,9 @@ _POINTS, _POINTS_WITH_BRANCHES = 1, 12
 _TURNS = 8  # points at which faults act, where laws of the plant have branches
 #: Functions with sides: what is on one of them says nothing of the other.
 _SIDED = frozenset({"sign", "min", "max", "abs", "atan2"})
+#: Functions with several branches: a parameter of the other sign may show where none else does.
+_CUT = frozenset({"sqrt", "pow", "log", "acosh", "asin", "acos", "atan"})
+_FEW = 8  # faults that are tried one by one where there are branches
 _TRIES = 40  # a point where a square root has no value is drawn again
 
 
@@ -46,7 +49,7 @@ class Reactions:
         self.modes = modes
         graph = plant.graph
         laws = [law for _, law in plant.assembly.laws]
-        self.turns = _TURNS if branches(laws, dict.fromkeys(plant.modes, 0)) else 1
+        self.turns = _turns(laws, dict.fromkeys(plant.modes, 0))
         self.faults = {symbol: name for name, symbol in graph.fault_symbols().items()}
 
     def at_free_signals(self, expr: Expr) -> Sensitivity:
@@ -97,7 +100,8 @@ class Reactions:
     def movers(self, expr: Expr, candidates: list[Expr]) -> list[Expr]:
         """Those of the faults that move a relation; asked one by one only if all together do."""
         try:
-            if len(candidates) > 1 and not self.moves(expr, *candidates):
+            alone = self.turns > 1 or _turns([expr], self.modes) > 1  # each in branches of its own
+            if len(candidates) > (_FEW if alone else 1) and not self.moves(expr, *candidates):
                 return []
         except ExactUnavailable:
             pass  # so many faults at once leave no plant to speak of
@@ -146,7 +150,7 @@ class Reactions:
         failure: ExactUnavailable | None = None
         met = False
         known = assignments(free) if free else [self.modes]
-        turns = _TURNS if self.turns == 1 and branches([expr], self.modes) else self.turns
+        turns = max(self.turns, _turns([expr], self.modes))
         turns = max(1, turns // len(known))
         for turn, modes in [(turn, modes) for turn in range(turns) for modes in known]:
             try:
@@ -194,6 +198,14 @@ def branches(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None = None) -> 
         if found:
             return True
     return False
+
+
+def _turns(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:
+    """Points at which faults of finite size are tried; every second one turns their signs."""
+    if branches(exprs, modes):
+        return _TURNS
+    cut = any(n.op is Op.FN and n.name in _CUT for n in topological(exprs))
+    return 2 if cut else 1
 
 
 def _points(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:

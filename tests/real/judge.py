@@ -308,7 +308,7 @@ class _Judge:
         self, world: _World, r: Residual, fault: str, declared: Mapping[str, Fraction]
     ) -> bool:
         """Whether a fault is seen where other numbers are declared."""
-        points = [self.point(world.simulator, declared) for _ in range(3)]
+        points = [self.point(world.simulator, declared) for _ in range(12)]
         there = world._replace(points=[p for p in points if p is not None])
         wanted = [e for e in world.residuals if e.residual is r]
         tried = {r.name: 0}
