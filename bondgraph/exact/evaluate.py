@@ -104,11 +104,6 @@ def integral_depth(roots: Sequence[Expr]) -> int:
     return max([depth[r] for r in roots], default=0)
 
 
-def holds_root(roots: Sequence[Expr]) -> bool:
-    """Whether iteration has to find a value below the roots."""
-    return any(node.op is Op.ROOT for node in topological(roots))
-
-
 def telling(roots: Sequence[Expr]) -> int:
     """How many coefficients of the roots say whether they vanish on a plant, faulty or not."""
     return integral_depth(roots) + 1

@@ -33,7 +33,7 @@ from bondgraph.ir.graph import BondGraph
 
 _STILL = 5  # points that are tried with factors at rest, where there are no others
 _LOOSE = 6  # nonlinear elements that are left out, one after the other, where these fail too
-_LARGE_FIRST = 4  # points that are tried with signals about one, before smaller ones are
+_FULL_SIZE = 4  # points that are tried with signals about one, before smaller ones are
 _MODULAR = 6  # points that are tried in a prime field, before real ones are
 _LARGE = 4000  # coefficients of a trajectory that are many
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
@@ -292,7 +292,7 @@ class Plant:
         """
         if attempt is None:
             return PrimeField(seed)
-        scale = 1.0 if attempt < _LARGE_FIRST else 10.0 ** -Random(seed).uniform(0, 3)
+        scale = 1.0 if attempt < _FULL_SIZE else 10.0 ** -Random(seed).uniform(0, 3)
         return Reals(self.graph.pool.tables, self._precision, scale)
 
     def wave(
