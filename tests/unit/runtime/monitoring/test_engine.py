@@ -194,12 +194,12 @@ def test_reset_and_bandwidth_and_warm_up(native: bool) -> None:
 def test_what_is_unavailable_is_not_waited_for() -> None:
     made, _ = _motor().runnables
     first, second = made.program.residuals
-    rows = (first._replace(settle=2.0), second._replace(settle=500.0, unavailable="too long"))
+    rows = (first._replace(settle=40.0), second._replace(settle=500.0, unavailable="too long"))
     program = made.program._replace(residuals=rows, rate=1000.0)
     found = setting(made._replace(program=program))._replace(bandwidth=30.0)
-    assert found.warm_up == 0.067  # two time constants of 1/30 s, in whole samples
+    assert found.warm_up == 1.334  # forty time constants of 1/30 s, in whole samples
     both = tuple(r._replace(unavailable="too long") for r in rows)
-    nothing = setting(made._replace(program=program._replace(residuals=both)))
+    nothing = setting(made._replace(program=program._replace(residuals=both, warmup=0.0)))
     assert nothing.warm_up == 0.0
 
 
