@@ -286,13 +286,15 @@ class Plant:
         raise ExactUnavailable(self._reason(failure))
 
     def _numbers(self, seed: int, attempt: int | None) -> Numbers:
-        """A prime field, or for an attempt the real numbers: smaller signals where large ones fail.
+        """A prime field, or for an attempt the real numbers, every second time with small signals.
 
-        A law that saturates has an inverse only near zero.
+        A law that saturates has an inverse only near zero, and one side of zero may have no other.
         """
         if attempt is None:
             return PrimeField(seed)
-        scale = 1.0 if attempt < _FULL_SIZE else 10.0 ** -Random(seed).uniform(0, 3)
+        draw = Random(seed)
+        small = attempt >= _FULL_SIZE or draw.random() < 0.5
+        scale = 10.0 ** -draw.uniform(0, 3) if small else 1.0
         return Reals(self.graph.pool.tables, self._precision, scale)
 
     def wave(
