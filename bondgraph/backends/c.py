@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Iterable
 
@@ -37,6 +38,7 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
     stem, unset = facts.stem, any(f.default is None for f in program.params)
     has_dot = any(isinstance(s, Dot) for s in program.exact)
     unwritten = any(r.unwritten for r in program.residuals)
+    gaps = any(math.isnan(y) for _, points in program.tables for _, y in points)
     return {
         **_limits(program, facts, code),
         **_Declarations(program, spelling, stem).all(),
@@ -58,7 +60,7 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         "roots": roots(program, spelling, "real {0}", 8),
         "needs_functions": facts.library,
         "libm": " -lm" if facts.library else "",
-        "needs_math": facts.library or unset or unwritten or bool(program.roots),
+        "needs_math": facts.library or unset or unwritten or bool(program.roots) or gaps,
         "unwritten": unwritten,
         "needs_stddef": "table" in facts.laws or has_dot or bool(code.tapes),
         "beyond_float": ", ".join(f"{n:g}" for n in facts.beyond_float[:8]),
@@ -201,7 +203,8 @@ def _tables(program: Program, spelling: Spelling, code: Code) -> list[dict[str, 
     found: list[dict[str, object]] = []
     for name, points in program.tables:
         pairs = points if len(points) > 1 else points * 2  # a single point is a constant
-        rows = [f"{{{code.real(x)}, {code.real(y)}}}" for x, y in pairs]
+        texts = [(code.real(x), "(real)NAN" if math.isnan(y) else code.real(y)) for x, y in pairs]
+        rows = [f"{{{x}, {y}}}" for x, y in texts]
         found.append(
             {
                 "comment": listing.harmless(f"The table {name}.", spelling.target),

@@ -62,7 +62,7 @@ def facts(program: Program) -> Facts:
         run += [*_values(block.body + block.further), block.value, block.slope]
     every = [*_values(program.configure), *run]
     numbers = [node.value for node in nodes(every) if isinstance(node, Const)]
-    numbers += [z for _, points in program.tables for point in points for z in point]
+    numbers += [z for _, points in program.tables for point in points for z in point if z == z]
     numbers += [f.default for f in program.params if f.default is not None]
     beyond = [n for n in numbers if n and not _FLOAT_MIN <= abs(n) <= _FLOAT_MAX]
     laws = functions(run) | (functions(_values(program.configure)) - {"exp"})

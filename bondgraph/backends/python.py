@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Iterable
 
@@ -278,7 +279,8 @@ class _Module:
         found: list[dict[str, object]] = []
         for name, points in self.program.tables:
             pairs = points if len(points) > 1 else points * 2  # a single point is a constant
-            rows = [f"({digits(x)}, {digits(y)})" for x, y in pairs]
+            texts = [(digits(x), "math.nan" if math.isnan(y) else digits(y)) for x, y in pairs]
+            rows = [f"({x}, {y})" for x, y in texts]
             found.append(
                 {
                     "comment": listing.harmless(f"The table {name}.", self.target),

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from bondgraph.backends.blocks import blocks
 from bondgraph.backends.names import identifier, snake, spellings
 from bondgraph.backends.target import Target
+from bondgraph.ir.expr import backwards, read_backwards
 from bondgraph.ir.program import Assign, Dot, Known, Mode, Program, Ref, Statement
 
 #: Suffixes of the further members that exact takes for one signal.
@@ -40,7 +41,10 @@ class Spelling:
         self.residuals = spellings((r.name for r in program.residuals), words | {"valid"})
         #: the names of the numbers of the residuals: `R1`
         self.numbers = self._numbers(program)
-        called = {name: name for name, _ in program.tables}
+        called = {
+            name: f"{read_backwards(name)}_inverse" if backwards(name) else name
+            for name, _ in program.tables
+        }
         called |= {f"root:{b.name}": f"root_{b.name}" for b in program.roots}
         free = spellings(called.values(), target.reserved)
         self.tables = {name: free[wish] for name, wish in called.items()}

@@ -9,12 +9,12 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import NamedTuple
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, backwards, topological
 
 #: Names that mean something in the text and so cannot be names of the model as well.
 FUNCTIONS = frozenset(
     "D Int ssqrt Abs sign sqrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh"
-    " atan2 Min Max Piecewise Eq And Or Not".split()
+    " atan2 Min Max Piecewise Eq And Or Not nan".split()
 )
 _RENAMED = {"abs": "Abs", "min": "Min", "max": "Max"}
 #: Above this many written nodes, parts that occur more than once get a name.
@@ -263,14 +263,17 @@ class _Writer:
                 return f"{_RENAMED.get(name, name)}({', '.join(args)})", _ATOM
 
     def _table(self, key: str, x: str) -> str:
-        """A table as straight pieces; beyond its ends it keeps the last value."""
+        """A table as straight pieces; beyond its ends it keeps the last value, or has none."""
         points = self.pool.tables[key]
-        pieces = [f"({_number(points[0][1])[0]}, ({x}) < ({_number(points[0][0])[0]}))"]
+        ends, beyond = [_number(points[k][1])[0] for k in (0, -1)], "<"
+        if backwards(key):
+            ends, beyond = ["nan", "nan"], "<="
+        pieces = [f"({ends[0]}, ({x}) {beyond} ({_number(points[0][0])[0]}))"]
         for (x0, y0), (x1, y1) in pairwise(points):
             slope = _number((y1 - y0) / (x1 - x0))[0]
             line = f"{_number(y0)[0]} + ({slope})*(({x}) - ({_number(x0)[0]}))"
             pieces.append(f"({line}, ({x}) < ({_number(x1)[0]}))")
-        return f"Piecewise({', '.join(pieces)}, ({_number(points[-1][1])[0]}, True))"
+        return f"Piecewise({', '.join(pieces)}, ({ends[1]}, True))"
 
 
 def _number(value: Fraction) -> tuple[str, int]:

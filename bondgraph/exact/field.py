@@ -121,9 +121,9 @@ class PrimeField:
         """A random number."""
         return self.any(random)
 
-    def size(self, random: Random) -> Number:
-        """One: nothing is large or small in a field."""
-        return ONE
+    def error(self, random: Random, value: Number) -> Number:
+        """A random number."""
+        return self.any(random)
 
     def argument(self, random: Random, of: str, scales: list[float]) -> Number:
         """A random number."""

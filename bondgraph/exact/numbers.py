@@ -97,8 +97,8 @@ class Numbers(Protocol):
         """A parameter after a fault of any size; at a `turn` of the other sign."""
         ...
 
-    def size(self, random: Random) -> Number:
-        """The size of a fault next to what it disturbs: any of some decades."""
+    def error(self, random: Random, value: Number) -> Number:
+        """What a reading of this value, or of about one, is wrong by: any of some decades."""
         ...
 
     def argument(self, random: Random, of: str, scales: list[float]) -> Number:

@@ -33,7 +33,9 @@ from bondgraph.ir.graph import BondGraph
 
 _STILL = 5  # points that are tried with factors at rest, where there are no others
 _LOOSE = 6  # nonlinear elements that are left out, one after the other, where these fail too
-_FULL_SIZE = 4  # points that are tried with signals about one, before smaller ones are
+_SMALL, _USUAL, _GREAT = (-3, 0), (0, 0), (0, 1.3)  # powers of ten: the sizes of signals
+_SIZES = (_SMALL, _SMALL, _USUAL, _GREAT)
+_FULL_SIZE = 4  # points that are tried with signals of any size, before small ones only are
 _MODULAR = 6  # points that are tried in a prime field, before real ones are
 _LARGE = 4000  # coefficients of a trajectory that are many
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
@@ -102,9 +104,8 @@ def _changed(numbers: Numbers, random: Random, value: Series, n: int, turn: bool
 
 def _error(numbers: Numbers, random: Random, value: Series, n: int) -> Series:
     """What a faulty sensor or input adds to a signal, a function of time."""
-    size = value[0] if value and numbers.nonzero(value[0]) else numbers.number(1)
-    size = size * numbers.size(random)
-    return [numbers.any(random) * size for _ in range(n)]
+    at = value[0] if value else numbers.number(0)
+    return [numbers.error(random, at) for _ in range(n)]
 
 
 def _rational(roots: Iterable[Expr]) -> bool:
@@ -286,15 +287,16 @@ class Plant:
         raise ExactUnavailable(self._reason(failure))
 
     def _numbers(self, seed: int, attempt: int | None) -> Numbers:
-        """A prime field, or for an attempt the real numbers, every second time with small signals.
+        """A prime field, or for an attempt the real numbers, with small, usual or large signals.
 
-        A law that saturates has an inverse only near zero, and one side of zero may have no other.
+        A law that saturates has an inverse only near zero, one side of zero may have no other, and
+        what a large signal alone shows lies beyond a limit.
         """
         if attempt is None:
             return PrimeField(seed)
         draw = Random(seed)
-        small = attempt >= _FULL_SIZE or draw.random() < 0.5
-        scale = 10.0 ** -draw.uniform(0, 3) if small else 1.0
+        low, high = draw.choice(_SIZES) if attempt < _FULL_SIZE else _SMALL
+        scale = 10.0 ** draw.uniform(low, high)
         return Reals(self.graph.pool.tables, self._precision, scale)
 
     def wave(

@@ -17,6 +17,7 @@ from random import Random
 from flint import arb, ctx, fmpq
 
 from bondgraph.exact.numbers import Number, Undefined
+from bondgraph.ir.expr import backwards, read_backwards
 
 #: A ball around zero of at most this radius is zero: 2**-256 is 1e-77.
 NOTHING = arb(2) ** -256
@@ -145,12 +146,12 @@ class Reals:
     def table(self, name: str, x: Number) -> tuple[Number, Number]:
         """Value and slope of a table: straight between its points, constant beyond its ends.
 
-        One that is read backwards (its name ends in ') has no value there: it could be any.
+        One that is read backwards has no value there: it could be any.
         """
         points = self._tables[name.removeprefix("table:")]
         at = bisect_right(points, 0, key=lambda p: -self.sign(x - self.fraction(p[0])))
         if at in (0, len(points)):
-            if name.endswith("'"):
+            if backwards(name):
                 raise Undefined("a table read backwards beyond its ends")
             return self.fraction(points[min(at, len(points) - 1)][1]), arb(0)
         (x0, y0), (x1, y1) = points[at - 1], points[at]
@@ -181,16 +182,16 @@ class Reals:
 
     def off(self, random: Random, value: Number, turn: bool) -> Number:
         """A value larger or smaller by a factor of 1.03 to 11; of zero any."""
-        size = self.size(random)
         if not self.nonzero(value):
-            return random.choice((-1, 1)) * size
-        factor = 1 + size
+            return self.error(random, value)
+        factor = 1 + _decades(random)
         other = value * factor if random.random() < 0.5 else value / factor
         return -other if turn else other
 
-    def size(self, random: Random) -> Number:
-        """Between 0.03 and 10."""
-        return arb(10.0 ** random.uniform(-1.5, 1))
+    def error(self, random: Random, value: Number) -> Number:
+        """From 0.03 to 10 of the value or, every second time, of one: what it takes to a limit."""
+        size = random.choice((-1, 1)) * _decades(random)
+        return size * value if random.random() < 0.5 and self.nonzero(value) else size
 
     def argument(self, random: Random, of: str, scales: list[float]) -> Number:
         """An argument at which a function does something, or near the numbers beside it."""
@@ -198,7 +199,7 @@ class Reals:
             name = of.removeprefix("table:")
             first, last = (float(self._tables[name][k][0]) for k in (0, -1))
             # beyond the ends, too, but where a relation reads the table backwards: no value there
-            margin = 0.0 if f"{name}'" in self._tables else 0.2 * (last - first)
+            margin = 0.0 if read_backwards(name) in self._tables else 0.2 * (last - first)
             return arb(random.uniform(first - margin, last + margin))
         size = random.lognormvariate(0, 0.7)
         if of in ("asin", "acos", "atanh"):
@@ -210,6 +211,10 @@ class Reals:
         if of in ("log", "sqrt", "pow", "acosh"):
             return arb(size + (of == "acosh"))
         return arb(random.choice((-1, 1)) * size * self._scale)
+
+
+def _decades(random: Random) -> Number:
+    return arb(10.0 ** random.uniform(-1.5, 1))
 
 
 def _sqrt(f: Reals, x: Number) -> Number:
@@ -315,9 +320,7 @@ def _enclosed(f: Callable[[Number], Number], at: Number, size: Number) -> Number
     raise Undefined("an equation whose two sides jump past each other")
 
 
-def zero_of(
-    f: Callable[[Number], Number], start: Number, random: Random | None = None
-) -> Number:
+def zero_of(f: Callable[[Number], Number], start: Number, random: Random | None = None) -> Number:
     """A zero of a function that may have no value everywhere: the nearest one to `start`.
 
     With `random` any of those within its reach. Raises `Undefined` where none is found.

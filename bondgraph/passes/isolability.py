@@ -68,22 +68,37 @@ def _divided(
     found = [group for group, _ in groups]
     met = False
     for number, modes in enumerate(reactions.settings(own)):
-        faults = [f for g in found if len(g) > 1 for f in g]
-        if not faults:
+        if all(len(g) == 1 for g in found):
             break
-        attempt = partial(_columns, own, faults, plant, modes)
+        attempt = partial(_at_a_point, own, found, plant, modes)
         try:
-            numbers, columns = reactions.draw(attempt, 1000 * seed + number)
+            found = reactions.draw(attempt, 1000 * seed + number)
         except ExactUnavailable:
             continue
         met = True
-        found = [part for g in found for part in _parallel(numbers, g, columns)]
     if met or not groups:
         return found
     if len(groups) == 1:
         return None
     parts = [_divided(exprs, [group], reactions) for group in groups]
     return None if None in parts else [g for part in parts if part for g in part]
+
+
+def _at_a_point(
+    exprs: list[Expr],
+    groups: list[list[str]],
+    plant: Plant,
+    modes: Mapping[Expr, int] | None,
+    number: int,
+) -> list[list[str]]:
+    """The groups divided by what each fault does to the prolonged plant, at one healthy point.
+
+    Two relations of order n need up to n derivatives each to be combined.
+    """
+    times = min(2 * highest_order(exprs) + 1, _MOST) + integral_depth(exprs)
+    faults = [f for g in groups if len(g) > 1 for f in g]
+    numbers, columns = parity(plant, faults, exprs, times, number, modes)
+    return [part for g in groups for part in _parallel(numbers, g, columns)]
 
 
 def _parallel(
@@ -105,18 +120,3 @@ def _parallel(
 
 def _rank(numbers: Numbers, columns: Iterable[Row]) -> int:
     return len(eliminate(numbers, [dict(c) for c in columns]))
-
-
-def _columns(
-    exprs: list[Expr],
-    faults: list[str],
-    plant: Plant,
-    modes: Mapping[Expr, int] | None,
-    number: int,
-) -> tuple[Numbers, dict[str, list[Row]]]:
-    """What each fault does to the prolonged plant, at one healthy point.
-
-    Two relations of order n need up to n derivatives each to be combined.
-    """
-    times = min(2 * highest_order(exprs) + 1, _MOST) + integral_depth(exprs)
-    return parity(plant, faults, exprs, times, number, modes)

@@ -301,9 +301,7 @@ def tables(
     for node in topological([*exprs, *[r.zero for r in roots_in(exprs)]]):
         if node.op is Op.FN and node.name.startswith("table:"):
             used[node.name.removeprefix("table:")] = None
-    return tuple(
-        (name, tuple((float(x), float(y)) for x, y in graph.pool.tables[name])) for name in used
-    )
+    return tuple((name, graph.pool.rows(name)) for name in used)
 
 
 def digest(program: Program, text: str) -> str:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from itertools import pairwise
 from typing import NamedTuple
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, topological
+from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, backwards, topological
 from bondgraph.passes.solve import affine
 from bondgraph.passes.zero import is_zero
 
@@ -245,10 +245,12 @@ def _slope_of_function(
 
 
 def _slopes_of_table(pool: Pool, name: str) -> Range:
-    """Between its points; beyond its ends a table is constant."""
-    points = pool.tables[name.removeprefix("table:")]
-    inner = [float((y1 - y0) / (x1 - x0)) for (x0, y0), (x1, y1) in pairwise(points)]
-    return Range(min([0.0, *inner]), max([0.0, *inner]), False, False)
+    """Between its points; beyond its ends a table is constant, or has no value: see `Pool.rows`."""
+    name = name.removeprefix("table:")
+    slopes = [float((y1 - y0) / (x1 - x0)) for (x0, y0), (x1, y1) in pairwise(pool.tables[name])]
+    if not backwards(name):
+        slopes.append(0.0)
+    return Range(min(slopes), max(slopes), False, False)
 
 
 def _slope_of_root(pool: Pool, node: Expr, slopes: Mapping[Expr, Range]) -> Range | None:

@@ -11,7 +11,17 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import NamedTuple
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, Rational, topological, whole
+from bondgraph.ir.expr import (
+    CONSTANTS,
+    Expr,
+    Kind,
+    Op,
+    Pool,
+    Rational,
+    read_backwards,
+    topological,
+    whole,
+)
 from bondgraph.passes.branches import in_each_mode
 from bondgraph.passes.zero import is_zero
 
@@ -316,6 +326,6 @@ def _inverse_table(pool: Pool, name: str) -> str | None:
     if not steps or not (all(s > 0 for s in steps) or all(s < 0 for s in steps)):
         return None
     own = name.removeprefix("table:")
-    inverse = own[:-1] if own.endswith("'") else own + "'"
+    inverse = read_backwards(own)
     pool.tables.setdefault(inverse, tuple(sorted((y, x) for x, y in points)))
     return "table:" + inverse

@@ -122,5 +122,6 @@ class Lanes(Interpreter):
         return np.array(values)
 
     def _lookup(self, name: str, x: Any) -> Any:
-        points = self.tables[name]
-        return np.interp(x, [p[0] for p in points], [p[1] for p in points])
+        xs, ys = zip(*self.tables[name], strict=True)
+        inner = np.interp(x, xs, ys)
+        return np.where(x <= xs[0], ys[0], np.where(x >= xs[-1], ys[-1], inner))

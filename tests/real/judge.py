@@ -20,6 +20,7 @@ _FAR = 6  # the scale of every third point, beyond the ends of tables and of sat
 _MOST_POINTS = 16  # where residuals have no value at most points
 _STARTS = 12  # random starts for each of them
 _SAID = 32  # trajectories with a fault, while an entry that is said to be seen is not
+_PATIENT = 256  # the same, before an entry is called wrong
 _UNSAID, _BRANCHED_UNSAID = 5, 12  # for entries that are said not to be seen
 _LONGEST = 40  # coefficients
 
@@ -53,7 +54,7 @@ def judge(plant: Plant, answer: Mapping[str, Any], seed: int = 1) -> Judgement:
     if not judged.broken and not doubted:
         return judged
     # Once more, with more coefficients and other points: what is called wrong has to be so twice.
-    other = _Judge(plant, found, answer, highest + room + 4, seed + 1000)
+    other = _Judge(plant, found, answer, highest + room + 4, seed + 1000, _PATIENT)
     again = other.run(doubted or set(plant.faults))
     kept = tuple(e for e in judged.entries if again.entries and e.fault not in doubted)
     return again._replace(entries=(*kept, *again.entries))
@@ -79,6 +80,7 @@ class _Judge:
         answer: Mapping[str, Any],
         length: int,
         seed: int,
+        most: int = _SAID,
     ) -> None:
         self.plant = plant
         self.residuals = found
@@ -87,6 +89,7 @@ class _Judge:
         self.length = Simulator(plant, length).length
         prepare(self.length)
         self.evaluators = [Evaluator(r) for r in found]
+        self.most = most
         self.count = 5 if any(r.integrates for r in found) else 3
         self.broken: dict[str, str] = {}
         branches = any(r.decides for r in found) or any(map(decides, plant.laws()))
@@ -213,7 +216,7 @@ class _Judge:
         """The residuals among those wanted that some course of a fault moves."""
         seen: set[str] = set()
         pool = list(world.points)
-        for turn in range(_SAID if pool else 0):
+        for turn in range(self.most if pool else 0):
             left = [e for e in wanted if e.residual.name not in seen]
             hoped = hope or any(self.said(e.residual, fault) for e in left)
             if not left or (turn >= self.unsaid and not hoped):

@@ -248,7 +248,7 @@ class _Newton:
     def refined(self, x: list[Any], defects: list[Any]) -> list[Any]:
         """The same to 55 digits; what the equations do not decide stays as it is."""
         slopes = _Factors(self.slopes())
-        last = _largest(defects)
+        last, count = _largest(defects), len(defects)
         for _ in range(30):
             if last < _EXACT:
                 return x
@@ -256,7 +256,7 @@ class _Newton:
             x = self.moved(x, slopes.solved(scaled), last)
             defects = self.defects(x)
             size = _largest(defects)
-            if size > last / 4:
+            if size > last / 4 or len(defects) != count:  # on another branch: another matrix
                 raise NoPoint
             last = size
         raise NoPoint

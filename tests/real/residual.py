@@ -89,6 +89,8 @@ def _read(e: ast.expr, known: Mapping[str, Node]) -> Node:
             return node(n)
         case ast.Constant(value=float()):
             return node(Fraction(ast.unparse(e)))
+        case ast.Name(id="nan"):
+            return Node("nan")
         case ast.Name(id=name):
             return known[name]
         case ast.UnaryOp(op=ast.USub(), operand=a):

@@ -196,14 +196,13 @@ def _slope(name: str, s: Series, value: Series) -> Series:
 
 def _interpolated(points: Sequence[tuple[Fraction, Fraction]], x: Series) -> tuple[Series, Any]:
     """Value and slope of straight lines between points; the ends keep their value."""
-    at = x[0].mid()
     before = points[0]
     if not x[0].is_finite():
         return nothing(), exact(Fraction(0))
-    if at < exact(before[0]):
+    if sign_of(x - constant(exact(before[0]))) < 0:
         return constant(exact(before[1])), exact(Fraction(0))
     for after in points[1:]:
-        if at < exact(after[0]):
+        if sign_of(x - constant(exact(after[0]))) < 0:
             slope = exact((after[1] - before[1]) / (after[0] - before[0]))
             return (x - constant(exact(before[0]))) * slope + exact(before[1]), slope
         before = after
@@ -263,6 +262,8 @@ def _maker(n: Node, at: tuple[int, ...]) -> Maker:
     match n.op:
         case "sym":
             return lambda _, given: given[data]
+        case "nan":
+            return lambda *_: nothing()
         case "num":
             number = exact(data)
             return lambda *_: constant(number)

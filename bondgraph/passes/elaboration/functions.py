@@ -218,9 +218,9 @@ class Functions:
         name = self._tables.get(key)
         if name is None:
             points = read_table(file, source, self.report)
-            name = file.value
+            wish = name = file.value.rstrip("'")  # which marks a table read backwards
             while name in self.pool.tables and self.pool.tables[name] != points:
-                name = self.unique(file.value)
+                name = self.unique(wish)
             self.pool.tables[name] = points
             self._tables[key] = name
         term = self.of.quantities.dimensions.fresh(call.origin, f'table("{file.value}")')

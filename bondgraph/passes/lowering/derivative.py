@@ -17,7 +17,7 @@ from itertools import pairwise
 from math import comb
 from typing import TypeAlias
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, topological
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, backwards, topological
 
 _Slope = Callable[[Pool, Expr, Expr], Expr]
 
@@ -308,15 +308,23 @@ def root_slope(pool: Pool, node: Expr, place: Expr) -> Expr:
 
 
 def _table_slope(pool: Pool, name: str, x: Expr) -> Expr:
-    """The slope of a piecewise linear table as a choice by bisection; 0 outside its range."""
-    points = pool.tables[name.removeprefix("table:")]
+    """The slope of a piecewise linear table as a choice by bisection; 0 outside its range.
+
+    Where the table has no value (`Pool.rows`) its slope is that lack of a value.
+    """
+    table = name.removeprefix("table:")
+    points = pool.tables[table]
     edges = [p[0] for p in points]
-    inner = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in pairwise(points)]
-    slopes = [Fraction(0), *inner, Fraction(0)]
+    inner = [pool.num((b[1] - a[1]) / (b[0] - a[0])) for a, b in pairwise(points)]
+    outside = pool.zero
+    if backwards(name):
+        outside = pool.fn(name, x)
+        edges[0], edges[-1] = (Fraction(pool.rows(table)[k][0]) for k in (0, -1))
+    slopes = [outside, *inner, outside]
 
     def pick(low: int, high: int) -> Expr:
         if low == high:
-            return pool.num(slopes[low])
+            return slopes[low]
         middle = (low + high) // 2
         below = pool.compare("<", x, pool.num(edges[middle]))
         return pool.choose(below, pick(low, middle), pick(middle + 1, high))

@@ -155,10 +155,9 @@ class Code:
         if not expr.name.startswith("table:"):
             return f"{expr.name}({args})"
         if expr.name not in self.tables:
-            points = self.pool.tables[expr.name.removeprefix("table:")]
             self.tables[expr.name] = f"table{len(self.tables)}"
-            found = lookup([(float(x), float(y)) for x, y in points])
-            self.names[self.tables[expr.name]] = found
+            rows = self.pool.rows(expr.name.removeprefix("table:"))
+            self.names[self.tables[expr.name]] = lookup(rows)
         return f"{self.tables[expr.name]}({args})"
 
     def function(
