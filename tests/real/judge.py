@@ -17,6 +17,7 @@ HEALTHY = 1e-25  # of its terms: below this a residual vanishes
 SEEN = 1e-20  # above this it has moved
 _POINTS, _BRANCHED_POINTS = 4, 9
 _FAR = 6  # the scale of every third point, beyond the ends of tables and of saturations
+_FARTHEST = 1.7  # powers of ten, of points that are added in search of what an entry says
 _MOST_POINTS = 16  # where residuals have no value at most points
 _STARTS = 12  # random starts for each of them
 _SAID = 32  # trajectories with a fault, while an entry that is said to be seen is not
@@ -222,9 +223,11 @@ class _Judge:
             if not left or (turn >= self.unsaid and not hoped):
                 break
             if turn >= 2 * self.enough and turn % 4 == 0:
-                extra = self.point(world.simulator, declared, starts=3)
+                scale = 10 ** self.random.uniform(0, _FARTHEST)
+                extra = self.point(world.simulator, declared, scale=scale)
                 pool += [extra] if extra is not None else []
-            point = self.faulty(world.simulator, fault, declared, pool[turn % len(pool)], turn)
+            healthy = self.random.choice(pool) if turn >= len(pool) else pool[turn]
+            point = self.faulty(world.simulator, fault, declared, healthy, turn)
             if point is None:
                 continue
             told = self.told(point, declared)
