@@ -5,6 +5,7 @@ A bad sample restarts the filter of the blocks that see its signal, and no other
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 from bondgraph.backends.walk import references
@@ -27,6 +28,7 @@ _Key = tuple[str, str]
 _SIGNALS = frozenset({"known", "increment", "total"})
 
 
+@lru_cache(maxsize=4)  # each target language asks
 def blocks(program: Program) -> tuple[Block, ...]:
     """The blocks of `step`, in the order of their first residual.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterable
-from pathlib import PurePosixPath
 
 from bondgraph.backends.target import Target
 from bondgraph.text.source import Span
@@ -18,7 +17,8 @@ def place(origin: Span | None) -> str:
     """`khepera.bg:26`: the line of the model, without the folder that the model was read from."""
     if origin is None:
         return ""
-    return f"{PurePosixPath(origin.source.path.replace(chr(92), '/')).name}:{origin.line}"
+    name = origin.source.path.replace("\\", "/").rsplit("/", 1)[-1]
+    return f"{name}:{origin.line}"
 
 
 def words(*parts: str) -> str:

@@ -31,7 +31,9 @@ def environment(html: bool = False) -> Environment:
     """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    return Environment(
+    from bondgraph.backends.bytecode import kept_templates
+
+    made = Environment(
         loader=FileSystemLoader(codegen()),
         trim_blocks=True,
         lstrip_blocks=True,
@@ -39,6 +41,9 @@ def environment(html: bool = False) -> Environment:
         undefined=StrictUndefined,
         autoescape=html,
     )
+    options = (made.trim_blocks, made.lstrip_blocks, made.keep_trailing_newline, html)
+    made.bytecode_cache = kept_templates(repr(options))
+    return made
 
 
 def fill(template: str, holes: dict[str, object]) -> str:

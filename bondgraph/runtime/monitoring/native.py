@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.cache import user_cache
 from bondgraph.ir.runnable import Runnable
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import (
@@ -29,7 +30,6 @@ from bondgraph.runtime.monitoring.engine import (
     one_by_one,
     setting,
 )
-from bondgraph.runtime.monitoring.library_cache import library_cache
 
 #: One rounding for each operation, as in Python; nothing of the residuals is seen from outside.
 _FLAGS = "-std=c99 -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden".split()
@@ -86,16 +86,17 @@ class Library:
     def __init__(self, programs: Sequence[Runnable], tell: Callable[[str], None] = _warn) -> None:
         compiler = shlex.split(os.environ.get("CC", "")) or ["cc"]
         name = _digest(programs, [*compiler, *_FLAGS], _version(tuple(compiler)))
-        libraries = library_cache(tell)
+        libraries = user_cache(
+            "so", lambda why: tell(f"{why}; the residuals are compiled at each start")
+        )
         kept = libraries.find(name) if libraries else iter(())
         library = next((found for path in kept if (found := _load(path, programs))), None)
         if library is None:
             with tempfile.TemporaryDirectory(prefix="bondgraph-") as temporary:
                 built = Path(temporary) / f"{name}.so"
                 _compile(programs, compiler, Path(temporary), built)
-                library = _load(libraries.keep(name, built) if libraries else built, programs)
-                if library is None:
-                    library = _load(built, programs)
+                taken = libraries.keep(name, built.read_bytes()) if libraries else None
+                library = (_load(taken, programs) if taken else None) or _load(built, programs)
         if library is None:
             raise NativeError(f"what {compiler[0]} made cannot be loaded")
         self.functions = {runnable.stem: Functions(library, runnable) for runnable in programs}

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import itertools
+from typing import Any
 
 import pytest
 import sympy as sp
 
+from bondgraph.exact.reals import Imprecise
+from bondgraph.passes import isolability
 from tests.unit.passes.relations import compiled
 
 p = sp.Symbol("p")
@@ -143,3 +146,19 @@ def test_parameters_that_two_machines_share() -> None:
     )
     assert ("R", "L") in c.signatures.groups
     assert c.best is not None and ("R",) in c.best and ("L",) in c.best
+
+
+def test_a_rank_that_needs_more_digits_is_taken_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    text = CASES["two resistors in series"][0]
+    expected, own = compiled(text).best, isolability._rank
+    asked: list[int] = []
+
+    def rank(numbers: Any, columns: Any) -> int:
+        asked.append(1)
+        if len(asked) == 1:
+            raise Imprecise("a number that needs more digits")
+        return own(numbers, columns)
+
+    monkeypatch.setattr(isolability, "_rank", rank)
+    assert compiled(text).best == expected
+    assert len(asked) > 1

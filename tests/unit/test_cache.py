@@ -1,4 +1,4 @@
-"""The cache of libraries takes nothing that others could have written, and nothing damaged."""
+"""The cache takes nothing that others could have written, and nothing damaged."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from bondgraph.runtime.monitoring.library_cache import LibraryCache, library_cache
+from bondgraph.cache import Cache, user_cache
 
 _DATA = b"\x7fELF and more" * 1000
 
@@ -20,39 +20,32 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "own" / "bondgraph"
 
 
-@pytest.fixture
-def built(tmp_path: Path) -> Path:
-    path = tmp_path / "built.so"
-    path.write_bytes(_DATA)
-    return path
-
-
-def _opened() -> LibraryCache:
+def _opened() -> Cache:
     told: list[str] = []
-    found = library_cache(told.append)
+    found = user_cache("so", told.append)
     assert found is not None and told == []
     return found
 
 
 def _refused() -> str:
     told: list[str] = []
-    assert library_cache(told.append) is None
+    assert user_cache("so", told.append) is None
     assert len(told) == 1 and "\n" not in told[0]
     return told[0]
 
 
-def test_what_is_kept_is_found_under_its_name_only(folder: Path, built: Path) -> None:
-    path = _opened().keep("name", built)
+def test_what_is_kept_is_found_under_its_name_only(folder: Path) -> None:
+    path = _opened().keep("name", _DATA)
     assert path.parent == folder and path.read_bytes() == _DATA
     assert list(_opened().find("name")) == [path]
     assert list(_opened().find("nam")) == list(_opened().find("other")) == []
     assert folder.stat().st_mode & 0o777 == 0o700 and path.stat().st_mode & 0o777 == 0o600
 
 
-def test_nobody_else_can_write_what_is_kept_whatever_the_mask(folder: Path, built: Path) -> None:
+def test_nobody_else_can_write_what_is_kept_whatever_the_mask(folder: Path) -> None:
     before = os.umask(0)
     try:
-        path = _opened().keep("name", built)
+        path = _opened().keep("name", _DATA)
     finally:
         os.umask(before)
     assert list(_opened().find("name")) == [path]
@@ -91,31 +84,31 @@ def _flipped(path: Path) -> None:
     ids=lambda f: f.__name__,
 )
 def test_what_is_not_sound_is_neither_found_nor_left(
-    change: Callable[[Path], None], folder: Path, built: Path
+    change: Callable[[Path], None], folder: Path
 ) -> None:
-    path = _opened().keep("name", built)
+    path = _opened().keep("name", _DATA)
     change(path)
     assert list(_opened().find("name")) == []
     assert not os.path.lexists(path)
     assert list(_opened().find("name")) == []
-    assert _opened().keep("name", built) == path
+    assert _opened().keep("name", _DATA) == path
     assert list(_opened().find("name")) == [path]
 
 
-def test_a_folder_with_the_name_of_a_library(folder: Path, built: Path) -> None:
-    path = _opened().keep("name", built)
+def test_a_folder_with_the_name_of_a_library(folder: Path) -> None:
+    path = _opened().keep("name", _DATA)
     path.unlink()
     path.mkdir()
     assert list(_opened().find("name")) == []
-    assert _opened().keep("name", built) == built  # it is used where it was made
+    assert _opened().keep("name", _DATA) is None
     assert list(folder.iterdir()) == [path]
 
 
 def test_a_library_of_another_user(
-    folder: Path, built: Path, monkeypatch: pytest.MonkeyPatch
+    folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     found = _opened()
-    found.keep("name", built)
+    found.keep("name", _DATA)
     monkeypatch.setattr(os, "geteuid", lambda: folder.stat().st_uid + 1)
     assert list(found.find("name")) == []
 
@@ -161,26 +154,26 @@ def test_a_file_in_the_place_of_the_folder_is_no_reason_to_speak(folder: Path) -
     folder.parent.mkdir()
     folder.write_text("mine\n")
     told: list[str] = []
-    assert library_cache(told.append) is None
+    assert user_cache("so", told.append) is None
     assert told == [] and folder.read_text() == "mine\n"
 
 
 def test_a_write_that_fails_leaves_nothing(
-    folder: Path, built: Path, monkeypatch: pytest.MonkeyPatch
+    folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full(descriptor: int) -> None:
+    def full(*names: object) -> None:
         raise OSError("no space left")
 
-    monkeypatch.setattr(os, "fsync", full)
-    assert _opened().keep("name", built) == built
+    monkeypatch.setattr(os, "replace", full)
+    assert _opened().keep("name", _DATA) is None
     assert list(folder.iterdir()) == []
 
 
-def test_what_a_killed_process_had_begun_goes_after_an_hour(folder: Path, built: Path) -> None:
+def test_what_a_killed_process_had_begun_goes_after_an_hour(folder: Path) -> None:
     found = _opened()
     for name, age in ((".old.tmp", 7200), (".new.tmp", 0)):
         (folder / name).write_bytes(b"half")
         begun = (folder / name).stat().st_mtime - age
         os.utime(folder / name, (begun, begun))
-    path = found.keep("name", built)
+    path = found.keep("name", _DATA)
     assert set(folder.iterdir()) == {path, folder / ".new.tmp"}

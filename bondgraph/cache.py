@@ -1,9 +1,9 @@
-"""Where compiled libraries are kept: in a folder of one's own, each named by what is in it.
+"""What is kept from run to run: compiled residuals and templates, in a folder of one's own.
 
-To load a library is to run it, and one that is cut short kills the process that touches its end.
-So nothing is loaded that others could have written, nor anything whose content has not the hash
-that its name says. Because of that hash a name stands for one content for ever: what the loader
-has in memory under a name is what is on the disk.
+To load them is to run them, and a library that is cut short kills the process that touches its
+end. So nothing is loaded that others could have written, nor anything whose content has not the
+hash that its name says. Because of that hash a name stands for one content for ever: what the
+loader has in memory under a name is what is on the disk.
 """
 
 from __future__ import annotations
@@ -17,20 +17,21 @@ from contextlib import suppress
 from hashlib import file_digest, sha256
 from pathlib import Path
 
-_KEPT = 100  # libraries in the cache
+_KEPT = 100  # files of one kind
 _STALE = 3600.0  # s; what a process that was killed had begun to write
 _WRITABLE = stat.S_IWGRP | stat.S_IWOTH
 
 
-class LibraryCache:
-    """A folder with libraries `name.hash.so`, the hash being that of the file."""
+class Cache:
+    """A folder with files `name.hash.kind`, the hash being that of the content."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, kind: str) -> None:
         self.folder = folder
+        self.kind = kind
 
     def find(self, name: str) -> Iterator[Path]:
-        """The sound libraries of this name; those that are not are removed."""
-        for path in sorted(self.folder.glob(f"{name}.*.so")):
+        """The sound files of this name; those that are not are removed."""
+        for path in self._files(f"{name}."):
             sound = _is_sound(path)
             with suppress(OSError):
                 if sound:
@@ -40,28 +41,35 @@ class LibraryCache:
             if sound:
                 yield path
 
-    def keep(self, name: str, built: Path) -> Path:
-        """Take a library in, whole or not at all, and forget the oldest; where it is then."""
-        data = built.read_bytes()
-        path = self.folder / f"{name}.{sha256(data).hexdigest()}.so"
+    def _files(self, start: str = "") -> list[Path]:
+        """The files of this kind whose names begin so."""
+        try:
+            names = sorted(os.listdir(self.folder))
+        except OSError:
+            return []
+        return [
+            self.folder / n for n in names if n.startswith(start) and n.endswith(f".{self.kind}")
+        ]
+
+    def keep(self, name: str, data: bytes) -> Path | None:
+        """Take a content in, whole or not at all, and forget the oldest; where it is then."""
+        path = self.folder / f"{name}.{sha256(data).hexdigest()}.{self.kind}"
         temporary = None
         try:
             descriptor, temporary = tempfile.mkstemp(".tmp", ".", self.folder)  # only ours
             with open(descriptor, "wb") as file:
                 file.write(data)
-                file.flush()
-                os.fsync(descriptor)  # the name is given to what is on the disk
             os.replace(temporary, path)
         except OSError:
             if temporary is not None:
                 Path(temporary).unlink(missing_ok=True)
-            return built
+            return None
         self._tidy()
         return path
 
     def _tidy(self) -> None:
         with suppress(OSError):  # another process may be at it
-            kept = sorted(self.folder.glob("*.so"), key=lambda p: p.stat().st_mtime)
+            kept = sorted(self._files(), key=lambda p: p.stat().st_mtime)
             begun = [
                 p for p in self.folder.glob(".*.tmp") if p.stat().st_mtime < time.time() - _STALE
             ]
@@ -69,7 +77,7 @@ class LibraryCache:
                 old.unlink()
 
 
-def library_cache(tell: Callable[[str], None]) -> LibraryCache | None:
+def user_cache(kind: str, tell: Callable[[str], object]) -> Cache | None:
     """The cache of this user, None where there can be none; `tell` is told of one not to trust.
 
     Its folder is `$XDG_CACHE_HOME/bondgraph`, or `~/.cache/bondgraph`.
@@ -86,13 +94,13 @@ def library_cache(tell: Callable[[str], None]) -> LibraryCache | None:
     except (OSError, RuntimeError):
         return None
     if why:
-        tell(f"the cache {folder} is not used: {why}; the residuals are compiled at each start")
+        tell(f"the cache {folder} is not used: {why}")
         return None
-    return LibraryCache(folder)
+    return Cache(folder, kind)
 
 
 def _mistrust(folder: Path) -> str | None:
-    """Why others could put a library into a folder, or another folder in its place."""
+    """Why others could put a file into a folder, or another folder in its place."""
     state = folder.lstat()
     if stat.S_ISLNK(state.st_mode):
         return "it is a link"
