@@ -85,9 +85,10 @@ def broken(message: str, json: bool) -> int:
 
 def write_whole(path: str, text: str) -> None:
     """Write a file so that it is either the old one or the new one, never half of it."""
-    temporary = f"{path}.{os.getpid()}.tmp"
+    temporary = f"{path}.{os.urandom(6).hex()}.tmp"
     try:
-        with open(temporary, "w", encoding="utf-8", newline="\n") as file:
+        # a file of our own, not what somebody put there under that name
+        with open(temporary, "x", encoding="utf-8", newline="\n") as file:
             file.write(text)
         if os.path.exists(path):
             os.chmod(temporary, os.stat(path).st_mode)

@@ -357,7 +357,10 @@ class Laws:
 def linear(pool: Pool, expr: Expr, pair: tuple[Expr, Expr]) -> tuple[Expr, Expr] | None:
     """The factors (A, B) of `expr` = A a + B b, None where it is no such sum."""
     nothing = {pair[0]: pool.zero, pair[1]: pool.zero}
-    if pool.substitute([expr], nothing)[0] is not pool.zero:
+    try:
+        if pool.substitute([expr], nothing)[0] is not pool.zero:
+            return None
+    except ZeroDivisionError:  # one divided by the other
         return None
     first = pool.substitute([expr], {pair[0]: pool.one, pair[1]: pool.zero})[0]
     second = pool.substitute([expr], {pair[0]: pool.zero, pair[1]: pool.one})[0]

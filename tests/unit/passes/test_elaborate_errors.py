@@ -105,6 +105,7 @@ ONE = [
     ("j -> TF:x { port a; port b; a.e = b.e; a.f = b.f } -> R:z = 1", "ports-not-allowed"),
     ("Se:V { f = 2 } -> j", "wrong-variable"),
     ("j -> TF:x { f1 = f2^2 } -> R:z = 1", "not-a-relation"),
+    ("j -> TF:x { f1/f2 = 2 } -> R:z = 1", "not-a-relation"),
     ("j -> TF:x { f1 = 2*f2; f2 = f1/3 } -> R:z = 1", "power-not-conserved"),
     ("j -> TF:x { f1 = 2*f2; e1 = 2*e2 } -> R:z = 1", "power-not-conserved"),
     ("j -> GY:x { e1 = 2*f2; f1 = 2*e2 } -> R:z = 1", "power-not-conserved"),
