@@ -226,7 +226,7 @@ class _Judge:
                 scale = 10 ** self.random.uniform(0, _FARTHEST)
                 extra = self.point(world.simulator, declared, scale=scale)
                 pool += [extra] if extra is not None else []
-            healthy = self.random.choice(pool) if turn >= len(pool) else pool[turn]
+            healthy = pool[turn % len(pool)] if turn < 2 * self.enough else pool[-1]
             point = self.faulty(world.simulator, fault, declared, healthy, turn)
             if point is None:
                 continue
