@@ -7,6 +7,7 @@ bond end. Nothing here is shared with the elimination that this oracle checks.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
@@ -276,3 +277,85 @@ class Parts:
             rates=tuple(r for r in plant.rates if r.variable in inside),
             readings=tuple(r for r in plant.readings if r[1] in inside),
         )
+
+
+class Surroundings:
+    """Sub-plants: the equations of what is near in the bond graph, all else left open.
+
+    What a plant does its sub-plants can do: a relation that holds on one, whatever faults act
+    there, holds on the plant with these faults and with all that are further away.
+    """
+
+    def __init__(self, plant: Assembly, graph: BondGraph) -> None:
+        self._plant = plant
+        self._near: list[list[int]] = [[] for _ in graph.nodes]
+        for bond in graph.bonds:
+            a, b = bond.tail.node, bond.head.node
+            self._near[a].append(b)
+            self._near[b].append(a)
+        self._laws: list[list[Expr]] = [[] for _ in graph.nodes]
+        self._rates: list[list[Rate]] = [[] for _ in graph.nodes]
+        self._balances = {b.node: b for b in plant.balances}
+        for number, law in plant.laws:
+            if number >= 0:
+                self._laws[number].append(law)
+        for rate in plant.rates:
+            if rate.node >= 0:
+                self._rates[rate.node].append(rate)
+        self._silent = frozenset(plant.silent)
+        self._known: dict[tuple[frozenset[int], frozenset[int]], Assembly] = {}
+        self._about = [self._symbols(number) for number in range(len(graph.nodes))]
+        self._variables = [frozenset(x for x in s if isinstance(x, int)) for s in self._about]
+        self._homes: dict[Expr | int, list[int]] = {}
+        for number, inside in enumerate(self._about):
+            for what in inside:
+                self._homes.setdefault(what, []).append(number)
+
+    def _symbols(self, node: int) -> set[Expr | int]:
+        """The variables and the constants in the equations of a node."""
+        place = self._plant.place
+        found: set[Expr | int] = set()
+        values = [rate.value for rate in self._rates[node]]
+        for n in topological([*self._laws[node], *values]):
+            if n.op is Op.SYM:
+                found.add(place[n][0] if n in place else n)
+        found.update(rate.variable for rate in self._rates[node])
+        if node in self._balances:
+            balance = self._balances[node]
+            found.update((balance.common, *[v for v, _ in balance.terms]))
+        return found
+
+    def of(self, symbols: Iterable[Expr]) -> frozenset[int]:
+        """The nodes with a variable among the symbols, or a constant that no other node has."""
+        place = self._plant.place
+        found: set[int] = set()
+        for symbol in symbols:
+            variable = symbol in place
+            homes = self._homes.get(place[symbol][0] if variable else symbol, [])
+            if variable or len(homes) == 1:
+                found.update(homes)
+        return frozenset(found)
+
+    def wider(self, nodes: frozenset[int]) -> frozenset[int]:
+        """The nodes, and those next to them."""
+        return nodes.union(*[self._near[node] for node in nodes])
+
+    def part(self, nodes: frozenset[int], shown: Iterable[Expr]) -> Assembly:
+        """The equations of some nodes, about their variables and the ones `shown`."""
+        plant, place = self._plant, self._plant.place
+        outside = frozenset(place[s][0] for s in shown if s in place)
+        if (nodes, outside) in self._known:
+            return self._known[nodes, outside]
+        inside = outside.union(*[self._variables[node] for node in nodes])
+        ordered = sorted(nodes)
+        found = self._known[nodes, outside] = plant._replace(
+            active=tuple(sorted(inside)),
+            free=tuple(v for v in plant.free if v in inside),
+            unknown=tuple(v for v in plant.unknown if v in inside),
+            silent=tuple(sorted(self._silent & inside)),
+            balances=tuple(self._balances[n] for n in ordered if n in self._balances),
+            laws=tuple((n, law) for n in ordered for law in self._laws[n]),
+            rates=tuple(rate for n in ordered for rate in self._rates[n]),
+            readings=(),
+        )
+        return found

@@ -7,7 +7,7 @@ pass more (Griewank and Walther, 2008, ch. 3).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple, Protocol
 
@@ -136,6 +136,17 @@ def values_of(
     """
     values: dict[Expr, Any] = {}
     failures: dict[Expr, Exception] = {}
+    _add_values(values, failures, nodes, need, sample)
+    return values, failures
+
+
+def _add_values(
+    values: dict[Expr, Any],
+    failures: dict[Expr, Exception],
+    nodes: Iterable[Expr],
+    need: dict[Expr, int],
+    sample: Assignment,
+) -> None:
     algebra = sample.algebra
     for node in nodes:
         try:
@@ -144,7 +155,41 @@ def values_of(
             values[node] = node_value(node, values, sample, algebra, need[node])
         except (Undefined, Mixed) as failure:
             failures[node] = failure
-    return values, failures
+
+
+class Evaluated:
+    """A relation at a point, evaluated again and again with little that is different.
+
+    What does not rest on what has changed is computed once.
+    """
+
+    def __init__(self, root: Expr, sample: Assignment, n: int) -> None:
+        self._root = root
+        self._nodes, self._need = plan(root, n)
+        self._values, self._failures = values_of(self._nodes, self._need, sample)
+        self._users: dict[Expr, list[Expr]] = {}
+        for node in self._nodes:
+            for a in node.args:
+                self._users.setdefault(a, []).append(node)
+
+    def anew(self, changed: Iterable[Expr], sample: Assignment) -> Any:
+        """The value of the root at a point that differs in these nodes; raises as `evaluate`."""
+        above = set(changed)
+        stack = list(above)
+        while stack:
+            for user in self._users.get(stack.pop(), ()):
+                if user not in above:
+                    above.add(user)
+                    stack.append(user)
+        values, failures = dict(self._values), dict(self._failures)
+        for node in above:
+            values.pop(node, None)
+            failures.pop(node, None)
+        ordered = sorted(above.intersection(self._need), key=lambda node: node.id)
+        _add_values(values, failures, ordered, self._need, sample)
+        if self._root in failures:
+            raise failures[self._root]
+        return values[self._root]
 
 
 def _check(

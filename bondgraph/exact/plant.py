@@ -8,7 +8,7 @@ derivative, inverse, branch or monotony of a function.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from random import Random
@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from bondgraph.exact import series
 from bondgraph.exact.algebra import Mixed, Taylor, Waves
-from bondgraph.exact.assembly import Assembly, Parts, assemble
+from bondgraph.exact.assembly import Assembly, Parts, Surroundings, assemble
 from bondgraph.exact.equations import Setting, Writer, written
 from bondgraph.exact.evaluate import evaluate, highest_order, integral_depth
 from bondgraph.exact.field import PrimeField
@@ -37,6 +37,7 @@ _SMALL, _USUAL, _GREAT = (-3, 0), (0, 0), (0, 1.3)  # powers of ten: the sizes o
 _SIZES = (_SMALL, _SMALL, _USUAL, _GREAT)
 _FULL_SIZE = 4  # points that are tried with signals of any size, before small ones only are
 _MODULAR = 6  # points that are tried in a prime field, before real ones are
+_WIDER = 1.4  # times as large the next sub-plant is, at least
 _LARGE = 4000  # coefficients of a trajectory that are many
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
 
@@ -54,6 +55,9 @@ class Contradictory(ExactUnavailable):
     def __init__(self, message: str, node: int) -> None:
         super().__init__(message)
         self.node = node
+
+
+_Shown = tuple[str, Expr, Expr]  # a sensor: name, symbol, what it reads
 
 
 class _Wanted(NamedTuple):
@@ -128,7 +132,17 @@ class Plant:
     def __init__(self, graph: BondGraph) -> None:
         self.graph = graph
         self.assembly: Assembly = assemble(graph)
+        self._symbols_of: dict[int, list[Expr]] = {}
+        for symbol, (variable, _) in self.assembly.place.items():
+            self._symbols_of.setdefault(variable, []).append(symbol)
+        self._sensors: list[tuple[_Shown, list[int]]] = []  # and the variables that they rest on
+        place = self.assembly.place
+        for s in graph.sensors:
+            if s.same_as is None:
+                variables = [place[n][0] for n in topological([s.reads]) if n in place]
+                self._sensors.append(((s.name, s.symbol, s.reads), variables))
         self._parts: Parts | None = None
+        self._surroundings: Surroundings | None = None
         roots = [
             *[law for _, law in self.assembly.laws],
             *[r.value for r in self.assembly.rates],
@@ -159,14 +173,16 @@ class Plant:
             if item.initial.op is Op.SYM:
                 self._starts[item.initial] = item.symbol
         self.constants = [n for n in found if n.symbol.kind in constant and n not in self._starts]
+        self._constants = frozenset(self.constants)
         self._samples: dict[object, Trajectory | WaveSample] = {}
         #: Parts whose laws no second point was found for once their constants were drawn.
         self.momentary: list[Assembly] = []
         self._declared = {v.symbol: v.value for v in graph.values}
         self._apart: frozenset[Expr] = frozenset()
-        self._rational: dict[tuple[int, ...], bool] = {}
+        # by the identity of parts, which are kept
+        self._rational: dict[int, bool] = {}
         self._precision = Precision()
-        self._reached: dict[tuple[int, ...], frozenset[Expr]] = {}
+        self._reached: dict[int, frozenset[Expr]] = {}
         self._hopeless: dict[object, str] = {}  # no trajectory was found, and why
 
     def apart(self, constants: Iterable[Expr] | None = None) -> Plant:
@@ -187,15 +203,15 @@ class Plant:
 
     def reached(self, part: Assembly) -> frozenset[Expr]:
         """The symbols that a part of the plant is made of; no other fault can act in it."""
-        found = self._reached.get(part.active)
+        found = self._reached.get(id(part))
         if found is None:
             inside = frozenset(part.active)
             roots = [law for _, law in part.laws] + [r.value for r in part.rates]
             roots += [reads for _, _, reads in (*part.readings, *self._shown(part))]
             roots += [b.when for b in part.balances if b.when is not None]
-            own = [s for s, (v, _) in part.place.items() if v in inside]
+            own = [s for v in inside for s in self._symbols_of.get(v, ())]
             own += [symbol for _, symbol, _ in self._shown(part)]
-            found = self._reached[part.active] = frozenset((*symbols(*roots), *own))
+            found = self._reached[id(part)] = frozenset((*symbols(*roots), *own))
         return found
 
     def rational(self, part: Assembly, roots: Iterable[Expr] = ()) -> bool:
@@ -203,11 +219,11 @@ class Plant:
 
         A prime field is then as good as the real numbers, and faster.
         """
-        if part.active not in self._rational:
+        if id(part) not in self._rational:
             parts = [law for _, law in part.laws] + [r.value for r in part.rates]
             parts += [reads for _, _, reads in (*part.readings, *self._shown(part))]
-            self._rational[part.active] = _rational(parts)
-        return self._rational[part.active] and _rational(roots)
+            self._rational[id(part)] = _rational(parts)
+        return self._rational[id(part)] and _rational(roots)
 
     def trajectory(
         self,
@@ -242,7 +258,7 @@ class Plant:
         if self.rational(wanted.part, roots):
             with suppress(ExactUnavailable):
                 return self._tried(wanted, real=False)
-        key = (wanted.part.active, tuple(wanted.modes.items()), solver)
+        key = (id(wanted.part), tuple(wanted.modes.items()), solver)
         if key in self._hopeless:
             raise ExactUnavailable(self._hopeless[key])
         try:
@@ -274,7 +290,13 @@ class Plant:
                     seed,
                     wanted.order,
                     wanted.faults,
-                    self.draw_constants(wanted.seed, attempt, wanted.modes, numbers),
+                    self.draw_constants(
+                        wanted.seed,
+                        attempt,
+                        wanted.modes,
+                        numbers,
+                        None if wanted.read is None else wanted.read | self.reached(wanted.part),
+                    ),
                     numbers,
                     plant,
                     solver=wanted.solver,
@@ -402,12 +424,23 @@ class Plant:
         )
 
     def draw_constants(
-        self, seed: int, attempt: int, modes: Mapping[Expr, int], numbers: Numbers
+        self,
+        seed: int,
+        attempt: int,
+        modes: Mapping[Expr, int],
+        numbers: Numbers,
+        used: frozenset[Expr] | None = None,
     ) -> dict[Expr, Series]:
-        """The declared parameters, random ones where none is declared, and modes if not given."""
+        """The declared parameters, random ones where none is declared, and modes if not given.
+
+        Only those that are `used` (None: all).
+        """
         random = Random(seed * 1009 + attempt)
         declared = _Declared(self, numbers, random)
-        out: dict[Expr, Series] = {symbol: declared.value(symbol) for symbol in self.constants}
+        constants: Collection[Expr] = self.constants
+        if used is not None:
+            constants = sorted(used & self._constants, key=lambda symbol: symbol.id)
+        out: dict[Expr, Series] = {symbol: declared.value(symbol) for symbol in constants}
         for symbol in self.modes:
             out[symbol] = [modes.get(symbol, random.getrandbits(1))]
         return out
@@ -469,15 +502,10 @@ class Plant:
                 told.setdefault(initial, [starts[initial.symbol]])
         return Trajectory(self, seed, order, tuple(faults), told, truth, starts, part, still, read)
 
-    def _shown(self, plant: Assembly) -> list[tuple[str, Expr, Expr]]:
+    def _shown(self, plant: Assembly) -> list[_Shown]:
         """The sensors of a part of the plant: name, symbol, reads."""
-        inside, place = frozenset(plant.active), plant.place
-        return [
-            (s.name, s.symbol, s.reads)
-            for s in self.graph.sensors
-            if s.same_as is None
-            if all(place[n][0] in inside for n in topological([s.reads]) if n in place)
-        ]
+        inside = frozenset(plant.active)
+        return [shown for shown, variables in self._sensors if inside.issuperset(variables)]
 
     def part_for(self, roots: Sequence[Expr]) -> Assembly:
         """The part of the plant that shows the signals in the roots."""
@@ -495,6 +523,27 @@ class Plant:
                 seen[starts[node.symbol]] = None
         seen.update((self._starts[n], None) for n in list(seen) if n in self._starts)
         return self._parts.about(list(seen))
+
+    def surroundings(self, root: Expr) -> Iterator[Assembly]:
+        """Ever larger sub-plants about a relation, as long as they are small beside its part.
+
+        What does not move the relation on one does not move it on the plant.
+        """
+        if self._surroundings is None:
+            self._surroundings = Surroundings(self.assembly, self.graph)
+        whole = self.part_for([root])
+        inside = symbols(root)
+        shown = symbols(*[self._reads[s] for s in inside if s in self._reads])
+        nodes = self._surroundings.of([*inside, *shown])
+        last = 0
+        while True:
+            nodes = self._surroundings.wider(nodes)
+            part = self._surroundings.part(nodes, shown)
+            if 2 * len(part.active) > len(whole.active):
+                return
+            if len(part.active) > _WIDER * last:
+                yield part
+                last = len(part.active)
 
     # ------------------------------------------------------------------------ explanations
 

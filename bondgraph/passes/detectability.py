@@ -8,7 +8,13 @@ from random import Random
 from typing import Any
 
 from bondgraph.exact.algebra import Mixed
-from bondgraph.exact.evaluate import Sample, evaluate, highest_order, integral_depth
+from bondgraph.exact.evaluate import (
+    Evaluated,
+    Sample,
+    evaluate,
+    highest_order,
+    integral_depth,
+)
 from bondgraph.exact.numbers import Number, Undefined
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.steady import rest, steady
@@ -75,8 +81,9 @@ def _strong(
             continue
         decided = True
         for at, expr in enumerate(exprs):
+            relation = _Relation(expr, point)
             for fault in list(left[at]):
-                if _held(expr, symbols[fault], point):
+                if relation.held(symbols[fault]):
                     found[at].append(fault)
                     del left[at][fault]
     if decided or not any(left):
@@ -128,48 +135,66 @@ def _at(
     return None
 
 
-def _held(expr: Expr, symbol: Expr, point: _Point) -> bool:
-    """Whether a residual that is told a constantly wrong value stays away from zero.
+class _Relation:
+    """A residual that is told constantly wrong values at one point."""
 
-    For a parameter in steady operation, for a signal also in motion: a constant error that the
-    derivative of a nonlinear law lets through shows as long as the machine moves.
-    """
-    if _shows(expr, symbol, point, point.still):
-        return True
-    if symbol.symbol.kind not in KNOWN_SIGNALS:
-        return False
-    try:
-        moving = point.moving
-    except (ExactUnavailable, Undefined):
-        return False
-    return isinstance(moving, Trajectory) and _shows(expr, symbol, point, moving)
+    def __init__(self, expr: Expr, point: _Point) -> None:
+        self._point = point
+        self._expr = expr
+        self._integrals = [node for node in topological([expr]) if node.op is Op.INT]
+        self._size = integral_depth([expr]) + 2
+        self._evaluated: dict[tuple[Expr, Sample], Evaluated] = {}
 
+    def held(self, symbol: Expr) -> bool:
+        """Whether a residual that is told a constantly wrong value stays away from zero.
 
-def _shows(expr: Expr, symbol: Expr, point: _Point, at: Trajectory) -> bool:
-    """Whether a constant error moves a residual at a point; of several sizes one that it takes."""
-    n = integral_depth([expr]) + 2
-    integrals = [node for node in topological([expr]) if node.op is Op.INT]
-    for turn in range(_SIZES):
-        taken_up: set[Symbol] = set()
-        if integrals:
-            moving = _Wrong(point.moving, symbol, turn, taken_up)
-            for node in integrals:
-                if _differ(node.args[0], point.moving, moving):
-                    taken_up.add(node.symbol)
+        For a parameter in steady operation, for a signal also in motion: a constant error that the
+        derivative of a nonlinear law lets through shows as long as the machine moves.
+        """
+        if self._shows(symbol, self._point.still):
+            return True
+        if symbol.symbol.kind not in KNOWN_SIGNALS:
+            return False
         try:
-            return at.algebra.moves(evaluate([expr], _Wrong(at, symbol, turn, taken_up), n)[0])
+            moving = self._point.moving
+        except (ExactUnavailable, Undefined):
+            return False
+        return isinstance(moving, Trajectory) and self._shows(symbol, moving)
+
+    def _shows(self, symbol: Expr, at: Trajectory) -> bool:
+        """Whether a constant error moves a residual; of several sizes one that it takes."""
+        for turn in range(_SIZES):
+            taken_up: set[Symbol] = set()
+            for node in self._integrals:
+                if self._differs(node.args[0], symbol, turn, taken_up):
+                    taken_up.add(node.symbol)
+            wrong = _Wrong(at, symbol, turn, taken_up)
+            changed = [symbol, *[n for n in self._integrals if n.symbol in taken_up]]
+            try:
+                return at.algebra.moves(self._at(self._expr, at).anew(changed, wrong))
+            except (Undefined, Mixed):
+                continue
+        return False
+
+    def _differs(self, expr: Expr, symbol: Expr, turn: int, taken_up: set[Symbol]) -> bool:
+        """Whether an integrand is wrong while the machine moves."""
+        right = self._point.moving
+        wrong = _Wrong(right, symbol, turn, taken_up)
+        changed = [symbol, *[n for n in self._integrals if n.symbol in taken_up]]
+        try:
+            found = self._at(expr, right)
+            one, other = found.anew((), right), found.anew(changed, wrong)
+            algebra: Any = right.algebra
+            return bool(algebra.moves(algebra.combine([(1, one), (-1, other)], 1)))
         except (Undefined, Mixed):
-            continue
-    return False
+            return True
 
-
-def _differ(expr: Expr, right: Sample, wrong: Sample) -> bool:
-    """Whether an integrand is wrong while the machine moves."""
-    try:
-        one, other = evaluate([expr], right)[0], evaluate([expr], wrong)[0]
-        return right.algebra.moves(right.algebra.combine([(1, one), (-1, other)], 1))
-    except (Undefined, Mixed):
-        return True
+    def _at(self, expr: Expr, point: Sample) -> Evaluated:
+        size = self._size if expr is self._expr else 1
+        found = self._evaluated.get((expr, point))
+        if found is None:
+            found = self._evaluated[expr, point] = Evaluated(expr, point, size)
+        return found
 
 
 class _Wrong:

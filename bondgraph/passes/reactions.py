@@ -11,6 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple, TypeVar
 
+from bondgraph.exact.algebra import Mixed
+from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.evaluate import (
     Sensitivity,
     evaluate,
@@ -50,7 +52,8 @@ class Reactions:
         graph = plant.graph
         laws = [law for _, law in plant.assembly.laws]
         self.turns = _turns(laws, dict.fromkeys(plant.modes, 0))
-        self.faults = {symbol: name for name, symbol in graph.fault_symbols().items()}
+        self.symbols = graph.fault_symbols()
+        self.faults = {symbol: name for name, symbol in self.symbols.items()}
 
     def at_free_signals(self, expr: Expr) -> Sensitivity:
         """What the relation depends on when its signals are independent of each other."""
@@ -135,6 +138,8 @@ class Reactions:
         if not faults:
             return False
         size = telling([expr])
+        if self._unmoved_nearby(expr, faults, size):
+            return False
 
         def value(modes: Mapping[Expr, int] | None, turned: bool, number: int) -> bool:
             sample = self.plant.sample(
@@ -163,6 +168,32 @@ class Reactions:
                 return True
         if not met and failure is not None:
             raise failure
+        return False
+
+    def _unmoved_nearby(self, expr: Expr, faults: tuple[str, ...], size: int) -> bool:
+        """Whether faults leave a relation unmoved on a small part of the plant, and so on all.
+
+        Where nothing has branches: one point then stands for all.
+        """
+        if self.turns > 1 or self.modes or _turns([expr], None) > 1 or self.plant.modes:
+            return False
+        order = highest_order([expr], size)
+        for part in self.plant.surroundings(expr):
+            reached = self.plant.reached(part)
+            acting = [f for f in faults if self.symbols[f] in reached]
+
+            def moved(number: int, part: Assembly = part, acting: list[str] = acting) -> bool:
+                sample = self.plant.trajectory(
+                    number, order, faults=acting, part=part, roots=[expr]
+                )
+                found = evaluate([expr], sample, size)[0]
+                return sample.still or sample.algebra.moves(found)
+
+            try:
+                if not self.draw(moved, 3000 * self.seed):
+                    return True
+            except (ExactUnavailable, Mixed):
+                return False
         return False
 
     def draw(self, attempt: Callable[[int], T], number: int) -> T:
