@@ -14,6 +14,7 @@ from bondgraph.exact.evaluate import (
     evaluate,
     highest_order,
     integral_depth,
+    sensitivities,
 )
 from bondgraph.exact.numbers import Number, Undefined
 from bondgraph.exact.plant import ExactUnavailable, Plant
@@ -145,13 +146,27 @@ class _Relation:
         self._size = integral_depth([expr]) + 2
         self._evaluated: dict[tuple[Expr, Sample], Evaluated] = {}
 
+    @cached_property
+    def _sloped(self) -> frozenset[Expr]:
+        """What has a slope in steady operation: a small constant error already shows.
+
+        All symbols at once, by one sweep back through the relation. What an integral has taken up
+        is no error of steady operation.
+        """
+        if self._integrals:
+            return frozenset()
+        try:
+            return sensitivities(self._expr, self._point.still).lasting
+        except (Undefined, Mixed):
+            return frozenset()
+
     def held(self, symbol: Expr) -> bool:
         """Whether a residual that is told a constantly wrong value stays away from zero.
 
         For a parameter in steady operation, for a signal also in motion: a constant error that the
         derivative of a nonlinear law lets through shows as long as the machine moves.
         """
-        if self._shows(symbol, self._point.still):
+        if symbol in self._sloped or self._shows(symbol, self._point.still):
             return True
         if symbol.symbol.kind not in KNOWN_SIGNALS:
             return False

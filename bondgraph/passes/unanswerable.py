@@ -19,14 +19,21 @@ from bondgraph.passes.solve import affine
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
+_READ = 60  # operations that a message writes out
 _TERMS = 2  # coefficients of a divisor that are looked at
+
+
+def _short(expr: Expr) -> str:
+    """An expression as it is read; one that nobody would read by its size."""
+    size = len(topological([expr]))
+    return show(expr) if size <= _READ else f"an expression of {size} operations"
 
 
 class Resting(ExactUnavailable):
     """A residual, by its position, that divides by what is always zero on the healthy plant."""
 
     def __init__(self, residual: int, divisor: Expr) -> None:
-        super().__init__(f"a residual divides by {show(divisor)}, which is zero")
+        super().__init__(f"a residual divides by {_short(divisor)}, which is zero")
         self.residual = residual
         self.divisor = divisor
 
@@ -141,7 +148,7 @@ def resting(report: Report, residual: Residual, divisor: Expr) -> None:
     """Say that a residual never has a value."""
     report.error(
         "residual-undefined",
-        f"Residual {residual.name} divides by {show(divisor)}, which is zero as long as the "
+        f"Residual {residual.name} divides by {_short(divisor)}, which is zero as long as the "
         "machine is healthy: it never has a value.",
         residual.closing.origin,
         help="Nothing drives this part of the machine, or its bonds hold it at rest. Add the "
