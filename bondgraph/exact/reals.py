@@ -214,7 +214,7 @@ class Reals:
 
 
 def _decades(random: Random) -> Number:
-    return arb(10.0 ** random.uniform(-1.5, 1))
+    return arb(10.0 ** random.uniform(-1.5, 2))
 
 
 def _sqrt(f: Reals, x: Number) -> Number:
