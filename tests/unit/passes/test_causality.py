@@ -151,6 +151,14 @@ def test_resistances_in_series_form_a_loop_and_a_storage_between_them_opens_it()
     assert causal("Se:u -> 1:a -> R:r; a -> 0:b -> R:s; b -> C:c").loops == ()
 
 
+def test_a_ring_of_junctions_has_a_loop_of_efforts_and_one_of_flows() -> None:
+    # a gives its effort to b, b to t, t to a; the flow of each bond comes from the other end, so
+    # that flows go round the other way. r answers to the effort of a and feeds the second loop:
+    # it is in neither.
+    graph = causal("0:a -> TF:t -> 0:b; a -> b; a -> R:r")
+    assert [names(graph, loop) for loop in graph.loops] == [["a", "t", "b"], ["a", "t", "b"]]
+
+
 def test_two_effort_sources_meet_at_a_junction() -> None:
     message, places = refusal("Se:a -> 0:n <- Se:b; n -> R:r")
     assert message == "The effort of 0:n is imposed twice, by Se:a and Se:b."

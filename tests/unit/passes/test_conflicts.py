@@ -129,8 +129,9 @@ def test_what_each_member_does_on_the_way(case: str, roles: dict[str, str]) -> N
     assert {name: told[name] for name in roles} == roles
 
 
-def test_the_lines_proposed_can_be_written_into_the_model() -> None:
-    text = CASES["pumps"][0].replace("; ", "\n")
+@pytest.mark.parametrize(("line", "hose"), [("line", "hose"), ("link", "loss"), ("loss", "link2")])
+def test_the_lines_proposed_can_be_written_into_the_model(line: str, hose: str) -> None:
+    text = CASES["pumps"][0].replace("; ", "\n").replace("line", line).replace("hose", hose)
     (error,) = findings(text)
     (first, *_) = re.findall(r"\n    (.*)", error.help)
     bond = first.split(" -> ")[0]  # the name of the source whose bond gets the junction
@@ -235,15 +236,42 @@ def test_a_switch_that_cannot_be_off_is_told(text: str, message: str) -> None:
     assert [d.message for d in warnings(text)] == ([message] if message else [])
 
 
+def test_a_change_shows_at_all_like_places_of_the_first_node_too() -> None:
+    # one text drawn twice, with its junction first; as a 1-junction it has a flow: that of its R
+    graph = build("0:n <- Se:a; n <- Se:b; n -> R:r; 0:m <- Se:c; m <- Se:d; m -> R:s")
+    net, at = network(graph)
+    core = cores(net, demands(graph, at, "integral")[0])[0]
+    alike = [0, 1, 2, 3] * 2
+    found = mends(graph, core.nodes(net), story(graph, net, core), set(), alike)
+    (text,) = [mend.text for mend in found if mend.change == Change(turn=0)]
+    assert text.startswith("make 0:n (and the 1 like it) a 1-junction")
+
+
+def test_work_on_proposals_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    graph = build("Se:a -> 0:n <- Se:b; n -> R:r")
+    net, at = network(graph)
+    (core,) = cores(net, demands(graph, at, "integral")[0])
+    told, nodes = story(graph, net, core), core.nodes(net)
+    every = mends(graph, nodes, told, set(), [0, 1, 2, 3])
+    assert len(every) > 2
+    # a trial of the whole model looks at its three bonds: the second one takes more than is left
+    monkeypatch.setattr("bondgraph.passes.causal.mends._WORK", 5)
+    assert mends(graph, nodes, told, set(), [0, 1, 2, 3]) == every[:2]
+
+
 _TURNS = """1:a when {0} {{ <- Se:E; -> x }}
 1:b when {1} {{ <- Se:G; -> x }}
 0:x -> 1:i
 i -> I:L = 1"""
 
 
-def test_ideal_switches_may_take_turns() -> None:
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [("on", "not on"), ("on and up", "not on or not up"), ("on or up", "not on and not up")],
+)
+def test_ideal_switches_may_take_turns(one: str, other: str) -> None:
     """Never on together, the two are no conflict, and there is no mode to warn of."""
-    text = _TURNS.format("on", "not on")
+    text = "input up : bool\n" + _TURNS.format(one, other)
     assert warnings(text) == []
     model = Compilation(Source("m.bg", f"bg 1\nmodel M {{\ninput on : bool\n{text}\n}}\n"))
     assert model.conflicts == ()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from bondgraph.passes.zero import is_zero
 from bondgraph.text.diagnostic import CompileError
 from tests.unit.passes.relations import compiled, is_multiple, t
 
@@ -94,6 +95,27 @@ def test_bridge_is_solved_as_a_network(balanced: bool) -> None:
 
     assert len(c.residuals) == 1
     assert is_multiple(c.residuals[0], by_hand, numbers, ("U", "i"))
+
+
+def test_what_is_left_over_of_a_loop_is_not_the_equation_that_opened_it() -> None:
+    """With all steps inserted the closing equation is the relation; the other one says 0 = 0."""
+    c = compiled(
+        """model W {
+        param R0 = 1; param R1 = 1; param R2 = 2; param R3 = 3; param R4 = 4; param R5 = 5
+        Se:U -> 1:s
+        s { -> R:R0; -> Df:i; -> 0:top }
+        top -> 1:a -> 0:l
+        top -> 1:b -> 0:r
+        l -> 1:br -> r
+        a -> R:R1; b -> R:R2; l -> R:R3; r -> R:R4; br -> R:R5
+        }"""
+    )
+    (closing,) = c.reduced.closings
+    assert "loop" in [s.how for s in closing.steps]
+    values = {s.variable: s.closed for s in closing.steps}
+    (inserted,) = c.graph.pool.substitute([closing.equation.zero], values)
+    assert not is_zero(inserted)
+    assert is_zero(c.graph.pool.sub(inserted, closing.expr))
 
 
 SPRING = """model M {{

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bondgraph.ir.expr import Kind, Op, Pool, topological
 from bondgraph.passes.initial import without_free_integrals
+from bondgraph.passes.zero import is_zero
 
 
 def test_a_function_of_a_hidden_charge_that_cancels() -> None:
@@ -32,3 +33,23 @@ def test_a_hidden_charge_that_does_not_cancel_stays() -> None:
     assert found is None or not any(
         n.op is Op.INT and n.symbol.kind is Kind.FREE for n in topological([found.expr])
     )
+
+
+def test_a_hidden_flux_in_a_product_that_is_differentiated() -> None:
+    """v = (w p)' = w' p + w u with p' = u: from c p + b = 0 follows c b' - c' b + c^2 p' = 0.
+
+    Here c = w' and b = w u - v, so that w' (w u - v)' - w'' (w u - v) + w'^2 u = 0.
+    """
+    pool = Pool()
+    v, w, u = (pool.symbol(name, Kind.SENSOR) for name in "vwu")
+    p = pool.integral(u, pool.symbol("p.0", Kind.FREE))
+    found = without_free_integrals(pool, pool.sub(pool.der(pool.mul(w, p)), v))
+    assert found is not None
+    slope, left = pool.der(w), pool.sub(pool.mul(w, u), v)
+    by_hand = pool.add(
+        (1, pool.mul(slope, pool.der(left))),
+        (-1, pool.mul(pool.der(slope), left)),
+        (1, pool.mul(slope, slope, u)),
+    )
+    assert is_zero(pool.sub(found.expr, by_hand))
+    assert found.order == 1

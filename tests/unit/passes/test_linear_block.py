@@ -178,6 +178,34 @@ def test_grid_of_resistors_is_nodal_analysis() -> None:
             assert alone or abs(wrong) > 1e-9 * sum(terms)
 
 
+def test_a_grid_with_a_bent_resistor_is_no_linear_block_and_has_the_same_relations() -> None:
+    """The voltages where Kirchhoff's law holds, found by Newton's method, leave residuals zero."""
+    size = 3
+    text, nodal = grid(size)
+    bent = text.replace("r0_1 = p0_1", "r0_1 { f = (e + e^3)/p0_1 }")
+    assert bent != text
+    ohm = 1 + 3 % 11
+    voltages = np.full(size * size, 5.0)
+    for _ in range(20):
+        drop = voltages[0] - voltages[1]
+        surplus = nodal @ voltages
+        surplus[1] -= drop**3 / ohm  # what the bent one carries beyond its share in `nodal`
+        slope = nodal.copy()
+        slope[1, 1] += 3 * drop**2 / ohm
+        voltages[1:] -= np.linalg.solve(slope[1:, 1:], surplus[1:])
+    assert drop > 0.05 and np.abs(surplus[1:]).max() < 1e-15
+    compilation = compiled(bent)
+    assert len(compilation.residuals) == 2
+    machine = Interpreter(compilation.program)
+    healthy = {"u": 5.0, "y4": voltages[4], "y8": voltages[8]}
+    calm = machine.exact({name: {0: value} for name, value in healthy.items()})
+    for name in ("y4", "y8"):
+        faulty = machine.exact({n: {0: v * (1 + 0.01 * (n == name))} for n, v in healthy.items()})
+        told = [r.name for r in compilation.program.residuals if name in r.faults]
+        assert told
+        assert all(abs(faulty[r]) > 1e5 * abs(calm[r]) for r in told)
+
+
 def test_program_of_a_grid_is_nodal_analysis() -> None:
     """What step computes is zero at the voltages of the nodal matrix, and moves with a fault."""
     size = 7

@@ -107,6 +107,23 @@ def test_what_has_two_solutions_has_none(pool: Pool) -> None:
         assert solve(pool, pool.sub(g, value), f) is None
 
 
+@pytest.mark.parametrize("values", [(1, 3, 2), (-3, -1, -2), (0, 2, 2), (5, 1, 2)])
+def test_a_table_that_turns_back_has_no_inverse(pool: Pool, values: tuple[int, ...]) -> None:
+    s = symbols(pool)
+    pool.tables["curve"] = tuple((Fraction(x), Fraction(y)) for x, y in enumerate(values))
+    assert solve(pool, pool.sub(s["g"], pool.fn("table:curve", s["f"])), s["f"]) is None
+
+
+@pytest.mark.parametrize("values", [(-2, -1, 3), (3, 1, -2)])
+def test_a_table_that_goes_one_way_is_read_backwards(pool: Pool, values: tuple[int, ...]) -> None:
+    s = symbols(pool)
+    pool.tables["curve"] = tuple((Fraction(x), Fraction(y)) for x, y in enumerate(values))
+    found = solve(pool, pool.sub(s["g"], pool.fn("table:curve", s["f"])), s["f"])
+    assert found is not None and found.value.args == (s["g"],)
+    backwards = pool.tables[found.value.name.removeprefix("table:")]
+    assert backwards == tuple(sorted((y, x) for x, y in pool.tables["curve"]))
+
+
 def test_never_divides_by_what_a_mode_may_make_zero(pool: Pool) -> None:
     s = symbols(pool)
     on = pool.symbol("on", Kind.MODE)

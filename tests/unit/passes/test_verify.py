@@ -94,7 +94,7 @@ def test_a_model_without_residuals_has_nothing_to_verify() -> None:
     report = Report()
     empty = SignatureMatrix((), c.graph.faults, tuple(() for _ in c.graph.faults), ())
     found = verify(c.graph, c.residuals._replace(residuals=()), empty, report, 1)
-    assert found.residuals == found.trajectories == 0
+    assert found.residuals == found.trajectories == found.faults == 0
     assert report.diagnostics == []
 
 
@@ -111,7 +111,7 @@ def test_what_cannot_be_simulated_is_said(monkeypatch: pytest.MonkeyPatch) -> No
     [warning] = report.diagnostics
     assert warning.code == "verification-unavailable" and warning.severity == "warning"
     assert "riddle" in warning.message and "riddle" in found.method
-    assert found.residuals == 0
+    assert found.residuals == found.faults == 0
 
 
 def test_the_same_seed_gives_the_same_answer() -> None:

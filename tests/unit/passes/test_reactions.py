@@ -1,0 +1,70 @@
+"""What moves a relation: where it branches, faults of either sign, any seed."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from bondgraph.exact.plant import Plant
+from bondgraph.ir.expr import Expr, Kind, Pool
+from bondgraph.passes.reactions import Reactions, branches
+from tests.unit.passes.relations import compiled
+
+
+def _forms(pool: Pool) -> dict[str, tuple[Expr, bool]]:
+    """Expressions, and whether one point may show of them what another one does not."""
+    x, y = pool.symbol("x", Kind.SENSOR), pool.symbol("y", Kind.SENSOR)
+    below = pool.compare("<", x, y)
+    return {
+        "a rational function": (pool.div(pool.mul(x, y), pool.add((1, x), (1, y))), False),
+        "a power": (pool.fn("pow", x, pool.num(Fraction(7, 5))), False),
+        "a derivative": (pool.der(pool.mul(x, y)), False),
+        "a comparison": (pool.choose(below, x, pool.zero), True),
+        "a limit": (pool.fn("min", x, pool.one), True),
+        "an absolute value": (pool.mul(y, pool.fn("abs", x)), True),
+    }
+
+
+@pytest.mark.parametrize("name", list(_forms(Pool())))
+def test_where_one_point_is_not_enough(name: str) -> None:
+    expr, expected = _forms(Pool())[name]
+    assert branches([expr]) == expected
+
+
+def test_a_known_switch_is_a_branch_until_it_is_told() -> None:
+    pool = Pool()
+    x, on = pool.symbol("x", Kind.SENSOR), pool.symbol("on", Kind.MODE)
+    switched = pool.choose(pool.logic("not", on), x, pool.one)
+    assert branches([switched])
+    assert not branches([switched], {on: 1})
+
+
+@pytest.mark.parametrize(
+    ("declared", "drag"),
+    [
+        (1, "max(b - 1.5, 0)"),  # shows as soon as b is above 1.5: with its own sign only
+        (-1, "max(b, 0)"),  # shows as soon as b is positive: with the other sign only
+        (2, "min(b - 0.5, 0)"),  # below 0.5: with either
+    ],
+)
+def test_a_fault_that_shows_on_one_side_only(declared: int, drag: str) -> None:
+    c = compiled(
+        f"model M {{ param b = {declared}\n"
+        f"1:i {{ <- Se:u; -> R:r {{ e = f + {drag} }}; -> Df:y }} }}"
+    )
+    assert set(c.signatures.signature("r1")) == {"b", "u", "y"}
+
+
+@pytest.mark.parametrize("seed", [0, 1, 7])
+def test_any_seed_finds_what_a_relation_depends_on(seed: int) -> None:
+    # u + 3 i' + R (u + i) - R i - R u, in which R cancels
+    c = compiled("model M { param R = 2\n 1:s { <- Se:u; -> R:R; -> Df:i; -> C:c = 1 } }")
+    pool = c.graph.pool
+    u, i = (pool.symbol(n, k) for n, k in (("u", Kind.INPUT), ("i", Kind.SENSOR)))
+    R = next(v.symbol for v in c.graph.values if v.name == "R")
+    ways = pool.mul(R, pool.add((1, u), (1, i))), pool.mul(R, i), pool.mul(R, u)
+    expr = pool.add((1, u), (3, pool.der(i)), (1, ways[0]), (-1, ways[1]), (-1, ways[2]))
+    found = Reactions(Plant(c.graph), seed).at_free_signals(expr)
+    assert {s.symbol.name for s, hit in found.depends.items() if hit} == {"u", "i"}
+    assert {s.symbol.name: n for s, n in found.orders.items()} == {"u": 0, "i": 1}
