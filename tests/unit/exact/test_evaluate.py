@@ -125,6 +125,29 @@ def test_powers_with_rational_and_symbolic_exponents() -> None:
     assert evaluate([pool.sub(back, square)], Random(3), 3)[0] == [0, 0, 0]
 
 
+def test_an_exponent_that_may_change_is_seen() -> None:
+    n = pool.symbol("n", Kind.PARAM)
+    r = add((1, pool.fn("pow", pool.power(x, 2), n)), (1, y))
+    assert sensitivities(r, Random()).depends == {x: True, n: True, y: True}
+
+
+def test_a_number_as_exponent_has_its_own_slope() -> None:
+    # (x^2)^(2/5) to the fifth is x^4, so that x cancels
+    power = pool.fn("pow", pool.power(x, 2), pool.num(Fraction(2, 5)))
+    r = add((1, pool.power(power, 5)), (-1, pool.power(x, 4)), (1, y))
+    assert sensitivities(r, Random()).depends == {x: False, y: True}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_a_decision_rests_on_stays_alive_in_every_branch(seed: int) -> None:
+    for r in (
+        pool.fn("min", mul(a, x), mul(b, y)),
+        pool.choose(pool.compare("<", x, y), mul(a, x), mul(b, y)),
+        mul(a, pool.fn("sign", mul(b, add((1, x), (1, y))))),
+    ):
+        assert sensitivities(r, Random(seed=seed), jumps=True).dead == frozenset()
+
+
 def motor_residual(g: object = None) -> tuple[Plant, Expr]:
     model = graph(MOTOR)
     p, s = model.pool, symbols(model)

@@ -66,6 +66,42 @@ def test_functions_of_two_arguments_obey_the_chain_rule(f: Numbers, name: str) -
     assert done > 3
 
 
+@pytest.mark.parametrize("name", sorted(FUNCTIONS - {"pow", "min", "max", "atan2", "sign"}))
+def test_slopes_are_limits_of_difference_quotients(name: str) -> None:
+    f = Reals({})
+    h = f.fraction(Fraction(1, 2**40))
+    done = 0
+    for at in (Fraction(-7, 3), Fraction(-2, 5), Fraction(1, 3), Fraction(5, 2)):
+        x = f.fraction(at)
+        try:
+            value, low, high = f.value(name, x), f.value(name, x - h), f.value(name, x + h)
+        except Undefined:
+            continue
+        (slope,) = series.slope_of(f, name, [x], [value], 1)
+        assert abs(float(slope - (high - low) / (2 * h))) < 1e-15, at
+        done += 1
+    assert done > 0
+
+
+@pytest.mark.parametrize(
+    ("name", "a", "b", "value"),
+    [
+        ("atan2", 1, -1, 2.356194490192345),  # 3 pi/4: the angle of the point at x = -1, y = 1
+        ("atan2", -1, -1, -2.356194490192345),
+        ("atan2", 3, 0, 1.5707963267948966),
+        ("pow", 2, 10, 1024.0),
+        ("min", 2, -5, -5.0),
+        ("max", 2, -5, 2.0),
+    ],
+)
+def test_functions_of_two_arguments_begin_at_their_value(
+    name: str, a: int, b: int, value: float
+) -> None:
+    f = Reals({})
+    found = series.function_of_two(f, name, [f.number(a), f.number(7)], [f.number(b)], 2)
+    assert float(found[0]) == pytest.approx(value, rel=1e-15)
+
+
 def rational(f: Numbers, expression: sympy.Expr, t: sympy.Symbol) -> Series:
     poly = sympy.series(expression, t, 0, N).removeO()
     found = [sympy.Rational(poly.coeff(t, k)) for k in range(N)]

@@ -123,6 +123,23 @@ def test_by_hand(name: str) -> None:
     assert set(relation.faults) == others  # what is left in the formulas above
 
 
+def test_a_factor_that_both_relations_have_is_divided_out() -> None:
+    """p = k x z and q = k x w leave p w = q z, in which x is no more needed."""
+    text = """model M { param k = 2; param A = 3; param B = 4; param C = 5
+        1:a { <- Se:ua; -> I:A; -> Df:x }
+        1:b { <- Se:ub; -> I:B; -> Df:z }
+        1:c { <- Se:uc; -> I:C; -> Df:w }
+        sensor p = k*a.f*b.f
+        sensor q = k*a.f*c.f }"""
+    _, (relation,) = of(text, "k")
+    assert set(relation.faults) == {"p", "q", "z", "w"}
+
+    def by_hand(z, w, p, q):
+        return p * w - q * z
+
+    assert is_multiple(relation, by_hand, {}, ("z", "w", "p", "q"))
+
+
 def test_a_signal_in_three_relations() -> None:
     """The middle voltage of a chain: two combinations, by the current balances of its nodes."""
     _, found = of(CHAIN, "v2")

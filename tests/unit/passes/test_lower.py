@@ -343,6 +343,22 @@ def test_integrals_that_must_be_given() -> None:
     assert found["r1"] == 2.0
 
 
+def test_what_is_integrated_twice() -> None:
+    """y = 2 int int u + 3 int u with u = t is t^3/3 + 3/2 t^2."""
+    bench = Bench()
+    p = bench.pool
+    y, u, zero = bench.sensor("y"), bench.input("u"), bench.initial("x0", bench.pool.num(0))
+    once = p.integral(u, zero)
+    program = bench.program(p.add((1, y), (-2, p.integral(once, zero)), (-3, once)))
+    run, stuck = (Interpreter(program, sample_time=1e-3) for _ in range(2))
+    for k in range(2001):
+        t = k * 1e-3
+        calm = run.step({"u": t, "y": t**3 / 3 + 1.5 * t**2}).residuals["r1"]
+        short = stuck.step({"u": t, "y": 0.0}).residuals["r1"]
+    assert abs(calm) < 1e-5
+    assert -26 / 3 < short < -0.9 * 26 / 3  # what y should be, some filter late
+
+
 def test_change_since_the_start() -> None:
     bench = Bench()
     p = bench.pool

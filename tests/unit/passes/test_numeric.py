@@ -57,6 +57,18 @@ def test_a_sum_of_several_roots_weighs_each() -> None:
     assert found == {"a": 3.0, "b": 30.0}
 
 
+@pytest.mark.parametrize(
+    ("op", "expected"),
+    [("<", (1, 0, 0)), ("<=", (1, 1, 0)), ("==", (0, 1, 0)), (">=", (0, 1, 1)), (">", (0, 0, 1))],
+)
+def test_comparisons_below_at_and_above_a_limit(op: str, expected: tuple[int, ...]) -> None:
+    p = Pool()
+    a, b = p.symbol("a", Kind.PARAM), p.symbol("b", Kind.PARAM)
+    chosen = p.choose(p.compare(op, a, b), p.one, p.zero)
+    found = tuple(evaluate(chosen, {"a": value, "b": 2.0}) for value in (1.0, 2.0, 3.0))
+    assert found == expected
+
+
 def test_no_value_and_no_slope() -> None:
     p = Pool()
     a = p.symbol("a", Kind.PARAM)

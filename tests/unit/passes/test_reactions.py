@@ -7,7 +7,8 @@ from fractions import Fraction
 import pytest
 
 from bondgraph.exact.plant import Plant
-from bondgraph.ir.expr import Expr, Kind, Pool
+from bondgraph.ir.expr import Expr, Kind, Op, Pool
+from bondgraph.passes.implicit import invert
 from bondgraph.passes.reactions import Reactions, branches
 from tests.unit.passes.relations import compiled
 
@@ -30,6 +31,20 @@ def _forms(pool: Pool) -> dict[str, tuple[Expr, bool]]:
 def test_where_one_point_is_not_enough(name: str) -> None:
     expr, expected = _forms(Pool())[name]
     assert branches([expr]) == expected
+
+
+@pytest.mark.parametrize(("law", "expected"), [("cubic", False), ("broken", True), ("dry", True)])
+def test_an_iteration_branches_where_its_equation_does(law: str, expected: bool) -> None:
+    pool = Pool()
+    x, y = pool.symbol("x", Kind.TEAR), pool.symbol("y", Kind.SENSOR)
+    rises = {
+        "cubic": pool.add((1, x), (1, pool.power(x, 3))),
+        "broken": pool.choose(pool.compare("<", x, pool.zero), x, pool.scale(2, x)),
+        "dry": pool.add((1, x), (1, pool.fn("sign", x))),
+    }
+    root = invert(pool, pool.sub(y, rises[law]), x, lambda _: None)
+    assert root is not None and root.op is Op.ROOT
+    assert branches([root]) == expected
 
 
 def test_a_known_switch_is_a_branch_until_it_is_told() -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from bondgraph.passes.signatures import signatures
+from bondgraph.text.diagnostic import Report
 from tests.unit.passes.relations import compiled
 
 CASES = {
@@ -80,6 +82,18 @@ def test_one_instrument_read_twice_is_no_redundancy() -> None:
     assert "y2" not in matrix.faults
 
 
+@pytest.mark.parametrize("told", ["y", "((y + 1)^2 - y^2 - 1)/2", "R*y - (R - 1)*y"])
+def test_a_source_that_gives_what_its_sensor_reads_tells_nothing(told: str) -> None:
+    # each is y: that y is y needs no machine
+    matrix = compiled(
+        f"""model M {{
+        param R = 2; param C = 1
+        1:a {{ <- Sf:q = {told}; -> R:R; -> I:C; -> Df:y }}
+        }}"""
+    ).signatures
+    assert matrix.residuals == ()
+
+
 def test_a_parameter_shared_by_two_elements_is_one_fault() -> None:
     matrix = compiled(
         """model M {
@@ -91,3 +105,18 @@ def test_a_parameter_shared_by_two_elements_is_one_fault() -> None:
     ).signatures
     assert [f for f in matrix.faults if f.startswith("R")] == ["R"]
     assert matrix.row("R") == (True, True)
+
+
+def test_a_relation_of_very_many_steps_has_the_signature_of_the_same_with_few() -> None:
+    c = compiled(
+        """model M {
+        param m = 2; param k = 3; param b = 1
+        Se:F -> 1:v
+        v { -> I:m; -> C:k; -> R:b; -> Df:y }
+        }"""
+    )
+    (closing,) = c.reduced.closings
+    long = closing._replace(steps=closing.steps * 1000)
+    _, matrix = signatures(c.reduced._replace(closings=(long,)), Report())
+    assert matrix == c.signatures
+    assert set(matrix.signature("r1")) == {"m", "k", "b", "F", "y"}

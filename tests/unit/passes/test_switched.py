@@ -91,6 +91,25 @@ model M {
     assert _levels(text, "on") == {"y1": 0, "y2": 0, "y3": 0, "y4": 1}
 
 
+@pytest.mark.parametrize(("on", "level"), [(True, 6.0), (False, 3.0)])
+def test_a_constant_inflow_counts_in_both_positions_of_a_valve(on: bool, level: float) -> None:
+    """What flows in, 3, flows out through one pipe of 2, or through two of them."""
+    text = """bg 1
+model M {
+    param R = 2; param A = 1; param w = 3
+    input on : bool
+    0:t { <- Sf:pump = w; -> C:A; -> De:y; -> R:pipe { f = if(on, 1, 2)*e/R } }
+}
+"""
+    program = Compilation(Source("m.bg", text)).program
+    machine, faulty = Interpreter(program), Interpreter(program)
+    for _ in range(3000):
+        calm = machine.step({"y": level}, {"on": on}).residuals["r1"]
+        wrong = faulty.step({"y": level + 0.5}, {"on": on}).residuals["r1"]
+    assert abs(calm) < 1e-9
+    assert abs(wrong) == pytest.approx(0.5 / 2 * (1 if on else 2), rel=1e-6)
+
+
 @pytest.mark.parametrize("x", [1e-6, 0.02, 0.4, 2.9])
 def test_the_coupled_stages_are_those_of_the_matrix_exponential(x: float) -> None:
     """Three stages y_k' = (y_(k-1) - y_k) with an input that goes from v to w in the time x."""

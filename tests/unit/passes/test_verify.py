@@ -2,6 +2,7 @@
 
 import pytest
 
+from bondgraph.ir.expr import topological
 from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.passes.signatures import signatures
 from bondgraph.passes.verify import verify
@@ -56,6 +57,17 @@ def test_right_residuals_pass(text: str) -> None:
     assert found.residuals == len(c.residuals.residuals) > 0
     assert found.faults == found.candidates == len(c.graph.faults)
     assert found.trajectories > 1  # at the declared numbers and at others
+
+
+def test_of_a_large_model_no_more_is_claimed_than_was_looked_at(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    c = Compiled(DRIVE)
+    size = sum(len(topological([r.expr])) for r in c.residuals.residuals)
+    monkeypatch.setattr("bondgraph.passes.verify._WORK", size)  # the work is twice that: half of it
+    found = verify(c.graph, c.residuals, c.signatures, Report(), 1)
+    assert (found.faults, found.candidates) == (len(c.graph.faults) // 2, len(c.graph.faults))
+    assert f"{found.faults} of {found.candidates} faults" in found.method
 
 
 @pytest.mark.parametrize("text", [DRIVE, NONLINEAR])
