@@ -16,6 +16,7 @@ from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
 from bondgraph.runtime.diagnosis.tune import Tuned, tune
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.text.source import Source
 
 _L, _R, _K, _J, _F = 300e-6, 17.6, 3.51e-3, 1.4e-8, 1.19e-5
 _ONSET = 4.0
@@ -30,6 +31,29 @@ def _motor() -> Compilation:
 @cache
 def _engine() -> Engine:
     return _motor().engine()
+
+
+def test_a_residual_that_reads_what_never_comes_is_told() -> None:
+    text = """bg 1
+model M {
+    1:a { <- Se:U; -> R:r = 2; -> Df:i }
+    1:b { <- Se:V; -> R:s = 3; -> Df:j }
+}
+"""
+    model = Compilation(Source("m.bg", text))
+    engine = model.engine(native=False)
+    here = {"U": 6.0, "i": 3.0, "V": 6.0, "j": np.nan}
+    count = round(10.0 * engine.warm_up / engine.sample_time)
+    samples = np.tile([here[k.path] for k in engine.signals], (count, 1))
+    (silent,) = [r.name for r in model.residuals if "j" in r.faults]
+    diagnosis = model.diagnosis(engine)
+    said: list[Verdict] = []
+    for start in range(0, count, 100):
+        part = samples[start : start + 100]
+        time = (start + np.arange(len(part))) * engine.sample_time
+        said += diagnosis.update(time, engine.run(part), part)
+    (told,) = [v for v in said if v.event == "invalid"]
+    assert told.message.startswith(f"{silent} had no value so far")
 
 
 def _samples(

@@ -59,6 +59,16 @@ def test_rows_that_do_not_count_are_no_neighbours() -> None:
     assert learning.limits[0, 0] == pytest.approx(2.0 / math.sqrt(2.0) / 0.6745, rel=1e-3)
 
 
+def test_a_residual_that_does_not_move_at_all_has_no_noise_yet() -> None:
+    learning, engine = learner()
+    for _ in range(2 * STEPS):
+        assert not learning.row(row(engine, 0.0), True)[0]
+    assert learning.limits[0, 0] == math.inf
+    values = [float(k % 2) for k in range(STEPS + 1)]  # and then it does
+    assert any(learning.row(row(engine, v), True)[0] for v in values)
+    assert 0.0 < learning.limits[0, 0] < 2.0
+
+
 def test_no_sensor_is_better_than_a_ten_thousandth_of_what_it_does() -> None:
     learning, engine = learner(Hypothesis("i", "gain", "", 0.3, False))
     for _ in range(STEPS):

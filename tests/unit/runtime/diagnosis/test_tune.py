@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 from bondgraph.pipeline import Compilation, Options
-from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis
-from bondgraph.runtime.diagnosis.tune import Tuned, tune
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
+from bondgraph.runtime.diagnosis.tune import Tuned, _Seen, _shown, tune
 from bondgraph.runtime.diagnosis.tuning import height, kappa
 from bondgraph.text.source import Source
 
@@ -108,6 +108,42 @@ def test_a_limit_stays_above_what_a_healthy_machine_has_reached(first: bool) -> 
     limit = tune(engine, model().facts, logs, "digest", 2.0, _WINDOW).tuning.limits["r1"]
     reached = np.abs(engine.configured().run(pulse).value).max()
     assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached)
+
+
+def test_a_log_that_ends_with_the_first_row_behind_the_warm_up_teaches_nothing() -> None:
+    engine = model().engine(native=False)
+    short = math.ceil(engine.warm_up / engine.sample_time) + 1 + rows_apart(engine)
+    logs = [np.tile([_R * _I, _I], (short, 1))]
+    logs[0][:, 1] += np.random.default_rng(6).normal(0.0, _NOISE, short)
+    with pytest.raises(ValueError, match="nothing can be learned"):
+        tune(engine, model().facts, logs, "digest", 2.0)
+
+
+def test_samples_that_are_missing_do_not_count_as_noise() -> None:
+    engine = model().engine(native=False)
+    current = _I + np.random.default_rng(1).normal(0.0, _NOISE, _COUNT)
+    whole = np.column_stack([np.full(_COUNT, _R * _I), current])
+    holes = whole.copy()
+    holes[6000:6020] = math.nan
+    found = tune(engine, model().facts, [holes], "digest", 2.0, _WINDOW).tuning.limits["r1"]
+    assert found.sigma == pytest.approx(_sigma(), rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("sizes", "size"),
+    [
+        ([3.0], 3.0),
+        ([2.0, 1.0], 2.0),  # nine of ten windows, that is both of them
+        ([float(k) for k in range(10)], 9.0),
+        ([float(k) for k in range(20)], 18.0),  # 0 to 17 are nine of ten, less than 18 all of them
+    ],
+)
+def test_what_is_sure_to_show_shows_in_nine_windows_of_ten(sizes: list[float], size: float) -> None:
+    windows = [_Seen(s, 0.1 * s, 0) for s in sizes]
+    shown = _shown(Hypothesis("R", "value", "", 0.1, False), windows, ["r1"])
+    assert shown.size == size
+    assert sum(s <= size for s in sizes) >= 0.9 * len(sizes)
+    assert shown.residual == "r1"
 
 
 def test_logs_that_are_too_short_teach_nothing() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
@@ -147,6 +148,18 @@ def test_counters_have_gone_on_where_they_can_have_come_to(
     again.resume(json.loads(json.dumps(readings.state())))
     for one in (readings, again):
         assert one.go_on(time[-1:] + gap, np.array([[count]]), 0, [0]) == goes
+
+
+def test_what_is_not_read_is_not_the_newest_value() -> None:
+    readings = Readings(3, 1e-3)
+    time = np.arange(4) * 1e-3
+    lost = math.nan
+    rows = np.array([[5.0, lost, 1.0], [6.0, lost, lost], [lost, lost, lost], [8.0, lost, lost]])
+    readings.note(time, rows, [0, 1, 2], 2)
+    assert [readings.last(at) for at in (0, 2)] == [8.0, 1.0]
+    assert math.isnan(readings.last(1))
+    readings.note(time + 1.0, np.full((4, 3), lost), [0, 1, 2], 2)
+    assert [readings.last(at) for at in (0, 2)] == [8.0, 1.0]
 
 
 # ------------------------------------------------------------------------------- another domain

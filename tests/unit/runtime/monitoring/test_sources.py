@@ -62,6 +62,36 @@ def test_a_file_goes_on_from_any_place(suffix: str, tmp_path: Path) -> None:
     source.close()
 
 
+@pytest.mark.parametrize("end", ["\n", ""])
+def test_a_place_is_the_number_of_bytes_of_the_lines_so_far(
+    end: str, tmp_path: Path, lines_file: Callable[..., LinesFile], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("bondgraph.runtime.monitoring.sources.file._BLOCK", 50)
+    path = tmp_path / "log.csv"
+    lines = ["t,a\n", *[f"{k},{k * k}\n" for k in range(100)]]
+    text = "".join(lines).removesuffix("\n") + end
+    path.write_text(text)
+    chunks = list(lines_file(path).chunks(Event()))
+    assert len(chunks) > 10
+    seen = 0
+    for chunk in chunks:
+        assert chunk.log is not None and chunk.place is not None
+        seen += chunk.log.rows
+        assert chunk.place["rows"] == seen
+        assert chunk.place["offset"] == min(len("".join(lines[: seen + 1])), len(text))
+    assert seen == 100
+
+
+def test_a_header_in_between_begins_another_log(
+    tmp_path: Path, lines_file: Callable[..., LinesFile]
+) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text("t,a\n1,2\n2,3\nt,b\n3,5\n")
+    logs = [chunk.log for chunk in lines_file(path).chunks(Event()) if chunk.log is not None]
+    found = [(log.time.tolist(), {k: v.tolist() for k, v in log.columns.items()}) for log in logs]
+    assert found == [([1.0, 2.0], {"a": [2.0, 3.0]}), ([3.0], {"b": [5.0]})]
+
+
 def test_another_file_is_known_by_what_it_begins_with(
     tmp_path: Path, lines_file: Callable[..., LinesFile]
 ) -> None:
