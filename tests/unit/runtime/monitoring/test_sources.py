@@ -14,7 +14,15 @@ from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_file import write_log
 from bondgraph.runtime.monitoring.sources.file import LinesFile, TableFile, file_source
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
-from bondgraph.runtime.monitoring.sources.source import Block, Chunk, Cutter, Intake, News, decoded
+from bondgraph.runtime.monitoring.sources.source import (
+    Block,
+    Chunk,
+    Cutter,
+    Intake,
+    News,
+    decoded,
+    rate_of,
+)
 from bondgraph.runtime.monitoring.sources.stdin import Pipe
 
 
@@ -90,6 +98,33 @@ def test_a_header_in_between_begins_another_log(
     logs = [chunk.log for chunk in lines_file(path).chunks(Event()) if chunk.log is not None]
     found = [(log.time.tolist(), {k: v.tolist() for k, v in log.columns.items()}) for log in logs]
     assert found == [([1.0, 2.0], {"a": [2.0, 3.0]}), ([3.0], {"b": [5.0]})]
+
+
+def test_a_signal_that_is_called_as_time_usually_is_is_none_in_a_log_of_our_own(
+    tmp_path: Path, lines_file: Callable[..., LinesFile]
+) -> None:
+    path = tmp_path / "log.csv"
+    write_log(Log(np.arange(4.0), {"t": np.full(4, 20.5)}, {}, {}), str(path))
+    (log,) = [chunk.log for chunk in lines_file(path).chunks(Event()) if chunk.log is not None]
+    assert log.time.tolist() == [0.0, 1.0, 2.0, 3.0]
+    assert log.columns["t"].tolist() == [20.5] * 4
+
+
+def test_the_rate_is_that_of_the_first_samples(
+    tmp_path: Path, lines_file: Callable[..., LinesFile]
+) -> None:
+    path = tmp_path / "log.csv"
+    early = "".join(f"{k / 50},1\n" for k in range(20))
+    late = "".join(f"{10 + k / 8},1\n" for k in range(20))
+    path.write_text(f"t,a\n{early}t,b\n{late}")
+    assert lines_file(path).rate() == 50.0
+
+
+@pytest.mark.parametrize(
+    ("true", "round_"), [(995.0, 1000.0), (1006.0, 1000.0), (0.1003, 0.1), (257.0, 257.0)]
+)
+def test_a_rate_within_two_percent_of_a_round_one_is_that(true: float, round_: float) -> None:
+    assert rate_of(np.arange(40) / true) == pytest.approx(round_, rel=1e-12)
 
 
 def test_another_file_is_known_by_what_it_begins_with(
