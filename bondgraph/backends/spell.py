@@ -78,7 +78,7 @@ class Speller:
     def _value(self, value: Expression) -> _Bound:
         negative, size = _signed(value)
         if negative:
-            return "-" + self._within(size, _PRODUCT), _UNARY if _one_factor(size) else _PRODUCT
+            return "-" + self._within(size, _PRODUCT), _PRODUCT
         match size:
             case Const():
                 return self.dialect.constant.format(digits(size.value)), _ATOM
@@ -195,7 +195,3 @@ def _signed(value: Expression) -> tuple[bool, Expression]:
         if negative and not isinstance(size, Sum):
             return True, Product((size, *value.factors[1:]), value.divisors)
     return False, value
-
-
-def _one_factor(value: Expression) -> bool:
-    return not isinstance(value, Product) or (len(value.factors) == 1 and not value.divisors)

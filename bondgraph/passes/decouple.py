@@ -220,7 +220,7 @@ class _Decoupling:
     def _euclid(self, a: _Operator, b: _Operator) -> Expr | None:
         """A combination of the rows in which every coefficient of the fault is zero."""
         for _ in range(_STEPS):
-            if (a.order, a.coefficients != []) < (b.order, b.coefficients != []):
+            if a.order < b.order:
                 a, b = b, a
             if not b.coefficients:
                 return b.rest

@@ -200,7 +200,7 @@ class _Check:
             for symbol in sorted(unproved, key=lambda s: s.id):
                 if not reactions.moves(expr, symbol):
                     self.contradicted(name, symbol, "does not see", "at some points, as it should")
-        self.faults = len(matrix.faults) if step == 1 else len(matrix.faults) // step
+        self.faults = len(matrix.faults) // step
 
     def unproved(self, expr: Expr, faults: list[Expr]) -> list[Expr]:
         """The faults along which a residual has no slope at the healthy point."""
