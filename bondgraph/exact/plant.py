@@ -535,9 +535,9 @@ class Plant:
         inside = symbols(root)
         shown = symbols(*[self._reads[s] for s in inside if s in self._reads])
         nodes = self._surroundings.of([*inside, *shown])
-        last = 0
-        while True:
-            nodes = self._surroundings.wider(nodes)
+        last, fewer = 0, frozenset[int]()
+        while len(nodes) > len(fewer):
+            fewer, nodes = nodes, self._surroundings.wider(nodes)
             part = self._surroundings.part(nodes, shown)
             if 2 * len(part.active) > len(whole.active):
                 return

@@ -113,7 +113,9 @@ class Paths:
         Searched along the junction structure, nearest first; through R's where it leads nowhere.
         """
         end = next(e for e in self._at[storage.node] if self._port(e) == storage.port)
-        return self._reach(self._input(end), False) or self._reach(self._input(end), True)
+        found = (self._reach(self._input(end), through) for through in (False, True))
+        apart = ([n for n in nodes if n != storage.node] for nodes in found)
+        return next((nodes for nodes in apart if nodes), [])
 
     def _reach(self, start: int, through_resistors: bool) -> list[int]:
         storages: list[int] = []

@@ -227,6 +227,17 @@ def test_dependent_storages_name_their_partner() -> None:
     )
 
 
+def test_no_storage_is_its_own_partner() -> None:
+    # the gyrator on one node gives back to j1 what j1 takes: the search comes round to it
+    report = Report()
+    text = "1:a -> 0:n; n -> GY:g -> n; 0:m -> R:r; a -> I:j1; m -> I:j2; a -> m"
+    assert assign(build(text), "integral", report) is not None
+    note = next(d for d in report.diagnostics if d.code == "dependent-storage")
+    assert note.message == (
+        "I:j1 is in derivative causality: its flow is fixed by I:j2, which has the state."
+    )
+
+
 def test_three_coils_at_a_node_have_two_states() -> None:
     report = Report()
     text = "Se:u -> 1:a -> I:j1; Se:v -> 1:b -> I:j2; a -> 0:n; b -> n; n -> 1:c -> I:j3"

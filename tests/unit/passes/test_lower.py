@@ -460,3 +460,7 @@ def test_digest_follows_numbers_and_options_but_no_path() -> None:
 def test_settling_times() -> None:
     assert settle(1) == pytest.approx(6.907755, rel=1e-6)  # ln 1000
     assert settle(3) == pytest.approx(11.2289, rel=1e-4)  # chi-squared quantile / 2
+
+
+def test_a_term_is_seen_down_to_twelve_bits_unless_asked_otherwise() -> None:
+    assert LowerOptions().resolution == 1 / 4096

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import islice
 
 import pytest
 
 from bondgraph.exact.plant import Plant
-from bondgraph.ir.expr import Expr, Kind, Op, Pool
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols
 from bondgraph.passes.implicit import invert
 from bondgraph.passes.reactions import Reactions, branches
 from tests.unit.passes.relations import compiled
@@ -83,3 +84,17 @@ def test_any_seed_finds_what_a_relation_depends_on(seed: int) -> None:
     found = Reactions(Plant(c.graph), seed).at_free_signals(expr)
     assert {s.symbol.name for s, hit in found.depends.items() if hit} == {"u", "i"}
     assert {s.symbol.name: n for s, n in found.orders.items()} == {"u": 0, "i": 1}
+
+
+def test_the_surroundings_of_a_relation_end_where_its_bonds_do() -> None:
+    # a signal alone ties the ammeters to the chain that they pump: along bonds nothing further is
+    # reached from them, though this is less than half of the machine
+    lines = ["model M { param R = 2", "  1:a { <- Se:U; -> R:R; -> Df:y; -> Df:z }"]
+    lines += [f"  0:n{k} {{ -> C:c{k} = 1; -> R:r{k} = 2 }}" for k in range(8)]
+    lines += [f"  n{k} -> 1:w{k} -> n{k + 1}\n  w{k} -> R:b{k} = 3" for k in range(7)]
+    c = compiled("\n".join([*lines, "  Sf:pump = 2*a.f\n  pump -> n0\n  n7 -> De:x }"]))
+    every = c._analysis[0].residuals
+    twins = next(r for r in every if {"y", "z"} <= set(map(str, symbols(r.expr))))
+    parts = list(islice(Plant(c.graph).surroundings(twins.expr), 9))
+    assert 0 < len(parts) < 9
+    assert not set(c.signatures.signature(twins.name)) & {"U", "R"}
