@@ -198,8 +198,10 @@ class Reals:
         if of.startswith("table:"):
             name = of.removeprefix("table:")
             first, last = (float(self._tables[name][k][0]) for k in (0, -1))
-            # beyond the ends, too, but where a relation reads the table backwards: no value there
-            margin = 0.0 if read_backwards(name) in self._tables else 0.2 * (last - first)
+            # beyond the ends, too, at times far: what else is there may have its branches there;
+            # but not where a relation reads the table backwards, which has no value there
+            beyond = random.choice((0.2, 0.2, 0.2, 3.0)) * (last - first)
+            margin = 0.0 if read_backwards(name) in self._tables else beyond
             return arb(random.uniform(first - margin, last + margin))
         size = random.lognormvariate(0, 0.7)
         if of in ("asin", "acos", "atanh"):
