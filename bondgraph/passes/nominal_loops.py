@@ -151,7 +151,6 @@ class _Point:
                     for arg, e in zip(node.args, node.exponents, strict=True):
                         found = found * self.power(arg, e) % _P
                 case Op.SYM if node in self.given:
-                    self.values[node] = _drawn(f"value {node.id}")  # of one defined by itself
                     found = self.value(self.given[node])
                 case _:
                     found = _drawn(f"value {node.id}")
