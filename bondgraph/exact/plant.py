@@ -533,8 +533,8 @@ class Plant:
             self._surroundings = Surroundings(self.assembly, self.graph)
         whole = self.part_for([root])
         inside = symbols(root)
-        shown = symbols(*[self._reads[s] for s in inside if s in self._reads])
-        nodes = self._surroundings.of([*inside, *shown])
+        shown = [*inside, *symbols(*[self._reads[s] for s in inside if s in self._reads])]
+        nodes = self._surroundings.of(shown)
         last, fewer = 0, frozenset[int]()
         while len(nodes) > len(fewer):
             fewer, nodes = nodes, self._surroundings.wider(nodes)

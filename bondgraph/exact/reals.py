@@ -181,7 +181,7 @@ class Reals:
         return arb(random.uniform(-1, 1))
 
     def off(self, random: Random, value: Number, turn: bool) -> Number:
-        """A value larger or smaller by a factor of 1.03 to 11; of zero any."""
+        """A value larger or smaller by a factor of 1.03 to 101; of zero any."""
         if not self.nonzero(value):
             return self.error(random, value)
         factor = 1 + _decades(random)
@@ -189,7 +189,7 @@ class Reals:
         return -other if turn else other
 
     def error(self, random: Random, value: Number) -> Number:
-        """From 0.03 to 10 of the value or, every second time, of one: what it takes to a limit."""
+        """From 0.03 to 100 of the value or, every second time, of one: what it takes to a limit."""
         size = random.choice((-1, 1)) * _decades(random)
         return size * value if random.random() < 0.5 and self.nonzero(value) else size
 

@@ -137,8 +137,8 @@ class Nominal:
                 for c, x in zip(node.coefficients, args, strict=True)
             ]
             total = sum(terms, start=arb(0))
-            least = max(float(abs(t).mid()) for t in terms) * _ROUNDING
-            return arb(0) if abs(total) <= least else total
+            largest = max(abs(t).mid() for t in terms)
+            return arb(0) if abs(total) <= largest * _ROUNDING else total
         value = self.value(node)
         return None if value is None else arb(value)
 

@@ -98,3 +98,21 @@ def test_the_surroundings_of_a_relation_end_where_its_bonds_do() -> None:
     parts = list(islice(Plant(c.graph).surroundings(twins.expr), 9))
     assert 0 < len(parts) < 9
     assert not set(c.signatures.signature(twins.name)) & {"U", "R"}
+
+
+def test_a_part_has_every_signal_that_its_relation_is_told() -> None:
+    # an input that only an integral holds belongs to no node: left out, it would be told as zero
+    lines = ["model M { param R = 2; input u; let h = int(u)"]
+    lines += ["  1:a { <- Se:E = h; -> R:R; -> Df:y }"]
+    lines += [f"  0:n{k} {{ -> C:c{k} = 1; -> R:r{k} = 2 }}" for k in range(8)]
+    lines += [f"  n{k} -> 1:w{k} -> n{k + 1}\n  w{k} -> R:b{k} = 3" for k in range(7)]
+    c = compiled("\n".join([*lines, "  Sf:pump = 2*a.f\n  pump -> n0\n  n7 -> De:x }"]))
+    plant = Plant(c.graph)
+    place, parts = plant.assembly.place, 0
+    for residual in c._analysis[0].residuals:
+        told = {place[s][0] for s in symbols(residual.expr) if s in place}
+        for part in islice(plant.surroundings(residual.expr), 9):
+            assert told <= set(part.active)
+            parts += 1
+    assert parts
+    assert {"u", "R", "y"} <= set(c.signatures.signature("r1"))
