@@ -179,6 +179,7 @@ class Plant:
         self.momentary: list[Assembly] = []
         self._declared = {v.symbol: v.value for v in graph.values}
         self._apart: frozenset[Expr] = frozenset()
+        self.held: tuple[Expr, ...] = ()  # initial values that states keep, see `holding`
         # by the identity of parts, which are kept
         self._rational: dict[int, bool] = {}
         self._precision = Precision()
@@ -192,6 +193,38 @@ class Plant:
         """
         other = copy(self)
         other._apart = frozenset(self._declared if constants is None else constants)
+        other._samples, other.momentary, other._hopeless = {}, [], {}
+        return other
+
+    def declared_starts(self) -> list[tuple[Expr, Expr, Expr]]:
+        """The declared initial values: the symbol, the state that it is one of, its value."""
+        values = self.graph.initial_values()
+        starts = self._starts.items()
+        return [(s, state, values[s.symbol]) for s, state in starts if s.symbol in values]
+
+    def holding(self, starts: Mapping[Expr, Expr]) -> Plant:
+        """The plant with some states at constant values instead of the rates that they have."""
+        whole, pool = self.assembly, self.graph.pool
+        held = {whole.place[state][0] for state in starts}
+
+        def put(expr: Expr) -> Expr:
+            return pool.substitute([expr], starts)[0]
+
+        rates = [rate for rate in whole.rates if rate.variable not in held]
+        laws = [(node, put(law)) for node, law in whole.laws]
+        laws += [(-1, pool.sub(state, value)) for state, value in starts.items()]
+        other = copy(self)
+        other.assembly = whole._replace(
+            balances=tuple(
+                b if b.when is None else b._replace(when=put(b.when)) for b in whole.balances
+            ),
+            laws=tuple(laws),
+            rates=tuple(rate._replace(value=put(rate.value)) for rate in rates),
+            readings=tuple((name, at, put(reads)) for name, at, reads in whole.readings),
+        )
+        other.held = tuple(initial for initial, state in self._starts.items() if state in starts)
+        other._parts = other._surroundings = None
+        other._rational, other._reached = {}, {}
         other._samples, other.momentary, other._hopeless = {}, [], {}
         return other
 

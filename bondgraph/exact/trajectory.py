@@ -24,9 +24,9 @@ class Trajectory:
     """One random behaviour: what a residual is told, and what truly happens.
 
     `faults` are the names of the faults that act. `value` gives what a residual is told: readings
-    and inputs with their errors, parameters without. `truth` gives the true series. On a `still`
-    one a law is satisfied by a factor that rests, or left out: what does not vanish there may
-    still vanish on the plant.
+    and inputs with their errors, parameters without. `truths` gives what truly happens, `truth`
+    the true series of one symbol. On a `still` one a law is satisfied by a factor that rests, or
+    left out: what does not vanish there may still vanish on the plant.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class Trajectory:
         self.faults = faults
         self.algebra = truth.algebra
         self._told = told
-        self._truth = truth
+        self.truths = truth
         self._starts = starts
         self._earlier: dict[int, Trajectory] = {}
 
@@ -59,12 +59,12 @@ class Trajectory:
         """What a residual is told about a symbol, at least `order` + 1 Taylor coefficients."""
         found = self._told.get(symbol)
         if found is None:
-            found = self._told[symbol] = self._truth.value(symbol)
+            found = self._told[symbol] = self.truths.value(symbol)
         return found
 
     def truth(self, symbol: Expr) -> Series:
         """The true series of a variable, an input or a parameter."""
-        return self._truth.value(symbol)
+        return self.truths.value(symbol)
 
     @property
     def healthy(self) -> bool:
@@ -74,7 +74,7 @@ class Trajectory:
     def truly(self, variable: Expr) -> Number | None:
         """The true value of a variable at the point; None for one that the plant has not."""
         try:
-            return self._truth.value(variable)[0]
+            return self.truths.value(variable)[0]
         except Mixed:  # not one of the plant's variables
             return None
 

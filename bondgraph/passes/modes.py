@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bondgraph.exact.from_start import from_start
 from bondgraph.exact.modes import assignments, modes_of
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.ir.expr import Expr
@@ -28,10 +29,11 @@ def modes(
     used = modes_of(residuals.system.graph, exprs)
     if not used:
         return ModeSignatures((), (), 0)
+    at_start = from_start(plant)
     found = []
     for setting in assignments(used):
         told = {symbol.symbol.name: bool(on) for symbol, on in setting.items()}
-        found.append(_in_mode(exprs, matrix, Reactions(plant, seed, setting), told))
+        found.append(_in_mode(exprs, matrix, Reactions(at_start, seed, setting), told))
     return ModeSignatures(tuple(s.symbol.name for s in used), tuple(found), 1 << len(used))
 
 

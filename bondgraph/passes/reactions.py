@@ -21,6 +21,7 @@ from bondgraph.exact.evaluate import (
     telling,
 )
 from bondgraph.exact.free import FreeSample
+from bondgraph.exact.from_start import from_start
 from bondgraph.exact.modes import assignments, modes_of
 from bondgraph.exact.numbers import Undefined
 from bondgraph.exact.plant import ExactUnavailable, Plant
@@ -273,7 +274,7 @@ def entries(
     if not relations:
         return []
     exprs, lost = [e for e, _ in relations], [gone for _, gone in relations]
-    declared = Reactions(plant, seed)
+    declared = Reactions(from_start(plant), seed)
     try:
         found = declared.sensed(exprs, lost)
     except ExactUnavailable as reason:
@@ -281,26 +282,36 @@ def entries(
             return [_unconfirmed(plant, seed, exprs[0], lost[0], str(reason))]
         return [entries(plant, seed, [relation])[0] for relation in relations]
     return [
-        Entries(frozenset(own), _apart(declared, expr, own), "")
+        Entries(frozenset(own), _apart(plant, declared, expr, own), "")
         for expr, own in zip(exprs, found, strict=True)
     ]
 
 
-def _apart(declared: Reactions, expr: Expr, seen: set[Expr]) -> dict[Expr, tuple[Expr, ...]]:
-    """The faults in a relation that only other numbers let it see, and which numbers."""
+def _apart(
+    plant: Plant, declared: Reactions, expr: Expr, seen: set[Expr]
+) -> dict[Expr, tuple[Expr, ...]]:
+    """The faults in a relation that only other numbers let it see, and which numbers.
+
+    Initial values are among them where `declared` holds states that never leave theirs.
+    """
     hidden = [s for s in symbols(expr) if s in declared.faults and s not in seen]
-    plant, seed = declared.plant, declared.seed
+    seed = declared.seed
     if not hidden:
         return {}
     try:
         elsewhere = Reactions(plant.apart(), seed).sensed([expr])[0]
         hidden = [s for s in hidden if s in elsewhere]
         found: dict[Expr, list[Expr]] = {s: [] for s in hidden}
+        held = declared.plant.held
+        others = [(start, from_start(plant, seed, start)) for start in held if hidden]
         for constant in plant.numbered(expr) if hidden else []:
-            sees = Reactions(plant.apart([constant]), seed).sensed([expr])[0]
+            other = plant.apart([constant])
+            others.append((constant, from_start(other, seed) if held else other))
+        for value, other in others:
+            sees = Reactions(other, seed).sensed([expr])[0]
             for symbol in hidden:
                 if symbol in sees:
-                    found[symbol].append(constant)
+                    found[symbol].append(value)
     except ExactUnavailable:
         return {}
     return {symbol: tuple(constants) for symbol, constants in found.items()}

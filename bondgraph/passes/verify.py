@@ -10,6 +10,7 @@ from __future__ import annotations
 from contextlib import suppress
 
 from bondgraph.exact.evaluate import Sample, evaluate, sensitivities, telling
+from bondgraph.exact.from_start import from_start
 from bondgraph.exact.modes import assignments, modes_of
 from bondgraph.exact.numbers import Undefined
 from bondgraph.exact.plant import Contradictory, ExactUnavailable, Plant
@@ -188,7 +189,7 @@ class _Check:
         matrix, faults = self.signatures, self.graph.fault_symbols()
         size = sum(len(topological([e])) for e in self.exprs)
         step = 1 + size // _WORK
-        reactions = Reactions(self.plant, self.seed)
+        reactions = Reactions(from_start(self.plant), self.seed)
         for at in range(0, len(self.exprs), step):
             expr, name = self.exprs[at], self.residuals[at].name
             if name in matrix.unconfirmed:

@@ -73,6 +73,11 @@ class _World(NamedTuple):
     residuals: list[Evaluator]  # those that have a value at points of this kind
 
 
+def start_name(state: str) -> str:
+    """What the compiler calls the initial value of a state."""
+    return f"{state}0" if "." in state else f"{state}.int.x0"
+
+
 class _Judge:
     def __init__(
         self,
@@ -87,6 +92,7 @@ class _Judge:
         self.residuals = found
         self.answer = answer
         self.random = Random(f"judge {seed}")
+        self.asked = length
         self.length = Simulator(plant, length).length
         prepare(self.length)
         self.evaluators = [Evaluator(r) for r in found]
@@ -298,17 +304,28 @@ class _Judge:
 
         One of the names at a time is changed; all that are declared at once where none is named.
         """
+        starts = {start_name(x): x for x in self.plant.starts}
         named = r.only_off[fault]
-        for names in [[x] for x in named] or [list(self.plant.declared)]:
-            declared = dict(self.plant.declared)
+        for names in [[x] for x in named] or [[*self.plant.declared, *starts]]:
+            declared, begun = dict(self.plant.declared), dict(self.plant.starts)
             for x in names:
-                if x not in declared:
+                if x in declared:
+                    declared[x] = self.other(declared[x])
+                elif x in starts:
+                    begun[starts[x]] = self.other(begun[starts[x]])
+                else:
                     return f"{x}, which is no declared number"
-                factor = Fraction(self.random.randint(60, 190), 100)
-                declared[x] = declared[x] * factor or Fraction(3, 10)
-            if not any(self.seen_elsewhere(w, r, fault, declared) for w in self.worlds):
+            worlds = self.worlds
+            if begun != self.plant.starts:
+                plant = self.plant._replace(starts=begun)
+                worlds = [self.world(plant, self.asked, self.evaluators)]
+            if not any(self.seen_elsewhere(w, r, fault, declared) for w in worlds):
                 return ", ".join(names)
         return None
+
+    def other(self, number: Fraction) -> Fraction:
+        """Another number of about the same size."""
+        return number * Fraction(self.random.randint(60, 190), 100) or Fraction(3, 10)
 
     def seen_elsewhere(
         self, world: _World, r: Residual, fault: str, declared: Mapping[str, Fraction]

@@ -110,26 +110,22 @@ class Paths:
     def partners(self, storage: Storage) -> list[int]:
         """The storages (or else the sources) that fix what a dependent storage receives.
 
-        Searched along the junction structure, nearest first; through R's where it leads nowhere.
+        Searched along causal paths, nearest first.
         """
         end = next(e for e in self._at[storage.node] if self._port(e) == storage.port)
-        found = (self._reach(self._input(end), through) for through in (False, True))
-        apart = ([n for n in nodes if n != storage.node] for nodes in found)
-        return next((nodes for nodes in apart if nodes), [])
-
-    def _reach(self, start: int, through_resistors: bool) -> list[int]:
         storages: list[int] = []
         others: list[int] = []
-        queue = [start]
+        queue = [self._input(end)]
         seen = set(queue)
         for variable in queue:
             node = self.maker(variable)
             kind = self._graph.nodes[node].kind
             if kind in ("C", "I"):
-                storages.append(node)
+                if node != storage.node:
+                    storages.append(node)
             elif kind in ("Se", "Sf", "De", "Df"):
                 others.append(node)
-            elif kind != "R" or through_resistors:
+            else:
                 for source in self.sources(variable):
                     if source not in seen:
                         seen.add(source)

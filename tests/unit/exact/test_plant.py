@@ -204,7 +204,7 @@ model A { param a = 1; param b = 1
 def test_hard_plants_satisfy_every_law_to_every_order(name: str) -> None:
     plant = Plant(graph(HARD[name]))
     t = plant.trajectory(2, N)
-    sample = t._truth
+    sample = t.truths
     for _, law in plant.assembly.laws:
         assert vanish(evaluate([law], sample, N - 2)[0])
     for node, terms, when, _ in plant.assembly.balances:

@@ -168,3 +168,52 @@ def test_a_model_without_numbers_takes_generic_ones() -> None:
     c = compiled("param R : Ohm; param L : H\n  Se:U -> 1:a\n  a { -> R:R; -> I:L; -> Df:i }")
     assert set(c.signatures.signature("r1")) == {"R", "L", "U", "i"}
     assert not c.signatures.apart and not c.signatures.unconfirmed
+
+
+def test_what_stands_at_its_dead_centre_hides_what_other_angles_show() -> None:
+    # h' = k sin(h) y3: from h = 0 it is zero for good, so y2 = 0 whatever k and y3 are
+    c = compiled(
+        "param k = 2; param R = 3; param r0 = 1\n  input u\n  1:n2\n  1:n3\n"
+        "  let h = int(n2.f)\n  n2 -> TF:w { f1 = (k*sin(h))*f2 } -> n3\n"
+        "  n3 <- Se:drive = u\n  n3 -> R:r = R\n  n2 -> R:s = r0\n  n2 -> Df:y2\n  n3 -> Df:y3"
+    )
+    matrix = c.signatures
+    [law] = [r for r in matrix.residuals if "u" not in matrix.signature(r)]
+    assert set(matrix.signature(law)) == {"y2"}
+    start = ("h.int.x0",)
+    assert matrix.only_off_nominal(law) == {"k": start, "y3": start}
+
+
+@pytest.mark.parametrize(("start", "hidden"), [("0", {"k"}), ("1", set())])
+def test_an_empty_tank_that_nothing_fills_hides_its_law(start: str, hidden: set[str]) -> None:
+    # i = d/dt (y/k), which is zero for any k as long as y is
+    c = compiled(
+        "param R = 1; param k = 1\n"
+        f"  1:m {{ <- C:c(q0 = {start}) {{ e = k*q }}; -> R:R; -> Df:i }}\n  sensor y = c.e"
+    )
+    seen = {f for r in c.signatures.residuals for f in c.signatures.signature(r)}
+    assert {"R", "k", "i", "y"} - seen == ({"R"} if hidden else set()) | hidden
+
+
+def test_a_fault_may_drive_a_state_from_its_start() -> None:
+    # (a - b) i is zero while a and b are what is declared, and no longer when one of them changes
+    c = compiled(
+        "param a = 2; param b = 2; param R = 1\n  input U\n  Se:U -> 1:n { -> R:R; -> Df:i }\n"
+        "  let h = int((a - b)*n.f)\n  sensor y = h + U"
+    )
+    assert the_one_with(c.signatures, "y") == {"U", "a", "b", "y"}
+
+
+def test_a_line_that_starts_at_rest_is_moved_from_its_end() -> None:
+    # each cell is driven by the one before it: all of them leave their start, one after the other
+    cells = "\n".join(f"  0:n{k} {{ -> C:c{k}(q0 = 0) {{ e = q/C{k} }} }}" for k in range(6))
+    links = "\n".join(f"  n{k} -> 1:m{k} {{ -> R:R{k}; -> n{k + 1} }}" for k in range(5))
+    numbers = "".join(f"param C{k} = 1; " for k in range(6))
+    numbers += "".join(f"param R{k} = 1; " for k in range(5))
+    c = compiled(
+        f"{numbers}param Rs = 1\n  input U\n{cells}\n{links}\n"
+        "  Se:U -> 1:m { -> R:Rs; -> n0; -> Df:i }\n  n5 -> De:y"
+    )
+    assert not c.signatures.apart
+    matrix = c.signatures
+    assert set(matrix.faults) == {f for r in matrix.residuals for f in matrix.signature(r)}
