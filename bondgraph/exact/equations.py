@@ -161,6 +161,15 @@ def made_linear(equation: Equation, sample: FormSample, n: int) -> Equation:
     return equation._replace(form=form, rest=None)
 
 
+#: Functions with sides: what is on one of them says nothing of the other.
+_SIDED = frozenset({"sign", "min", "max", "abs", "atan2"})
+
+
+def has_sides(node: Expr) -> bool:
+    """Whether a node is a function of several branches."""
+    return node.op is Op.FN and (node.name in _SIDED or node.name.startswith("table:"))
+
+
 def written(
     plant: Assembly, setting: Setting, readings: Mapping[str, Series], random: Random
 ) -> tuple[Assembly, list[Equation]]:
@@ -168,9 +177,11 @@ def written(
 
     An input that a law uses in a product or a function is drawn here and is a constant of the
     setting from then on: a law must not be satisfied by the one value of an input that allows it.
+    One behind a function with sides stays open at every second point, so that the function's
+    argument can be drawn on any side: a controller whose set point is at random is at its limit.
     """
     equations = Writer(plant, setting).all(readings)
-    given = _modulating(equations, plant)
+    given = _modulating(equations, plant, sided=random.random() < 0.5)
     if not given:
         return plant, equations
     for symbol in given:
@@ -180,14 +191,17 @@ def written(
     return plant, Writer(plant, setting).all(readings)
 
 
-def _modulating(equations: list[Equation], plant: Assembly) -> list[Expr]:
+def _modulating(equations: list[Equation], plant: Assembly, sided: bool) -> list[Expr]:
+    """The inputs that laws use in products and functions; those with sides only if asked."""
     free = frozenset((*plant.free, *plant.unknown))
     out: dict[Expr, None] = {}
     for equation in equations:
         if equation.rest is None:
             continue
         rest = equation.rest
-        for node in topological([rest]):
+        for node in topological([rest], stop=None if sided else has_sides):
+            if not sided and has_sides(node):
+                continue
             if node is not rest or node.op is not Op.ADD:
                 inside = [a for a in node.args if a in plant.place]
                 out.update((a, None) for a in inside if plant.place[a][0] in free)

@@ -36,10 +36,10 @@ def from_start(plant: Plant, seed: int = 1, differs: Expr | None = None) -> Plan
     for _ in range(_ROUNDS):
         if not held:
             break
-        at_start = plant.holding(held)
         try:
+            at_start = plant.holding(held)
             leaving = _leaving(plant, at_start, list(held), seed)
-        except ExactUnavailable:
+        except (ExactUnavailable, ZeroDivisionError):  # a law has no value at the start
             break
         if not leaving:
             return at_start

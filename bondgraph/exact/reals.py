@@ -146,13 +146,15 @@ class Reals:
     def table(self, name: str, x: Number) -> tuple[Number, Number]:
         """Value and slope of a table: straight between its points, constant beyond its ends.
 
-        One that is read backwards has no value there: it could be any.
+        One that is read backwards has no value from its ends on: it could be any.
         """
         points = self._tables[name.removeprefix("table:")]
+        if backwards(name):
+            ends = (points[0][0], points[-1][0])
+            if [self.sign(x - self.fraction(end)) for end in ends] != [1, -1]:
+                raise Undefined("a table read backwards from its ends on")
         at = bisect_right(points, 0, key=lambda p: -self.sign(x - self.fraction(p[0])))
         if at in (0, len(points)):
-            if backwards(name):
-                raise Undefined("a table read backwards beyond its ends")
             return self.fraction(points[min(at, len(points) - 1)][1]), arb(0)
         (x0, y0), (x1, y1) = points[at - 1], points[at]
         slope = self.fraction((y1 - y0) / (x1 - x0))

@@ -193,15 +193,15 @@ class _Relation:
 
     def _differs(self, expr: Expr, symbol: Expr, turn: int, taken_up: set[Symbol]) -> bool:
         """Whether an integrand is wrong while the machine moves."""
-        right = self._point.moving
-        wrong = _Wrong(right, symbol, turn, taken_up)
         changed = [symbol, *[n for n in self._integrals if n.symbol in taken_up]]
         try:
+            right = self._point.moving
+            wrong = _Wrong(right, symbol, turn, taken_up)
             found = self._at(expr, right)
             one, other = found.anew((), right), found.anew(changed, wrong)
             algebra: Any = right.algebra
             return bool(algebra.moves(algebra.combine([(1, one), (-1, other)], 1)))
-        except (Undefined, Mixed):
+        except (ExactUnavailable, Undefined, Mixed):
             return True
 
     def _at(self, expr: Expr, point: Sample) -> Evaluated:

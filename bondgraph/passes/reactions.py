@@ -13,6 +13,7 @@ from typing import NamedTuple, TypeVar
 
 from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.assembly import Assembly
+from bondgraph.exact.equations import has_sides
 from bondgraph.exact.evaluate import (
     Sensitivity,
     evaluate,
@@ -35,8 +36,6 @@ T = TypeVar("T")
 #: one point is taken at another.
 _POINTS, _POINTS_WITH_BRANCHES = 1, 12
 _TURNS = 8  # points at which faults act, where laws of the plant have branches
-#: Functions with sides: what is on one of them says nothing of the other.
-_SIDED = frozenset({"sign", "min", "max", "abs", "atan2"})
 #: Functions with several branches: a parameter of the other sign may show where none else does.
 _CUT = frozenset({"sqrt", "pow", "log", "acosh", "asin", "acos", "atan"})
 _FEW = 8  # faults that are tried one by one where there are branches
@@ -250,9 +249,7 @@ def _branching(node: Expr) -> bool:
     if node.op is Op.ROOT:
         inside = topological([node.root.zero])
         return any(n.op is Op.IF or _branching(n) for n in inside)
-    if node.op is not Op.FN:
-        return False
-    return node.name in _SIDED or node.name.startswith("table:")
+    return has_sides(node)
 
 
 class Entries(NamedTuple):

@@ -260,6 +260,8 @@ class _Judge:
         if fault in r.unconfirmed:
             return Entry(r.name, fault, "unconfirmed")
         if fault in r.only_off:
+            if seen and not self.worlds[0].points:
+                return Entry(r.name, fault, "not judged: the start of a run is not found")
             if seen:
                 return Entry(r.name, fault, "wrong", "said only off nominal, seen at them")
             blind = self.blind_off_nominal(r, fault)

@@ -11,7 +11,7 @@ from bondgraph.exact.field import PrimeField
 from bondgraph.exact.numbers import Numbers, Undefined
 from bondgraph.exact.reals import Reals
 from bondgraph.exact.series import Series
-from bondgraph.ir.expr import FUNCTIONS
+from bondgraph.ir.expr import FUNCTIONS, read_backwards
 
 N = 6
 TABLE = tuple((Fraction(k), Fraction(k * k)) for k in range(-3, 4))
@@ -138,3 +138,14 @@ def test_a_short_series_stands_for_zeros(f: Numbers) -> None:
     assert same(f, series.reciprocal(f, [4], N), [f.inverse(4)])
     with pytest.raises(Undefined):
         series.reciprocal(f, [0, 1], N)
+
+
+def test_a_table_read_backwards_has_no_value_from_either_end_on() -> None:
+    # a table that is 3 from x = 2 on: a reading of 3 is that of many arguments
+    back = read_backwards("t")
+    f = Reals({back: ((Fraction(0), Fraction(0)), (Fraction(3), Fraction(2)))})
+    for end in (-1, 0, 3, 4):
+        with pytest.raises(Undefined):
+            f.table(f"table:{back}", f.number(end))
+    value, slope = f.table(f"table:{back}", f.number(2))
+    assert not f.nonzero(3 * value - 4) and not f.nonzero(3 * slope - 2)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from bondgraph.pipeline import Compilation
+from bondgraph.text.source import Source
 from tests.unit.passes.relations import compiled
 
 #: Model; for each fault the residuals' verdicts joined: "strong", "weak" or "unknown".
@@ -129,3 +131,18 @@ def test_a_machine_that_cannot_stand_still() -> None:
     (r,) = c.detectability.residuals
     assert c.detectability.weak(r) is None
     assert c.detectability.only_weak == ()
+
+
+def test_a_machine_that_can_stand_but_has_no_value_in_motion_gets_an_answer() -> None:
+    # f = k1 e^1.5 needs e > 0 and so n2.e < 0, where the logarithm that y3 reads has no value
+    c = Compilation(
+        Source(
+            "test.bg",
+            "bg 1\nmodel M { param k1 = 3; param k2 = 1.5; param k3 = 0.5\n  input u1\n  1:n1\n"
+            "  n1 -> R:r1 { f = k1*e^1.5 }\n  0:n2\n  n2 -> C:c1(q0 = 0) { e = k2*sin(q) }\n"
+            "  n2 -> R:r2 { e = k3*f }\n  n1 -> n2\n  n2 <- Sf:pump1 = u1\n  n1 -> Df:y1\n"
+            "  n2 -> De:y2\n  sensor y3 = log(n2.e/n1.f)\n}\n",
+        )
+    )
+    assert set(c.signatures.unconfirmed) == {"r1", "r2", "r3"}
+    assert c.detectability.residuals == ("r1", "r2", "r3")

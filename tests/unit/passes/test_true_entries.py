@@ -217,3 +217,15 @@ def test_a_line_that_starts_at_rest_is_moved_from_its_end() -> None:
     assert not c.signatures.apart
     matrix = c.signatures
     assert set(matrix.faults) == {f for r in matrix.residuals for f in matrix.signature(r)}
+
+
+def test_a_controller_far_from_zero_shows_its_set_point_between_its_limits() -> None:
+    # y2 is 5 to 15 V, so that only a set point near it leaves the limits of 2 V: there the
+    # residual y5 - clip(k (r - y2)) sees the set point
+    c = compiled(
+        "param k1 = 5; param k = 4; param R = 0.2\n  input u; input r\n"
+        "  0:n { -> C:c { e = k1*q }; -> R:R; -> De:y1 }\n  n <- Sf:pump1 = u\n"
+        "  sensor y2 = 10 + 5*tanh(n.e)\n  let s = min(max(k*(r - y2), -2), 2)\n"
+        "  n <- Sf:pump2 = s\n  sensor y5 = s"
+    )
+    assert the_one_with(c.signatures, "y5") == {"k", "r", "y5"}
