@@ -71,7 +71,7 @@ def _answer(what: str, seed: int) -> dict[str, Any]:
     try:
         found = result(compilation, [])
         found["verified"] = compilation.verification.method
-        found["operations"] = len(compilation.program.tape) if found["n_arr"] else 0
+        found["operations"] = len(compilation.program.step) if found["n_arr"] else 0
     except CompileError as error:
         codes = sorted({d.code for d in error.diagnostics if d.severity == "error"})
         return {"status": f"refused: {', '.join(codes)}"}
@@ -120,6 +120,7 @@ def main() -> int:
     recording.add_argument("--graphs", type=int, default=2000)
     recording.add_argument("--plants", type=int, default=400)
     recording.add_argument("--jobs", type=int, default=2)
+    recording.add_argument("--only", type=Path, help="JSON of [name, number] pairs")
     comparing = commands.add_parser("compare")
     comparing.add_argument("before", type=Path)
     comparing.add_argument("after", type=Path)
@@ -127,6 +128,8 @@ def main() -> int:
     if asked.command == "compare":
         return compare(asked.before, asked.after)
     jobs = [*corpus(asked.graphs, asked.plants)]
+    if asked.only is not None:
+        jobs = [(name, seed) for name, seed in json.loads(asked.only.read_text())]
     with asked.file.open("w") as file, get_context("spawn").Pool(asked.jobs) as pool:
         for answer in pool.imap(answered, jobs, chunksize=8):
             file.write(json.dumps(answer) + "\n")

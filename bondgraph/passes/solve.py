@@ -310,8 +310,10 @@ def _peel(
 
 
 def _root(pool: Pool, target: Expr, power: int) -> Expr | None:
-    """The only real x with x**power = target; even powers have two."""
+    """The only real x with x**power = target; even powers have two, a reciprocal is never zero."""
     if power < 0:
+        if target is pool.zero:
+            return None
         target, power = pool.power(target, -1), -power
     if power == 1:
         return target

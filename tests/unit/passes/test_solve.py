@@ -149,3 +149,9 @@ def test_what_is_left_of_a_linear_equation(pool: Pool) -> None:
     assert rest(pool, pool.add((2, f), (3, g), (1, c)), [f, g]) is c
     assert rest(pool, pool.add((2, f), (1, logs)), [f]) is None  # though its slope is 2
     assert rest(pool, pool.mul(f, g), [f, g]) is None
+
+
+def test_a_reciprocal_is_never_zero(pool: Pool) -> None:
+    x, k = pool.symbol("x", Kind.FLOW), pool.symbol("k", Kind.PARAM)
+    assert solve(pool, pool.div(k, x), x) is None
+    assert solve(pool, pool.sub(pool.div(k, x), pool.one), x) is not None
