@@ -102,7 +102,7 @@ def _differences(a: dict[str, Any], b: dict[str, Any]) -> Iterator[str]:
     lost = [m["about"] for m in a.get("missing", [])], [m["about"] for m in b.get("missing", [])]
     if lost[0] != lost[1]:
         yield f"missing {lost[0]} -> {lost[1]}"
-    forms = [[r["expression"] for r in x.get("arrs", [])] for x in (a, b)]
+    forms = [[r["expr"] for r in x.get("arrs", [])] for x in (a, b)]
     if forms[0] != forms[1]:
         changed = sum(x != y for x, y in zip(*forms, strict=False))
         yield f"{changed} of {len(forms[0])} closed forms"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from random import Random
 from typing import Any, NamedTuple
@@ -17,7 +17,7 @@ HEALTHY = 1e-25  # of its terms: below this a residual vanishes
 SEEN = 1e-20  # above this it has moved
 _POINTS, _BRANCHED_POINTS = 4, 9
 _FAR = 6  # the scale of every third point, beyond the ends of tables and of saturations
-_FARTHEST = 1.7  # powers of ten, of points that are added in search of what an entry says
+_SMALLEST, _FARTHEST = -1.5, 1.7  # powers of ten, of points added in search of an entry
 _MOST_POINTS = 16  # where residuals have no value at most points
 _STARTS = 12  # random starts for each of them
 _SAID = 32  # trajectories with a fault, while an entry that is said to be seen is not
@@ -148,16 +148,29 @@ class _Judge:
         declared: Mapping[str, Fraction],
         sign: int = 0,
         scale: float = 1,
-        starts: int = _STARTS,
+        near: Sequence[float] = (),
     ) -> Point | None:
         """A healthy trajectory; its inputs begin with a sign (0: any), all about at a scale."""
-        for _ in range(starts):
+        for _ in range(_STARTS):
             try:
-                known = simulator.known(declared, self.random, sign, scale)
+                known = simulator.known(declared, self.random, sign, scale, near)
                 return simulator.solve(known, simulator.start(self.random, scale))
             except NoPoint:
                 continue
         return None
+
+    def rare(
+        self, simulator: Simulator, declared: Mapping[str, Fraction], pool: list[Point]
+    ) -> Point | None:
+        """A point of any size and sign; some inputs near what sensors read at another one.
+
+        Such an input keeps a controller between its limits.
+        """
+        scale = 10 ** self.random.uniform(_SMALLEST, _FARTHEST)
+        sign = self.random.choice((-1, 0, 1))
+        at = self.random.choice(pool)
+        near = [float(at.signals[x][0].mid()) for x in self.plant.sensors]
+        return self.point(simulator, declared, sign, scale, near)
 
     def world(self, plant: Plant, length: int, wanted: list[Evaluator]) -> _World:
         """Healthy points, at which residuals vanish; each residual has a value at some."""
@@ -229,8 +242,7 @@ class _Judge:
             if not left or (turn >= self.unsaid and not hoped):
                 break
             if turn >= 2 * self.enough and turn % 4 == 0:
-                scale = 10 ** self.random.uniform(0, _FARTHEST)
-                extra = self.point(world.simulator, declared, scale=scale)
+                extra = self.rare(world.simulator, declared, pool)
                 pool += [extra] if extra is not None else []
             healthy = pool[turn % len(pool)] if turn < 2 * self.enough else pool[-1]
             point = self.faulty(world.simulator, fault, declared, healthy, turn)

@@ -7,7 +7,7 @@ coefficients too). Unknowns that an equation gives explicitly are computed; the 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from math import perm
@@ -167,13 +167,21 @@ class Simulator:
         self.unknown = {x: k for k, x in enumerate(self.order.torn)}
 
     def known(
-        self, declared: Mapping[str, Fraction], random: Random, sign: int = 0, scale: float = 1
+        self,
+        declared: Mapping[str, Fraction],
+        random: Random,
+        sign: int = 0,
+        scale: float = 1,
+        near: Sequence[float] = (),
     ) -> dict[str, Any]:
-        """Random inputs, declared numbers, and nothing wrong."""
+        """Random inputs, declared numbers, and nothing wrong; some inputs `near` given values."""
         plant = self.plant
         out = {x: constant(exact(v)) for x, v in declared.items()}
         for x in (*plant.inputs, *plant.unknown):
-            out[x] = course(random, scale * _lead(random, sign), self.length)
+            lead = scale * _lead(random, sign)
+            if near and random.random() < 0.4:
+                lead = random.choice(near) + random.choice((-1, 1)) * 10 ** random.uniform(-2, 0.5)
+            out[x] = course(random, lead, self.length)
         zero = constant(0)
         out.update((wrong(x), zero) for x in (*plant.inputs, *plant.sensors, *plant.sources))
         return out
