@@ -63,7 +63,7 @@ def answered(job: tuple[str, int]) -> tuple[str, dict[str, Any]]:
 def _answer(what: str, seed: int) -> dict[str, Any]:
     if seed < 0:
         text = (_ROOT / what).read_text(encoding="utf-8")
-        source = Source(str(_ROOT / what), text)
+        source = Source(what, text)
     else:
         text = graph_of(seed).text if what == "graph" else plant_of(seed).text
         source = Source("random.bg", text)

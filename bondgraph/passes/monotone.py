@@ -66,10 +66,12 @@ _SLOPES = {
     "asin": Range(1.0, _INF, True, True),
     "acos": Range(-_INF, -1.0, True, True),
     "acosh": _POSITIVE,
-    "tan": Range(1.0, _INF, True, True),
     "sin": Range(-1.0, 1.0),
     "cos": Range(-1.0, 1.0),
 }
+
+#: Functions that have a value for positive arguments alone.
+_OF_POSITIVE = frozenset({"log", "sqrt", "pow"})
 
 
 def direction(
@@ -111,11 +113,15 @@ def slope_range(
     exact: bool = False,
     given: Mapping[Expr, Range] | None = None,
 ) -> Range | None:
-    """The slopes that the expression may have; None where it may jump or cannot be followed."""
+    """The slopes that the expression may have; None where it may jump or cannot be followed.
+
+    It jumps where it divides by what may be zero: on either side of such a pole a root may lie.
+    """
+    given = {variable: _domain(expr, variable), **(given or {})}
     values: dict[Expr, Range] = {}
     slopes: dict[Expr, Range] = {variable: ONE}
     for node in topological([expr]):
-        if given and node in given:
+        if node in given:
             values[node] = given[node]
             continue
         args = [values[a] for a in node.args]
@@ -127,6 +133,14 @@ def slope_range(
             return None
         slopes[node] = slope
     return slopes.get(expr, ZERO)
+
+
+def _domain(expr: Expr, variable: Expr) -> Range:
+    """The numbers that the variable may be: positive, where some function needs that throughout."""
+    for node in topological([expr], stop=lambda n: n.op is Op.IF):
+        if node.op is Op.FN and node.name in _OF_POSITIVE and node.args[0] is variable:
+            return _POSITIVE
+    return ALL
 
 
 def _value(
@@ -206,6 +220,8 @@ def _slope(
             total = ZERO
             for at, (a, e) in enumerate(zip(args, node.exponents, strict=True)):
                 if a in slopes:
+                    if e < 0 and values[a].low < 0 < values[a].high:
+                        return None
                     part = times(scale(e, power(values[a], e - 1)), slopes[a])
                     for k, (b, f) in enumerate(zip(args, node.exponents, strict=True)):
                         if k != at:

@@ -55,6 +55,9 @@ LAWS = {
     "quadratic": (plus(p.power(x, 2), times(a, x)), None, None),
     "drag": (plus(times(a, p.fn("ssq", x)), x), 1, None),
     "orifice": (plus(p.fn("ssqrt", x), times(p.power(a, 2), x)), 1, 1),
+    # power y^2 shared by effort x and flow y^2/x: x - a y^2/x = u has a root on each side of zero
+    "pole": (p.sub(x, times(a, p.power(y, 2), p.power(x, -1))), None, None),
+    "periods": (plus(p.fn("tan", x), times(a, x)), None, None),
 }
 
 
@@ -135,3 +138,10 @@ def test_a_relativistic_momentum_is_found() -> None:
     assert direction(p, law, x, lambda _: None) is None
     node = invert(p, p.sub(y, law), x, lambda _: None)
     assert node is not None and not node.root.rising and node.root.guess == Fraction(0)
+
+
+def test_what_has_a_value_for_positive_numbers_alone_has_no_root_beyond_the_pole() -> None:
+    # log x + x - 1/x rises from -inf at 0 to inf; without the logarithm it does so on both sides
+    pole = p.neg(p.power(x, -1))
+    assert direction(p, plus(x, pole), x, lambda _: None) is None
+    assert direction(p, plus(x, pole, p.fn("log", x)), x, lambda _: None) == 1
