@@ -56,14 +56,12 @@ class Way(NamedTuple):
 
     Derivatives up to the order `free` are not avoided: shorter paths count more. Without `starts`
     no integral is used whose initial value is not declared; what is less late than `eager` is taken
-    before a loop is looked for. With `rates` the rate of a torn variable may be put into other
-    rows.
+    before a loop is looked for.
     """
 
     free: int = 0
     starts: bool = True
     eager: int = 0
-    rates: bool = False
 
 
 class Chain:
@@ -91,7 +89,7 @@ class Chain:
         self.heap: list[_Offer] = []
         self.later: list[_Offer] = []
         self.nominal = Nominal(system.graph)
-        self.loops = Loops(self.pool, self.nominal, patient=not way.starts, rates=way.rates)
+        self.loops = Loops(self.pool, self.nominal, patient=not way.starts)
         self.oversized: list[list[Equation]] = []  # linear loops too large to be written out
 
     # ---------------------------------------------------------------- chaining

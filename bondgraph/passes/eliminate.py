@@ -19,7 +19,6 @@ from bondgraph.text.diagnostic import Report
 _OTHER_WAYS = (
     ("initial-value-needed", Way(starts=False)),
     ("loop-unsolvable", Way(eager=ITERATION)),
-    ("loop-unsolvable", Way(rates=True)),
     ("loop-unsolvable", Way(eager=2 * FREE_START)),
 )
 
@@ -29,12 +28,12 @@ def eliminate(system: EquationSystem, report: Report) -> ReducedSystem:
 
     Near-linear in the number of bonds. Derivatives are avoided as far as possible; where that makes
     long detours, relations of the same order with shorter paths are taken, and where it misses an
-    initial value, no integral without one is used; where a loop cannot be solved, integrals come
-    before loops, or the rates of hidden states go into other rows. A loop that no one order of
-    elimination solves in all modes is solved in each. A relation that cannot be had all the same is
-    `missing` and costs no other: `loop-unsolvable` for a nonlinear loop without a closed solution,
-    `loop-too-large` for a linear one of ten thousand bonds, `initial-value-needed` where a relation
-    needs an undeclared initial value. Where nothing else can be had they are errors.
+    initial value, no integral without one is used; where a loop cannot be solved, or only with more
+    derivatives, integrals come before loops. A loop that no one order of elimination solves in all
+    modes is solved in each. A relation that cannot be had all the same is `missing` and costs no
+    other: `loop-unsolvable` for a nonlinear loop without a closed solution, `loop-too-large` for a
+    linear one of ten thousand bonds, `initial-value-needed` where a relation needs an undeclared
+    initial value. Where nothing else can be had they are errors.
     """
     result = _eliminated(system)
     if _lacking(result):
@@ -51,16 +50,25 @@ def _eliminated(system: EquationSystem) -> ReducedSystem:
         if len(near.loops.plain) >= len(chain.loops.plain):
             chain = near
     best = chain.result()
+    if chain.loops.raised:  # an integral from a declared start may need fewer derivatives
+        anew = _run(Chain(system, Way(eager=ITERATION))).result()
+        whole = not _lacking(anew) and len(anew.closings) >= len(best.closings)
+        best = anew if whole and _order(anew) < _order(best) else best
     lacking = _lacking(best)
     codes = {m.finding.code for m in lacking}
-    whole = len(best.closings) + len(lacking)
+    most = len(best.closings) + len(lacking)
     for way in [way for code, way in _OTHER_WAYS if code in codes]:
         anew = _run(Chain(system, way)).result()
-        if not _lacking(anew) and len(anew.closings) >= whole:
+        if not _lacking(anew) and len(anew.closings) >= most:
             return anew
         if len(anew.closings) > len(best.closings):
             best = anew
     return best
+
+
+def _order(result: ReducedSystem) -> int:
+    """The highest derivatives of the relations, added up."""
+    return sum(highest_order([closing.expr]) for closing in result.closings)
 
 
 def _lacking(result: ReducedSystem) -> list[Missing]:

@@ -2,9 +2,8 @@
 
 Equations that hold torn variables are rows of a linear system whose entries are polynomials in
 D = d/dt with constant coefficients. A row that holds a torn variable without derivative gives it
-(an algebraic loop); rows that hold only derivatives are combined crosswise, so that the variable
-drops out (a differential loop, `crosswise`); where neither goes on, a row that gives a derivative
-takes it out of another (`descent`). What is left without torn variables is a relation.
+(an algebraic loop); from rows that hold only derivatives operator elimination takes the variable
+(a differential loop, `operators`). What is left without torn variables is a relation.
 """
 
 from __future__ import annotations
@@ -14,11 +13,9 @@ from contextlib import suppress
 from typing import NamedTuple
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
-from bondgraph.passes.crosswise import Crosswise, LinearRow
-from bondgraph.passes.descent import Descent
 from bondgraph.passes.implicit import invert
 from bondgraph.passes.nominal import Nominal
-from bondgraph.passes.rates import Rates
+from bondgraph.passes.operators import LinearRow, Operators
 from bondgraph.passes.solve import ITERATED, Solution, affine, constant, solve
 from bondgraph.passes.zero import is_zero
 
@@ -65,14 +62,12 @@ class Loops:
     """
 
     def __init__(
-        self, pool: Pool, nominal: Nominal, patient: bool = False, rates: bool = False
+        self, pool: Pool, nominal: Nominal, patient: bool = False
     ) -> None:
         self.pool = pool
         self.nominal = nominal
         self.patient = patient
-        self.crosswise = Crosswise(pool, nominal)
-        self.rates = Rates(pool, nominal.vanishes) if rates else None
-        self.descent = Descent(pool, nominal.vanishes)
+        self.operators = Operators(pool, nominal.vanishes)
         self.variable: dict[Expr, Expr] = {}  # tear symbol to the variable it stands for
         self.solved: dict[Expr, _Row] = {}  # tear symbol to its value and rows
         self.pending: list[_Row] = []
@@ -82,6 +77,7 @@ class Loops:
         self.gentle: dict[Expr, _Pivot | None] = {}  # row to the pivot that it offers
         self.unsolvable: set[tuple[Expr, Expr]] = set()
         self.identities = 0  # relations that hold whatever the machine does
+        self.raised = False  # whether a derivative was put into another row
 
     def tear(self, variable: Expr) -> Expr:
         """Take a variable as known: the symbol that stands for its value."""
@@ -110,7 +106,7 @@ class Loops:
         symbol = self.pool.symbol(f"{variable.symbol.name}?", Kind.TEAR)
         if symbol in self.solved:
             return self.solved[symbol].rows
-        return self.crosswise.spent.get(symbol, ())
+        return self.operators.spent.get(symbol, ())
 
     def solutions(self) -> dict[Expr, Expr]:
         """The value of each solved tear, free of solved tears; none where it divides by zero."""
@@ -243,9 +239,9 @@ class Loops:
         while self._lower([knot for knot in knots if knot.surplus]):
             self.solve_algebraic()
             knots, linear = self._knots()
-        found = [(item.rows, item.expr) for item in self.plain] + self.crosswise.relations(linear)
+        found = [(item.rows, item.expr) for item in self.plain] + self.operators.relations(linear)
         for knot in knots:
-            alone = self.crosswise.relations(knot.linear)
+            alone = self.operators.relations(knot.linear)
             found += alone
             surplus = knot.surplus - len(alone)
             if surplus > 0:
@@ -258,7 +254,7 @@ class Loops:
 
     def _knots(self) -> tuple[list[_Knot], list[LinearRow]]:
         """Pending rows that are tied to a nonlinear one by torn variables, and the linear rest."""
-        forms = [self.crosswise.linear(item.rows, item.expr) for item in self.pending]
+        forms = [self.operators.linear(item.rows, item.expr) for item in self.pending]
         tears = [
             self._tears(item.expr) if form is None else list(form.entries)  # what has not cancelled
             for item, form in zip(self.pending, forms, strict=True)
@@ -292,25 +288,11 @@ class Loops:
         done = False
         for knot in knots:
             items = [self.pending[at] for at in knot.members]
-            found = self.descent.lowered([item.expr for item in items])
+            found = self.operators.lowered([item.expr for item in items])
             if found is not None:
                 rows = tuple(dict.fromkeys((*items[found.by].rows, *items[found.row].rows)))
                 self.pending[knot.members[found.row]] = _Row(rows, found.expr)
-                done = True
-                continue
-            left = self.crosswise.remainder([self.crosswise.linear(*item) for item in items])
-            if left is not None:
-                at, row = left
-                self.pending[knot.members[at]] = _Row(row.rows, self.crosswise.written(row))
-                done = True
-                continue
-            freed = None
-            if self.rates is not None:
-                freed = self.rates.lowered([item.expr for item in items])
-            if freed is not None:
-                rows = tuple(dict.fromkeys((*items[freed.by].rows, *items[freed.row].rows)))
-                self.pending[knot.members[freed.row]] = _Row(rows, freed.expr)
-                done = True
+                self.raised = done = True
         self.plain += [item for item in self.pending if not self._tears(item.expr)]
         self.pending = [item for item in self.pending if self._tears(item.expr)]
         return done

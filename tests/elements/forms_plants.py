@@ -178,12 +178,12 @@ FORMS = [
         "voltage laws in the frame of the stator: Fitzgerald, Kingsley & Umans, Electric Machinery",
         [
             Relation(
-                "rate of the rotor's first current: by its voltage law and by the stator's",
-                f"{ROTOR}; Q**2*(D(x, 1) - h)",
+                "rate of the rotor's first voltage law Rr*x + w*Lr*y = A, rates by the stator's",
+                f"{ROTOR}; Q*(Rr*h + D(w, 1)*Lr*y + w*Lr*k - D(A, 1))",
                 "Rs Rr Ls Lr M ua ub ia ib w",
             ),
             Relation(
-                "rate of its second current likewise",
+                "rate of its second current: by its voltage law and by the stator's",
                 f"{ROTOR}; Q**2*(D(y, 1) - k)",
                 "Rs Rr Ls Lr M ua ub ia ib w",
             ),

@@ -12,8 +12,8 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "elimination": tuple(
         f"passes/{name}.py"
         for name in (
-            "chain cleared colour cost crosswise descent each_mode eliminate equations implicit"
-            " initial linear_block loops matching nominal nominal_loops rates reduce_index regroup"
+            "chain cleared colour cost each_mode eliminate equations implicit initial"
+            " linear_block loops matching nominal nominal_loops operators reduce_index regroup"
             " rings solve solve_symbolic state_equations"
         ).split()
     ),

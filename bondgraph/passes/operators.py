@@ -1,23 +1,32 @@
-"""Combine rows that hold derivatives of torn variables crosswise, so that these drop out.
+"""Operator elimination: torn variables whose derivatives stand in rows drop out of them.
 
-The rows are linear in the torn variables, with polynomials in D = d/dt that have constant
-coefficients: a differential loop.
+Rows that are linear in them, with polynomials in D = d/dt of constant coefficients, are multiplied
+crosswise by what the polynomials do not share: the polynomial null space (Frisk and Nyberg, 2001).
+In any other row the highest derivative of a variable is replaced by what another row says it is:
+the division of Ore (1933), which reduces the index by one (Gear, 1988).
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.passes.fractions import monomials, without_common_divisor
-from bondgraph.passes.nominal import Nominal
-from bondgraph.passes.solve import constant
+from bondgraph.passes.lowering.derivative import Jets, TooManyOperations
+from bondgraph.passes.normalise import normalise
+from bondgraph.passes.solve import affine, constant
+from bondgraph.passes.summands import summands
 from bondgraph.passes.zero import is_zero, share_factor
 
 Polynomial = list[Expr]  # coefficients of D**0, D**1, ...
 
 #: Parameters, and terms, up to which two polynomials are divided in expanded form.
 _FEW, _SHORT = 5, 60
+
+_LIMIT = 300  # coefficient operations of a row that is worth writing as a sum of derivatives
+_LARGE = 3000  # new nodes that one row is worth
+_TURNS = 8  # a derivative of a derivative of a rate holds rates again
 
 
 class LinearRow(NamedTuple):
@@ -28,14 +37,28 @@ class LinearRow(NamedTuple):
     rest: Expr
 
 
-class Crosswise:
-    """The differential loops of one elimination."""
+class Lowered(NamedTuple):
+    """Row `row` has become `expr` by what row `by` says of a derivative."""
 
-    def __init__(self, pool: Pool, nominal: Nominal) -> None:
+    row: int
+    by: int
+    expr: Expr
+
+
+class Operators:
+    """The differential loops of one elimination.
+
+    A coefficient that `vanishes` at the nominal parameters is not divided by.
+    """
+
+    def __init__(self, pool: Pool, vanishes: Callable[[Expr], bool] = lambda _: False) -> None:
         self.pool = pool
-        self.nominal = nominal
+        self.vanishes = vanishes
         self.spent: dict[Expr, tuple[int, ...]] = {}  # tear symbol to the rows it dropped out of
         self._forms: dict[Expr, tuple[dict[Expr, Polynomial], Expr] | None] = {}
+        self._jets = Jets(pool)
+        self._summed: dict[Expr, Expr | None] = {}
+        self._moved_in: dict[Expr, Expr | None] = {}
 
     def linear(self, rows: tuple[int, ...], expr: Expr) -> LinearRow | None:
         """The row as polynomials in D; None if it is not linear in its torn variables."""
@@ -123,48 +146,87 @@ class Crosswise:
             rows = [self._combine(r, pivot, symbol) if symbol in r.entries else r for r in rows]
         return found
 
-    def remainder(self, rows: list[LinearRow | None]) -> tuple[int, LinearRow] | None:
-        """A row of lower degree for one of two rows in the same torn variable: where, and what.
+    # ------------------------------------------------- rows that are not linear, or not constant
 
-        One step of Euclid's algorithm. Repeated, it gives the variable itself where the two
-        polynomials have no common factor. None where no two rows hold one and the same variable
-        alone, or the step divides by what is zero at the nominal parameters.
+    def lowered(self, rows: Sequence[Expr]) -> Lowered | None:
+        """A row that another one frees of derivatives of a torn variable; None without any.
+
+        A row whose torn variables are differentiated in one place alone says what stands there:
+        D(u*x) as a whole, or, with D moved inwards to the variables, the rate of x. With that row
+        the new one is equivalent to the old. What only a constant divides is preferred.
+
+        >>> p = Pool(); x, y = p.symbol("x", Kind.TEAR), p.symbol("y", Kind.SENSOR)
+        >>> z = p.mul(y, x)
+        >>> work = Operators(p)
+        >>> work.lowered([p.sub(p.der(z), y), p.add((1, x), (2, p.der(z)))]).expr
+        x + 2*y
+        >>> work.lowered([p.add((1, p.der(x)), (3, x)), p.add((1, p.der(z)), (-1, y))]).expr
+        x*D(y) - y - 3*x*y
         """
-        alone: dict[Expr, list[int]] = {}
-        for at, row in enumerate(rows):
-            if row is not None and len(row.entries) == 1:
-                (symbol,) = row.entries
-                alone.setdefault(symbol, []).append(at)
-        for symbol, places in alone.items():
-            degrees = sorted((len(row.entries[symbol]), at) for at in places if (row := rows[at]))
-            if len(degrees) < 2 or degrees[0][0] < 2:
-                continue
-            at = degrees[1][1]
-            low, high = rows[degrees[0][1]], rows[at]
-            assert low is not None and high is not None
-            lead = low.entries[symbol][-1]
-            if not self.nominal.vanishes(lead):
-                return at, self._divided(high, low, symbol)
+        for form in (self._sum, self._inward):
+            shaped = [form(row) for row in rows]
+            for plain in (True, False):
+                for by, giving in enumerate(shaped):
+                    found = None if giving is None else self._rate(giving, plain)
+                    if found is None:
+                        continue
+                    for row, other in enumerate(shaped):
+                        if row == by or other is None or not _at_least(other, found[0]):
+                            continue
+                        freed = self._freed(other, *found, form)
+                        if freed is not None:
+                            return Lowered(row, by, freed)
         return None
 
-    def _divided(self, high: LinearRow, low: LinearRow, symbol: Expr) -> LinearRow:
-        """The higher row less the lower one, differentiated and scaled so that the top goes."""
-        pool = self.pool
-        a, b = high.entries[symbol], low.entries[symbol]
-        shift = len(a) - len(b)
-        factor = pool.div(a[-1], b[-1])
-        scaled = [pool.zero] * shift + [pool.mul(factor, c) for c in b]
-        rest = low.rest
-        for _ in range(shift):
-            rest = pool.der(rest)
-        entries = _trim({symbol: self._minus(a[:-1], scaled[:-1])})
-        rows = tuple(dict.fromkeys((*low.rows, *high.rows)))
-        return LinearRow(rows, entries, pool.sub(high.rest, pool.mul(factor, rest)))
+    def _sum(self, row: Expr) -> Expr | None:
+        """The row as a sum of derivatives; None where it is too long or holds integrals."""
+        if row not in self._summed:
+            pool = self.pool
+            whole = all(n.op is not Op.INT for n in topological([row]))
+            terms = normalise(pool, row, _LIMIT).terms if whole else ()
+            parts = [pool.mul(t.coefficient, _derived(pool, t.atom, t.order)) for t in terms]
+            self._summed[row] = pool.add(*[(1, part) for part in parts]) if parts else None
+        return self._summed[row]
 
-    def written(self, row: LinearRow) -> Expr:
-        """The row as one expression."""
-        parts = [self._apply(polynomial, t) for t, polynomial in row.entries.items()]
-        return self.pool.add(*[(1, part) for part in (*parts, row.rest)])
+    def _inward(self, row: Expr) -> Expr | None:
+        """The row with D on symbols only; None where an integral holds a torn variable."""
+        if row not in self._moved_in:
+            held = any(n.op in (Op.INT, Op.ROOT) and _torn(n) for n in topological([row]))
+            try:
+                self._moved_in[row] = None if held else self._jets.of(row, 0, _LARGE)
+            except TooManyOperations:
+                self._moved_in[row] = None
+        return self._moved_in[row]
+
+    def _rate(self, row: Expr, plain: bool) -> tuple[Expr, Expr] | None:
+        """The only derivative of torn variables in a row, and its value from it."""
+        rates = [n for n in topological([row]) if n.op is Op.DER and _torn(n)]
+        top = max(rates, key=_order, default=None)
+        if top is None or any(_base(rate) is not _base(top) for rate in rates):
+            return None
+        parts = affine(self.pool, row, top)
+        if parts is None or _torn(parts[0]) or constant(parts[0]) != plain or is_zero(parts[0]):
+            return None
+        if plain and self.vanishes(parts[0]):
+            return None
+        return top, self.pool.neg(self.pool.div(parts[1], parts[0]))
+
+    def _freed(
+        self, row: Expr, rate: Expr, value: Expr, form: Callable[[Expr], Expr | None]
+    ) -> Expr | None:
+        """The row with the rate, and what is derived from it, replaced by its value."""
+        for _ in range(_TURNS):
+            high = _at_least(row, rate)
+            if not high:
+                return _whole(self.pool, row)
+            values = {n: _derived(self.pool, value, _order(n) - _order(rate)) for n in high}
+            shaped = form(self.pool.substitute([row], values)[0])
+            if shaped is None:
+                return None
+            row = shaped
+        return None
+
+    # ------------------------------------------------------------------------- polynomials
 
     def _combine(self, row: LinearRow, pivot: LinearRow, symbol: Expr) -> LinearRow:
         """pivot's polynomial times `row` minus row's polynomial times `pivot`."""
@@ -182,7 +244,7 @@ class Crosswise:
         """Both polynomials without a common factor in D."""
         if len(a) > 1 and len(b) > 1 and share_factor(a, b):
             if len(symbols(*a, *b)) > _FEW or monomials([*a, *b]) > _SHORT:
-                return without_common_divisor(self.pool, a, b, self.nominal.vanishes)
+                return without_common_divisor(self.pool, a, b, self.vanishes)
             from bondgraph.passes.solve_symbolic import without_common_factor
 
             return without_common_factor(self.pool, a, b)
@@ -226,3 +288,45 @@ def _trim(entries: dict[Expr, Polynomial]) -> dict[Expr, Polynomial]:
 
 def _lowest(polynomial: Polynomial) -> int:
     return next(k for k, c in enumerate(polynomial) if not is_zero(c))
+
+
+def _derived(pool: Pool, expr: Expr, times: int) -> Expr:
+    for _ in range(times):
+        expr = pool.der(expr)
+    return expr
+
+
+def _whole(pool: Pool, row: Expr) -> Expr:
+    """The row times what divides its terms, so that nothing has to be divided by a modulus."""
+    terms = summands(row)
+    divisors: dict[Expr, int] = {}
+    for term in terms:
+        if term.op is Op.MUL:
+            for base, power in zip(term.args, term.exponents, strict=True):
+                if power < 0 and not constant(base) and not _torn(base):
+                    divisors[base] = max(divisors.get(base, 0), -power)
+    factor = pool.mul(*[pool.power(base, power) for base, power in divisors.items()])
+    return pool.add(*[(c, pool.mul(term, factor)) for term, c in terms.items()])
+
+
+def _torn(expr: Expr) -> bool:
+    return any(s.symbol.kind is Kind.TEAR for s in symbols(expr))
+
+
+def _base(node: Expr) -> Expr:
+    while node.op is Op.DER:
+        node = node.args[0]
+    return node
+
+
+def _order(node: Expr) -> int:
+    order = 0
+    while node.op is Op.DER:
+        order, node = order + 1, node.args[0]
+    return order
+
+
+def _at_least(row: Expr, rate: Expr) -> list[Expr]:
+    """The derivatives in a row of the variable of a rate, of its order or above."""
+    found = [n for n in topological([row]) if n.op is Op.DER and _base(n) is _base(rate)]
+    return [n for n in found if _order(n) >= _order(rate)]
