@@ -6,13 +6,15 @@ angles does not show on this machine, however long it runs.
 
 from __future__ import annotations
 
+from bondgraph.exact.equations import has_sides
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.numbers import Undefined
 from bondgraph.exact.plant import ExactUnavailable, Plant
-from bondgraph.ir.expr import Expr, symbols
+from bondgraph.ir.expr import Expr, Op, symbols, topological
 
 #: Random points at which what is held must have no rate; every second one turns faults' signs.
-_POINTS = 4
+#: About half of the points lie on either side of a limit or a dead zone, behind which all may move.
+_POINTS, _POINTS_WITH_BRANCHES = 4, 64
 #: Rounds in which states may leave, the later driven by the earlier; no claim is made after them.
 _ROUNDS = 12
 
@@ -51,10 +53,12 @@ def _leaving(plant: Plant, at_start: Plant, held: list[Expr], seed: int) -> set[
     """The states that have a rate at one of some random points, or at one of its branches."""
     rates = {rate.variable: rate.value for rate in plant.assembly.rates}
     values = [rates[plant.assembly.place[state][0]] for state in held]
+    nodes = topological([*[law for _, law in plant.assembly.laws], *rates.values()])
+    branches = bool(plant.modes) or any(n.op in (Op.IF, Op.ROOT) or has_sides(n) for n in nodes)
     found: set[Expr] = set()
-    for point in range(_POINTS):
+    for point in range(_POINTS_WITH_BRANCHES if branches else _POINTS):
         at = at_start.trajectory(
-            seed + point,
+            1000 * seed + point,
             0,
             faults=plant.graph.faults,
             part=at_start.part_for(values),

@@ -180,6 +180,7 @@ class Plant:
         self._declared = {v.symbol: v.value for v in graph.values}
         self._apart: frozenset[Expr] = frozenset()
         self.held: tuple[Expr, ...] = ()  # initial values that states keep, see `holding`
+        self._asked: tuple[Expr, ...] = ()  # what has to have a value besides the sensors
         # by the identity of parts, which are kept
         self._rational: dict[int, bool] = {}
         self._precision = Precision()
@@ -211,6 +212,7 @@ class Plant:
             return pool.substitute([expr], starts)[0]
 
         rates = [rate for rate in whole.rates if rate.variable not in held]
+        dropped = [put(rate.value) for rate in whole.rates if rate.variable in held]
         laws = [(node, put(law)) for node, law in whole.laws]
         laws += [(-1, pool.sub(state, value)) for state, value in starts.items()]
         other = copy(self)
@@ -222,6 +224,7 @@ class Plant:
             rates=tuple(rate._replace(value=put(rate.value)) for rate in rates),
             readings=tuple((name, at, put(reads)) for name, at, reads in whole.readings),
         )
+        other._asked = tuple(dropped)
         other.held = tuple(initial for initial, state in self._starts.items() if state in starts)
         other._parts = other._surroundings = None
         other._rational, other._reached = {}, {}
@@ -508,7 +511,9 @@ class Plant:
             elif name in self._read:
                 readings[name] = _error(numbers, random, [], n)
         told_sensors = [s for s in self._shown(part) if read is None or s[1] in read]
-        shown = tuple(reads for _, _, reads in told_sensors) if numbers.real else ()
+        shown: tuple[Expr, ...] = ()
+        if numbers.real:
+            shown = (*[reads for _, _, reads in told_sensors], *self._inside(part, self._asked))
         setting = Setting(true, numbers, n, shown, still)
         try:
             plant, equations = written(part, setting, readings, random)
@@ -534,6 +539,11 @@ class Plant:
                 starts[initial.symbol] = truth.value(state)[0]
                 told.setdefault(initial, [starts[initial.symbol]])
         return Trajectory(self, seed, order, tuple(faults), told, truth, starts, part, still, read)
+
+    def _inside(self, part: Assembly, exprs: Iterable[Expr]) -> list[Expr]:
+        """Those of the expressions that rest on variables of a part alone."""
+        inside, place = frozenset(part.active), part.place
+        return [e for e in exprs if all(place[s][0] in inside for s in symbols(e) if s in place)]
 
     def _shown(self, plant: Assembly) -> list[_Shown]:
         """The sensors of a part of the plant: name, symbol, reads."""

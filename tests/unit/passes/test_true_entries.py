@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from bondgraph.exact.from_start import from_start
+from bondgraph.exact.plant import Plant
 from bondgraph.ir.signatures import SignatureMatrix
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
@@ -229,3 +231,15 @@ def test_a_controller_far_from_zero_shows_its_set_point_between_its_limits() -> 
         "  n <- Sf:pump2 = s\n  sensor y5 = s"
     )
     assert the_one_with(c.signatures, "y5") == {"k", "r", "y5"}
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("rate", ["max(u - 300, 0)", "max(n.f - 3, 0)", "if(abs(u) > 40, u, 0)"])
+def test_what_overflows_only_beyond_a_limit_is_not_held_at_its_start(rate: str, seed: int) -> None:
+    # below the limit the count rests at zero; an input beyond it moves the count, and k shows
+    c = compiled(
+        "param R = 1; param k = 2\n  input u\n  Se:u -> 1:n { -> R:R; -> Df:i }\n"
+        f"  let h = int({rate})\n  sensor y = k*sin(h) + n.f"
+    )
+    assert not from_start(Plant(c.graph), seed).held
+    assert "k" in the_one_with(c.signatures, "y")
