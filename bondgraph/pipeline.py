@@ -14,19 +14,19 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from bondgraph.exact.plant import Plant
-    from bondgraph.exact.result import Verification
+    from bondgraph.exact.verification import Verification
     from bondgraph.ir.artifact import Artifact
     from bondgraph.ir.causal import CausalGraph, Conflict
-    from bondgraph.ir.equations import EquationSystem
+    from bondgraph.ir.equation_system import EquationSystem
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.program import Program
     from bondgraph.ir.residuals import ReducedSystem, ResidualSet
-    from bondgraph.ir.runnable import Runnable
-    from bondgraph.ir.signatures import Detectability, ModeSignatures, SignatureMatrix
+    from bondgraph.ir.runnable_code import Runnable
+    from bondgraph.ir.signature_matrix import Detectability, ModeSignatures, SignatureMatrix
     from bondgraph.ir.state import StateEquations
-    from bondgraph.ir.structure import StructuralModel
+    from bondgraph.ir.structural_model import StructuralModel
     from bondgraph.ir.syntax import File
-    from bondgraph.passes.state_equations import Wanted
+    from bondgraph.passes.elimination.state_equations import Wanted
     from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
     from bondgraph.runtime.diagnosis.healthy import Facts
     from bondgraph.runtime.diagnosis.tuning import Tuning
@@ -87,7 +87,7 @@ class Compilation:
     @cached_property
     def graph(self) -> BondGraph:
         """The flat bond graph."""
-        from bondgraph.passes.elaborate import elaborate
+        from bondgraph.passes.elaboration.elaborate import elaborate
 
         return self._stage(
             elaborate(
@@ -98,23 +98,23 @@ class Compilation:
     @cached_property
     def integral(self) -> CausalGraph:
         """Preferred integral causality."""
-        from bondgraph.passes.causality import assign
+        from bondgraph.passes.causality.assign import assign
 
         return self._stage(assign(self.graph, "integral", self.report))
 
     @cached_property
     def derivative(self) -> CausalGraph:
         """Preferred derivative causality with the sensors dualised."""
-        from bondgraph.passes.causality import assign
+        from bondgraph.passes.causality.assign import assign
 
         return self._stage(assign(self.integral.graph, "derivative", self.report))
 
     @cached_property
     def equations(self) -> EquationSystem:
         """The acausal equations."""
-        from bondgraph.passes.equations import equations
-        from bondgraph.passes.initial_values import initial_values
-        from bondgraph.passes.nominal_loops import nominal_loops
+        from bondgraph.passes.elimination.equations import equations
+        from bondgraph.passes.elimination.initial_values import initial_values
+        from bondgraph.passes.elimination.nominal_loops import nominal_loops
 
         system = equations(self.integral.graph)
         if self.integral.loops:
@@ -125,7 +125,7 @@ class Compilation:
 
     def state_equations(self, wanted: Wanted | None = None) -> StateEquations:
         """The state equations for simulation, in one mode of the switches (None: all on)."""
-        from bondgraph.passes.state_equations import Wanted, state_equations
+        from bondgraph.passes.elimination.state_equations import Wanted, state_equations
 
         chosen = wanted or Wanted({i.name: True for i in self.graph.inputs if i.mode})
         return self._stage(state_equations(self.equations, self.integral, chosen, self.report))
@@ -169,14 +169,14 @@ class Compilation:
     @cached_property
     def structure(self) -> StructuralModel:
         """Which unknown, known signal and fault is in which equation."""
-        from bondgraph.passes.structure.extract import extract
+        from bondgraph.passes.analysis.extract import extract
 
         return self._stage(extract(self.equations))
 
     @cached_property
     def reduced(self) -> ReducedSystem:
         """The unknowns eliminated: a value for each, and the equations left over."""
-        from bondgraph.passes.eliminate import eliminate
+        from bondgraph.passes.elimination.eliminate import eliminate
 
         return self._stage(eliminate(self.equations, self.report))
 
@@ -185,8 +185,8 @@ class Compilation:
         """The same with relations that are free of the faults to `decouple`, if there are any."""
         if not self.options.decouple:
             return self.reduced
-        from bondgraph.passes.decouple import decouple
-        from bondgraph.passes.signatures import signatures
+        from bondgraph.passes.analysis.signatures import signatures
+        from bondgraph.passes.elimination.decouple import decouple
 
         seed, plant = self.options.seed, self._plant
         first = signatures(self.reduced, self.report, seed, plant)
@@ -208,21 +208,21 @@ class Compilation:
     @cached_property
     def modes(self) -> ModeSignatures:
         """The fault signature matrix of each mode of a switched machine."""
-        from bondgraph.passes.modes import modes
+        from bondgraph.passes.analysis.modes import modes
 
         return modes(*self._analysis, self._plant, self.options.seed)
 
     @cached_property
     def detectability(self) -> Detectability:
         """Which faults a residual sees as long as they last, which only in transients."""
-        from bondgraph.passes.detectability import detectability
+        from bondgraph.passes.analysis.detectability import detectability
 
         return detectability(*self._analysis, self._plant, self.options.seed)
 
     @cached_property
     def best(self) -> tuple[tuple[str, ...], ...] | None:
         """The detectable faults in groups that no set of residuals could divide any further."""
-        from bondgraph.passes.isolability import isolability
+        from bondgraph.passes.analysis.isolability import isolability
 
         residuals, matrix = self._analysis
         exprs = [r.expr for r in residuals.residuals]
@@ -231,8 +231,8 @@ class Compilation:
 
     @cached_property
     def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:
-        from bondgraph.passes.shortfall import stop_without_any
-        from bondgraph.passes.signatures import signatures
+        from bondgraph.passes.analysis.signatures import signatures
+        from bondgraph.passes.elimination.shortfall import stop_without_any
 
         found = signatures(self.combined, self.report, self.options.seed, self._plant)
         stop_without_any(self.report, found[0])
@@ -248,7 +248,7 @@ class Compilation:
     @cached_property
     def verification(self) -> Verification:
         """What the exact check of residuals and signatures did; raises if it failed."""
-        from bondgraph.passes.verify import verify
+        from bondgraph.passes.analysis.verify import verify
 
         return self._stage(verify(self.graph, *self._analysis, self.report, self.options.seed))
 
@@ -258,7 +258,7 @@ class Compilation:
 
         It tells what a wrong sensor does. For a verified model only.
         """
-        from bondgraph.passes.lower import LowerOptions, lower
+        from bondgraph.passes.lowering.lower import LowerOptions, lower
 
         residuals = self._analysis[0].residuals
         relations = [r.expr for r in residuals]
@@ -271,7 +271,7 @@ class Compilation:
     @cached_property
     def program(self) -> Program:
         """The residual program, for a verified model only."""
-        from bondgraph.passes.lower import LowerOptions, lower
+        from bondgraph.passes.lowering.lower import LowerOptions, lower
 
         assert self.verification
         options = LowerOptions(*self.options[:2], resolution=self.options.resolution)
@@ -280,8 +280,8 @@ class Compilation:
     @cached_property
     def thresholds(self) -> Program | None:
         """The program of the adaptive thresholds, None for a model without tolerances."""
-        from bondgraph.passes.lower import LowerOptions
-        from bondgraph.passes.thresholds import thresholds
+        from bondgraph.passes.lowering.lower import LowerOptions
+        from bondgraph.passes.lowering.thresholds import thresholds
 
         options = LowerOptions(*self.options[:2], resolution=self.options.resolution)
         return thresholds(self.graph, self._analysis[0], self.program, options)
@@ -337,7 +337,7 @@ class Compilation:
         >>> c.diagnoses(["r2"], silent=["r1"])
         (('J',), ('f',), ('load',))
         """
-        from bondgraph.passes.structure.hitting import diagnoses
+        from bondgraph.structural.hitting import diagnoses
 
         matrix = self.signatures
         sees = {name: matrix.signature(name) for name in matrix.residuals}
@@ -368,7 +368,7 @@ class Compilation:
     @cached_property
     def conflicts(self) -> tuple[Conflict, ...]:
         """Why strokes cannot be placed; empty where they can."""
-        from bondgraph.passes.conflicts import conflicts
+        from bondgraph.passes.causality.conflicts import conflicts
 
         return conflicts(self.graph)
 
@@ -381,7 +381,7 @@ class Compilation:
             from bondgraph.backends.draw_conflicts import draw_conflicts
 
             return draw_conflicts(self.graph, self.conflicts, self.graph.name, bare)
-        from bondgraph.backends.draw import draw
+        from bondgraph.backends.figure import draw
 
         causal = self.derivative if derivative else self.integral
         return draw(causal, self.graph.name, bare)

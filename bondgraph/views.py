@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, overload
 from bondgraph.ir.expr import ZERO_START, Expr, Kind
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Missing, Residual, ResidualSet
-from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.ir.signature_matrix import SignatureMatrix
 
 if TYPE_CHECKING:
-    from bondgraph.passes.present import ClosedForm
+    from bondgraph.algebra.present import ClosedForm
 
 
 class Relation:
@@ -37,8 +37,8 @@ class Relation:
     @cached_property
     def expr(self) -> Any:
         """The relation as a SymPy expression: signals are functions of t, parameters symbols."""
-        from bondgraph.passes.present import tidy
-        from bondgraph.passes.symbolic import to_sympy
+        from bondgraph.algebra.present import tidy
+        from bondgraph.algebra.symbolic import to_sympy
 
         root = tidy(self._graph.pool, *self._graph.pool.logged([self.residual.expr]))[0]
         return to_sympy(root, starts=self._graph.initial_values())
@@ -46,7 +46,7 @@ class Relation:
     @cached_property
     def closed_form(self) -> ClosedForm:
         """The relation as text, its shared parts named and written once."""
-        from bondgraph.passes.present import closed_form
+        from bondgraph.algebra.present import closed_form
 
         return closed_form(self._graph, self.residual)
 
@@ -58,8 +58,8 @@ class Relation:
     @cached_property
     def latex(self) -> str:
         """The relation in LaTeX; a dotted path becomes a subscript, a derivative its dots."""
+        from bondgraph.algebra.present import tidy
         from bondgraph.ir.latex import latex
-        from bondgraph.passes.present import tidy
 
         root = tidy(self._graph.pool, *self._graph.pool.logged([self.residual.expr]))[0]
         return latex(root, self._graph.initial_values())
@@ -83,7 +83,7 @@ class Relation:
         >>> bondgraph.compile("models/dc_motor.bg").residuals["r1"].sensitivity("L")
         -Derivative(current(t), t)
         """
-        from bondgraph.passes.symbolic import to_sympy
+        from bondgraph.algebra.symbolic import to_sympy
 
         pool = self._graph.pool
         zero = pool.symbol(ZERO_START, Kind.INITIAL).symbol
@@ -92,7 +92,7 @@ class Relation:
 
     def sensitivity_node(self, fault: str) -> Expr:
         """The same as a node of the expression graph, for relations too long to be written out."""
-        from bondgraph.passes.sensitivity import sensitivity
+        from bondgraph.algebra.sensitivity import sensitivity
 
         if fault not in self._graph.faults:
             raise KeyError(fault)
@@ -105,7 +105,7 @@ class Relation:
         """The relative sensitivity theta dr/dtheta: by how much the relation is off for 100 %.
 
         `signals` gives each known signal as a number or a SymPy expression of `t`
-        (`bondgraph.passes.symbolic.t`), parameters are nominal, theta is the parameter's nominal
+        (`bondgraph.algebra.symbolic.t`), parameters are nominal, theta is the parameter's nominal
         value or the signal's value at time `at`. In units of the relation. ValueError names
         signals that are missing and parameters without a value.
 
@@ -116,8 +116,8 @@ class Relation:
         """
         import sympy as sp
 
-        from bondgraph.passes.nominal import Nominal
-        from bondgraph.passes.symbolic import t, to_sympy
+        from bondgraph.algebra.nominal import Nominal
+        from bondgraph.algebra.symbolic import t, to_sympy
 
         nominal = Nominal(self._graph)
         known: dict[Any, Any] = {}

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from bondgraph.backends import listing
 from bondgraph.backends.blocks import Block
-from bondgraph.backends.procedure import lines
+from bondgraph.backends.procedure_lines import lines
 from bondgraph.backends.spell import Speller
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.walk import reads

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bondgraph.backends.draw import TOO_MANY, excuse
 from bondgraph.backends.drawing.arrange import framed
 from bondgraph.backends.drawing.canvas import Point
 from bondgraph.backends.drawing.paint import (
@@ -22,6 +21,7 @@ from bondgraph.backends.drawing.paint import (
 from bondgraph.backends.drawing.place import Wire
 from bondgraph.backends.drawing.scene import Path, Scene, scene
 from bondgraph.backends.drawing.style import FONT, HEIGHT, SEPARATOR, SMALL, width
+from bondgraph.backends.figure import TOO_MANY, excuse
 from bondgraph.ir.causal import CausalGraph, Conflict
 from bondgraph.ir.graph import BondGraph
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from bondgraph.backends import listing
-from bondgraph.backends.names import snake
+from bondgraph.backends.identifiers import snake
 from bondgraph.backends.walk import functions, nodes, reads
 from bondgraph.ir.program import (
     Assign,

@@ -19,7 +19,7 @@ from bondgraph.backends.facts import (
 )
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples
-from bondgraph.backends.procedure import lines
+from bondgraph.backends.procedure_lines import lines
 from bondgraph.backends.roots import roots
 from bondgraph.backends.spell import Speller, digits
 from bondgraph.backends.spelling import Spelling

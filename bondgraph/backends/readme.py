@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from bondgraph.backends import listing
 from bondgraph.backends.c_code import together
 from bondgraph.backends.facts import Facts
-from bondgraph.backends.names import identifier, snake
+from bondgraph.backends.identifiers import identifier, snake
 from bondgraph.ir.program import Dropped, Field, Known, Program, ResidualInfo
 
 _ROW_FAULTS = 200  # a longer matrix is left to the list of each residual

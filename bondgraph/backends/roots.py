@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bondgraph.backends import listing
-from bondgraph.backends.procedure import lines
+from bondgraph.backends.procedure_lines import lines
 from bondgraph.backends.spell import Speller, digits
 from bondgraph.backends.spelling import Spelling
 from bondgraph.ir.program import Assign, Expression, NewtonBlock, Program

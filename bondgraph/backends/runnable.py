@@ -10,14 +10,14 @@ from __future__ import annotations
 from bondgraph.backends import c, python
 from bondgraph.backends.facts import ABI, Facts, facts
 from bondgraph.backends.golden import Golden
+from bondgraph.backends.identifiers import snake
 from bondgraph.backends.members import samples
-from bondgraph.backends.names import snake
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target, load
 from bondgraph.backends.templates import fill
 from bondgraph.ir.artifact import Artifact
 from bondgraph.ir.program import Program
-from bondgraph.ir.runnable import Runnable, Together
+from bondgraph.ir.runnable_code import Runnable, Together
 
 _CHUNK, _SIGNALS = 64, 4096  # rows taken at a time, and what they may have in all
 _KINDS = {"real": "{0}", "bool": "{0} != 0.0", "count": "{1}_whole({0})"}

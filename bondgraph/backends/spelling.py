@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from bondgraph.backends.blocks import blocks
-from bondgraph.backends.names import identifier, snake, spellings
+from bondgraph.backends.identifiers import identifier, snake, spellings
 from bondgraph.backends.target import Target
 from bondgraph.ir.expr import backwards, read_backwards
 from bondgraph.ir.program import Assign, Dot, Known, Mode, Program, Ref, Statement

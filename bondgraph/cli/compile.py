@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from bondgraph import Compilation, Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.numbers import bits, positive
+from bondgraph.cli.number_arguments import bits, positive
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.layout import width
-from bondgraph.cli.numbers import assigned, bits, noise, positive
+from bondgraph.cli.number_arguments import assigned, bits, noise, positive
+from bondgraph.cli.terminal_layout import width
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

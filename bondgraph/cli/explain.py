@@ -99,7 +99,7 @@ def about(compilation: Compilation, name: str) -> list[str]:
 
 def _missing(compilation: Compilation, name: str) -> list[list[str]]:
     """The relations that could not be had and are about a name, or fail because of it."""
-    from bondgraph.cli.layout import prose, width
+    from bondgraph.cli.terminal_layout import prose, width
     from bondgraph.ir.dump import equation_name
     from bondgraph.text.diagnostic import CompileError
 
@@ -183,11 +183,11 @@ def _stroke(causal: CausalGraph, bond: Bond) -> str:
 
 
 def _residual(compilation: Compilation, relation: Relation) -> list[str]:
-    from bondgraph.cli.layout import formula, width
     from bondgraph.cli.summary import closed_form
+    from bondgraph.cli.terminal_layout import formula, width
     from bondgraph.ir.dump import place
     from bondgraph.ir.show import show
-    from bondgraph.passes.path import path
+    from bondgraph.passes.relation.path import path
 
     columns = width()
     residual = relation.residual
@@ -218,7 +218,7 @@ def _residual(compilation: Compilation, relation: Relation) -> list[str]:
 
 
 def _listed(names: Sequence[str], columns: int) -> list[str]:
-    from bondgraph.cli.layout import names as laid_out
+    from bondgraph.cli.terminal_layout import names as laid_out
 
     return laid_out(names, columns, "  ")
 

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from bondgraph.cli import console
 from bondgraph.cli.console import plural
-from bondgraph.cli.layout import names, width
 from bondgraph.cli.structural import MODEL_HELP, named, open_structure
+from bondgraph.cli.terminal_layout import names, width
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from bondgraph.ir.structure import StructuralModel
-    from bondgraph.passes.structure.analyse import Analysis, Chosen
+    from bondgraph.ir.structural_model import StructuralModel
+    from bondgraph.structural.analyse import Analysis, Chosen
 
 LIMIT = 10_000
 
@@ -45,7 +45,7 @@ _count.__name__ = "number above 0"
 def run(args: Namespace) -> int:
     """Search, choose, print."""
     model, diagnostics, _ = open_structure(args.model)
-    from bondgraph.passes.structure.analyse import analyse
+    from bondgraph.structural.analyse import analyse
 
     steps = 100
     with console.progress(steps) as advance:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console, monitor
-from bondgraph.cli.numbers import positive
+from bondgraph.cli.number_arguments import positive
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
 
@@ -88,7 +88,7 @@ def _wrong(args: Namespace) -> str:
 def _serve(args: Namespace, made: Any) -> int:
     import asyncio
 
-    from bondgraph.backends.live import live
+    from bondgraph.backends.live_page import live
     from bondgraph.runtime.live.server import serve
     from bondgraph.runtime.live.session import Session
     from bondgraph.runtime.log import LogError
@@ -147,7 +147,7 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
     from bondgraph.runtime.monitoring.clock import clock_of
     from bondgraph.runtime.monitoring.columns import Columns, read_map
     from bondgraph.runtime.monitoring.mqtt_client import address
-    from bondgraph.runtime.simulation.values import Values
+    from bondgraph.runtime.simulation.parameters import Values
 
     graph = compilation.graph
     tuning = monitor.read_tuning(args.tuning) if args.tuning else None
@@ -212,7 +212,7 @@ def targets(graph: BondGraph) -> tuple[Any, ...]:
     """Everything that can be made faulty, as the model names and measures it."""
     from bondgraph.library.units import parse_unit
     from bondgraph.runtime.live.setup import Target
-    from bondgraph.runtime.simulation.values import Values
+    from bondgraph.runtime.simulation.parameters import Values
 
     values = Values(graph)
     items = [(v.name, "param", v.unit, values.constant(v.symbol)) for v in graph.values if v.fault]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.numbers import positive
+from bondgraph.cli.number_arguments import positive
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.decision import Decision
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
-    from bondgraph.runtime.monitoring.monitor import Stop
     from bondgraph.runtime.monitoring.mqtt_client import Address
     from bondgraph.runtime.monitoring.publisher import Publisher
-    from bondgraph.runtime.monitoring.sources.source import Source
+    from bondgraph.runtime.monitoring.sample_pipeline import Stop
+    from bondgraph.runtime.monitoring.sources.sample_source import Source
     from bondgraph.runtime.monitoring.verdict import Verdict
 
 _COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "invalid": "33", "gap": "33"}
@@ -119,7 +119,7 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     from bondgraph.runtime.monitoring.clock import clock_of
     from bondgraph.runtime.monitoring.columns import Columns, read_map
     from bondgraph.runtime.monitoring.journal import known_rate
-    from bondgraph.runtime.monitoring.monitor import Monitor, Parts
+    from bondgraph.runtime.monitoring.sample_pipeline import Monitor, Parts
 
     known = known_rate(args.journal) if args.journal else None
     tuning = read_tuning(args.tuning) if args.tuning else None
@@ -255,7 +255,7 @@ def _printer(lines: bool) -> Callable[[int, Verdict], None]:
 @contextmanager
 def _stop() -> Iterator[Stop]:
     """What SIGINT and SIGTERM set; a second one ends the program at once."""
-    from bondgraph.runtime.monitoring.monitor import Stop
+    from bondgraph.runtime.monitoring.sample_pipeline import Stop
 
     stop = Stop()
 

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 from bondgraph.cli.console import plural
 from bondgraph.ir.dump import equation_name
 from bondgraph.ir.expr import Expr, symbols
-from bondgraph.passes.matching import decompose
+from bondgraph.structural.matching import decompose
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from bondgraph.ir.equations import Equation
+    from bondgraph.ir.equation_system import Equation
     from bondgraph.ir.residuals import ResidualSet
     from bondgraph.pipeline import Compilation
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bondgraph.ir.expr import Expr, Op, topological
-from bondgraph.ir.units import NONE, Dimension, over, raised, times
+from bondgraph.ir.unit import NONE, Dimension, over, raised, times
 from bondgraph.library.units import describe
 
 if TYPE_CHECKING:

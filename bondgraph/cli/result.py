@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bondgraph.algebra.present import tidy
 from bondgraph.cli.parsable import Names, parsable
 from bondgraph.cli.reasons import message, reason
 from bondgraph.ir.latex import latex
-from bondgraph.passes.present import tidy
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.expr import Expr
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.residuals import Residual
-    from bondgraph.ir.signatures import Detectability, ModeSignatures
+    from bondgraph.ir.signature_matrix import Detectability, ModeSignatures
     from bondgraph.pipeline import Compilation
 
 

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 from bondgraph.cli import console
 from bondgraph.cli.console import plural
-from bondgraph.cli.layout import names, width
 from bondgraph.cli.structural import MODEL_HELP, named, open_structure
+from bondgraph.cli.terminal_layout import names, width
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from bondgraph.ir.structure import StructuralModel
-    from bondgraph.passes.structure.isolability import Isolability
-    from bondgraph.passes.structure.place import Candidate, Placement, Placing
+    from bondgraph.ir.structural_model import StructuralModel
     from bondgraph.pipeline import Compilation
+    from bondgraph.structural.placement import Candidate, Placement, Placing
+    from bondgraph.structural.structural_isolability import Isolability
 
 _SHOWN = 20  # places in the table of a report; the JSON has all
 
@@ -84,7 +84,7 @@ def _candidates(
     costs: dict[str, float],
     elements: bool,
 ) -> tuple[Candidate, ...]:
-    from bondgraph.passes.structure.candidates import bond_graph_places, table_places
+    from bondgraph.passes.analysis.candidates import bond_graph_places, table_places
 
     if compilation is None:
         return table_places(model, costs)
@@ -97,7 +97,7 @@ class _Found:
     def __init__(
         self, model: StructuralModel, candidates: tuple[Candidate, ...], hint: bool
     ) -> None:
-        from bondgraph.passes.structure.place import Placing, place
+        from bondgraph.structural.placement import Placing, place
 
         self.model = model
         self.candidates = candidates

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.numbers import assigned, pace, positive
+from bondgraph.cli.number_arguments import assigned, pace, positive
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

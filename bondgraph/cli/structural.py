@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bondgraph.text.diagnostic import CompileError, Report
 
 if TYPE_CHECKING:
-    from bondgraph.ir.structure import StructuralModel
+    from bondgraph.ir.structural_model import StructuralModel
     from bondgraph.pipeline import Compilation
     from bondgraph.text.diagnostic import Diagnostic
 
@@ -21,8 +21,8 @@ def is_table(name: str) -> bool:
 
 def open_table(name: str) -> tuple[StructuralModel, tuple[Diagnostic, ...]]:
     """The structure in a table, and what there is to say about it; raises `CompileError`."""
+    from bondgraph.frontend.incidence import read_table
     from bondgraph.frontend.read import read
-    from bondgraph.frontend.table import read_table
 
     report = Report()
     source = read(name, report)

@@ -6,15 +6,15 @@ import os
 from typing import TYPE_CHECKING
 
 from bondgraph.cli.console import plural
-from bondgraph.cli.layout import formula, names, prose, signature_table, width
 from bondgraph.cli.reasons import message, missing, reasons
+from bondgraph.cli.terminal_layout import formula, names, prose, signature_table, width
 from bondgraph.ir.dump import equation_name
 from bondgraph.ir.expr import topological
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bondgraph.ir.signatures import SignatureMatrix
+    from bondgraph.ir.signature_matrix import SignatureMatrix
     from bondgraph.pipeline import Compilation
     from bondgraph.views import Relation
 

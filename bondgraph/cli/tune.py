@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.numbers import positive
+from bondgraph.cli.number_arguments import positive
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable
 
     from bondgraph.pipeline import Compilation
-    from bondgraph.runtime.diagnosis.tune import Shown, Tuned
+    from bondgraph.runtime.diagnosis.calibration import Shown, Tuned
     from bondgraph.runtime.log import Array
     from bondgraph.runtime.monitoring.engine import Engine
 
@@ -51,7 +51,7 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Learn, choose a bandwidth, write the limits, say what follows."""
-    from bondgraph.runtime.diagnosis.tune import tune
+    from bondgraph.runtime.diagnosis.calibration import tune
     from bondgraph.runtime.diagnosis.tuning import to_json
     from bondgraph.runtime.log import LogError
 

@@ -11,9 +11,9 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple, Protocol
 
-from bondgraph.exact import implicit
-from bondgraph.exact.algebra import Algebra, Mixed, Values, Waves, compare
-from bondgraph.exact.numbers import Number, Undefined
+from bondgraph.exact import root_values as implicit
+from bondgraph.exact.signal_algebra import Algebra, Mixed, Values, Waves, compare
+from bondgraph.field.numbers import Number, Undefined
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Symbol, topological
 
 

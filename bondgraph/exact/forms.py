@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TypeAlias
 
-from bondgraph.exact import series
-from bondgraph.exact.algebra import Mixed, Taylor
-from bondgraph.exact.linear import CONSTANT
-from bondgraph.exact.numbers import Number, Numbers
-from bondgraph.exact.series import Series
+from bondgraph.exact.signal_algebra import Mixed, Taylor
+from bondgraph.field import series
+from bondgraph.field.numbers import Number, Numbers
+from bondgraph.field.series import Series
+from bondgraph.field.sparse import CONSTANT
 
 #: Coefficients (series in time) of the unknowns; a key is variable * ORDERS + derivative.
 Form: TypeAlias = dict[int, Series]

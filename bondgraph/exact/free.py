@@ -5,10 +5,10 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from bondgraph.exact.algebra import Algebra, Taylor, Wave, Waves
 from bondgraph.exact.evaluate import highest_order
-from bondgraph.exact.field import PrimeField
-from bondgraph.exact.numbers import Number
+from bondgraph.exact.signal_algebra import Algebra, Taylor, Wave, Waves
+from bondgraph.field.numbers import Number
+from bondgraph.field.prime import PrimeField
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, Symbol, topological
 
 

@@ -6,10 +6,10 @@ angles does not show on this machine, however long it runs.
 
 from __future__ import annotations
 
-from bondgraph.exact.equations import has_sides
 from bondgraph.exact.evaluate import evaluate
-from bondgraph.exact.numbers import Undefined
 from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.plant_equations import has_sides
+from bondgraph.field.numbers import Undefined
 from bondgraph.ir.expr import Expr, Op, symbols, topological
 
 #: Random points at which what is held must have no rate; every second one turns faults' signs.

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from bondgraph.exact import series
-from bondgraph.exact.algebra import Mixed, Taylor
-from bondgraph.exact.equations import Setting, constant
 from bondgraph.exact.evaluate import plan, pull, values_of
-from bondgraph.exact.numbers import Number
-from bondgraph.exact.series import Series
+from bondgraph.exact.plant_equations import Setting, constant
+from bondgraph.exact.signal_algebra import Mixed, Taylor
+from bondgraph.field import series
+from bondgraph.field.numbers import Number
+from bondgraph.field.series import Series
 from bondgraph.ir.expr import Expr, Op
 
 

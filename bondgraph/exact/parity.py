@@ -12,11 +12,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from bondgraph.exact.evaluate import demands, evaluate, pull, values_of
-from bondgraph.exact.linear import Row, eliminate
-from bondgraph.exact.numbers import Number, Numbers, Undefined
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.point import STRIDE
 from bondgraph.exact.trajectory import Trajectory
+from bondgraph.field.numbers import Number, Numbers, Undefined
+from bondgraph.field.sparse import Row, eliminate
 from bondgraph.ir.expr import Expr, Op, Symbol, topological
 
 

@@ -14,20 +14,20 @@ from copy import copy
 from random import Random
 from typing import NamedTuple
 
-from bondgraph.exact import series
-from bondgraph.exact.algebra import Mixed, Taylor, Waves
 from bondgraph.exact.assembly import Assembly, Parts, Surroundings, assemble
-from bondgraph.exact.equations import Setting, Writer, written
 from bondgraph.exact.evaluate import evaluate, highest_order, integral_depth
-from bondgraph.exact.field import PrimeField
+from bondgraph.exact.exponentials import WaveSample, amplitudes, linear, tell
 from bondgraph.exact.known import KnownSample
-from bondgraph.exact.linear import Contradiction, Singular
-from bondgraph.exact.numbers import Number, Numbers, Undefined
-from bondgraph.exact.reals import Precision, Reals
-from bondgraph.exact.series import Series
+from bondgraph.exact.plant_equations import Setting, Writer, written
+from bondgraph.exact.signal_algebra import Mixed, Taylor, Waves
 from bondgraph.exact.taylor import OverDetermined, Solver, solve
 from bondgraph.exact.trajectory import ATTEMPTS, Trajectory
-from bondgraph.exact.waves import WaveSample, amplitudes, linear, tell
+from bondgraph.field import series
+from bondgraph.field.balls import Precision, Reals
+from bondgraph.field.numbers import Number, Numbers, Undefined
+from bondgraph.field.prime import PrimeField
+from bondgraph.field.series import Series
+from bondgraph.field.sparse import Contradiction, Singular
 from bondgraph.ir.expr import Expr, Kind, Op, Symbol, symbols, topological
 from bondgraph.ir.graph import BondGraph
 

@@ -13,19 +13,21 @@ from heapq import heapify, heappop, heappush
 from math import isfinite
 from random import Random
 
-from bondgraph.exact import series
-from bondgraph.exact.equations import (
+from bondgraph.exact.evaluate import chosen, evaluate, plan, values_of
+from bondgraph.exact.forms import Form, Forms, NotLinear
+from bondgraph.exact.known import KnownSample, gradient
+from bondgraph.exact.plant_equations import (
     Equation,
     FormSample,
     Setting,
     coefficient_row,
     reach,
 )
-from bondgraph.exact.evaluate import chosen, evaluate, plan, values_of
-from bondgraph.exact.forms import Form, Forms, NotLinear
-from bondgraph.exact.implicit import solve
-from bondgraph.exact.known import KnownSample, gradient
-from bondgraph.exact.linear import (
+from bondgraph.exact.root_values import solve
+from bondgraph.field import series
+from bondgraph.field.numbers import INVERSES, Number, Numbers, Undefined
+from bondgraph.field.series import Series
+from bondgraph.field.sparse import (
     CONSTANT,
     Contradiction,
     Pivot,
@@ -34,8 +36,6 @@ from bondgraph.exact.linear import (
     back_substitute,
     eliminate,
 )
-from bondgraph.exact.numbers import INVERSES, Number, Numbers, Undefined
-from bondgraph.exact.series import Series
 from bondgraph.ir.expr import Expr, Op, topological
 
 STRIDE = 1 << 14  # columns are variable * STRIDE + Taylor coefficient

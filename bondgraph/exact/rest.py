@@ -9,17 +9,17 @@ from __future__ import annotations
 
 from contextlib import suppress
 
-from bondgraph.exact import series
-from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.assembly import Assembly
-from bondgraph.exact.equations import Equation, FormSample, Setting, made_linear, reach
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.forms import ORDERS, Form
 from bondgraph.exact.known import KnownSample
-from bondgraph.exact.linear import CONSTANT, Row, add_multiple
-from bondgraph.exact.numbers import Undefined
+from bondgraph.exact.offsets import square_part
+from bondgraph.exact.plant_equations import Equation, FormSample, Setting, made_linear, reach
 from bondgraph.exact.point import STRIDE, Point
-from bondgraph.exact.structure import square_part
+from bondgraph.exact.signal_algebra import Mixed
+from bondgraph.field import series
+from bondgraph.field.numbers import Undefined
+from bondgraph.field.sparse import CONSTANT, Row, add_multiple
 from bondgraph.ir.expr import Expr, symbols
 
 _Key = tuple[int, int]  # variable, derivative

@@ -12,16 +12,16 @@ from random import Random
 from typing import NamedTuple, TypeAlias
 
 from bondgraph.exact.assembly import Assembly
-from bondgraph.exact.equations import Equation, Setting, coefficient_row
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.forms import ORDERS
 from bondgraph.exact.known import KnownSample, gradient
-from bondgraph.exact.linear import CONSTANT, Contradiction, Factors, Row, Singular
-from bondgraph.exact.numbers import Number
+from bondgraph.exact.offsets import Offsets, offsets
+from bondgraph.exact.plant_equations import Equation, Setting, coefficient_row
 from bondgraph.exact.point import STRIDE, Point
 from bondgraph.exact.rest import settled
-from bondgraph.exact.series import Series
-from bondgraph.exact.structure import Offsets, offsets
+from bondgraph.field.numbers import Number
+from bondgraph.field.series import Series
+from bondgraph.field.sparse import CONSTANT, Contradiction, Factors, Row, Singular
 
 #: What finds the series of all variables: assembly, equations, setting, random numbers, order.
 Solver: TypeAlias = Callable[[Assembly, list[Equation], Setting, Random, int], list[Series]]

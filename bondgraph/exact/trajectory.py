@@ -5,12 +5,12 @@ from __future__ import annotations
 from random import Random
 from typing import TYPE_CHECKING
 
-from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.known import KnownSample
-from bondgraph.exact.linear import Contradiction, Singular
-from bondgraph.exact.numbers import Number, Undefined
-from bondgraph.exact.series import Series
+from bondgraph.exact.signal_algebra import Mixed
+from bondgraph.field.numbers import Number, Undefined
+from bondgraph.field.series import Series
+from bondgraph.field.sparse import Contradiction, Singular
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Symbol
 
 if TYPE_CHECKING:

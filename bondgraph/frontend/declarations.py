@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bondgraph.frontend.expressions import Expressions
+from bondgraph.frontend.expression_parser import Expressions
 from bondgraph.ir import syntax
 
 NAME_HELP = "A name begins with a letter and has letters, digits and `_`."

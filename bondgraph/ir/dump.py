@@ -6,12 +6,12 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 from bondgraph.ir.causal import CausalGraph, Reason
-from bondgraph.ir.equations import Equation, EquationSystem
+from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.graph import Bond, BondGraph, Input, Node, Value
 from bondgraph.ir.residuals import Residual, ResidualSet, Step
 from bondgraph.ir.show import number, show
-from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.ir.syntax import File
 from bondgraph.text.source import Source, Span
 

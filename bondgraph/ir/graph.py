@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from bondgraph.ir.expr import Expr, Kind, Pool, Symbol
-from bondgraph.ir.units import Dimension
+from bondgraph.ir.unit import Dimension
 from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple
 

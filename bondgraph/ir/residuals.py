@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from bondgraph.ir.equations import Equation, EquationSystem
+from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import Expr
 from bondgraph.text.diagnostic import Diagnostic
 from bondgraph.text.tuples import NamedTuple

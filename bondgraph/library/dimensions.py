@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from bondgraph.ir.units import NONE, Dimension, over, raised, times, whole
+from bondgraph.ir.unit import NONE, Dimension, over, raised, times, whole
 from bondgraph.library.units import describe
 from bondgraph.text.diagnostic import Label
 from bondgraph.text.source import Span

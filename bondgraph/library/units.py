@@ -8,7 +8,7 @@ from fractions import Fraction
 from importlib import import_module
 from math import lcm
 
-from bondgraph.ir.units import NONE, Dimension, Unit, raised, times, whole
+from bondgraph.ir.unit import NONE, Dimension, Unit, raised, times, whole
 from bondgraph.text.tuples import NamedTuple
 
 #: The shortest decimal that is the double nearest to pi: products of it still print shortly.

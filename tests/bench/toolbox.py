@@ -65,7 +65,7 @@ def compare(name: str, python: str, runs: int) -> tuple[int, float, float]:
     Both give a list of arrays of equations, and these must be the same.
     """
     from bondgraph.cli.structural import open_table
-    from bondgraph.passes.structure.mso import mso_sets
+    from bondgraph.structural.mso import mso_sets
 
     model, _ = open_table(str(STRUCTURES / f"{name}.csv"))
     matrix = [[0] * len(model.unknowns) for _ in model.equations]

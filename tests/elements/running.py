@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 
-from bondgraph.backends.names import snake
+from bondgraph.backends.identifiers import snake
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
 from bondgraph.backends.write import write

@@ -38,7 +38,7 @@ def pytest_configure() -> None:
 
 
 def pytest_sessionfinish(session: object, exitstatus: int) -> None:
-    """Write what was seen: `bondgraph/passes/chain.py:Chain.look`."""
+    """Write what was seen: `bondgraph/passes/elimination/chaining.py:Chain.look`."""
     sys.settrace(None)
     threading.settrace(None)  # type: ignore[arg-type]
     functions = {

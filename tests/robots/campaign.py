@@ -10,7 +10,7 @@ import numpy as np
 
 import bondgraph
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.diagnosis.tune import Tuned, tune
+from bondgraph.runtime.diagnosis.calibration import Tuned, tune
 from bondgraph.runtime.diagnosis.tuning import Tuning
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.monitoring.engine import Engine

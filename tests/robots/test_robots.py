@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 
-from bondgraph.runtime.diagnosis.tune import Tuned
+from bondgraph.runtime.diagnosis.calibration import Tuned
 from tests.measured import measured
 from tests.robots import campaign
 from tests.robots.campaign import KINDS, ONSET, Seen

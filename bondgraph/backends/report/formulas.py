@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from bondgraph.algebra.present import Parts
 from bondgraph.ir.expr import Expr, Op, Symbol, topological
 from bondgraph.ir.lettering import Letter, letters, split_name
 from bondgraph.ir.mathml import Box, Typist, atom, escape, sign
 from bondgraph.ir.mathml_pieces import pieces
-from bondgraph.passes.present import Parts
 
 ROOM = 30.0  # em, of a piece that is not broken
 _NESTED = 3  # fractions, integrals and the like inside each other, before one gets a name

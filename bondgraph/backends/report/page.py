@@ -9,9 +9,9 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from bondgraph.backends.drawing.style import colours, inside
+from bondgraph.backends.report.confusion import isolability
 from bondgraph.backends.report.content import Content, Group, Signatures
 from bondgraph.backends.report.episode import Episode
-from bondgraph.backends.report.isolability import isolability
 from bondgraph.backends.templates import codegen, environment
 
 if TYPE_CHECKING:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bondgraph.algebra.nominal import Nominal
 from bondgraph.backends.report.content import Content, Drawing, Quantity
 from bondgraph.backends.report.formulas import Typesetter
 from bondgraph.cli.console import plural, status
@@ -12,7 +13,6 @@ from bondgraph.cli.reporting.matrix import matrix
 from bondgraph.cli.reporting.relations import relations
 from bondgraph.cli.reporting.seen import Assumed, seen
 from bondgraph.ir.expr import symbols
-from bondgraph.passes.nominal import Nominal
 from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.numerals import readable
 

@@ -9,7 +9,7 @@ from bondgraph.cli.reasons import reasons
 
 if TYPE_CHECKING:
     from bondgraph.ir.program import Program
-    from bondgraph.ir.signatures import ModeSignature, SignatureMatrix
+    from bondgraph.ir.signature_matrix import ModeSignature, SignatureMatrix
     from bondgraph.pipeline import Compilation
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bondgraph.algebra.present import parts
 from bondgraph.backends.report.content import PathLine, RelationPart
 from bondgraph.backends.report.formulas import operations
 from bondgraph.cli.console import plural
 from bondgraph.ir.dump import equation_name, place
-from bondgraph.passes.path import path
-from bondgraph.passes.present import parts
+from bondgraph.passes.relation.path import path
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

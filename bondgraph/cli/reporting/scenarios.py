@@ -140,8 +140,8 @@ def _panels(compilation: Compilation, run: Run, seen: Watched | None) -> Iterato
 
 def _planes(compilation: Compilation, run: Run) -> Iterator[Plane]:
     """The way of a vehicle in the plane: as it should be, by its signals, and a healthy twin's."""
-    from bondgraph.runtime.simulation.trajectory import Desired, Reckoning
-    from bondgraph.runtime.simulation.values import Values
+    from bondgraph.runtime.simulation.dead_reckoning import Desired, Reckoning
+    from bondgraph.runtime.simulation.parameters import Values
 
     plane = run.scenario.plane
     if plane is None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from bondgraph.algebra.present import parts, shared
 from bondgraph.backends.report.content import Effect, Seen
 from bondgraph.backends.report.formulas import operations
 from bondgraph.cli.reporting.relations import LONGEST
-from bondgraph.passes.present import parts, shared
 from bondgraph.text.numerals import readable
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.expr import Expr
     from bondgraph.ir.program import Program
     from bondgraph.pipeline import Compilation
-    from bondgraph.runtime.lanes import Array
+    from bondgraph.runtime.batch import Array
     from bondgraph.runtime.smallest import Detection, Situation, Smallest
     from bondgraph.views import Relation
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bondgraph.ir.syntax import Argument, Node
+from bondgraph.passes.elaboration.build_time import decided, index
 from bondgraph.passes.elaboration.problems import fail, listed, meant, rough
 from bondgraph.passes.elaboration.scope import (
     Array,
@@ -14,7 +15,6 @@ from bondgraph.passes.elaboration.scope import (
     Scope,
     ValueEntry,
 )
-from bondgraph.passes.elaboration.structure import decided, index
 from bondgraph.text.diagnostic import Label, Report
 
 

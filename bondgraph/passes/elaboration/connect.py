@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from bondgraph.ir.syntax import Part, Ref
+from bondgraph.passes.elaboration.build_time import whole_number
 from bondgraph.passes.elaboration.lookup import Lookup
 from bondgraph.passes.elaboration.problems import Skip, fail, listed, meant
 from bondgraph.passes.elaboration.scope import (
@@ -17,7 +18,6 @@ from bondgraph.passes.elaboration.scope import (
     RawEnd,
     Scope,
 )
-from bondgraph.passes.elaboration.structure import whole_number
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
 

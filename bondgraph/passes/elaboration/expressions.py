@@ -9,7 +9,7 @@ from typing import NoReturn, assert_never
 from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, topological
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Ref, Text, Truth, Unary
 from bondgraph.library.dimensions import Term
-from bondgraph.passes.elaboration.functions import Functions
+from bondgraph.passes.elaboration.calls import Functions
 from bondgraph.passes.elaboration.problems import Skip, fail, rough
 from bondgraph.passes.elaboration.quantities import PURE, Quantities
 from bondgraph.passes.elaboration.scope import Env, Scope, Typed

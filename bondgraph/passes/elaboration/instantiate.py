@@ -23,6 +23,7 @@ from bondgraph.ir.syntax import (
 from bondgraph.library.elements import JUNCTIONS, KINDS
 from bondgraph.library.units import DOMAINS
 from bondgraph.passes.elaboration.arguments import Arguments
+from bondgraph.passes.elaboration.build_time import index, mentions, truth, whole_number
 from bondgraph.passes.elaboration.files import Definition, Missing
 from bondgraph.passes.elaboration.problems import Skip, fail, listed, meant
 from bondgraph.passes.elaboration.scope import (
@@ -39,7 +40,6 @@ from bondgraph.passes.elaboration.scope import (
     ValueKind,
 )
 from bondgraph.passes.elaboration.size import Size, weight
-from bondgraph.passes.elaboration.structure import index, mentions, truth, whole_number
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
 

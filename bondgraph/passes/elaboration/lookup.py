@@ -7,6 +7,7 @@ from typing import NoReturn
 
 from bondgraph.ir.syntax import Part, Ref
 from bondgraph.library.units import suggest_unit
+from bondgraph.passes.elaboration.build_time import index
 from bondgraph.passes.elaboration.problems import Skip, fail, meant
 from bondgraph.passes.elaboration.scope import (
     Array,
@@ -17,7 +18,6 @@ from bondgraph.passes.elaboration.scope import (
     Scope,
     ValueEntry,
 )
-from bondgraph.passes.elaboration.structure import index
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
 

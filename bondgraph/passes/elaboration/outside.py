@@ -6,11 +6,11 @@ import re
 from typing import TYPE_CHECKING
 
 from bondgraph.frontend.cursor import SyntaxProblem
-from bondgraph.frontend.expressions import Expressions as Words
+from bondgraph.frontend.expression_parser import Expressions as Words
 from bondgraph.ir.expr import Expr, Kind, Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.syntax import Ref
-from bondgraph.ir.units import Dimension
+from bondgraph.ir.unit import Dimension
 from bondgraph.library.units import PI
 from bondgraph.passes.elaboration.expressions import Expressions, Place
 from bondgraph.passes.elaboration.problems import Skip, fail, meant

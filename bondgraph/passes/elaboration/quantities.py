@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from bondgraph.ir.units import NONE, Dimension
+from bondgraph.ir.unit import NONE, Dimension
 from bondgraph.library.dimensions import Conflict, Dimensions, Term
 from bondgraph.library.units import DOMAINS, describe, parse_unit, suggest_unit
 from bondgraph.passes.elaboration.bonds import FlatBond, FlatEnd

@@ -13,12 +13,12 @@ from bondgraph.ir.syntax import Sensor as SensorStatement
 from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration import instantiate
 from bondgraph.passes.elaboration.bonds import FlatEnd
+from bondgraph.passes.elaboration.build_time import index
 from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.laws import Coefficient
 from bondgraph.passes.elaboration.problems import Skip, fail
 from bondgraph.passes.elaboration.received import Delivery
 from bondgraph.passes.elaboration.scope import Bound, NodeEntry, Scope, ValueEntry
-from bondgraph.passes.elaboration.structure import index
 from bondgraph.passes.elaboration.values import Values
 from bondgraph.text.diagnostic import Label
 from bondgraph.text.source import Span

@@ -8,6 +8,9 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Literal, NamedTuple
 
+from bondgraph.algebra.derivative import Jets
+from bondgraph.algebra.normalise import constant
+from bondgraph.algebra.numeric import evaluate, nominal
 from bondgraph.ir.expr import ZERO_START, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph, Input, Sensor, Value
 from bondgraph.ir.program import (
@@ -20,11 +23,8 @@ from bondgraph.ir.program import (
     Product,
     Ref,
 )
-from bondgraph.passes.lowering.derivative import Jets
-from bondgraph.passes.lowering.names import OPTION, Names, brief, identifier
-from bondgraph.passes.lowering.numeric import evaluate, nominal
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure
-from bondgraph.passes.normalise import constant
+from bondgraph.passes.lowering.program_names import OPTION, Names, brief, identifier
 from bondgraph.text.source import Span
 
 

@@ -16,12 +16,12 @@ from bondgraph.ir.normal import Term
 from bondgraph.ir.program import Assign, Expression, Product, Ref
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.chain import Chain
 from bondgraph.passes.lowering.exactly import label, total
 from bondgraph.passes.lowering.filter import Filter
-from bondgraph.passes.lowering.names import short
 from bondgraph.passes.lowering.opening import Window
 from bondgraph.passes.lowering.procedure import ONE, ZERO
+from bondgraph.passes.lowering.program_names import short
+from bondgraph.passes.lowering.stages import Chain
 
 #: What enters a stage with a derivative of the window, by stage and order of that derivative.
 _Inputs = dict[tuple[int, int], list[tuple[bool, Expression]]]

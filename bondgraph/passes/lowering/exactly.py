@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bondgraph.algebra.derivative import TooManyOperations, operations
+from bondgraph.algebra.normalise import LIMIT, rewritten
 from bondgraph.ir.expr import Expr, Kind, Op
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.program import (
@@ -17,10 +19,8 @@ from bondgraph.ir.program import (
 )
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.derivative import TooManyOperations, operations
-from bondgraph.passes.lowering.names import Names, brief, identifier, short
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure, positive_part
-from bondgraph.passes.normalise import LIMIT, rewritten
+from bondgraph.passes.lowering.program_names import Names, brief, identifier, short
 from bondgraph.text.source import Span
 
 #: Operations that one residual may take in exact; a longer one has no exact.

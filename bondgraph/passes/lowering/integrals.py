@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from bondgraph.algebra.normalise import constant
 from bondgraph.ir.expr import Expr, Op, Pool, topological
-from bondgraph.passes.normalise import constant
 
 
 def gathered(pool: Pool, expr: Expr, start: Expr) -> Expr:

@@ -13,10 +13,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import product
 from math import inf
 
-from bondgraph.ir.equations import Equation, EquationSystem
+from bondgraph.algebra.in_mode import in_mode
+from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import VARIABLES, Expr, Kind, Op, topological
-from bondgraph.passes.branches import in_mode
-from bondgraph.passes.rank import P, Point, Row
+from bondgraph.structural.rank import P, Point, Row
 
 _MOST = 6  # switches; each doubles the modes that are looked at
 _WORK = 20_000  # equations in all modes together

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 
+from bondgraph.algebra.derivative import partial
 from bondgraph.ir.expr import Expr, Op, Pool, Root, topological
 from bondgraph.ir.program import Assign, Expression, NewtonBlock, Ref
 from bondgraph.ir.show import show
-from bondgraph.passes.lowering.derivative import partial
-from bondgraph.passes.lowering.names import Names
 from bondgraph.passes.lowering.procedure import Procedure
+from bondgraph.passes.lowering.program_names import Names
 
 #: Steps of Newton's method and bisection at most.
 MOST = 200

@@ -30,8 +30,8 @@ from bondgraph.ir.program import (
 )
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.filter import Filter
-from bondgraph.passes.lowering.names import Names
 from bondgraph.passes.lowering.procedure import ONE, ZERO
+from bondgraph.passes.lowering.program_names import Names
 from bondgraph.text.source import Span
 
 _FEWEST = 40  # samples that the window is sampled with, where the filter is fast

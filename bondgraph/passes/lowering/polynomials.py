@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
+from bondgraph.algebra.numeric import evaluate_all, sensitivities
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.normal import Tape, Term
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.numeric import evaluate_all, sensitivities
 from bondgraph.passes.lowering.visible import frequency
 
 

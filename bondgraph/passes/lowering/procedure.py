@@ -25,7 +25,7 @@ from bondgraph.ir.program import (
     Sum,
 )
 from bondgraph.ir.show import show
-from bondgraph.passes.lowering.names import Names, brief
+from bondgraph.passes.lowering.program_names import Names, brief
 from bondgraph.text.source import Span
 
 _DEEPEST = 6  # brackets inside brackets, before a part gets a name

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from bondgraph.ir.equations import EquationSystem
+from bondgraph.algebra.normalise import LIMIT, normalise
+from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.chain import Chain
 from bondgraph.passes.lowering.coupled import CoupledChain
 from bondgraph.passes.lowering.filter import Filter, settle
 from bondgraph.passes.lowering.jumps import Jumps
-from bondgraph.passes.lowering.names import identifier
 from bondgraph.passes.lowering.opening import Window
-from bondgraph.passes.normalise import LIMIT, normalise
+from bondgraph.passes.lowering.program_names import identifier
+from bondgraph.passes.lowering.stages import Chain
 
 _HIGHEST = 4  # order up to which a residual fades in; above, the filter has to forget
 _LEFT = 1e-8  # of what jumped, when the filter counts as having forgotten

@@ -15,9 +15,9 @@ from bondgraph.ir.program import Assign, PolynomialTape, TapeOp, TapeOutput
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import label
-from bondgraph.passes.lowering.names import identifier, short
 from bondgraph.passes.lowering.polynomials import Effects, low_orders
 from bondgraph.passes.lowering.procedure import Procedure
+from bondgraph.passes.lowering.program_names import identifier, short
 from bondgraph.passes.lowering.visible import Seen, absent, frequency, split
 
 _ENOUGH = 64  # orders that the time unit is judged by

@@ -12,12 +12,12 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
+from bondgraph.algebra.sensitivity import sensitivity
+from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import Expr, symbols
 from bondgraph.ir.graph import Value
 from bondgraph.ir.normal import Term
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.sensitivity import sensitivity
-from bondgraph.passes.zero import is_zero
 
 _FEW = 5  # parameters up to which derivatives of third order are looked at one by one
 

@@ -20,7 +20,7 @@ from bondgraph.runtime.diagnosis.naming import LONGEST, candidates, classes, nam
 from bondgraph.runtime.diagnosis.onset import calm, odd
 from bondgraph.runtime.diagnosis.origins import Origins, starts_in
 from bondgraph.runtime.diagnosis.rows import Part, Row, together, usual, weight
-from bondgraph.runtime.diagnosis.telling import Telling
+from bondgraph.runtime.diagnosis.status import Telling
 from bondgraph.runtime.diagnosis.tuning import Tuning, limits
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine

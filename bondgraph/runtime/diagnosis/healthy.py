@@ -12,11 +12,11 @@ from bondgraph.ir.expr import Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
-from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
 from bondgraph.runtime.diagnosis.remembered import Memory, memories
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.simulation.values import Values
+from bondgraph.runtime.simulation.parameters import Values
 
 _COUNT = 1.0  # counts by which the first one of an encoder may be off
 

@@ -9,11 +9,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.runtime.diagnosis.encoder_readings import Readings
 from bondgraph.runtime.diagnosis.healthy import slack
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis
 from bondgraph.runtime.diagnosis.isolation import History
 from bondgraph.runtime.diagnosis.origin_fit import Case, Fit, fitted, replayed
-from bondgraph.runtime.diagnosis.readings import Readings
 from bondgraph.runtime.diagnosis.remembered import Memory
 from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array

@@ -13,8 +13,8 @@ from bondgraph.ir.graph import BondGraph
 from bondgraph.runtime.simulation import courses
 from bondgraph.runtime.simulation.faults import Wrong, edges
 from bondgraph.runtime.simulation.machine import Machine
+from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Course, Fault, Scenario
-from bondgraph.runtime.simulation.values import Values
 
 Array = npt.NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from bondgraph.runtime.monitoring.sources.lines import Decoder
-from bondgraph.runtime.monitoring.sources.source import Chunk, Source
+from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Source
 
 _LATE = 0.25  # s on the wall; who is later than that does not catch up, time stretches
 _LOOK = 0.05  # s between two looks at the wishes of people

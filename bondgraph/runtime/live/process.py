@@ -9,7 +9,7 @@ from threading import Event
 from typing import IO, Any
 
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
-from bondgraph.runtime.monitoring.sources.source import Chunk, News
+from bondgraph.runtime.monitoring.sources.sample_source import Chunk, News
 from bondgraph.runtime.monitoring.sources.stdin import Pipe
 
 _AHEAD = 1 << 16  # bytes of samples that it may be ahead of who reads them

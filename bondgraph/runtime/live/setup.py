@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from bondgraph.ir.causal import CausalGraph
-from bondgraph.ir.equations import EquationSystem
+from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.monitoring.clock import Clock
 from bondgraph.runtime.monitoring.decision import Decision
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.sources.source import Source
+from bondgraph.runtime.monitoring.sources.sample_source import Source
 from bondgraph.runtime.simulation.scenario import Fault, Scenario
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bondgraph.ir.causal import CausalGraph
-from bondgraph.ir.equations import EquationSystem
+from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.runtime.live.fed import Fed
 from bondgraph.runtime.simulation.readings import Readings
 from bondgraph.runtime.simulation.scenario import Fault, Scenario

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bondgraph.ir.program import Known
-from bondgraph.ir.runnable import Runnable, Together
+from bondgraph.ir.runnable_code import Runnable, Together
 from bondgraph.runtime.log import Array
 
 _LARGEST = 2.0**53  # a double has all whole numbers up to here

@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bondgraph.cache import user_cache
-from bondgraph.ir.runnable import Runnable
+from bondgraph.ir.runnable_code import Runnable
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import (
     Batch,

@@ -9,11 +9,11 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.algebra.derivative import Jets
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
-from bondgraph.passes.lowering.derivative import Jets
 from bondgraph.runtime.simulation.code import Code
+from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Course
-from bondgraph.runtime.simulation.values import Values
 
 Array = npt.NDArray[np.float64]
 

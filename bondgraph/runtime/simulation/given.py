@@ -13,8 +13,8 @@ from bondgraph.runtime.simulation import courses
 from bondgraph.runtime.simulation.controllers import Pid
 from bondgraph.runtime.simulation.faults import Wrong, edges
 from bondgraph.runtime.simulation.machine import Machine, Signal
+from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Course, Scenario
-from bondgraph.runtime.simulation.values import Values
 
 Array = npt.NDArray[np.float64]
 Inputs = Callable[[float], list[float]]

@@ -11,9 +11,9 @@ import numpy.typing as npt
 
 from bondgraph.ir.expr import Expr, Kind, Op, topological
 from bondgraph.ir.state import Block, StateEquations
+from bondgraph.runtime.simulation.algebraic_loops import NoSolution, factorised, iteration, solver
 from bondgraph.runtime.simulation.code import Code
-from bondgraph.runtime.simulation.loops import NoSolution, factorised, iteration, solver
-from bondgraph.runtime.simulation.values import Values
+from bondgraph.runtime.simulation.parameters import Values
 
 Array = npt.NDArray[np.float64]
 

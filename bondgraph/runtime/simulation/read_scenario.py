@@ -10,11 +10,11 @@ from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
 from bondgraph.ir.graph import BondGraph, Node
-from bondgraph.ir.units import Dimension, over, times
+from bondgraph.ir.unit import Dimension, over, times
 from bondgraph.library.units import DOMAINS
 from bondgraph.passes.elaboration.outside import Outside
 from bondgraph.runtime.simulation.observed import named
-from bondgraph.runtime.simulation.places import places
+from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import (
     Change,
     Controller,
@@ -25,8 +25,8 @@ from bondgraph.runtime.simulation.scenario import (
     Sampling,
     Scenario,
 )
-from bondgraph.runtime.simulation.table import HERTZ, PURE, SECOND, Document, Table
-from bondgraph.runtime.simulation.values import Values
+from bondgraph.runtime.simulation.toml_places import places
+from bondgraph.runtime.simulation.toml_table import HERTZ, PURE, SECOND, Document, Table
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Source, Span
 

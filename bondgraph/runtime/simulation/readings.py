@@ -11,8 +11,8 @@ import numpy.typing as npt
 from bondgraph.ir.graph import BondGraph
 from bondgraph.runtime.simulation.faults import Wrong
 from bondgraph.runtime.simulation.instruments import Reader
+from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Instrument, Scenario
-from bondgraph.runtime.simulation.values import Values
 
 Array = npt.NDArray[np.float64]
 

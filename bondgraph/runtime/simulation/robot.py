@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bondgraph.ir.causal import CausalGraph
-from bondgraph.ir.equations import EquationSystem
+from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.simulation.given import Given
 from bondgraph.runtime.simulation.readings import Readings

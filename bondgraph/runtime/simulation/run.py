@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from bondgraph.ir.causal import CausalGraph
-from bondgraph.ir.equations import EquationSystem
+from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.graph import BondGraph
-from bondgraph.passes.state_equations import Wanted, state_equations
+from bondgraph.passes.elimination.state_equations import Wanted, state_equations
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.simulation.given import Given, Inputs, inside
 from bondgraph.runtime.simulation.handover import handed_over
@@ -20,10 +20,10 @@ from bondgraph.runtime.simulation.instruments import Reader
 from bondgraph.runtime.simulation.integrate import Integrator, SimulationError
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
+from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Instrument, Scenario
 from bondgraph.runtime.simulation.spread import spread
 from bondgraph.runtime.simulation.start import start
-from bondgraph.runtime.simulation.values import Values
 from bondgraph.text.diagnostic import CompileError, Report
 
 Array = npt.NDArray[np.float64]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Scenario
-from bondgraph.runtime.simulation.values import Values
 
 
 def spread(graph: BondGraph, scenario: Scenario) -> dict[str, float]:

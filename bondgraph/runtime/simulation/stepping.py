@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bondgraph.ir.causal import CausalGraph
-from bondgraph.ir.equations import EquationSystem
-from bondgraph.passes.state_equations import Wanted, state_equations
+from bondgraph.ir.equation_system import EquationSystem
+from bondgraph.passes.elimination.state_equations import Wanted, state_equations
 from bondgraph.runtime.simulation.brisk import Brisk
 from bondgraph.runtime.simulation.faults import Wrong
 from bondgraph.runtime.simulation.given import inside
@@ -19,10 +19,10 @@ from bondgraph.runtime.simulation.handover import handed_over
 from bondgraph.runtime.simulation.integrate import SimulationError
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
+from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.spread import spread
 from bondgraph.runtime.simulation.start import start
-from bondgraph.runtime.simulation.values import Values
 from bondgraph.text.diagnostic import CompileError, Report
 
 Array = npt.NDArray[np.float64]

@@ -14,8 +14,8 @@ from typing import Any
 import pytest
 
 from bondgraph.backends.emit import emit
+from bondgraph.backends.identifiers import snake
 from bondgraph.backends.members import derivatives, samples
-from bondgraph.backends.names import snake
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
 from bondgraph.backends.write import write

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 from bondgraph.backends.draw_conflicts import draw_conflicts
-from bondgraph.passes.conflicts import conflicts
+from bondgraph.passes.causality.conflicts import conflicts
 from tests.unit.passes.causality_graphs import build
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -15,10 +15,11 @@ import pytest
 import bondgraph
 from bondgraph import errors
 from bondgraph.cli.main import main
+from bondgraph.frontend.incidence import read_table
 from bondgraph.frontend.read import MAX_BYTES
-from bondgraph.frontend.table import read_table
-from bondgraph.passes import chain, shortfall
-from bondgraph.passes.signatures import signatures
+from bondgraph.passes.analysis.signatures import signatures
+from bondgraph.passes.elimination import chaining as chain
+from bondgraph.passes.elimination import shortfall
 from bondgraph.pipeline import Compilation
 from bondgraph.pipeline import compile as open_model
 from bondgraph.text.diagnostic import CompileError, Diagnostic, Report, Severity
@@ -206,7 +207,7 @@ def _mistaken(monkeypatch: pytest.MonkeyPatch, wrong: bool) -> str:
         return residuals._replace(residuals=(wrong_one, *others)), matrix
 
     if wrong:
-        monkeypatch.setattr("bondgraph.passes.signatures.signatures", forgetful)
+        monkeypatch.setattr("bondgraph.passes.analysis.signatures.signatures", forgetful)
     return BRIEF.format("")
 
 
@@ -219,7 +220,7 @@ def _denied(monkeypatch: pytest.MonkeyPatch, wrong: bool) -> str:
         return residuals, matrix._replace(rows=(first, *matrix.rows[1:]))
 
     if wrong:
-        monkeypatch.setattr("bondgraph.passes.signatures.signatures", denied)
+        monkeypatch.setattr("bondgraph.passes.analysis.signatures.signatures", denied)
     return BRIEF.format("")
 
 

@@ -4,7 +4,6 @@ from fractions import Fraction
 
 import pytest
 
-from bondgraph.exact.algebra import Mixed
 from bondgraph.exact.evaluate import (
     evaluate,
     highest_order,
@@ -12,7 +11,8 @@ from bondgraph.exact.evaluate import (
     sensitivities,
 )
 from bondgraph.exact.plant import Plant
-from bondgraph.exact.series import Series
+from bondgraph.exact.signal_algebra import Mixed
+from bondgraph.field.series import Series
 from bondgraph.ir.expr import Expr, Kind, Pool, Symbol
 from tests.unit.exact.models import FLEXIBLE, MOTOR, graph, symbols
 
@@ -21,8 +21,8 @@ class Random:
     """Independent random signals, as power series."""
 
     def __init__(self, order: int = 6, seed: int = 0) -> None:
-        from bondgraph.exact.algebra import Taylor
-        from bondgraph.exact.field import PrimeField
+        from bondgraph.exact.signal_algebra import Taylor
+        from bondgraph.field.prime import PrimeField
 
         self.algebra = Taylor(PrimeField(1))
         self.order, self.seed = order, seed

@@ -4,9 +4,9 @@ import pytest
 from flint import arb, nmod
 
 from bondgraph.exact.evaluate import evaluate, highest_order
-from bondgraph.exact.field import inverse
 from bondgraph.exact.plant import ExactUnavailable, Plant
-from bondgraph.exact.series import Series
+from bondgraph.field.prime import inverse
+from bondgraph.field.series import Series
 from bondgraph.ir.expr import Expr
 from tests.unit.exact.models import FLEXIBLE, GEAR, MOTOR, TANKS, graph, symbols
 

@@ -8,9 +8,9 @@ from random import Random
 
 import pytest
 
-from bondgraph.exact.numbers import INVERSES, Undefined
 from bondgraph.exact.point import _inverted
-from bondgraph.exact.reals import Reals
+from bondgraph.field.balls import Reals
+from bondgraph.field.numbers import INVERSES, Undefined
 
 _VALUES = [Fraction(-5, 3), Fraction(-2, 5), Fraction(1, 3), Fraction(7, 4)]
 

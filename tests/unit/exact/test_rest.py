@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bondgraph.exact.structure import square_part
+from bondgraph.exact.offsets import square_part
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 

@@ -10,7 +10,7 @@ import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bondgraph.ir.units import NONE, Dimension
+from bondgraph.ir.unit import NONE, Dimension
 from bondgraph.library.dimensions import Conflict, Dimensions, Term
 from bondgraph.library.units import parse_unit
 from bondgraph.text.source import Source, Span

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bondgraph.ir.units import NONE, over, times
+from bondgraph.ir.unit import NONE, over, times
 from bondgraph.library import units
 from bondgraph.library.units import DOMAINS, describe, parse_unit, suggest_unit, unit_names
 

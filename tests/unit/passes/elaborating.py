@@ -7,7 +7,7 @@ from pathlib import PurePosixPath
 from bondgraph.frontend.parser import parse
 from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.ir.syntax import File
-from bondgraph.passes.elaborate import elaborate
+from bondgraph.passes.elaboration.elaborate import elaborate
 from bondgraph.text.diagnostic import Diagnostic, Report
 from bondgraph.text.source import Source, Span
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from bondgraph.ir.equations import Equation, EquationSystem
+from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import Expr, Kind, Pool
 from bondgraph.ir.graph import BondGraph, Input, Integral, Sensor, Value
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import Residual, ResidualSet
-from bondgraph.ir.signatures import SignatureMatrix
-from bondgraph.passes.lower import LowerOptions, lower
+from bondgraph.ir.signature_matrix import SignatureMatrix
+from bondgraph.passes.lowering.lower import LowerOptions, lower
 from bondgraph.text.source import Source, Span
 
 SOURCE = Source("model.bg", "bg 1\n")

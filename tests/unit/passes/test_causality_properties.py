@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.expr import Pool
 from bondgraph.ir.graph import BondGraph
-from bondgraph.passes.causal.conflict import cores, refute, restrict
-from bondgraph.passes.causal.network import demands, network
-from bondgraph.passes.causality import assign
+from bondgraph.passes.causality.assign import assign
+from bondgraph.passes.causality.cores import cores, refute, restrict
+from bondgraph.passes.causality.rules import demands, network
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source, Span
 from tests.unit.passes.causality_graphs import (

@@ -9,9 +9,9 @@ import pytest
 
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.graph import BondGraph
-from bondgraph.passes.causal.conflict import cores
-from bondgraph.passes.causal.network import demands, network
-from bondgraph.passes.causality import assign
+from bondgraph.passes.causality.assign import assign
+from bondgraph.passes.causality.cores import cores
+from bondgraph.passes.causality.rules import demands, network
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.source import Source

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from bondgraph.ir.equations import EquationSystem
-from bondgraph.passes.colour import colours
+from bondgraph.ir.equation_system import EquationSystem
+from bondgraph.passes.elimination.colour import colours
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 

@@ -8,11 +8,11 @@ import pytest
 
 from bondgraph.ir.expr import Pool
 from bondgraph.ir.graph import BondGraph
-from bondgraph.passes.causal.conflict import cores
-from bondgraph.passes.causal.mends import Change, mends
-from bondgraph.passes.causal.network import demands, network
-from bondgraph.passes.causal.story import story
-from bondgraph.passes.conflicts import conflicts
+from bondgraph.passes.causality.conflicts import conflicts
+from bondgraph.passes.causality.cores import cores
+from bondgraph.passes.causality.explanation import story
+from bondgraph.passes.causality.mends import Change, mends
+from bondgraph.passes.causality.rules import demands, network
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError, Diagnostic
 from bondgraph.text.source import Source, Span
@@ -255,7 +255,7 @@ def test_work_on_proposals_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     every = mends(graph, nodes, told, set(), [0, 1, 2, 3])
     assert len(every) > 2
     # a trial of the whole model looks at its three bonds: the second one takes more than is left
-    monkeypatch.setattr("bondgraph.passes.causal.mends._WORK", 5)
+    monkeypatch.setattr("bondgraph.passes.causality.mends._WORK", 5)
     assert mends(graph, nodes, told, set(), [0, 1, 2, 3]) == every[:2]
 
 

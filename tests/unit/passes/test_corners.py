@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from bondgraph.algebra.nominal import Nominal
+from bondgraph.algebra.zero import is_zero
 from bondgraph.exact.plant import Plant
+from bondgraph.exact.reactions import Reactions
 from bondgraph.ir.expr import Expr, Kind, Pool, symbols
-from bondgraph.passes.cleared import nothings
-from bondgraph.passes.initial import without_free_integrals
-from bondgraph.passes.nominal import Nominal
-from bondgraph.passes.reactions import Reactions
-from bondgraph.passes.zero import is_zero
+from bondgraph.passes.elimination.initial import without_free_integrals
+from bondgraph.passes.relation.cleared import nothings
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.source import Source

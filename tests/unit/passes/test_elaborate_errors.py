@@ -273,7 +273,7 @@ WORDS = st.sampled_from(
 @given(st.lists(WORDS, max_size=40))
 def test_any_words_give_a_model_or_a_diagnostic(words: list[str]) -> None:
     from bondgraph.frontend.parser import parse
-    from bondgraph.passes.elaborate import elaborate
+    from bondgraph.passes.elaboration.elaborate import elaborate
     from bondgraph.text.diagnostic import Report
     from bondgraph.text.source import Source
 

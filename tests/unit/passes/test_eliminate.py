@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
-from bondgraph.passes.zero import is_zero
+from bondgraph.algebra.zero import is_zero
 from bondgraph.text.diagnostic import CompileError
 from tests.unit.passes.relations import compiled, is_multiple, t
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import Kind, Op, Pool, topological
-from bondgraph.passes.initial import without_free_integrals
-from bondgraph.passes.zero import is_zero
+from bondgraph.passes.elimination.initial import without_free_integrals
 
 
 def test_a_function_of_a_hidden_charge_that_cancels() -> None:

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from bondgraph.exact.reals import Imprecise
-from bondgraph.passes import isolability
+from bondgraph.field.balls import Imprecise
+from bondgraph.passes.analysis import isolability
 from tests.unit.passes.relations import compiled
 
 p = sp.Symbol("p")

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
-from bondgraph.passes import chain, linear_block
-from bondgraph.passes.linear_block import (
+from bondgraph.passes.elimination import chaining as chain
+from bondgraph.passes.elimination import linear_block
+from bondgraph.passes.elimination.linear_block import (
     LinearEquation,
     linear_equation,
     products,

@@ -20,8 +20,8 @@ from bondgraph.ir.program import (
     Ref,
     Sum,
 )
-from bondgraph.passes.lower import LowerOptions
 from bondgraph.passes.lowering.filter import settle
+from bondgraph.passes.lowering.lower import LowerOptions
 from bondgraph.runtime.interpret import Interpreter
 from tests.unit.passes.lowering_models import Bench, cable, drive, operations
 
@@ -202,7 +202,7 @@ def test_tape_and_written_form_agree(rate: float, monkeypatch: pytest.MonkeyPatc
     """What is visible, what a fault does and what comes out: the same by both ways."""
     programs = []
     for limit in (10**6, 10):
-        monkeypatch.setattr("bondgraph.passes.lower.LIMIT", limit)
+        monkeypatch.setattr("bondgraph.passes.lowering.lower.LIMIT", limit)
         bench = Bench()
         programs.append(bench.program(cable(bench, 2), options=LowerOptions(rate=rate)))
     written, taped = programs
@@ -220,7 +220,7 @@ def test_tape_and_written_form_agree(rate: float, monkeypatch: pytest.MonkeyPatc
 
 @pytest.mark.parametrize("limit", [10**6, 10])
 def test_time_itself_is_given_in_the_time_unit(limit: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("bondgraph.passes.lower.LIMIT", limit)
+    monkeypatch.setattr("bondgraph.passes.lowering.lower.LIMIT", limit)
     bench = Bench()
     pool = bench.pool
     seconds = pool.integral(pool.one, pool.symbol(ZERO_START, Kind.INITIAL))
@@ -278,7 +278,7 @@ def test_a_leak_that_is_nominally_zero_is_kept() -> None:
 @pytest.mark.parametrize("limit", [10**6, 10])
 def test_a_leak_in_a_long_line_is_kept(limit: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """A ladder of capacitors that leak, nominally nothing, written out and by its table."""
-    monkeypatch.setattr("bondgraph.passes.lower.LIMIT", limit)
+    monkeypatch.setattr("bondgraph.passes.lowering.lower.LIMIT", limit)
     bench = Bench()
     pool = bench.pool
     r, c, g = bench.param("R", "1"), bench.param("C", "0.1"), bench.param("G", "0")

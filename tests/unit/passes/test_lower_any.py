@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from bondgraph.ir.expr import Expr
 from bondgraph.runtime.interpret import Interpreter
+from tests.unit.algebra.test_normalise import SIGNALS, TIME, to_sympy
 from tests.unit.passes.lowering_models import Bench
-from tests.unit.passes.test_normalise import SIGNALS, TIME, to_sympy
 
 
 def random_residual(source: random.Random, bench: Bench, integrals: bool) -> Expr:
@@ -51,7 +51,7 @@ def random_residual(source: random.Random, bench: Bench, integrals: bool) -> Exp
 @given(st.integers(0, 2**32), st.booleans())
 def test_any_residual_gives_its_exact_value(seed: int, taped: bool) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("bondgraph.passes.lower.LIMIT", 10 if taped else 1500)
+        patch.setattr("bondgraph.passes.lowering.lower.LIMIT", 10 if taped else 1500)
         bench = Bench()
         expr = random_residual(random.Random(seed), bench, integrals=False)
         program = bench.program(expr)
@@ -74,7 +74,7 @@ def test_any_residual_gives_its_exact_value(seed: int, taped: bool) -> None:
 @given(st.integers(0, 2**32), st.booleans())
 def test_any_residual_has_a_step(seed: int, taped: bool) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("bondgraph.passes.lower.LIMIT", 10 if taped else 1500)
+        patch.setattr("bondgraph.passes.lowering.lower.LIMIT", 10 if taped else 1500)
         bench = Bench()
         program = bench.program(random_residual(random.Random(seed), bench, integrals=True))
     run = Interpreter(program)

@@ -9,8 +9,8 @@ from fractions import Fraction
 import pytest
 import sympy
 
+from bondgraph.algebra.derivative import Jets, TooManyOperations, differentiate, operations
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
-from bondgraph.passes.lowering.derivative import Jets, TooManyOperations, differentiate, operations
 
 T = sympy.Symbol("t")
 X = sympy.Rational(3, 5) + sympy.sin(T) / 5

@@ -8,7 +8,7 @@ import re
 import pytest
 
 from bondgraph.cli.main import main
-from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.pipeline import Compilation
 from tests.unit.passes.relations import compiled
 

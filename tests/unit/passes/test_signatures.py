@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bondgraph.passes.signatures import signatures
+from bondgraph.passes.analysis.signatures import signatures
 from bondgraph.text.diagnostic import Report
 from tests.unit.passes.relations import compiled
 

@@ -11,8 +11,8 @@ import sympy
 
 from bondgraph.cli.result import result
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.batch import Lanes
 from bondgraph.runtime.interpret import Interpreter
-from bondgraph.runtime.lanes import Lanes
 from bondgraph.text.source import Source
 from tests.unit.backends.compilers import (
     COMPILERS,

@@ -8,7 +8,7 @@ import pytest
 
 from bondgraph.exact.from_start import from_start
 from bondgraph.exact.plant import Plant
-from bondgraph.ir.signatures import SignatureMatrix
+from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
 

@@ -3,9 +3,9 @@
 import pytest
 
 from bondgraph.ir.expr import topological
-from bondgraph.ir.signatures import SignatureMatrix
-from bondgraph.passes.signatures import signatures
-from bondgraph.passes.verify import verify
+from bondgraph.ir.signature_matrix import SignatureMatrix
+from bondgraph.passes.analysis.signatures import signatures
+from bondgraph.passes.analysis.verify import verify
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source
@@ -64,7 +64,7 @@ def test_of_a_large_model_no_more_is_claimed_than_was_looked_at(
 ) -> None:
     c = Compiled(DRIVE)
     size = sum(len(topological([r.expr])) for r in c.residuals.residuals)
-    monkeypatch.setattr("bondgraph.passes.verify._WORK", size)  # the work is twice that: half of it
+    monkeypatch.setattr("bondgraph.passes.analysis.verify._WORK", size)  # of twice that
     found = verify(c.graph, c.residuals, c.signatures, Report(), 1)
     assert (found.faults, found.candidates) == (len(c.graph.faults) // 2, len(c.graph.faults))
     assert f"{found.faults} of {found.candidates} faults" in found.method

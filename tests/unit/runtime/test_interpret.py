@@ -10,7 +10,7 @@ from scipy import signal as sig
 
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.program import Program
-from bondgraph.passes.lower import LowerOptions
+from bondgraph.passes.lowering.lower import LowerOptions
 from bondgraph.runtime.interpret import Interpreter
 from tests.unit.passes.lowering_models import Bench, drive
 

@@ -12,7 +12,7 @@ from typing import IO, Any
 from bondgraph.runtime.log import LogError
 from bondgraph.runtime.log_file import read_log
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
-from bondgraph.runtime.monitoring.sources.source import IDLE, Chunk, Cutter, News, rate_of
+from bondgraph.runtime.monitoring.sources.sample_source import IDLE, Chunk, Cutter, News, rate_of
 from bondgraph.runtime.monitoring.sources.stdin import Pipe
 
 _BLOCK = 1 << 20  # bytes read at a time

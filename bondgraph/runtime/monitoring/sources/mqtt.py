@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from bondgraph.runtime.monitoring.mqtt_client import SESSION, Address, Link
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
-from bondgraph.runtime.monitoring.sources.source import Block, Chunk, Intake, decoded
+from bondgraph.runtime.monitoring.sources.sample_source import Block, Chunk, Intake, decoded
 
 if TYPE_CHECKING:
     from paho.mqtt.client import Client, MQTTMessage

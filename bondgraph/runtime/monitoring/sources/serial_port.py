@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from bondgraph.runtime.log import LogError
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
-from bondgraph.runtime.monitoring.sources.source import IDLE, Chunk, Cutter, Intake, decoded
+from bondgraph.runtime.monitoring.sources.sample_source import IDLE, Chunk, Cutter, Intake, decoded
 
 if TYPE_CHECKING:
     from serial import Serial

@@ -8,7 +8,7 @@ from threading import Event, Thread
 from typing import Any
 
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
-from bondgraph.runtime.monitoring.sources.source import Chunk, Cutter, Intake, decoded
+from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Cutter, Intake, decoded
 
 
 class Pipe:

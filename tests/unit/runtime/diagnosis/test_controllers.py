@@ -15,8 +15,8 @@ import pytest
 
 from bondgraph.cli.main import main
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.calibration import tune
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, sized
-from bondgraph.runtime.diagnosis.tune import tune
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.runtime.simulation.scenario import Course, Fault, Scenario

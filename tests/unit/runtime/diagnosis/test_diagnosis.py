@@ -11,9 +11,9 @@ from scipy.integrate import solve_ivp
 
 import bondgraph
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.calibration import Tuned, tune
 from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
-from bondgraph.runtime.diagnosis.tune import Tuned, tune
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.text.source import Source

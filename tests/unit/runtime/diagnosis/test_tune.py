@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 from bondgraph.pipeline import Compilation, Options
+from bondgraph.runtime.diagnosis.calibration import Tuned, _Seen, _shown, tune
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, rows_apart
-from bondgraph.runtime.diagnosis.tune import Tuned, _Seen, _shown, tune
 from bondgraph.runtime.diagnosis.tuning import height, kappa
 from bondgraph.text.source import Source
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bondgraph.runtime.simulation.trajectory import Reckoning, desired, reckoned
-from bondgraph.runtime.simulation.values import Values
+from bondgraph.runtime.simulation.dead_reckoning import Reckoning, desired, reckoned
+from bondgraph.runtime.simulation.parameters import Values
 from tests.unit.runtime.live.rover import TRACK, TURN, rover, written
 
 T = np.linspace(0.0, 4.0, 801)

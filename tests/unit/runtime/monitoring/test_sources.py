@@ -14,7 +14,7 @@ from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_file import write_log
 from bondgraph.runtime.monitoring.sources.file import LinesFile, TableFile, file_source
 from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
-from bondgraph.runtime.monitoring.sources.source import (
+from bondgraph.runtime.monitoring.sources.sample_source import (
     Block,
     Chunk,
     Cutter,

@@ -1,0 +1,1 @@
+"""Calculus on expressions: solving, derivatives, fractions, monotony, normal form, operators."""

@@ -1,0 +1,388 @@
+"""Decide whether an expression grows or falls with a variable, whatever everything else is.
+
+Interval arithmetic on values and slopes (Moore, 1966; forward mode): signals may be any number,
+parameters have their nominal sign. What grows everywhere has one zero at most, and a bracket finds
+it. The answer errs towards None.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from itertools import pairwise
+from typing import NamedTuple
+
+from bondgraph.algebra.solve import affine
+from bondgraph.algebra.zero import is_zero
+from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, backwards, topological
+
+_INF = math.inf
+
+
+class Range(NamedTuple):
+    """Numbers from `low` to `high`; a bound that is `open` is met at single points at most."""
+
+    low: float = -_INF
+    high: float = _INF
+    open_low: bool = True
+    open_high: bool = True
+
+
+ALL = Range()
+ONE = Range(1.0, 1.0, False, False)
+ZERO = Range(0.0, 0.0, False, False)
+_POSITIVE = Range(0.0, _INF, True, True)
+_UNIT = Range(0.0, 1.0, True, True)
+
+#: Values and slopes of functions over the numbers where they are defined.
+_VALUES = {
+    "abs": _POSITIVE,
+    "sqrt": _POSITIVE,
+    "exp": _POSITIVE,
+    "cosh": Range(1.0, _INF, True, True),
+    "sin": Range(-1.0, 1.0),
+    "cos": Range(-1.0, 1.0),
+    "tanh": Range(-1.0, 1.0),
+    "atan": Range(-math.pi / 2, math.pi / 2),
+    "asin": Range(-math.pi / 2, math.pi / 2),
+    "acos": Range(0.0, math.pi),
+    "acosh": _POSITIVE,
+    "sign": Range(-1.0, 1.0, False, False),
+}
+_SLOPES = {
+    "abs": Range(-1.0, 1.0, False, False),
+    "sign": Range(0.0, _INF, False, True),
+    "sqrt": _POSITIVE,
+    "cbrt": _POSITIVE,
+    "ssqrt": _POSITIVE,
+    "ssq": _POSITIVE,
+    "exp": _POSITIVE,
+    "log": _POSITIVE,
+    "sinh": Range(1.0, _INF, True, True),
+    "tanh": _UNIT,
+    "atan": _UNIT,
+    "asinh": _UNIT,
+    "atanh": Range(1.0, _INF, True, True),
+    "asin": Range(1.0, _INF, True, True),
+    "acos": Range(-_INF, -1.0, True, True),
+    "acosh": _POSITIVE,
+    "sin": Range(-1.0, 1.0),
+    "cos": Range(-1.0, 1.0),
+}
+
+#: Functions that have a value for positive arguments alone.
+_OF_POSITIVE = frozenset({"log", "sqrt", "pow"})
+
+
+def direction(
+    pool: Pool, expr: Expr, variable: Expr, number: Callable[[Expr], float | None]
+) -> int | None:
+    """1 if the expression strictly grows with the variable, -1 if it falls, None if unknown.
+
+    `number` gives the nominal value of a parameter or None. It is enough that a parameter keeps
+    its sign; where that does not decide, its nominal value has to.
+
+    >>> from bondgraph.ir.expr import Kind
+    >>> p = Pool(); f = p.symbol("f", Kind.FLOW); a = p.symbol("a", Kind.PARAM)
+    >>> law = p.add((1, p.fn("tanh", p.mul(a, f))), (1, f))
+    >>> direction(p, law, f, lambda _: 2.0), direction(p, law, f, lambda _: None)
+    (1, None)
+    """
+    for exact in (False, True):
+        found = _sign(slope_range(pool, expr, variable, number, exact))
+        if found is not None:
+            return found
+    return None
+
+
+def _sign(slope: Range | None) -> int | None:
+    if slope is None:
+        return None
+    if slope.low > 0 or (slope.low == 0 and slope.open_low):
+        return 1
+    if slope.high < 0 or (slope.high == 0 and slope.open_high):
+        return -1
+    return None
+
+
+def slope_range(
+    pool: Pool,
+    expr: Expr,
+    variable: Expr,
+    number: Callable[[Expr], float | None],
+    exact: bool = False,
+    given: Mapping[Expr, Range] | None = None,
+) -> Range | None:
+    """The slopes that the expression may have; None where it may jump or cannot be followed.
+
+    It jumps where it divides by what may be zero: on either side of such a pole a root may lie.
+    """
+    given = {variable: _domain(expr, variable), **(given or {})}
+    values: dict[Expr, Range] = {}
+    slopes: dict[Expr, Range] = {variable: ONE}
+    for node in topological([expr]):
+        if node in given:
+            values[node] = given[node]
+            continue
+        args = [values[a] for a in node.args]
+        values[node] = _value(node, args, number, exact)
+        if node is variable or not any(a in slopes for a in node.args):
+            continue
+        slope = _slope(pool, node, variable, values, slopes)
+        if slope is None:
+            return None
+        slopes[node] = slope
+    return slopes.get(expr, ZERO)
+
+
+def _domain(expr: Expr, variable: Expr) -> Range:
+    """The numbers that the variable may be: positive, where some function needs that throughout."""
+    for node in topological([expr], stop=lambda n: n.op is Op.IF):
+        if node.op is Op.FN and node.name in _OF_POSITIVE and node.args[0] is variable:
+            return _POSITIVE
+    return ALL
+
+
+def _value(
+    node: Expr, args: list[Range], number: Callable[[Expr], float | None], exact: bool
+) -> Range:
+    match node.op:
+        case Op.NUM:
+            x = float(node.number)
+            return Range(x, x, False, False)
+        case Op.SYM:
+            return _constant(node, number, exact) if node.symbol.kind in CONSTANTS else ALL
+        case Op.ADD:
+            terms = [scale(float(c), a) for c, a in zip(node.coefficients, args, strict=True)]
+            return add(*terms)
+        case Op.MUL:
+            out = ONE
+            for a, e in zip(args, node.exponents, strict=True):
+                out = times(out, power(a, e))
+            return out
+        case Op.FN:
+            if node.name in ("tanh", "atan", "exp", "sinh", "asinh", "cbrt", "ssqrt", "ssq"):
+                return _through(node.name, args[0])
+            if node.name == "pow" and args[0].low >= 0:
+                return _POSITIVE
+            return _VALUES.get(node.name, ALL)
+        case Op.IF:
+            return join(args[1], args[2])
+        case _:
+            return ALL
+
+
+def _constant(node: Expr, number: Callable[[Expr], float | None], exact: bool) -> Range:
+    x = number(node)
+    if x is None:
+        return ALL
+    if exact:
+        return Range(x, x, False, False)
+    if not x:
+        return ZERO
+    return _POSITIVE if x > 0 else Range(-_INF, 0.0, True, True)
+
+
+def _through(name: str, a: Range) -> Range:
+    """A growing function at the ends of a range."""
+
+    def at(x: float) -> float:
+        try:
+            match name:
+                case "cbrt":
+                    return math.copysign(abs(x) ** (1 / 3), x)
+                case "ssqrt":
+                    return math.copysign(math.sqrt(abs(x)), x)
+                case "ssq":
+                    return x * abs(x)
+                case _:
+                    return float(getattr(math, name)(x))
+        except OverflowError:
+            return math.copysign(_INF, x)
+
+    return Range(at(a.low), at(a.high), a.open_low, a.open_high)
+
+
+def _slope(
+    pool: Pool,
+    node: Expr,
+    variable: Expr,
+    values: Mapping[Expr, Range],
+    slopes: Mapping[Expr, Range],
+) -> Range | None:
+    """The slope of a node from those of its arguments; None where it may jump."""
+    args = node.args
+    match node.op:
+        case Op.ADD:
+            terms = zip(node.coefficients, args, strict=True)
+            return add(*[scale(float(c), slopes[a]) for c, a in terms if a in slopes])
+        case Op.MUL:
+            total = ZERO
+            for at, (a, e) in enumerate(zip(args, node.exponents, strict=True)):
+                if a in slopes:
+                    if e < 0 and values[a].low < 0 < values[a].high:
+                        return None
+                    part = times(scale(e, power(values[a], e - 1)), slopes[a])
+                    for k, (b, f) in enumerate(zip(args, node.exponents, strict=True)):
+                        if k != at:
+                            part = times(part, power(values[b], f))
+                    total = add(total, part)
+            return total
+        case Op.FN:
+            return _slope_of_function(pool, node, values, slopes)
+        case Op.ROOT:
+            return _slope_of_root(pool, node, slopes)
+        case Op.IF:
+            if args[0] in slopes and not _continuous(pool, node, variable):
+                return None
+            return join(*[slopes.get(a, ZERO) for a in args[1:]])
+        case Op.CMP | Op.LOGIC:
+            return ZERO  # only the choice that it decides can jump
+        case _:
+            return None
+
+
+def _slope_of_function(
+    pool: Pool, node: Expr, values: Mapping[Expr, Range], slopes: Mapping[Expr, Range]
+) -> Range | None:
+    if node.name in ("min", "max"):
+        return join(*[slopes.get(a, ZERO) for a in node.args])
+    if node.name == "pow" and node.args[1].op is Op.NUM and values[node.args[0]].low >= 0:
+        return times(scale(float(node.args[1].number), _POSITIVE), slopes[node.args[0]])
+    a = node.args[0]
+    if node.name == "abs" and values[a].low >= 0:
+        return slopes[a]
+    if node.name.startswith("table:"):
+        return times(_slopes_of_table(pool, node.name), slopes[a])
+    if node.name == "cosh":
+        return times(ALL, slopes[a])
+    own = _SLOPES.get(node.name)
+    return None if own is None else times(own, slopes[a])
+
+
+def _slopes_of_table(pool: Pool, name: str) -> Range:
+    """Between its points; beyond its ends a table is constant, or has no value: see `Pool.rows`."""
+    name = name.removeprefix("table:")
+    slopes = [float((y1 - y0) / (x1 - x0)) for (x0, y0), (x1, y1) in pairwise(pool.tables[name])]
+    if not backwards(name):
+        slopes.append(0.0)
+    return Range(min(slopes), max(slopes), False, False)
+
+
+def _slope_of_root(pool: Pool, node: Expr, slopes: Mapping[Expr, Range]) -> Range | None:
+    """By the theorem of the implicit function, with anything in the other places."""
+    root = node.root
+    own = slope_range(pool, root.zero, root.unknown, lambda _: None)
+    # the root was found monotone with the ranges of its own arguments
+    below = _POSITIVE if root.rising else Range(-_INF, 0.0, True, True)
+    if own is not None and _sign(own) is not None:
+        below = own
+    total = ZERO
+    for arg, place in zip(node.args, root.places, strict=True):
+        if arg in slopes:
+            above = slope_range(pool, root.zero, place, lambda _: None)
+            if above is None:
+                return None
+            total = add(total, times(scale(-1.0, times(above, power(below, -1))), slopes[arg]))
+    return total
+
+
+def _continuous(pool: Pool, node: Expr, variable: Expr) -> bool:
+    """Whether a choice does not jump where its comparison changes, as in a dead zone."""
+    condition, yes, no = node.args
+    if condition.op is not Op.CMP or condition.name == "==":
+        return False
+    parts = affine(pool, pool.sub(*condition.args), variable)
+    if parts is None or is_zero(parts[0]):
+        return False
+    edge = pool.neg(pool.div(parts[1], parts[0]))
+    try:
+        return is_zero(pool.substitute([pool.sub(yes, no)], {variable: edge})[0])
+    except ZeroDivisionError:
+        return False
+
+
+# ------------------------------------------------------------------------------ arithmetic
+
+
+def add(*terms: Range) -> Range:
+    """The sum; a bound is met at single points if that of any term is."""
+    if not terms:
+        return ZERO
+    return Range(
+        sum(t.low for t in terms),
+        sum(t.high for t in terms),
+        any(t.open_low for t in terms),
+        any(t.open_high for t in terms),
+    )
+
+
+def scale(c: float, a: Range) -> Range:
+    """A number times a range."""
+    if not c:
+        return ZERO
+    low, high = c * a.low, c * a.high
+    if c < 0:
+        return Range(high, low, a.open_high, a.open_low)
+    return Range(low, high, a.open_low, a.open_high)
+
+
+def times(a: Range, b: Range) -> Range:
+    """The product."""
+    corners = []
+    for x, x_open in ((a.low, a.open_low), (a.high, a.open_high)):
+        for y, y_open in ((b.low, b.open_low), (b.high, b.open_high)):
+            product = 0.0 if not x or not y else x * y
+            if product:
+                met = not (x_open or y_open)
+            else:  # zero is met on a stretch if a factor that is zero is
+                met = (not x and not x_open) or (not y and not y_open)
+            corners.append((product, met))
+    low, high = min(c for c, _ in corners), max(c for c, _ in corners)
+    inside = (a.low < 0 < a.high) or (b.low < 0 < b.high)
+    return Range(
+        low,
+        high,
+        not any(met for c, met in corners if c == low) and not (low == 0 and inside),
+        not any(met for c, met in corners if c == high) and not (high == 0 and inside),
+    )
+
+
+def power(a: Range, exponent: int) -> Range:
+    """An integer power."""
+    if exponent == 0:
+        return ONE
+    if exponent < 0:
+        base = power(a, -exponent)
+        if base.low >= 0:
+            low, high = (1 / x if x else _INF for x in (base.high, base.low))
+            return Range(low, high, base.open_high or not base.high, base.open_low)
+        if base.high <= 0:
+            return scale(-1.0, power(scale(-1.0, base), -1))
+        return ALL
+    if exponent % 2:
+        return Range(_raise(a.low, exponent), _raise(a.high, exponent), a.open_low, a.open_high)
+    if a.low >= 0 or a.high <= 0:
+        size = a if a.low >= 0 else scale(-1.0, a)
+        low, high = _raise(size.low, exponent), _raise(size.high, exponent)
+        return Range(low, high, size.open_low, size.open_high)
+    far = max((abs(a.low), a.open_low), (abs(a.high), a.open_high))
+    return Range(0.0, _raise(far[0], exponent), True, far[1])
+
+
+def _raise(x: float, exponent: int) -> float:
+    try:
+        return float(x**exponent)
+    except OverflowError:
+        return math.copysign(_INF, x) if exponent % 2 else _INF
+
+
+def join(*ranges: Range) -> Range:
+    """Whatever one of the ranges holds."""
+    low, high = min(r.low for r in ranges), max(r.high for r in ranges)
+    return Range(
+        low,
+        high,
+        all(r.open_low for r in ranges if r.low == low),
+        all(r.open_high for r in ranges if r.high == high),
+    )

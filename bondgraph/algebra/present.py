@@ -1,0 +1,168 @@
+"""Bring a relation to the form in which a person would write it: constants out of derivatives,
+shared parts named by the variable of the model that they are."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from fractions import Fraction
+from typing import NamedTuple
+
+from bondgraph.algebra.solve import constant
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.residuals import Residual
+from bondgraph.ir.show import show
+
+_MANY = 60  # a sum of more terms stays nested
+_SHORT = 3  # a shared part of fewer nodes than this reads better in full
+
+
+class ClosedForm(NamedTuple):
+    """`text` of a relation, with `where` as (name, text) for its shared parts, outermost first."""
+
+    text: str
+    where: tuple[tuple[str, str], ...]
+
+    def __str__(self) -> str:
+        lines = [self.text]
+        for position, (name, text) in enumerate(self.where):
+            lines.append(f"{'where' if position == 0 else '     '} {name} = {text}")
+        return "\n".join(lines)
+
+
+def tidy(pool: Pool, *exprs: Expr) -> list[Expr]:
+    """The expressions with constant factors and terms moved out of time derivatives.
+
+    >>> from bondgraph.ir.expr import Kind
+    >>> p = Pool(); y = p.symbol("y", Kind.SENSOR); C = p.symbol("C", Kind.PARAM)
+    >>> tidy(p, p.der(p.mul(C, y)))
+    [C*D(y)]
+    """
+    new: dict[Expr, Expr] = {}
+    memo: dict[Expr, bool] = {}
+    for node in topological(exprs):
+        args = tuple(new[a] for a in node.args)
+        if node.op is Op.DER:
+            new[node] = _derivative(pool, args[0], memo)
+        else:
+            new[node] = pool.rebuild(node, args)
+    return [new[e] for e in exprs]
+
+
+def _derivative(pool: Pool, node: Expr, memo: dict[Expr, bool]) -> Expr:
+    if constant(node, memo):
+        return pool.zero
+    if node.op is Op.ADD:
+        terms = zip(node.coefficients, node.args, strict=True)
+        moving = [(c, a) for c, a in terms if not constant(a, memo)]
+        if len(moving) == 1:
+            return pool.add((moving[0][0], _derivative(pool, moving[0][1], memo)))
+        return pool.der(pool.add(*moving))
+    if node.op is Op.MUL:
+        factors = list(zip(node.args, node.exponents, strict=True))
+        still = [pool.power(a, e) for a, e in factors if constant(a, memo)]
+        moving_part = pool.mul(*[pool.power(a, e) for a, e in factors if not constant(a, memo)])
+        return pool.mul(*still, pool.der(moving_part)) if still else pool.der(node)
+    return pool.der(node)
+
+
+def upright(pool: Pool, expr: Expr) -> Expr:
+    """The relation as one sum, with the sign that makes its first source positive.
+
+    A source is what a person starts from: U - R*i - ..., not R*i - (U - ...).
+
+    >>> from bondgraph.ir.expr import Kind
+    >>> p = Pool(); U = p.symbol("U", Kind.INPUT); y = p.symbol("y", Kind.SENSOR)
+    >>> upright(p, p.sub(p.mul(y, y), p.sub(U, y)))
+    U - y - y^2
+    """
+    uses = Counter(a for n in topological([expr]) for a in n.args)
+    terms = [(Fraction(1), expr)]
+    while any(_opens(a, uses) for _, a in terms) and len(terms) < _MANY:
+        opened: list[tuple[Fraction, Expr]] = []
+        for c, a in terms:
+            if _opens(a, uses):
+                opened += [(c * k, b) for k, b in zip(a.coefficients, a.args, strict=True)]
+            else:
+                opened.append((c, a))
+        terms = opened
+    flat = pool.add(*terms)
+    if flat.op is not Op.ADD:
+        return flat
+    kinds = (Kind.INPUT, Kind.SENSOR)
+    plain = [
+        (kinds.index(a.symbol.kind), a.id, c)
+        for c, a in zip(flat.coefficients, flat.args, strict=True)
+        if a.op is Op.SYM and a.symbol.kind in kinds
+    ]
+    return pool.neg(flat) if plain and min(plain)[2] < 0 else flat
+
+
+def _opens(node: Expr, uses: Counter[Expr]) -> bool:
+    """Whether a sum may be opened into the one around it: not if it stands elsewhere as well."""
+    return node.op is Op.ADD and (uses[node] <= 1 or len(node.args) == 1)
+
+
+class Parts(NamedTuple):
+    """A relation as nodes: `named` are its shared parts, each with the name that stands for it.
+
+    `order` has all nodes, arguments first; `variables` names every node that is the value of a
+    variable of the model.
+    """
+
+    root: Expr
+    order: tuple[Expr, ...]
+    named: dict[Expr, str]
+    variables: dict[Expr, str]
+
+
+def parts(graph: BondGraph, residual: Residual) -> Parts:
+    """The relation, tidied, with the parts that occur more than once."""
+    known = [s for s in residual.steps if s.closed.args]
+    both = graph.pool.logged([residual.expr, *[s.closed for s in known]])
+    root, *values = tidy(graph.pool, *both)
+    names: dict[Expr, str] = {}
+    for step, value in zip(known, values, strict=True):
+        if value.args:
+            names.setdefault(value, step.variable.symbol.name)
+    return shared(root, names)
+
+
+def shared(root: Expr, variables: dict[Expr, str]) -> Parts:
+    """The parts of an expression that occur more than once, named by `variables` or x1, x2, ...
+
+    >>> from bondgraph.ir.expr import Kind
+    >>> p = Pool(); x, y = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR)
+    >>> s = p.add((1, p.mul(x, y)), (1, x)); e = p.mul(s, p.fn("sin", s))
+    >>> shared(e, {}).named
+    {x + x*y: 'x1'}
+    """
+    order = topological([root])
+    uses: dict[Expr, int] = dict.fromkeys(order, 0)
+    size: dict[Expr, int] = {}
+    for node in order:
+        size[node] = 1 + sum(min(size[a], _SHORT) for a in node.args)
+        for arg in node.args:
+            uses[arg] += 1
+    chosen: dict[Expr, str] = {}
+    for node in order:
+        if uses[node] > 1 and size[node] > _SHORT and node.op is not Op.NUM:
+            chosen[node] = variables.get(node) or f"x{len(chosen) + 1}"
+    return Parts(root, tuple(order), chosen, variables)
+
+
+def closed_form(graph: BondGraph, residual: Residual) -> ClosedForm:
+    """The relation as nested text; what occurs more than once is named and written once."""
+    root, order, chosen, _ = parts(graph, residual)
+    starts = graph.initial_values()
+    where = [
+        (chosen[node], show(node, _others(chosen, node), starts))
+        for node in reversed(order)
+        if node in chosen
+    ]
+    return ClosedForm(show(root, chosen.get, starts), tuple(where))
+
+
+def _others(chosen: dict[Expr, str], own: Expr) -> Callable[[Expr], str | None]:
+    return lambda node: None if node is own else chosen.get(node)

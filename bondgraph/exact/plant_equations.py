@@ -1,0 +1,227 @@
+"""The plant's equations at one choice of modes and parameters, with their linear parts as numbers.
+
+An equation is linear form + rest = 0, where the rest is an expression only if it is nonlinear.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from random import Random
+from typing import NamedTuple
+
+from bondgraph.exact.assembly import Assembly
+from bondgraph.exact.evaluate import demands, evaluate, plan, values_of
+from bondgraph.exact.forms import ORDERS, Form, Forms
+from bondgraph.exact.signal_algebra import Mixed
+from bondgraph.field.numbers import Number, Numbers
+from bondgraph.field.series import Series
+from bondgraph.field.sparse import CONSTANT, Row
+from bondgraph.ir.expr import Expr, Op, Symbol, topological
+
+
+class Equation(NamedTuple):
+    """form + rest = 0. `node` is the index of the bond graph's node, -1 for none.
+
+    `signature[j]` is the highest derivative of variable j, free variables left out.
+    """
+
+    node: int
+    form: Form
+    rest: Expr | None
+    signature: dict[int, int]
+
+
+class Setting(NamedTuple):
+    """Constants of one trajectory: params, consts and modes as series, `n` coefficients.
+
+    `shown` is what sensors read. With `still` a law may be satisfied by a factor that is zero at
+    all times, see `bondgraph.exact.rest`.
+    """
+
+    values: dict[Expr, Series]
+    numbers: Numbers
+    n: int
+    shown: tuple[Expr, ...] = ()
+    still: bool = False
+
+
+def constant(values: Mapping[Expr, Series], symbol: Expr) -> Series:
+    """The value of a constant; raises `Mixed` for an initial value, which is none of the plant."""
+    found = values.get(symbol)
+    if found is None:
+        raise Mixed(f"the initial value {symbol.symbol.name}")
+    return found
+
+
+class FormSample:
+    """Every variable is an unknown of its own; constants are what the setting says."""
+
+    def __init__(self, place: Mapping[Expr, tuple[int, int]], setting: Setting) -> None:
+        self.algebra = Forms(setting.numbers)
+        self._place = place
+        self._values = setting.values
+
+    def value(self, symbol: Expr) -> Form:
+        """A constant or an unknown."""
+        where = self._place.get(symbol)
+        if where is None:
+            return {CONSTANT: constant(self._values, symbol)}
+        return {where[0] * ORDERS: [where[1]]}
+
+    def start(self, initial: Symbol) -> Number:
+        """Laws have their integrals as variables."""
+        raise Mixed("an integral in a law")
+
+
+class Writer:
+    """Writes the equations; raises `Undefined` if a constant has no value here."""
+
+    def __init__(self, assembly: Assembly, setting: Setting) -> None:
+        self.assembly = assembly
+        self.setting = setting
+        self.sample = FormSample(assembly.place, setting)
+        self.free = frozenset((*assembly.free, *assembly.unknown))
+
+    def all(self, readings: Mapping[str, Series]) -> list[Equation]:
+        """The equations; `readings` are errors that faulty sensors add to what they read."""
+        plant = self.assembly
+        out = [self.linear(-1, {v * ORDERS: [1]}) for v in plant.silent]
+        for node, terms, when, common in plant.balances:
+            if when is not None and not self.holds(when):
+                out.append(self.linear(node, {common * ORDERS: [1]}))
+            elif terms:
+                out.append(self.linear(node, {v * ORDERS: [c] for v, c in terms}))
+        parts: list[tuple[int, Form, Expr]] = [(node, {}, zero) for node, zero in plant.laws]
+        for node, variable, value in plant.rates:
+            parts.append((node, {variable * ORDERS + 1: [-1]}, value))
+        for name, variable, reads in plant.readings:
+            form: Form = {variable * ORDERS: [-1]}
+            if name in readings:
+                form[CONSTANT] = readings[name]
+            parts.append((-1, form, reads))
+        rests = [rest for _, _, rest in parts]
+        nodes = topological(rests)
+        need = demands(nodes, rests, self.setting.n)
+        values, failures = values_of(nodes, need, self.sample)
+        for node, form, rest in parts:
+            failure = failures.get(rest)
+            if failure is None:
+                both = self.sample.algebra.combine([(1, values[rest]), (1, form)], self.setting.n)
+                out.append(self.linear(node, both))
+            elif isinstance(failure, Mixed):
+                out.append(self.nonlinear(node, form, rest))
+            else:
+                raise failure
+        return out
+
+    def holds(self, when: Expr) -> bool:
+        """Whether a switched junction is on."""
+        return self.setting.numbers.nonzero(
+            self.sample.algebra.lead(evaluate([when], self.sample)[0])
+        )
+
+    def linear(self, node: int, form: Form) -> Equation:
+        """An equation without nonlinear rest."""
+        signature: dict[int, int] = {}
+        for key in form:
+            variable, order = divmod(key, ORDERS)
+            if key != CONSTANT and variable not in self.free:
+                signature[variable] = max(signature.get(variable, 0), order)
+        return Equation(node, form, None, signature)
+
+    def nonlinear(self, node: int, form: Form, rest: Expr) -> Equation:
+        """form + rest = 0 where the rest is not linear."""
+        signature = self.linear(node, form).signature
+        for variable, order in reach(self.assembly.place, rest).items():
+            if variable not in self.free:
+                signature[variable] = max(signature.get(variable, 0), order)
+        return Equation(node, form, rest, signature)
+
+
+def reach(place: Mapping[Expr, tuple[int, int]], rest: Expr) -> dict[int, int]:
+    """The highest derivative of each variable in an expression, free ones included."""
+    nodes, need = plan(rest, 1)
+    out: dict[int, int] = {}
+    for v in nodes:
+        if v.op is Op.SYM and v in place:
+            variable = place[v][0]
+            out[variable] = max(out.get(variable, 0), need[v] - 1)
+    return out
+
+
+def made_linear(equation: Equation, sample: FormSample, n: int) -> Equation:
+    """The equation with its rest in the form, if the rest is linear after all."""
+    if equation.rest is None:
+        return equation
+    try:
+        rest = evaluate([equation.rest], sample, n)[0]
+    except Mixed:
+        return equation
+    form = sample.algebra.combine([(1, rest), (1, equation.form)], n)
+    return equation._replace(form=form, rest=None)
+
+
+#: Functions with sides: what is on one of them says nothing of the other.
+_SIDED = frozenset({"sign", "min", "max", "abs", "atan2"})
+
+
+def has_sides(node: Expr) -> bool:
+    """Whether a node is a function of several branches."""
+    return node.op is Op.FN and (node.name in _SIDED or node.name.startswith("table:"))
+
+
+def written(
+    plant: Assembly, setting: Setting, readings: Mapping[str, Series], random: Random
+) -> tuple[Assembly, list[Equation]]:
+    """The equations, and the plant that they are about.
+
+    An input that a law uses in a product or a function is drawn here and is a constant of the
+    setting from then on: a law must not be satisfied by the one value of an input that allows it.
+    One behind a function with sides stays open at every second point, so that the function's
+    argument can be drawn on any side: a controller whose set point is at random is at its limit.
+    """
+    equations = Writer(plant, setting).all(readings)
+    given = _modulating(equations, plant, sided=random.random() < 0.5)
+    if not given:
+        return plant, equations
+    for symbol in given:
+        setting.values[symbol] = [setting.numbers.any(random) for _ in range(setting.n)]
+    place = {s: at for s, at in plant.place.items() if s not in given}
+    plant = plant._replace(place=place)
+    return plant, Writer(plant, setting).all(readings)
+
+
+def _modulating(equations: list[Equation], plant: Assembly, sided: bool) -> list[Expr]:
+    """The inputs that laws use in products and functions; those with sides only if asked."""
+    free = frozenset((*plant.free, *plant.unknown))
+    out: dict[Expr, None] = {}
+    for equation in equations:
+        if equation.rest is None:
+            continue
+        rest = equation.rest
+        for node in topological([rest], stop=None if sided else has_sides):
+            if not sided and has_sides(node):
+                continue
+            if node is not rest or node.op is not Op.ADD:
+                inside = [a for a in node.args if a in plant.place]
+                out.update((a, None) for a in inside if plant.place[a][0] in free)
+    return list(out)
+
+
+def coefficient_row(numbers: Numbers, form: Form, order: int, stride: int) -> Row:
+    """The Taylor coefficient `order` of a form, in columns variable * stride + coefficient."""
+    row: Row = {}
+    for key, weights in form.items():
+        if key == CONSTANT:
+            if order < len(weights):
+                row[CONSTANT] = weights[order]
+            continue
+        variable, derivative = divmod(key, ORDERS)
+        for m, weight in enumerate(weights[: order + 1]):
+            if weight:
+                low = order - m
+                for k in range(low + 1, low + derivative + 1):
+                    weight *= k
+                column = variable * stride + low + derivative
+                row[column] = row.get(column, 0) + weight
+    return {c: x for c, x in row.items() if numbers.nonzero(x)}

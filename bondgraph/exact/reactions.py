@@ -1,0 +1,339 @@
+"""Which symbols move an expression: at free signals, and on trajectories of the plant.
+
+A derivative along a fault that is not zero on a healthy trajectory proves the fault seen; what
+has none is tried with faults of finite size. Parameters are functions of time here, so that a
+fault is found whatever its course.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import NamedTuple, TypeVar
+
+from bondgraph.exact.assembly import Assembly
+from bondgraph.exact.evaluate import (
+    Sensitivity,
+    evaluate,
+    highest_order,
+    sensitivities,
+    telling,
+)
+from bondgraph.exact.free import FreeSample
+from bondgraph.exact.from_start import from_start
+from bondgraph.exact.plant import ExactUnavailable, Plant
+from bondgraph.exact.plant_equations import has_sides
+from bondgraph.exact.signal_algebra import Mixed
+from bondgraph.exact.switch_modes import assignments, modes_of
+from bondgraph.exact.trajectory import Trajectory
+from bondgraph.field.numbers import Undefined
+from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
+
+T = TypeVar("T")
+
+#: Points at which a relation is tried: one is enough for one without branches (it errs with a
+#: probability of about its degree / 2**61 in a field, less over the reals), a branch not taken at
+#: one point is taken at another.
+_POINTS, _POINTS_WITH_BRANCHES = 1, 12
+_TURNS = 8  # points at which faults act, where laws of the plant have branches
+#: Functions with several branches: a parameter of the other sign may show where none else does.
+_CUT = frozenset({"sqrt", "pow", "log", "acosh", "asin", "acos", "atan"})
+_FEW = 8  # faults that are tried one by one where there are branches
+_TRIES = 40  # a point where a square root has no value is drawn again
+
+
+class Reactions:
+    """What expressions of known signals react to in one plant, in given modes or in any."""
+
+    def __init__(self, plant: Plant, seed: int, modes: Mapping[Expr, int] | None = None) -> None:
+        self.plant = plant
+        self.seed = seed
+        self.modes = modes
+        graph = plant.graph
+        laws = [law for _, law in plant.assembly.laws]
+        self.turns = _turns(laws, dict.fromkeys(plant.modes, 0))
+        self.symbols = graph.fault_symbols()
+        self.faults = {symbol: name for name, symbol in self.symbols.items()}
+
+    def at_free_signals(self, expr: Expr) -> Sensitivity:
+        """What the relation depends on when its signals are independent of each other."""
+        found = Sensitivity(dict.fromkeys(symbols(expr), False), {}, frozenset(), (), frozenset())
+        for point in range(_points([expr], None)):
+            try:
+                here = self.draw(
+                    lambda n: sensitivities(expr, FreeSample.of(expr, n), jumps=True),
+                    1000 * self.seed + point,
+                )
+            except ExactUnavailable:
+                return _by_presence(expr)
+            found = _union(found, here) if point else here
+        return found
+
+    def sensed(self, exprs: list[Expr], lost: Sequence[Sequence[Expr]] = ()) -> list[set[Expr]]:
+        """The symbols that each relation reacts to, over enough points to meet every branch.
+
+        Where the modes are not given, they take all their values in turn; one in which the plant
+        has no behaviour is passed over. `lost` are for each relation symbols that have cancelled
+        out of it. Raises `ExactUnavailable` where the plant has no behaviour at all.
+        """
+        reacts: list[set[Expr]] = [set() for _ in exprs]
+        lasting: list[set[Expr]] = [set() for _ in exprs]
+        hopeless: list[Mapping[Expr, int] | None] = []
+        for point, modes in enumerate(self.settings(exprs)):
+            if modes in hopeless:
+                continue
+            try:
+                attempt = partial(self.at_trajectory, exprs, modes)
+                parts = self.draw(attempt, 1000 * self.seed + point)
+            except ExactUnavailable:  # no trajectory, or no slope where a machine rests
+                hopeless.append(modes)
+                continue
+            for seen, sure, part in zip(reacts, lasting, parts, strict=True):
+                seen.update(s for s, hit in part.depends.items() if hit)
+                sure.update(part.lasting)
+        gone = lost or [()] * len(exprs)
+        for seen, sure, expr, others in zip(reacts, lasting, exprs, gone, strict=True):
+            # told a parameter that moves, a relation may show what no plant would make it show
+            doubtful = [s for s in seen if s.symbol.kind is Kind.PARAM and s not in sure]
+            seen.difference_update(doubtful)
+            unseen = [s for s in dict.fromkeys((*symbols(expr), *others)) if s not in seen]
+            seen.update(self.movers(expr, [s for s in unseen if s in self.faults]))
+        return reacts
+
+    def movers(self, expr: Expr, candidates: list[Expr]) -> list[Expr]:
+        """Those of the faults that move a relation; asked one by one only if all together do."""
+        try:
+            alone = self.turns > 1 or _turns([expr], self.modes) > 1  # each in branches of its own
+            if len(candidates) > (_FEW if alone else 1) and not self.moves(expr, *candidates):
+                return []
+        except ExactUnavailable:
+            pass  # so many faults at once leave no plant to speak of
+        return [s for s in candidates if self.moves(expr, s)]
+
+    def at_trajectory(
+        self, exprs: list[Expr], modes: Mapping[Expr, int] | None, number: int
+    ) -> list[Sensitivity]:
+        """Derivatives of all relations at one healthy trajectory."""
+        sample = self.plant.sample(exprs, number, telling(exprs), modes=modes)
+        return [sensitivities(expr, sample) for expr in exprs]
+
+    def settings(self, exprs: list[Expr]) -> list[Mapping[Expr, int] | None]:
+        """The modes at each of the points that are tried."""
+        free = [] if self.modes is not None else modes_of(self.plant.graph, exprs)
+        if not free:
+            return [self.modes] * _points(exprs, self.modes)
+        tried = assignments(free)
+        rounds = -(-_POINTS_WITH_BRANCHES // len(tried))
+        return [*tried] * rounds
+
+    def moves(self, expr: Expr, *acting: Expr) -> bool:
+        """Whether faults of the plant that act at once, none of them small, move a relation.
+
+        A machine at rest, without any input, hides a parameter from the derivative that a change
+        of finite size shows; and a parameter may cancel out of a relation only while it is
+        constant.
+        """
+        reached = self.plant.reached(self.plant.part_for([expr]))
+        faults = tuple(self.faults[s] for s in acting if s in self.faults and s in reached)
+        if not faults:
+            return False
+        size = telling([expr])
+        if self._unmoved_nearby(expr, faults, size):
+            return False
+
+        def value(modes: Mapping[Expr, int] | None, turned: bool, number: int) -> bool:
+            sample = self.plant.sample(
+                [expr], number, size, faults=faults, modes=modes, turned=turned
+            )
+            found = evaluate([expr], sample, size)[0]
+            moved = sample.algebra.moves(found)
+            if isinstance(sample, Trajectory) and sample.still and moved:
+                raise ExactUnavailable("no point was found at which all its laws hold")
+            return moved
+
+        free = [] if self.modes is not None else modes_of(self.plant.graph, [expr])
+        failure: ExactUnavailable | None = None
+        met = False
+        known = assignments(free) if free else [self.modes]
+        turns = max(self.turns, _turns([expr], self.modes))
+        turns = max(1, turns // len(known))
+        for turn, modes in [(turn, modes) for turn in range(turns) for modes in known]:
+            try:
+                found = self.draw(partial(value, modes, turn % 2 > 0), 3000 * self.seed + turn)
+            except ExactUnavailable as reason:
+                failure = reason
+                continue
+            met = True
+            if found:
+                return True
+        if not met and failure is not None:
+            raise failure
+        return False
+
+    def _unmoved_nearby(self, expr: Expr, faults: tuple[str, ...], size: int) -> bool:
+        """Whether faults leave a relation unmoved on a small part of the plant, and so on all.
+
+        Where nothing has branches: one point then stands for all.
+        """
+        if self.turns > 1 or self.modes or _turns([expr], None) > 1 or self.plant.modes:
+            return False
+        order = highest_order([expr], size)
+        for part in self.plant.surroundings(expr):
+            reached = self.plant.reached(part)
+            acting = [f for f in faults if self.symbols[f] in reached]
+
+            def moved(number: int, part: Assembly = part, acting: list[str] = acting) -> bool:
+                sample = self.plant.trajectory(
+                    number, order, faults=acting, part=part, roots=[expr]
+                )
+                found = evaluate([expr], sample, size)[0]
+                return sample.still or sample.algebra.moves(found)
+
+            try:
+                if not self.draw(moved, 3000 * self.seed):
+                    return True
+            except (ExactUnavailable, Mixed):
+                return False
+        return False
+
+    def draw(self, attempt: Callable[[int], T], number: int) -> T:
+        """The result at a random point; points where something has no value are drawn again."""
+        for turn in range(_TRIES):
+            try:
+                return attempt(number + 100_000 * turn)
+            except Undefined:
+                continue
+        raise ExactUnavailable("no point was found at which every law has a value")
+
+
+def _by_presence(expr: Expr) -> Sensitivity:
+    """What a relation may depend on, where it has no value at any random point."""
+    inside = symbols(expr)
+    signals = [s for s in inside if s.symbol.kind in (Kind.INPUT, Kind.SENSOR, Kind.READING)]
+    order = highest_order([expr])
+    orders = dict.fromkeys(signals, order)
+    everything = frozenset(inside)
+    return Sensitivity(dict.fromkeys(inside, True), orders, frozenset(), (), everything)
+
+
+def branches(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None = None) -> bool:
+    """Whether an expression takes branches that the modes do not decide."""
+    decided: dict[Expr, bool] = {}
+    for n in topological(exprs):
+        if n.op is Op.SYM:
+            decided[n] = modes is not None and n in modes
+            found = n.symbol.kind is Kind.MODE and not decided[n]
+        else:
+            decided[n] = all(decided[a] for a in n.args)
+            found = (n.op is Op.IF and not decided[n.args[0]]) or _branching(n)
+        if found:
+            return True
+    return False
+
+
+def _turns(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:
+    """Points at which faults of finite size are tried; every second one turns their signs."""
+    if branches(exprs, modes):
+        return _TURNS
+    cut = any(n.op is Op.FN and n.name in _CUT for n in topological(exprs))
+    return 2 if cut else 1
+
+
+def _points(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:
+    """Several points where an expression takes branches that the modes do not decide."""
+    return _POINTS_WITH_BRANCHES if branches(exprs, modes) else _POINTS
+
+
+def _branching(node: Expr) -> bool:
+    """Whether a node is a function of several branches, or iteration goes through one."""
+    if node.op is Op.ROOT:
+        inside = topological([node.root.zero])
+        return any(n.op is Op.IF or _branching(n) for n in inside)
+    return has_sides(node)
+
+
+class Entries(NamedTuple):
+    """The faults that one relation sees at the declared numbers.
+
+    `apart` has those that it sees only elsewhere: the declared constants of which any one would
+    have to differ, none where it takes several. `reason` says why no trajectory confirms this.
+    """
+
+    seen: frozenset[Expr]
+    apart: dict[Expr, tuple[Expr, ...]]
+    reason: str
+
+
+def entries(
+    plant: Plant, seed: int, relations: Sequence[tuple[Expr, Sequence[Expr]]]
+) -> list[Entries]:
+    """What each relation sees; with each the symbols that have cancelled out of it."""
+    if not relations:
+        return []
+    exprs, lost = [e for e, _ in relations], [gone for _, gone in relations]
+    declared = Reactions(from_start(plant), seed)
+    try:
+        found = declared.sensed(exprs, lost)
+    except ExactUnavailable as reason:
+        if len(relations) == 1:
+            return [_unconfirmed(plant, seed, exprs[0], lost[0], str(reason))]
+        return [entries(plant, seed, [relation])[0] for relation in relations]
+    return [
+        Entries(frozenset(own), _apart(plant, declared, expr, own), "")
+        for expr, own in zip(exprs, found, strict=True)
+    ]
+
+
+def _apart(
+    plant: Plant, declared: Reactions, expr: Expr, seen: set[Expr]
+) -> dict[Expr, tuple[Expr, ...]]:
+    """The faults in a relation that only other numbers let it see, and which numbers.
+
+    Initial values are among them where `declared` holds states that never leave theirs.
+    """
+    hidden = [s for s in symbols(expr) if s in declared.faults and s not in seen]
+    seed = declared.seed
+    if not hidden:
+        return {}
+    try:
+        elsewhere = Reactions(plant.apart(), seed).sensed([expr])[0]
+        hidden = [s for s in hidden if s in elsewhere]
+        found: dict[Expr, list[Expr]] = {s: [] for s in hidden}
+        held = declared.plant.held
+        others = [(start, from_start(plant, seed, start)) for start in held if hidden]
+        for constant in plant.numbered(expr) if hidden else []:
+            other = plant.apart([constant])
+            others.append((constant, from_start(other, seed) if held else other))
+        for value, other in others:
+            sees = Reactions(other, seed).sensed([expr])[0]
+            for symbol in hidden:
+                if symbol in sees:
+                    found[symbol].append(value)
+    except ExactUnavailable:
+        return {}
+    return {symbol: tuple(constants) for symbol, constants in found.items()}
+
+
+def _unconfirmed(
+    plant: Plant, seed: int, expr: Expr, lost: Sequence[Expr], reason: str
+) -> Entries:
+    """What a relation sees where the machine has no trajectory at the declared numbers.
+
+    At other numbers, or else with signals that are independent of each other.
+    """
+    try:
+        seen = Reactions(plant.apart(), seed).sensed([expr], [lost])[0]
+        return Entries(frozenset(seen), {}, f"{reason} at the declared numbers")
+    except ExactUnavailable:
+        depends = Reactions(plant, seed).at_free_signals(expr).depends
+        return Entries(frozenset(s for s, hit in depends.items() if hit), {}, reason)
+
+
+def _union(a: Sensitivity, b: Sensitivity) -> Sensitivity:
+    return Sensitivity(
+        {s: hit or b.depends[s] for s, hit in a.depends.items()},
+        {s: max(a.orders.get(s, -2), b.orders.get(s, -2)) for s in {**a.orders, **b.orders}},
+        a.dead & b.dead,
+        tuple(dict.fromkeys((*a.starts, *b.starts))),
+        a.lasting | b.lasting,
+    )

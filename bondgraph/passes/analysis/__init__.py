@@ -1,0 +1,1 @@
+"""What residuals are worth: signatures, modes, detectability, isolability, verification."""

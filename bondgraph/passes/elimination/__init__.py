@@ -1,0 +1,1 @@
+"""The unknowns eliminated: equations, chaining, tearing, linear blocks, operator elimination."""

@@ -1,0 +1,84 @@
+"""Eliminate the unknowns, in another order where the first leaves something to be wished for.
+
+Most models take one elimination (`chain`). What costs more is tried only where it is needed.
+"""
+
+from __future__ import annotations
+
+from bondgraph.exact.evaluate import highest_order
+from bondgraph.ir.equation_system import EquationSystem
+from bondgraph.ir.residuals import Missing, ReducedSystem
+from bondgraph.passes.elimination.chaining import Chain, Way
+from bondgraph.passes.elimination.cost import FREE_START, ITERATION
+from bondgraph.passes.elimination.each_mode import each_mode
+from bondgraph.passes.elimination.regroup import regroup
+from bondgraph.passes.elimination.shortfall import tell
+from bondgraph.text.diagnostic import Report
+
+#: What is tried where the first elimination misses a relation for the reason given, in this order.
+_OTHER_WAYS = (
+    ("initial-value-needed", Way(starts=False)),
+    ("loop-unsolvable", Way(eager=ITERATION)),
+    ("loop-unsolvable", Way(eager=2 * FREE_START)),
+)
+
+
+def eliminate(system: EquationSystem, report: Report) -> ReducedSystem:
+    """Compute every variable that sensors and sources reach, and keep what is left over.
+
+    Near-linear in the number of bonds. Derivatives are avoided as far as possible; where that makes
+    long detours, relations of the same order with shorter paths are taken, and where it misses an
+    initial value, no integral without one is used; where a loop cannot be solved, or only with more
+    derivatives, integrals come before loops. A loop that no one order of elimination solves in all
+    modes is solved in each. A relation that cannot be had all the same is `missing` and costs no
+    other: `loop-unsolvable` for a nonlinear loop without a closed solution, `loop-too-large` for a
+    linear one of ten thousand bonds, `initial-value-needed` where a relation needs an undeclared
+    initial value. Where nothing else can be had they are errors.
+    """
+    result = _eliminated(system)
+    if _lacking(result):
+        result = each_mode(system, _eliminated) or result
+    tell(report, result)
+    return regroup(result)
+
+
+def _eliminated(system: EquationSystem) -> ReducedSystem:
+    chain = _run(Chain(system))
+    if chain.tangled():
+        order = highest_order([row.expr for row in chain.loops.plain])
+        near = _run(Chain(system, Way(free=order)))
+        if len(near.loops.plain) >= len(chain.loops.plain):
+            chain = near
+    best = chain.result()
+    if chain.loops.raised:  # an integral from a declared start may need fewer derivatives
+        anew = _run(Chain(system, Way(eager=ITERATION))).result()
+        whole = not _lacking(anew) and len(anew.closings) >= len(best.closings)
+        best = anew if whole and _order(anew) < _order(best) else best
+    lacking = _lacking(best)
+    codes = {m.finding.code for m in lacking}
+    most = len(best.closings) + len(lacking)
+    for way in [way for code, way in _OTHER_WAYS if code in codes]:
+        anew = _run(Chain(system, way)).result()
+        if not _lacking(anew) and len(anew.closings) >= most:
+            return anew
+        if len(anew.closings) > len(best.closings):
+            best = anew
+    return best
+
+
+def _order(result: ReducedSystem) -> int:
+    """The highest derivatives of the relations, added up."""
+    return sum(highest_order([closing.expr]) for closing in result.closings)
+
+
+def _lacking(result: ReducedSystem) -> list[Missing]:
+    """The relations of which it is known why they could not be had."""
+    return [m for m in result.missing if m.explained]
+
+
+def _run(chain: Chain) -> Chain:
+    chain.start()
+    chain.run()
+    while chain.stalled():
+        chain.run()
+    return chain

@@ -1,0 +1,261 @@
+"""Loops without delay that have no unique solution at the very numbers that the model gives.
+
+A loop of gain g is solved by dividing by 1 - g. Where that vanishes for all parameters the
+structure is singular and elimination says so; where it vanishes at the nominal values only, the
+relations hold, but the machine they are used on is the one they do not determine. The Jacobian of
+the algebraic equations is compared at the nominal values and at random ones, in a prime field:
+decimals are exact there, so that a gain of exactly 1 is told from one that is close to it.
+"""
+
+from __future__ import annotations
+
+import random
+from heapq import heapify, heappop, heappush
+from typing import TypeVar
+
+from bondgraph.ir.equation_system import Equation, EquationSystem
+from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
+from bondgraph.ir.show import show
+from bondgraph.passes.causality.node_words import listing, name
+from bondgraph.text.diagnostic import Label, Report
+
+_P = (1 << 61) - 1
+_LARGE = 1500  # equations in loops beyond which nothing is tried
+_TOLD = 3
+
+_Row = dict[Expr, int]
+K = TypeVar("K")
+
+
+def nominal_loops(system: EquationSystem, report: Report) -> None:
+    """Warn (`loop-gain-one`) of each loop that is singular at the nominal values alone."""
+    equations, computed = _in_loops(system)
+    if not 0 < len(equations) <= _LARGE:
+        return
+    given = {v.symbol: v.value for v in system.graph.values if v.value is not None}
+    free = _Point({}, computed)
+    generic = [free.gradient(e) for e in equations]
+    basis = [k for k, circuit in enumerate(_circuits(generic)) if circuit is None]
+    if not any(s in given for k in basis for s in symbols(equations[k].zero)):
+        return
+    point = _Point(given, computed)
+    found = _circuits([point.gradient(equations[k]) for k in basis])
+    singular = [[basis[k] for k in circuit] for circuit in found if circuit is not None]
+    for members in singular[:_TOLD]:
+        loop = [equations[k] for k in members]
+        _tell(system, loop, _decisive(loop, given, computed), given, report)
+
+
+def _in_loops(system: EquationSystem) -> tuple[list[Equation], set[Expr]]:
+    """The equations that remain when what can be computed one by one is taken away, and that.
+
+    That is each unknown of an equation without another, and each that no other equation has.
+    """
+    point = _Point({}, set())
+    computed: set[Expr] = set()
+    equations = [e for e in system.equations if e.kind in ("balance", "law")]
+    rows = [set(point.gradient(e)) for e in equations]
+    holders: dict[Expr, set[int]] = {}
+    for k, row in enumerate(rows):
+        for variable in row:
+            holders.setdefault(variable, set()).add(k)
+    alive = set(range(len(rows)))
+    work = [*range(len(rows))]
+    lonely = [v for v, at in holders.items() if len(at) == 1]
+    while work or lonely:
+        if work:
+            k = work.pop()
+            if k not in alive or len(rows[k]) > 1:
+                continue
+            taken = next(iter(rows[k]), None)
+        else:
+            taken = lonely.pop()
+            if len(holders.get(taken, ())) != 1:
+                continue
+            (k,) = holders[taken]
+        alive.discard(k)
+        for variable in rows[k]:
+            holders[variable].discard(k)
+            if len(holders[variable]) == 1:
+                lonely.append(variable)
+        if taken is not None:
+            computed.add(taken)
+            for other in holders.pop(taken, set()):
+                rows[other].discard(taken)
+                work.append(other)
+    return [equations[k] for k in sorted(alive)], computed
+
+
+class _Point:
+    """Values of parameters and signals: those that are given, random ones for all others.
+
+    What is `computed` already is no unknown.
+    """
+
+    def __init__(self, given: dict[Expr, Expr], computed: set[Expr]) -> None:
+        self.given = given
+        self.computed = computed
+        self.values: dict[Expr, int] = {}
+
+    def gradient(self, equation: Equation) -> _Row:
+        """The derivative of an equation by the efforts and flows that it holds."""
+        rows: dict[Expr, _Row] = {}
+        for node in topological([equation.zero]):
+            if node.op is Op.SYM:
+                unknown = node.symbol.kind in (Kind.EFFORT, Kind.FLOW)
+                unknown = unknown and node not in self.computed
+                rows[node] = {node: 1} if unknown else {}
+                continue
+            total: _Row = {}
+            # a derivative or an integral does not answer without delay
+            delays = node.op in (Op.DER, Op.INT)
+            for k, arg in enumerate(() if delays else node.args):
+                if rows[arg]:
+                    slope = self.slope(node, k)
+                    for variable, c in rows[arg].items():
+                        total[variable] = (total.get(variable, 0) + slope * c) % _P
+            rows[node] = total
+        return {v: c for v, c in rows[equation.zero].items() if c}
+
+    def slope(self, node: Expr, at: int) -> int:
+        """The derivative of a node by one of its arguments; random for what is no sum, product."""
+        if node.op is Op.ADD:
+            return _number(node.coefficients[at].numerator, node.coefficients[at].denominator)
+        if node.op is not Op.MUL:
+            return _drawn(f"slope {node.id} {at}")
+        product = node.exponents[at] % _P
+        for k, (arg, e) in enumerate(zip(node.args, node.exponents, strict=True)):
+            product = product * self.power(arg, e - (k == at)) % _P
+        return product
+
+    def power(self, node: Expr, exponent: int) -> int:
+        value = self.value(node)
+        if exponent < 0 and not value:
+            return _drawn(f"inverse {node.id}")  # that it has none is another's finding
+        return pow(value, exponent, _P)
+
+    def value(self, root: Expr) -> int:
+        """The value at the point."""
+        for node in topological([root], stop=self.values.__contains__):
+            if node in self.values:
+                continue
+            match node.op:
+                case Op.NUM:
+                    found = _number(node.number.numerator, node.number.denominator)
+                case Op.ADD:
+                    terms = zip(node.coefficients, node.args, strict=True)
+                    found = sum(_number(c.numerator, c.denominator) * self.values[a]
+                                for c, a in terms)  # fmt: skip
+                case Op.MUL:
+                    found = 1
+                    for arg, e in zip(node.args, node.exponents, strict=True):
+                        found = found * self.power(arg, e) % _P
+                case Op.SYM if node in self.given:
+                    found = self.value(self.given[node])
+                case _:
+                    found = _drawn(f"value {node.id}")
+            self.values[node] = found % _P
+        return self.values[root]
+
+
+def _number(numerator: int, denominator: int) -> int:
+    return numerator * pow(denominator, -1, _P) % _P
+
+
+def _drawn(key: str) -> int:
+    return random.Random(key).randrange(1, _P)
+
+
+def _circuits(rows: list[_Row]) -> list[list[int] | None]:
+    """For each row None if it is independent of the others so marked, else those it is a sum of.
+
+    Such a set loses its dependence with any one of its members. Elimination takes the shortest row
+    first, each pivot in its rarest column (Markowitz 1957).
+    """
+    rows = [dict(row) for row in rows]
+    made = [{k: 1} for k in range(len(rows))]
+    holders: dict[Expr, set[int]] = {}
+    for k, row in enumerate(rows):
+        for variable in row:
+            holders.setdefault(variable, set()).add(k)
+    heap = [(len(row), k) for k, row in enumerate(rows)]
+    heapify(heap)
+    found: list[list[int] | None] = [None] * len(rows)
+    done = [False] * len(rows)
+    while heap:
+        size, k = heappop(heap)
+        row = rows[k]
+        if done[k] or size != len(row):
+            continue
+        done[k] = True
+        if not row:
+            found[k] = sorted(made[k])
+            continue
+        for variable in row:
+            holders[variable].discard(k)
+        pivot = min(row, key=lambda v: (len(holders[v]), v.id))
+        inverse = pow(row[pivot], -1, _P)
+        for other in sorted(holders[pivot]):
+            factor = rows[other][pivot] * inverse % _P
+            before = set(rows[other])
+            _subtract(rows[other], factor, row)
+            _subtract(made[other], factor, made[k])
+            for variable in row:
+                if variable in rows[other]:
+                    holders[variable].add(other)
+                elif variable in before:
+                    holders[variable].discard(other)
+            heappush(heap, (len(rows[other]), other))
+    return found
+
+
+def _subtract(target: dict[K, int], factor: int, source: dict[K, int]) -> None:
+    for key, c in source.items():
+        left = (target.get(key, 0) - factor * c) % _P
+        if left:
+            target[key] = left
+        else:
+            target.pop(key, None)
+
+
+# ------------------------------------------------------------------------ telling
+
+
+def _decisive(
+    equations: list[Equation], given: dict[Expr, Expr], computed: set[Expr]
+) -> list[Expr]:
+    """The parameters of which each alone could take the loop off its gain."""
+    found = []
+    for symbol in symbols(*[e.zero for e in equations]):
+        if symbol in given:
+            point = _Point({s: v for s, v in given.items() if s is not symbol}, computed)
+            if all(c is None for c in _circuits([point.gradient(e) for e in equations])):
+                found.append(symbol)
+    return found
+
+
+def _tell(
+    system: EquationSystem,
+    equations: list[Equation],
+    decisive: list[Expr],
+    given: dict[Expr, Expr],
+    report: Report,
+) -> None:
+    nodes = system.graph.nodes
+    members = sorted({e.node for e in equations if e.node >= 0})
+    elements = [n for n in members if nodes[n].kind not in ("0", "1")]
+    members = elements if len(elements) > 1 else members
+    spoken = listing([name(nodes[n]) for n in members])
+    numbers = [f"{s.symbol.name} = {show(given[s])}" for s in decisive]
+    why = f"{listing(numbers)} cancel in it. " if len(numbers) > 1 else ""
+    if len(numbers) == 1:
+        why = f"{numbers[0]} makes it so. "
+    report.warning(
+        "loop-gain-one",
+        f"At the nominal values the loop of {spoken} has the gain 1: its equations have no unique "
+        "solution.",
+        *[Label(nodes[n].origin, "in the loop") for n in members[:6]],
+        help=f"{why}The relations hold for all other values; at these the machine itself is "
+        "undetermined, and what they can tell may differ. Correct the numbers, or put the C or I "
+        "into the model that the loop has in the machine.",
+    )

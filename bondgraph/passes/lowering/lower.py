@@ -1,0 +1,326 @@
+"""From residuals to a residual program: what configure, exact and step have to do."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import NamedTuple
+
+from bondgraph.algebra.derivative import TooManyOperations
+from bondgraph.algebra.normalise import LIMIT, normalise
+from bondgraph.algebra.present import closed_form
+from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.normal import NormalForm, Term
+from bondgraph.ir.program import (
+    Assign,
+    Dropped,
+    Field,
+    Opening,
+    Program,
+    Ref,
+    ResidualInfo,
+    Statement,
+)
+from bondgraph.ir.residuals import Residual, ResidualSet
+from bondgraph.ir.signature_matrix import SignatureMatrix
+from bondgraph.passes.lowering.builder import Builder
+from bondgraph.passes.lowering.exactly import LARGEST, Exactly
+from bondgraph.passes.lowering.filter import Filter, settle
+from bondgraph.passes.lowering.newton import newton_blocks, roots_in
+from bondgraph.passes.lowering.procedure import ZERO
+from bondgraph.passes.lowering.program_names import brief, identifier, short
+from bondgraph.passes.lowering.prune import pruned
+from bondgraph.passes.lowering.switched import Switched, order
+from bondgraph.passes.lowering.tape import Large, large
+from bondgraph.passes.lowering.visible import Seen, seen, unseen_faults
+
+#: Stages a chain may have; a residual of higher order has no step.
+HIGHEST = 12
+
+_TOO_LONG = f"written out it takes more than {LARGEST} operations"
+_TEXT_NODES = 150
+_TEXT_LENGTH = 600
+
+
+class LowerOptions(NamedTuple):
+    """How the realisable residual is made.
+
+    `rate` in samples a second. `bandwidth` of the filter in rad/s, by default rate/50: at 1 kHz
+    20 rad/s, where a residual of order 2 to 3 is 0.15 to 0.2 s late. That is the delay at which
+    METHOD 4.3 finds a state-variable filter best against noise, 50 samples a time constant leave
+    no trace of the sampling, and the highest visible frequency (rate/10 in Hz) is well above.
+    `extra_order` stages more than the highest derivative; `resolution` is the relative size below
+    which a term cannot be seen (12 bits). `time_unit` in s is what exact counts derivatives in,
+    by default 1 s, or what keeps the coefficients of very long residuals near one.
+    """
+
+    rate: float = 1000.0
+    bandwidth: float | None = None
+    extra_order: int = 1
+    resolution: float = 2.0**-12
+    time_unit: float | None = None
+
+
+DEFAULT = LowerOptions()
+
+
+def fastest(options: LowerOptions) -> float:
+    """The largest bandwidth * sample_time that the coefficients of the filter are made for."""
+    return max(3.0, 1.01 * (options.bandwidth or options.rate / 50) / options.rate)
+
+
+class _Lowered(NamedTuple):
+    info: ResidualInfo
+    first: list[Assign]
+    step: list[Assign]
+    states: list[Field]
+    dropped: list[Dropped]
+    opening: Opening | None = None
+
+
+def lower(
+    graph: BondGraph,
+    residuals: ResidualSet,
+    signatures: SignatureMatrix,
+    options: LowerOptions = DEFAULT,
+    received: bool = False,
+) -> Program:
+    """The residual program of a model: coefficients, exact residuals, realisable residuals.
+
+    What a law received of a sensor is the signal of the sensor; with `received` it is a known
+    signal of its own, and all else is the same: the terms that are kept, the stages of the filter.
+
+    A residual whose visible order exceeds `HIGHEST` stages, or that has no numbers to tell what
+    is visible, gets no step (`ResidualInfo.unavailable`); one of more than `LARGEST` operations no
+    exact (`ResidualInfo.unwritten`). See METHOD 4.1, 4.2, 4.5 for the theory.
+    """
+    builder = Builder(graph)
+    apart = [r.expr for r in residuals.residuals]
+    joined = graph.pool.logged(apart)
+    exprs, others = (apart, joined) if received else (joined, apart)
+    forms = [normalise(graph.pool, e, LIMIT, builder.initials) for e in exprs]
+    builder.scaled = any(f.tape is not None for f in forms)
+    exactly = Exactly(builder)
+    filter = Filter(builder, fastest(options))
+    switched = Switched(builder, filter, residuals.system)
+    tapes: list[Large | None] = []
+    time_unit = options.time_unit
+    for residual, form in zip(residuals.residuals, forms, strict=True):
+        tapes.append(
+            None if form.tape is None else large(builder, residual, form.tape, options.rate)
+        )
+    if time_unit is None:
+        time_unit = max([t.time_unit for t in tapes if t is not None], default=1.0)
+    lowered: list[_Lowered] = []
+    own_and_other = zip(exprs, others, strict=True)
+    for residual, form, tape, (expr, other) in zip(
+        residuals.residuals, forms, tapes, own_and_other, strict=True
+    ):
+        text = _text(graph, residual)
+        builder.origin = residual.closing.origin
+        arrays = {} if tape is None else tape.arrays
+        order = exactly.residual(residual, form, arrays, text)
+        twin: NormalForm | None = None
+        if other is not expr:
+            twin = switched.form(other, normalise(builder.pool, other, LIMIT, builder.initials))
+        if tape is None:
+            form = switched.form(expr, form)
+        visible = _visible(builder, form, tape, options)
+        found = _terms(builder, visible, twin, options, received)
+        low = _realise(builder, filter, residual, signatures, found, options, text, switched)
+        if order is None:
+            info = low.info._replace(order=_highest(form), unwritten=_TOO_LONG)
+        else:
+            info = low.info._replace(order=order)
+        lowered.append(low._replace(info=info))
+    configure: list[Statement] = []
+    for tape in tapes:
+        configure += [] if tape is None else [*tape.before, tape.statement]
+    own = builder.configure()
+    wanted = builder.used
+    for tape in tapes:
+        wanted += [] if tape is None else tape.scales
+    program = Program(
+        name=graph.name,
+        title=graph.doc.split("\n\n")[0].replace("\n", " ").strip(),
+        source=graph.source.path.replace("\\", "/").rpartition("/")[2],
+        digest="",
+        params=builder.param_fields(wanted),
+        knowns=builder.known_fields([*exprs, *switched.read]),
+        coefs=tuple(builder.fields),
+        states=tuple(s for low in lowered for s in low.states),
+        residuals=tuple(low.info for low in lowered),
+        configure=(*configure, *own),
+        exact=tuple(exactly.statements),
+        first=tuple(s for low in lowered for s in low.first),
+        step=tuple(s for low in lowered for s in low.step),
+        dropped=tuple(d for low in lowered for d in low.dropped),
+        rate=options.rate,
+        bandwidth=options.bandwidth or options.rate / 50,
+        warmup=max([_warmup(low.info) for low in lowered], default=0.0),
+        tables=tables(graph, exprs),
+        roots=newton_blocks(graph.pool, exprs),
+        integrals=tuple(builder.integrals.values()),
+        time_unit=time_unit,
+        openings=tuple(low.opening for low in lowered if low.opening is not None),
+    )
+    program = pruned(program)
+    return program._replace(digest=digest(program, graph.source.text))
+
+
+def _realise(
+    builder: Builder,
+    filter: Filter,
+    residual: Residual,
+    signatures: SignatureMatrix,
+    found: _Terms | str,
+    options: LowerOptions,
+    text: str,
+    switched: Switched,
+) -> _Lowered:
+    """One residual of `step`, or the reason why it has none."""
+    faults = signatures.signature(residual.name)
+    name = identifier(residual.name)
+    origin = residual.closing.origin
+    info = ResidualInfo(name, residual.name, text, 0, 0, faults, (), origin)
+    if not isinstance(found, str):
+        kept = (*found.joined.kept, *found.apart.kept)
+        stages = max([order(t) for t in kept], default=0) + options.extra_order
+        if stages > HIGHEST + options.extra_order:
+            found = f"its order {stages - options.extra_order} is above {HIGHEST}"
+    if not isinstance(found, str):
+        stages = max(stages, 1)
+        window = switched.window(residual, found.joined.kept, stages)
+        chain = switched.chain(residual, stages, window)
+        try:
+            chain.run(found.own.kept, text)
+        except TooManyOperations:
+            found = _TOO_LONG
+    if isinstance(found, str):
+        nothing = Assign(Ref("residual", name), ZERO, f"{residual.name}: {found}", origin)
+        info = info._replace(invisible=faults, unavailable=found)
+        return _Lowered(info, [nothing], [nothing], [], [])
+    moving = [t for t in found.own.kept if not t.static]
+    info = info._replace(
+        stages=stages,
+        invisible=unseen_faults(builder, faults, found.apart, options.rate, options.resolution),
+        settle=settle(stages) if window is None else window.over,
+        approximate=_reason(moving),
+    )
+    dropped = [Dropped(name, brief(t.atom), t.order, share) for t, share in found.own.dropped]
+    if window is None:
+        return _Lowered(info, chain.first, chain.step, chain.states, dropped)
+    return _Lowered(
+        info,
+        [*window.first, *chain.first],
+        [*window.step, *chain.step],
+        [*window.states, *chain.states],
+        dropped,
+        window.opening,
+    )
+
+
+def _warmup(info: ResidualInfo) -> float:
+    """Time constants after which nothing in step is left of a start."""
+    return 0.0 if info.unavailable else max(info.settle, settle(info.stages))
+
+
+def _visible(
+    builder: Builder, form: NormalForm, tape: Large | None, options: LowerOptions
+) -> Seen | str:
+    if tape is not None:
+        return tape.seen(builder, options.rate, options.resolution, HIGHEST)
+    return seen(builder, form.terms, options.rate, options.resolution)
+
+
+class _Terms(NamedTuple):
+    """The visible terms of a relation: those that are lowered, and those of both its forms.
+
+    `apart` have what laws received of sensors as signals of their own, `joined` have not. What
+    cannot be seen of a signal is left out of both.
+    """
+
+    own: Seen
+    apart: Seen
+    joined: Seen
+
+
+def _terms(
+    builder: Builder,
+    found: Seen | str,
+    other: NormalForm | None,
+    options: LowerOptions,
+    received: bool,
+) -> _Terms | str:
+    """The terms of a relation; `other` is it in the other form, None where both are the same."""
+    if isinstance(found, str):
+        return found
+    if other is None or other.tape is not None:
+        return _Terms(found, found, found)
+    also = seen(builder, other.terms, options.rate, options.resolution)
+    apart, joined = (found, also) if received else (also, found)
+    every = [*((t, 0.0) for t in apart.kept), *apart.dropped]
+    ones = builder.pool.logged([t.atom for t, _ in every])
+    gone = {(t.atom, t.order): share for t, share in joined.dropped}
+    keys = [(one, t.order) for one, (t, _) in zip(ones, every, strict=True)]
+    apart = apart._replace(
+        kept=tuple(t for key, (t, _) in zip(keys, every, strict=True) if key not in gone),
+        dropped=tuple((t, gone[k]) for k, (t, _) in zip(keys, every, strict=True) if k in gone),
+    )
+    return _Terms(apart if received else joined, apart, joined)
+
+
+def _highest(form: NormalForm) -> int:
+    """The highest derivative in a residual that exact does not have."""
+    terms = list(form.terms)
+    if form.tape is not None:
+        terms = [Term(f.atom, f.degree, f.atom, f.static) for f in form.tape.leaves]
+    return max(map(order, terms), default=0)
+
+
+def _reason(moving: list[Term]) -> str:
+    if not moving:
+        return ""
+    return f"a nonlinear term holds a derivative: {short(moving[0].atom)}"
+
+
+def _text(graph: BondGraph, residual: Residual) -> str:
+    """The residual as a person writes it, where that is short enough to be read."""
+    if len(topological([residual.expr])) <= _TEXT_NODES:
+        text = str(closed_form(graph, residual))
+        if len(text) <= _TEXT_LENGTH:
+            return f"{residual.name} = {text}"
+    return f"{residual.name}: {residual.closing.name} with everything else inserted"
+
+
+def tables(
+    graph: BondGraph, exprs: list[Expr]
+) -> tuple[tuple[str, tuple[tuple[float, float], ...]], ...]:
+    """The tables that expressions look something up in, with their points."""
+    used: dict[str, None] = {}
+    for node in topological([*exprs, *[r.zero for r in roots_in(exprs)]]):
+        if node.op is Op.FN and node.name.startswith("table:"):
+            used[node.name.removeprefix("table:")] = None
+    return tuple((name, graph.pool.rows(name)) for name in used)
+
+
+def digest(program: Program, text: str) -> str:
+    """A hash of the model and of everything that the program computes, in hexadecimal."""
+    lines = [text.replace("\r\n", "\n")]
+    for name in program._fields:
+        if name == "openings" and not program.openings:
+            continue  # what a program without switches computes is what it was before
+        if name not in ("source", "digest", "bounds"):
+            lines.append(f"{name}: {_plain(getattr(program, name))!r}")
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]
+
+
+def _plain(value: object) -> object:
+    """The value without places, which name files of the machine."""
+    if isinstance(value, tuple):
+        fields = getattr(value, "_fields", None)
+        if fields is None:
+            return tuple(map(_plain, value))
+        pairs = zip(fields, value, strict=True)
+        return (type(value).__name__, *[_plain(v) for f, v in pairs if f != "origin"])
+    return value

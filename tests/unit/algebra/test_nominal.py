@@ -1,0 +1,54 @@
+"""Whether an expression has a value, and whether that is zero at the nominal parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+
+import pytest
+
+from bondgraph.algebra.nominal import Nominal, defined
+from bondgraph.ir.expr import Expr, Kind, Pool
+from bondgraph.pipeline import Compilation
+from bondgraph.text.source import Source
+
+
+@pytest.mark.parametrize(
+    ("build", "at", "expected"),
+    [
+        (lambda p, x, a: p.add((1, x), (1, a)), 0.0, True),
+        (lambda p, x, a: p.div(a, x), 0.0, False),
+        (lambda p, x, a: p.div(a, x), 2.0, True),
+        (lambda p, x, a: p.fn("log", x), -1.0, False),
+        (lambda p, x, a: p.fn("log", p.sub(x, a)), 1.0, False),  # a is 1: log(0)
+        (lambda p, x, a: p.fn("log", a), -1.0, True),
+        (lambda p, x, a: p.fn("table", x), -1.0, True),  # nobody knows it here: taken to be 1
+        (lambda p, x, a: p.fn("log", p.sub(p.fn("table", x), a)), 0.0, False),
+        (lambda p, x, a: p.fn("sqrt", p.der(x)), -1.0, True),
+    ],
+)
+def test_defined(build: Callable[[Pool, Expr, Expr], Expr], at: float, expected: bool) -> None:
+    pool = Pool()
+    x, a = pool.symbol("x", Kind.EFFORT), pool.symbol("a", Kind.PARAM)
+    assert defined(build(pool, x, a), x, at) is expected
+
+
+@pytest.mark.parametrize("steps", [5, 20])
+def test_zero_is_told_where_doubles_have_lost_all_their_digits(steps: int) -> None:
+    # Muller's recurrence v'' = 111 - 1130/v' + 3000/(v' v) from 11/2 and 61/11: in doubles it goes
+    # to 100, the numbers themselves are (6^(k+1) + 5^(k+1)) / (6^k + 5^k) and go to 6
+    graph = Compilation(
+        Source("m.bg", "bg 1\nmodel M { param a = 5.5; Se:U -> R:a\n sensor y = U }")
+    ).graph
+    pool, before = graph.pool, next(v.symbol for v in graph.values if v.name == "a")
+    now = pool.num(Fraction(61, 11))
+    for _ in range(1, steps):
+        third = pool.div(pool.num(3000), pool.mul(now, before))
+        before, now = now, pool.add(
+            (1, pool.num(111)), (-1130, pool.power(now, -1)), (1, third)
+        )
+    exact = Fraction(6 ** (steps + 1) + 5 ** (steps + 1), 6**steps + 5**steps)
+    nominal = Nominal(graph)
+    # a failed assert would write the expressions out, which are long
+    off, limit = (pool.sub(now, pool.num(x)) for x in (exact, Fraction(6)))
+    assert [nominal.vanishes(x) for x in (off, limit, now)] == [True, False, False]

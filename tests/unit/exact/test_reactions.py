@@ -1,0 +1,118 @@
+"""What moves a relation: where it branches, faults of either sign, any seed."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import islice
+
+import pytest
+
+from bondgraph.algebra.implicit import invert
+from bondgraph.exact.plant import Plant
+from bondgraph.exact.reactions import Reactions, branches
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols
+from tests.unit.passes.relations import compiled
+
+
+def _forms(pool: Pool) -> dict[str, tuple[Expr, bool]]:
+    """Expressions, and whether one point may show of them what another one does not."""
+    x, y = pool.symbol("x", Kind.SENSOR), pool.symbol("y", Kind.SENSOR)
+    below = pool.compare("<", x, y)
+    return {
+        "a rational function": (pool.div(pool.mul(x, y), pool.add((1, x), (1, y))), False),
+        "a power": (pool.fn("pow", x, pool.num(Fraction(7, 5))), False),
+        "a derivative": (pool.der(pool.mul(x, y)), False),
+        "a comparison": (pool.choose(below, x, pool.zero), True),
+        "a limit": (pool.fn("min", x, pool.one), True),
+        "an absolute value": (pool.mul(y, pool.fn("abs", x)), True),
+    }
+
+
+@pytest.mark.parametrize("name", list(_forms(Pool())))
+def test_where_one_point_is_not_enough(name: str) -> None:
+    expr, expected = _forms(Pool())[name]
+    assert branches([expr]) == expected
+
+
+@pytest.mark.parametrize(("law", "expected"), [("cubic", False), ("broken", True), ("dry", True)])
+def test_an_iteration_branches_where_its_equation_does(law: str, expected: bool) -> None:
+    pool = Pool()
+    x, y = pool.symbol("x", Kind.TEAR), pool.symbol("y", Kind.SENSOR)
+    rises = {
+        "cubic": pool.add((1, x), (1, pool.power(x, 3))),
+        "broken": pool.choose(pool.compare("<", x, pool.zero), x, pool.scale(2, x)),
+        "dry": pool.add((1, x), (1, pool.fn("sign", x))),
+    }
+    root = invert(pool, pool.sub(y, rises[law]), x, lambda _: None)
+    assert root is not None and root.op is Op.ROOT
+    assert branches([root]) == expected
+
+
+def test_a_known_switch_is_a_branch_until_it_is_told() -> None:
+    pool = Pool()
+    x, on = pool.symbol("x", Kind.SENSOR), pool.symbol("on", Kind.MODE)
+    switched = pool.choose(pool.logic("not", on), x, pool.one)
+    assert branches([switched])
+    assert not branches([switched], {on: 1})
+
+
+@pytest.mark.parametrize(
+    ("declared", "drag"),
+    [
+        (1, "max(b - 1.5, 0)"),  # shows as soon as b is above 1.5: with its own sign only
+        (-1, "max(b, 0)"),  # shows as soon as b is positive: with the other sign only
+        (2, "min(b - 0.5, 0)"),  # below 0.5: with either
+    ],
+)
+def test_a_fault_that_shows_on_one_side_only(declared: int, drag: str) -> None:
+    c = compiled(
+        f"model M {{ param b = {declared}\n"
+        f"1:i {{ <- Se:u; -> R:r {{ e = f + {drag} }}; -> Df:y }} }}"
+    )
+    assert set(c.signatures.signature("r1")) == {"b", "u", "y"}
+
+
+@pytest.mark.parametrize("seed", [0, 1, 7])
+def test_any_seed_finds_what_a_relation_depends_on(seed: int) -> None:
+    # u + 3 i' + R (u + i) - R i - R u, in which R cancels
+    c = compiled("model M { param R = 2\n 1:s { <- Se:u; -> R:R; -> Df:i; -> C:c = 1 } }")
+    pool = c.graph.pool
+    u, i = (pool.symbol(n, k) for n, k in (("u", Kind.INPUT), ("i", Kind.SENSOR)))
+    R = next(v.symbol for v in c.graph.values if v.name == "R")
+    ways = pool.mul(R, pool.add((1, u), (1, i))), pool.mul(R, i), pool.mul(R, u)
+    expr = pool.add((1, u), (3, pool.der(i)), (1, ways[0]), (-1, ways[1]), (-1, ways[2]))
+    found = Reactions(Plant(c.graph), seed).at_free_signals(expr)
+    assert {s.symbol.name for s, hit in found.depends.items() if hit} == {"u", "i"}
+    assert {s.symbol.name: n for s, n in found.orders.items()} == {"u": 0, "i": 1}
+
+
+def test_the_surroundings_of_a_relation_end_where_its_bonds_do() -> None:
+    # a signal alone ties the ammeters to the chain that they pump: along bonds nothing further is
+    # reached from them, though this is less than half of the machine
+    lines = ["model M { param R = 2", "  1:a { <- Se:U; -> R:R; -> Df:y; -> Df:z }"]
+    lines += [f"  0:n{k} {{ -> C:c{k} = 1; -> R:r{k} = 2 }}" for k in range(8)]
+    lines += [f"  n{k} -> 1:w{k} -> n{k + 1}\n  w{k} -> R:b{k} = 3" for k in range(7)]
+    c = compiled("\n".join([*lines, "  Sf:pump = 2*a.f\n  pump -> n0\n  n7 -> De:x }"]))
+    every = c._analysis[0].residuals
+    twins = next(r for r in every if {"y", "z"} <= set(map(str, symbols(r.expr))))
+    parts = list(islice(Plant(c.graph).surroundings(twins.expr), 9))
+    assert 0 < len(parts) < 9
+    assert not set(c.signatures.signature(twins.name)) & {"U", "R"}
+
+
+def test_a_part_has_every_signal_that_its_relation_is_told() -> None:
+    # an input that only an integral holds belongs to no node: left out, it would be told as zero
+    lines = ["model M { param R = 2; input u; let h = int(u)"]
+    lines += ["  1:a { <- Se:E = h; -> R:R; -> Df:y }"]
+    lines += [f"  0:n{k} {{ -> C:c{k} = 1; -> R:r{k} = 2 }}" for k in range(8)]
+    lines += [f"  n{k} -> 1:w{k} -> n{k + 1}\n  w{k} -> R:b{k} = 3" for k in range(7)]
+    c = compiled("\n".join([*lines, "  Sf:pump = 2*a.f\n  pump -> n0\n  n7 -> De:x }"]))
+    plant = Plant(c.graph)
+    place, parts = plant.assembly.place, 0
+    for residual in c._analysis[0].residuals:
+        told = {place[s][0] for s in symbols(residual.expr) if s in place}
+        for part in islice(plant.surroundings(residual.expr), 9):
+            assert told <= set(part.active)
+            parts += 1
+    assert parts
+    assert {"u", "R", "y"} <= set(c.signatures.signature("r1"))
