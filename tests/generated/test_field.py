@@ -12,13 +12,13 @@ import pytest
 
 import bondgraph
 from bondgraph.backends.members import derivatives
-from bondgraph.backends.names import snake
+from bondgraph.backends.identifiers import snake
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
 from bondgraph.backends.write import write
-from bondgraph.exact.algebra import Taylor
+from bondgraph.exact.signal_algebra import Taylor
 from bondgraph.exact.evaluate import evaluate, highest_order
-from bondgraph.exact.field import PrimeField
+from bondgraph.field.prime import PrimeField
 from bondgraph.exact.free import FreeSample
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
 from bondgraph.ir.program import Ref

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import bondgraph
-from bondgraph.backends.names import snake
+from bondgraph.backends.identifiers import snake
 from bondgraph.backends.write import write
 from bondgraph.ir.artifact import Artifact
 from bondgraph.pipeline import Compilation

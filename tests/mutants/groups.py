@@ -11,7 +11,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "causality": ("passes/causality/*.py",),
     "elimination": ("passes/elimination/*.py", "structural/*.py"),
     "algebra": ("algebra/*.py",),
-    "signatures": ("passes/analysis/*.py", "passes/relation/*.py"),
+    "signatures": ("passes/analysis/*.py", "passes/relation/*.py", "exact/reactions.py"),
     "lowering": ("passes/lowering/*.py",),
     "oracle": ("exact/*.py", "field/*.py"),
     "diagnosis": ("runtime/diagnosis/*.py",),

@@ -90,11 +90,11 @@ def chosen(mutant: Mutant, reaches: list[Reach], budget: float) -> list[Reach]:
     """The tests to ask: they reach the function; those of its name first, then the fastest.
 
     All of them take no longer than `budget` seconds, unless the fastest does. What only runs in
-    processes of their own is seen by none: then those of the same folder are asked.
+    processes of their own is seen by none: then those of its room are asked.
     """
-    name, folder = f"{mutant.module}:{mutant.function}", Path(mutant.module).parent.name
+    name, rooms = f"{mutant.module}:{mutant.function}", Path(mutant.module).parts
     fits = [r for r in reaches if name in r.functions]
-    fits = fits or [r for r in reaches if Path(r.test).parent.name == folder]
+    fits = fits or [r for r in reaches if Path(r.test).parent.name in rooms]
     fits.sort(key=lambda r: (not mirror(r.test, mutant.module), r.seconds))
     found: list[Reach] = []
     for reach in fits:

@@ -84,7 +84,7 @@ def test_a_longer_draw_has_the_shorter_one_in_it() -> None:
 def test_tests_that_reach_the_function_are_asked_its_own_first() -> None:
     (mutant,) = mutants("bondgraph/passes/elimination/chaining.py", b"def f(): x = a < b")
     here = frozenset({"bondgraph/passes/elimination/chaining.py:f"})
-    own = Reach("tests/unit/passes/test_chain.py", 9.0, here)
+    own = Reach("tests/unit/passes/test_chaining.py", 9.0, here)
     fast, slow = Reach("tests/x/test_fast.py", 1.0, here), Reach("tests/x/test_slow.py", 99.0, here)
     other = Reach("tests/x/test_other.py", 1.0, frozenset())
     assert chosen(mutant, [slow, other, fast, own], 20.0) == [own, fast]

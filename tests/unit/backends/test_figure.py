@@ -233,7 +233,7 @@ def test_the_models_are_drawn_without_overlaps(path: Path) -> None:
 
 def test_same_bytes_under_any_hash_seed() -> None:
     code = (
-        "from tests.unit.backends.test_draw import models\n"
+        "from tests.unit.backends.test_figure import models\n"
         "from bondgraph.backends.figure import draw\n"
         "import hashlib\n"
         "text = ''.join(draw(m, 't') for m in models())\n"
