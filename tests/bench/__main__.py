@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import bondgraph
-from tests.bench import batch, growth, instructions, peers, toolbox
+from tests.bench import batch, growth, instructions, peers, toolbox, whole
 from tests.bench.clock import in_turn, python
 
 ROOT = Path(__file__).parents[2]
@@ -67,6 +67,8 @@ def main() -> None:
     print("Medians of runs taken in turn on this machine, in this run.\n")
     commands(3 if short else 11)
     verification(3 if short else 11)
+    print()
+    whole.report(short)
     print()
     instructions.report()
     print()

@@ -42,6 +42,13 @@ def tree(motors: int) -> str:
     return "\n".join([*lines, "}"]) + "\n"
 
 
+def bus(motors: int) -> str:
+    """One supply with DC motors in parallel, the speed and the current of each measured."""
+    lines = tree(0).split("model Tree {")[0].replace("-> I:L;", "-> I:L; -> Df:i;")
+    joins = "".join(f"    n -> Motor:m{i}\n" for i in range(1, motors + 1))
+    return lines + "model Bus {\n    Se:U -> 0:n\n" + joins + "}\n"
+
+
 def grid(size: int) -> str:
     """A square of `size` nodes a side joined by resistors, all different, each with a leak.
 
