@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from bondgraph.backends.evaluate import Evaluation, Values, value
+from bondgraph.backends.evaluate import Evaluation, Value, value
 from bondgraph.backends.spelling import DOUBLE_INTEGRAL, INTEGRAL, START, suffixes
 from bondgraph.backends.walk import reads
 from bondgraph.ir.program import Known, Program, Ref
@@ -63,20 +63,12 @@ def golden(program: Program) -> Golden:
         f.name: numbers.between(0.5, 2.0) if f.default is None else f.default
         for f in program.params
     }
-    given = {Ref("param", name): value(x) for name, x in parameters.items()}
-    options = {
-        "sample_time": 1.0 / program.rate,
-        "bandwidth": program.bandwidth,
-        "time_unit": program.time_unit,
-    }
-    given |= {Ref("option", name): value(x) for name, x in options.items()}
-    start = Evaluation(program, {})
-    start.given = given
+    start = Evaluation(program)
     try:
-        start.run(program.configure)
+        start.configure({name: value(x) for name, x in parameters.items()})
     except (ArithmeticError, ValueError):
         return Golden(parameters, (), ())
-    coefs = {ref: found for ref, found in start.given.items() if ref.space == "coef"}
+    coefs = {ref: found for ref, found in start.values.items() if ref.space == "coef"}
     exact = _in_some_region(lambda region: _exact(program, coefs, numbers, region))
     step = _in_some_region(lambda region: _step(program, coefs, numbers, region))
     return Golden(parameters, tuple(_without_unwritten(program, v) for v in exact), step)
@@ -126,14 +118,14 @@ def _orders(known: Known) -> Iterator[Ref]:
         yield Ref("start", known.name)
 
 
-def _results(program: Program, given: Values) -> tuple[tuple[float, float], ...]:
+def _results(program: Program, given: dict[Ref, Value]) -> tuple[tuple[float, float], ...]:
     nothing = value(0.0)
     found = [given.get(Ref("residual", r.name), nothing) for r in program.residuals]
     return tuple((float(f.number), f.size) for f in found)
 
 
 def _exact(
-    program: Program, coefs: Values, numbers: _Numbers, region: tuple[float, float]
+    program: Program, coefs: dict[Ref, Value], numbers: _Numbers, region: tuple[float, float]
 ) -> tuple[Vector, ...]:
     refs = list(inputs(program))
     scale = _amplitudes(program, coefs, refs, region)
@@ -146,16 +138,16 @@ def _exact(
 
 
 def _run_exact(
-    program: Program, coefs: Values, values: dict[Ref, float], modes: dict[str, bool]
+    program: Program, coefs: dict[Ref, Value], values: dict[Ref, float], modes: dict[str, bool]
 ) -> tuple[tuple[float, float], ...]:
-    run = Evaluation(program, modes)
-    run.given = coefs | {ref: value(x) for ref, x in values.items()}
+    run = Evaluation(program)
+    run.modes, run.values = modes, coefs | {ref: value(x) for ref, x in values.items()}
     run.run(program.exact)
-    return _results(program, run.given)
+    return _results(program, run.values)
 
 
 def _amplitudes(
-    program: Program, coefs: Values, refs: list[Ref], region: tuple[float, float]
+    program: Program, coefs: dict[Ref, Value], refs: list[Ref], region: tuple[float, float]
 ) -> dict[Ref, float]:
     """How large each derivative has to be to be felt as much as the signals: powers of two."""
     derivatives = [ref for ref in refs if ref.space == "known" and ref.order > 0]
@@ -180,10 +172,10 @@ def _amplitudes(
 
 
 def _step(
-    program: Program, coefs: Values, numbers: _Numbers, region: tuple[float, float]
+    program: Program, coefs: dict[Ref, Value], numbers: _Numbers, region: tuple[float, float]
 ) -> tuple[Vector, ...]:
-    run = Evaluation(program, {})
-    run.given = dict(coefs)
+    run = Evaluation(program)
+    run.values = dict(coefs)
     count = {k.name: 2**31 - 40 for k in program.knowns if k.counts is not None}
     total = dict.fromkeys(count, 0)
     found: list[Vector] = []
@@ -194,16 +186,16 @@ def _step(
                 step = numbers.whole(25) - 4 if at else 0
                 count[known.name] = (count[known.name] + step + 2**31) % 2**32 - 2**31
                 total[known.name] += step
-                run.given[Ref("increment", known.name)] = value(float(step))
-                run.given[Ref("total", known.name)] = value(float(total[known.name]))
+                run.values[Ref("increment", known.name)] = value(float(step))
+                run.values[Ref("total", known.name)] = value(float(total[known.name]))
             elif known.kind != "mode":
                 values[Ref("known", known.name)] = numbers.between(*region)
         if not program.openings or at % _HELD == 0:
             run.modes = _modes(program, numbers)
-        run.given |= {ref: value(x) for ref, x in values.items()}
+        run.values |= {ref: value(x) for ref, x in values.items()}
         run.run(program.step if at else program.first)
-        results = _results(program, run.given)
-        found.append(Vector(values, run.modes, dict(count), results))
+        results = _results(program, run.values)
+        found.append(Vector(values, dict(run.modes), dict(count), results))
     return tuple(found)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple, assert_never
 
-from bondgraph.backends.walk import integer_power, is_written_out
+from bondgraph.backends.walk import is_written_out
 from bondgraph.ir.program import (
     Choice,
     Compare,
@@ -19,6 +19,7 @@ from bondgraph.ir.program import (
     Product,
     Ref,
     Sum,
+    integer_power,
 )
 
 # How tightly a text holds together; an operand looser than its place wants gets brackets.

@@ -20,6 +20,7 @@ from bondgraph.ir.program import (
     Product,
     Ref,
     Sum,
+    integer_power,
 )
 
 #: Up to this exponent an integer power of a name is written as a product.
@@ -83,14 +84,6 @@ def reads(statements: Iterable[Assign | Dot | PolynomialTape]) -> list[Ref]:
             case _:
                 assert_never(statement)
     return found
-
-
-def integer_power(value: Function) -> int | None:
-    """The exponent of a `pow` whose exponent is a whole number, else None."""
-    if value.name != "pow" or not isinstance(value.args[1], Const):
-        return None
-    exponent = value.args[1].value
-    return int(exponent) if abs(exponent) < 1000 and exponent == int(exponent) else None
 
 
 def is_written_out(value: Function) -> bool:

@@ -113,6 +113,15 @@ class Mode(NamedTuple):
 Expression: TypeAlias = Const | Ref | Sum | Product | Function | Choice
 Condition: TypeAlias = Compare | Logic | Mode
 
+
+def integer_power(value: Function) -> int | None:
+    """The exponent of a `pow` whose exponent is a whole number, else None."""
+    if value.name != "pow" or not isinstance(value.args[1], Const):
+        return None
+    exponent = value.args[1].value
+    return int(exponent) if abs(exponent) < 1000 and exponent == int(exponent) else None
+
+
 # ------------------------------------------------------------------ statements
 
 

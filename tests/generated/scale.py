@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bondgraph.backends.evaluate import Evaluation, Values, value
+from bondgraph.backends.evaluate import Evaluation, value
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
 from bondgraph.ir.program import Program, Ref
@@ -24,36 +24,31 @@ class Terms:
     def __init__(self, program: Program) -> None:
         self.program = program
         self.spelling = Spelling(program, load("python"))
-        start = Evaluation(program, {})
-        start.given = {Ref("param", f.name): value(f.default or 0.0) for f in program.params}
-        options = (1.0 / program.rate, program.bandwidth, program.time_unit)
-        for name, number in zip(("sample_time", "bandwidth", "time_unit"), options, strict=True):
-            start.given[Ref("option", name)] = value(number)
-        start.run(program.configure)
-        self.coefs: Values = {r: v for r, v in start.given.items() if r.space == "coef"}
+        start = Evaluation(program)
+        start.configure({f.name: value(f.default or 0.0) for f in program.params})
+        self.coefs = {r: v for r, v in start.values.items() if r.space == "coef"}
 
     def sizes(self, monitor: Any, row: dict[str, float]) -> list[float]:
         """For each residual, at the next step of a generated Python monitor; NaN for none."""
-        run = Evaluation(
-            self.program, {k.name: row[k.path] > 0 for k in self.program.knowns if k.kind == "mode"}
-        )
-        run.given = dict(self.coefs)
+        run = Evaluation(self.program)
+        run.modes = {k.name: row[k.path] > 0 for k in self.program.knowns if k.kind == "mode"}
+        run.values = dict(self.coefs)
         for known in self.program.knowns:
-            run.given[Ref("known", known.name)] = value(row[known.path])
+            run.values[Ref("known", known.name)] = value(row[known.path])
         for (_, signal), name in self.spelling.encoders.items():
             encoder = getattr(monitor._e, name)
             path = next(k.path for k in self.program.knowns if k.name == signal)
             increment = int(row[path]) - encoder.count
-            run.given[Ref("increment", signal)] = value(increment)
-            run.given[Ref("total", signal)] = value(encoder.total + increment)
+            run.values[Ref("increment", signal)] = value(increment)
+            run.values[Ref("total", signal)] = value(encoder.total + increment)
         for field in self.program.states:
             name = self.spelling.states[field.name]
-            run.given[Ref("state", field.name)] = value(getattr(monitor._x, name))
+            run.values[Ref("state", field.name)] = value(getattr(monitor._x, name))
         try:
             run.run(self.program.step)
         except (ArithmeticError, ValueError):
             return [math.nan] * len(self.program.residuals)
-        found = [run.given.get(Ref("residual", r.name)) for r in self.program.residuals]
+        found = [run.values.get(Ref("residual", r.name)) for r in self.program.residuals]
         return [f.size if f is not None else math.nan for f in found]
 
 

@@ -30,16 +30,12 @@ def _ladder(cells: int) -> list[Fraction]:
 
 def _coefficients(cells: int) -> list[module.Value]:
     program = programs.ladder(cells)
-    run = Evaluation(program, {})
-    run.given = {
-        Ref("param", "R"): value(3.2),
-        Ref("param", "C"): value(1.1e-2),
-        Ref("option", "sample_time"): value(0.001),
-        Ref("option", "bandwidth"): value(20.0),
-        Ref("option", "time_unit"): value(0.5),
-    }
-    run.run(program.configure)
-    return [run.given[Ref("coef", "y_polynomial", k)] for k in range(cells + 1)]
+    run = Evaluation(program)
+    options = {"sample_time": 0.001, "bandwidth": 20.0, "time_unit": 0.5}
+    run.configure(
+        {"R": value(3.2), "C": value(1.1e-2)}, {name: value(x) for name, x in options.items()}
+    )
+    return [run.values[Ref("coef", "y_polynomial", k)] for k in range(cells + 1)]
 
 
 @pytest.mark.parametrize("many", [10**9, 0], ids=["40 digits", "double"])
@@ -55,10 +51,10 @@ def test_a_tape_is_the_polynomial_of_the_chain(many: int, monkeypatch: pytest.Mo
 
 def test_the_size_says_what_cancels() -> None:
     """1000.001 - 1000 is 0.001, from terms of 2000."""
-    run = Evaluation(programs.motor(), {})
-    run.given = {Ref("known", "U"): value(1000.001), Ref("known", "y"): value(1000.0)}
-    run.run([programs.put("local:d", programs.minus(*run.given))])
-    found = run.given[Ref("local", "d")]
+    run = Evaluation(programs.motor())
+    run.values = {Ref("known", "U"): value(1000.001), Ref("known", "y"): value(1000.0)}
+    run.run([programs.put("local:d", programs.minus(*run.values))])
+    found = run.values[Ref("local", "d")]
     assert float(found.number) == pytest.approx(0.001, rel=1e-9)
     assert found.size == pytest.approx(2000.001)
 
@@ -79,9 +75,9 @@ def test_the_size_says_what_cancels() -> None:
     ],
 )
 def test_functions(name: str, args: tuple[float, ...], wanted: float) -> None:
-    run = Evaluation(programs.functions(), {})
+    run = Evaluation(programs.functions())
     run.run([programs.put("local:f", Function(name, tuple(map(Const, args))))])
-    assert float(run.given[Ref("local", "f")].number) == pytest.approx(wanted, rel=1e-15)
+    assert float(run.values[Ref("local", "f")].number) == pytest.approx(wanted, rel=1e-15)
 
 
 @pytest.mark.parametrize("make", programs.ALL, ids=lambda m: m.__name__)

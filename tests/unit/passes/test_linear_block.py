@@ -18,8 +18,8 @@ from bondgraph.passes.elimination.linear_block import (
     products,
     solve_block,
 )
-from bondgraph.runtime.interpret import Interpreter
 from bondgraph.text.diagnostic import CompileError
+from tests.sampled import Sampled
 from tests.unit.passes.relations import compiled
 
 
@@ -197,7 +197,7 @@ def test_a_grid_with_a_bent_resistor_is_no_linear_block_and_has_the_same_relatio
     assert drop > 0.05 and np.abs(surplus[1:]).max() < 1e-15
     compilation = compiled(bent)
     assert len(compilation.residuals) == 2
-    machine = Interpreter(compilation.program)
+    machine = Sampled(compilation.program)
     healthy = {"u": 5.0, "y4": voltages[4], "y8": voltages[8]}
     calm = machine.exact({name: {0: value} for name, value in healthy.items()})
     for name in ("y4", "y8"):
@@ -213,13 +213,13 @@ def test_program_of_a_grid_is_nodal_analysis() -> None:
     text, nodal = grid(size)
     voltages = np.concatenate([[5.0], np.linalg.solve(nodal[1:, 1:], -nodal[1:, 0] * 5.0)])
     program = compiled(text).program
-    machine = Interpreter(program)
+    machine = Sampled(program)
     healthy = {"u": 5.0, **{f"y{k}": voltages[k] for k in (24, 48)}}
     for _ in range(2000):
         calm = machine.step(healthy).residuals
     assert len(calm) == 2
     for name in ("y24", "y48"):
-        moved = Interpreter(program)
+        moved = Sampled(program)
         for _ in range(2000):
             faulty = moved.step({**healthy, name: healthy[name] * 1.01}).residuals
         told = [r.name for r in program.residuals if name in r.faults]

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bondgraph.ir.expr import Expr
-from bondgraph.runtime.interpret import Interpreter
+from tests.sampled import Sampled
 from tests.unit.algebra.test_normalise import SIGNALS, TIME, to_sympy
 from tests.unit.passes.lowering_models import Bench
 
@@ -66,7 +66,7 @@ def test_any_residual_gives_its_exact_value(seed: int, taped: bool) -> None:
     }
     values = {sympy.Symbol("a"): 1.3, sympy.Symbol("b"): -0.7, sympy.Symbol("leak"): 0.0}
     reference = float(sympy.N(to_sympy(expr).doit().subs(values).subs(at)))
-    found = Interpreter(program).exact(known)["r1"]
+    found = Sampled(program).exact(known)["r1"]
     assert found == pytest.approx(reference, rel=1e-7, abs=1e-7)
 
 
@@ -77,7 +77,7 @@ def test_any_residual_has_a_step(seed: int, taped: bool) -> None:
         patch.setattr("bondgraph.passes.lowering.lower.LIMIT", 10 if taped else 1500)
         bench = Bench()
         program = bench.program(random_residual(random.Random(seed), bench, integrals=True))
-    run = Interpreter(program)
+    run = Sampled(program)
     counted = any(k.counts for k in program.knowns)
     for i in range(8):
         y = 3 * i if counted else math.cos(0.02 * i)

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.interpret import Interpreter
+from tests.sampled import Sampled
 from tests.unit.passes.relations import compiled
 
 Numbers = Mapping[str, float]
@@ -386,7 +386,7 @@ def test_the_interpreter_and_the_engine_agree_on_the_emitted_program() -> None:
     c = _compiled("P, its command hidden")
     engine = c.engine()
     rows = _log(P_HIDDEN, {"y": 0.4}, [k.path for k in engine.signals])[:300]
-    run = Interpreter(c.program, {f.name: f.default for f in c.program.params})
+    run = Sampled(c.program, {f.name: f.default for f in c.program.params})
     for row, value in zip(rows, engine.run(rows).value, strict=True):
         found, valid = run.step(dict(zip([k.name for k in c.program.knowns], row, strict=True)))
         if valid["r1"]:

@@ -14,8 +14,8 @@ from bondgraph.ir.program import Const, Expression, Function, Product, Ref, Sum
 from bondgraph.passes.lowering.jumps import Jumps
 from bondgraph.passes.lowering.opening import _shape
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.interpret import Interpreter
 from bondgraph.text.source import Source
+from tests.sampled import Sampled
 from tests.switched.plants import BOOST, CAPACITORS, CARRIAGE, COIL
 
 
@@ -102,7 +102,7 @@ model M {
 }
 """
     program = Compilation(Source("m.bg", text)).program
-    machine, faulty = Interpreter(program), Interpreter(program)
+    machine, faulty = Sampled(program), Sampled(program)
     for _ in range(3000):
         calm = machine.step({"y": level}, {"on": on}).residuals["r1"]
         wrong = faulty.step({"y": level + 0.5}, {"on": on}).residuals["r1"]
@@ -114,7 +114,7 @@ model M {
 def test_the_coupled_stages_are_those_of_the_matrix_exponential(x: float) -> None:
     """Three stages y_k' = (y_(k-1) - y_k) with an input that goes from v to w in the time x."""
     program = Compilation(Source("m.bg", CARRIAGE.text)).program
-    run = Interpreter(program, bandwidth=x * program.rate)
+    run = Sampled(program, bandwidth=x * program.rate)
     n = 3
     whole = np.zeros((n + 2, n + 2))  # the stages, then the input and its slope
     whole[:n, :n] = np.eye(n, k=-1) - np.eye(n)

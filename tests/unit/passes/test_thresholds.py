@@ -14,7 +14,7 @@ import bondgraph
 from bondgraph.cli.summary import report
 from bondgraph.ir.program import Program
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.interpret import Interpreter
+from tests.sampled import Sampled
 
 _ROOT = Path(__file__).resolve().parents[3]
 _TS = 1e-3
@@ -59,7 +59,7 @@ def _thresholds(compilation: Compilation) -> Program:
 
 def _run(program: Program, samples: _Samples) -> dict[str, np.ndarray]:
     """The results of step where they are valid, NaN before."""
-    run = Interpreter(program)
+    run = Sampled(program)
     rows = []
     for k in range(len(_TIME)):
         out = run.step({name: float(x[k]) for name, x in samples.items()})

@@ -14,9 +14,9 @@ import pytest
 import bondgraph
 from bondgraph.ir.graph import BondGraph
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.interpret import Interpreter
 from bondgraph.runtime.shown import shown
 from bondgraph.runtime.smallest import Detection, Situation, noise, smallest
+from tests.sampled import Sampled
 
 _ROOT = Path(__file__).resolve().parents[3]
 
@@ -94,7 +94,7 @@ def test_noise_of_an_encoder_is_that_of_its_counts(tmp_path: Path) -> None:
             found = noise(program, Situation())["r1"]
             assert found is not None
             expected = found
-        run = Interpreter(program)
+        run = Sampled(program)
         read = np.floor(angle * counts / (2 * math.pi)).astype(int)
         rows.append([run.step({"torque": 0.0, "angle": n}).residuals["r1"] for n in read])
     off = np.array(rows[0][1000:]) - np.array(rows[1][1000:])

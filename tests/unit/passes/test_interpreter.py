@@ -11,13 +11,13 @@ from scipy import signal as sig
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.program import Program
 from bondgraph.passes.lowering.lower import LowerOptions
-from bondgraph.runtime.interpret import Interpreter
+from tests.sampled import Sampled
 from tests.unit.passes.lowering_models import Bench, drive
 
 
 def run(program: Program, samples: dict[str, np.ndarray], **options: object) -> np.ndarray:
     """The first residual of every sample."""
-    machine = Interpreter(program, **options)  # type: ignore[arg-type]
+    machine = Sampled(program, **options)  # type: ignore[arg-type]
     name = program.residuals[0].name
     length = len(next(iter(samples.values())))
     return np.array(
@@ -253,7 +253,7 @@ def test_chain_of_four_stages_is_stable_in_single_precision(bandwidth: float) ->
 def test_a_bad_sample_restarts_and_does_no_lasting_harm() -> None:
     bench = Bench()
     program = bench.program(third_order(bench))
-    machine = Interpreter(program)
+    machine = Sampled(program)
     settle = math.ceil(program.residuals[0].settle / (1e-3 * program.bandwidth))
     for i in range(settle + 1):
         outcome = machine.step({"y": 1.0, "u": 2.0})
@@ -275,7 +275,7 @@ def test_a_wide_band_uses_the_closed_form_of_the_stage() -> None:
     program = bench.program(bench.sensor("y"), options=LowerOptions())
     assert p
     for x in (1e-6, 0.02, 0.1249, 0.1251, 3.0):
-        coefs = Interpreter(program, sample_time=x, bandwidth=1.0).coefs
+        coefs = Sampled(program, sample_time=x, bandwidth=1.0).coefs
         a, b0, b1 = coefs["a"], coefs["b0"], coefs["b1"]
         assert a == pytest.approx(math.exp(-x), rel=1e-14)
         assert b0 == pytest.approx(1 + math.expm1(-x) / x, rel=1e-9, abs=1e-11)
