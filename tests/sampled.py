@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
+from bondgraph.algebra.interpreter import DOUBLES, Interpreter, Real
 from bondgraph.ir.program import Program, Ref
-from bondgraph.passes.interpreter import DOUBLES, Interpreter, Real
 
 
 class Outcome(NamedTuple):

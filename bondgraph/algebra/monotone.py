@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from functools import reduce
 from itertools import pairwise
 from typing import NamedTuple
 
+from bondgraph.algebra.interpreter import FUNCTIONS, Evaluated
 from bondgraph.algebra.solve import affine
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, backwards, topological
@@ -118,15 +120,15 @@ def slope_range(
     It jumps where it divides by what may be zero: on either side of such a pole a root may lie.
     """
     given = {variable: _domain(expr, variable), **(given or {})}
-    values: dict[Expr, Range] = {}
+
+    def symbol(node: Expr) -> Range:
+        return _constant(node, number, exact) if node.symbol.kind in CONSTANTS else ALL
+
+    point = Evaluated(_RANGES, symbol, given)
+    values = point.values([expr])
     slopes: dict[Expr, Range] = {variable: ONE}
     for node in topological([expr]):
-        if node in given:
-            values[node] = given[node]
-            continue
-        args = [values[a] for a in node.args]
-        values[node] = _value(node, args, number, exact)
-        if node is variable or not any(a in slopes for a in node.args):
+        if node in given or not any(a in slopes for a in node.args):
             continue
         slope = _slope(pool, node, variable, values, slopes)
         if slope is None:
@@ -143,35 +145,6 @@ def _domain(expr: Expr, variable: Expr) -> Range:
     return ALL
 
 
-def _value(
-    node: Expr, args: list[Range], number: Callable[[Expr], float | None], exact: bool
-) -> Range:
-    match node.op:
-        case Op.NUM:
-            x = float(node.number)
-            return Range(x, x, False, False)
-        case Op.SYM:
-            return _constant(node, number, exact) if node.symbol.kind in CONSTANTS else ALL
-        case Op.ADD:
-            terms = [scale(float(c), a) for c, a in zip(node.coefficients, args, strict=True)]
-            return add(*terms)
-        case Op.MUL:
-            out = ONE
-            for a, e in zip(args, node.exponents, strict=True):
-                out = times(out, power(a, e))
-            return out
-        case Op.FN:
-            if node.name in ("tanh", "atan", "exp", "sinh", "asinh", "cbrt", "ssqrt", "ssq"):
-                return _through(node.name, args[0])
-            if node.name == "pow" and args[0].low >= 0:
-                return _POSITIVE
-            return _VALUES.get(node.name, ALL)
-        case Op.IF:
-            return join(args[1], args[2])
-        case _:
-            return ALL
-
-
 def _constant(node: Expr, number: Callable[[Expr], float | None], exact: bool) -> Range:
     x = number(node)
     if x is None:
@@ -183,20 +156,20 @@ def _constant(node: Expr, number: Callable[[Expr], float | None], exact: bool) -
     return _POSITIVE if x > 0 else Range(-_INF, 0.0, True, True)
 
 
+def _function(node: Expr, args: list[Range]) -> Range:
+    if node.name in ("tanh", "atan", "exp", "sinh", "asinh", "cbrt", "ssqrt", "ssq"):
+        return _through(node.name, args[0])
+    if node.name == "pow" and args[0].low >= 0:
+        return _POSITIVE
+    return _VALUES.get(node.name, ALL)
+
+
 def _through(name: str, a: Range) -> Range:
     """A growing function at the ends of a range."""
 
     def at(x: float) -> float:
         try:
-            match name:
-                case "cbrt":
-                    return math.copysign(abs(x) ** (1 / 3), x)
-                case "ssqrt":
-                    return math.copysign(math.sqrt(abs(x)), x)
-                case "ssq":
-                    return x * abs(x)
-                case _:
-                    return float(getattr(math, name)(x))
+            return float(FUNCTIONS[name](x))
         except OverflowError:
             return math.copysign(_INF, x)
 
@@ -377,6 +350,10 @@ def _raise(x: float, exponent: int) -> float:
         return math.copysign(_INF, x) if exponent % 2 else _INF
 
 
+def _product(node: Expr, args: list[Range]) -> Range:
+    return reduce(times, map(power, args, node.exponents), ONE)
+
+
 def join(*ranges: Range) -> Range:
     """Whatever one of the ranges holds."""
     low, high = min(r.low for r in ranges), max(r.high for r in ranges)
@@ -386,3 +363,13 @@ def join(*ranges: Range) -> Range:
         all(r.open_low for r in ranges if r.low == low),
         all(r.open_high for r in ranges if r.high == high),
     )
+
+
+_RANGES: dict[Op, Callable[[Expr, list[Range]], Range]] = {
+    **dict.fromkeys(Op, lambda *_: ALL),
+    Op.NUM: lambda node, _: scale(float(node.number), ONE),
+    Op.ADD: lambda node, args: add(*map(scale, map(float, node.coefficients), args)),
+    Op.MUL: _product,
+    Op.FN: _function,
+    Op.IF: lambda _, args: join(*args[1:]),
+}

@@ -4,27 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from operator import mul
+from typing import TYPE_CHECKING
 
+from bondgraph.algebra.interpreter import EXACT, FUNCTIONS, Evaluated
 from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 
 if TYPE_CHECKING:
     from flint import arb
 
-#: What an expression may call, on doubles.
-FUNCTIONS: dict[str, Callable[..., Any]] = {
-    **{
-        name: getattr(math, name)
-        for name in "sqrt cbrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh"
-        " pow atan2".split()
-    },
-    "abs": abs,
-    "min": min,
-    "max": max,
-    "sign": lambda x: math.copysign(1.0, x) if x else 0.0,
-    "ssqrt": lambda x: math.copysign(math.sqrt(abs(x)), x),
-    "ssq": lambda x: x * abs(x),
+#: Doubles; a sum is rounded once, and what does not change has no derivative.
+_DOUBLES: dict[Op, Callable[[Expr, list[float]], float | None]] = {
+    **EXACT,
+    Op.NUM: lambda node, _: float(node.number),
+    Op.ADD: lambda node, args: math.fsum(map(mul, map(float, node.coefficients), args)),
+    Op.MUL: lambda node, args: math.prod(map(pow, args, node.exponents)),
+    Op.DER: lambda *_: 0.0,
 }
 
 #: How far off one operation may be, next to its largest term: some roundings of double precision,
@@ -41,12 +38,10 @@ class Nominal:
 
     def __init__(self, graph: BondGraph, replaced: Mapping[str, float] | None = None) -> None:
         other = replaced or {}
-        self._known: dict[Expr, float | None] = {
-            v.symbol: float(other[v.name]) for v in graph.values if v.name in other
-        }
-        self._replaced = frozenset(self._known)
+        own = {v.symbol: float(other[v.name]) for v in graph.values if v.name in other}
+        self._replaced = frozenset(own)
+        self._at = Evaluated(_DOUBLES, self._of_symbol, own)
         self._doubts: dict[Expr, float] = {}
-        self._sharp: dict[Expr, arb | None] = {}
         self._nothing: dict[Expr, bool] = {}
         self._given = {v.symbol: v.value for v in graph.values}
         self._given |= {
@@ -59,19 +54,12 @@ class Nominal:
 
     def value(self, expr: Expr) -> float | None:
         """The nominal value; None where a part has none (a symbolic parameter, a signal)."""
-        for node in topological([expr], stop=self._known.__contains__):
-            if node in self._known:
-                continue
-            self._known[node] = None  # also the answer for a definition that runs in a circle
-            if node.op is Op.SYM:
-                given = self._given.get(node)
-                self._known[node] = None if given is None else self.value(given)
-            else:
-                args = [self._known[a] for a in node.args]
-                numbers = [a for a in args if a is not None]
-                if len(numbers) == len(args):
-                    self._known[node] = _apply(node, numbers)
-        return self._known[expr]
+        found = self._at.value(expr)
+        return None if found is None else float(found)
+
+    def _of_symbol(self, symbol: Expr) -> float | None:
+        given = self._given.get(symbol)
+        return None if given is None else self.value(given)
 
     def vanishes(self, expr: Expr) -> bool:
         """Whether a coefficient is zero at the nominal values, next to the size of its terms.
@@ -105,42 +93,42 @@ class Nominal:
         from flint import ctx  # few models get here, and `check` starts without it
 
         with ctx.workprec(_BITS):
-            for node in topological([expr], stop=self._sharp.__contains__):
-                if node not in self._sharp:
-                    self._sharp[node] = self._sharp_value(node)
-        found = self._sharp[expr]
+            found = self._balls.value(expr)
         return found is None or bool(found.contains(0))
 
-    def _sharp_value(self, node: Expr) -> arb | None:
-        """The value of a node as a ball; None where doubles alone know how to find it."""
+    @cached_property
+    def _balls(self) -> Evaluated[arb]:
+        """Values as balls; where doubles alone know how to find one, theirs."""
         from flint import arb, fmpq
 
-        if node.op is Op.SYM:
+        def of_symbol(node: Expr) -> arb | None:
             given = self._given.get(node) if node not in self._replaced else None
-            if given is None or given.op is not Op.NUM:
-                value = self.value(node)
-                return None if value is None else arb(value)
-            node = given
-        if node.op is Op.NUM:
+            return in_double(node) if given is None or given.op is not Op.NUM else number(given)
+
+        def number(node: Expr, _: object = None) -> arb:
             return arb(fmpq(node.number.numerator, node.number.denominator))
-        args = [x for a in node.args if (x := self._sharp[a]) is not None]
-        if len(args) < len(node.args):
-            return None
-        if node.op is Op.MUL:
+
+        def in_double(node: Expr, _: object = None) -> arb | None:
+            value = self.value(node)
+            return None if value is None else arb(value)
+
+        def product(node: Expr, args: list[arb]) -> arb | None:
             factors = list(zip(args, node.exponents, strict=True))
             if any(e < 0 and x.contains(0) for x, e in factors):
                 return None
             return math.prod([x**e for x, e in factors], start=arb(1))
-        if node.op is Op.ADD:
+
+        def total(node: Expr, args: list[arb]) -> arb:
             terms = [
                 x * fmpq(c.numerator, c.denominator)
                 for c, x in zip(node.coefficients, args, strict=True)
             ]
-            total = sum(terms, start=arb(0))
+            found = sum(terms, start=arb(0))
             largest = max(abs(t).mid() for t in terms)
-            return arb(0) if abs(total) <= largest * _ROUNDING else total
-        value = self.value(node)
-        return None if value is None else arb(value)
+            return arb(0) if abs(found) <= largest * _ROUNDING else found
+
+        other = dict.fromkeys(Op, in_double)
+        return Evaluated({**other, Op.NUM: number, Op.ADD: total, Op.MUL: product}, of_symbol)
 
     def size(self, coefficient: Expr) -> float:
         """The nominal value of a coefficient: zero if it vanishes, one if the model gives none."""
@@ -157,18 +145,18 @@ class Nominal:
         return self._doubts[expr]
 
     def _rounding(self, node: Expr) -> float:
-        own = abs(self._known.get(node) or 0.0)
+        own = abs(self._at.known.get(node) or 0.0)
         if node.op is Op.ADD:
             size, inherited = own, 0.0
             for c, arg in zip(node.coefficients, node.args, strict=True):
                 weight = abs(float(c))
-                size = max(size, weight * abs(self._known.get(arg) or 0.0))
+                size = max(size, weight * abs(self._at.known.get(arg) or 0.0))
                 inherited += weight * self._doubts[arg]
             return inherited + _ROUNDING * size
         if node.op is Op.MUL:
             inherited = 0.0
             for exponent, arg in zip(node.exponents, node.args, strict=True):
-                factor = abs(self._known.get(arg) or 0.0)
+                factor = abs(self._at.known.get(arg) or 0.0)
                 if factor:
                     inherited += abs(exponent) * self._doubts[arg] / factor
             return own * (inherited + _ROUNDING)
@@ -177,46 +165,13 @@ class Nominal:
 
 def defined(expr: Expr, variable: Expr, at: float) -> bool:
     """Whether an expression has a value when the variable has one, and all else is one."""
-    values: dict[Expr, float] = {}
-    for node in topological([expr]):
-        if node.op is Op.SYM:
-            values[node] = at if node is variable else 1.0
-            continue
-        if node.op in (Op.FN, Op.NUM, Op.ADD, Op.MUL):
-            value = _apply(node, [values[a] for a in node.args])
-            if value is None and not (node.op is Op.FN and node.name not in FUNCTIONS):
-                return False
-            values[node] = 1.0 if value is None else value
-        else:
-            values[node] = 1.0
-    return True
+    point = Evaluated(_SOME, lambda node: at if node is variable else 1.0)
+    return point.value(expr) is not None
 
 
-def _apply(node: Expr, args: list[float]) -> float | None:
-    try:
-        match node.op:
-            case Op.NUM:
-                return float(node.number)
-            case Op.ADD:
-                terms = zip(node.coefficients, args, strict=True)
-                return math.fsum(float(c) * a for c, a in terms)
-            case Op.MUL:
-                return math.prod(a**e for a, e in zip(args, node.exponents, strict=True))
-            case Op.FN if node.name in FUNCTIONS:
-                return float(FUNCTIONS[node.name](*args))
-            case Op.DER:
-                return 0.0
-            case Op.IF:
-                return args[1] if args[0] else args[2]
-            case Op.CMP:
-                left, right = args
-                holds = {"<": left < right, "<=": left <= right, "==": left == right}
-                return float(holds[node.name])
-            case Op.LOGIC if node.name == "not":
-                return float(not args[0])
-            case Op.LOGIC:
-                return float((all if node.name == "and" else any)(args))
-            case _:
-                return None
-    except (ArithmeticError, ValueError):
-        return None
+#: What tells where an expression has no value: sums, products and functions.
+_SOME: dict[Op, Callable[[Expr, list[float]], float | None]] = {
+    **dict.fromkeys(Op, lambda *_: 1.0),
+    **{op: _DOUBLES[op] for op in (Op.NUM, Op.ADD, Op.MUL)},
+    Op.FN: lambda node, args: _DOUBLES[Op.FN](node, args) if node.name in FUNCTIONS else 1.0,
+}

@@ -3,44 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.algebra.interpreter import EXACT, Evaluated
+from bondgraph.ir.expr import Expr, Op
 from bondgraph.ir.graph import BondGraph
 
 Number: TypeAlias = float | Fraction | int
-
-_PLAIN: dict[str, Callable[..., float]] = {
-    name: getattr(math, name)
-    for name in (
-        "sqrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh pow atan2"
-    ).split()
-}
-
-
-def function(name: str, args: tuple[Any, ...]) -> Any:
-    """A function of `FUNCTIONS` at numbers; raises ValueError outside its domain."""
-    x = args[0]
-    match name:
-        case "abs":
-            return abs(x)
-        case "sign":
-            return (x > 0) - (x < 0)
-        case "ssq":
-            return x * abs(x)
-        case "cbrt":
-            return math.copysign(abs(float(x)) ** (1 / 3), x)
-        case "ssqrt":
-            return math.copysign(math.sqrt(abs(x)), x)
-        case "min":
-            return min(args)
-        case "max":
-            return max(args)
-        case _:
-            return _PLAIN[name](*args)
-
 
 def evaluate(root: Expr, values: Mapping[str, Number]) -> Number | None:
     """The value of a constant expression; None where a symbol has none or it is not defined.
@@ -53,47 +24,9 @@ def evaluate(root: Expr, values: Mapping[str, Number]) -> Number | None:
 
 def evaluate_all(roots: Sequence[Expr], values: Mapping[str, Number]) -> dict[Expr, Number] | None:
     """The values of constant expressions and of all that they are made of; None as `evaluate`."""
-    found: dict[Expr, Number] = {}
-    try:
-        for node in topological(roots):
-            value = _one(node, [found[a] for a in node.args], values)
-            if value is None:
-                return None
-            found[node] = value
-    except (ValueError, OverflowError, ZeroDivisionError):
-        return None
-    return found
-
-
-def _one(node: Expr, args: list[Number], values: Mapping[str, Number]) -> Any:
-    match node.op:
-        case Op.NUM:
-            return node.number
-        case Op.SYM:
-            return values.get(node.symbol.name)
-        case Op.ADD:
-            total: Number = 0
-            for c, a in zip(node.coefficients, args, strict=True):
-                total = total + (c * a if isinstance(a, Fraction | int) else float(c) * a)
-            return total
-        case Op.MUL:
-            product: Number = 1
-            for a, e in zip(args, node.exponents, strict=True):
-                product = product * (Fraction(a) if isinstance(a, int) else a) ** e
-            return product
-        case Op.FN if not node.name.startswith("table:"):
-            return function(node.name, tuple(args))
-        case Op.IF:
-            return args[1] if args[0] else args[2]
-        case Op.CMP:
-            left, right = args
-            return {"<": left < right, "<=": left <= right, "==": left == right}[node.name]
-        case Op.LOGIC:
-            if node.name == "not":
-                return not args[0]
-            return all(args) if node.name == "and" else any(args)
-        case _:
-            return None
+    at = Evaluated[Number](EXACT, lambda node: values.get(node.symbol.name))
+    found = at.values(roots)
+    return found if len(found) == len(at.known) else None
 
 
 def nominal(graph: BondGraph) -> dict[str, Fraction | float]:
@@ -164,8 +97,9 @@ def _slope(node: Expr, args: list[Number], i: int) -> float:
             return 0.0  # a condition
         at = float(args[i])
         width = 2.0**-20 * (abs(at) or 1.0)
-        high = _one(node, [*args[:i], at + width, *args[i + 1 :]], {})
-        low = _one(node, [*args[:i], at - width, *args[i + 1 :]], {})
+        high, low = (
+            EXACT[node.op](node, [*args[:i], x, *args[i + 1 :]]) for x in (at + width, at - width)
+        )
         return float(high - low) / (2 * width)
     except (ValueError, OverflowError, ZeroDivisionError):
         return math.nan

@@ -9,7 +9,8 @@ from typing import Any
 import sympy as sp
 from sympy.logic.boolalg import Boolean
 
-from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, Symbol, topological
+from bondgraph.algebra.interpreter import Evaluated
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, Symbol
 
 #: Time, on which every known signal depends in the SymPy form of a relation.
 t = sp.Symbol("t", real=True)
@@ -56,47 +57,48 @@ def to_sympy(
     integral from the start `Integral(x, (t, 0, t)) + x0`. `leaves` overrides single nodes,
     `starts` gives the values from which integrals begin.
     """
-    done: dict[Expr, Any] = dict(leaves or {})
     begins = starts or {}
-    for node in topological([expr, *begins.values()], stop=done.__contains__):
-        if node not in done:
-            done[node] = _convert(node, [done[a] for a in node.args])
-            if node.op is Op.INT:
-                start = begins.get(node.symbol)
-                own = sp.Symbol(node.symbol.name, real=True) if start is None else done[start]
-                done[node] += own
-    return done[expr]
+
+    def integral(node: Expr, args: list[Any]) -> Any:
+        start = begins.get(node.symbol)
+        own = sp.Symbol(node.symbol.name, real=True) if start is None else point.value(start)
+        return sp.Integral(args[0], (t, 0, t)) + own
+
+    point: Evaluated[Any] = Evaluated({**_OPERATIONS, Op.INT: integral}, _symbol, leaves)
+    return point.value(expr)
 
 
-def _convert(node: Expr, args: list[Any]) -> Any:
-    match node.op:
-        case Op.NUM:
-            return sp.Rational(node.number.numerator, node.number.denominator)
-        case Op.SYM:
-            if node.symbol.kind in KNOWN_SIGNALS:
-                return sp.Function(node.symbol.name, real=True)(t)
-            return sp.Symbol(node.symbol.name, real=True)
-        case Op.ADD:
-            terms = zip(node.coefficients, args, strict=True)
-            return sp.Add(*[sp.Rational(c.numerator, c.denominator) * a for c, a in terms])
-        case Op.MUL:
-            return sp.Mul(*[sp.Pow(a, e) for e, a in zip(node.exponents, args, strict=True)])
-        case Op.FN:
-            named = _FUNCTIONS.get(node.name)
-            return named(*args) if named else sp.Function(node.name.replace(":", "_"))(*args)
-        case Op.ROOT:
-            return sp.Function(f"root_{node.root.name}")(*args)
-        case Op.DER:
-            inner, order = args[0], 1
-            return sp.Derivative(inner, (t, order)) if inner.has(t) else sp.Integer(0)
-        case Op.INT:
-            return sp.Integral(args[0], (t, 0, t))
-        case Op.IF:
-            return sp.Piecewise((args[1], _truth(args[0])), (args[2], True))
-        case Op.CMP:
-            return _COMPARE[node.name](*args)
-        case Op.LOGIC:
-            return _LOGIC[node.name](*[_truth(a) for a in args])
+def _symbol(node: Expr) -> Any:
+    if node.symbol.kind in KNOWN_SIGNALS:
+        return sp.Function(node.symbol.name, real=True)(t)
+    return sp.Symbol(node.symbol.name, real=True)
+
+
+def _sum(node: Expr, args: list[Any]) -> Any:
+    terms = zip(node.coefficients, args, strict=True)
+    return sp.Add(*[sp.Rational(c.numerator, c.denominator) * a for c, a in terms])
+
+
+def _function(node: Expr, args: list[Any]) -> Any:
+    named = _FUNCTIONS.get(node.name)
+    return named(*args) if named else sp.Function(node.name.replace(":", "_"))(*args)
+
+
+def _derivative(_: Expr, args: list[Any]) -> Any:
+    return sp.Derivative(args[0], (t, 1)) if args[0].has(t) else sp.Integer(0)
+
+
+_OPERATIONS: dict[Op, Callable[[Expr, list[Any]], Any]] = {
+    Op.NUM: lambda node, _: sp.Rational(node.number.numerator, node.number.denominator),
+    Op.ADD: _sum,
+    Op.MUL: lambda node, args: sp.Mul(*map(sp.Pow, args, node.exponents)),
+    Op.FN: _function,
+    Op.ROOT: lambda node, args: sp.Function(f"root_{node.root.name}")(*args),
+    Op.DER: _derivative,
+    Op.IF: lambda _, args: sp.Piecewise((args[1], _truth(args[0])), (args[2], True)),
+    Op.CMP: lambda node, args: _COMPARE[node.name](*args),
+    Op.LOGIC: lambda node, args: _LOGIC[node.name](*map(_truth, args)),
+}
 
 
 def _truth(value: Any) -> Any:

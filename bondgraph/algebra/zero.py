@@ -8,12 +8,14 @@ derivatives count as independent unknowns of their arguments' values, which can 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from operator import mul
 from zlib import crc32
 
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.algebra.interpreter import Evaluated
+from bondgraph.ir.expr import Expr, Op, Rational
 
-_P = (1 << 61) - 1
+PRIME = (1 << 61) - 1
 
 
 def is_zero(expr: Expr) -> bool:
@@ -60,12 +62,12 @@ def share_factor(a: list[Expr], b: list[Expr]) -> bool:
         return True
     one, other = _trimmed(left), _trimmed(right)
     while other:
-        top = pow(other[-1], -1, _P)
+        top = pow(other[-1], -1, PRIME)
         while len(one) >= len(other):
-            factor = one[-1] * top % _P
+            factor = one[-1] * top % PRIME
             shift = len(one) - len(other)
             for k, c in enumerate(other):
-                one[k + shift] = (one[k + shift] - factor * c) % _P
+                one[k + shift] = (one[k + shift] - factor * c) % PRIME
             one = _trimmed(one[:-1])
         one, other = other, one
     return len(one) > 1
@@ -80,43 +82,55 @@ def _trimmed(values: Sequence[int | None]) -> list[int]:
 
 def _values(exprs: Sequence[Expr], seed: int) -> dict[Expr, int | None]:
     """The nodes of some expressions at a random point; None where one divides by zero there."""
-    values: dict[Expr, int | None] = {}
-    for node in topological(exprs):
-        args = []
-        for a in node.args:
-            x = values[a]
-            if x is None:
-                break
-            args.append(x)
-        values[node] = _one(node, args, seed) if len(args) == len(node.args) else None
-    return values
+    point = random_point(seed)
+    point.run(exprs)
+    return point.known
 
 
-def _one(node: Expr, args: list[int], seed: int) -> int | None:
-    """One node from its arguments."""
-    if node.op is Op.NUM:
-        number = node.number
-        if number.denominator % _P == 0:
-            return None
-        value = number.numerator * pow(number.denominator, -1, _P)
-    elif node.op is Op.ADD:
-        value = 0
-        for c, x in zip(node.coefficients, args, strict=True):
-            value += x * c.numerator * pow(c.denominator, -1, _P)
-    elif node.op is Op.MUL:
-        value = 1
-        for e, x in zip(node.exponents, args, strict=True):
-            if x == 0 and e < 0:
-                return None
-            value = value * pow(x, e, _P) % _P
-    elif node.op is Op.SYM:
-        value = _mix(seed, node.symbol.name)
-    else:
+def random_point(seed: object, zero: str | None = None) -> Evaluated[int]:
+    """A point of the prime field; functions, derivatives and conditions are drawn there as well.
+
+    `zero` is the name of a symbol that is zero.
+    """
+
+    def drawn(node: Expr, args: list[int]) -> int:
         data = node.root.zero.id if node.op is Op.ROOT else node.data
-        value = _mix(seed, f"{node.op.value}:{data}:{args}")
-    return value % _P
+        return draw(f"{seed}:{node.op.value}:{data}:{args}")
+
+    def symbol(node: Expr) -> int:
+        return 0 if node.symbol.name == zero else draw(f"{seed}:{node.symbol.name}")
+
+    return Evaluated({**dict.fromkeys(Op, drawn), **RESIDUES}, symbol)
 
 
-def _mix(seed: int, text: str) -> int:
-    data = f"{seed}:{text}".encode()
-    return (crc32(data) << 29 ^ crc32(data[::-1]) * 0x9E3779B97F4A7C15) % _P
+def residue(value: Rational) -> int:
+    """A rational number modulo the prime; raises ValueError where that divides its denominator."""
+    if value.denominator == 1:
+        return value.numerator % PRIME
+    return value.numerator * pow(value.denominator, -1, PRIME) % PRIME
+
+
+def _sum(node: Expr, args: list[int]) -> int:
+    total: int = sum(map(mul, map(residue, node.coefficients), args))
+    return total % PRIME
+
+
+def _product(node: Expr, args: list[int]) -> int:
+    value = 1
+    for e, x in zip(node.exponents, args, strict=True):
+        value = value * pow(x, e, PRIME) % PRIME
+    return value
+
+
+#: Arithmetic modulo the prime; a division by zero has no value.
+RESIDUES: dict[Op, Callable[[Expr, list[int]], int]] = {
+    Op.NUM: lambda node, _: residue(node.number),
+    Op.ADD: _sum,
+    Op.MUL: _product,
+}
+
+
+def draw(key: str) -> int:
+    """A number modulo the prime that looks random, and is the same for a key in every run."""
+    data = key.encode()
+    return (crc32(data) << 29 ^ crc32(data[::-1]) * 0x9E3779B97F4A7C15) % PRIME

@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterable, Sequence
 from decimal import Context, Decimal, localcontext
 from functools import partial
 
+from bondgraph.algebra.interpreter import FUNCTIONS, Interpreter, Number, Points, interpolate
 from bondgraph.ir.program import Assign, Dot, NewtonBlock, PolynomialTape, Program, Ref
-from bondgraph.passes.interpreter import FUNCTIONS, Interpreter, Number, Points, interpolate
 
 _CONTEXT = Context(prec=40, Emax=99999, Emin=-99999)
 _BUMP = 1e-7

@@ -9,17 +9,18 @@ decimals are exact there, so that a gain of exactly 1 is told from one that is c
 
 from __future__ import annotations
 
-import random
+import math
 from heapq import heapify, heappop, heappush
 from typing import TypeVar
 
+from bondgraph.algebra.interpreter import Evaluated
+from bondgraph.algebra.zero import PRIME, RESIDUES, draw, residue
 from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
 from bondgraph.ir.show import show
 from bondgraph.passes.causality.node_words import listing, name
 from bondgraph.text.diagnostic import Label, Report
 
-_P = (1 << 61) - 1
 _LARGE = 1500  # equations in loops beyond which nothing is tried
 _TOLD = 3
 
@@ -95,7 +96,8 @@ class _Point:
     def __init__(self, given: dict[Expr, Expr], computed: set[Expr]) -> None:
         self.given = given
         self.computed = computed
-        self.values: dict[Expr, int] = {}
+        rules = {**dict.fromkeys(Op, _drawn), **RESIDUES, Op.MUL: self._product}
+        self._at = Evaluated(rules, self._of_symbol)
 
     def gradient(self, equation: Equation) -> _Row:
         """The derivative of an equation by the efforts and flows that it holds."""
@@ -113,57 +115,44 @@ class _Point:
                 if rows[arg]:
                     slope = self.slope(node, k)
                     for variable, c in rows[arg].items():
-                        total[variable] = (total.get(variable, 0) + slope * c) % _P
+                        total[variable] = (total.get(variable, 0) + slope * c) % PRIME
             rows[node] = total
         return {v: c for v, c in rows[equation.zero].items() if c}
 
     def slope(self, node: Expr, at: int) -> int:
         """The derivative of a node by one of its arguments; random for what is no sum, product."""
         if node.op is Op.ADD:
-            return _number(node.coefficients[at].numerator, node.coefficients[at].denominator)
+            return residue(node.coefficients[at])
         if node.op is not Op.MUL:
-            return _drawn(f"slope {node.id} {at}")
-        product = node.exponents[at] % _P
+            return draw(f"slope {node.id} {at}")
+        product = node.exponents[at] % PRIME
         for k, (arg, e) in enumerate(zip(node.args, node.exponents, strict=True)):
-            product = product * self.power(arg, e - (k == at)) % _P
+            product = product * self.power(arg, e - (k == at)) % PRIME
         return product
 
     def power(self, node: Expr, exponent: int) -> int:
         value = self.value(node)
         if exponent < 0 and not value:
-            return _drawn(f"inverse {node.id}")  # that it has none is another's finding
-        return pow(value, exponent, _P)
+            return draw(f"inverse {node.id}")  # that it has none is another's finding
+        return pow(value, exponent, PRIME)
+
+    def _of_symbol(self, symbol: Expr) -> int:
+        given = self.given.get(symbol)
+        return _drawn(symbol, []) if given is None else self.value(given)
+
+    def _product(self, node: Expr, _: list[int]) -> int:
+        factors = zip(node.args, node.exponents, strict=True)
+        return math.prod([self.power(arg, e) for arg, e in factors]) % PRIME
 
     def value(self, root: Expr) -> int:
         """The value at the point."""
-        for node in topological([root], stop=self.values.__contains__):
-            if node in self.values:
-                continue
-            match node.op:
-                case Op.NUM:
-                    found = _number(node.number.numerator, node.number.denominator)
-                case Op.ADD:
-                    terms = zip(node.coefficients, node.args, strict=True)
-                    found = sum(_number(c.numerator, c.denominator) * self.values[a]
-                                for c, a in terms)  # fmt: skip
-                case Op.MUL:
-                    found = 1
-                    for arg, e in zip(node.args, node.exponents, strict=True):
-                        found = found * self.power(arg, e) % _P
-                case Op.SYM if node in self.given:
-                    found = self.value(self.given[node])
-                case _:
-                    found = _drawn(f"value {node.id}")
-            self.values[node] = found % _P
-        return self.values[root]
+        found = self._at.value(root)
+        assert found is not None  # `power` has a value in any case
+        return found
 
 
-def _number(numerator: int, denominator: int) -> int:
-    return numerator * pow(denominator, -1, _P) % _P
-
-
-def _drawn(key: str) -> int:
-    return random.Random(key).randrange(1, _P)
+def _drawn(node: Expr, _: list[int]) -> int:
+    return draw(f"value {node.id}")
 
 
 def _circuits(rows: list[_Row]) -> list[list[int] | None]:
@@ -194,9 +183,9 @@ def _circuits(rows: list[_Row]) -> list[list[int] | None]:
         for variable in row:
             holders[variable].discard(k)
         pivot = min(row, key=lambda v: (len(holders[v]), v.id))
-        inverse = pow(row[pivot], -1, _P)
+        inverse = pow(row[pivot], -1, PRIME)
         for other in sorted(holders[pivot]):
-            factor = rows[other][pivot] * inverse % _P
+            factor = rows[other][pivot] * inverse % PRIME
             before = set(rows[other])
             _subtract(rows[other], factor, row)
             _subtract(made[other], factor, made[k])
@@ -211,7 +200,7 @@ def _circuits(rows: list[_Row]) -> list[list[int] | None]:
 
 def _subtract(target: dict[K, int], factor: int, source: dict[K, int]) -> None:
     for key, c in source.items():
-        left = (target.get(key, 0) - factor * c) % _P
+        left = (target.get(key, 0) - factor * c) % PRIME
         if left:
             target[key] = left
         else:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 from bondgraph.algebra.derivative import partial
 from bondgraph.ir.expr import Expr, Op, Pool, Root, topological
@@ -14,8 +13,6 @@ from bondgraph.passes.lowering.program_names import Names
 
 #: Steps of Newton's method and bisection at most.
 MOST = 200
-#: A bracket this narrow, next to the widest step, ends the search: at a jump across zero.
-NARROW = 1e-36
 
 
 def roots_in(exprs: Iterable[Expr]) -> list[Root]:
@@ -54,47 +51,3 @@ def _block(pool: Pool, root: Root) -> NewtonBlock:
         root.name, arguments, tuple(body[:size]), value, tuple(body[size:]), steep, root.rising,
         float(root.guess), MOST, comment, None,
     )  # fmt: skip
-
-
-def newton(
-    look: Callable[[float], tuple[float, float]], rising: bool, guess: float, most: int
-) -> float:
-    """The zero of a function that grows (or falls) everywhere; NaN if `most` steps find none.
-
-    `look(x)` gives value and slope, NaN where there is none; a value that is NaN sends the search
-    back towards the guess. A step of Newton that leaves the bracket, or does not halve the value,
-    is replaced by a bisection, or while one side is open by a step twice as wide as the last
-    (Press et al., Numerical Recipes, 2007, section 9.4). Where the function jumps across zero, the
-    jump is the answer: friction that stands still.
-
-    >>> round(newton(lambda x: (x**3 + x - 10, 3 * x**2 + 1), True, 0.0, 200), 12)
-    2.0
-    """
-    x, low, high, wide, last = guess, -math.inf, math.inf, 1.0, math.inf
-    for _ in range(most):
-        value, slope = look(x)
-        if value == 0.0:
-            return x
-        up = x > guess if math.isnan(value) else (value > 0.0) == rising
-        low, high = (low, x) if up else (x, high)
-        after = x - value / slope if slope and math.isfinite(slope) else math.nan
-        slow = not abs(value) <= 0.5 * last
-        if not low < after < high or (slow and math.isfinite(low) and math.isfinite(high)):
-            if math.isfinite(low) and math.isfinite(high):
-                after = low + 0.5 * (high - low)
-            else:
-                after = x - wide if up else x + wide
-                wide *= 2.0
-        last = abs(value)
-        if x + 0.125 * (after - x) == x or high - low <= NARROW * wide:
-            return after
-        x = after
-    return math.nan
-
-
-def or_nan(compute: Callable[[], float]) -> float:
-    """A number, or NaN where there is none."""
-    try:
-        return compute()
-    except (ArithmeticError, ValueError):
-        return math.nan

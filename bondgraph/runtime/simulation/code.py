@@ -11,7 +11,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from bondgraph.algebra.nominal import FUNCTIONS
+from bondgraph.algebra.interpreter import FUNCTIONS
 from bondgraph.ir.expr import Expr, Op, Pool
 
 _INLINE = 40  # letters of a subexpression that is written where it is used

@@ -11,10 +11,10 @@ import pytest
 
 from bondgraph.algebra.derivative import partial
 from bondgraph.algebra.implicit import invert
+from bondgraph.algebra.interpreter import newton
 from bondgraph.algebra.monotone import direction
 from bondgraph.algebra.numeric import evaluate
 from bondgraph.ir.expr import Expr, Kind, Pool
-from bondgraph.passes.lowering.newton import newton
 
 p = Pool()
 x = p.symbol("x", Kind.FLOW)

@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import pytest
 
-from bondgraph.passes.lowering.newton import MOST, newton
+from bondgraph.algebra.interpreter import newton
+from bondgraph.passes.lowering.newton import MOST
 
 Look = Callable[[float], tuple[float, float]]
 

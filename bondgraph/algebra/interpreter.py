@@ -1,4 +1,4 @@
-"""Residual programs run on any kind of number: the walk is written once, a number is a table."""
+"""Programs and expressions on any kind of number: the walk is written once, a number is a table."""
 
 from __future__ import annotations
 
@@ -6,9 +6,11 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
-from operator import itemgetter
-from typing import Any, NamedTuple, assert_never
+from fractions import Fraction
+from operator import itemgetter, mul
+from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar, assert_never
 
+from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.program import (
     Assign,
     Choice,
@@ -28,12 +30,13 @@ from bondgraph.ir.program import (
     Sum,
     integer_power,
 )
-from bondgraph.passes.lowering.newton import newton, or_nan
 
 #: Anything with + - * / and comparisons: float, numpy.float32, Fraction, an array, a ball.
 Real = Any
 Points = Sequence[tuple[float, float]]
 _X = itemgetter(0)
+#: A bracket this narrow, next to the widest step, ends the search: at a jump across zero.
+_NARROW = 1e-36
 
 
 def interpolate(points: Points, x: Real) -> Real:
@@ -69,6 +72,100 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "ssqrt": lambda x: math.copysign(math.sqrt(abs(x)), x),
     "ssq": lambda x: x * abs(x),
 }
+
+
+# -------------------------------------------------------------------- expressions
+
+X = TypeVar("X")
+#: What nodes do with one kind of number. An operation gives None, or raises ArithmeticError or
+#: ValueError, where there is no value; one that is not there never has any.
+Operations: TypeAlias = Mapping[Op, Callable[[Expr, list[X]], X | None]]
+
+
+class Evaluated(Generic[X]):
+    """Values of expressions at one point, each node once; None where a part has no value.
+
+    `leaf` gives the value of a symbol, and may ask for that of the expression it stands for;
+    `known` are values that are there already.
+    """
+
+    def __init__(
+        self,
+        operations: Operations[X],
+        leaf: Callable[[Expr], X | None],
+        known: Mapping[Expr, X | None] | None = None,
+    ) -> None:
+        self.known: dict[Expr, X | None] = dict(known or {})
+        self._operations: Operations[X] = {**operations, Op.SYM: lambda node, _: leaf(node)}
+
+    def value(self, root: Expr) -> X | None:
+        """The value of an expression."""
+        known = self.known
+        if root not in known:
+            self.run([root])
+        return known[root]
+
+    def values(self, roots: Iterable[Expr]) -> dict[Expr, X]:
+        """The values of all that is `known` afterwards, without those that there are not."""
+        self.run(roots)
+        return {node: x for node, x in self.known.items() if x is not None}
+
+    def run(self, roots: Iterable[Expr]) -> None:
+        """Make the values of some expressions, and of all that they are made of, `known`."""
+        known, operations = self.known, self._operations
+        for node in topological(roots, stop=known.__contains__):
+            if node in known:
+                continue
+            known[node] = None  # also the answer for a definition that runs in a circle
+            args: list[X] = []
+            for a in node.args:
+                x = known[a]
+                if x is None:
+                    break
+                args.append(x)
+            else:
+                operation = operations.get(node.op)
+                try:
+                    known[node] = None if operation is None else operation(node, args)
+                except (ArithmeticError, ValueError):
+                    continue
+
+
+def _compare(node: Expr, args: list[Any]) -> bool:
+    left, right = args
+    if node.name == "==":
+        return bool(left == right)
+    return bool(left < right if node.name == "<" else left <= right)
+
+
+def _logic(node: Expr, args: list[Any]) -> bool:
+    if node.name == "not":
+        return not args[0]
+    return all(args) if node.name == "and" else any(args)
+
+
+def _function(node: Expr, args: list[Any]) -> Any:
+    function = FUNCTIONS.get(node.name)
+    return None if function is None else function(*args)
+
+
+#: Rational numbers, as long as functions leave them rational; then doubles.
+EXACT: dict[Op, Callable[[Expr, list[Any]], Any]] = {
+    Op.NUM: lambda node, _: node.number,
+    Op.ADD: lambda node, args: sum(map(mul, node.coefficients, args)),
+    Op.MUL: lambda node, args: math.prod(map(pow, map(_rational, args), node.exponents)),
+    Op.FN: _function,
+    Op.IF: lambda _, args: args[1] if args[0] else args[2],
+    Op.CMP: _compare,
+    Op.LOGIC: _logic,
+}
+
+
+def _rational(x: Any) -> Any:
+    return Fraction(x) if isinstance(x, int) else x
+
+
+# ------------------------------------------------------------------------ programs
 
 
 class Number(NamedTuple):
@@ -244,3 +341,47 @@ class Interpreter:
             return value, or_nan(lambda: part(block.further, block.slope))
 
         return self.number.real(newton(look, block.rising, block.guess, block.most))
+
+
+def newton(
+    look: Callable[[float], tuple[float, float]], rising: bool, guess: float, most: int
+) -> float:
+    """The zero of a function that grows (or falls) everywhere; NaN if `most` steps find none.
+
+    `look(x)` gives value and slope, NaN where there is none; a value that is NaN sends the search
+    back towards the guess. A step of Newton that leaves the bracket, or does not halve the value,
+    is replaced by a bisection, or while one side is open by a step twice as wide as the last
+    (Press et al., Numerical Recipes, 2007, section 9.4). Where the function jumps across zero, the
+    jump is the answer: friction that stands still.
+
+    >>> round(newton(lambda x: (x**3 + x - 10, 3 * x**2 + 1), True, 0.0, 200), 12)
+    2.0
+    """
+    x, low, high, wide, last = guess, -math.inf, math.inf, 1.0, math.inf
+    for _ in range(most):
+        value, slope = look(x)
+        if value == 0.0:
+            return x
+        up = x > guess if math.isnan(value) else (value > 0.0) == rising
+        low, high = (low, x) if up else (x, high)
+        after = x - value / slope if slope and math.isfinite(slope) else math.nan
+        slow = not abs(value) <= 0.5 * last
+        if not low < after < high or (slow and math.isfinite(low) and math.isfinite(high)):
+            if math.isfinite(low) and math.isfinite(high):
+                after = low + 0.5 * (high - low)
+            else:
+                after = x - wide if up else x + wide
+                wide *= 2.0
+        last = abs(value)
+        if x + 0.125 * (after - x) == x or high - low <= _NARROW * wide:
+            return after
+        x = after
+    return math.nan
+
+
+def or_nan(compute: Callable[[], float]) -> float:
+    """A number, or NaN where there is none."""
+    try:
+        return compute()
+    except (ArithmeticError, ValueError):
+        return math.nan
