@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
+from bisect import bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 from fractions import Fraction
-from operator import itemgetter, mul
+from operator import mul
 from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar, assert_never
 
 from bondgraph.ir.expr import Expr, Op, topological
@@ -34,24 +34,29 @@ from bondgraph.ir.program import (
 #: Anything with + - * / and comparisons: float, numpy.float32, Fraction, an array, a ball.
 Real = Any
 Points = Sequence[tuple[float, float]]
-_X = itemgetter(0)
 #: A bracket this narrow, next to the widest step, ends the search: at a jump across zero.
 _NARROW = 1e-36
 
 
-def interpolate(points: Points, x: Real) -> Real:
-    """A table at x: straight between its points, which ascend in x, and constant beyond its ends.
+def interpolation(points: Points) -> Callable[[Real], Real]:
+    """A table: straight between its points, which ascend in x, and constant beyond its ends.
 
-    >>> interpolate(((0.0, 1.0), (2.0, 5.0)), 0.5), interpolate(((0.0, 1.0), (2.0, 5.0)), 9.0)
+    >>> table = interpolation(((0.0, 1.0), (2.0, 5.0)))
+    >>> table(0.5), table(9.0)
     (2.0, 5.0)
     """
-    if x <= points[0][0]:
-        return points[0][1]
-    if x >= points[-1][0]:
-        return points[-1][1]
-    k = max(bisect_left(points, x, key=_X), 1)
-    (x0, y0), (x1, y1) = points[k - 1], points[k]
-    return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+    xs, ys = zip(*points, strict=True)
+    last = len(xs) - 1
+
+    def table(x: Real) -> Real:
+        if x <= xs[0]:
+            return ys[0]
+        if x >= xs[last]:
+            return ys[last]
+        k = min(bisect_right(xs, x), last)
+        return ys[k - 1] + (ys[k] - ys[k - 1]) * (x - xs[k - 1]) / (xs[k] - xs[k - 1])
+
+    return table
 
 
 def _branch(holds: Any, yes: Callable[[], Real], no: Callable[[], Real]) -> Real:
@@ -178,7 +183,7 @@ class Number(NamedTuple):
     real: Callable[[float], Real] = float
     functions: Mapping[str, Callable[..., Real]] = FUNCTIONS
     power: Callable[[Real, int], Real] = pow
-    interpolate: Callable[[Points, Real], Real] = interpolate
+    table: Callable[[Points], Callable[[Real], Real]] = interpolation
     choose: Callable[[Any, Callable[[], Real], Callable[[], Real]], Real] = _branch
 
 
@@ -196,7 +201,7 @@ class Interpreter:
         self.number = number
         self.values: dict[Ref, Real] = {}
         self.modes: Mapping[str, bool] = {}
-        self._tables = dict(program.tables)
+        self._tables = {name: number.table(points) for name, points in program.tables}
         self._roots = {block.name: block for block in program.roots}
 
     def configure(
@@ -297,7 +302,7 @@ class Interpreter:
         args = [self._value(a) for a in node.args]
         kind, _, name = node.name.partition(":")
         if kind == "table":
-            return self.number.interpolate(self._tables[name], args[0])
+            return self._tables[name](args[0])
         if kind == "root":
             return self._root(self._roots[name], args)
         power = integer_power(node)

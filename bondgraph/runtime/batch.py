@@ -15,10 +15,14 @@ Array = npt.NDArray[np.float64]
 _KEPT = 20_000  # roots that are remembered
 
 
-def _interpolate(points: Points, x: Any) -> Any:
+def _table(points: Points) -> Callable[[Any], Any]:
     xs, ys = zip(*points, strict=True)
-    inner = np.interp(x, xs, ys)
-    return np.where(x <= xs[0], ys[0], np.where(x >= xs[-1], ys[-1], inner))
+
+    def table(x: Any) -> Any:
+        inner = np.interp(x, xs, ys)
+        return np.where(x <= xs[0], ys[0], np.where(x >= xs[-1], ys[-1], inner))
+
+    return table
 
 
 def _choose(holds: Any, yes: Callable[[], Any], no: Callable[[], Any]) -> Any:
@@ -39,7 +43,7 @@ ARRAYS = Number(
         "ssqrt": lambda x: np.copysign(np.sqrt(np.abs(x)), x),
     },
     np.power,
-    _interpolate,
+    _table,
     _choose,
 )
 

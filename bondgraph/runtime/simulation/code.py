@@ -7,27 +7,13 @@ Parts that hold nothing but numbers are computed once, while the source is writt
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
-from bondgraph.algebra.interpreter import FUNCTIONS
+from bondgraph.algebra.interpreter import FUNCTIONS, interpolation
 from bondgraph.ir.expr import Expr, Op, Pool
 
 _INLINE = 40  # letters of a subexpression that is written where it is used
-
-
-def lookup(points: Sequence[tuple[float, float]]) -> Callable[[float], float]:
-    """Linear interpolation between points ascending in x, constant outside."""
-    xs, ys = [p[0] for p in points], [p[1] for p in points]
-
-    def table(x: float) -> float:
-        k = bisect_right(xs, x)
-        if k == 0 or k == len(xs):
-            return ys[min(k, len(ys) - 1)]
-        return ys[k - 1] + (ys[k] - ys[k - 1]) * (x - xs[k - 1]) / (xs[k] - xs[k - 1])
-
-    return table
 
 
 #: What the source may call.
@@ -157,7 +143,7 @@ class Code:
         if expr.name not in self.tables:
             self.tables[expr.name] = f"table{len(self.tables)}"
             rows = self.pool.rows(expr.name.removeprefix("table:"))
-            self.names[self.tables[expr.name]] = lookup(rows)
+            self.names[self.tables[expr.name]] = interpolation(rows)
         return f"{self.tables[expr.name]}({args})"
 
     def function(

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bondgraph.algebra.derivative import Jets
+from bondgraph.algebra.interpreter import interpolation
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.runtime.simulation.code import Code
 from bondgraph.runtime.simulation.parameters import Values
@@ -69,12 +70,6 @@ def _through(course: Course, order: int) -> Callable[[float], float]:
     def held(t: float) -> float:
         return ys[max(bisect_right(xs, t) - 1, 0)]
 
-    def line(t: float) -> float:
-        k = bisect_right(xs, t)
-        if k == 0 or k == len(xs):
-            return ys[min(k, len(ys) - 1)]
-        return ys[k - 1] + (ys[k] - ys[k - 1]) * (t - xs[k - 1]) / (xs[k] - xs[k - 1])
-
     def slope(t: float) -> float:
         k = bisect_right(xs, t)
         if k == 0 or k == len(xs):
@@ -83,7 +78,7 @@ def _through(course: Course, order: int) -> Callable[[float], float]:
 
     if course.hold:
         return held if order == 0 else lambda _: 0.0
-    return (line, slope)[order] if order < 2 else lambda _: 0.0
+    return (interpolation(course.points), slope)[order] if order < 2 else lambda _: 0.0
 
 
 def bends(course: Course, end: float) -> list[float]:
