@@ -151,8 +151,8 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
 
 def source(args: Namespace, samples: Address | None) -> Source:
     """The source that the arguments name."""
+    from bondgraph.runtime.log_numbers import Form
     from bondgraph.runtime.monitoring.sources.file import file_source
-    from bondgraph.runtime.monitoring.sources.lines import Form
     from bondgraph.runtime.monitoring.sources.mqtt import Topic
     from bondgraph.runtime.monitoring.sources.serial_port import SerialPort
     from bondgraph.runtime.monitoring.sources.stdin import Pipe

@@ -8,7 +8,8 @@ from collections.abc import Iterator, Sequence
 from threading import Event
 from typing import IO, Any
 
-from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
+from bondgraph.runtime.log_numbers import Form
+from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.sources.sample_source import Chunk, News
 from bondgraph.runtime.monitoring.sources.stdin import Pipe
 

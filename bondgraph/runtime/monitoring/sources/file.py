@@ -11,7 +11,8 @@ from typing import IO, Any
 
 from bondgraph.runtime.log import LogError
 from bondgraph.runtime.log_file import read_log
-from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
+from bondgraph.runtime.log_numbers import Form
+from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.sources.sample_source import IDLE, Chunk, Cutter, News, rate_of
 from bondgraph.runtime.monitoring.sources.stdin import Pipe
 

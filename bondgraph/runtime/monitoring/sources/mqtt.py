@@ -6,8 +6,9 @@ from collections.abc import Callable, Iterator
 from threading import Event
 from typing import TYPE_CHECKING, Any
 
+from bondgraph.runtime.log_numbers import Form
 from bondgraph.runtime.monitoring.mqtt_client import SESSION, Address, Link
-from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
+from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.sources.sample_source import Block, Chunk, Intake, decoded
 
 if TYPE_CHECKING:

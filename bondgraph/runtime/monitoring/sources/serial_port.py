@@ -7,7 +7,8 @@ from threading import Event, Thread
 from typing import TYPE_CHECKING, Any
 
 from bondgraph.runtime.log import LogError
-from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
+from bondgraph.runtime.log_numbers import Form
+from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.sources.sample_source import IDLE, Chunk, Cutter, Intake, decoded
 
 if TYPE_CHECKING:

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from threading import Event, Thread
 from typing import Any
 
-from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
+from bondgraph.runtime.log_numbers import Form
+from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Cutter, Intake, decoded
 
 

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from bondgraph.runtime.log import Log, LogError, joined
 from bondgraph.runtime.log_file import read_log, write_log
-from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
+from bondgraph.runtime.log_numbers import Form
+from bondgraph.runtime.monitoring.sources.lines import Decoder
 
 
 def decoder(**form: object) -> Decoder:

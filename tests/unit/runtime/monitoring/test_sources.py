@@ -12,8 +12,9 @@ import pytest
 
 from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_file import write_log
+from bondgraph.runtime.log_numbers import Form
 from bondgraph.runtime.monitoring.sources.file import LinesFile, TableFile, file_source
-from bondgraph.runtime.monitoring.sources.lines import Decoder, Form
+from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.sources.sample_source import (
     Block,
     Chunk,
