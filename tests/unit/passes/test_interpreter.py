@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from scipy import signal as sig
 
+from bondgraph.backends.evaluate import Evaluation, value
 from bondgraph.ir.expr import Expr
-from bondgraph.ir.program import Program
+from bondgraph.ir.program import Program, Ref
 from bondgraph.passes.lowering.lower import LowerOptions
+from bondgraph.runtime.batch import Lanes
 from tests.sampled import Sampled
 from tests.unit.passes.lowering_models import Bench, drive
 
@@ -111,8 +113,8 @@ def healthy_drive(t: np.ndarray, params: dict[str, float]) -> dict[str, np.ndarr
     torque = v["Je"] * we.diff(time) + v["fe"] * we + load / v["N"]
     u0 = v["k"] * we + v["Re"] / v["k"] * torque + v["L"] / v["k"] * torque.diff(time)
     found = {}
-    for name, value in {"We": we, "Ws": ws, "Fx": fx, "U0": u0}.items():
-        found[name] = sympy.lambdify(time, value, "numpy")(np.minimum(t, 1.0)) * np.ones(len(t))
+    for name, wave in {"We": we, "Ws": ws, "Fx": fx, "U0": u0}.items():
+        found[name] = sympy.lambdify(time, wave, "numpy")(np.minimum(t, 1.0)) * np.ones(len(t))
     return found
 
 
@@ -280,3 +282,26 @@ def test_a_wide_band_uses_the_closed_form_of_the_stage() -> None:
         assert a == pytest.approx(math.exp(-x), rel=1e-14)
         assert b0 == pytest.approx(1 + math.expm1(-x) / x, rel=1e-9, abs=1e-11)
         assert a + b0 + b1 == pytest.approx(1.0, rel=1e-15)
+
+
+def test_doubles_arrays_and_forty_digits_are_one_program() -> None:
+    bench = Bench()
+    p = bench.pool
+    level, q = bench.sensor("p"), bench.input("q")
+    flow = p.mul(bench.param("k", "0.2"), p.fn("ssqrt", p.sub(level, p.num(3))))
+    held = p.choose(p.compare("<", level, p.num(4)), flow, p.fn("pow", level, p.num(3)))
+    program = bench.program(p.add((1, p.der(level)), (1, held), (-1, q)))
+    double, lanes, sharp = Sampled(program), Lanes(program, {}), Evaluation(program)
+    sharp.configure({f.name: value(f.default or 0.0) for f in program.params})
+    states = None
+    for k in range(40):
+        given = {"p": 2.5 + 0.1 * k, "q": math.sin(k)}
+        found = double.step(given).residuals["r1"]
+        wide = {name: np.array([x, 2 * x]) for name, x in given.items()}
+        residuals, states = lanes.sample(wide, {}, {}, {}, states)
+        sharp.values |= {Ref("known", name): value(x) for name, x in given.items()}
+        sharp.run(program.step if k else program.first)
+        exact = sharp.values[Ref("residual", "r1")]
+        assert residuals["r1"][0] == pytest.approx(found, rel=1e-13)
+        assert residuals["r1"][1] != residuals["r1"][0]
+        assert abs(found - float(exact)) <= 1e-14 * exact.size
