@@ -11,6 +11,7 @@ loop (`loops`) or a storage whose only access is through its integral.
 from __future__ import annotations
 
 import heapq
+import itertools
 import math
 from contextlib import suppress
 from typing import NamedTuple
@@ -95,6 +96,7 @@ class Chain:
         self.cost: dict[Expr, Cost] = {}
         self.steps: dict[Expr, Step] = {}
         self.sequence: dict[Expr, int] = {}
+        self.turn = itertools.count()  # a variable may be computed anew: no two have the same
         self.heap: list[_Offer] = []
         self.later: list[_Offer] = []
         self.nominal = Nominal(system.graph)
@@ -141,7 +143,7 @@ class Chain:
             how: How = "solved" if equation.state is None else "differentiated"
             self.closed[variable] = closed
             self.steps[variable] = Step(variable, found.value, closed, equation, how)
-            self.sequence[variable] = len(self.sequence)
+            self.sequence[variable] = next(self.turn)
             return balance
         return row
 
@@ -215,7 +217,7 @@ class Chain:
         self.closed[variable] = step.closed
         self.cost[variable] = cost
         self.steps[variable] = step
-        self.sequence[variable] = len(self.sequence)
+        self.sequence[variable] = next(self.turn)
         for row in self.holders[variable]:
             self.waiting[row] -= 1
             if not self.used[row]:
