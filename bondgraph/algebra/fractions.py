@@ -7,10 +7,10 @@ all parameters would not fit. Whether a coefficient is zero is asked at random p
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 from bondgraph.algebra.zero import is_zero, share_factor
 from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.text.tuples import NamedTuple
 
 Coefficients = list[Expr]  # of the unknown's powers from 0 up
 

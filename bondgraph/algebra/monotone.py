@@ -11,12 +11,12 @@ import math
 from collections.abc import Callable, Mapping
 from functools import reduce
 from itertools import pairwise
-from typing import NamedTuple
 
 from bondgraph.algebra.interpreter import FUNCTIONS, Evaluated
 from bondgraph.algebra.solve import affine
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, backwards, topological
+from bondgraph.text.tuples import NamedTuple
 
 _INF = math.inf
 

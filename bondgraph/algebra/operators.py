@@ -9,7 +9,6 @@ the division of Ore (1933), which reduces the index by one (Gear, 1988).
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 from bondgraph.algebra.derivative import Jets, TooManyOperations
 from bondgraph.algebra.fractions import monomials, without_common_divisor
@@ -18,6 +17,7 @@ from bondgraph.algebra.solve import affine, constant
 from bondgraph.algebra.summands import summands
 from bondgraph.algebra.zero import is_zero, share_factor
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.text.tuples import NamedTuple
 
 Polynomial = list[Expr]  # coefficients of D**0, D**1, ...
 

@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from fractions import Fraction
-from typing import NamedTuple
 
 from bondgraph.algebra.solve import constant
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual
 from bondgraph.ir.show import show
+from bondgraph.text.tuples import NamedTuple
 
 _MANY = 60  # a sum of more terms stays nested
 _SHORT = 3  # a shared part of fewer nodes than this reads better in full

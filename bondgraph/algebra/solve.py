@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from typing import NamedTuple
 
 from bondgraph.algebra.in_mode import in_each_mode
 from bondgraph.algebra.zero import is_zero
@@ -24,6 +23,7 @@ from bondgraph.ir.expr import (
     topological,
     whole,
 )
+from bondgraph.text.tuples import NamedTuple
 
 #: Functions that are one to one on the reals (or where they are defined), with their inverses.
 INVERSE = {

@@ -6,10 +6,10 @@ A bad sample restarts the filter of the blocks that see its signal, and no other
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import NamedTuple
 
 from bondgraph.backends.walk import references
 from bondgraph.ir.program import Assign, Const, Program, Ref
+from bondgraph.text.tuples import NamedTuple
 
 
 class Block(NamedTuple):

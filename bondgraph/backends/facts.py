@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from bondgraph.backends import listing
 from bondgraph.backends.identifiers import snake
@@ -19,6 +18,7 @@ from bondgraph.ir.program import (
     Program,
     ResidualInfo,
 )
+from bondgraph.text.tuples import NamedTuple
 
 #: Changes when a struct or a function of the generated code changes.
 ABI = 1

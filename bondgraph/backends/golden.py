@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
 
 from bondgraph.backends.evaluate import Evaluation, Value, value
 from bondgraph.backends.spelling import DOUBLE_INTEGRAL, INTEGRAL, START, suffixes
 from bondgraph.backends.walk import reads
 from bondgraph.ir.program import Known, Program, Ref
+from bondgraph.text.tuples import NamedTuple
 
 _VECTORS = 4
 _SAMPLES = 16

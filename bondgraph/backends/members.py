@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from bondgraph.backends.facts import about_field, about_known, reads_time
 from bondgraph.backends.spelling import DOUBLE_INTEGRAL, INTEGRAL, START, Spelling, suffixes
 from bondgraph.ir.program import Known, Program, Ref
+from bondgraph.text.tuples import NamedTuple
 
 _SUFFIXES = {
     INTEGRAL: ("its integral since the start, by time_unit", -1),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import NamedTuple, assert_never
+from typing import assert_never
 
 from bondgraph.backends.walk import is_written_out
 from bondgraph.ir.program import (
@@ -21,6 +21,7 @@ from bondgraph.ir.program import (
     Sum,
     integer_power,
 )
+from bondgraph.text.tuples import NamedTuple
 
 # How tightly a text holds together; an operand looser than its place wants gets brackets.
 _CHOICE, _LOGIC, _COMPARE, _SUM, _PRODUCT, _UNARY, _ATOM = range(7)

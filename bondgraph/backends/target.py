@@ -5,10 +5,10 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping
 from functools import cache
-from typing import NamedTuple
 
 from bondgraph.backends.spell import Dialect
 from bondgraph.backends.templates import codegen
+from bondgraph.text.tuples import NamedTuple
 
 
 class Statements(NamedTuple):

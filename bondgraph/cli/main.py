@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
 import sys
-from collections.abc import Sequence
-from importlib import import_module
-from types import SimpleNamespace
-from typing import TYPE_CHECKING
 
-from bondgraph.cli import console
-from bondgraph.text.diagnostic import CompileError
+from bondgraph import __version__
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    import argparse
+    from argparse import Namespace
+    from collections.abc import Sequence
+    from types import SimpleNamespace
 
-gc.set_threshold(100_000, 20, 20)  # what a command makes is kept: looking for garbage is in vain
+# What a command makes is kept to its end: looking for garbage is in vain, then too.
+gc.set_threshold(100_000, 20, 20)
+atexit.register(gc.freeze)
 
 
 def plain_check(words: list[str]) -> SimpleNamespace | None:
@@ -27,10 +28,12 @@ def plain_check(words: list[str]) -> SimpleNamespace | None:
     models = [word for word in words[1:] if word != "--json"]
     if words[:1] != ["check"] or not models or any(word.startswith("-") for word in models):
         return None
+    from types import SimpleNamespace
+
     return SimpleNamespace(command="check", models=models, json="--json" in words)
 
 
-def parsed(words: list[str]) -> SimpleNamespace | argparse.Namespace:
+def parsed(words: list[str]) -> SimpleNamespace | Namespace:
     """The words of the command line, understood; leaves with help or usage if they are not."""
     plain = plain_check(words)
     if plain is not None:
@@ -43,15 +46,24 @@ def parsed(words: list[str]) -> SimpleNamespace | argparse.Namespace:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit status is 0 (done), 1 (wrong model) or 2 (wrong usage)."""
+    words = list(sys.argv[1:] if argv is None else argv)
     try:
-        return _run(parsed(list(sys.argv[1:] if argv is None else argv)))
+        if words == ["--version"]:  # before anything is loaded
+            print("bondgraph", __version__)
+            return 0
+        return _run(parsed(words))
     except BrokenPipeError:
         # The reader has gone (`bondgraph dump ... | head`): not an error of anybody.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
 
 
-def _run(args: SimpleNamespace | argparse.Namespace) -> int:
+def _run(args: SimpleNamespace | Namespace) -> int:
+    from importlib import import_module
+
+    from bondgraph.cli import console
+    from bondgraph.text.diagnostic import CompileError
+
     command = import_module(f"bondgraph.cli.{args.command}")
     as_json = bool(getattr(args, "json", False))
     try:

@@ -7,9 +7,9 @@ import unicodedata
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from itertools import pairwise
-from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, backwards, topological
+from bondgraph.text.tuples import NamedTuple
 
 #: Names that mean something in the text and so cannot be names of the model as well.
 FUNCTIONS = frozenset(

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from importlib import import_module
 
+from bondgraph import __version__
+
 #: Every command with its one line; the module of the same name has `arguments` and `run`.
 COMMANDS = {
     "check": "say whether models are sound: syntax, names, units, causality",
@@ -28,20 +30,6 @@ MODEL is a file, or file.bg:Name for one of the models in it.
 Exit status: 0 done, 1 the model is wrong or cannot be solved at all, 2 wrong usage.
 `bondgraph COMMAND --help` says more; docs/cli.md says all.
 """
-
-
-class Version(argparse.Action):
-    """Print the version; looked up only when asked for."""
-
-    def __call__(self, parser: argparse.ArgumentParser, *_: object, **__: object) -> None:
-        """Print and leave."""
-        from importlib.metadata import PackageNotFoundError, version
-
-        try:
-            print("bondgraph", version("bondgraph-arr"))
-        except PackageNotFoundError:
-            print("bondgraph (from a checkout that is not installed)")
-        parser.exit(0)
 
 
 class Parser(argparse.ArgumentParser):
@@ -69,11 +57,10 @@ def parser_for(command: str | None) -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    parser.add_argument(
-        "--version", action=Version, nargs=0, default=argparse.SUPPRESS, help="print the version"
-    )
+    version = f"bondgraph {__version__}"
+    parser.add_argument("--version", action="version", version=version, help="print the version")
     commands = parser.add_subparsers(
-        dest="command", metavar="COMMAND", required=True, parser_class=Parser
+        prog=parser.prog, dest="command", metavar="COMMAND", required=True, parser_class=Parser
     )
     for name, line in COMMANDS.items():
         sub = commands.add_parser(

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from heapq import heapify, heappop, heappush
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from bondgraph.field.numbers import Number, Numbers
+from bondgraph.text.tuples import NamedTuple
 
 Row: TypeAlias = dict[int, Number]
 

@@ -220,7 +220,7 @@ class Pool:
         return ((low, nan), start, *inner, end, (high, nan))
 
     def _make(self, op: Op, args: tuple[Expr, ...], data: object) -> Expr:
-        key = (op, data, *[a.id for a in args])
+        key = (op, data, args)
         found = self._table.get(key)
         if found is None:
             found = self._table[key] = Expr(op, args, data, len(self._table))
@@ -228,11 +228,15 @@ class Pool:
 
     def num(self, value: Rational) -> Expr:
         """An exact number."""
-        return self._make(Op.NUM, (), Fraction(value))
+        if type(value) is not int and value.denominator == 1:
+            value = value.numerator  # equal and of equal hash, which an int has at once
+        found = self._table.get((Op.NUM, value, ()))
+        return found or self._make(Op.NUM, (), Fraction(value))
 
     def symbol(self, name: str, kind: Kind) -> Expr:
         """The symbol `name`; only a sensor and its reading share a name."""
-        return self._make(Op.SYM, (), Symbol(name, kind))
+        found = self._table.get((Op.SYM, (name, kind), ()))
+        return found or self._make(Op.SYM, (), Symbol(name, kind))
 
     def logged(self, roots: Iterable[Expr]) -> list[Expr]:
         """The roots with each reading as the signal of its sensor: both are one logged number.
@@ -263,25 +267,20 @@ class Pool:
                 collected[node] += factor
             else:
                 collected[node] = factor
-        items = [(n.id, n, c if type(c) is int else whole(c)) for n, c in collected.items() if c]
-        if constant:
-            items.append((self.one.id, self.one, whole(constant)))
-        if not items:
-            return self.zero
-        if len(items) == 1:
-            _, node, c = items[0]
-            if node is self.one:
-                return self.num(c)
-            if c == 1:
-                return node
-            return self._make(Op.ADD, (node,), (c,))
-        if constant:
-            constant_item = items.pop()
-            items.sort()
-            items.append(constant_item)
+        kept = [n for n, c in collected.items() if c]
+        if not kept:
+            return self.num(constant)
+        if len(kept) == 1 and not constant:
+            if collected[kept[0]] == 1:
+                return kept[0]
         else:
-            items.sort()
-        return self._make(Op.ADD, tuple([i[1] for i in items]), tuple([i[2] for i in items]))
+            kept.sort(key=_ID)
+            if constant:
+                kept.append(self.one)
+                collected[self.one] = constant
+        found = [collected[n] for n in kept]
+        whole_ones = tuple([c if type(c) is int else whole(c) for c in found])
+        return self._make(Op.ADD, tuple(kept), whole_ones)
 
     def scale(self, factor: Rational, node: Expr) -> Expr:
         """A number times a node."""
@@ -335,13 +334,14 @@ class Pool:
                 collected[base] -= 1
                 signed = self.fn("ssq", inner)
                 collected[signed] = collected.get(signed, 0) + 1
-        items = sorted((n.id, n, e) for n, e in collected.items() if e)
-        if not items:
+        kept = [n for n, e in collected.items() if e]
+        if not kept:
             return self.num(coefficient)
-        if len(items) == 1 and items[0][2] == 1:
-            node = items[0][1]
+        if len(kept) == 1 and collected[kept[0]] == 1:
+            node = kept[0]
         else:
-            node = self._make(Op.MUL, tuple(n for _, n, _ in items), tuple(e for _, _, e in items))
+            kept.sort(key=_ID)
+            node = self._make(Op.MUL, tuple(kept), tuple([collected[n] for n in kept]))
         return node if coefficient == 1 else self.add((coefficient, node))
 
     # ---------------------------------------------------------- functions
@@ -463,15 +463,15 @@ _SHALLOW = 3
 def topological(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> list[Expr]:
     """All nodes that the roots are made of, arguments first; below a `stop` node it ends."""
     seen = set(roots)
-    stack = list(seen)
-    while stack:
-        node = stack.pop()
+    found = list(seen)
+    for node in found:  # it grows as we go
         if stop is None or not stop(node):
             for arg in node.args:
                 if arg not in seen:
                     seen.add(arg)
-                    stack.append(arg)
-    return sorted(seen, key=_ID)
+                    found.append(arg)
+    found.sort(key=_ID)
+    return found
 
 
 def symbols(*roots: Expr) -> list[Expr]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from bondgraph.ir.structural_model import StructuralModel
@@ -12,6 +10,7 @@ from bondgraph.structural.mso import MsoSets, Progress, mso_sets
 from bondgraph.structural.realise import Realisation, integral_residuals, realisations
 from bondgraph.structural.structural_isolability import Isolability, isolability
 from bondgraph.structural.witness import witness
+from bondgraph.text.tuples import NamedTuple
 
 _HIGH_INDEX = 100.0  # a residual of a high index costs as much as so many of a low one
 _TRIED = 8  # sets of one signature that are tried for one without a differential loop

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+
+from bondgraph.text.tuples import NamedTuple
 
 Bools: TypeAlias = npt.NDArray[np.bool_]
 

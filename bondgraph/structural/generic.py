@@ -10,7 +10,8 @@ from __future__ import annotations
 import random
 from collections.abc import Sequence
 from heapq import heapify, heappop, heappush
-from typing import NamedTuple
+
+from bondgraph.text.tuples import NamedTuple
 
 PRIME = (1 << 61) - 1
 

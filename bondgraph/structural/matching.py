@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable
-from typing import NamedTuple
+
+from bondgraph.text.tuples import NamedTuple
 
 
 class Parts(NamedTuple):

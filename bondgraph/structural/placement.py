@@ -8,11 +8,11 @@ directions of the faults, restricted to the redundancies of that choice.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from typing import NamedTuple
 
 from bondgraph.ir.structural_model import StructuralEquation, StructuralModel
 from bondgraph.structural.generic import PRIME, direction, redundancy
 from bondgraph.structural.structural_isolability import Isolability, fault_directions
+from bondgraph.text.tuples import NamedTuple
 
 _Vector = dict[int, int]
 

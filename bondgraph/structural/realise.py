@@ -8,10 +8,11 @@ is integrated, solved for a derivative it is differentiated (Frisk et al., 2012)
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from bondgraph.ir.structural_model import StructuralModel
 from bondgraph.structural.matching import decompose, match
+from bondgraph.text.tuples import NamedTuple
 
 Causality = Literal["algebraic", "integral", "derivative", "mixed"]
 Loop = Literal["none", "algebraic", "differential"]

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from bondgraph.ir.expr import Expr
 from bondgraph.structural.matching import match
+from bondgraph.text.tuples import NamedTuple
 
 _MOST = 12  # derivatives of one equation: physics needs two or three
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from typing import NamedTuple
 
 from bondgraph.backends.drawing.canvas import Box, Canvas, Point, around
 from bondgraph.backends.drawing.layout import Layers, Route, parts
 from bondgraph.backends.drawing.place import Frame, Leg, Part, Wire, clip
 from bondgraph.backends.drawing.scene import Path, Scene
 from bondgraph.backends.drawing.style import SMALL, width
+from bondgraph.text.tuples import NamedTuple
 
 _BOND = 56.0  # visible length of a bond of the skeleton at least, px
 _WALL = 2 * 9.0

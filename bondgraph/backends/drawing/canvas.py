@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from bondgraph.text.tuples import NamedTuple
 
 _CELL = 90.0
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import itertools
-from typing import NamedTuple
+
+from bondgraph.text.tuples import NamedTuple
 
 _ITERATIONS = 100
 _FEW = 300  # vertices up to which several orders are tried

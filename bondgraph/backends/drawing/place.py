@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from bondgraph.backends.drawing.canvas import Box, Canvas, Point, around, between
 from bondgraph.backends.drawing.layout import Layers
 from bondgraph.backends.drawing.scene import Leaf, Path, Scene
 from bondgraph.backends.drawing.style import GAP, SMALL, width
+from bondgraph.text.tuples import NamedTuple
 
 _ARM = 32.0  # visible length of a short bond, px
 _WALL = 14.0  # room for a frame that a bond crosses, px

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from bondgraph.backends.drawing.style import BIG, FONT, HEIGHT, KINDS, width
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.ir.show import show
+from bondgraph.text.tuples import NamedTuple
 
 Path = tuple[str, ...]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,7 @@ from bondgraph.backends.report.episode import (
 from bondgraph.cli import console
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.runtime.monitoring.verdict import listed
+from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from bondgraph.algebra.present import parts, shared
 from bondgraph.backends.report.content import Effect, Seen
 from bondgraph.backends.report.formulas import operations
 from bondgraph.cli.reporting.relations import LONGEST
 from bondgraph.text.numerals import readable
+from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from bondgraph.backends.report.formulas import Typesetter

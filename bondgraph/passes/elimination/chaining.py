@@ -14,7 +14,6 @@ import heapq
 import itertools
 import math
 from contextlib import suppress
-from typing import NamedTuple
 
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.solve import ITERATED, Solution, solve
@@ -37,6 +36,7 @@ from bondgraph.passes.elimination.shortfall import (
 )
 from bondgraph.passes.elimination.tearing import Loops
 from bondgraph.structural.matching import components, decompose
+from bondgraph.text.tuples import NamedTuple
 
 #: Relations are tangled that rest on every step so many times, few steps not counted.
 _TANGLED, _FEW = 4, 1000

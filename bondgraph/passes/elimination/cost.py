@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+
+from bondgraph.text.tuples import NamedTuple
 
 
 class Cost(NamedTuple):

@@ -9,7 +9,6 @@ that of Ore (1933). Where the fault enters otherwise, one relation is solved for
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from bondgraph.algebra.derivative import Jets, TooManyOperations
 from bondgraph.algebra.nominal import Nominal
@@ -22,6 +21,7 @@ from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.passes.elimination.initial import without_free_integrals
 from bondgraph.text.diagnostic import Report
+from bondgraph.text.tuples import NamedTuple
 
 _INTEGRALS = 3  # times a relation is differentiated to bring the fault out of integrals
 _LIMIT = 4000  # nodes of a combined relation

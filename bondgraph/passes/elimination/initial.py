@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 from bondgraph.algebra.cancelled import without
 from bondgraph.algebra.solve import affine, constant
 from bondgraph.algebra.summands import summands
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.text.tuples import NamedTuple
 
 _Value = Callable[[Expr, int], Expr]
 _MOST = 12  # no relation worth having rests on more nested integrals

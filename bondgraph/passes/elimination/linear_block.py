@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Container, Mapping, Sequence
-from typing import NamedTuple
 
 from bondgraph.algebra.modular import Field
 from bondgraph.algebra.solve import affine, constant
 from bondgraph.ir.equation_system import Equation
 from bondgraph.ir.expr import Expr, Pool
+from bondgraph.text.tuples import NamedTuple
 
 #: More products than this in one block are not written out: a gigabyte, and minutes of a compiler.
 LARGEST = 1_000_000

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import permutations
-from typing import NamedTuple
 
 from bondgraph.algebra.in_mode import in_mode
 from bondgraph.algebra.summands import summands
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Step
 from bondgraph.passes.elimination.each_mode import chosen, opposed
+from bondgraph.text.tuples import NamedTuple
 
 _MOST = 5  # relations whose halves are tried in every order
 _MODES = 8  # switches that are looked at

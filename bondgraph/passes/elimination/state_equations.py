@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence, Set
 from fractions import Fraction
-from typing import NamedTuple
 
 from bondgraph.algebra.derivative import Jets
 from bondgraph.algebra.in_mode import in_mode
@@ -26,6 +25,7 @@ from bondgraph.passes.elimination.rings import rings
 from bondgraph.structural.matching import decompose, match
 from bondgraph.structural.reduce_index import Column, Reduced, reduce_index
 from bondgraph.text.diagnostic import Report
+from bondgraph.text.tuples import NamedTuple
 
 _UNKNOWN = (VARIABLES | {Kind.SENSOR}) - {Kind.UNKNOWN}
 

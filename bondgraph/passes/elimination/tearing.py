@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from typing import NamedTuple
 
 from bondgraph.algebra.implicit import invert
 from bondgraph.algebra.nominal import Nominal
@@ -18,6 +17,7 @@ from bondgraph.algebra.operators import LinearRow, Operators
 from bondgraph.algebra.solve import ITERATED, Solution, affine, constant, solve
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.text.tuples import NamedTuple
 
 
 class _Row(NamedTuple):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Container
 from fractions import Fraction
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from bondgraph.algebra.derivative import Jets
 from bondgraph.algebra.normalise import constant
@@ -26,6 +26,7 @@ from bondgraph.ir.program import (
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure
 from bondgraph.passes.lowering.program_names import OPTION, Names, brief, identifier
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 
 class Signal(NamedTuple):

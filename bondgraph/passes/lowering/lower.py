@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-from typing import NamedTuple
 
 from bondgraph.algebra.derivative import TooManyOperations
 from bondgraph.algebra.normalise import LIMIT, normalise
@@ -33,6 +32,7 @@ from bondgraph.passes.lowering.prune import pruned
 from bondgraph.passes.lowering.switched import Switched, order
 from bondgraph.passes.lowering.tape import Large, large
 from bondgraph.passes.lowering.visible import Seen, seen, unseen_faults
+from bondgraph.text.tuples import NamedTuple
 
 #: Stages a chain may have; a residual of higher order has no step.
 HIGHEST = 12

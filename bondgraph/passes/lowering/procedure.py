@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
-from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.program import (
@@ -27,6 +26,7 @@ from bondgraph.ir.program import (
 from bondgraph.ir.show import show
 from bondgraph.passes.lowering.program_names import Names, brief
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 _DEEPEST = 6  # brackets inside brackets, before a part gets a name
 

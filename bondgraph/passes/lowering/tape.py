@@ -7,7 +7,6 @@ reused rows for configure, and its low orders are evaluated to see what a step c
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.normal import Tape, Term
@@ -19,6 +18,7 @@ from bondgraph.passes.lowering.polynomials import Effects, low_orders
 from bondgraph.passes.lowering.procedure import Procedure
 from bondgraph.passes.lowering.program_names import identifier, short
 from bondgraph.passes.lowering.visible import Seen, absent, frequency, split
+from bondgraph.text.tuples import NamedTuple
 
 _ENOUGH = 64  # orders that the time unit is judged by
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import NamedTuple
 
 from bondgraph.algebra.sensitivity import sensitivity
 from bondgraph.algebra.zero import is_zero
@@ -18,6 +17,7 @@ from bondgraph.ir.expr import Expr, symbols
 from bondgraph.ir.graph import Value
 from bondgraph.ir.normal import Term
 from bondgraph.passes.lowering.builder import Builder
+from bondgraph.text.tuples import NamedTuple
 
 _FEW = 5  # parameters up to which derivatives of third order are looked at one by one
 

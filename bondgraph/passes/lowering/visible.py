@@ -11,12 +11,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
 
 from bondgraph.algebra.numeric import evaluate, sensitivities
 from bondgraph.ir.expr import Expr, symbols
 from bondgraph.ir.normal import Term
 from bondgraph.passes.lowering.builder import Builder
+from bondgraph.text.tuples import NamedTuple
 
 #: theta dc/dtheta of a term for a parameter, None where that has no number
 Effect = Callable[[Term, str], float | None]

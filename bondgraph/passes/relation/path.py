@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from bondgraph.algebra.present import tidy
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
@@ -11,6 +9,7 @@ from bondgraph.ir.expr import Expr, Op, Pool
 from bondgraph.ir.residuals import Residual, Step
 from bondgraph.ir.show import show
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 _WORDS = {
     "balance": "balance of junction",

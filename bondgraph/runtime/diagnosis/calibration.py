@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -22,6 +21,7 @@ from bondgraph.runtime.diagnosis.isolation import History
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.text.tuples import NamedTuple
 
 _TAIL = 3.29  # standard deviations that one normal sample in a thousand exceeds
 _ABOVE = 1.2  # times the largest excess of a healthy machine that a limit stays above

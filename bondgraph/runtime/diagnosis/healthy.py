@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
 from bondgraph.runtime.diagnosis.remembered import Memory, memories
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.parameters import Values
+from bondgraph.text.tuples import NamedTuple
 
 _COUNT = 1.0  # counts by which the first one of an encoder may be off
 

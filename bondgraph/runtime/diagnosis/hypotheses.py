@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Mapping, Sequence
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.text.tuples import NamedTuple
 
 _STEP = 1e-3  # relative change that a sensitivity is taken from
 _USUAL = 0.3  # share of what a fault usually changes: of a value, of the size of a signal

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.log import Array
+from bondgraph.text.tuples import NamedTuple
 
 #: Of the usual change: how large a fault is, nobody knows. Close together, so that no fault is
 #: better off than another for being just as large as one of them.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from bondgraph.runtime.diagnosis.isolation import History, inverse
 from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.text.tuples import NamedTuple
 
 _SPREAD = 3.0  # standard deviations that a start may be off by
 _LOCAL = 2.0  # counts that a slope is taken over, at least

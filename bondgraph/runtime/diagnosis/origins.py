@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +19,7 @@ from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.plain import array, numbers
+from bondgraph.text.tuples import NamedTuple
 
 _HOLD = 3  # warm-ups that a start is told before the first sample: encoders may jump far
 _FEW = 3  # rows beyond the warm-up before a start is looked for

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.text.tuples import NamedTuple
 
 _MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is off by
 _SLOPE_ERROR = 0.05  # of the residual: what its sensitivities are off by

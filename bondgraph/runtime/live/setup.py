@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
 
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
@@ -13,6 +12,7 @@ from bondgraph.runtime.monitoring.decision import Decision
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.sources.sample_source import Source
 from bondgraph.runtime.simulation.scenario import Fault, Scenario
+from bondgraph.text.tuples import NamedTuple
 
 
 class Setup(NamedTuple):

@@ -9,7 +9,6 @@ has done, and the filters start anew.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +16,7 @@ import numpy.typing as npt
 from bondgraph.ir.program import Known
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.text.tuples import NamedTuple
 
 #: The period of a clock that counts microseconds in 32 bits, in s.
 WRAP_32 = 2.0**32 / 1e6

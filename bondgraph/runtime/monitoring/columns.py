@@ -7,13 +7,14 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from bondgraph.ir.program import Known
 from bondgraph.library.units import parse_unit
 from bondgraph.runtime.log import LEFT_OUT, Array, Log, LogError
+from bondgraph.text.tuples import NamedTuple
 
 _KEYS = {"column", "scale", "offset", "unit"}
 _TEMPERATURES = re.compile(r"(deg|°)[CF]")

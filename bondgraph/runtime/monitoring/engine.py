@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from itertools import count
 from types import ModuleType
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,7 @@ import numpy.typing as npt
 from bondgraph.ir.program import Known
 from bondgraph.ir.runnable_code import Runnable, Together
 from bondgraph.runtime.log import Array
+from bondgraph.text.tuples import NamedTuple
 
 _LARGEST = 2.0**53  # a double has all whole numbers up to here
 

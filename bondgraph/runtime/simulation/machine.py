@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,7 @@ from bondgraph.ir.state import Block, StateEquations
 from bondgraph.runtime.simulation.algebraic_loops import NoSolution, factorised, iteration, solver
 from bondgraph.runtime.simulation.code import Code
 from bondgraph.runtime.simulation.parameters import Values
+from bondgraph.text.tuples import NamedTuple
 
 Array = npt.NDArray[np.float64]
 

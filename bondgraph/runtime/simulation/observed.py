@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.state import StateEquations
+from bondgraph.text.tuples import NamedTuple
 
 _GIVEN = CONSTANTS | {Kind.INPUT, Kind.UNKNOWN, Kind.MODE}
 

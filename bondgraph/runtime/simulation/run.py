@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +24,7 @@ from bondgraph.runtime.simulation.scenario import Instrument, Scenario
 from bondgraph.runtime.simulation.spread import spread
 from bondgraph.runtime.simulation.start import start
 from bondgraph.text.diagnostic import CompileError, Report
+from bondgraph.text.tuples import NamedTuple
 
 Array = npt.NDArray[np.float64]
 _MOST = 10**8  # samples, all of them in memory

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from bondgraph.ir.expr import Expr
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 
 class Course(NamedTuple):

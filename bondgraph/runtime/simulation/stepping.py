@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,7 @@ from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.spread import spread
 from bondgraph.runtime.simulation.start import start
 from bondgraph.text.diagnostic import CompileError, Report
+from bondgraph.text.tuples import NamedTuple
 
 Array = npt.NDArray[np.float64]
 Inputs = Callable[[float], Sequence[float]]
