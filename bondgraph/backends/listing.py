@@ -9,7 +9,8 @@ from collections.abc import Iterable
 from bondgraph.backends.target import Target
 from bondgraph.text.source import Span
 
-_BREAK = re.compile(r" (?=[+\-*/?:&|<]|and |or |if |else )|(?<=,) ")
+#: A bracket, or a blank where a line may end.
+_MARK = re.compile(r"[()\[\]{}]| (?=[+\-*/?:&|<]|and |or |if |else )|(?<=,) ")
 _COMMENT_LINES = 8
 
 
@@ -105,15 +106,15 @@ def _fill(text: str, first: str, rest: str, target: Target) -> list[str]:
 
 def _places(text: str) -> list[tuple[int, int, int]]:
     """Where a line may end, what it costs the reader, and how deep the next line is."""
-    starts = {m.start() for m in _BREAK.finditer(text)}
     found: list[tuple[int, int, int]] = []
     depth = 0
-    for at, letter in enumerate(text):
+    for mark in _MARK.finditer(text):
+        at, letter = mark.start(), mark.group()
         if letter in "([{":
             depth += 1
         elif letter in ")]}":
             depth -= 1
-        elif at in starts and at > 0:
+        elif at > 0:
             product, choice = text[at + 1] in "*/", text[at + 1] in "?:"
             found.append((at, 2 * depth + 3 * product - choice, depth + product))
     return found
@@ -126,14 +127,16 @@ def table(items: Iterable[str], target: Target, indent: int) -> list[str]:
 
 def table_lines(items: Iterable[str], target: Target, indent: int) -> list[str]:
     """The same for items that bring their comma."""
-    return textwrap.wrap(
-        " ".join(items),
-        target.width,
-        initial_indent=" " * indent,
-        subsequent_indent=" " * indent,
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
+    lines: list[str] = []
+    line: list[str] = []
+    room = width = target.width - indent
+    for word in " ".join(items).split():
+        if len(word) > room and line:
+            lines.append(" " * indent + " ".join(line))
+            line, room = [], width
+        line.append(word)
+        room -= len(word) + 1
+    return [*lines, " " * indent + " ".join(line)] if line else lines
 
 
 def members(declarations: Iterable[tuple[str, str]], target: Target, indent: int) -> list[str]:

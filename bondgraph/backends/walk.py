@@ -58,11 +58,15 @@ def nodes(values: Iterable[Expression | Condition]) -> Iterator[Expression | Con
 def references(value: Expression | Condition) -> list[Ref]:
     """The names that an expression reads; a mode is read as a known signal."""
     found: list[Ref] = []
-    for node in nodes([value]):
+    stack: list[object] = [value]
+    while stack:
+        node = stack.pop()
         if isinstance(node, Ref):
             found.append(node)
         elif isinstance(node, Mode):
             found.append(Ref("known", node.name))
+        elif isinstance(node, tuple):  # of operands, or a node: both hold them from left to right
+            stack.extend(node[::-1])
     return found
 
 

@@ -317,10 +317,12 @@ def digest(program: Program, text: str) -> str:
 
 def _plain(value: object) -> object:
     """The value without places, which name files of the machine."""
-    if isinstance(value, tuple):
-        fields = getattr(value, "_fields", None)
-        if fields is None:
-            return tuple(map(_plain, value))
-        pairs = zip(fields, value, strict=True)
-        return (type(value).__name__, *[_plain(v) for f, v in pairs if f != "origin"])
-    return value
+    if not isinstance(value, tuple):
+        return value
+    plain = [_plain(v) if isinstance(v, tuple) else v for v in value]
+    fields = getattr(value, "_fields", None)
+    if fields is None:
+        return tuple(plain)
+    if "origin" in fields:
+        del plain[fields.index("origin")]
+    return (type(value).__name__, *plain)

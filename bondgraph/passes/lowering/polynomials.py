@@ -25,8 +25,9 @@ def low_orders(
         target = rows.setdefault(edge.target, [])
         size = min(len(source) + edge.shift, highest)
         target += [0.0] * (size - len(target))
-        for i in range(min(len(source), size - edge.shift)):
-            target[i + edge.shift] += factor * source[i]
+        place = slice(edge.shift, size)
+        sums = zip(target[place], source, strict=False)  # what is of higher order is left out
+        target[place] = [t + factor * s for t, s in sums]
     return rows
 
 

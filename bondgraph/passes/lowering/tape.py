@@ -142,10 +142,12 @@ def _time_unit(builder: Builder, tape: Tape, rate: float) -> float:
     sizes = low_orders(builder, tape, start, _ENOUGH)
     if sizes is None:
         return 1.0
-    unit = 0.0
+    most = [0.0] * _ENOUGH
     for row in sizes.values():
         scale = abs(row[0]) if row and row[0] else max(map(abs, row), default=0.0)
-        for k, value in enumerate(row):
-            if k and value and scale:
-                unit = max(unit, start * (abs(value) / scale) ** (1 / k))
+        if scale:
+            most[: len(row)] = [
+                max(m, abs(v) / scale) for m, v in zip(most, row, strict=False)
+            ]
+    unit = max(start * m ** (1 / k) for k, m in enumerate(most) if k)
     return 2.0 ** math.ceil(math.log2(unit)) if unit else 1.0

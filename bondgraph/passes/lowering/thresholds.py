@@ -12,6 +12,7 @@ from bondgraph.ir.program import (
     Field,
     Function,
     Opening,
+    PolynomialTape,
     Program,
     Ref,
     ResidualInfo,
@@ -63,8 +64,9 @@ def thresholds(
     builder = Builder(graph)
     filter = Filter(builder, fastest(options))
     switched = Switched(builder, filter, residuals.system)
+    large = {s.residual for s in program.configure if isinstance(s, PolynomialTape)}
     found = [
-        _threshold(builder, switched, residual, info, options)
+        _threshold(builder, switched, residual, info, options, info.name in large)
         for residual, info in zip(residuals.residuals, program.residuals, strict=True)
     ]
     configure = builder.configure()
@@ -104,18 +106,18 @@ def _threshold(
     residual: Residual,
     info: ResidualInfo,
     options: LowerOptions,
+    large: bool,
 ) -> _Threshold:
     """The statements for one residual: its uncertain signals, and the sum of their amounts."""
     out = _Threshold(info._replace(order=0, unwritten=_UNWRITTEN, approximate=""))
     if info.unavailable:
         return _none(out, info.unavailable)
+    if large:
+        return _none(out, "its residual is too long to be differentiated")
     builder.origin = residual.closing.origin
     pool = builder.graph.pool
     joined = pool.logged([residual.expr])[0]
-    form = normalise(pool, joined, LIMIT, builder.initials)
-    if form.tape is not None:
-        return _none(out, "its residual is too long to be differentiated")
-    form = switched.form(joined, form)
+    form = switched.form(joined, normalise(pool, joined, LIMIT, builder.initials))
     kept = seen(builder, form.terms, options.rate, options.resolution).kept
     amounts: list[tuple[bool, Expression]] = []
     words: list[str] = []
