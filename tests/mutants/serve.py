@@ -15,7 +15,7 @@ import signal
 import sys
 import time
 
-_PACKAGES = "igraph jinja2 networkx numpy pytest scipy.optimize scipy.stats sympy".split()
+_PACKAGES = "jinja2 networkx numpy pytest scipy.optimize scipy.stats sympy".split()
 _MEMORY = 3 << 30  # bytes; a mutant may make a loop endless
 
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import itertools
+from bisect import bisect_right, insort
+from collections.abc import Iterator
+from statistics import median
 
 from bondgraph.text.tuples import NamedTuple
 
-_ITERATIONS = 100
+_SWEEPS = 24  # over all columns, to the right and to the left
 _FEW = 300  # vertices up to which several orders are tried
 _MANY = 4000  # vertices beyond which crossings are not minimised
 
@@ -167,18 +170,76 @@ def _orders(vertices: list[int]) -> list[list[int]]:
 def _sugiyama(
     order: list[int], links: list[tuple[int, int]], column: dict[int, int]
 ) -> dict[int, float]:
-    import igraph
+    """Columns sorted by the mean row of their neighbours, back and forth (Sugiyama 1981)."""
+    layers: dict[int, list[int]] = {c: [] for c in sorted({column[v] for v in order})}
+    for v in order:
+        layers[column[v]].append(v)
+    near: tuple[dict[int, list[int]], ...] = ({v: [] for v in order}, {v: [] for v in order})
+    for a, b in dict.fromkeys((a, b) if column[a] < column[b] else (b, a) for a, b in links):
+        near[0][b].append(a)
+        near[1][a].append(b)
+    columns = list(layers.values())
+    row = {v: at for layer in columns for v, at in _centred(layer)}
+    best = len(links) ** 2, row
+    for sweep in range(_SWEEPS if len(order) < 1000 else 6):
+        side = near[sweep % 2]
+        for layer in columns[:: 1 - 2 * (sweep % 2)]:
+            layer.sort(key=lambda v: sum(row[n] for n in side[v]) / len(side[v])
+                       if side[v] else row[v])  # fmt: skip
+            row.update(_centred(layer))
+        crossings = _crossings(columns, near[1], row)
+        if crossings < best[0]:
+            best = crossings, dict(row)
+    return _straightened([sorted(c, key=best[1].__getitem__) for c in columns], near, best[1])
 
-    number = {v: i for i, v in enumerate(order)}
-    pairs = {
-        (number[a], number[b]) if column[a] < column[b] else (number[b], number[a])
-        for a, b in links
-    }
-    drawn = igraph.Graph(n=len(order), edges=sorted(pairs), directed=True)
-    layout = drawn.layout_sugiyama(
-        layers=[column[v] for v in order], maxiter=_ITERATIONS if len(order) < 1000 else 10
-    )
-    return {v: float(layout[i][0]) for v, i in number.items()}
+
+def _centred(layer: list[int]) -> Iterator[tuple[int, float]]:
+    """Rows of a column around the middle of the figure."""
+    return ((v, i - (len(layer) - 1) / 2) for i, v in enumerate(layer))
+
+
+def _crossings(columns: list[list[int]], after: dict[int, list[int]], row: dict[int, float]) -> int:
+    """The bonds that cross: pairs in the other order at their right ends."""
+    found = 0
+    for layer in columns:
+        ends: list[float] = []
+        for v in layer:
+            own = [row[n] for n in after[v]]
+            found += sum(len(ends) - bisect_right(ends, end) for end in own)
+            for end in own:
+                insort(ends, end)
+    return found
+
+
+def _straightened(
+    columns: list[list[int]], near: tuple[dict[int, list[int]], ...], row: dict[int, float]
+) -> dict[int, float]:
+    """The rows, in the order that they have, where the bonds climb least.
+
+    A vertex goes to the median of its neighbours; those that would come too close go together, to
+    the median of them all (isotonic regression: Barlow and others, 1972).
+    """
+    best = None
+    row = dict(row)
+    for sweep in range(_SWEEPS):
+        sides = near if sweep >= _SWEEPS - 2 else near[sweep % 2 :][:1]
+        for layer in columns[:: 1 - 2 * (sweep % 2)]:
+            blocks: list[tuple[list[int], list[float]]] = []
+            for i, v in enumerate(layer):
+                wanted = [row[n] - i for side in sides for n in side[v]] or [row[v] - i]
+                block = [v], sorted(wanted)
+                while blocks and median(blocks[-1][1]) >= median(block[1]):
+                    before = blocks.pop()
+                    block = before[0] + block[0], sorted(before[1] + block[1])
+                blocks.append(block)
+            at = [median(wanted) for members, wanted in blocks for _ in members]
+            row.update({v: at[i] + i for i, v in enumerate(layer)})
+        climb = sum(abs(row[a] - row[b]) for a, heads in near[1].items() for b in heads)
+        climb += max(row.values()) - min(row.values())
+        if best is None or climb < best[0]:
+            best = climb, dict(row)
+    assert best is not None
+    return best[1]
 
 
 def _cost(rows: dict[int, float], links: list[tuple[int, int]], column: dict[int, int]) -> float:

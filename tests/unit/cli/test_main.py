@@ -142,7 +142,7 @@ def test_a_reader_that_leaves_is_no_error(words: str, first: str) -> None:
 
 
 #: Modules that would make `check` start too late; see docs/decisions/light-nouns.md.
-HEAVY = {"dataclasses", "inspect", "jinja2", "networkx", "numpy", "scipy", "sympy", "igraph"}
+HEAVY = {"dataclasses", "inspect", "jinja2", "networkx", "numpy", "scipy", "sympy"}
 
 
 @pytest.mark.parametrize("words", [["check", "models/khepera.bg"], ["--help"], ["--version"]])
