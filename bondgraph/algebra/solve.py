@@ -19,6 +19,7 @@ from bondgraph.ir.expr import (
     Op,
     Pool,
     Rational,
+    raised,
     read_backwards,
     topological,
     whole,
@@ -106,7 +107,7 @@ def _isolated(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
     if zero.op is not Op.ADD or variable not in zero.args:
         return None
     own = zero.coefficients[zero.args.index(variable)]
-    factor = whole(Fraction(-1) / own)
+    factor = -raised(own, -1)
     terms = []
     for c, arg in zip(zero.coefficients, zero.args, strict=True):
         if arg is variable:
@@ -227,6 +228,8 @@ def _holders(node: Expr, variable: Expr) -> dict[Expr, None]:
 
 def _dividable(pool: Pool, slope: Expr, vanishes: Callable[[Expr], bool]) -> bool:
     """Whether it is right to divide by a coefficient: not where it is zero in some mode."""
+    if slope.op is Op.SYM and slope.symbol.kind in CONSTANTS:
+        return not vanishes(slope)
     nodes = topological([slope])
     if any(n.op is Op.FN and n.data in ("sign", "min", "max") for n in nodes):
         return False

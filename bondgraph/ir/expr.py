@@ -162,6 +162,17 @@ def whole(value: Rational) -> Rational:
     return value.numerator if value.denominator == 1 else value
 
 
+def raised(base: Rational, exponent: int) -> Rational:
+    """An integer power of a number; of a whole one an int where that is whole.
+
+    >>> raised(-1, -3), raised(2, 3), raised(2, -1)
+    (-1, 8, Fraction(1, 2))
+    """
+    if base.denominator != 1 or (exponent < 0 and abs(base) != 1):
+        return Fraction(base) ** exponent
+    return int(base.numerator ** abs(exponent))
+
+
 _ID = attrgetter("id")
 _ZERO = Fraction(0)
 _ROUNDING = 1e-9  # of a table's range: far above what doubles lose, far below what a sensor tells
@@ -262,7 +273,7 @@ class Pool:
                 factor = factor * node.coefficients[0]
                 node = node.args[0]
             if node.op is Op.NUM:
-                constant += factor * node.number
+                constant += factor * whole(node.number)
             elif node in collected:
                 collected[node] += factor
             else:
@@ -315,10 +326,10 @@ class Pool:
             if exponent == 0:
                 continue
             if base.op is Op.ADD and len(base.args) == 1:
-                coefficient *= Fraction(base.coefficients[0]) ** exponent
+                coefficient *= raised(base.coefficients[0], exponent)
                 base = base.args[0]
             if base.op is Op.NUM:
-                coefficient *= base.number**exponent
+                coefficient *= raised(base.number, exponent)
             elif base.op is Op.MUL:
                 for b, e in zip(base.args, base.exponents, strict=True):
                     collected[b] = collected.get(b, 0) + e * exponent

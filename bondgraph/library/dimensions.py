@@ -224,7 +224,8 @@ class Dimensions:
             if value is None:
                 _collect(unknown, {root: 1}, exponent)
             else:
-                known = times(known, raised(value.known, exponent))
+                power = value.known if exponent == 1 else raised(value.known, exponent)
+                known = power if known is NONE else times(known, power)
                 _collect(unknown, value.unknown, exponent)
                 places = _merged(places, value.places)
         return Term(known, unknown, places)
@@ -243,7 +244,7 @@ def _collect(
     into: dict[int, Fraction | int], unknown: dict[int, Fraction | int], factor: Fraction | int
 ) -> None:
     for number, exponent in unknown.items():
-        total = into.get(number, 0) + whole(exponent * factor)
+        total = into.get(number, 0) + exponent * factor
         if total:
             into[number] = whole(total)
         else:

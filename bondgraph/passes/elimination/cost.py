@@ -26,6 +26,8 @@ class Cost(NamedTuple):
 #: What an iteration, and an integration from an undeclared start, count in integrations.
 ITERATION, FREE_START = 10, 1000
 
+_NOTHING = Cost(0, 0, 0, 0, 0)
+
 #: A variable that a loop gives.
 LOOP = Cost(0, 1, 0, 1, 0)
 
@@ -38,11 +40,7 @@ def after(others: Sequence[Cost], late: int, hard: int, derived: bool, free: int
     >>> after([Cost(0, 0, 0, 1, 0), Cost(0, 1, 0, 3, 0)], late=0, hard=0, derived=True, free=0)
     Cost(late=0, hard=1, excess=1, depth=4, order=1)
     """
-    order = max((c.order for c in others), default=0) + derived
-    return Cost(
-        max((c.late for c in others), default=0) + late,
-        max((c.hard for c in others), default=0) + hard,
-        max(order - free, 0),
-        max((c.depth for c in others), default=0) + 1,
-        order,
-    )
+    most = map(max, zip(_NOTHING, *others, strict=True))
+    late_below, hard_below, _, depth, order = most
+    order += derived
+    return Cost(late_below + late, hard_below + hard, max(order - free, 0), depth + 1, order)
