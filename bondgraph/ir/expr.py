@@ -231,11 +231,8 @@ class Pool:
         return ((low, nan), start, *inner, end, (high, nan))
 
     def _make(self, op: Op, args: tuple[Expr, ...], data: object) -> Expr:
-        key = (op, data, args)
-        found = self._table.get(key)
-        if found is None:
-            found = self._table[key] = Expr(op, args, data, len(self._table))
-        return found
+        made = Expr(op, args, data, len(self._table))
+        return self._table.setdefault((op, data, args), made)  # which hashes the numbers once
 
     def num(self, value: Rational) -> Expr:
         """An exact number."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import random
-from typing import NamedTuple
 
 from bondgraph.ir.structural_model import StructuralModel
 from bondgraph.structural.generic import PRIME, direction, redundancy
+from bondgraph.text.tuples import NamedTuple
 
 
 class Isolability(NamedTuple):
