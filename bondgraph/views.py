@@ -59,7 +59,7 @@ class Relation:
     def latex(self) -> str:
         """The relation in LaTeX; a dotted path becomes a subscript, a derivative its dots."""
         from bondgraph.algebra.present import tidy
-        from bondgraph.ir.latex import latex
+        from bondgraph.notation.latex import latex
 
         root = tidy(self._graph.pool, *self._graph.pool.logged([self.residual.expr]))[0]
         return latex(root, self._graph.initial_values())

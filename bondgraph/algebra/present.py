@@ -4,15 +4,15 @@ shared parts named by the variable of the model that they are."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
 from fractions import Fraction
 
 from bondgraph.algebra.solve import constant
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual
-from bondgraph.ir.show import show
 from bondgraph.text.tuples import NamedTuple
+from bondgraph.notation.formula import Reader
+from bondgraph.notation.line import Line
 
 _MANY = 60  # a sum of more terms stays nested
 _SHORT = 3  # a shared part of fewer nodes than this reads better in full
@@ -155,14 +155,10 @@ def shared(root: Expr, variables: dict[Expr, str]) -> Parts:
 def closed_form(graph: BondGraph, residual: Residual) -> ClosedForm:
     """The relation as nested text; what occurs more than once is named and written once."""
     root, order, chosen, _ = parts(graph, residual)
-    starts = graph.initial_values()
+    reader, line = Reader(chosen, graph.initial_values()), Line()
     where = [
-        (chosen[node], show(node, _others(chosen, node), starts))
+        (chosen[node], line.spell(reader.definition(node)).text)
         for node in reversed(order)
         if node in chosen
     ]
-    return ClosedForm(show(root, chosen.get, starts), tuple(where))
-
-
-def _others(chosen: dict[Expr, str], own: Expr) -> Callable[[Expr], str | None]:
-    return lambda node: None if node is own else chosen.get(node)
+    return ClosedForm(line.spell(reader.of(root)).text, tuple(where))

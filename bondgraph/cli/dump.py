@@ -42,7 +42,7 @@ def run(args: Namespace) -> int:
 
 def text_of(compilation: Compilation, stage: str) -> str:
     """A stage as text; raises `CompileError` where the model does not get that far."""
-    from bondgraph.ir import dump
+    from bondgraph.notation import dump_stages as dump
 
     match stage:
         case "syntax":
@@ -62,6 +62,6 @@ def text_of(compilation: Compilation, stage: str) -> str:
         case "signatures":
             return dump.dump_signatures(compilation.signatures)
         case _:
-            from bondgraph.ir.dump_program import dump_program
+            from bondgraph.notation.dump_program import dump_program
 
             return dump_program(compilation.program)

@@ -100,7 +100,7 @@ def about(compilation: Compilation, name: str) -> list[str]:
 def _missing(compilation: Compilation, name: str) -> list[list[str]]:
     """The relations that could not be had and are about a name, or fail because of it."""
     from bondgraph.cli.terminal_layout import prose, width
-    from bondgraph.ir.dump import equation_name
+    from bondgraph.notation.dump_stages import equation_name
     from bondgraph.text.diagnostic import CompileError
 
     try:
@@ -131,8 +131,8 @@ def _bonds(graph: BondGraph, name: str) -> list[Bond]:
 
 
 def _node(compilation: Compilation, number: int) -> list[str]:
-    from bondgraph.ir.dump import node_name, place
-    from bondgraph.ir.show import show
+    from bondgraph.notation.dump_stages import node_name, place
+    from bondgraph.notation.line import show
 
     graph = compilation.graph
     node = graph.nodes[number]
@@ -158,7 +158,7 @@ def _node(compilation: Compilation, number: int) -> list[str]:
 
 
 def _bond(compilation: Compilation, bond: Bond) -> list[str]:
-    from bondgraph.ir.dump import bond_name, place
+    from bondgraph.notation.dump_stages import bond_name, place
 
     graph = compilation.graph
     lines = [f"{bond_name(graph, bond)}  bond, {place(bond.origin, compilation.source)}"]
@@ -171,7 +171,7 @@ def _bond(compilation: Compilation, bond: Bond) -> list[str]:
 
 
 def _stroke(causal: CausalGraph, bond: Bond) -> str:
-    from bondgraph.ir.dump import bond_name, reason
+    from bondgraph.notation.dump_stages import bond_name, reason
 
     graph = causal.graph
     stroke = causal.strokes[bond.number]
@@ -185,8 +185,8 @@ def _stroke(causal: CausalGraph, bond: Bond) -> str:
 def _residual(compilation: Compilation, relation: Relation) -> list[str]:
     from bondgraph.cli.summary import closed_form
     from bondgraph.cli.terminal_layout import formula, width
-    from bondgraph.ir.dump import place
-    from bondgraph.ir.show import show
+    from bondgraph.notation.dump_stages import place
+    from bondgraph.notation.line import show
     from bondgraph.passes.relation.path import path
 
     columns = width()

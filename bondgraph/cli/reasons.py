@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bondgraph.cli.console import plural
-from bondgraph.ir.dump import equation_name
 from bondgraph.ir.expr import Expr, symbols
+from bondgraph.notation.dump_stages import equation_name
 from bondgraph.structural.matching import decompose
 
 if TYPE_CHECKING:

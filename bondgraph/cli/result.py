@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bondgraph.algebra.present import tidy
-from bondgraph.cli.parsable import Names, parsable
 from bondgraph.cli.reasons import message, reason
-from bondgraph.ir.latex import latex
+from bondgraph.notation.latex import latex
+from bondgraph.notation.parsable import Names, parsable
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from bondgraph.ir.expr import Expr
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.residuals import Residual
     from bondgraph.ir.signature_matrix import Detectability, ModeSignatures
@@ -30,10 +29,9 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
     graph = compilation.graph
     matrix = compilation.signatures
     names = names_of(graph)
-    initial = initial_values(graph)
     lasting, best = compilation.detectability, compilation.best
     arrs = [
-        _arr(graph, residual, lasting, names, initial)
+        _arr(graph, residual, lasting, names)
         for residual in compilation.residuals.stage.residuals
     ]
     used = {symbol for _, symbols in arrs for symbol in symbols}
@@ -94,21 +92,15 @@ def names_of(graph: BondGraph) -> Names:
     return Names(dict.fromkeys(s.symbol.name for s in symbols))
 
 
-def initial_values(graph: BondGraph) -> dict[str, Expr]:
-    """The expression of every declared initial value, by the name of its symbol."""
-    return {symbol.name: value for symbol, value in graph.initial_values().items()}
-
-
 def _arr(
     graph: BondGraph,
     residual: Residual,
     lasting: Detectability,
     names: Names,
-    initial: dict[str, Expr],
 ) -> tuple[dict[str, object], tuple[str, ...]]:
     root = tidy(graph.pool, *graph.pool.logged([residual.expr]))[0]
     matrix, weak = lasting.matrix, lasting.weak(residual.name)
-    written = parsable(graph.pool, root, names, initial)
+    written = parsable(graph.pool, root, names, graph.initial_values())
     arr: dict[str, object] = {
         "name": residual.name,
         "expr": written.expr,

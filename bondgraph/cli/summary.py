@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from bondgraph.cli.console import plural
 from bondgraph.cli.reasons import message, missing, reasons
 from bondgraph.cli.terminal_layout import formula, names, prose, signature_table, width
-from bondgraph.ir.dump import equation_name
 from bondgraph.ir.expr import topological
+from bondgraph.notation.dump_stages import equation_name
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -152,7 +152,7 @@ class Expr:
         return self.data
 
     def __repr__(self) -> str:
-        from bondgraph.ir.show import show  # a debugging aid; `show` builds on this module
+        from bondgraph.notation.line import show  # the one arrow up: only when somebody looks
 
         return show(self)
 

@@ -6,9 +6,11 @@ from collections.abc import Iterable, Mapping
 
 from bondgraph.algebra.present import Parts
 from bondgraph.ir.expr import Expr, Op, Symbol, topological
-from bondgraph.ir.lettering import Letter, letters, split_name
-from bondgraph.ir.mathml import Box, Typist, atom, escape, sign
-from bondgraph.ir.mathml_pieces import pieces
+from bondgraph.notation.formula import Reader
+from bondgraph.notation.lettering import Letter, letters, split_name
+from bondgraph.notation.line_breaks import pieces
+from bondgraph.notation.mathml import MathML, escape, sign
+from bondgraph.notation.speller import Spelled
 
 ROOM = 30.0  # em, of a piece that is not broken
 _NESTED = 3  # fractions, integrals and the like inside each other, before one gets a name
@@ -21,7 +23,7 @@ class Typesetter:
         self.letters = letters(dict.fromkeys(names))
         self.starts = starts
 
-    def name(self, path: str, dots: int = 0) -> Box:
+    def name(self, path: str, dots: int = 0) -> Spelled:
         """A name of the model, under dots for derivatives; the element carries the name itself."""
         letter = self.letters.get(path) or Letter(*split_name(path), ())
         base = f"<mi>{escape(letter.base)}</mi>"
@@ -31,45 +33,40 @@ class Typesetter:
         width = 0.6 * len(letter.base)
         below = [part for part in (letter.below, " ".join(letter.where)) if part]
         if not below:
-            return atom(f'<mrow data-name="{escape(path)}">{base}</mrow>', width)
+            return Spelled(f'<mrow data-name="{escape(path)}">{base}</mrow>', width=width)
         text = escape(", ".join(below)).replace(" ", "&#x202f;")
         index = f'<mtext class="index">{text}</mtext>'
         width += 0.36 * sum(map(len, below)) + 0.2 * len(below)
-        return atom(f'<msub data-name="{escape(path)}">{base}{index}</msub>', width)
+        return Spelled(f'<msub data-name="{escape(path)}">{base}{index}</msub>', width=width)
 
     def inline(self, path: str) -> str:
         """A name in running text."""
-        return f"<math>{self.name(path).xml}</math>"
+        return f"<math>{self.name(path).text}</math>"
 
     def equations(self, head: str, parts: Parts, room: float = ROOM) -> list[str]:
         """`head` = the relation, and one line for each part that has a name, outermost first."""
         named = readable(parts)
-        typist = Typist(self.name, named, self.starts)
-        lines = [self._line(head, typist, parts.root, room)]
+        reader, speller = Reader(named, self.starts), MathML(self.name)
+        lines = [_row(head, pieces(speller, reader.definition(parts.root), room))]
         for node in reversed(parts.order):
             if node in named and node is not parts.root:
-                if node.op is Op.ROOT:
-                    lines.append(self._solved(named[node], typist, node))
-                else:
-                    lines.append(self._line(self.name(named[node]).xml, typist, node, room))
+                head, part = self.name(named[node]).text, reader.definition(node)
+                if node.op is Op.ROOT:  # no formula gives it: where it makes an expression vanish
+                    head, part = f"{head}<mtext>&#xa0;where&#xa0;</mtext><mn>0</mn>", part.parts[1]
+                lines.append(_row(head, pieces(speller, part, room)))
         return lines
 
     def assigned(self, variable: str, value: Expr, room: float = ROOM) -> str:
         """`variable` = `value`, all on its own."""
-        typist = Typist(self.name, {}, self.starts)
-        return _row(self.name(variable).xml, pieces(typist, value, room))
+        return self._line(self.name(variable).text, value, room)
 
     def vanishing(self, zero: Expr) -> str:
         """0 = `zero`."""
-        return _row("<mn>0</mn>", pieces(Typist(self.name, {}, self.starts), zero, ROOM))
+        return self._line("<mn>0</mn>", zero, ROOM)
 
-    def _line(self, head: str, typist: Typist, node: Expr, room: float) -> str:
-        return _row(head, pieces(typist, node, room, own=True))
-
-    def _solved(self, name: str, typist: Typist, node: Expr) -> str:
-        """A number that no formula gives: where it makes an expression vanish."""
-        where = f"{self.name(name).xml}<mtext>&#xa0;where&#xa0;</mtext><mn>0</mn>"
-        return _row(where, pieces(typist.inside(node), node.root.zero, ROOM))
+    def _line(self, head: str, value: Expr, room: float) -> str:
+        formula = Reader({}, self.starts).of(value)
+        return _row(head, pieces(MathML(self.name), formula, room))
 
 
 def _row(head: str, parts: list[str]) -> str:

@@ -8,7 +8,7 @@ from bondgraph.algebra.present import parts
 from bondgraph.backends.report.content import PathLine, RelationPart
 from bondgraph.backends.report.formulas import operations
 from bondgraph.cli.console import plural
-from bondgraph.ir.dump import equation_name, place
+from bondgraph.notation.dump_stages import equation_name, place
 from bondgraph.passes.relation.path import path
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def _relation(
     too_long = ""
     if size <= LONGEST and room:
         form = parts(compilation.graph, residual)
-        html = tuple(typesetter.equations(typesetter.name(relation.name).xml, form))
+        html = tuple(typesetter.equations(typesetter.name(relation.name).text, form))
     else:
         too_long = (
             f"{plural(size, 'operation')}, not written out here;"

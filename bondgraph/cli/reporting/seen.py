@@ -94,8 +94,8 @@ def _formula(
     if size > LONGEST // 4:
         return "", f"{size} operations, not written out here"
     head = (
-        f"<mfrac><mrow><mo>∂</mo>{typesetter.name(relation.name).xml}</mrow>"
-        f"<mrow><mo>∂</mo>{typesetter.name(fault).xml}</mrow></mfrac>"
+        f"<mfrac><mrow><mo>∂</mo>{typesetter.name(relation.name).text}</mrow>"
+        f"<mrow><mo>∂</mo>{typesetter.name(fault).text}</mrow></mfrac>"
     )
     return "".join(typesetter.equations(head, shared(slope, values), _WIDE)), ""
 

@@ -14,7 +14,7 @@ from bondgraph.exact.trajectory import Trajectory
 from bondgraph.ir.expr import Expr, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual, Step
-from bondgraph.ir.show import show
+from bondgraph.notation.line import show
 from bondgraph.passes.relation.cleared import nothings
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span

@@ -7,7 +7,7 @@ from itertools import product
 
 from bondgraph.ir.expr import Expr, Op, symbols
 from bondgraph.ir.graph import BondGraph
-from bondgraph.ir.show import show
+from bondgraph.notation.line import show
 from bondgraph.passes.causality.cores import Core, cores, refute
 from bondgraph.passes.causality.explanation import story
 from bondgraph.passes.causality.node_words import name, sentence

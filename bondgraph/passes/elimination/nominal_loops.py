@@ -17,7 +17,7 @@ from bondgraph.algebra.interpreter import Evaluated
 from bondgraph.algebra.zero import PRIME, RESIDUES, draw, residue
 from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
-from bondgraph.ir.show import show
+from bondgraph.notation.line import show
 from bondgraph.passes.causality.node_words import listing, name
 from bondgraph.text.diagnostic import Label, Report
 

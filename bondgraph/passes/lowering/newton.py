@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from bondgraph.algebra.derivative import partial
 from bondgraph.ir.expr import Expr, Op, Pool, Root, topological
 from bondgraph.ir.program import Assign, Expression, NewtonBlock, Ref
-from bondgraph.ir.show import show
+from bondgraph.notation.line import show
 from bondgraph.passes.lowering.procedure import Procedure
 from bondgraph.passes.lowering.program_names import Names
 
@@ -46,7 +46,7 @@ def _block(pool: Pool, root: Root) -> NewtonBlock:
     size = len(body)
     steep = work.value(slope, None)
     called = {root.unknown: "x", **dict(zip(root.places, arguments, strict=True))}
-    comment = f"{root.name} is the x at which {show(root.zero, called.get)} is zero"
+    comment = f"{root.name} is the x at which {show(root.zero, called)} is zero"
     return NewtonBlock(
         root.name, arguments, tuple(body[:size]), value, tuple(body[size:]), steep, root.rising,
         float(root.guess), MOST, comment, None,

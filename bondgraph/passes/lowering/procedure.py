@@ -23,7 +23,7 @@ from bondgraph.ir.program import (
     Ref,
     Sum,
 )
-from bondgraph.ir.show import show
+from bondgraph.notation.line import show
 from bondgraph.passes.lowering.program_names import Names, brief
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from bondgraph.ir.expr import ZERO_START, Expr, Kind, Op
-from bondgraph.ir.show import show
+from bondgraph.ir.expr import Expr, Op, symbols
+from bondgraph.notation.line import show
 
 OPTION = "@"  # begins the names of the options of configure: no name of a model has it
 
@@ -58,19 +58,17 @@ def brief(node: Expr, most: int = 90) -> str:
     """An expression for a comment: at most so many characters, `Int(x)` where it starts at 0."""
     if _longer(node, 2 * most):
         return "..."
-    text = show(node, _spoken)
+    text = show(node, {s: _spoken(s.symbol.name) for s in symbols(node)})
     return text if len(text) <= most else text[: most - 4] + " ..."
 
 
-def _spoken(node: Expr) -> str | None:
-    if node.op is Op.SYM and node.symbol.name.startswith(OPTION):
-        name, _, at = node.symbol.name.removeprefix(OPTION).partition("@")
+def _spoken(name: str) -> str:
+    if name.startswith(OPTION):
+        name, _, at = name.removeprefix(OPTION).partition("@")
         return f"{name}[{at}]" if at else name
-    if node.op is Op.SYM and node.symbol.name.startswith("?"):  # inside the equation of a root
-        return node.symbol.name[1:] if node.symbol.name == "?x" else f"c{node.symbol.name[1:]}"
-    if node.op is Op.INT and node.symbol == (ZERO_START, Kind.INITIAL):
-        return f"Int({show(node.args[0], _spoken)})"
-    return None
+    if name.startswith("?"):  # inside the equation of a root
+        return name[1:] if name == "?x" else f"c{name[1:]}"
+    return name
 
 
 def short(node: Expr, order: int = 0) -> str:

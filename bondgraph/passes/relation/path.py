@@ -7,7 +7,7 @@ from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.expr import Expr, Op, Pool
 from bondgraph.ir.residuals import Residual, Step
-from bondgraph.ir.show import show
+from bondgraph.notation.line import show
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 

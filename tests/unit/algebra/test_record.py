@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bondgraph.algebra.record import record
 from bondgraph.ir.expr import Kind, Pool
-from bondgraph.ir.show import show
+from bondgraph.notation.line import show
 
 
 def test_products_and_powers_of_signals_are_leaves() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from bondgraph.ir.expr import Op, topological
-from bondgraph.ir.show import show
+from bondgraph.notation.line import show
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.source import Source

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import assert_never
 
-from bondgraph.ir.dump import place, table
 from bondgraph.ir.program import (
     Assign,
     Choice,
@@ -23,6 +22,7 @@ from bondgraph.ir.program import (
     Ref,
     Sum,
 )
+from bondgraph.notation.dump_stages import place, table
 
 
 def dump_program(program: Program) -> str:

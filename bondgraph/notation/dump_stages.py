@@ -10,9 +10,9 @@ from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.graph import Bond, BondGraph, Input, Node, Value
 from bondgraph.ir.residuals import Residual, ResidualSet, Step
-from bondgraph.ir.show import number, show
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.ir.syntax import File
+from bondgraph.notation.line import number, show
 from bondgraph.text.source import Source, Span
 
 

@@ -9,8 +9,8 @@ import sympy
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bondgraph.cli.parsable import DEEP, Names, Parsable, parsable
 from bondgraph.ir.expr import Expr, Kind, Pool
+from bondgraph.notation.parsable import DEEP, Names, Parsable, parsable
 
 
 def read(text: Parsable) -> sympy.Expr:
@@ -59,9 +59,9 @@ def test_an_integral_has_the_expression_of_its_initial_value() -> None:
     pool, x, a, names = symbols()
     start = pool.symbol("spring.q0", Kind.INITIAL)
     node = pool.integral(x, start)
-    assert parsable(pool, node, names, {"spring.q0": pool.mul(a, a)}).expr == "Int(x, w__a**2)"
+    assert parsable(pool, node, names, {start.symbol: pool.mul(a, a)}).expr == "Int(x, w__a**2)"
     half = pool.num(Fraction(1, 2))
-    assert parsable(pool, node, names, {"spring.q0": half}).expr == "Int(x, 1/2)"
+    assert parsable(pool, node, names, {start.symbol: half}).expr == "Int(x, 1/2)"
 
 
 @pytest.mark.parametrize("value", [-2.5, -1.0, 0.25, 3.0])

@@ -1,0 +1,150 @@
+"""The print tree: a formula as a person would write it, before it is spelled in any notation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from enum import Enum
+from fractions import Fraction
+from types import MappingProxyType
+from typing import Any, TypeVar
+
+from bondgraph.ir.expr import ZERO_START, Expr, Op, Symbol
+
+_Node = TypeVar("_Node")
+_Made = TypeVar("_Made")
+
+
+class Shape(Enum):
+    """What is written around the parts of a formula."""
+
+    __hash__ = object.__hash__  # members are single objects; Enum's own hash is slow Python
+
+    NUMBER = "number"  # data: a rational; what is negative is a sum of one term
+    NAME = "name"  # data: a name of the model, or of a part that is written elsewhere
+    SUM = "sum"  # data: what each part is multiplied by, its sign with it
+    PRODUCT = "product"  # data: integer exponents, one per part
+    CALL = "call"  # data: the function
+    RATE = "rate"  # data: order of the time derivative
+    AREA = "area"  # integral from the start of the first part, beginning at the second if any
+    CHOICE = "choice"  # condition, value if it holds, value if not
+    COMPARE = "compare"  # data: "<", "<=" or "=="
+    LOGIC = "logic"  # data: "and", "or" or "not"
+    ROOT = "root"  # the name that is the first part, where the second is zero; data: a guess
+
+
+class Formula:
+    """A node of the print tree, compared by identity; equal parts of a formula are one object."""
+
+    __slots__ = ("data", "parts", "shape")
+
+    def __init__(self, shape: Shape, parts: tuple[Formula, ...] = (), data: Any = None) -> None:
+        self.shape = shape
+        self.parts = parts
+        self.data = data
+
+
+def bottom_up(
+    root: _Node,
+    done: dict[_Node, _Made],
+    parts: Callable[[_Node], Iterable[_Node]],
+    make: Callable[[_Node], _Made],
+) -> _Made:
+    """What is made of a node after all that it is made of; `done` keeps it, however deep."""
+    stack = [root]
+    while stack:
+        node = stack[-1]
+        waiting = [] if node in done else [part for part in parts(node) if part not in done]
+        if waiting:
+            stack += waiting[::-1]
+        elif stack.pop() not in done:
+            done[node] = make(node)
+    return done[root]
+
+
+def below(roots: Iterable[_Node], parts: Callable[[_Node], Iterable[_Node]]) -> list[_Node]:
+    """All nodes that the roots are made of, parts first."""
+    found: dict[_Node, _Node] = {}
+    for root in roots:
+        bottom_up(root, found, parts, lambda node: node)
+    return list(found)
+
+
+class Reader:
+    """Reads expressions as formulas.
+
+    `named` nodes stand as these names. `starts` are the values from which integrals begin: one
+    that begins at zero does not say so. With `declared` these values stand for their symbols
+    wherever they occur.
+    """
+
+    def __init__(
+        self,
+        named: Mapping[Expr, str] = MappingProxyType({}),
+        starts: Mapping[Symbol, Expr] = MappingProxyType({}),
+        declared: bool = False,
+    ) -> None:
+        self.starts = starts
+        self._values = starts if declared else {}
+        self._done = {node: Formula(Shape.NAME, (), name) for node, name in named.items()}
+
+    def of(self, expr: Expr) -> Formula:
+        """The formula of an expression."""
+        return bottom_up(expr, self._done, self._parts, self._read)
+
+    def definition(self, expr: Expr) -> Formula:
+        """The formula that a named expression stands for."""
+        for part in self._parts(expr):
+            self.of(part)
+        return self._read(expr)
+
+    def _parts(self, node: Expr) -> tuple[Expr, ...]:
+        found = {Op.INT: self.starts, Op.SYM: self._values}.get(node.op)
+        value = found.get(node.symbol) if found else None
+        return node.args if value is None else (*node.args, value)
+
+    def _read(self, node: Expr) -> Formula:
+        parts = tuple([self._done[part] for part in self._parts(node)])
+        match node.op:
+            case Op.NUM:
+                size = Formula(Shape.NUMBER, (), abs(node.number))
+                return size if node.number >= 0 else Formula(Shape.SUM, (size,), (-1,))
+            case Op.SYM:
+                return parts[0] if parts else Formula(Shape.NAME, (), node.symbol.name)
+            case Op.ADD:
+                return self._sum(node)
+            case Op.MUL:
+                return Formula(Shape.PRODUCT, parts, node.exponents)
+            case Op.FN:
+                return Formula(Shape.CALL, parts, node.name)
+            case Op.DER:
+                inner = parts[0]
+                if inner.shape is Shape.RATE:
+                    return Formula(Shape.RATE, inner.parts, inner.data + 1)
+                return Formula(Shape.RATE, parts, 1)
+            case Op.INT:
+                if len(parts) == 1 and node.symbol.name != ZERO_START:
+                    parts = (*parts, Formula(Shape.NAME, (), node.symbol.name))
+                zero = parts[-1].shape is Shape.NUMBER and not parts[-1].data
+                return Formula(Shape.AREA, parts[:1] if zero else parts)
+            case Op.IF:
+                return Formula(Shape.CHOICE, parts)
+            case Op.CMP:
+                return Formula(Shape.COMPARE, parts, node.name)
+            case Op.LOGIC:
+                return Formula(Shape.LOGIC, parts, node.name)
+            case Op.ROOT:
+                inside = Reader({node.root.unknown: node.root.name}, self.starts)
+                inside._done.update(zip(node.root.places, parts, strict=True))
+                found = inside.of(node.root.unknown), inside.of(node.root.zero)
+                return Formula(Shape.ROOT, found, node.root.guess)
+
+    def _sum(self, node: Expr) -> Formula:
+        coefficients, parts = [], []
+        for c, arg in zip(node.coefficients, node.args, strict=True):
+            part = self._done[arg]
+            if arg.op is Op.NUM:
+                value = c * arg.number
+                c, part = Fraction(1 if value > 0 else -1), Formula(Shape.NUMBER, (), abs(value))
+            coefficients.append(c)
+            parts.append(part)
+        return Formula(Shape.SUM, tuple(parts), tuple(coefficients))
