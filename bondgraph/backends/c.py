@@ -20,11 +20,11 @@ from bondgraph.backends.facts import (
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples
 from bondgraph.backends.roots import roots
-from bondgraph.backends.spell import digits
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
 from bondgraph.backends.vectors import Vectors
 from bondgraph.ir.program import Dot, Program
+from bondgraph.notation.dialect import digits
 
 _PURE = ("sign", "ssqrt", "ssq", "equal", "min", "max", "power", "table", "root")
 

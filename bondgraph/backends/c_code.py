@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from bondgraph.backends import listing
 from bondgraph.backends.blocks import Block
 from bondgraph.backends.procedure_lines import lines
-from bondgraph.backends.spell import Speller
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.walk import reads
 from bondgraph.ir.program import Assign, Const, PolynomialTape, Program, Ref, ResidualInfo
+from bondgraph.notation.dialect import CodeSpeller
 
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 
@@ -23,7 +23,7 @@ class Code:
         self.spelling = spelling
         self.target = spelling.target
         self.stem = stem
-        self._configure = Speller(self.target.configure, spelling.value, spelling.tables)
+        self._configure = CodeSpeller(self.target.configure, spelling.value, spelling.tables)
 
     def real(self, value: float) -> str:
         """A number as a constant of the type `real`."""
@@ -109,7 +109,7 @@ class Code:
             "lines": listing.table(rows, self.target, 4),
         }
 
-    def _tape(self, tape: PolynomialTape, speller: Speller) -> list[str]:
+    def _tape(self, tape: PolynomialTape, speller: CodeSpeller) -> list[str]:
         scales = [speller.expression(s) for s in tape.scales]
         coef = self.target.reference["coef"]
         body = [
@@ -130,7 +130,7 @@ class Code:
 
     def exact(self) -> list[str]:
         """The body of exact."""
-        speller = Speller(self.target.dialect, self.spelling.exact, self.spelling.tables)
+        speller = CodeSpeller(self.target.dialect, self.spelling.exact, self.spelling.tables)
         spaces = {ref.space for ref in reads(self.program.exact)}
         head: list[str] = []
         unused: list[str] = []
@@ -186,7 +186,7 @@ class Code:
 
     def _run(self, block: Block, statements: tuple[Assign, ...], count: str) -> list[str]:
         spelling = self.spelling
-        speller = Speller(
+        speller = CodeSpeller(
             self.target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
         )
         counts = [

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from bondgraph.backends import listing
-from bondgraph.backends.spell import Speller
 from bondgraph.backends.spelling import Spelling
 from bondgraph.ir.program import Assign, Dot, PolynomialTape
+from bondgraph.notation.dialect import CodeSpeller
 
 
 def lines(
     statements: Iterable[Assign | Dot | PolynomialTape],
     spelling: Spelling,
-    speller: Speller,
+    speller: CodeSpeller,
     indent: int,
-    tape: Callable[[PolynomialTape, Speller], list[str]] | None = None,
+    tape: Callable[[PolynomialTape, CodeSpeller], list[str]] | None = None,
 ) -> list[str]:
     """The code; statements that come from the same equation share one comment above them.
 

@@ -21,12 +21,12 @@ from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples
 from bondgraph.backends.procedure_lines import lines
 from bondgraph.backends.roots import roots
-from bondgraph.backends.spell import Speller, digits
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
 from bondgraph.backends.vectors import Vectors
 from bondgraph.backends.walk import reads
 from bondgraph.ir.program import Assign, Dot, PolynomialTape, Program
+from bondgraph.notation.dialect import CodeSpeller, digits
 
 _HELPERS = ("sign", "ssqrt", "ssq", "power", "table", "root")
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
@@ -155,7 +155,7 @@ class _Module:
 
     def _configure(self) -> dict[str, object]:
         program, spelling = self.program, self.spelling
-        speller = Speller(self.target.configure, spelling.value, spelling.tables)
+        speller = CodeSpeller(self.target.configure, spelling.value, spelling.tables)
         read = reads(program.configure)
         options = {ref.name for ref in read if ref.space == "option"}
         arguments, values = ["self"], []
@@ -249,7 +249,7 @@ class _Module:
 
     # ------------------------------------------------------------------------- tapes
 
-    def _tape(self, tape: PolynomialTape, speller: Speller) -> list[str]:
+    def _tape(self, tape: PolynomialTape, speller: CodeSpeller) -> list[str]:
         coef = self.target.reference["coef"]
         scales = [speller.expression(s) for s in tape.scales]
         body = [
@@ -294,7 +294,7 @@ class _Module:
 
     def _exact(self) -> list[str]:
         spelling = self.spelling
-        speller = Speller(self.target.dialect, spelling.exact, spelling.tables)
+        speller = CodeSpeller(self.target.dialect, spelling.exact, spelling.tables)
         written = [r for r in self.program.residuals if not r.unwritten]
         names = ", ".join(f'"{r.name}"' for r in written)
         call = "r = Residuals(valid=frozenset({0}))"
@@ -358,7 +358,7 @@ class _Module:
 
     def _run(self, block: Block, statements: tuple[Assign, ...], count: str) -> list[str]:
         spelling = self.spelling
-        speller = Speller(
+        speller = CodeSpeller(
             self.target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
         )
         spaces = {ref.space for ref in reads(statements)}

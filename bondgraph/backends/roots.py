@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from bondgraph.backends import listing
 from bondgraph.backends.procedure_lines import lines
-from bondgraph.backends.spell import Speller, digits
 from bondgraph.backends.spelling import Spelling
 from bondgraph.ir.program import Assign, Expression, NewtonBlock, Program
+from bondgraph.notation.dialect import CodeSpeller, digits
 
 
 def roots(
@@ -18,7 +18,7 @@ def roots(
 
 def _root(block: NewtonBlock, spelling: Spelling, argument: str, indent: int) -> dict[str, object]:
     target = spelling.target
-    speller = Speller(target.dialect, spelling.value, spelling.tables)
+    speller = CodeSpeller(target.dialect, spelling.value, spelling.tables)
 
     def part(statements: tuple[Assign, ...], name: str, value: Expression) -> list[str]:
         prefix = target.statements.local.replace("{0}", name).replace("{1}", "{0}")

@@ -6,9 +6,9 @@ import tomllib
 from collections.abc import Mapping
 from functools import cache
 
-from bondgraph.backends.spell import Dialect
 from bondgraph.backends.templates import codegen
 from bondgraph.text.tuples import NamedTuple
+from bondgraph.notation.dialect import Dialect
 
 
 class Statements(NamedTuple):

@@ -9,9 +9,9 @@ from bondgraph.backends import listing
 from bondgraph.backends.blocks import Block
 from bondgraph.backends.golden import Golden, Vector
 from bondgraph.backends.members import Member, derivatives, samples
-from bondgraph.backends.spell import digits
 from bondgraph.backends.spelling import Spelling
 from bondgraph.ir.program import Program
+from bondgraph.notation.dialect import digits
 
 _SMALLEST = 1e-37  # below this single precision has nothing but zero
 

@@ -22,9 +22,7 @@ from bondgraph.ir.program import (
     Sum,
     integer_power,
 )
-
-#: Up to this exponent an integer power of a name is written as a product.
-WRITTEN_POWER = 4
+from bondgraph.notation.dialect import is_written_out
 
 
 def operands(value: Expression | Condition) -> tuple[Expression | Condition, ...]:
@@ -88,12 +86,6 @@ def reads(statements: Iterable[Assign | Dot | PolynomialTape]) -> list[Ref]:
             case _:
                 assert_never(statement)
     return found
-
-
-def is_written_out(value: Function) -> bool:
-    """Whether a power becomes a product: a small one, of a name."""
-    power = integer_power(value)
-    return power is not None and 0 < power <= WRITTEN_POWER and isinstance(value.args[0], Ref)
 
 
 def functions(values: Iterable[Expression | Condition]) -> set[str]:

@@ -5,23 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import assert_never
 
-from bondgraph.ir.program import (
-    Assign,
-    Choice,
-    Compare,
-    Condition,
-    Const,
-    Dot,
-    Expression,
-    Function,
-    Logic,
-    Mode,
-    PolynomialTape,
-    Product,
-    Program,
-    Ref,
-    Sum,
-)
+from bondgraph.ir.program import Assign, Dot, Mode, PolynomialTape, Program, Ref
+from bondgraph.notation.dialect import PLAIN, CodeSpeller
 from bondgraph.notation.dump_stages import place, table
 
 
@@ -94,30 +79,10 @@ def _procedure(statements: Iterable[Assign | PolynomialTape | Dot]) -> list[str]
     return table(rows)
 
 
-def _text(node: Expression | Condition) -> str:
-    match node:
-        case Const():
-            return repr(node.value)
-        case Ref():
-            order = f"[{node.order}]" if node.order else ""
-            return f"{node.space}.{node.name}{order}"
-        case Sum():
-            signed = [("+ " if plus else "- ") + _text(term) for plus, term in node.terms]
-            return f"({' '.join(signed).removeprefix('+ ')})"
-        case Product():
-            text = "*".join(_text(f) for f in node.factors) or "1"
-            return text + "".join(f"/{_text(d)}" for d in node.divisors)
-        case Function():
-            return f"{node.name}({', '.join(_text(a) for a in node.args)})"
-        case Choice():
-            return f"if({_text(node.condition)}, {_text(node.yes)}, {_text(node.no)})"
-        case Compare():
-            return f"{_text(node.left)} {node.op} {_text(node.right)}"
-        case Logic():
-            if node.op == "not":
-                return f"not {_text(node.args[0])}"
-            return f"({f' {node.op} '.join(_text(a) for a in node.args)})"
-        case Mode():
-            return node.name
-        case _:
-            assert_never(node)
+def _called(value: Ref | Mode) -> str:
+    if isinstance(value, Mode):
+        return value.name
+    return f"{value.space}.{value.name}" + (f"[{value.order}]" if value.order else "")
+
+
+_text = CodeSpeller(PLAIN, _called).expression

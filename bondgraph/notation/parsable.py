@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 from bondgraph.ir.expr import Expr, Pool, Symbol, backwards
 from bondgraph.notation.formula import Formula, Reader, Shape, below
-from bondgraph.notation.speller import ATOM, LOOSE, POWER, PRODUCT, Spelled, Speller
+from bondgraph.notation.speller import ATOM, COMPARE, POWER, PRODUCT, Spelled, Speller
 from bondgraph.text.tuples import NamedTuple
 
 #: Names that mean something in the text and so cannot be names of the model as well.
@@ -174,7 +174,7 @@ class _Writer(Speller):
         left, right = self._texts(node)
         if node.data == "==":
             return Spelled(f"Eq({left}, {right})")
-        return Spelled(f"({left}) {node.data} ({right})", LOOSE)
+        return Spelled(f"({left}) {node.data} ({right})", COMPARE)
 
     def _call(self, node: Formula) -> Spelled:
         x, *others = self._texts(node)

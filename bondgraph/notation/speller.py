@@ -9,7 +9,7 @@ from bondgraph.notation.formula import Formula, Shape, bottom_up
 from bondgraph.text.tuples import NamedTuple
 
 #: How tightly a text holds together; a part looser than its place wants gets brackets.
-LOOSE, SUM, PRODUCT, POWER, ATOM = range(5)
+CHOICE, LOGIC, COMPARE, SUM, PRODUCT, UNARY, POWER, ATOM = range(8)
 
 
 class Spelled(NamedTuple):
@@ -161,14 +161,14 @@ class Speller:
 
     def _compare(self, node: Formula) -> Spelled:
         """A comparison."""
-        return Spelled(f" {node.data} ".join(self._texts(node)), LOOSE)
+        return Spelled(f" {node.data} ".join(self._texts(node)), COMPARE)
 
     def _logic(self, node: Formula) -> Spelled:
         """Conditions, joined or negated."""
         conditions = [f"({text})" for text in self._texts(node)]
         if node.data == "not":
-            return Spelled(f"not {conditions[0]}", LOOSE)
-        return Spelled(f" {node.data} ".join(conditions), LOOSE)
+            return Spelled(f"not {conditions[0]}", LOGIC)
+        return Spelled(f" {node.data} ".join(conditions), LOGIC)
 
     def _root(self, node: Formula) -> Spelled:
         """`root(x, zero)`: the x at which the second vanishes."""

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import ClassVar
 
 from bondgraph.notation.formula import Formula, Shape
-from bondgraph.notation.speller import ATOM, LOOSE, POWER, PRODUCT, Spelled, Speller
+from bondgraph.notation.speller import ATOM, COMPARE, POWER, PRODUCT, Spelled, Speller
 
 #: The letter of a name, under so many dots for derivatives.
 Letters = Callable[[str, int], Spelled]
@@ -148,12 +148,12 @@ class Typeset(Speller):
         parts = [self.within(part, ATOM) for part in node.parts]
         if node.data == "not":
             text = self.row.format(self.words["not"] + parts[0].text)
-            return Spelled(text, LOOSE, parts[0].width + 0.7)
+            return Spelled(text, COMPARE, parts[0].width + 0.7)
         return self._joined(node.data, parts)
 
     def _joined(self, word: str, parts: list[Spelled]) -> Spelled:
         text = self.row.format(self.words[word].join(part.text for part in parts))
-        return Spelled(text, LOOSE, sum(part.width for part in parts) + 1.2 * (len(parts) - 1))
+        return Spelled(text, COMPARE, sum(part.width for part in parts) + 1.2 * (len(parts) - 1))
 
     def _root(self, node: Formula) -> Spelled:
         text = self.words["root"].format(*self._texts(node))

@@ -8,7 +8,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bondgraph.backends.spell import Speller, digits
 from bondgraph.backends.target import load
 from bondgraph.ir.expr import FUNCTIONS
 from bondgraph.ir.program import (
@@ -24,6 +23,7 @@ from bondgraph.ir.program import (
     Ref,
     Sum,
 )
+from bondgraph.notation.dialect import CodeSpeller, digits
 
 _NAMES = {"a": 3.0, "b": -0.75, "c": 0.1}
 _MODES = {"on": True, "off": False}
@@ -96,7 +96,7 @@ def _value(node: Expression) -> float:
 @settings(max_examples=60)
 @given(_expressions)
 def test_python_reads_the_same_value(node: Expression) -> None:
-    text = Speller(load("python").dialect, lambda ref: ref.name).expression(node)
+    text = CodeSpeller(load("python").dialect, lambda ref: ref.name).expression(node)
     try:
         wanted = _value(node)
     except ZeroDivisionError:
@@ -126,11 +126,11 @@ _A, _B, _C = (Ref("local", name) for name in "abc")
     ],
 )
 def test_no_bracket_more_than_needed(node: Expression, text: str) -> None:
-    assert Speller(load("python").dialect, lambda ref: ref.name).expression(node) == text
+    assert CodeSpeller(load("python").dialect, lambda ref: ref.name).expression(node) == text
 
 
 def test_c_of_a_choice_and_of_powers() -> None:
-    speller = Speller(load("c").dialect, lambda ref: ref.name)
+    speller = CodeSpeller(load("c").dialect, lambda ref: ref.name)
     both = Logic("and", (Compare("<", _A, _B), Logic("or", (Mode("on"), Compare("==", _A, _C)))))
     choice = Choice(both, Const(0.1), _B)
     assert speller.expression(choice) == "(a < b && (on || equal(a, c))) ? REAL(0.1) : b"
