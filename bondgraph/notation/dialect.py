@@ -57,6 +57,8 @@ class Dialect(NamedTuple):
     functions: Mapping[str, str]
 
 
+_ONE, _MINUS_ONE = Const(1.0), Const(-1.0)
+
 #: No language: for who reads the program itself.
 PLAIN = Dialect(
     "{0}", "if({0}, {1}, {2})", "and", "or", "not {0}", "{0} == {1}", "{0} != {1}", {}
@@ -88,21 +90,11 @@ def read(value: Expression | Condition) -> Formula:
     there, and nowhere else, since each operation rounds.
     """
     match value:
-        case Const():
-            negative = value.value < 0
-            size = Formula(Shape.NUMBER, (), -value.value if negative else value.value)
-            return _sum([(-1 if negative else 1, size)])
         case Ref() | Mode():
             return Formula(Shape.NAME, (), value)
-        case Sum():
-            terms = [_signed(term, 1 if positive else -1) for positive, term in value.terms]
-            sign, first = terms[0] if terms else (1, read(Const(0.0)))
-            if sign > 0 and first.shape is Shape.SUM:
-                return _sum([*zip(first.data, first.parts, strict=True), *terms[1:]])
-            return _sum([(sign, first), *terms[1:]])
         case Product():
-            front, *others = [f for f in value.factors if f != Const(1.0)] or [Const(1.0)]
-            if front == Const(-1.0) and (others or value.divisors):
+            front, *others = [f for f in value.factors if f != _ONE] or [_ONE]
+            if front == _MINUS_ONE and (others or value.divisors):
                 return _sum([_signed(Product(tuple(others), value.divisors), -1)])
             sign, leading = _signed(front)
             factors = [(leading, 1), *[(read(f), 1) for f in others]]
@@ -113,6 +105,16 @@ def read(value: Expression | Condition) -> Formula:
                 return _sum([(sign, leading)])
             parts, exponents = zip(*factors, strict=True)
             return _sum([(sign, Formula(Shape.PRODUCT, parts, exponents))])
+        case Sum():
+            terms = [_signed(term, 1 if positive else -1) for positive, term in value.terms]
+            sign, first = terms[0] if terms else (1, read(Const(0.0)))
+            if sign > 0 and first.shape is Shape.SUM:
+                return _sum([*zip(first.data, first.parts, strict=True), *terms[1:]])
+            return _sum([(sign, first), *terms[1:]])
+        case Const():
+            negative = value.value < 0
+            size = Formula(Shape.NUMBER, (), -value.value if negative else value.value)
+            return _sum([(-1 if negative else 1, size)])
         case Function():
             power = integer_power(value)
             if power is not None and is_written_out(value):
@@ -174,8 +176,11 @@ class CodeSpeller(Speller):
         ...     Product((Sum(((True, a), (False, Product((Const(2.0), b))))), b), (c,)))
         '(a - 2.0 * b) * b / c'
         """
-        self._done.clear()
         return self.spell(read(value)).text
+
+    def spell(self, formula: Formula) -> Spelled:
+        """A statement is never deep, and has no part twice: nothing is kept."""
+        return self._spell(formula)
 
     def number(self, value: Fraction | float) -> Spelled:
         """A constant of the language."""

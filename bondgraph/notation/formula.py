@@ -52,11 +52,13 @@ def bottom_up(
     """What is made of a node after all that it is made of; `done` keeps it, however deep."""
     stack = [root]
     while stack:
-        node = stack[-1]
-        waiting = [] if node in done else [part for part in parts(node) if part not in done]
+        node = stack.pop()
+        if node in done:
+            continue
+        waiting = [part for part in parts(node) if part not in done]
         if waiting:
-            stack += waiting[::-1]
-        elif stack.pop() not in done:
+            stack += [node, *waiting[::-1]]
+        else:
             done[node] = make(node)
     return done[root]
 
@@ -98,8 +100,8 @@ class Reader:
         return self._read(expr)
 
     def _parts(self, node: Expr) -> tuple[Expr, ...]:
-        found = {Op.INT: self.starts, Op.SYM: self._values}.get(node.op)
-        value = found.get(node.symbol) if found else None
+        values = self.starts if node.op is Op.INT else self._values if node.op is Op.SYM else None
+        value = values.get(node.symbol) if values else None
         return node.args if value is None else (*node.args, value)
 
     def _read(self, node: Expr) -> Formula:

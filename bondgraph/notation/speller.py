@@ -42,10 +42,10 @@ class Speller:
 
     def _spell(self, node: Formula) -> Spelled:
         match node.shape:
-            case Shape.NUMBER:
-                return self.number(node.data)
             case Shape.NAME:
                 return self._name(node)
+            case Shape.NUMBER:
+                return self.number(node.data)
             case Shape.SUM:
                 return self._sum(node)
             case Shape.PRODUCT:
