@@ -10,9 +10,9 @@ from bondgraph.algebra.solve import constant
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual
-from bondgraph.text.tuples import NamedTuple
 from bondgraph.notation.formula import Reader
 from bondgraph.notation.line import Line
+from bondgraph.text.tuples import NamedTuple
 
 _MANY = 60  # a sum of more terms stays nested
 _SHORT = 3  # a shared part of fewer nodes than this reads better in full

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from functools import cache
 
 from bondgraph.backends.templates import codegen
-from bondgraph.text.tuples import NamedTuple
 from bondgraph.notation.dialect import Dialect
+from bondgraph.text.tuples import NamedTuple
 
 
 class Statements(NamedTuple):

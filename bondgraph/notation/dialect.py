@@ -7,7 +7,6 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import assert_never
 
-from bondgraph.ir.program import integer_power
 from bondgraph.ir.program import (
     Choice,
     Compare,
@@ -20,6 +19,7 @@ from bondgraph.ir.program import (
     Product,
     Ref,
     Sum,
+    integer_power,
 )
 from bondgraph.notation.formula import Formula, Shape
 from bondgraph.notation.speller import (

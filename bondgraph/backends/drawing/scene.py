@@ -5,8 +5,8 @@ from __future__ import annotations
 from bondgraph.backends.drawing.style import BIG, FONT, HEIGHT, KINDS, width
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.graph import BondGraph, Node
-from bondgraph.text.tuples import NamedTuple
 from bondgraph.notation.line import show
+from bondgraph.text.tuples import NamedTuple
 
 Path = tuple[str, ...]
 
