@@ -8,6 +8,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from bondgraph.backends.walk import references
+from bondgraph.ir.groups import Groups
 from bondgraph.ir.program import Assign, Const, Program, Ref
 from bondgraph.text.tuples import NamedTuple
 
@@ -34,14 +35,11 @@ def blocks(program: Program) -> tuple[Block, ...]:
 
     A residual that step never assigns is in none.
     """
-    groups = _Groups()
-    for info in program.residuals:
-        groups.find(("residual", info.name))
+    groups = Groups[_Key]()
     first = [(_key(s.target, "first"), s) for s in program.first]
     step = [(_key(s.target, "step"), s) for s in program.step]
     for procedure, statements in (("first", first), ("step", step)):
         for key, statement in statements:
-            groups.find(key)
             for ref in references(statement.value):
                 if ref.space in ("state", "local", "residual"):
                     groups.join(key, _key(ref, procedure))
@@ -85,28 +83,3 @@ def _block(
 def _key(ref: Ref, procedure: str) -> _Key:
     """A local variable belongs to its procedure, everything else to the program."""
     return (f"local of {procedure}" if ref.space == "local" else ref.space), ref.name
-
-
-class _Groups:
-    """Union-find; the root of a group is the member that was met first."""
-
-    def __init__(self) -> None:
-        self._parent: dict[_Key, _Key] = {}
-        self._age: dict[_Key, int] = {}
-
-    def find(self, key: _Key) -> _Key:
-        if key not in self._parent:
-            self._parent[key] = key
-            self._age[key] = len(self._age)
-        root = key
-        while self._parent[root] != root:
-            root = self._parent[root]
-        while self._parent[key] != root:
-            self._parent[key], key = root, self._parent[key]
-        return root
-
-    def join(self, one: _Key, other: _Key) -> None:
-        a, b = self.find(one), self.find(other)
-        if self._age[a] > self._age[b]:
-            a, b = b, a
-        self._parent[b] = a

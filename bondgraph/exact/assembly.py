@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph, Node
+from bondgraph.ir.groups import Groups
 
 
 class Balance(NamedTuple):
@@ -56,25 +57,6 @@ class Assembly(NamedTuple):
     pool: Pool
 
 
-class _Numbers:
-    """Numbers for variables; those that a junction makes common get the same number."""
-
-    def __init__(self, size: int) -> None:
-        self.parent = list(range(size))
-
-    def find(self, at: int) -> int:
-        parent = self.parent
-        while parent[at] != at:
-            parent[at] = parent[parent[at]]
-            at = parent[at]
-        return at
-
-    def join(self, a: int, b: int) -> None:
-        a, b = self.find(a), self.find(b)
-        if a != b:
-            self.parent[max(a, b)] = min(a, b)
-
-
 class _Builder:
     def __init__(self, graph: BondGraph) -> None:
         self.graph = graph
@@ -82,7 +64,7 @@ class _Builder:
         for number, bond in enumerate(graph.bonds):
             self.ends[bond.tail.node].append((number, -1))
             self.ends[bond.head.node].append((number, 1))
-        self.numbers = _Numbers(2 * len(graph.bonds))  # effort 2b, flow 2b + 1
+        self.numbers = Groups[int]()  # of variables that junctions make common: effort 2b, flow 2b + 1
         self.place: dict[Expr, tuple[int, int]] = {}
         self.size = 0
         self.inner: dict[Expr, Expr] = {}  # what is differentiated, to the symbol made for it
@@ -97,7 +79,7 @@ class _Builder:
                     self.numbers.join(2 * ends[0][0] + shift, 2 * bond + shift)
         final: dict[int, int] = {}
         out = []
-        for at in range(len(self.numbers.parent)):
+        for at in range(2 * len(self.graph.bonds)):
             out.append(final.setdefault(self.numbers.find(at), len(final)))
         self.size = len(final)
         return out
@@ -231,7 +213,7 @@ class Parts:
 
     def __init__(self, plant: Assembly) -> None:
         self._plant = plant
-        self._numbers = _Numbers(plant.count_of)
+        self._numbers = Groups[int]()
         for _, terms, when, common in plant.balances:
             self._join([common, *[v for v, _ in terms], *self._variables([when] if when else [])])
         for _, law in plant.laws:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from bondgraph.ir.groups import Groups
 from bondgraph.ir.unit import NONE, Dimension, over, raised, times, whole
 from bondgraph.library.units import describe
 from bondgraph.text.diagnostic import Label
@@ -70,8 +71,7 @@ class Dimensions:
     """
 
     def __init__(self) -> None:
-        self._parent: list[int] = []
-        self._rank: list[int] = []
+        self._groups = Groups[int]()
         self._value: list[Term | None] = []
         self._births: list[Place] = []
         self._doubted: set[tuple[str, int, int]] = set()
@@ -80,9 +80,7 @@ class Dimensions:
 
     def fresh(self, origin: Span, what: str) -> Term:
         """A new unknown dimension; `what` names whose it is (`flow of bond b3`)."""
-        number = len(self._parent)
-        self._parent.append(number)
-        self._rank.append(0)
+        number = len(self._value)
         self._value.append(None)
         self._births.append(Place(origin, what))
         return Term(NONE, {number: 1}, ())
@@ -160,17 +158,8 @@ class Dimensions:
         if first != second or left.known != right.known:
             return False
         if a != b:
-            if self._rank[a] < self._rank[b]:
-                a, b = b, a
-            self._parent[b] = a
-            self._rank[a] += self._rank[a] == self._rank[b]
+            self._groups.join(a, b)
         return True
-
-    def _find(self, number: int) -> int:
-        parent = self._parent
-        while parent[number] != number:
-            parent[number] = number = parent[parent[number]]
-        return number
 
     def _joined(self, left: Term, right: Term, sign: int) -> Term:
         known = left.known
@@ -186,7 +175,7 @@ class Dimensions:
         """The same term in open unknowns only, each the root of its class."""
         stale = False
         for number in term.unknown:
-            root = self._find(number)
+            root = self._groups.find(number)
             if self._value[root] is not None:
                 self._settle(root)
                 stale = True
@@ -202,7 +191,7 @@ class Dimensions:
             if value is None or self._is_settled(stack[-1]):
                 stack.pop()
                 continue
-            stale = [r for v in value.unknown if not self._is_settled(r := self._find(v))]
+            stale = [r for v in value.unknown if not self._is_settled(r := self._groups.find(v))]
             if stale:
                 stack.extend(stale)
             else:
@@ -211,7 +200,7 @@ class Dimensions:
     def _is_settled(self, root: int) -> bool:
         value = self._value[root]
         return value is None or all(
-            self._parent[v] == v and self._value[v] is None for v in value.unknown
+            self._groups.find(v) == v and self._value[v] is None for v in value.unknown
         )
 
     def _substituted(self, term: Term) -> Term:
@@ -219,7 +208,7 @@ class Dimensions:
         known, places = term.known, term.places
         unknown: dict[int, Fraction | int] = {}
         for number, exponent in term.unknown.items():
-            root = self._find(number)
+            root = self._groups.find(number)
             value = self._value[root]
             if value is None:
                 _collect(unknown, {root: 1}, exponent)

@@ -7,6 +7,8 @@ from collections.abc import Iterable
 
 from bondgraph.text.tuples import NamedTuple
 
+from bondgraph.ir.groups import Groups
+
 
 class Parts(NamedTuple):
     """The coarse decomposition of a bipartite graph of equations (rows) and variables (columns).
@@ -117,18 +119,12 @@ def decompose(rows: list[list[int]], columns: int) -> Parts:
 
 def components(graph: list[list[int]], rows: list[int], columns: set[int]) -> list[list[int]]:
     """Connected components of the given rows and columns, as sorted lists of columns."""
-    parent = {c: c for c in sorted(columns)}
-
-    def find(c: int) -> int:
-        while parent[c] != c:
-            parent[c] = c = parent[parent[c]]
-        return c
-
+    joined = Groups[int]()
     for r in rows:
-        inside = [c for c in graph[r] if c in parent]
+        inside = [c for c in graph[r] if c in columns]
         for c in inside[1:]:
-            parent[find(c)] = find(inside[0])
+            joined.join(inside[0], c)
     groups: dict[int, list[int]] = {}
-    for c in parent:
-        groups.setdefault(find(c), []).append(c)
-    return [g for g in groups.values() if any(c in columns for c in g)]
+    for c in sorted(columns):
+        groups.setdefault(joined.find(c), []).append(c)
+    return list(groups.values())

@@ -10,6 +10,7 @@ asking for one wish after the other, with an exact test each, grants as many as 
 
 from __future__ import annotations
 
+from bondgraph.ir.groups import Groups
 from bondgraph.passes.causality.strokes import Strokes
 
 
@@ -147,7 +148,7 @@ class Matching:
         """Cover the exposed `root` along an alternating path that avoids the vertex `banned`."""
         even: dict[int, bool] = {root: True}
         reach: dict[int, int] = {}  # the edge by which a vertex was reached against the matching
-        base: dict[int, int] = {}
+        base = Groups[int]()
         self.tree = even
         queue = [root]
         for x in queue:
@@ -170,7 +171,7 @@ class Matching:
                         return True
                     even[z] = True
                     queue.append(z)
-                elif state and _find(base, x) != _find(base, y):
+                elif state and base.find(x) != base.find(y):
                     top = self._meet(x, y, base, reach)
                     queue += self._shrink(x, edge, top, even, reach, base)
                     queue += self._shrink(y, edge, top, even, reach, base)
@@ -189,7 +190,7 @@ class Matching:
                 return
             x = self._other(old, p)
 
-    def _meet(self, x: int, y: int, base: dict[int, int], reach: dict[int, int]) -> int:
+    def _meet(self, x: int, y: int, base: Groups[int], reach: dict[int, int]) -> int:
         """The lowest common ancestor of two even vertices, in terms of blossom bases."""
         seen: set[int] = set()
         ways = [x, y]
@@ -197,7 +198,7 @@ class Matching:
             for i in (0, 1):
                 if ways[i] < 0:
                     continue
-                v = _find(base, ways[i])
+                v = base.find(ways[i])
                 if v in seen:
                     return v
                 seen.add(v)
@@ -215,28 +216,21 @@ class Matching:
         top: int,
         even: dict[int, bool],
         reach: dict[int, int],
-        base: dict[int, int],
+        base: Groups[int],
     ) -> list[int]:
         """Shrink one side of a blossom into its base; the odd vertices that became even."""
         fresh = []
-        while _find(base, x) != top:
+        while base.find(x) != top:
             reach[x] = edge
             y = self._other(self._mate[x], x)
             if not even[y]:
                 even[y] = True
                 fresh.append(y)
             for v in (x, y):
-                if _find(base, v) == v:
-                    base[v] = top
+                if base.find(v) == v:
+                    base.join(top, v)
             edge = reach[y]
             x = self._other(edge, y)
         return fresh
 
 
-def _find(base: dict[int, int], v: int) -> int:
-    root = v
-    while base.get(root, root) != root:
-        root = base[root]
-    while base.get(v, v) != root:
-        base[v], v = root, base[v]
-    return root

@@ -12,6 +12,7 @@ from __future__ import annotations
 from bondgraph.ir.causal import Cause, Preference
 from bondgraph.ir.expr import Expr, Op
 from bondgraph.ir.graph import BondGraph, Node
+from bondgraph.ir.groups import Groups
 from bondgraph.text.tuples import NamedTuple
 
 
@@ -101,25 +102,12 @@ def rules(kinds: list[str], bonds: list[tuple[int, int]]) -> tuple[Network, list
 
 def closing(kinds: list[str], bonds: list[tuple[int, int]]) -> list[int]:
     """The bonds between junctions of one kind that earlier such bonds have made one junction."""
-    parent: dict[int, int] = {}
-
-    def find(n: int) -> int:
-        root = n
-        while root in parent:
-            root = parent[root]
-        while n != root:
-            parent[n], n = root, parent[n]
-        return root
-
-    found = []
-    for b, (tail, head) in enumerate(bonds):
-        if kinds[tail] == kinds[head] and kinds[tail] in ("0", "1"):
-            one, other = find(tail), find(head)
-            if one == other:
-                found.append(b)
-            else:
-                parent[max(one, other)] = min(one, other)
-    return found
+    like = Groups[int]()
+    return [
+        b
+        for b, (tail, head) in enumerate(bonds)
+        if kinds[tail] == kinds[head] and kinds[tail] in ("0", "1") and not like.join(tail, head)
+    ]
 
 
 def must(kind: str, end: int, integral: bool) -> int | None:

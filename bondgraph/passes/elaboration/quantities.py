@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from bondgraph.ir.groups import Groups
 from bondgraph.ir.unit import NONE, Dimension
 from bondgraph.library.dimensions import Conflict, Dimensions, Term
 from bondgraph.library.units import DOMAINS, describe, parse_unit, suggest_unit
@@ -25,7 +26,7 @@ class Quantities:
     def __init__(self, report: Report) -> None:
         self.report = report
         self.dimensions = Dimensions()
-        self._parent: list[int] = []
+        self._groups = Groups[int]()
         self._owner: list[FlatEnd] = []
         self._pairs: dict[int, tuple[Term, Term]] = {}
         self._seeds: dict[tuple[int, str], None] = {}
@@ -40,25 +41,19 @@ class Quantities:
         """Give every junction and port its group: bonds join what they connect."""
         for bond in bonds:
             a, b = self._slot(bond.tail), self._slot(bond.head)
-            a, b = self.find(a), self.find(b)
-            if a != b:
-                self._parent[max(a, b)] = min(a, b)
+            self._groups.join(*sorted((self.find(a), self.find(b))))
             self.bond_slot.append(a)
 
     def _slot(self, end: FlatEnd) -> int:
         holder = end.node if end.port < 0 else end.node.ports[end.port]
         if holder.slot < 0:
-            holder.slot = len(self._parent)
-            self._parent.append(holder.slot)
+            holder.slot = len(self._owner)
             self._owner.append(end)
         return holder.slot
 
     def find(self, slot: int) -> int:
         """The group of a slot."""
-        parent = self._parent
-        while parent[slot] != slot:
-            parent[slot] = slot = parent[parent[slot]]
-        return slot
+        return self._groups.find(slot)
 
     def pair(self, slot: int) -> tuple[Term, Term]:
         """The dimensions of effort and flow in the group of a slot."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 from bondgraph.ir.equation_system import Equation, EquationKind, EquationSystem
 from bondgraph.ir.expr import Expr, Kind, variables
 from bondgraph.ir.graph import Bond, BondGraph, End, Node
+from bondgraph.ir.groups import Groups
 from bondgraph.text.source import Span
 
 
@@ -18,7 +19,7 @@ class _Builder:
         self.graph = graph
         self.pool = graph.pool
         self.alias: dict[Expr, Expr] = {}  # a port or junction variable to what stands for it
-        self.common: dict[Expr, Expr] = {}  # union-find over the junctions' common variables
+        self.common = Groups[Expr]()  # common variables of like junctions bonded together
         self.idle: set[int] = set()  # bonds that close a ring of like junctions
         self.effort: list[Expr] = []
         self.flow: list[Expr] = []
@@ -26,26 +27,14 @@ class _Builder:
 
     # ------------------------------------------------------- shared variables
 
-    def find(self, variable: Expr) -> Expr:
-        """The common variable that stands for a set of like junctions bonded together."""
-        root = variable
-        while root in self.common:
-            root = self.common[root]
-        while variable is not root:
-            self.common[variable], variable = root, self.common[variable]
-        return root
-
     def merge_junctions(self) -> None:
         nodes = self.graph.nodes
         for bond in self.graph.bonds:
             a, b = nodes[bond.tail.node], nodes[bond.head.node]
             if a.common is not None and b.common is not None and a.kind == b.kind:
-                one, other = self.find(a.common), self.find(b.common)
-                if one is other:
+                ends = self.common.find(a.common), self.common.find(b.common)
+                if not self.common.join(*sorted(ends, key=lambda v: v.id)):
                     self.idle.add(bond.number)
-                else:
-                    older, newer = sorted((one, other), key=lambda v: v.id)
-                    self.common[newer] = older
 
     def bond_variable(self, bond: Bond, junction: str, name: str) -> Expr:
         """The effort (junction "0") or flow (junction "1") of a bond as a signed variable.
@@ -56,7 +45,7 @@ class _Builder:
         for end in (bond.tail, bond.head):
             node = nodes[end.node]
             if node.kind == junction and node.common is not None:
-                return self.find(node.common)
+                return self.common.find(node.common)
         for end in (bond.head, bond.tail):
             if end.port >= 0:
                 port = nodes[end.node].ports[end.port]
@@ -74,8 +63,8 @@ class _Builder:
         pool = self.pool
         self.merge_junctions()
         for node in self.graph.nodes:
-            if node.common is not None and self.find(node.common) is not node.common:
-                self.alias[node.common] = self.find(node.common)
+            if node.common is not None and self.common.find(node.common) is not node.common:
+                self.alias[node.common] = self.common.find(node.common)
         for bond in self.graph.bonds:
             self.effort.append(self.bond_variable(bond, "0", "e"))
             self.flow.append(self.bond_variable(bond, "1", "f"))
@@ -126,7 +115,7 @@ class _Builder:
         zero = pool.add(*terms)
         assert node.common is not None
         if node.when is not None:
-            zero = pool.choose(self.own(node.when), zero, self.find(node.common))
+            zero = pool.choose(self.own(node.when), zero, self.common.find(node.common))
         self.write("balance", node.path, zero, number, node.origin)
 
     def element(self, number: int, node: Node) -> None:

@@ -9,6 +9,7 @@ from bondgraph.algebra.solve import rest
 from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import VARIABLES, Expr, Op, topological
 from bondgraph.ir.graph import Node
+from bondgraph.ir.groups import Groups
 
 _STRUCTURE = ("0", "1", "TF", "GY")
 _ROUNDING = 1e-9  # of the coefficients of a balance
@@ -67,22 +68,13 @@ def _open(system: EquationSystem, node: Node, said: Set[Expr]) -> Expr | None:
 
 def _closed(system: EquationSystem) -> bool:
     """Whether bonds between junctions and two-ports run in a circle."""
-    leader = {k: k for k, n in enumerate(system.graph.nodes) if n.kind in _STRUCTURE}
-
-    def top(k: int) -> int:
-        while leader[k] != k:
-            leader[k] = leader[leader[k]]
-            k = leader[k]
-        return k
-
-    for bond in system.graph.bonds:
-        ends = bond.tail.node, bond.head.node
-        if ends[0] in leader and ends[1] in leader:
-            one, other = map(top, ends)
-            if one == other:
-                return True
-            leader[one] = other
-    return False
+    nodes, joined = system.graph.nodes, Groups[int]()
+    return any(
+        nodes[b.tail.node].kind in _STRUCTURE
+        and nodes[b.head.node].kind in _STRUCTURE
+        and not joined.join(b.tail.node, b.head.node)
+        for b in system.graph.bonds
+    )
 
 
 def _linear(system: EquationSystem, zero: Expr, number: Number) -> dict[Expr, float]:
