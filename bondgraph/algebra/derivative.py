@@ -143,13 +143,11 @@ class Jets:
         yield from ()
         if node.symbol.kind in CONSTANTS or node.symbol.kind is Kind.MODE:
             return self.pool.zero
-        for _ in range(order):
-            node = self.pool.der(node)
-        return node
+        return self.pool.der(node, order)
 
     def _sum(self, node: Expr, order: int) -> _Rule:
         terms = []
-        for c, a in zip(node.coefficients, node.args, strict=True):
+        for c, a in node.terms:
             terms.append((c, (yield a, order)))
         return self.pool.add(*terms)
 
@@ -165,7 +163,7 @@ class Jets:
         still: list[Expr] = []
         moving: list[tuple[Expr, int]] = []
         slopes: list[Expr] = []
-        for a, e in zip(node.args, node.exponents, strict=True):
+        for a, e in node.factors:
             slope = yield a, 1
             if slope is pool.zero:
                 still.append(pool.power((yield a, 0), e))
@@ -268,7 +266,7 @@ class Jets:
         pool = self.pool
         if y.op is Op.NUM and y.number < 0 and order > 1:
             return (yield from self._falling(node, x, y.number, order))
-        exponent = list(zip(y.coefficients, y.args, strict=True)) if y.op is Op.ADD else [(1, y)]
+        exponent = list(y.terms) if y.op is Op.ADD else [(1, y)]
         lowered = pool.fn("pow", x, pool.add(*exponent, (-1, pool.one)))
         slope = pool.mul(y, lowered)
         base = yield from self._chain(slope, x, order)
@@ -375,7 +373,7 @@ def _partials_of_two(pool: Pool, node: Expr) -> list[Expr]:
         square = pool.add((1, pool.power(x, 2)), (1, pool.power(y, 2)))
         return [pool.div(y, square), pool.neg(pool.div(x, square))]
     assert node.name == "pow"
-    exponent = list(zip(y.coefficients, y.args, strict=True)) if y.op is Op.ADD else [(1, y)]
+    exponent = list(y.terms) if y.op is Op.ADD else [(1, y)]
     lowered = pool.fn("pow", x, pool.add(*exponent, (-1, pool.one)))
     return [pool.mul(y, lowered), pool.mul(node, pool.fn("log", x))]
 

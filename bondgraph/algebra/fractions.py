@@ -35,7 +35,7 @@ def monomials(exprs: list[Expr], leaves: set[Expr] | None = None) -> int:
             count[node] = min(_MOST, sum(count[a] for a in node.args))
         else:
             total = 1
-            for a, e in zip(node.args, node.exponents, strict=True):
+            for a, e in node.factors:
                 total = min(_MOST, total * count[a] ** min(abs(e), 40))
             count[node] = total
     return sum(count[e] for e in exprs)

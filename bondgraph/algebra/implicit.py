@@ -7,11 +7,13 @@ or falls with the variable all over; an equation that may have several is not so
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Container
 from fractions import Fraction
 
 from bondgraph.algebra.monotone import direction
+from bondgraph.algebra.nominal import defined
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, Root, topological
+from bondgraph.ir.nodes import holding
 
 #: Numbers at which a law is tried to be defined, nearest to rest first.
 _GUESSES = (Fraction(0), Fraction(1), Fraction(-1), Fraction(1, 1000), Fraction(300))
@@ -36,20 +38,17 @@ def invert(
     >>> invert(p, p.sub(y, p.add((1, p.fn("sinh", f)), (1, f))), f, lambda _: None)
     root(f, y - (f + sinh(f)))
     """
-    holding = {variable}
-    for node in topological([zero]):
-        if any(a in holding for a in node.args):
-            if node.op in (Op.DER, Op.INT) or _switched(node, holding):
-                return None
-            holding.add(node)
+    holders = holding([zero, variable], lambda n: n is variable)
+    if any(n.op in (Op.DER, Op.INT) or _switched(n, holders) for n in holders):
+        return None
     way = direction(pool, zero, variable, number) or _by_symbols(pool, zero, variable, number)
     if way is None:
         return None
     unknown = pool.symbol(_UNKNOWN, Kind.TEAR)
     mapping = {variable: unknown}
-    for node in sorted(holding, key=lambda n: n.id):
+    for node in holders:
         for arg in node.args:
-            if arg not in holding and arg not in mapping and arg.op is not Op.NUM:
+            if arg not in holders and arg not in mapping and arg.op is not Op.NUM:
                 mapping[arg] = pool.symbol(f"?{len(mapping) - 1}", Kind.CONST)
     inner = pool.substitute([zero], mapping)[0]
     places = list(mapping.items())[1:]
@@ -60,9 +59,9 @@ def invert(
     return pool.root(root, *[a for a, _ in places])
 
 
-def _switched(node: Expr, holding: set[Expr]) -> bool:
+def _switched(node: Expr, holders: Container[Expr]) -> bool:
     """Whether a mode or another signal decides between branches that hold the variable."""
-    return node.op is Op.IF and node.args[0] not in holding
+    return node.op is Op.IF and node.args[0] not in holders
 
 
 def _name(pool: Pool, name: str, inner: Expr) -> str:
@@ -76,7 +75,7 @@ def _by_symbols(
     pool: Pool, zero: Expr, variable: Expr, number: Callable[[Expr], float | None]
 ) -> int | None:
     """`direction` by the sign of the slope, once SymPy has simplified it."""
-    from bondgraph.algebra.solve_symbolic import simplified_slope
+    from bondgraph.algebra.solve_symbolic import simplified_slope  # SymPy is slow to import
 
     if len(topological([zero])) > _SMALL:
         return None
@@ -89,8 +88,6 @@ def _by_symbols(
 
 def _guess(zero: Expr, variable: Expr) -> Fraction:
     """A number at which no logarithm, root or quotient of the variable alone is undefined."""
-    from bondgraph.algebra.nominal import defined
-
     for guess in _GUESSES:
         if defined(zero, variable, float(guess)):
             return guess

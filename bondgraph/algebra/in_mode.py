@@ -21,7 +21,7 @@ def in_each_mode(pool: Pool, expr: Expr) -> list[Expr] | None:
     """
     modes = []
     for node in topological([expr]):
-        if node.op is Op.SYM and node.symbol.kind is Kind.MODE:
+        if node.kind is Kind.MODE:
             modes.append(node)
         elif node.op is Op.CMP:
             return None

@@ -12,8 +12,8 @@ from collections.abc import Callable, Mapping
 from functools import reduce
 from itertools import pairwise
 
+from bondgraph.algebra.affine import affine
 from bondgraph.algebra.interpreter import FUNCTIONS, Evaluated
-from bondgraph.algebra.solve import affine
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, backwards, topological
 from bondgraph.text.tuples import NamedTuple

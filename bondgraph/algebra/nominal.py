@@ -80,7 +80,7 @@ class Nominal:
         if value is not None:
             return abs(value) <= self._doubt(node) and self._sharply_zero(node)
         if node.op is Op.MUL:
-            factors = zip(node.args, node.exponents, strict=True)
+            factors = node.factors
             return any(exponent > 0 and self._nothing[a] for a, exponent in factors)
         return node.op in (Op.ADD, Op.DER) and all(self._nothing[a] for a in node.args)
 
@@ -148,7 +148,7 @@ class Nominal:
         own = abs(self._at.known.get(node) or 0.0)
         if node.op is Op.ADD:
             size, inherited = own, 0.0
-            for c, arg in zip(node.coefficients, node.args, strict=True):
+            for c, arg in node.terms:
                 weight = abs(float(c))
                 size = max(size, weight * abs(self._at.known.get(arg) or 0.0))
                 inherited += weight * self._doubts[arg]

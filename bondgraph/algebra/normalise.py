@@ -17,6 +17,7 @@ from bondgraph.algebra.derivative import differentiate
 from bondgraph.algebra.modular import Field
 from bondgraph.algebra.record import record
 from bondgraph.ir.expr import CONSTANTS, ZERO_START, Expr, Kind, Op, Pool, topological
+from bondgraph.ir.nodes import constant, rebuilt
 from bondgraph.ir.normal import NormalForm, Term
 
 #: A linear form: coefficient by (atom, order of p).
@@ -111,36 +112,22 @@ def static(node: Expr) -> bool:
     return all(map(static, node.args))
 
 
-def constant(node: Expr) -> bool:
-    """Whether a value is made of parameters and numbers only (an integral grows with time)."""
-    for n in topological([node]):
-        if n.op is Op.INT or (n.op is Op.SYM and n.symbol.kind not in CONSTANTS):
-            return False
-    return True
-
-
 def decided(condition: Expr) -> bool:
     """Whether boolean inputs alone decide a condition."""
     return all(
-        n.op in (Op.NUM, Op.LOGIC) or (n.op is Op.SYM and n.symbol.kind is Kind.MODE)
+        n.op in (Op.NUM, Op.LOGIC) or (n.kind is Kind.MODE)
         for n in topological([condition])
     )
 
 
 def _at_rest(pool: Pool, expr: Expr) -> Expr:
     """The expression with the derivatives of constants set to zero."""
-    while True:
-        still: dict[Expr, bool] = {}
-        gone: dict[Expr, Expr] = {}
-        for node in topological([expr]):
-            still[node] = node.op is not Op.INT and all(still[a] for a in node.args)
-            if node.op is Op.SYM:
-                still[node] = node.symbol.kind in CONSTANTS
-            if node.op is Op.DER and still[node]:
-                gone[node] = pool.zero
-        if not gone:
-            return expr
-        expr = pool.substitute([expr], gone)[0]
+    memo: dict[Expr, bool] = {}
+
+    def stilled(node: Expr, args: tuple[Expr, ...]) -> Expr | None:
+        return pool.zero if node.op is Op.DER and constant(args[0], memo) else None
+
+    return rebuilt(pool, [expr], stilled)[0]
 
 
 class _Normaliser:
@@ -182,7 +169,7 @@ class _Normaliser:
         match node.op:
             case Op.ADD:
                 form: Form = {}
-                for c, arg in zip(node.coefficients, node.args, strict=True):
+                for c, arg in node.terms:
                     self._add(form, self._forms[arg], self.pool.num(c))
                 return form
             case Op.MUL:
@@ -210,7 +197,7 @@ class _Normaliser:
         terms: list[tuple[Fraction | int, Expr]] = []
         for side in (left, right):
             if side.op is Op.ADD and len(side.args) <= _SHORT:
-                terms += zip(side.coefficients, side.args, strict=True)
+                terms += side.terms
             else:
                 terms.append((1, side))
         return self.pool.add(*terms)
@@ -234,10 +221,7 @@ class _Normaliser:
         for (atom, order), coefficient in self._forms[node.args[0]].items():
             key = atom, order - 1
             if order > 0:  # Int(D(y)) is y without its value at the start
-                inner = atom
-                for _ in range(order):
-                    inner = self.pool.der(inner)
-                key = self.pool.integral(inner, self.start), 0
+                key = self.pool.integral(self.pool.der(atom, order), self.start), 0
             self._add(out, {key: coefficient}, self.pool.one)
         return out
 
@@ -257,7 +241,7 @@ class _Normaliser:
 
     def _product(self, node: Expr) -> Form:
         pool = self.pool
-        pairs = list(zip(node.args, node.exponents, strict=True))
+        pairs = list(node.factors)
         factor = pool.mul(*[pool.power(a, e) for a, e in pairs if self._constant[a]])
         varying = [(a, e) for a, e in pairs if not self._constant[a]]
         if len(varying) == 1 and varying[0][1] == 1:
@@ -371,8 +355,7 @@ class _Normaliser:
     # ---------------------------------------------------------- rewriting
 
     def _term(self, atom: Expr, order: int) -> Expr:
-        for _ in range(order):
-            atom = self.pool.der(atom)
+        atom = self.pool.der(atom, order)
         for _ in range(-order):
             atom = self.pool.integral(atom, self.start)
         return atom

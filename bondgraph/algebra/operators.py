@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from bondgraph.algebra.affine import affine
 from bondgraph.algebra.derivative import Jets, TooManyOperations
-from bondgraph.algebra.fractions import monomials, without_common_divisor
+from bondgraph.algebra.fractions import monomials, trimmed, without_common_divisor
 from bondgraph.algebra.normalise import normalise
-from bondgraph.algebra.solve import affine, constant
 from bondgraph.algebra.summands import summands
 from bondgraph.algebra.zero import is_zero, share_factor
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.nodes import constant, has
 from bondgraph.text.tuples import NamedTuple
 
 Polynomial = list[Expr]  # coefficients of D**0, D**1, ...
@@ -80,7 +81,7 @@ class Operators:
             if node.op is Op.ADD:
                 entries: dict[tuple[Expr, int], list[Expr]] = {}
                 rests = []
-                for c, arg in zip(node.coefficients, node.args, strict=True):
+                for c, arg in node.terms:
                     part, rest = forms.get(arg, ({}, arg))
                     rests.append((c, rest))
                     for key, value in part.items():
@@ -91,7 +92,7 @@ class Operators:
                 others = pool.mul(
                     *[
                         pool.power(a, e)
-                        for a, e in zip(node.args, node.exponents, strict=True)
+                        for a, e in node.factors
                         if a is not inside[0]
                     ]
                 )
@@ -123,8 +124,7 @@ class Operators:
         lowest = min((k for _, k in part), default=0)
         if lowest < 0:  # differentiated until no integral holds a torn variable
             part = {(t, k - lowest): v for (t, k), v in part.items()}
-            for _ in range(-lowest):
-                rest = pool.der(rest)
+            rest = pool.der(rest, -lowest)
         polynomials: dict[Expr, Polynomial] = {}
         for (t, k), value in part.items():
             polynomial = polynomials.setdefault(t, [])
@@ -182,9 +182,9 @@ class Operators:
         """The row as a sum of derivatives; None where it is too long or holds integrals."""
         if row not in self._summed:
             pool = self.pool
-            whole = all(n.op is not Op.INT for n in topological([row]))
+            whole = not has([row], Op.INT)
             terms = normalise(pool, row, _LIMIT).terms if whole else ()
-            parts = [pool.mul(t.coefficient, _derived(pool, t.atom, t.order)) for t in terms]
+            parts = [pool.mul(t.coefficient, pool.der(t.atom, t.order)) for t in terms]
             self._summed[row] = pool.add(*[(1, part) for part in parts]) if parts else None
         return self._summed[row]
 
@@ -219,7 +219,7 @@ class Operators:
             high = _at_least(row, rate)
             if not high:
                 return _whole(self.pool, row)
-            values = {n: _derived(self.pool, value, _order(n) - _order(rate)) for n in high}
+            values = {n: self.pool.der(value, _order(n) - _order(rate)) for n in high}
             shaped = form(self.pool.substitute([row], values)[0])
             if shaped is None:
                 return None
@@ -278,22 +278,14 @@ def _trim(entries: dict[Expr, Polynomial]) -> dict[Expr, Polynomial]:
     """Without leading coefficients, and without entries, that are identically zero."""
     kept = {}
     for t, polynomial in entries.items():
-        size = len(polynomial)
-        while size and is_zero(polynomial[size - 1]):
-            size -= 1
-        if size:
-            kept[t] = polynomial[:size]
+        left = trimmed(polynomial)
+        if left:
+            kept[t] = left
     return kept
 
 
 def _lowest(polynomial: Polynomial) -> int:
     return next(k for k, c in enumerate(polynomial) if not is_zero(c))
-
-
-def _derived(pool: Pool, expr: Expr, times: int) -> Expr:
-    for _ in range(times):
-        expr = pool.der(expr)
-    return expr
 
 
 def _whole(pool: Pool, row: Expr) -> Expr:
@@ -302,7 +294,7 @@ def _whole(pool: Pool, row: Expr) -> Expr:
     divisors: dict[Expr, int] = {}
     for term in terms:
         if term.op is Op.MUL:
-            for base, power in zip(term.args, term.exponents, strict=True):
+            for base, power in term.factors:
                 if power < 0 and not constant(base) and not _torn(base):
                     divisors[base] = max(divisors.get(base, 0), -power)
     factor = pool.mul(*[pool.power(base, power) for base, power in divisors.items()])

@@ -6,9 +6,9 @@ from __future__ import annotations
 from collections import Counter
 from fractions import Fraction
 
-from bondgraph.algebra.solve import constant
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.nodes import constant, rebuilt
 from bondgraph.ir.residuals import Residual
 from bondgraph.notation.formula import Reader
 from bondgraph.notation.line import Line
@@ -39,28 +39,25 @@ def tidy(pool: Pool, *exprs: Expr) -> list[Expr]:
     >>> tidy(p, p.der(p.mul(C, y)))
     [C*D(y)]
     """
-    new: dict[Expr, Expr] = {}
     memo: dict[Expr, bool] = {}
-    for node in topological(exprs):
-        args = tuple(new[a] for a in node.args)
-        if node.op is Op.DER:
-            new[node] = _derivative(pool, args[0], memo)
-        else:
-            new[node] = pool.rebuild(node, args)
-    return [new[e] for e in exprs]
+
+    def moved(node: Expr, args: tuple[Expr, ...]) -> Expr | None:
+        return _derivative(pool, args[0], memo) if node.op is Op.DER else None
+
+    return rebuilt(pool, exprs, moved)
 
 
 def _derivative(pool: Pool, node: Expr, memo: dict[Expr, bool]) -> Expr:
     if constant(node, memo):
         return pool.zero
     if node.op is Op.ADD:
-        terms = zip(node.coefficients, node.args, strict=True)
+        terms = node.terms
         moving = [(c, a) for c, a in terms if not constant(a, memo)]
         if len(moving) == 1:
             return pool.add((moving[0][0], _derivative(pool, moving[0][1], memo)))
         return pool.der(pool.add(*moving))
     if node.op is Op.MUL:
-        factors = list(zip(node.args, node.exponents, strict=True))
+        factors = list(node.factors)
         still = [pool.power(a, e) for a, e in factors if constant(a, memo)]
         moving_part = pool.mul(*[pool.power(a, e) for a, e in factors if not constant(a, memo)])
         return pool.mul(*still, pool.der(moving_part)) if still else pool.der(node)
@@ -83,7 +80,7 @@ def upright(pool: Pool, expr: Expr) -> Expr:
         opened: list[tuple[Fraction, Expr]] = []
         for c, a in terms:
             if _opens(a, uses):
-                opened += [(c * k, b) for k, b in zip(a.coefficients, a.args, strict=True)]
+                opened += [(c * k, b) for k, b in a.terms]
             else:
                 opened.append((c, a))
         terms = opened
@@ -93,7 +90,7 @@ def upright(pool: Pool, expr: Expr) -> Expr:
     kinds = (Kind.INPUT, Kind.SENSOR)
     plain = [
         (kinds.index(a.symbol.kind), a.id, c)
-        for c, a in zip(flat.coefficients, flat.args, strict=True)
+        for c, a in flat.terms
         if a.op is Op.SYM and a.symbol.kind in kinds
     ]
     return pool.neg(flat) if plain and min(plain)[2] < 0 else flat

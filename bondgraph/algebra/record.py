@@ -53,11 +53,11 @@ def _factors(
 ) -> list[tuple[Expr, int, Expr]] | None:
     """What a node is linear in: (argument, power of p, factor); None for an atom."""
     if node.op is Op.ADD:
-        return [(a, 0, pool.num(c)) for c, a in zip(node.coefficients, node.args, strict=True)]
+        return [(a, 0, pool.num(c)) for c, a in node.terms]
     if node.op is Op.DER:
         return [(node.args[0], 1, pool.one)]
     if node.op is Op.MUL:
-        pairs = list(zip(node.args, node.exponents, strict=True))
+        pairs = list(node.factors)
         varying = [(a, e) for a, e in pairs if not fixed[a]]
         if len(varying) == 1 and varying[0][1] == 1:
             factor = pool.mul(*[pool.power(a, e) for a, e in pairs if fixed[a]])

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from bondgraph.algebra.derivative import partials
 from bondgraph.algebra.present import tidy
 from bondgraph.ir.expr import ZERO_START, Expr, Kind, Op, Pool, Symbol, topological
+from bondgraph.ir.nodes import has, holding
 
 
 def sensitivity(
@@ -63,30 +64,20 @@ def variation(
 
 def _static(expr: Expr, wrt: Sequence[Expr]) -> bool:
     """Whether no derivative holds any of the symbols, and nothing is integrated."""
-    wanted, holding = set(wrt), set()
-    for node in topological([expr]):
-        if node in wanted or any(a in holding for a in node.args):
-            holding.add(node)
-            if node.op is Op.DER:
-                return False
-        if node.op is Op.INT:
-            return False
-    return True
+    holders = holding([expr], set(wrt).__contains__)
+    return not has([expr], Op.INT) and not any(n.op is Op.DER for n in holders)
 
 
 def _reverse(pool: Pool, expr: Expr, wrt: Sequence[Expr]) -> list[Expr]:
-    wanted, holding = set(wrt), dict[Expr, None]()
-    for node in topological([expr]):
-        if node in wanted or any(a in holding for a in node.args):
-            holding[node] = None
+    holders = holding([expr], set(wrt).__contains__)
     adjoints: dict[Expr, list[Expr]] = {expr: [pool.one]}
     total: dict[Expr, Expr] = {}
-    for node in reversed(holding):
+    for node in reversed(holders):
         own = total[node] = pool.add(*[(1, a) for a in adjoints.get(node, [])])
         if own is pool.zero or not node.args:
             continue
         for a, slope in zip(node.args, partials(pool, node), strict=True):
-            if a in holding and slope is not pool.zero:
+            if a in holders and slope is not pool.zero:
                 adjoints.setdefault(a, []).append(pool.mul(own, slope))
     return [total.get(s, pool.zero) for s in wrt]
 

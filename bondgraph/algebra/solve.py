@@ -6,10 +6,12 @@ variable more than once in a nonlinear way goes to SymPy.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from itertools import pairwise
 
+from bondgraph.algebra.affine import affine, plainly_affine
+from bondgraph.algebra.implicit import invert
 from bondgraph.algebra.in_mode import in_each_mode
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import (
@@ -24,6 +26,7 @@ from bondgraph.ir.expr import (
     topological,
     whole,
 )
+from bondgraph.ir.nodes import constant, holding
 from bondgraph.text.tuples import NamedTuple
 
 #: Functions that are one to one on the reals (or where they are defined), with their inverses.
@@ -75,9 +78,9 @@ def solve(
     alone = _isolated(pool, zero, variable)
     if alone is not None:
         return Solution(alone, 0, False)
-    linear = _plain(pool, zero, variable)
+    linear = plainly_affine(pool, zero, variable)
     if linear is None:
-        holders = _holders(zero, variable)
+        holders = holding([zero], lambda n: n is variable)
         if zero not in holders:
             return None
         linear = affine(pool, zero, variable)
@@ -89,15 +92,13 @@ def solve(
         return Solution(value, int(not constant(slope)), False)
     value_ = _peel(pool, zero, variable, holders, vanishes)
     if value_ is None:
-        from bondgraph.algebra.solve_symbolic import solve_symbolic
+        from bondgraph.algebra.solve_symbolic import solve_symbolic  # SymPy is slow to import
 
         value_ = solve_symbolic(pool, zero, variable)
     if value_ is not None:
         return Solution(value_, 1, True)
     if number is None:
         return None
-    from bondgraph.algebra.implicit import invert
-
     value_ = invert(pool, zero, variable, number)
     return None if value_ is None else Solution(value_, ITERATED, True)
 
@@ -109,7 +110,7 @@ def _isolated(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
     own = zero.coefficients[zero.args.index(variable)]
     factor = -raised(own, -1)
     terms = []
-    for c, arg in zip(zero.coefficients, zero.args, strict=True):
+    for c, arg in zero.terms:
         if arg is variable:
             continue
         if arg.op is not Op.SYM and (
@@ -122,119 +123,15 @@ def _isolated(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
     return pool.add(*terms)
 
 
-def _plain(pool: Pool, zero: Expr, variable: Expr) -> tuple[Expr, Expr] | None:
-    """`affine` for the usual balance or linear law: a sum of symbols and products of symbols.
-
-    None where the equation is of another form or holds the variable more than once.
-    """
-    if zero.op is not Op.ADD:
-        return None
-    found: tuple[Expr, Expr] | None = None
-    rest = []
-    for c, arg in zip(zero.coefficients, zero.args, strict=True):
-        if arg.op is Op.MUL:
-            if any(a.op is not Op.SYM for a in arg.args):
-                return None
-            if variable not in arg.args:
-                rest.append((c, arg))
-                continue
-            if arg.exponents[arg.args.index(variable)] != 1:
-                return None
-        elif arg.op is not Op.SYM:
-            return None
-        elif arg is not variable:
-            rest.append((c, arg))
-            continue
-        if found is not None:
-            return None
-        found = pool.scale(c, pool.div(arg, variable)), pool.zero
-    return None if found is None else (found[0], pool.add(*rest))
-
-
-def constant(expr: Expr, memo: dict[Expr, bool] | None = None) -> bool:
-    """Whether an expression is made of parameters and numbers only.
-
-    With a `memo` kept between calls, questions about parts of one large expression stay linear.
-    """
-    known = {} if memo is None else memo
-    for node in topological([expr], stop=known.__contains__):
-        if node not in known:
-            if node.op is Op.SYM:
-                known[node] = node.symbol.kind in CONSTANTS
-            else:
-                known[node] = node.op is not Op.INT and all(known[a] for a in node.args)
-    return known[expr]
-
-
-def affine(pool: Pool, node: Expr, variable: Expr) -> tuple[Expr, Expr] | None:
-    """`slope`, `rest` with node = slope * variable + rest, both free of it; None if not affine."""
-    holders = _holders(node, variable)
-    if node not in holders:
-        return pool.zero, node
-    parts: dict[Expr, tuple[Expr, Expr]] = {variable: (pool.one, pool.zero)}
-    for item in holders:
-        if item is variable:
-            continue
-        if item.op is Op.ADD:
-            slopes, rests = [], []
-            for c, arg in zip(item.coefficients, item.args, strict=True):
-                slope, rest = parts.get(arg, (pool.zero, arg))
-                slopes.append((c, slope))
-                rests.append((c, rest))
-            parts[item] = pool.add(*slopes), pool.add(*rests)
-        elif item.op is Op.MUL:
-            inside = [a for a in item.args if a in parts]
-            power = item.exponents[item.args.index(inside[0])]
-            if len(inside) != 1 or power != 1:
-                return None
-            slope, rest = parts[inside[0]]
-            others = [
-                pool.power(a, e)
-                for a, e in zip(item.args, item.exponents, strict=True)
-                if a is not inside[0]
-            ]
-            parts[item] = pool.mul(slope, *others), pool.mul(rest, *others)
-        elif item.op is Op.IF and item.args[0] not in parts:
-            yes, no = (parts.get(a, (pool.zero, a)) for a in item.args[1:])
-            slope = pool.choose(item.args[0], yes[0], no[0])
-            parts[item] = slope, pool.choose(item.args[0], yes[1], no[1])
-        else:
-            return None
-    return parts[node]
-
-
-def rest(pool: Pool, zero: Expr, variables: Sequence[Expr]) -> Expr | None:
-    """What is left of a linear equation beside its variables; None where it is not linear in them.
-
-    Zero in place of the variables would not do: it is no value of log(2 f) - log(3 f).
-    """
-    wanted = set(variables)
-    for variable in [n for n in topological([zero]) if n in wanted]:
-        parts = affine(pool, zero, variable)
-        if parts is None or any(n in wanted for n in topological([parts[0]])):
-            return None
-        zero = parts[1]
-    return zero
-
-
-def _holders(node: Expr, variable: Expr) -> dict[Expr, None]:
-    """The nodes below `node` that hold `variable`, itself included, arguments first."""
-    found: dict[Expr, None] = {}
-    for item in topological([node]):
-        if item is variable or any(a in found for a in item.args):
-            found[item] = None
-    return found
-
-
 def _dividable(pool: Pool, slope: Expr, vanishes: Callable[[Expr], bool]) -> bool:
     """Whether it is right to divide by a coefficient: not where it is zero in some mode."""
-    if slope.op is Op.SYM and slope.symbol.kind in CONSTANTS:
+    if slope.kind in CONSTANTS:
         return not vanishes(slope)
     nodes = topological([slope])
     if any(n.op is Op.FN and n.data in ("sign", "min", "max") for n in nodes):
         return False
     switches = (Op.IF, Op.CMP, Op.LOGIC)
-    if any(n.op in switches or (n.op is Op.SYM and n.symbol.kind is Kind.MODE) for n in nodes):
+    if any(n.op in switches or (n.kind is Kind.MODE) for n in nodes):
         each = in_each_mode(pool, slope)
         return each is not None and not any(is_zero(s) or vanishes(s) for s in each)
     return not vanishes(slope)
@@ -253,7 +150,7 @@ def _quotient(pool: Pool, rest: Expr, slope: Expr) -> Expr:
     if slope.op is Op.NUM:
         factor = whole(-1 / slope.number)
         if rest.op is Op.ADD:
-            terms = zip(rest.coefficients, rest.args, strict=True)
+            terms = rest.terms
             return pool.add(*[(factor * c, a) for c, a in terms])
         return pool.add((factor, rest))
     if slope.op is Op.ADD and len(slope.args) == 1 and slope.coefficients[0] < 0:
@@ -278,7 +175,7 @@ def _peel(
         if node.op is Op.ADD:
             c = node.coefficients[node.args.index(inner)]
             terms: list[tuple[Rational, Expr]] = [(Fraction(1) / c, target)]
-            for k, arg in zip(node.coefficients, node.args, strict=True):
+            for k, arg in node.terms:
                 if arg is not inner:
                     terms.append((-Fraction(k) / c, arg))
             target = pool.add(*terms)
@@ -286,7 +183,7 @@ def _peel(
             power = node.exponents[node.args.index(inner)]
             others = [
                 pool.power(a, -e)
-                for a, e in zip(node.args, node.exponents, strict=True)
+                for a, e in node.factors
                 if a is not inner
             ]
             if not all(_dividable(pool, pool.power(o, -1), vanishes) for o in others):

@@ -10,6 +10,7 @@ import sympy as sp
 from bondgraph.algebra.fractions import monomials, only_root
 from bondgraph.algebra.symbolic import from_sympy, to_sympy
 from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.nodes import holding
 
 _EXPANDED = 500  # terms that SymPy may make of an equation
 _FACTORED = 60  # and of one that it has to factor
@@ -21,20 +22,17 @@ def solve_symbolic(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
     `e = k*f/(1 + f)` has one solution for f; an equation of higher degree has several, or none
     that holds for every value of the parameters, and gives None.
     """
-    holding = {variable}
+    holders = holding([zero, variable], lambda n: n is variable)
     leaves: dict[Expr, Any] = {variable: sp.Symbol("x", real=True)}
     names: dict[Any, Expr] = {leaves[variable]: variable}
-    for node in topological([zero]):
-        if any(a in holding for a in node.args):
-            if node.op not in (Op.ADD, Op.MUL):
-                return None  # a choice is no fraction, whatever SymPy makes of it
-            holding.add(node)
-    for node in sorted(holding, key=lambda n: n.id):
+    if any(n.op not in (Op.ADD, Op.MUL, Op.SYM) for n in holders):
+        return None  # a choice is no fraction, whatever SymPy makes of it
+    for node in holders:
         for arg in node.args:
-            if arg not in holding and arg not in leaves:
+            if arg not in holders and arg not in leaves:
                 leaves[arg] = sp.Symbol(f"c{len(leaves)}", real=True)
                 names[leaves[arg]] = arg
-    if monomials([zero], {n for n in leaves if n not in holding}) > _EXPANDED:
+    if monomials([zero], {n for n in leaves if n not in holders}) > _EXPANDED:
         return only_root(pool, zero, variable)
     x = leaves[variable]
     numerator = sp.fraction(sp.together(to_sympy(zero, leaves)))[0]
@@ -55,17 +53,14 @@ def simplified_slope(
     `positive` says which parts without the variable are. `p/sqrt(1 + p^2)` has the slope
     (1 + p^2)^(-3/2), which shows its sign; the quotient rule does not.
     """
-    holding = {variable}
+    holders = holding([zero, variable], lambda n: n is variable)
     leaves: dict[Expr, Any] = {variable: sp.Symbol("x", real=True)}
-    for node in topological([zero]):
-        if any(a in holding for a in node.args):
-            power = node.op is Op.FN and node.name in ("sqrt", "pow")
-            if not power and node.op not in (Op.ADD, Op.MUL):
-                return None  # factoring sums of functions may take for ever
-            holding.add(node)
-    for node in sorted(holding, key=lambda n: n.id):
+    for node in holders:
+        power = node.op is Op.FN and node.name in ("sqrt", "pow")
+        if not power and node.op not in (Op.ADD, Op.MUL, Op.SYM):
+            return None  # factoring sums of functions may take for ever
         for arg in node.args:
-            if arg not in holding and arg not in leaves and arg.op is not Op.NUM:
+            if arg not in holders and arg not in leaves and arg.op is not Op.NUM:
                 sign = True if positive(arg) else None
                 leaves[arg] = sp.Symbol(f"c{len(leaves)}", real=True, positive=sign)
     if monomials([zero], {n for n in leaves if n is not variable}) > _FACTORED:

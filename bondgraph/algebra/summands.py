@@ -21,7 +21,7 @@ def summands(expr: Expr) -> dict[Expr, Fraction]:
     while stack:
         factor, node = stack.pop()
         if node.op is Op.ADD:
-            pairs = zip(node.coefficients, node.args, strict=True)
+            pairs = node.terms
             stack.extend((factor * c, a) for c, a in pairs)
         else:
             found[node] = found.get(node, Fraction(0)) + factor

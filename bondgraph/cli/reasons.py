@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bondgraph.cli.console import plural
-from bondgraph.ir.expr import Expr, symbols
+from bondgraph.ir.expr import Expr
+from bondgraph.ir.nodes import occurs
 from bondgraph.notation.dump_stages import equation_name
 from bondgraph.structural.matching import decompose
 
@@ -75,7 +76,7 @@ def reason(compilation: Compilation, fault: str) -> str:
     """Why no residual sees a fault, in words of the model."""
     symbol = compilation.graph.fault_symbol(fault)
     found = compilation.residuals.stage
-    holding = [e for e in found.system.equations if symbol in symbols(e.zero)]
+    holding = [e for e in found.system.equations if occurs(symbol, e.zero)]
     if not holding:
         return "no law uses it"
     used = {

@@ -64,7 +64,7 @@ class _Builder:
         for number, bond in enumerate(graph.bonds):
             self.ends[bond.tail.node].append((number, -1))
             self.ends[bond.head.node].append((number, 1))
-        self.numbers = Groups[int]()  # of variables that junctions make common: effort 2b, flow 2b + 1
+        self.numbers = Groups[int]()  # what junctions make common: effort 2b, flow 2b + 1
         self.place: dict[Expr, tuple[int, int]] = {}
         self.size = 0
         self.inner: dict[Expr, Expr] = {}  # what is differentiated, to the symbol made for it

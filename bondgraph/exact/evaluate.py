@@ -214,11 +214,11 @@ def node_value(
     if op is Op.ADD:
         terms = [
             (c.numerator if c.denominator == 1 else algebra.numbers.fraction(c), values[a])
-            for c, a in zip(node.coefficients, node.args, strict=True)
+            for c, a in node.terms
         ]
         return algebra.combine(terms, n)
     if op is Op.MUL:
-        factors = [(values[a], e) for a, e in zip(node.args, node.exponents, strict=True)]
+        factors = [(values[a], e) for a, e in node.factors]
         return algebra.product(factors, n)
     if op is Op.SYM:
         return sample.value(node)
@@ -421,7 +421,7 @@ def _sensitivities(root: Expr, sample: Sample, jumps: bool) -> Sensitivity:
                 share = algebra.start_of(adjoint) * (7919 + 2 * back)
                 memory[node] = memory.get(node, 0) + share
                 starts[node.symbol] = None
-            elif node.op is Op.SYM and node.symbol.kind in KNOWN_SIGNALS:
+            elif node.kind in KNOWN_SIGNALS:
                 orders[node] = max(orders.get(node, -1), -1 if back else algebra.order(adjoint))
             elif jumps and _decides(node):
                 alive.update(dict.fromkeys(topological(node.args)))

@@ -297,7 +297,7 @@ class Point:
             else:
                 open_args.append(a)
         if node.op is Op.MUL and not self.numbers.nonzero(value):
-            powers = zip(node.args, node.exponents, strict=True)
+            powers = node.factors
             if any(e > 0 and a in known and not self.numbers.nonzero(known[a]) for a, e in powers):
                 return True  # one factor is zero, whatever the others are
         if len(open_args) != 1:
@@ -370,7 +370,7 @@ def _undone(
     """
     if node.op is Op.ADD:
         factor: Number = 1
-        for c, a in zip(node.coefficients, node.args, strict=True):
+        for c, a in node.terms:
             if a is below:
                 factor = numbers.fraction(c)
             else:
@@ -378,7 +378,7 @@ def _undone(
         return value * numbers.inverse(factor)
     if node.op is Op.MUL:
         exponent = 1
-        for a, e in zip(node.args, node.exponents, strict=True):
+        for a, e in node.factors:
             if a is below:
                 exponent = e
             else:

@@ -8,7 +8,7 @@ The arguments of a node are always older than the node: ascending `id` is a topo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
 from fractions import Fraction
 from operator import attrgetter
@@ -138,6 +138,21 @@ class Expr:
         """The integer exponents of a MUL node."""
         assert isinstance(self.data, tuple)
         return self.data
+
+    @property
+    def terms(self) -> Iterator[tuple[Fraction, Expr]]:
+        """The terms of an ADD node: coefficient and argument."""
+        return zip(self.coefficients, self.args, strict=True)
+
+    @property
+    def factors(self) -> Iterator[tuple[Expr, int]]:
+        """The factors of a MUL node: argument and exponent."""
+        return zip(self.args, self.exponents, strict=True)
+
+    @property
+    def kind(self) -> Kind | None:
+        """What a SYM node stands for; None for any other node."""
+        return self.symbol.kind if self.op is Op.SYM else None
 
     @property
     def root(self) -> Root:
@@ -297,7 +312,7 @@ class Pool:
     def neg(self, node: Expr) -> Expr:
         """Minus the node; of a sum, the sum with all signs changed."""
         if node.op is Op.ADD:
-            return self.add(*[(-c, a) for c, a in zip(node.coefficients, node.args, strict=True)])
+            return self.add(*[(-c, a) for c, a in node.terms])
         return self.add((-1, node))
 
     def sub(self, left: Expr, right: Expr) -> Expr:
@@ -364,8 +379,13 @@ class Pool:
             name, args = "sqrt", args[:1]
         return self._make(Op.FN, args, name)
 
-    def der(self, node: Expr) -> Expr:
+    def der(self, node: Expr, order: int = 1) -> Expr:
         """The time derivative, kept as a node unless it is plainly zero or undoes an integral."""
+        for _ in range(order):
+            node = self._derivative(node)
+        return node
+
+    def _derivative(self, node: Expr) -> Expr:
         if node.op is Op.NUM:
             return self.zero
         if node.op is Op.SYM and node.symbol.kind in (Kind.CONST, Kind.INITIAL, Kind.FREE):
@@ -470,6 +490,13 @@ _SHALLOW = 3
 
 def topological(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> list[Expr]:
     """All nodes that the roots are made of, arguments first; below a `stop` node it ends."""
+    found = below(roots, stop)
+    found.sort(key=_ID)
+    return found
+
+
+def below(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> list[Expr]:
+    """The roots and all that they are made of, in no order; below a `stop` node it ends."""
     seen = set(roots)
     found = list(seen)
     for node in found:  # it grows as we go
@@ -478,13 +505,12 @@ def topological(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = Non
                 if arg not in seen:
                     seen.add(arg)
                     found.append(arg)
-    found.sort(key=_ID)
     return found
 
 
 def symbols(*roots: Expr) -> list[Expr]:
     """The SYM nodes that occur, oldest first."""
-    return [n for n in topological(roots) if n.op is Op.SYM]
+    return sorted([n for n in below(roots) if n.op is Op.SYM], key=_ID)
 
 
 def variables(*roots: Expr) -> list[Expr]:

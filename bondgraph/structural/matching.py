@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterable
 
-from bondgraph.text.tuples import NamedTuple
-
 from bondgraph.ir.groups import Groups
+from bondgraph.text.tuples import NamedTuple
 
 
 class Parts(NamedTuple):

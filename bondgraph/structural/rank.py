@@ -56,7 +56,7 @@ class Point:
         elif node.op is Op.MUL:
             slopes = [
                 e * value * pow(self.values[a], -1, P)
-                for a, e in zip(node.args, node.exponents, strict=True)
+                for a, e in node.factors
             ]
         elif node.op is Op.DER:
             slopes = [self.s]

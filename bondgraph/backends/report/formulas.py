@@ -88,7 +88,7 @@ def readable(parts: Parts) -> dict[Expr, str]:
         own = 0 if node in named else max([depth[a] for a in node.args], default=0)
         deeper = node.op in (Op.FN, Op.INT, Op.IF, Op.DER) and bool(node.args[0].args)
         deeper |= node.op is Op.MUL and any(
-            e < 0 or a.op is Op.ADD for a, e in zip(node.args, node.exponents, strict=True)
+            e < 0 or a.op is Op.ADD for a, e in node.factors
         )
         depth[node] = own + deeper
         if depth[node] > _NESTED and node is not parts.root and node not in named:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from bondgraph.algebra.affine import affine
 from bondgraph.algebra.nominal import Nominal
-from bondgraph.algebra.solve import affine
 from bondgraph.exact.evaluate import Sample, demands, values_of
 from bondgraph.exact.plant import ExactUnavailable
 from bondgraph.exact.signal_algebra import Mixed
@@ -85,7 +85,7 @@ def _resting(expr: Expr, points: Sequence[Sample | _Truth]) -> Expr | None:
         base
         for node in nodes
         if node.op is Op.MUL
-        for base, power in zip(node.args, node.exponents, strict=True)
+        for base, power in node.factors
         if power < 0
     ]
     if not bases or not points:
@@ -112,7 +112,7 @@ def blame(exprs: Sequence[Expr], point: Sample, terms: int) -> None:
     for at, expr in enumerate(exprs):
         for node in topological([expr]):
             if node.op is Op.MUL:
-                for base, power in zip(node.args, node.exponents, strict=True):
+                for base, power in node.factors:
                     value = values.get(base)
                     still = isinstance(value, list) and not point.algebra.moves(value)
                     if power < 0 and still:

@@ -171,7 +171,7 @@ class Functions:
         """`der(x)`."""
         node, term = self.of.quantity(call.arguments[0], place)
         result = self.of.quantities.differentiated(term)
-        if node.op is Op.SYM and node.symbol.kind is Kind.INTEGRAL:
+        if node.kind is Kind.INTEGRAL:
             return self.integrands[node], result
         return self.pool.der(node), result
 

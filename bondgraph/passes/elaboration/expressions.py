@@ -6,7 +6,8 @@ from abc import ABC, abstractmethod
 from fractions import Fraction
 from typing import NoReturn, assert_never
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, topological
+from bondgraph.ir.expr import Expr, Op, Pool
+from bondgraph.ir.nodes import constant
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Ref, Text, Truth, Unary
 from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration.calls import Functions
@@ -104,17 +105,7 @@ class Expressions(ABC):
 
     def constant(self, expr: Expr) -> bool:
         """Whether no signal occurs: only numbers, params and initial values."""
-        memo = self._constant
-        known = memo.get(expr)
-        if known is not None:
-            return known
-        for node in topological([expr], stop=memo.__contains__):
-            if node not in memo:
-                if node.op is Op.SYM:
-                    memo[node] = node.symbol.kind in CONSTANTS
-                else:
-                    memo[node] = all(memo[a] for a in node.args)
-        return memo[expr]
+        return constant(expr, self._constant)
 
     # ------------------------------------------------------------------ leaves
 

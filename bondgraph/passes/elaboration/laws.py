@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import Law
+from bondgraph.ir.nodes import occurs
 from bondgraph.ir.syntax import Equation, Node, Number, Part, Ref
 from bondgraph.library.dimensions import Term
 from bondgraph.library.elements import ElementKind
@@ -266,13 +267,13 @@ class Laws:
             port = node.ports[0]
             fixed, other = (port.effort, port.flow) if element.kind == "Se" else (
                 port.flow, port.effort)  # fmt: skip
-            if left is not fixed or fixed in symbols(right) or other in symbols(right):
+            if left is not fixed or occurs(fixed, right) or occurs(other, right):
                 letter = element.variables[0]
                 fail(self.report, "wrong-variable", f"`{node.type}:{node.name}` fixes its "
                      f"{element.coefficient}: its law is `{letter} = ...`.", equation.origin,
                      help=f"Write `{node.type}:{node.name} {{ {letter} = ... }}`; a relation "
                      "between effort and flow is an `R`.")  # fmt: skip
-        direction = left if solved and left not in symbols(right) else None
+        direction = left if solved and not occurs(left, right) else None
         return Law(expr, direction, equation.origin)
 
     def hold(self, node: NodeEntry, laws: tuple[Law, ...]) -> None:
@@ -397,4 +398,4 @@ def _has_factor(term: Expr, variable: Expr) -> bool:
         term = term.args[0]
     if term.op is not Op.MUL:
         return term is variable
-    return any(a is variable and e > 0 for a, e in zip(term.args, term.exponents, strict=True))
+    return any(a is variable and e > 0 for a, e in term.factors)

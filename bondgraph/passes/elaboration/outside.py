@@ -110,7 +110,7 @@ class Outside(Expressions):
 
 
 def _is_integral(node: Expr) -> bool:
-    return node.op is Op.SYM and node.symbol.kind is Kind.INTEGRAL
+    return node.kind is Kind.INTEGRAL
 
 
 def _at_home(found: Diagnostic, source: Source) -> Diagnostic:

@@ -78,7 +78,7 @@ class Received:
         zero = law.zero
         if zero.op is not Op.ADD:
             return law._replace(zero=self._pool.add((1, zero), (-1, symbol)))
-        terms = zip(zero.coefficients, zero.args, strict=True)
+        terms = zero.terms
         return law._replace(zero=self._pool.add(*terms, (-1, symbol)))
 
     def _note(self, entry: NodeEntry, node: Node, used: list[str]) -> None:

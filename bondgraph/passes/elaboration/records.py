@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from bondgraph.ir.expr import Expr, Kind, Op, symbols
 from bondgraph.ir.graph import Event, Input, Integral, Let, Sensor, Value
+from bondgraph.ir.nodes import occurs
 from bondgraph.ir.syntax import Input as InputStatement
 from bondgraph.ir.syntax import Let as LetStatement
 from bondgraph.ir.syntax import Node, Number, Param, Ref, Tolerance
@@ -180,7 +181,7 @@ class Records:
         assert term is not None
         self.values.alike(term, own, declaration.value.origin, f"sensor `{entry.local}` has the "
                           "unit of what it reads")  # fmt: skip
-        if symbol in symbols(*self.values.pool.logged([reads])):
+        if occurs(symbol, *self.values.pool.logged([reads])):
             fail(self.report, "circular-definition", f"Sensor `{entry.local}` reads itself.",
                  declaration.value.origin, help="A sensor reads signals of nodes, as in `rotor.f`."
                  )  # fmt: skip
@@ -290,7 +291,7 @@ class Records:
 
     def no_target(self, ref: Ref, symbol: Expr) -> None:
         """Report a target that cannot fail."""
-        if symbol.op is Op.SYM and symbol.symbol.kind is Kind.CONST:
+        if symbol.kind is Kind.CONST:
             message, help = f"`{ref.origin.text}` is a const: it cannot fail.", (
                 "Declare it `param`.")  # fmt: skip
         else:

@@ -204,7 +204,7 @@ class Values(Expressions):
     def received(self, entry: ValueEntry) -> Typed:
         """The value as an expression uses it: of a sensor its reading."""
         node, term = self.value(entry)
-        if node.op is Op.SYM and node.symbol.kind is Kind.SENSOR:
+        if node.kind is Kind.SENSOR:
             return self.pool.symbol(node.symbol.name, Kind.READING), term
         return node, term
 

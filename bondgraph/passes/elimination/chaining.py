@@ -18,7 +18,8 @@ from contextlib import suppress
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.solve import ITERATED, Solution, solve
 from bondgraph.ir.equation_system import Equation, EquationSystem
-from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
+from bondgraph.ir.expr import Expr, Kind, Op
+from bondgraph.ir.nodes import has, occurs
 from bondgraph.ir.residuals import Closing, How, Missing, ReducedSystem, Step
 from bondgraph.passes.elimination.colour import colours
 from bondgraph.passes.elimination.cost import FREE_START, ITERATION, LOOP, Cost, after
@@ -177,7 +178,7 @@ class Chain:
             late = FREE_START if free else 1
         elif solution.hard == ITERATED or (solution.hard and not self.starts):
             late = ITERATION
-        derived = equation.kind != "balance" and _differentiates(solution.value)
+        derived = equation.kind != "balance" and has([solution.value], Op.DER)
         cost = after(others, late, solution.hard, derived, self.free)
         offer = _Offer(
             cost, self.colour[row], self.variable_colour[variable], row,
@@ -208,7 +209,7 @@ class Chain:
     def without(self, row: int, variable: Expr) -> None:
         """An equation loses its last unknown where what stands before it is zero: a relation."""
         expr = self.substituted(self.system.equations[row].zero)
-        if variable not in symbols(expr):
+        if not occurs(variable, expr):
             self.used[row] = True
             self.loops.row(row, expr)
 
@@ -396,7 +397,3 @@ class Chain:
         found = self.loops.identities + len(told)
         steps = self.steps.values()
         return unaccounted(self.system, steps, told, found, certain, self.oversized)
-
-
-def _differentiates(value: Expr) -> bool:
-    return any(n.op is Op.DER for n in topological([value]))

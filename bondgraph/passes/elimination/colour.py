@@ -66,7 +66,7 @@ def _numbers(zero: Expr, nominal: Nominal) -> list[float]:
     """The sizes of the numbers in an equation; their signs depend on how bonds are drawn."""
     sizes = []
     for node in topological([zero]):
-        if node.op is Op.SYM and node.symbol.kind in CONSTANTS:
+        if node.kind in CONSTANTS:
             sizes.append(abs(nominal.value(node) or 0.0))
         elif node.op is Op.ADD:
             sizes += [abs(float(c)) for c in node.coefficients]

@@ -12,11 +12,12 @@ from collections.abc import Iterator
 
 from bondgraph.algebra.derivative import Jets, TooManyOperations
 from bondgraph.algebra.nominal import Nominal
-from bondgraph.algebra.solve import constant, solve
+from bondgraph.algebra.solve import solve
 from bondgraph.algebra.zero import is_zero
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.reactions import Reactions
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.nodes import constant, holding, occurs
 from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.passes.elimination.initial import without_free_integrals
@@ -166,7 +167,7 @@ class _Decoupling:
                     yield free
             for giving, taking in ((left, right), (right, left)):
                 found = solve(pool, giving, unknown, self.nominal.vanishes)
-                if found is not None and unknown not in symbols(found.value):
+                if found is not None and not occurs(unknown, found.value):
                     yield from self._replaced([taking], unknown, found.value) or ()
 
     def _replaced(self, exprs: list[Expr], place: Expr, value: Expr) -> list[Expr] | None:
@@ -181,18 +182,12 @@ class _Decoupling:
 
         The flow into a tank of unknown area, for instance: it can be solved for as a whole.
         """
-        holding: list[dict[Expr, None]] = []
-        for root in (a, b):
-            found: dict[Expr, None] = {}
-            for node in topological([root]):
-                if node is self.symbol or any(n in found for n in node.args):
-                    found[node] = None
-            holding.append(found)
-        common = [n for n in reversed(holding[0]) if n in holding[1] and n not in (a, b)]
+        one, other = (holding([root], lambda n: n is self.symbol) for root in (a, b))
+        common = [n for n in reversed(one) if n in other and n not in (a, b)]
         gates = []
         for node in common[:_GATES]:
             closed = self._replaced([a, b], node, self.signal) or [a]
-            if node is not self.symbol and self.symbol not in symbols(*closed):
+            if node is not self.symbol and not occurs(self.symbol, *closed):
                 gates.append(node)
         return gates
 
@@ -263,7 +258,7 @@ class _Decoupling:
 
     def _closing(self, first: Residual, other: Residual, expr: Expr) -> Closing | None:
         """The combination as a relation, if it is one and does not react to the fault."""
-        if self.signal in symbols(expr) or self.symbol in symbols(expr):
+        if occurs(self.signal, expr) or occurs(self.symbol, expr):
             return None
         if is_zero(expr) or len(topological([expr])) > _LIMIT:
             return None
@@ -308,7 +303,7 @@ def operator(pool: Pool, expr: Expr, symbol: Expr) -> _Operator | None:
         if node.op is Op.ADD:
             terms = [
                 (c, rows.get(a) or _Operator([], a))
-                for c, a in zip(node.coefficients, node.args, strict=True)
+                for c, a in node.terms
             ]
             size = max(len(r.coefficients) for _, r in terms)
             rows[node] = _Operator(
@@ -351,13 +346,13 @@ def cleared(pool: Pool, expr: Expr) -> Expr:
     >>> cleared(p, p.sub(x, p.div(y, x)))
     x^2 - y
     """
-    terms = zip(expr.coefficients, expr.args, strict=True) if expr.op is Op.ADD else [(1, expr)]
+    terms = expr.terms if expr.op is Op.ADD else [(1, expr)]
     below: dict[Expr, int] = {}
     flat = []
     for c, term in terms:
         flat.append((c, term))
         if term.op is Op.MUL:
-            for base, power in zip(term.args, term.exponents, strict=True):
+            for base, power in term.factors:
                 if power < 0 and not constant(base):
                     below[base] = max(below.get(base, 0), -power)
     factor = pool.mul(*[pool.power(base, power) for base, power in below.items()])
@@ -381,5 +376,5 @@ def _factors(node: Expr) -> dict[Expr, int]:
     if node.op is Op.ADD and len(node.args) == 1:
         node = node.args[0]
     if node.op is Op.MUL:
-        return {a: e for a, e in zip(node.args, node.exponents, strict=True) if e > 0}
+        return {a: e for a, e in node.factors if e > 0}
     return {} if node.op is Op.NUM else {node: 1}

@@ -60,7 +60,7 @@ def each_mode(system: EquationSystem, eliminate: _Eliminate) -> ReducedSystem | 
 def _modes(system: EquationSystem) -> list[Expr]:
     """The boolean inputs that the equations hold, in the order of the model."""
     nodes = topological([e.zero for e in system.equations])
-    used = {n for n in nodes if n.op is Op.SYM and n.symbol.kind is Kind.MODE}
+    used = {n for n in nodes if n.kind is Kind.MODE}
     return [i.symbol for i in system.graph.inputs if i.symbol in used]
 
 

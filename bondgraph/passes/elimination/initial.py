@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from bondgraph.algebra.affine import affine
 from bondgraph.algebra.cancelled import without
-from bondgraph.algebra.solve import affine, constant
 from bondgraph.algebra.summands import summands
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.nodes import constant, holding, rebuilt
 from bondgraph.text.tuples import NamedTuple
 
 _Value = Callable[[Expr, int], Expr]
@@ -47,7 +48,7 @@ def _freed(pool: Pool, expr: Expr, switches: int) -> Freed | None:
         if pushed is None:
             each = _in_each_position(pool, expr, switches)
             return each or _one_by_one(pool, _telling(pool, expr))
-        if not _holding(pushed):
+        if not _holders(pushed):
             return Freed(pushed, raw, order)
         raw = pool.der(raw)
     return None
@@ -58,7 +59,7 @@ def _in_each_position(pool: Pool, expr: Expr, switches: int) -> Freed | None:
     decided: dict[Expr, bool] = {}
     for node in topological([expr]):
         known = node.op in (Op.NUM, Op.LOGIC) and all(decided[a] for a in node.args)
-        decided[node] = known or (node.op is Op.SYM and node.symbol.kind is Kind.MODE)
+        decided[node] = known or (node.kind is Kind.MODE)
     choices = [n for n in decided if n.op is Op.IF and decided[n.args[0]]]
     if not choices or not switches:
         return None
@@ -99,9 +100,9 @@ def _telling(pool: Pool, expr: Expr) -> Expr:
     if len(topological([expr])) > _LARGE:
         return expr
     one, other = (pool.symbol(name, Kind.TEAR) for name in ("?one", "?other"))
-    holding = _holding(expr)
-    functions = [n for n in reversed(holding) if n.op is Op.FN]
-    for node in (*functions, *[n for n in holding if n.op is Op.INT]):
+    holders = _holders(expr)
+    functions = [n for n in reversed(holders) if n.op is Op.FN]
+    for node in (*functions, *[n for n in holders if n.op is Op.INT]):
         at = [pool.substitute([expr], {node: x})[0] for x in (one, other)]
         if at[0] is not expr and is_zero(pool.sub(*at)):
             for number in (pool.zero, pool.one):  # zero may stand below a fraction
@@ -114,13 +115,14 @@ def _telling(pool: Pool, expr: Expr) -> Expr:
 
 def _flat(pool: Pool, expr: Expr) -> Expr:
     """The expression with sums inside sums written as one, so that V - (V - x) becomes x."""
-    new: dict[Expr, Expr] = {}
-    for node in topological([expr]):
-        made = pool.rebuild(node, tuple(new[a] for a in node.args))
-        if made.op is Op.ADD:
-            made = pool.add(*[(c, term) for term, c in summands(made).items()])
-        new[node] = made
-    return new[expr]
+
+    def opened(node: Expr, args: tuple[Expr, ...]) -> Expr:
+        made = pool.rebuild(node, args)
+        if made.op is not Op.ADD:
+            return made
+        return pool.add(*[(c, term) for term, c in summands(made).items()])
+
+    return rebuilt(pool, [expr], opened)[0]
 
 
 def _one_by_one(pool: Pool, expr: Expr) -> Freed | None:
@@ -135,14 +137,14 @@ def _one_by_one(pool: Pool, expr: Expr) -> Freed | None:
         if pushed is None:
             return None
         expr = pushed
-        holding = _holding(expr)
-        if not holding:
+        holders = _holders(expr)
+        if not holders:
             return Freed(expr, raw, order)
         parts = None
-        for node in holding:
+        for node in holders:
             if node.op is Op.INT:
                 found = affine(pool, expr, node)
-                if found is not None and not _holding(found[0]) and not is_zero(found[0]):
+                if found is not None and not _holders(found[0]) and not is_zero(found[0]):
                     parts = node, *found
                     break
         if parts is None:
@@ -176,18 +178,18 @@ def _inside_out(pool: Pool, expr: Expr) -> Expr | None:
 
 def _change(pool: Pool, expr: Expr) -> Expr | None:
     """The derivative by the rules of sums and products, as far as free integrals are inside."""
-    holding = _holding(expr)
+    holders = _holders(expr)
     changed: dict[Expr, Expr] = {}
-    for node in holding:
+    for node in holders:
         if node.op is Op.INT:
             changed[node] = node.args[0]
         elif node.op is Op.ADD:
-            terms = zip(node.coefficients, node.args, strict=True)
+            terms = node.terms
             changed[node] = pool.add(*[(c, changed.get(a) or pool.der(a)) for c, a in terms])
         elif node.op is Op.MUL and all(
-            e == 1 for a, e in zip(node.args, node.exponents, strict=True) if a in holding
+            e == 1 for a, e in node.factors if a in holders
         ):
-            factors = [pool.power(a, e) for a, e in zip(node.args, node.exponents, strict=True)]
+            factors = [pool.power(a, e) for a, e in node.factors]
             slopes = [
                 changed.get(a) or pool.der(f) for a, f in zip(node.args, factors, strict=True)
             ]
@@ -198,48 +200,39 @@ def _change(pool: Pool, expr: Expr) -> Expr | None:
             changed[node] = pool.add(*[(1, p) for p in products])
         else:
             return None
-    return changed[expr] if expr in holding else pool.der(expr)
+    return changed[expr] if expr in holders else pool.der(expr)
 
 
-def _holding(expr: Expr) -> dict[Expr, None]:
+def _holders(expr: Expr) -> dict[Expr, None]:
     """The nodes that hold an integral whose start is not declared, arguments first."""
-    found: dict[Expr, None] = {}
-    for node in topological([expr]):
-        own = node.op is Op.INT and node.symbol.kind is Kind.FREE
-        if own or any(a in found for a in node.args):
-            found[node] = None
-    return found
+    return holding([expr], lambda n: n.op is Op.INT and n.symbol.kind is Kind.FREE)
 
 
 def _push(pool: Pool, expr: Expr, order: int) -> Expr | None:
     """The derivative of `order`, moved inwards as far as undeclared integrals make necessary."""
-    holding = _holding(expr)
-    demand: dict[Expr, set[int]] = {node: set() for node in holding}
+    holders = _holders(expr)
+    demand: dict[Expr, set[int]] = {node: set() for node in holders}
     demand.setdefault(expr, set()).add(order)
-    for node in reversed(holding):
+    for node in reversed(holders):
         for k in demand[node]:
-            below = _order_below(node, k, holding)
+            below = _order_below(node, k, holders)
             if below is None:
                 return None
             for arg in node.args:
-                if arg in holding:
+                if arg in holders:
                     demand[arg].add(below)
     made: dict[tuple[Expr, int], Expr] = {}
 
     def value(node: Expr, k: int) -> Expr:
-        if node in holding:
-            return made[node, k]
-        for _ in range(k):
-            node = pool.der(node)
-        return node
+        return made[node, k] if node in holders else pool.der(node, k)
 
-    for node in holding:
+    for node in holders:
         for k in sorted(demand[node]):
-            made[node, k] = _derived(pool, node, k, holding, value)
+            made[node, k] = _derived(pool, node, k, holders, value)
     return value(expr, order)
 
 
-def _order_below(node: Expr, k: int, holding: dict[Expr, None]) -> int | None:
+def _order_below(node: Expr, k: int, holders: dict[Expr, None]) -> int | None:
     """Which derivative of its arguments the k-th derivative of a node needs; None: too many."""
     if node.op is Op.DER:
         return k + 1
@@ -248,26 +241,26 @@ def _order_below(node: Expr, k: int, holding: dict[Expr, None]) -> int | None:
     if node.op is Op.ADD or k == 0:
         return k
     if node.op is Op.MUL:
-        inside = [e for a, e in zip(node.args, node.exponents, strict=True) if a in holding]
-        outside = [a for a in node.args if a not in holding]
+        inside = [e for a, e in node.factors if a in holders]
+        outside = [a for a in node.args if a not in holders]
         if inside == [1] and all(constant(a) for a in outside):
             return k
     return None
 
 
-def _derived(pool: Pool, node: Expr, k: int, holding: dict[Expr, None], value: _Value) -> Expr:
+def _derived(pool: Pool, node: Expr, k: int, holders: dict[Expr, None], value: _Value) -> Expr:
     if node.op is Op.DER:
         return value(node.args[0], k + 1)
     if node.op is Op.INT and k > 0:
         return value(node.args[0], k - 1)
     if node.op is Op.ADD:
-        terms = zip(node.coefficients, node.args, strict=True)
+        terms = node.terms
         return pool.add(*[(c, value(a, k)) for c, a in terms])
     if node.op is Op.MUL and k > 0:
         return pool.mul(
             *[
-                value(a, k) if a in holding else pool.power(a, e)
-                for a, e in zip(node.args, node.exponents, strict=True)
+                value(a, k) if a in holders else pool.power(a, e)
+                for a, e in node.factors
             ]
         )
     return pool.rebuild(node, tuple(value(a, 0) for a in node.args))

@@ -74,7 +74,7 @@ class _Start:
     def _row(self, node: Expr) -> _Row:
         if node.op is Op.ADD:
             total: _Row = {}
-            for c, arg in zip(node.coefficients, node.args, strict=True):
+            for c, arg in node.terms:
                 _add(total, self._rows[arg], Fraction(c))
             return total
         if node.op in (Op.DER, Op.INT):
@@ -93,7 +93,7 @@ class _Start:
         """A product of numbers with one thing that is open."""
         factor = Fraction(1)
         open_: Expr | None = None
-        for arg, exponent in zip(node.args, node.exponents, strict=True):
+        for arg, exponent in node.factors:
             row = self._rows[arg]
             if set(row) <= {None}:
                 value = row.get(None, Fraction(0))

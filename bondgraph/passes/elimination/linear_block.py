@@ -11,10 +11,11 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Container, Mapping, Sequence
 
+from bondgraph.algebra.affine import affine
 from bondgraph.algebra.modular import Field
-from bondgraph.algebra.solve import affine, constant
 from bondgraph.ir.equation_system import Equation
 from bondgraph.ir.expr import Expr, Pool
+from bondgraph.ir.nodes import constant
 from bondgraph.text.tuples import NamedTuple
 
 #: More products than this in one block are not written out: a gigabyte, and minutes of a compiler.

@@ -14,6 +14,7 @@ from itertools import permutations
 from bondgraph.algebra.in_mode import in_mode
 from bondgraph.algebra.summands import summands
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.nodes import holding
 from bondgraph.ir.residuals import Closing, ReducedSystem, Step
 from bondgraph.passes.elimination.each_mode import chosen, opposed
 from bondgraph.text.tuples import NamedTuple
@@ -51,13 +52,8 @@ def _switched(closing: Closing, mode: Expr) -> bool:
     nodes = topological([closing.expr, closing.raw])
     if len(nodes) > _LARGE:
         return False
-    holding = {mode}
-    for node in nodes:
-        if any(a in holding for a in node.args):
-            if node.op in (Op.INT, Op.ROOT):
-                return False
-            holding.add(node)
-    return closing.expr in holding
+    holders = holding([closing.expr, closing.raw], lambda n: n is mode)
+    return closing.expr in holders and not any(n.op in (Op.INT, Op.ROOT) for n in holders)
 
 
 def _exchange(pool: Pool, closings: list[Closing], members: list[int], mode: Expr) -> None:

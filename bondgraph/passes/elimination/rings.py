@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence, Set
 
+from bondgraph.algebra.affine import rest
 from bondgraph.algebra.sensitivity import sensitivity
-from bondgraph.algebra.solve import rest
 from bondgraph.ir.equation_system import Equation, EquationSystem
-from bondgraph.ir.expr import VARIABLES, Expr, Op, topological
+from bondgraph.ir.expr import VARIABLES, Expr, Op, topological, variables
 from bondgraph.ir.graph import Node
 from bondgraph.ir.groups import Groups
 
@@ -63,7 +63,7 @@ def _open(system: EquationSystem, node: Node, said: Set[Expr]) -> Expr | None:
     candidates = [own(f if own(e) in said else e) for e, f in conjugates]
     if node.common is not None:
         candidates = [own(node.common)]
-    return next((c for c in candidates if c.op is Op.SYM and c.symbol.kind in VARIABLES), None)
+    return next((c for c in candidates if c.kind in VARIABLES), None)
 
 
 def _closed(system: EquationSystem) -> bool:
@@ -80,7 +80,7 @@ def _closed(system: EquationSystem) -> bool:
 def _linear(system: EquationSystem, zero: Expr, number: Number) -> dict[Expr, float]:
     """The coefficients of a homogeneous linear equation; empty where it is none."""
     pool = system.graph.pool
-    unknown = [n for n in topological([zero]) if n.op is Op.SYM and n.symbol.kind in VARIABLES]
+    unknown = variables(zero)
     if rest(pool, zero, unknown) is not pool.zero:
         return {}
     found = {}

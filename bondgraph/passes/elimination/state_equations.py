@@ -12,11 +12,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence, Set
 from fractions import Fraction
 
+from bondgraph.algebra.affine import rest
 from bondgraph.algebra.derivative import Jets
 from bondgraph.algebra.in_mode import in_mode
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.sensitivity import sensitivity
-from bondgraph.algebra.solve import rest, solve
+from bondgraph.algebra.solve import solve
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import VARIABLES, Expr, Kind, Op, Pool, topological
@@ -271,7 +272,7 @@ class _Causaliser:
         integrated = set(states)
         unknown = [(v, m) for v, n in d.items() for m in range(n + 1) if (v, m) not in integrated]
         plain = {
-            self._derivative(v, m): self._symbol(v, m)
+            self.pool.der(v, m): self._symbol(v, m)
             for v, n in d.items()
             for m in range(1, n + 1)
         }
@@ -325,11 +326,6 @@ class _Causaliser:
     def _wish(self, variable: Expr) -> tuple[int, int]:
         """How much a variable is to be integrated rather than computed: the least first."""
         return self.preferred.get(variable, 0), variable.id
-
-    def _derivative(self, variable: Expr, order: int) -> Expr:
-        for _ in range(order):
-            variable = self.pool.der(variable)
-        return variable
 
     def _symbol(self, variable: Expr, order: int) -> Expr:
         """The variable itself, or a symbol of its own for its derivative."""

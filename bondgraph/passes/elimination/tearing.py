@@ -11,12 +11,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 
+from bondgraph.algebra.affine import affine
 from bondgraph.algebra.implicit import invert
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.operators import LinearRow, Operators
-from bondgraph.algebra.solve import ITERATED, Solution, affine, constant, solve
+from bondgraph.algebra.solve import ITERATED, Solution, solve
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.nodes import constant, holding
 from bondgraph.text.tuples import NamedTuple
 
 
@@ -308,10 +310,4 @@ def _signals(expr: Expr) -> int:
 
 def _differentiated(expr: Expr, symbol: Expr) -> bool:
     """Whether a derivative or an integral holds the symbol."""
-    holding = set()
-    for node in topological([expr]):
-        if node is symbol or any(a in holding for a in node.args):
-            if node.op in (Op.DER, Op.INT):
-                return True
-            holding.add(node)
-    return False
+    return any(n.op in (Op.DER, Op.INT) for n in holding([expr], lambda n: n is symbol))

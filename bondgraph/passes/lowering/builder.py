@@ -9,10 +9,10 @@ from functools import cached_property
 from typing import Literal
 
 from bondgraph.algebra.derivative import Jets
-from bondgraph.algebra.normalise import constant
 from bondgraph.algebra.numeric import evaluate, nominal
 from bondgraph.ir.expr import ZERO_START, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph, Input, Sensor, Value
+from bondgraph.ir.nodes import constant
 from bondgraph.ir.program import (
     Assign,
     Choice,

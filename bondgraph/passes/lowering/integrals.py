@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from bondgraph.algebra.normalise import constant
-from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.expr import Expr, Op, Pool
+from bondgraph.ir.nodes import constant, rebuilt
 
 
 def gathered(pool: Pool, expr: Expr, start: Expr) -> Expr:
@@ -13,17 +13,18 @@ def gathered(pool: Pool, expr: Expr, start: Expr) -> Expr:
 
     Only integrals from the symbol `start` (zero) are joined; the change Int(D(x)) stays.
     """
-    new: dict[Expr, Expr] = {}
-    for node in topological([expr]):
-        made = pool.rebuild(node, tuple(new[a] for a in node.args))
-        new[node] = _joined(pool, made, start) if made.op is Op.ADD else made
-    return new[expr]
+
+    def gathering(node: Expr, args: tuple[Expr, ...]) -> Expr:
+        made = pool.rebuild(node, args)
+        return _joined(pool, made, start) if made.op is Op.ADD else made
+
+    return rebuilt(pool, [expr], gathering)[0]
 
 
 def _joined(pool: Pool, node: Expr, start: Expr) -> Expr:
     rest: list[tuple[Fraction | int, Expr]] = []
     rates: list[tuple[Fraction | int, Expr]] = []
-    for c, arg in zip(node.coefficients, node.args, strict=True):
+    for c, arg in node.terms:
         factors = [arg] if arg.op is not Op.MUL else list(arg.args)
         found = [
             f

@@ -16,6 +16,7 @@ from math import inf
 from bondgraph.algebra.in_mode import in_mode
 from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import VARIABLES, Expr, Kind, Op, topological
+from bondgraph.ir.nodes import has
 from bondgraph.structural.rank import P, Point, Row
 
 _MOST = 6  # switches; each doubles the modes that are looked at
@@ -68,7 +69,7 @@ def _levels(system: EquationSystem, mode: Expr) -> dict[Expr, float] | None:
     still = [e.zero for e in system.equations if e.state is None]
     if len(inside) > _MOST or len(system.equations) << len(inside) > _WORK:
         return None
-    if any(n.op in (Op.DER, Op.INT) for n in topological(still)):
+    if has(still, Op.DER, Op.INT):
         return None  # a law with a derivative of its own
     lowest: dict[Expr, float] = {}
     point = _Gradients()

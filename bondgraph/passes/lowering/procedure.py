@@ -143,7 +143,7 @@ class Procedure:
             return _Piece(((Fraction(1), fixed, factors),), False)
         terms = []
         still: list[tuple[Fraction, Expr]] = []
-        for c, arg in zip(node.coefficients, node.args, strict=True):
+        for c, arg in node.terms:
             if self.hoist is not None and self.constant(arg):
                 still.append((c, arg))
             else:
@@ -158,7 +158,7 @@ class Procedure:
         return _Piece(tuple(terms), True)
 
     def _split(self, node: Expr) -> tuple[Expr | None, tuple[tuple[Expr, int], ...]]:
-        pairs = list(zip(node.args, node.exponents, strict=True))
+        pairs = list(node.factors)
         if self.hoist is None:
             return None, tuple(pairs)
         fixed = [self.pool.power(a, e) for a, e in pairs if self.constant(a)]
@@ -187,7 +187,7 @@ class Procedure:
             return Compare(node.name, left, right)
         if node.op is Op.LOGIC:
             return Logic(node.name, tuple(self._condition(a) for a in node.args))
-        if node.op is Op.SYM and node.symbol.kind is Kind.MODE:
+        if node.kind is Kind.MODE:
             value = self._made[node]
             assert isinstance(value, Choice)
             return value.condition

@@ -97,9 +97,7 @@ def _sum(builder: Builder, terms: Sequence[Term]) -> Expr:
     pool = builder.pool
     parts: list[Expr] = []
     for term in terms:
-        signal = term.atom
-        for _ in range(term.order):
-            signal = pool.der(signal)
+        signal = pool.der(term.atom, term.order)
         for _ in range(-term.order):
             signal = pool.integral(signal, builder.zero_start)
         parts.append(pool.mul(term.coefficient, signal))

@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from bondgraph.algebra.nominal import Nominal
-from bondgraph.algebra.solve import constant
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, topological
+from bondgraph.ir.nodes import constant, holding
 from bondgraph.ir.residuals import Step
 
 Denominator = dict[Expr, int]
@@ -41,7 +41,7 @@ def moduli(system: EquationSystem, steps: Sequence[Step]) -> list[Expr]:
             inside.update(dict.fromkeys(d for d in own if d not in written))
             seen.update(nodes)
     found = dict.fromkeys([*top, *pool.substitute(inside, {s.variable: s.closed for s in steps})])
-    known = _in_known_signals(found)
+    known = holding(found, lambda n: n.kind in KNOWN_SIGNALS)
     return [base for base in found if base in known]
 
 
@@ -53,22 +53,12 @@ def nothings(nominal: Nominal, expr: Expr) -> list[Expr]:
     return [base for base in found if constant(base, known) and nominal.vanishes(base)]
 
 
-def _in_known_signals(exprs: Iterable[Expr]) -> set[Expr]:
-    """The nodes below the expressions that hold a known signal, in one pass over all of them."""
-    holding: set[Expr] = set()
-    for node in topological(exprs):
-        own = node.op is Op.SYM and node.symbol.kind in KNOWN_SIGNALS
-        if own or any(a in holding for a in node.args):
-            holding.add(node)
-    return holding
-
-
 def _divisors(nodes: Iterable[Expr]) -> list[Expr]:
     return [
         arg
         for item in nodes
         if item.op is Op.MUL
-        for arg, exponent in zip(item.args, item.exponents, strict=True)
+        for arg, exponent in item.factors
         if exponent < 0
     ]
 
@@ -117,12 +107,12 @@ class _Fractions:
     def product(self, node: Expr) -> None:
         if not any(
             a in self.parts or (e < 0 and a in self.bases)
-            for a, e in zip(node.args, node.exponents, strict=True)
+            for a, e in node.factors
         ):
             return
         factors: list[Expr] = []
         below: Denominator = {}
-        for arg, exponent in zip(node.args, node.exponents, strict=True):
+        for arg, exponent in node.factors:
             upper, lower = self.parts.get(arg, (arg, {}))
             if arg in self.bases:
                 lower = {arg: -1}

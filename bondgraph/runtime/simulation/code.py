@@ -108,7 +108,7 @@ class Code:
 
     def _sum(self, expr: Expr) -> str:
         text = ""
-        for c, arg in zip(expr.coefficients, expr.args, strict=True):
+        for c, arg in expr.terms:
             own = self.write(arg)
             size = abs(float(c))
             term = own if size == 1 else f"{size!r}*{own}"
@@ -120,7 +120,7 @@ class Code:
 
     def _product(self, expr: Expr) -> str:
         above, below, scale = "", "", 1.0
-        for arg, exponent in zip(expr.args, expr.exponents, strict=True):
+        for arg, exponent in expr.factors:
             number = self.number(arg)
             if number is not None and (number or exponent > 0):
                 scale *= number**exponent

@@ -60,7 +60,7 @@ class Reckoning:
                 self.lacking[name] = unknown
         self.names = tuple(chosen)
         nodes = list(topological(chosen.values()))
-        symbols = [n for n in nodes if n.op is Op.SYM and n.symbol.kind in KNOWN_SIGNALS]
+        symbols = [n for n in nodes if n.kind in KNOWN_SIGNALS]
         self.signals = tuple(n.symbol.name for n in symbols)
         turns = {s.name: values.number(s.counts) for s in graph.sensors if s.counts is not None}
         self._unit = [2 * math.pi / turns[s] if counts and s in turns else 1.0
@@ -260,7 +260,7 @@ def _unknown(expr: Expr) -> str | None:
     for node in topological([expr]):
         if node.op is Op.ROOT:
             return "a root"
-        if node.op is Op.SYM and node.symbol.kind in VARIABLES:
+        if node.kind in VARIABLES:
             return node.symbol.name
     return None
 

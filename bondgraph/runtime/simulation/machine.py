@@ -179,7 +179,7 @@ class Machine:
             order = 0
             while node.op is Op.DER:
                 order, node = order + 1, node.args[0]
-            if node.op is Op.SYM and node.symbol.kind in (Kind.INPUT, Kind.UNKNOWN):
+            if node.kind in (Kind.INPUT, Kind.UNKNOWN):
                 found[Signal(node.symbol.name, order)] = None
         return tuple(found)
 
@@ -208,9 +208,7 @@ class Machine:
         pool = self.equations.graph.pool
         kinds = {i.name: i.symbol for i in self.equations.graph.inputs}
         leaf = kinds.get(signal.name) or pool.symbol(signal.name, Kind.INPUT)
-        for _ in range(signal.order):
-            leaf = pool.der(leaf)
-        return leaf
+        return pool.der(leaf, signal.order)
 
     def _needed(self, wanted: Sequence[Expr]) -> set[int]:
         """The blocks that the wanted expressions rest on."""

@@ -7,7 +7,8 @@ from fractions import Fraction
 
 import pytest
 
-from bondgraph.algebra.solve import affine, rest, solve
+from bondgraph.algebra.affine import affine, rest
+from bondgraph.algebra.solve import solve
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 
 NUMBERS = {"R": 3.0, "k": 0.7, "f": 0.4, "g": -1.3, "c": 2.5}
