@@ -14,8 +14,8 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from bondgraph.algebra.derivative import differentiate
-from bondgraph.algebra.modular import Field
 from bondgraph.algebra.record import record
+from bondgraph.algebra.zero import Constants
 from bondgraph.ir.expr import CONSTANTS, ZERO_START, Expr, Kind, Op, Pool, topological
 from bondgraph.ir.nodes import constant, rebuilt
 from bondgraph.ir.normal import NormalForm, Term
@@ -139,8 +139,8 @@ class _Normaliser:
         self.initials = initials
         self.limit = limit
         self.work = 0
-        self.field = Field(ZERO_START)
         self.start = pool.symbol(ZERO_START, Kind.INITIAL)
+        self.constants = Constants({self.start: pool.zero})
         self._forms: dict[Expr, Form] = {}
         self._constant: dict[Expr, bool] = {}
 
@@ -162,7 +162,7 @@ class _Normaliser:
 
     def simplified(self, coefficient: Expr) -> Expr:
         """The coefficient, or the number that it is."""
-        value = self.field.number(coefficient)
+        value = self.constants.number(coefficient)
         return coefficient if value is None else self.pool.num(value)
 
     def _combine(self, node: Expr) -> Form:

@@ -1,21 +1,21 @@
-"""Decide whether an expression is identically zero, by its value at a random point of a field.
+"""Decide whether expressions are identically zero, equal or a number, by values at two points.
 
-Schwartz (1980) and Zippel (1979): a rational expression that is not zero vanishes at a random
-point modulo 2**61 - 1 with a probability below 1e-15 for the sizes met here. Functions and
-derivatives count as independent unknowns of their arguments' values, which can only err towards
-"not zero".
+The points are random ones of a prime field; see `bondgraph.field.random_point`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from operator import mul
-from zlib import crc32
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import gcd
 
-from bondgraph.algebra.interpreter import Evaluated
-from bondgraph.ir.expr import Expr, Op, Rational
+from flint import nmod_poly
 
-PRIME = (1 << 61) - 1
+from bondgraph.field.prime import P
+from bondgraph.field.random_point import RandomPoint
+from bondgraph.ir.expr import Expr
+
+_LARGEST = 2**28  # numerator and denominator of a number that is recognised
 
 
 def is_zero(expr: Expr) -> bool:
@@ -28,7 +28,7 @@ def is_zero(expr: Expr) -> bool:
     >>> is_zero(p.sub(square, cross))
     True
     """
-    return all(_values([expr], seed)[expr] == 0 for seed in (1, 2))
+    return all(RandomPoint(seed).value(expr) == 0 for seed in (1, 2))
 
 
 def agree(pairs: Sequence[tuple[Expr, Expr]]) -> list[bool]:
@@ -44,93 +44,56 @@ def agree(pairs: Sequence[tuple[Expr, Expr]]) -> list[bool]:
     told = [(one, other) for one, other in pairs if one is not other]
     same = dict.fromkeys(told, True)
     for seed in (1, 2):
-        at = _values([e for pair in told for e in pair], seed)
+        point = RandomPoint(seed)
         for one, other in told:
-            value = at[one]
-            same[one, other] &= value is not None and value == at[other]
+            value = point.value(one)
+            same[one, other] &= value is not None and value == point.value(other)
     return [one is other or same[one, other] for one, other in pairs]
 
 
 def share_factor(a: list[Expr], b: list[Expr]) -> bool:
     """Whether two polynomials (coefficients from the constant up) have a common factor.
 
-    Euclid's algorithm on their values at a random point; a division by zero there counts as yes.
+    Of their values at a random point; a division by zero there counts as yes.
     """
-    at = _values([*a, *b], 3)
-    left, right = ([at[c] for c in p] for p in (a, b))
-    if None in left or None in right:
+    point = RandomPoint(3)
+    one, other = ([x for c in p if (x := point.value(c)) is not None] for p in (a, b))
+    if (len(one), len(other)) != (len(a), len(b)):
         return True
-    one, other = _trimmed(left), _trimmed(right)
-    while other:
-        top = pow(other[-1], -1, PRIME)
-        while len(one) >= len(other):
-            factor = one[-1] * top % PRIME
-            shift = len(one) - len(other)
-            for k, c in enumerate(other):
-                one[k + shift] = (one[k + shift] - factor * c) % PRIME
-            one = _trimmed(one[:-1])
-        one, other = other, one
-    return len(one) > 1
+    return bool(nmod_poly(one, P).gcd(nmod_poly(other, P)).degree() > 0)
 
 
-def _trimmed(values: Sequence[int | None]) -> list[int]:
-    known = [v for v in values if v is not None]
-    while known and not known[-1]:
-        known.pop()
-    return known
+class Constants:
+    """What coefficients are whatever the parameters are; values are kept, for one shares another.
 
-
-def _values(exprs: Sequence[Expr], seed: int) -> dict[Expr, int | None]:
-    """The nodes of some expressions at a random point; None where one divides by zero there."""
-    point = random_point(seed)
-    point.run(exprs)
-    return point.known
-
-
-def random_point(seed: object, zero: str | None = None) -> Evaluated[int]:
-    """A point of the prime field; functions, derivatives and conditions are drawn there as well.
-
-    `zero` is the name of a symbol that is zero.
+    `given` are the expressions of which some symbols have the values.
     """
 
-    def drawn(node: Expr, args: list[int]) -> int:
-        data = node.root.zero.id if node.op is Op.ROOT else node.data
-        return draw(f"{seed}:{node.op.value}:{data}:{args}")
+    def __init__(self, given: Mapping[Expr, Expr] | None = None) -> None:
+        self._points = [RandomPoint(seed, given) for seed in (1, 2)]
 
-    def symbol(node: Expr) -> int:
-        return 0 if node.symbol.name == zero else draw(f"{seed}:{node.symbol.name}")
+    def vanishes(self, expr: Expr) -> bool:
+        """Whether a coefficient is exactly zero."""
+        return all(point.value(expr) == 0 for point in self._points)
 
-    return Evaluated({**dict.fromkeys(Op, drawn), **RESIDUES}, symbol)
+    def number(self, expr: Expr) -> Fraction | None:
+        """The number that a coefficient always is, if it is one, neither large nor fine.
 
-
-def residue(value: Rational) -> int:
-    """A rational number modulo the prime; raises ValueError where that divides its denominator."""
-    if value.denominator == 1:
-        return value.numerator % PRIME
-    return value.numerator * pow(value.denominator, -1, PRIME) % PRIME
-
-
-def _sum(node: Expr, args: list[int]) -> int:
-    total: int = sum(map(mul, map(residue, node.coefficients), args))
-    return total % PRIME
+        >>> from bondgraph.ir.expr import Pool, Kind
+        >>> p = Pool(); a = p.symbol("a", Kind.PARAM)
+        >>> Constants().number(p.div(p.add((3, a), (3, p.one)), p.add((7, a), (7, p.one))))
+        Fraction(3, 7)
+        """
+        one, other = (point.value(expr) for point in self._points)
+        return None if one is None or one != other else _rational(one)
 
 
-def _product(node: Expr, args: list[int]) -> int:
-    value = 1
-    for e, x in zip(node.exponents, args, strict=True):
-        value = value * pow(x, e, PRIME) % PRIME
-    return value
-
-
-#: Arithmetic modulo the prime; a division by zero has no value.
-RESIDUES: dict[Op, Callable[[Expr, list[int]], int]] = {
-    Op.NUM: lambda node, _: residue(node.number),
-    Op.ADD: _sum,
-    Op.MUL: _product,
-}
-
-
-def draw(key: str) -> int:
-    """A number modulo the prime that looks random, and is the same for a key in every run."""
-    data = key.encode()
-    return (crc32(data) << 29 ^ crc32(data[::-1]) * 0x9E3779B97F4A7C15) % PRIME
+def _rational(value: int) -> Fraction | None:
+    """The small fraction that is `value` modulo the prime (Wang 1981), if there is one."""
+    r0, r1, t0, t1 = P, value, 0, 1
+    while r1 > _LARGEST:
+        quotient = r0 // r1
+        r0, r1, t0, t1 = r1, r0 - quotient * r1, t1, t0 - quotient * t1
+    if t1 == 0 or abs(t1) > _LARGEST or gcd(r1, abs(t1)) != 1:
+        return None
+    return Fraction(r1, t1)

@@ -12,7 +12,7 @@ import heapq
 from collections.abc import Callable, Container, Mapping, Sequence
 
 from bondgraph.algebra.affine import affine
-from bondgraph.algebra.modular import Field
+from bondgraph.algebra.zero import Constants
 from bondgraph.ir.equation_system import Equation
 from bondgraph.ir.expr import Expr, Pool
 from bondgraph.ir.nodes import constant
@@ -166,7 +166,7 @@ class _Elimination:
         self, pool: Pool, lines: Sequence[LinearEquation], size: Callable[[Expr], float]
     ) -> None:
         self.pool = pool
-        self.field = Field()
+        self.constants = Constants()
         self.rows = {
             at: _Row(line, {v: size(c) for v, c in line.entries.items()})
             for at, line in enumerate(lines)
@@ -227,7 +227,7 @@ class _Elimination:
         new = self.pool.add((1, old), (1, term))
         sum_ = row.sizes[variable] + size
         small = abs(sum_) <= _CANCELLED * abs(size)
-        if small and self.field.vanishes(new):
+        if small and self.constants.vanishes(new):
             del row.entries[variable], row.sizes[variable], self.holders[variable][number]
         else:
             row.entries[variable] = new

@@ -9,14 +9,14 @@ decimals are exact there, so that a gain of exactly 1 is told from one that is c
 
 from __future__ import annotations
 
-import math
+from collections.abc import Container, Mapping
 from heapq import heapify, heappop, heappush
 from typing import TypeVar
 
-from bondgraph.algebra.interpreter import Evaluated
-from bondgraph.algebra.zero import PRIME, RESIDUES, draw, residue
+from bondgraph.field.prime import P
+from bondgraph.field.random_point import RandomPoint
 from bondgraph.ir.equation_system import Equation, EquationSystem
-from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
+from bondgraph.ir.expr import Expr, Kind, symbols
 from bondgraph.notation.line import show
 from bondgraph.passes.causality.node_words import listing, name
 from bondgraph.text.diagnostic import Label, Report
@@ -34,13 +34,11 @@ def nominal_loops(system: EquationSystem, report: Report) -> None:
     if not 0 < len(equations) <= _LARGE:
         return
     given = {v.symbol: v.value for v in system.graph.values if v.value is not None}
-    free = _Point({}, computed)
-    generic = [free.gradient(e) for e in equations]
-    basis = [k for k, circuit in enumerate(_circuits(generic)) if circuit is None]
+    generic = _circuits(_gradients(equations, computed))
+    basis = [k for k, circuit in enumerate(generic) if circuit is None]
     if not any(s in given for k in basis for s in symbols(equations[k].zero)):
         return
-    point = _Point(given, computed)
-    found = _circuits([point.gradient(equations[k]) for k in basis])
+    found = _circuits(_gradients([equations[k] for k in basis], computed, given))
     singular = [[basis[k] for k in circuit] for circuit in found if circuit is not None]
     for members in singular[:_TOLD]:
         loop = [equations[k] for k in members]
@@ -52,10 +50,9 @@ def _in_loops(system: EquationSystem) -> tuple[list[Equation], set[Expr]]:
 
     That is each unknown of an equation without another, and each that no other equation has.
     """
-    point = _Point({}, set())
     computed: set[Expr] = set()
     equations = [e for e in system.equations if e.kind in ("balance", "law")]
-    rows = [set(point.gradient(e)) for e in equations]
+    rows = [set(row) for row in _gradients(equations, ())]
     holders: dict[Expr, set[int]] = {}
     for k, row in enumerate(rows):
         for variable in row:
@@ -87,72 +84,15 @@ def _in_loops(system: EquationSystem) -> tuple[list[Equation], set[Expr]]:
     return [equations[k] for k in sorted(alive)], computed
 
 
-class _Point:
-    """Values of parameters and signals: those that are given, random ones for all others.
-
-    What is `computed` already is no unknown.
-    """
-
-    def __init__(self, given: dict[Expr, Expr], computed: set[Expr]) -> None:
-        self.given = given
-        self.computed = computed
-        rules = {**dict.fromkeys(Op, _drawn), **RESIDUES, Op.MUL: self._product}
-        self._at = Evaluated(rules, self._of_symbol)
-
-    def gradient(self, equation: Equation) -> _Row:
-        """The derivative of an equation by the efforts and flows that it holds."""
-        rows: dict[Expr, _Row] = {}
-        for node in topological([equation.zero]):
-            if node.op is Op.SYM:
-                unknown = node.symbol.kind in (Kind.EFFORT, Kind.FLOW)
-                unknown = unknown and node not in self.computed
-                rows[node] = {node: 1} if unknown else {}
-                continue
-            total: _Row = {}
-            # a derivative or an integral does not answer without delay
-            delays = node.op in (Op.DER, Op.INT)
-            for k, arg in enumerate(() if delays else node.args):
-                if rows[arg]:
-                    slope = self.slope(node, k)
-                    for variable, c in rows[arg].items():
-                        total[variable] = (total.get(variable, 0) + slope * c) % PRIME
-            rows[node] = total
-        return {v: c for v, c in rows[equation.zero].items() if c}
-
-    def slope(self, node: Expr, at: int) -> int:
-        """The derivative of a node by one of its arguments; random for what is no sum, product."""
-        if node.op is Op.ADD:
-            return residue(node.coefficients[at])
-        if node.op is not Op.MUL:
-            return draw(f"slope {node.id} {at}")
-        product = node.exponents[at] % PRIME
-        for k, (arg, e) in enumerate(zip(node.args, node.exponents, strict=True)):
-            product = product * self.power(arg, e - (k == at)) % PRIME
-        return product
-
-    def power(self, node: Expr, exponent: int) -> int:
-        value = self.value(node)
-        if exponent < 0 and not value:
-            return draw(f"inverse {node.id}")  # that it has none is another's finding
-        return pow(value, exponent, PRIME)
-
-    def _of_symbol(self, symbol: Expr) -> int:
-        given = self.given.get(symbol)
-        return _drawn(symbol, []) if given is None else self.value(given)
-
-    def _product(self, node: Expr, _: list[int]) -> int:
-        factors = zip(node.args, node.exponents, strict=True)
-        return math.prod([self.power(arg, e) for arg, e in factors]) % PRIME
-
-    def value(self, root: Expr) -> int:
-        """The value at the point."""
-        found = self._at.value(root)
-        assert found is not None  # `power` has a value in any case
-        return found
-
-
-def _drawn(node: Expr, _: list[int]) -> int:
-    return draw(f"value {node.id}")
+def _gradients(
+    equations: list[Equation], computed: Container[Expr], given: Mapping[Expr, Expr] | None = None
+) -> list[_Row]:
+    """The derivatives of equations by their efforts and flows; what is `computed` is no unknown."""
+    point = RandomPoint(1, given)
+    sides = (Kind.EFFORT, Kind.FLOW)
+    return [
+        point.gradient(e.zero, lambda n: n.kind in sides and n not in computed) for e in equations
+    ]
 
 
 def _circuits(rows: list[_Row]) -> list[list[int] | None]:
@@ -183,9 +123,9 @@ def _circuits(rows: list[_Row]) -> list[list[int] | None]:
         for variable in row:
             holders[variable].discard(k)
         pivot = min(row, key=lambda v: (len(holders[v]), v.id))
-        inverse = pow(row[pivot], -1, PRIME)
+        inverse = pow(row[pivot], -1, P)
         for other in sorted(holders[pivot]):
-            factor = rows[other][pivot] * inverse % PRIME
+            factor = rows[other][pivot] * inverse % P
             before = set(rows[other])
             _subtract(rows[other], factor, row)
             _subtract(made[other], factor, made[k])
@@ -200,7 +140,7 @@ def _circuits(rows: list[_Row]) -> list[list[int] | None]:
 
 def _subtract(target: dict[K, int], factor: int, source: dict[K, int]) -> None:
     for key, c in source.items():
-        left = (target.get(key, 0) - factor * c) % PRIME
+        left = (target.get(key, 0) - factor * c) % P
         if left:
             target[key] = left
         else:
@@ -217,8 +157,8 @@ def _decisive(
     found = []
     for symbol in symbols(*[e.zero for e in equations]):
         if symbol in given:
-            point = _Point({s: v for s, v in given.items() if s is not symbol}, computed)
-            if all(c is None for c in _circuits([point.gradient(e) for e in equations])):
+            others = {s: v for s, v in given.items() if s is not symbol}
+            if all(c is None for c in _circuits(_gradients(equations, computed, others))):
                 found.append(symbol)
     return found
 

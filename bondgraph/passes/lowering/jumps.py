@@ -14,16 +14,21 @@ from itertools import product
 from math import inf
 
 from bondgraph.algebra.in_mode import in_mode
+from bondgraph.field.prime import P
+from bondgraph.field.random_point import RandomPoint
 from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import VARIABLES, Expr, Kind, Op, topological
 from bondgraph.ir.nodes import has
-from bondgraph.structural.rank import P, Point, Row
 
 _MOST = 6  # switches; each doubles the modes that are looked at
 _WORK = 20_000  # equations in all modes together
 
 _STATES = frozenset({Kind.STATE, Kind.INTEGRAL})
 _FREE = VARIABLES - _STATES - {Kind.UNKNOWN} | {Kind.SENSOR}  # what may change from now to now
+_MOVING = VARIABLES | {Kind.SENSOR}
+
+#: The derivative of an equation by each variable, at a random point.
+Row = dict[Expr, int]
 
 
 class Jumps:
@@ -87,12 +92,12 @@ class _Gradients:
     """The rows of equations, each made once."""
 
     def __init__(self) -> None:
-        self._point = Point(VARIABLES | {Kind.SENSOR})
+        self._point = RandomPoint(7)
         self._rows: dict[Expr, Row] = {}
 
     def of(self, expr: Expr) -> Row:
         if expr not in self._rows:
-            self._rows[expr] = self._point.gradient(expr)
+            self._rows[expr] = self._point.gradient(expr, lambda n: n.kind in _MOVING)
         return self._rows[expr]
 
 

@@ -6,8 +6,9 @@ import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bondgraph.algebra.modular import PRIME, Field
 from bondgraph.algebra.normalise import normalise, rewritten, static
+from bondgraph.field.prime import P
+from bondgraph.field.random_point import RandomPoint
 from bondgraph.ir.expr import Expr, Kind, Pool
 from bondgraph.notation.line import show
 from tests.unit.passes.lowering_models import Bench, cable, drive
@@ -125,21 +126,19 @@ def test_a_long_residual_becomes_a_tape_with_the_same_polynomials() -> None:
     taped = normalise(bench.pool, expr, limit=10)
     assert written.tape is None
     assert taped.tape is not None
-    field = Field()
+    point = RandomPoint(1)
     rows = {0: [1]}
     for edge in taped.tape.edges:
-        scale = field.value(edge.scale)
+        scale = point.value(edge.scale)
         assert scale is not None
         row = rows.setdefault(edge.target, [])
         source = rows[edge.source]
         row += [0] * (len(source) + edge.shift - len(row))
         for i, value in enumerate(source):
-            row[i + edge.shift] = (row[i + edge.shift] + scale[0] * value) % PRIME
+            row[i + edge.shift] = (row[i + edge.shift] + scale * value) % P
     for term in written.terms:
         (leaf,) = [f for f in taped.tape.leaves if f.atom is term.atom]
-        point = field.value(term.coefficient)
-        assert point is not None
-        assert rows[leaf.node][term.order] == point[0]
+        assert rows[leaf.node][term.order] == point.value(term.coefficient)
     assert sum(f.degree + 1 for f in taped.tape.leaves) == len(written.terms) == 16
 
 
