@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from bondgraph.algebra.interpreter import DOUBLES, Interpreter, Real
+from bondgraph.algebra.interpreter import DOUBLE, Interpreter, Real
 from bondgraph.ir.program import Program, Ref
 
 
@@ -33,8 +33,8 @@ class Sampled(Interpreter):
         functions: Mapping[str, Callable[..., Real]] | None = None,
         **options: Real,
     ) -> None:
-        own = {**DOUBLES.functions, **(functions or {})}
-        super().__init__(program, DOUBLES._replace(real=real, functions=own))
+        own = {**DOUBLE.functions, **(functions or {})}
+        super().__init__(program, DOUBLE._replace(real=real, functions=own))
         self.configure(params, options)
         self.age = 0
         self._counts: dict[str, int] = {}

@@ -11,15 +11,14 @@ piece; a jump of a mode or of a sign has no derivative and contributes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Generator, Iterable
 from fractions import Fraction
 from itertools import pairwise
 from math import comb
 from typing import TypeAlias
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, backwards, topological
-
-_Slope = Callable[[Pool, Expr, Expr], Expr]
+from bondgraph.ir.functions import FUNCTIONS
 
 #: A node and the order of its derivative.
 _Key: TypeAlias = tuple[Expr, int]
@@ -30,35 +29,6 @@ _Rule: TypeAlias = Generator[_Key, Expr, Expr]
 
 class TooManyOperations(Exception):
     """The derivative is larger than allowed."""
-
-
-def _root(pool: Pool, x: Expr) -> Expr:
-    return pool.power(pool.fn("sqrt", x), -1)
-
-
-#: d f(x) / dx, given the node f(x) and x
-_SLOPES: dict[str, _Slope] = {
-    "abs": lambda p, f, x: p.fn("sign", x),
-    "sign": lambda p, f, x: p.zero,
-    "sqrt": lambda p, f, x: p.scale(Fraction(1, 2), p.power(f, -1)),
-    "cbrt": lambda p, f, x: p.scale(Fraction(1, 3), p.power(f, -2)),
-    "ssqrt": lambda p, f, x: p.scale(Fraction(1, 2), p.power(p.fn("abs", f), -1)),
-    "ssq": lambda p, f, x: p.scale(2, p.fn("abs", x)),
-    "exp": lambda p, f, x: f,
-    "log": lambda p, f, x: p.power(x, -1),
-    "sin": lambda p, f, x: p.fn("cos", x),
-    "cos": lambda p, f, x: p.neg(p.fn("sin", x)),
-    "tan": lambda p, f, x: p.add((1, p.one), (1, p.power(f, 2))),
-    "asin": lambda p, f, x: _root(p, p.sub(p.one, p.power(x, 2))),
-    "acos": lambda p, f, x: p.neg(_root(p, p.sub(p.one, p.power(x, 2)))),
-    "atan": lambda p, f, x: p.power(p.add((1, p.one), (1, p.power(x, 2))), -1),
-    "sinh": lambda p, f, x: p.fn("cosh", x),
-    "cosh": lambda p, f, x: p.fn("sinh", x),
-    "tanh": lambda p, f, x: p.sub(p.one, p.power(f, 2)),
-    "asinh": lambda p, f, x: p.power(p.fn("cosh", f), -1),
-    "acosh": lambda p, f, x: _root(p, p.sub(p.power(x, 2), p.one)),
-    "atanh": lambda p, f, x: p.power(p.sub(p.one, p.power(x, 2)), -1),
-}
 
 
 def differentiate(pool: Pool, expr: Expr, times: int = 1) -> Expr:
@@ -227,10 +197,8 @@ class Jets:
         slope = yield x, 1
         if len(node.args) == 1 and slope is pool.zero:
             return pool.zero
-        if node.name.startswith("table:"):
-            return (yield from self._chain(_table_slope(pool, node.name, x), x, order))
         if len(node.args) == 1:
-            return (yield from self._chain(_SLOPES[node.name](pool, node, x), x, order))
+            return (yield from self._chain(_slopes(pool, node)[0], x, order))
         y = node.args[1]
         if node.name in ("min", "max"):
             first = pool.compare("<=" if node.name == "min" else ">=", x, y)
@@ -353,29 +321,18 @@ def partials(pool: Pool, node: Expr) -> list[Expr]:
         case Op.IF:
             yes, no = (pool.one, pool.zero), (pool.zero, pool.one)
             return [pool.zero, *[pool.choose(args[0], *branch) for branch in (yes, no)]]
-        case Op.FN if len(args) == 1:
-            if node.name.startswith("table:"):
-                return [_table_slope(pool, node.name, args[0])]
-            return [_SLOPES[node.name](pool, node, args[0])]
         case Op.FN:
-            return _partials_of_two(pool, node)
+            return _slopes(pool, node)
         case Op.ROOT:
             return [root_slope(pool, node, place) for place in node.root.places]
     return [pool.zero for _ in args]
 
 
-def _partials_of_two(pool: Pool, node: Expr) -> list[Expr]:
-    x, y = node.args
-    if node.name in ("min", "max"):
-        first = pool.compare("<=" if node.name == "min" else ">=", x, y)
-        return [pool.choose(first, pool.one, pool.zero), pool.choose(first, pool.zero, pool.one)]
-    if node.name == "atan2":
-        square = pool.add((1, pool.power(x, 2)), (1, pool.power(y, 2)))
-        return [pool.div(y, square), pool.neg(pool.div(x, square))]
-    assert node.name == "pow"
-    exponent = list(y.terms) if y.op is Op.ADD else [(1, y)]
-    lowered = pool.fn("pow", x, pool.add(*exponent, (-1, pool.one)))
-    return [pool.mul(y, lowered), pool.mul(node, pool.fn("log", x))]
+def _slopes(pool: Pool, node: Expr) -> list[Expr]:
+    """The derivatives of a function by its arguments."""
+    if node.name.startswith("table:"):
+        return [_table_slope(pool, node.name, node.args[0])]
+    return [slope(pool, node, *node.args) for slope in FUNCTIONS[node.name].slopes]
 
 
 def operations(roots: Iterable[Expr]) -> int:

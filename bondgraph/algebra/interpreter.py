@@ -64,7 +64,7 @@ def _branch(holds: Any, yes: Callable[[], Real], no: Callable[[], Real]) -> Real
 
 
 #: The functions of `bondgraph.ir.expr` on doubles; some of them keep a fraction a fraction.
-FUNCTIONS: dict[str, Callable[..., Any]] = {
+DOUBLES: dict[str, Callable[..., Any]] = {
     **{
         name: getattr(math, name)
         for name in "sqrt cbrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh"
@@ -150,7 +150,7 @@ def _logic(node: Expr, args: list[Any]) -> bool:
 
 
 def _function(node: Expr, args: list[Any]) -> Any:
-    function = FUNCTIONS.get(node.name)
+    function = DOUBLES.get(node.name)
     return None if function is None else function(*args)
 
 
@@ -181,13 +181,13 @@ class Number(NamedTuple):
     """
 
     real: Callable[[float], Real] = float
-    functions: Mapping[str, Callable[..., Real]] = FUNCTIONS
+    functions: Mapping[str, Callable[..., Real]] = DOUBLES
     power: Callable[[Real, int], Real] = pow
     table: Callable[[Points], Callable[[Real], Real]] = interpolation
     choose: Callable[[Any, Callable[[], Real], Callable[[], Real]], Real] = _branch
 
 
-DOUBLES = Number()
+DOUBLE = Number()
 
 
 class Interpreter:
@@ -196,7 +196,7 @@ class Interpreter:
     Whatever a number raises where a law has no value goes to the caller.
     """
 
-    def __init__(self, program: Program, number: Number = DOUBLES) -> None:
+    def __init__(self, program: Program, number: Number = DOUBLE) -> None:
         self.program = program
         self.number = number
         self.values: dict[Ref, Real] = {}

@@ -13,67 +13,17 @@ from functools import reduce
 from itertools import pairwise
 
 from bondgraph.algebra.affine import affine
-from bondgraph.algebra.interpreter import FUNCTIONS, Evaluated
+from bondgraph.algebra.interpreter import DOUBLES, Evaluated
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, backwards, topological
-from bondgraph.text.tuples import NamedTuple
+from bondgraph.ir.functions import ALL, FUNCTIONS, POSITIVE, Function, Interval
 
 _INF = math.inf
 
 
-class Range(NamedTuple):
-    """Numbers from `low` to `high`; a bound that is `open` is met at single points at most."""
-
-    low: float = -_INF
-    high: float = _INF
-    open_low: bool = True
-    open_high: bool = True
-
-
-ALL = Range()
-ONE = Range(1.0, 1.0, False, False)
-ZERO = Range(0.0, 0.0, False, False)
-_POSITIVE = Range(0.0, _INF, True, True)
-_UNIT = Range(0.0, 1.0, True, True)
-
-#: Values and slopes of functions over the numbers where they are defined.
-_VALUES = {
-    "abs": _POSITIVE,
-    "sqrt": _POSITIVE,
-    "exp": _POSITIVE,
-    "cosh": Range(1.0, _INF, True, True),
-    "sin": Range(-1.0, 1.0),
-    "cos": Range(-1.0, 1.0),
-    "tanh": Range(-1.0, 1.0),
-    "atan": Range(-math.pi / 2, math.pi / 2),
-    "asin": Range(-math.pi / 2, math.pi / 2),
-    "acos": Range(0.0, math.pi),
-    "acosh": _POSITIVE,
-    "sign": Range(-1.0, 1.0, False, False),
-}
-_SLOPES = {
-    "abs": Range(-1.0, 1.0, False, False),
-    "sign": Range(0.0, _INF, False, True),
-    "sqrt": _POSITIVE,
-    "cbrt": _POSITIVE,
-    "ssqrt": _POSITIVE,
-    "ssq": _POSITIVE,
-    "exp": _POSITIVE,
-    "log": _POSITIVE,
-    "sinh": Range(1.0, _INF, True, True),
-    "tanh": _UNIT,
-    "atan": _UNIT,
-    "asinh": _UNIT,
-    "atanh": Range(1.0, _INF, True, True),
-    "asin": Range(1.0, _INF, True, True),
-    "acos": Range(-_INF, -1.0, True, True),
-    "acosh": _POSITIVE,
-    "sin": Range(-1.0, 1.0),
-    "cos": Range(-1.0, 1.0),
-}
-
-#: Functions that have a value for positive arguments alone.
-_OF_POSITIVE = frozenset({"log", "sqrt", "pow"})
+ONE = Interval(1.0, 1.0, False, False)
+ZERO = Interval(0.0, 0.0, False, False)
+_NEGATIVE = Interval(-_INF, 0.0)
 
 
 def direction(
@@ -97,7 +47,7 @@ def direction(
     return None
 
 
-def _sign(slope: Range | None) -> int | None:
+def _sign(slope: Interval | None) -> int | None:
     if slope is None:
         return None
     if slope.low > 0 or (slope.low == 0 and slope.open_low):
@@ -113,20 +63,20 @@ def slope_range(
     variable: Expr,
     number: Callable[[Expr], float | None],
     exact: bool = False,
-    given: Mapping[Expr, Range] | None = None,
-) -> Range | None:
+    given: Mapping[Expr, Interval] | None = None,
+) -> Interval | None:
     """The slopes that the expression may have; None where it may jump or cannot be followed.
 
     It jumps where it divides by what may be zero: on either side of such a pole a root may lie.
     """
     given = {variable: _domain(expr, variable), **(given or {})}
 
-    def symbol(node: Expr) -> Range:
-        return _constant(node, number, exact) if node.symbol.kind in CONSTANTS else ALL
+    def symbol(node: Expr) -> Interval:
+        return _given(node, number, exact) if node.symbol.kind in CONSTANTS else ALL
 
     point = Evaluated(_RANGES, symbol, given)
     values = point.values([expr])
-    slopes: dict[Expr, Range] = {variable: ONE}
+    slopes: dict[Expr, Interval] = {variable: ONE}
     for node in topological([expr]):
         if node in given or not any(a in slopes for a in node.args):
             continue
@@ -137,52 +87,52 @@ def slope_range(
     return slopes.get(expr, ZERO)
 
 
-def _domain(expr: Expr, variable: Expr) -> Range:
+def _domain(expr: Expr, variable: Expr) -> Interval:
     """The numbers that the variable may be: positive, where some function needs that throughout."""
     for node in topological([expr], stop=lambda n: n.op is Op.IF):
-        if node.op is Op.FN and node.name in _OF_POSITIVE and node.args[0] is variable:
-            return _POSITIVE
+        own = node.op is Op.FN and node.args[0] is variable
+        if own and (node.name == "pow" or _record(node).domain.low == 0):
+            return POSITIVE
     return ALL
 
 
-def _constant(node: Expr, number: Callable[[Expr], float | None], exact: bool) -> Range:
+def _given(node: Expr, number: Callable[[Expr], float | None], exact: bool) -> Interval:
     x = number(node)
     if x is None:
         return ALL
     if exact:
-        return Range(x, x, False, False)
+        return Interval(x, x, False, False)
     if not x:
         return ZERO
-    return _POSITIVE if x > 0 else Range(-_INF, 0.0, True, True)
+    return POSITIVE if x > 0 else _NEGATIVE
 
 
-def _function(node: Expr, args: list[Range]) -> Range:
-    if node.name in ("tanh", "atan", "exp", "sinh", "asinh", "cbrt", "ssqrt", "ssq"):
-        return _through(node.name, args[0])
+def _function(node: Expr, args: list[Interval]) -> Interval:
     if node.name == "pow" and args[0].low >= 0:
-        return _POSITIVE
-    return _VALUES.get(node.name, ALL)
+        return POSITIVE
+    record = _record(node)
+    return _through(node.name, args[0]) if record.grows else record.values
 
 
-def _through(name: str, a: Range) -> Range:
+def _through(name: str, a: Interval) -> Interval:
     """A growing function at the ends of a range."""
 
     def at(x: float) -> float:
         try:
-            return float(FUNCTIONS[name](x))
+            return float(DOUBLES[name](x))
         except OverflowError:
             return math.copysign(_INF, x)
 
-    return Range(at(a.low), at(a.high), a.open_low, a.open_high)
+    return Interval(at(a.low), at(a.high), a.open_low, a.open_high)
 
 
 def _slope(
     pool: Pool,
     node: Expr,
     variable: Expr,
-    values: Mapping[Expr, Range],
-    slopes: Mapping[Expr, Range],
-) -> Range | None:
+    values: Mapping[Expr, Interval],
+    slopes: Mapping[Expr, Interval],
+) -> Interval | None:
     """The slope of a node from those of its arguments; None where it may jump."""
     args = node.args
     match node.op:
@@ -216,38 +166,41 @@ def _slope(
 
 
 def _slope_of_function(
-    pool: Pool, node: Expr, values: Mapping[Expr, Range], slopes: Mapping[Expr, Range]
-) -> Range | None:
+    pool: Pool, node: Expr, values: Mapping[Expr, Interval], slopes: Mapping[Expr, Interval]
+) -> Interval | None:
     if node.name in ("min", "max"):
         return join(*[slopes.get(a, ZERO) for a in node.args])
     if node.name == "pow" and node.args[1].op is Op.NUM and values[node.args[0]].low >= 0:
-        return times(scale(float(node.args[1].number), _POSITIVE), slopes[node.args[0]])
+        return times(scale(float(node.args[1].number), POSITIVE), slopes[node.args[0]])
     a = node.args[0]
     if node.name == "abs" and values[a].low >= 0:
         return slopes[a]
     if node.name.startswith("table:"):
         return times(_slopes_of_table(pool, node.name), slopes[a])
-    if node.name == "cosh":
-        return times(ALL, slopes[a])
-    own = _SLOPES.get(node.name)
+    own = _record(node).rates
     return None if own is None else times(own, slopes[a])
 
 
-def _slopes_of_table(pool: Pool, name: str) -> Range:
+def _record(node: Expr) -> Function:
+    """What is known of a function; of a table nothing."""
+    return FUNCTIONS.get(node.name, Function(()))
+
+
+def _slopes_of_table(pool: Pool, name: str) -> Interval:
     """Between its points; beyond its ends a table is constant, or has no value: see `Pool.rows`."""
     name = name.removeprefix("table:")
     slopes = [float((y1 - y0) / (x1 - x0)) for (x0, y0), (x1, y1) in pairwise(pool.tables[name])]
     if not backwards(name):
         slopes.append(0.0)
-    return Range(min(slopes), max(slopes), False, False)
+    return Interval(min(slopes), max(slopes), False, False)
 
 
-def _slope_of_root(pool: Pool, node: Expr, slopes: Mapping[Expr, Range]) -> Range | None:
+def _slope_of_root(pool: Pool, node: Expr, slopes: Mapping[Expr, Interval]) -> Interval | None:
     """By the theorem of the implicit function, with anything in the other places."""
     root = node.root
     own = slope_range(pool, root.zero, root.unknown, lambda _: None)
     # the root was found monotone with the ranges of its own arguments
-    below = _POSITIVE if root.rising else Range(-_INF, 0.0, True, True)
+    below = POSITIVE if root.rising else _NEGATIVE
     if own is not None and _sign(own) is not None:
         below = own
     total = ZERO
@@ -278,11 +231,11 @@ def _continuous(pool: Pool, node: Expr, variable: Expr) -> bool:
 # ------------------------------------------------------------------------------ arithmetic
 
 
-def add(*terms: Range) -> Range:
+def add(*terms: Interval) -> Interval:
     """The sum; a bound is met at single points if that of any term is."""
     if not terms:
         return ZERO
-    return Range(
+    return Interval(
         sum(t.low for t in terms),
         sum(t.high for t in terms),
         any(t.open_low for t in terms),
@@ -290,17 +243,17 @@ def add(*terms: Range) -> Range:
     )
 
 
-def scale(c: float, a: Range) -> Range:
+def scale(c: float, a: Interval) -> Interval:
     """A number times a range."""
     if not c:
         return ZERO
     low, high = c * a.low, c * a.high
     if c < 0:
-        return Range(high, low, a.open_high, a.open_low)
-    return Range(low, high, a.open_low, a.open_high)
+        return Interval(high, low, a.open_high, a.open_low)
+    return Interval(low, high, a.open_low, a.open_high)
 
 
-def times(a: Range, b: Range) -> Range:
+def times(a: Interval, b: Interval) -> Interval:
     """The product."""
     corners = []
     for x, x_open in ((a.low, a.open_low), (a.high, a.open_high)):
@@ -313,7 +266,7 @@ def times(a: Range, b: Range) -> Range:
             corners.append((product, met))
     low, high = min(c for c, _ in corners), max(c for c, _ in corners)
     inside = (a.low < 0 < a.high) or (b.low < 0 < b.high)
-    return Range(
+    return Interval(
         low,
         high,
         not any(met for c, met in corners if c == low) and not (low == 0 and inside),
@@ -321,7 +274,7 @@ def times(a: Range, b: Range) -> Range:
     )
 
 
-def power(a: Range, exponent: int) -> Range:
+def power(a: Interval, exponent: int) -> Interval:
     """An integer power."""
     if exponent == 0:
         return ONE
@@ -329,18 +282,18 @@ def power(a: Range, exponent: int) -> Range:
         base = power(a, -exponent)
         if base.low >= 0:
             low, high = (1 / x if x else _INF for x in (base.high, base.low))
-            return Range(low, high, base.open_high or not base.high, base.open_low)
+            return Interval(low, high, base.open_high or not base.high, base.open_low)
         if base.high <= 0:
             return scale(-1.0, power(scale(-1.0, base), -1))
         return ALL
     if exponent % 2:
-        return Range(_raise(a.low, exponent), _raise(a.high, exponent), a.open_low, a.open_high)
+        return Interval(_raise(a.low, exponent), _raise(a.high, exponent), a.open_low, a.open_high)
     if a.low >= 0 or a.high <= 0:
         size = a if a.low >= 0 else scale(-1.0, a)
         low, high = _raise(size.low, exponent), _raise(size.high, exponent)
-        return Range(low, high, size.open_low, size.open_high)
+        return Interval(low, high, size.open_low, size.open_high)
     far = max((abs(a.low), a.open_low), (abs(a.high), a.open_high))
-    return Range(0.0, _raise(far[0], exponent), True, far[1])
+    return Interval(0.0, _raise(far[0], exponent), True, far[1])
 
 
 def _raise(x: float, exponent: int) -> float:
@@ -350,14 +303,14 @@ def _raise(x: float, exponent: int) -> float:
         return math.copysign(_INF, x) if exponent % 2 else _INF
 
 
-def _product(node: Expr, args: list[Range]) -> Range:
+def _product(node: Expr, args: list[Interval]) -> Interval:
     return reduce(times, map(power, args, node.exponents), ONE)
 
 
-def join(*ranges: Range) -> Range:
+def join(*ranges: Interval) -> Interval:
     """Whatever one of the ranges holds."""
     low, high = min(r.low for r in ranges), max(r.high for r in ranges)
-    return Range(
+    return Interval(
         low,
         high,
         all(r.open_low for r in ranges if r.low == low),
@@ -365,7 +318,7 @@ def join(*ranges: Range) -> Range:
     )
 
 
-_RANGES: dict[Op, Callable[[Expr, list[Range]], Range]] = {
+_RANGES: dict[Op, Callable[[Expr, list[Interval]], Interval]] = {
     **dict.fromkeys(Op, lambda *_: ALL),
     Op.NUM: lambda node, _: scale(float(node.number), ONE),
     Op.ADD: lambda node, args: add(*map(scale, map(float, node.coefficients), args)),

@@ -8,7 +8,7 @@ from functools import cached_property
 from operator import mul
 from typing import TYPE_CHECKING
 
-from bondgraph.algebra.interpreter import EXACT, FUNCTIONS, Evaluated
+from bondgraph.algebra.interpreter import DOUBLES, EXACT, Evaluated
 from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 
@@ -173,5 +173,5 @@ def defined(expr: Expr, variable: Expr, at: float) -> bool:
 _SOME: dict[Op, Callable[[Expr, list[float]], float | None]] = {
     **dict.fromkeys(Op, lambda *_: 1.0),
     **{op: _DOUBLES[op] for op in (Op.NUM, Op.ADD, Op.MUL)},
-    Op.FN: lambda node, args: _DOUBLES[Op.FN](node, args) if node.name in FUNCTIONS else 1.0,
+    Op.FN: lambda node, args: _DOUBLES[Op.FN](node, args) if node.name in DOUBLES else 1.0,
 }

@@ -17,6 +17,7 @@ from bondgraph.algebra.derivative import differentiate
 from bondgraph.algebra.record import record
 from bondgraph.algebra.zero import Constants
 from bondgraph.ir.expr import CONSTANTS, ZERO_START, Expr, Kind, Op, Pool, topological
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.ir.nodes import constant, rebuilt
 from bondgraph.ir.normal import NormalForm, Term
 
@@ -30,16 +31,6 @@ _PRODUCT_LIMIT = 24  # terms that a product with a derivative in it is multiplie
 _NONE: Mapping[Expr, Expr] = MappingProxyType({})
 _SHORT = 6  # terms of a sum that is merged into another
 _MERGE_LIMIT = 400  # nodes that may stand inside a nonlinear atom for it to be rewritten
-
-#: Integral of f(x) dx, for D to be taken out of f(x) D(x): factor and function.
-_ANTIDERIVATIVES = {
-    "sin": (Fraction(-1), "cos"),
-    "cos": (Fraction(1), "sin"),
-    "exp": (Fraction(1), "exp"),
-    "sinh": (Fraction(1), "cosh"),
-    "cosh": (Fraction(1), "sinh"),
-    "abs": (Fraction(1, 2), "ssq"),
-}
 
 
 class _TooLarge(Exception):
@@ -347,9 +338,9 @@ class _Normaliser:
                 exponent = int(min(ratios))
         if exponent is not None and exponent != -1:
             return number / (exponent + 1), pool.power(atom, exponent + 1)
-        if factor.op is Op.FN and factor.args == (atom,) and factor.name in _ANTIDERIVATIVES:
-            scale, name = _ANTIDERIVATIVES[factor.name]
-            return number * scale, pool.fn(name, atom)
+        if factor.op is Op.FN and factor.args == (atom,) and factor.name in FUNCTIONS:
+            found = FUNCTIONS[factor.name].integral
+            return None if found is None else (number * found[0], pool.fn(found[1], atom))
         return None
 
     # ---------------------------------------------------------- rewriting

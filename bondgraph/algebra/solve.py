@@ -26,23 +26,9 @@ from bondgraph.ir.expr import (
     topological,
     whole,
 )
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.ir.nodes import constant, holding
 from bondgraph.text.tuples import NamedTuple
-
-#: Functions that are one to one on the reals (or where they are defined), with their inverses.
-INVERSE = {
-    "ssqrt": "ssq",
-    "ssq": "ssqrt",
-    "exp": "log",
-    "log": "exp",
-    "tanh": "atanh",
-    "atanh": "tanh",
-    "sinh": "asinh",
-    "asinh": "sinh",
-    "atan": "tan",
-    "asin": "sin",
-}
-
 
 #: How hard it is to have a value that iteration has to find.
 ITERATED = 5
@@ -192,17 +178,19 @@ def _peel(
             if root is None:
                 return None
             target = root
-        elif node.op is Op.FN and node.name in INVERSE:
-            target = pool.fn(INVERSE[node.name], target)
-        elif node.op is Op.FN and node.name == "sqrt":
-            target = pool.power(target, 2)
-        elif node.op is Op.FN and node.name == "cbrt":
-            target = pool.power(target, 3)
-        elif node.op is Op.FN and node.name.startswith("table:"):
-            inverse = _inverse_table(pool, node.name)
+        elif node.op is Op.FN and node.name in FUNCTIONS:
+            inverse = FUNCTIONS[node.name].inverse
             if inverse is None:
                 return None
-            target = pool.fn(inverse, target)
+            if isinstance(inverse, int):
+                target = pool.power(target, inverse)
+            else:
+                target = pool.fn(inverse, target)
+        elif node.op is Op.FN and node.name.startswith("table:"):
+            table = _inverse_table(pool, node.name)
+            if table is None:
+                return None
+            target = pool.fn(table, target)
         else:
             return None
         node = inner

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from decimal import Context, Decimal, localcontext
 from functools import partial
 
-from bondgraph.algebra.interpreter import FUNCTIONS, Interpreter, Number, interpolation
+from bondgraph.algebra.interpreter import DOUBLES, Interpreter, Number, interpolation
 from bondgraph.ir.program import Assign, Dot, NewtonBlock, PolynomialTape, Program, Ref
 
 _CONTEXT = Context(prec=40, Emax=99999, Emin=-99999)
@@ -86,7 +86,7 @@ def _in_double(function: Callable[..., float], *args: Value) -> Value:
 
 _SIZED = Number(
     value,
-    {name: partial(_in_double, function) for name, function in FUNCTIONS.items()},
+    {name: partial(_in_double, function) for name, function in DOUBLES.items()},
     table=lambda points: partial(_in_double, interpolation(points)),
 )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.ir.unit import NONE, Dimension, over, raised, times
 from bondgraph.library.units import describe
 
@@ -12,7 +13,6 @@ if TYPE_CHECKING:
     from bondgraph.pipeline import Compilation
 
 _SECOND: Dimension = (0, 0, 1, 0, 0, 0, 0)
-_LIKE = frozenset({"abs", "min", "max"})  # functions whose value is in the unit of what they get
 
 
 def residual_units(compilation: Compilation) -> dict[str, str]:
@@ -58,6 +58,7 @@ def _dimension(node: Expr, known: dict[Expr, Dimension | None]) -> Dimension | N
         case Op.IF:
             return args[1] or args[2]
         case Op.FN:
-            return args[0] if node.name in _LIKE else None
+            record = FUNCTIONS.get(node.name)
+            return args[0] if record is not None and record.unit == 1 else None
         case _:
             return None

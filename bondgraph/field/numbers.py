@@ -54,7 +54,7 @@ class Numbers(Protocol):
         ...
 
     def value(self, name: str, x: Number) -> Number:
-        """A function of one argument of `bondgraph.ir.expr.FUNCTIONS`, or `table:<id>`."""
+        """A function of one argument of `bondgraph.ir.functions.FUNCTIONS`, or `table:<id>`."""
         ...
 
     def exp(self, x: Number) -> Number:

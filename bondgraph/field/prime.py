@@ -193,7 +193,7 @@ class PrimeField:
         return found
 
     def value(self, name: str, x: Number) -> Number:
-        """A function of one argument of `bondgraph.ir.expr.FUNCTIONS`, or `table:<id>`.
+        """A function of one argument of `bondgraph.ir.functions.FUNCTIONS`, or `table:<id>`.
 
         Raises `Undefined` where the function has no value.
         """

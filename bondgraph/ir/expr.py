@@ -14,6 +14,7 @@ from fractions import Fraction
 from operator import attrgetter
 from typing import TypeAlias
 
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.text.tuples import NamedTuple
 
 Rational: TypeAlias = int | Fraction
@@ -62,18 +63,6 @@ KNOWN_SIGNALS = frozenset({Kind.INPUT, Kind.SENSOR, Kind.READING, Kind.MODE})
 ZERO_START = "0"  # the initial value of an integral that starts at zero
 CONSTANTS = frozenset({Kind.PARAM, Kind.CONST, Kind.INITIAL, Kind.FREE})
 VARIABLES = frozenset({Kind.UNKNOWN, Kind.EFFORT, Kind.FLOW, Kind.STATE, Kind.INTEGRAL, Kind.TEAR})
-
-#: Functions of one argument (`pow`, `min`, `max`, `atan2` take two; `table:<id>` takes one).
-#: `ssqrt(x) = sign(x) sqrt(|x|)` and `ssq(x) = x |x|` are inverse to each other.
-FUNCTIONS = frozenset(
-    "abs sign sqrt cbrt ssqrt ssq exp log sin cos tan asin acos atan "
-    "sinh cosh tanh asinh acosh atanh pow min max atan2".split()
-)
-
-#: Their values at zero, where some have no slope to differentiate.
-_AT_ZERO = dict.fromkeys(
-    "abs sign sqrt cbrt ssqrt ssq sin tan asin atan sinh tanh asinh atanh".split(), 0
-) | {"exp": 1, "cos": 1, "cosh": 1}
 
 
 class Symbol(NamedTuple):
@@ -371,8 +360,10 @@ class Pool:
 
     def fn(self, name: str, *args: Expr) -> Expr:
         """A function of `FUNCTIONS`, or `table:<id>`."""
-        if len(args) == 1 and args[0] is self.zero and name in _AT_ZERO:
-            return self.num(_AT_ZERO[name])
+        if len(args) == 1 and args[0] is self.zero and name in FUNCTIONS:
+            value = FUNCTIONS[name].zero  # where some have no slope to differentiate
+            if value is not None:
+                return self.num(value)
         if name == "pow" and args[1].op is Op.NUM and args[1].number.denominator == 1:
             return self.power(args[0], int(args[1].number))
         if name == "pow" and args[1].op is Op.NUM and args[1].number == Fraction(1, 2):

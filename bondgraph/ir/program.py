@@ -72,7 +72,7 @@ class Product(NamedTuple):
 
 
 class Function(NamedTuple):
-    """A function of `bondgraph.ir.expr.FUNCTIONS`, table lookup `table:<id>`, or `root:<name>`.
+    """A function of `ir.functions.FUNCTIONS`, table lookup `table:<id>`, or `root:<name>`.
 
     `root:<name>` is what the `NewtonBlock` of that name finds; NaN where it finds nothing.
     """

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from bondgraph.ir.expr import Expr, Kind, Op
+from bondgraph.ir.functions import FUNCTIONS, Function
 from bondgraph.ir.syntax import Call, Text
 from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration.problems import Skip, fail, meant
@@ -16,28 +16,18 @@ from bondgraph.passes.elaboration.tables import read_table
 if TYPE_CHECKING:
     from bondgraph.passes.elaboration.expressions import Expressions, Place
 
-#: Functions whose result has this power of the unit of the argument.
-_POWERS = {
-    "abs": Fraction(1), "sqrt": Fraction(1, 2), "ssqrt": Fraction(1, 2), "cbrt": Fraction(1, 3),
-    "ssq": Fraction(2),
-}  # fmt: skip
-
-#: Functions of a pure number.
-_PURE = frozenset("exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh".split())
-
 _ALIASES = {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "sgn": "sign"}
 
-_OTHERS = ("if", "int", "der", "table", "sign", "min", "max", "atan2", "pow", "hypot", "log10")
-
-_ARITY = {
-    "int": (1, 2), "der": (1, 1), "table": (2, 2), "if": (3, 3), "atan2": (2, 2), "pow": (2, 2),
-    "hypot": (2, 2), "min": (2, 64), "max": (2, 64),
+#: What is no function of numbers, or is written with others, and how many arguments it takes.
+_OTHERS = {
+    "int": (1, 2), "der": (1, 1), "table": (2, 2), "if": (3, 3), "hypot": (2, 2), "log10": (1, 1),
+    "min": (2, 64), "max": (2, 64),
 }  # fmt: skip
 
 
 def names() -> tuple[str, ...]:
     """Every function that can be called."""
-    return tuple(sorted({*_POWERS, *_PURE, *_ALIASES, *_OTHERS}))
+    return tuple(sorted({*FUNCTIONS, *_ALIASES, *_OTHERS}))
 
 
 class Functions:
@@ -57,11 +47,11 @@ class Functions:
     def call(self, call: Call, place: Place) -> Typed:
         """A call of any function."""
         name = _ALIASES.get(call.name, call.name)
-        if name not in _POWERS and name not in _PURE and name not in _OTHERS:
+        if name not in FUNCTIONS and name not in _OTHERS:
             fail(self.report, "unknown-function", f"There is no function `{call.name}`.",
                  call.origin, help=meant(call.name, names(), "Write a product with `*`; a "
                  'characteristic may come from a table: `table("file.csv", x)`.'))  # fmt: skip
-        low, high = _ARITY.get(name, (1, 1))
+        low, high = _OTHERS.get(name) or (len(FUNCTIONS[name].slopes),) * 2
         if not low <= len(call.arguments) <= high:
             needs = f"{low}" if low == high else f"{low} to {high}"
             what = f"{needs} argument{'' if needs == '1' else 's'}"
@@ -81,34 +71,22 @@ class Functions:
             case "atan2" | "hypot" | "pow":
                 return self.pair(name, call, place)
         node, term = self.of.quantity(call.arguments[0], place)
-        if name == "sign":
-            return self.pool.fn("sign", node), PURE
-        if name in _POWERS:
-            self.defined(name, node, call)
-            unit = self.of.raised(term, _POWERS[name], call)
-            return self.pool.fn(name, node), unit
+        record = FUNCTIONS["log" if name == "log10" else name]
+        if record.unit is not None:
+            self.defined(record, node, call)
+            return self.pool.fn(name, node), self.of.raised(term, record.unit, call)
         what = f"`{call.name}` takes a pure number"
         if not self.of.quantities.pure(term, call.arguments[0].origin, what):
             raise Skip
-        self.defined(name, node, call)
+        self.defined(record, node, call)
         if name == "log10":
             ten = self.pool.num(10)
             return self.pool.div(self.pool.fn("log", node), self.pool.fn("log", ten)), PURE
         return self.pool.fn(name, node), PURE
 
-    def defined(self, name: str, node: Expr, call: Call) -> None:
+    def defined(self, record: Function, node: Expr, call: Call) -> None:
         """Refuse a number where the function has no real value."""
-        if node.op is not Op.NUM:
-            return
-        value = node.number
-        wrong = (
-            (name == "sqrt" and value < 0)
-            or (name in ("log", "log10") and value <= 0)
-            or (name in ("asin", "acos") and abs(value) > 1)
-            or (name == "acosh" and value < 1)
-            or (name == "atanh" and abs(value) >= 1)
-        )
-        if wrong:
+        if node.op is Op.NUM and not record.domain.holds(node.number):
             fail(self.report, "undefined-value", f"`{call.origin.text}` has no real value.",
                  call.origin, help="Change the argument; `ssqrt` and `cbrt` take negative numbers."
                  )  # fmt: skip

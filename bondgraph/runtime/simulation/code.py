@@ -10,14 +10,14 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from bondgraph.algebra.interpreter import FUNCTIONS, interpolation
+from bondgraph.algebra.interpreter import DOUBLES, interpolation
 from bondgraph.ir.expr import Expr, Op, Pool
 
 _INLINE = 40  # letters of a subexpression that is written where it is used
 
 
 #: What the source may call.
-NAMES: dict[str, Any] = {**FUNCTIONS, "nan": math.nan, "inf": math.inf, "__builtins__": {}}
+NAMES: dict[str, Any] = {**DOUBLES, "nan": math.nan, "inf": math.inf, "__builtins__": {}}
 
 
 class Code:

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from bondgraph.algebra.derivative import Jets
 from bondgraph.algebra.interpreter import interpolation
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.runtime.simulation.code import Code
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Course
@@ -121,10 +122,9 @@ def _margins(expr: Expr, pool: Pool) -> list[Expr]:
     """Expressions that vanish where this one jumps or bends."""
     found: dict[Expr, None] = {}
     for node in topological([expr]):
-        if node.op is Op.CMP or (node.op is Op.FN and node.name in ("min", "max")):
-            found[pool.sub(*node.args)] = None
-        elif node.op is Op.FN and node.name in ("abs", "sign"):
-            found[node.args[0]] = None
+        bends = node.op is Op.FN and node.name in FUNCTIONS and FUNCTIONS[node.name].bends
+        if node.op is Op.CMP or bends:  # where its argument is zero, or its arguments are equal
+            found[pool.sub(*node.args) if len(node.args) == 2 else node.args[0]] = None
         elif node.op is Op.FN and node.name.startswith("table:"):
             points = pool.tables[node.name.removeprefix("table:")]
             if len(points) <= _MANY:

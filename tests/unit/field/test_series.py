@@ -11,7 +11,8 @@ from bondgraph.field.balls import Reals
 from bondgraph.field.numbers import Numbers, Undefined
 from bondgraph.field.prime import PrimeField
 from bondgraph.field.series import Series
-from bondgraph.ir.expr import FUNCTIONS, read_backwards
+from bondgraph.ir.expr import read_backwards
+from bondgraph.ir.functions import FUNCTIONS
 
 N = 6
 TABLE = tuple((Fraction(k), Fraction(k * k)) for k in range(-3, 4))

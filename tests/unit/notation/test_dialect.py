@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bondgraph.backends.target import load
-from bondgraph.ir.expr import FUNCTIONS
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.ir.program import (
     Choice,
     Compare,
