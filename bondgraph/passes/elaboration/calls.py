@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from bondgraph.ir.expr import Expr, Kind, Op
+from bondgraph.ir.expr import Expr, Kind, Op, Pool
 from bondgraph.ir.functions import FUNCTIONS, Function
 from bondgraph.ir.syntax import Call, Text
 from bondgraph.library.dimensions import Term
+from bondgraph.passes.elaboration.expressions import Expressions, Place
 from bondgraph.passes.elaboration.problems import Skip, fail, meant
-from bondgraph.passes.elaboration.quantities import PURE
+from bondgraph.passes.elaboration.quantities import PURE, Quantities
 from bondgraph.passes.elaboration.scope import Typed
 from bondgraph.passes.elaboration.tables import read_table
-
-if TYPE_CHECKING:
-    from bondgraph.passes.elaboration.expressions import Expressions, Place
+from bondgraph.text.diagnostic import Report
 
 _ALIASES = {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "sgn": "sign"}
 
@@ -30,13 +27,11 @@ def names() -> tuple[str, ...]:
     return tuple(sorted({*FUNCTIONS, *_ALIASES, *_OTHERS}))
 
 
-class Functions:
-    """Converts calls."""
+class Calls(Expressions):
+    """Converts expressions with calls of functions."""
 
-    def __init__(self, expressions: Expressions) -> None:
-        self.of = expressions
-        self.pool = expressions.pool
-        self.report = expressions.report
+    def __init__(self, pool: Pool, report: Report, quantities: Quantities) -> None:
+        super().__init__(pool, report, quantities)
         #: integrals by integrand and initial value: the same integral is one state
         self.integrals: dict[tuple[Expr, Expr], tuple[Expr, Expr]] = {}
         self.integrands: dict[Expr, Expr] = {}
@@ -70,13 +65,13 @@ class Functions:
                 return self.extreme(name, call, place)
             case "atan2" | "hypot" | "pow":
                 return self.pair(name, call, place)
-        node, term = self.of.quantity(call.arguments[0], place)
+        node, term = self.quantity(call.arguments[0], place)
         record = FUNCTIONS["log" if name == "log10" else name]
         if record.unit is not None:
             self.defined(record, node, call)
-            return self.pool.fn(name, node), self.of.raised(term, record.unit, call)
+            return self.pool.fn(name, node), self.raised(term, record.unit, call)
         what = f"`{call.name}` takes a pure number"
-        if not self.of.quantities.pure(term, call.arguments[0].origin, what):
+        if not self.quantities.pure(term, call.arguments[0].origin, what):
             raise Skip
         self.defined(record, node, call)
         if name == "log10":
@@ -93,14 +88,14 @@ class Functions:
 
     def choice(self, call: Call, place: Place) -> Typed:
         """`if(condition, a, b)`."""
-        condition = self.of.condition(call.arguments[0], place)
-        a, s = self.of.convert(call.arguments[1], place)
-        b, t = self.of.convert(call.arguments[2], place)
+        condition = self.condition(call.arguments[0], place)
+        a, s = self.convert(call.arguments[1], place)
+        b, t = self.convert(call.arguments[2], place)
         if (s is None) != (t is None):
             fail(self.report, "wrong-type", "One value of this `if` is a number, the other true or "
                  "false.", call.origin, help="Both must be of one type.")  # fmt: skip
         if s is not None and t is not None:
-            self.of.alike(s, t, call.origin, "both values of an `if` have one unit")
+            self.alike(s, t, call.origin, "both values of an `if` have one unit")
         if condition.op is Op.NUM:
             return (b, t) if condition is self.pool.zero else (a, s)
         if s is None:
@@ -125,21 +120,21 @@ class Functions:
 
     def extreme(self, name: str, call: Call, place: Place) -> Typed:
         """`min` and `max` of two or more."""
-        node, term = self.of.quantity(call.arguments[0], place)
+        node, term = self.quantity(call.arguments[0], place)
         for argument in call.arguments[1:]:
-            other, t = self.of.quantity(argument, place)
-            self.of.alike(term, t, call.origin, f"the arguments of `{name}` have one unit")
+            other, t = self.quantity(argument, place)
+            self.alike(term, t, call.origin, f"the arguments of `{name}` have one unit")
             term = t if term.unknown else term
             node = self.pool.fn(name, node, other)
         return node, term
 
     def pair(self, name: str, call: Call, place: Place) -> Typed:
         """Functions of two arguments."""
-        a, s = self.of.quantity(call.arguments[0], place)
-        b, t = self.of.quantity(call.arguments[1], place)
+        a, s = self.quantity(call.arguments[0], place)
+        b, t = self.quantity(call.arguments[1], place)
         if name == "pow":
-            return self.of.power((a, s), (b, t), call)
-        self.of.alike(s, t, call.origin, f"the arguments of `{name}` have one unit")
+            return self.power((a, s), (b, t), call)
+        self.alike(s, t, call.origin, f"the arguments of `{name}` have one unit")
         if name == "atan2":
             return self.pool.fn("atan2", a, b), PURE
         square = self.pool.add((1, self.pool.power(a, 2)), (1, self.pool.power(b, 2)))
@@ -147,22 +142,22 @@ class Functions:
 
     def derivative(self, call: Call, place: Place) -> Typed:
         """`der(x)`."""
-        node, term = self.of.quantity(call.arguments[0], place)
-        result = self.of.quantities.differentiated(term)
+        node, term = self.quantity(call.arguments[0], place)
+        result = self.quantities.differentiated(term)
         if node.kind is Kind.INTEGRAL:
             return self.integrands[node], result
         return self.pool.der(node), result
 
     def integral(self, call: Call, place: Place) -> Typed:
         """`int(x, x0)`: a state of its own; written twice it is the same one."""
-        node, term = self.of.quantity(call.arguments[0], place)
-        result: Term = self.of.quantities.integrated(term)
+        node, term = self.quantity(call.arguments[0], place)
+        result: Term = self.quantities.integrated(term)
         start = self.pool.zero
         if len(call.arguments) == 2:
-            start, t = self.of.quantity(call.arguments[1], place)
-            self.of.alike(result, t, call.arguments[1].origin,
+            start, t = self.quantity(call.arguments[1], place)
+            self.alike(result, t, call.arguments[1].origin,
                           "an initial value has the unit of the integral")  # fmt: skip
-            if not self.of.constant(start):
+            if not self.constant(start):
                 fail(self.report, "not-constant", "An initial value cannot depend on signals.",
                      call.arguments[1].origin, help="Use numbers and params.")  # fmt: skip
         if node is self.pool.zero:
@@ -190,7 +185,7 @@ class Functions:
         if not isinstance(file, Text):
             fail(self.report, "wrong-type", "The first argument of `table` is a file name in "
                  "quotes.", file.origin, help='Write `table("file.csv", x)`.')  # fmt: skip
-        node, _ = self.of.quantity(call.arguments[1], place)
+        node, _ = self.quantity(call.arguments[1], place)
         source = place.scope.definition.source
         key = (source.path, file.value)
         name = self._tables.get(key)
@@ -201,5 +196,5 @@ class Functions:
                 name = self.unique(wish)
             self.pool.tables[name] = points
             self._tables[key] = name
-        term = self.of.quantities.dimensions.fresh(call.origin, f'table("{file.value}")')
+        term = self.quantities.dimensions.fresh(call.origin, f'table("{file.value}")')
         return self.pool.fn(f"table:{name}", node), term

@@ -103,7 +103,7 @@ class _Elaboration:
         for entry in self.entries:
             records.entry(entry)
         nodes = [self.node(n, laws) for n in self.nodes]
-        integrands = values.functions.integrands
+        integrands = values.integrands
         received = Received(self.pool, self.report, self.quantities, integrands, self.entries)
         nodes = [received.node(e, n) for e, n in zip(self.nodes, nodes, strict=True)]
         self.opener.check_arguments()

@@ -10,7 +10,6 @@ from bondgraph.ir.expr import Expr, Op, Pool
 from bondgraph.ir.nodes import constant
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Ref, Text, Truth, Unary
 from bondgraph.library.dimensions import Term
-from bondgraph.passes.elaboration.calls import Functions
 from bondgraph.passes.elaboration.problems import Skip, fail, rough
 from bondgraph.passes.elaboration.quantities import PURE, Quantities
 from bondgraph.passes.elaboration.scope import Env, Scope, Typed
@@ -47,7 +46,6 @@ class Expressions(ABC):
         self.pool = pool
         self.report = report
         self.quantities = quantities
-        self.functions = Functions(self)
         self._constant: dict[Expr, bool] = {}
         self._made: dict[tuple[str, Expr, Expr], Expr] = {}
         self._depth = 0
@@ -55,6 +53,10 @@ class Expressions(ABC):
     @abstractmethod
     def reference(self, ref: Ref, place: Place) -> Typed:
         """The value of a reference."""
+
+    @abstractmethod
+    def call(self, call: Call, place: Place) -> Typed:
+        """The value of a function."""
 
     def convert(self, expr: Expression, place: Place) -> Typed:
         """The expression and its dimension; what is wrong is reported and raises Skip."""
@@ -73,7 +75,7 @@ class Expressions(ABC):
                 case Unary():
                     return self.unary(expr, place)
                 case Call():
-                    return self.functions.call(expr, place)
+                    return self.call(expr, place)
                 case Truth():
                     return self.truth_value(expr.value), None
                 case Text():

@@ -12,7 +12,8 @@ from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.syntax import Ref
 from bondgraph.ir.unit import Dimension
 from bondgraph.library.units import PI
-from bondgraph.passes.elaboration.expressions import Expressions, Place
+from bondgraph.passes.elaboration.calls import Calls
+from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.problems import Skip, fail, meant
 from bondgraph.passes.elaboration.quantities import PURE, Quantities
 from bondgraph.passes.elaboration.scope import Typed
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 TIME = "t"
 
 
-class Outside(Expressions):
+class Outside(Calls):
     """Reads quantities and expressions in the parameters of a model, and in time where allowed."""
 
     def __init__(self, graph: BondGraph, report: Report) -> None:

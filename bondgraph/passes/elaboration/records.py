@@ -306,10 +306,10 @@ class Records:
 
     def integrals(self) -> list[Integral]:
         """Every `int(...)` of the model."""
-        functions = self.values.functions
+        values = self.values
         return [
-            Integral(symbol, integrand, initial, start, functions.origins[symbol].origin)
-            for (integrand, start), (symbol, initial) in functions.integrals.items()
+            Integral(symbol, integrand, initial, start, values.origins[symbol].origin)
+            for (integrand, start), (symbol, initial) in values.integrals.items()
         ]
 
     # ------------------------------------------------------------------ after all units are known

@@ -23,7 +23,8 @@ from bondgraph.library.dimensions import Term
 from bondgraph.library.elements import SIGNALS
 from bondgraph.library.units import PI
 from bondgraph.passes.elaboration.bonds import FlatBond, sign
-from bondgraph.passes.elaboration.expressions import Expressions, Place
+from bondgraph.passes.elaboration.calls import Calls
+from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.lookup import Lookup
 from bondgraph.passes.elaboration.problems import Skip, fail, listed
 from bondgraph.passes.elaboration.quantities import PURE, Quantities
@@ -42,7 +43,7 @@ from bondgraph.text.diagnostic import Label, Report
 _KINDS = {"param": Kind.PARAM, "const": Kind.CONST}
 
 
-class Values(Expressions):
+class Values(Calls):
     """Expressions in the names of a model."""
 
     def __init__(
