@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bondgraph.frontend.cursor import MAX_DEPTH, SyntaxProblem
-from bondgraph.frontend.nodes import Nodes
+from bondgraph.frontend.node_parser import Nodes
 from bondgraph.frontend.words import KEYWORDS, is_arrow, say
 from bondgraph.ir import syntax
 from bondgraph.text.diagnostic import Label

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterable
 from typing import Generic, TypeVar
 
 T = TypeVar("T", bound=Hashable)
@@ -37,3 +37,10 @@ class Groups(Generic[T]):
         if one != other:
             self._above[other] = one
         return one != other
+
+    def among(self, members: Iterable[T]) -> list[list[T]]:
+        """The members in their groups, each group where its first member stands."""
+        found: dict[T, list[T]] = {}
+        for member in members:
+            found.setdefault(self.find(member), []).append(member)
+        return list(found.values())

@@ -123,7 +123,4 @@ def components(graph: list[list[int]], rows: list[int], columns: set[int]) -> li
         inside = [c for c in graph[r] if c in columns]
         for c in inside[1:]:
             joined.join(inside[0], c)
-    groups: dict[int, list[int]] = {}
-    for c in sorted(columns):
-        groups.setdefault(joined.find(c), []).append(c)
-    return list(groups.values())
+    return joined.among(sorted(columns))

@@ -175,12 +175,12 @@ def one_way(node: Node, port: int) -> bool | None:
     for law in node.laws:
         if law.direction is own.effort or law.direction is own.flow:
             others = [v for v in variables if v is not law.direction]
-            if not _affine(law.zero, others):
+            if not _of_first_degree(law.zero, others):
                 return law.direction is own.effort
     return None
 
 
-def _affine(zero: Expr, variables: list[Expr]) -> bool:
+def _of_first_degree(zero: Expr, variables: list[Expr]) -> bool:
     """Whether `zero` is of the first degree in the variables taken together."""
     youngest = min(v.id for v in variables)
     wanted = {v.id for v in variables}

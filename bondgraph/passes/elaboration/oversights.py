@@ -7,6 +7,7 @@ from itertools import chain
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph, Node, Sensor
+from bondgraph.ir.groups import Groups
 from bondgraph.ir.syntax import For, If, Input, Model, Param, Part
 from bondgraph.passes.elaboration.problems import listed
 from bondgraph.passes.elaboration.scope import NodeEntry, ValueEntry
@@ -195,13 +196,13 @@ def _own(node: Node) -> list[Expr]:
 
 def _parts(graph: BondGraph) -> list[list[int]]:
     """The nodes in groups that no bond and no signal joins; all that is outside is one."""
-    joined = _Groups(len(graph.nodes))
+    joined, every = Groups[int](), range(len(graph.nodes))
     for bond in graph.bonds:
         joined.join(bond.tail.node, bond.head.node)
     outside = [i for i, node in enumerate(graph.nodes) if node.keyword == "port"]
     for node in outside:
         joined.join(outside[0], node)
-    groups = joined.groups()
+    groups = joined.among(every)
     if len(groups) == 1:
         return groups
     signals = _Signals(graph)
@@ -214,33 +215,7 @@ def _parts(graph: BondGraph) -> list[list[int]]:
         met = [owner[s] for s in signals.of(sensor.reads) if s in owner]
         for other in met:
             joined.join(met[0], other)
-    return joined.groups()
-
-
-class _Groups:
-    """Numbers in groups that grow together (union by smallest number, with path halving)."""
-
-    def __init__(self, size: int) -> None:
-        self._above = list(range(size))
-
-    def _top(self, number: int) -> int:
-        above = self._above
-        while above[number] != number:
-            above[number] = above[above[number]]
-            number = above[number]
-        return number
-
-    def join(self, one: int, other: int) -> None:
-        """The groups of both become one."""
-        a, b = self._top(one), self._top(other)
-        self._above[max(a, b)] = min(a, b)
-
-    def groups(self) -> list[list[int]]:
-        """All groups, by their smallest number."""
-        found: dict[int, list[int]] = {}
-        for number in range(len(self._above)):
-            found.setdefault(self._top(number), []).append(number)
-        return list(found.values())
+    return joined.among(every)
 
 
 def _measured(graph: BondGraph, parts: list[list[int]]) -> list[list[Sensor]]:

@@ -1,0 +1,35 @@
+"""How the package is built: no circles, one name a module, each word and each function once."""
+
+from __future__ import annotations
+
+import ast
+
+from tests import house
+
+FILES = house.modules()
+
+
+def test_no_modules_import_each_other() -> None:
+    assert house.circles(FILES) == []
+
+
+def test_no_two_modules_share_a_name() -> None:
+    assert house.names_met_twice(FILES) == []
+
+
+def test_each_word_of_the_vocabulary_is_defined_once() -> None:
+    assert [w for w in house.WORDS if len(house.definitions(FILES, w)) != 1] == []
+
+
+def test_what_is_counted_is_found() -> None:
+    g = "def g(n):\n    '''Doc.'''\n    return n.op in (Op.A, Op.B, Op.C)"
+    one = house.Module("bondgraph.x.a", ast.parse(f"from bondgraph.y.a import f\n{g}"))
+    f = "FN = 'asinh cosh'"
+    other = house.Module("bondgraph.y.a", ast.parse(f"from bondgraph.x.a import g\n{f}"))
+    both = [one, other]
+    assert house.circles(both) == [["bondgraph.x.a", "bondgraph.y.a"]]
+    assert house.names_met_twice(both) == ["a"]
+    assert house.dispatchers(both) == ["bondgraph.x.a.g"]
+    assert house.knowing_functions(both) == ["bondgraph.y.a"]
+    assert house.definitions(both, "g") == ["bondgraph.x.a"]
+    assert house.statements(both) == 5
