@@ -1,4 +1,4 @@
-"""Programs and expressions on any kind of number: the walk is written once, a number is a table."""
+"""Residual programs on any kind of number: the walk is written once, a number is a table."""
 
 from __future__ import annotations
 
@@ -6,11 +6,9 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
-from fractions import Fraction
-from operator import mul
-from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar, assert_never
+from typing import Any, NamedTuple, assert_never
 
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.ir.program import (
     Assign,
     Choice,
@@ -61,116 +59,6 @@ def interpolation(points: Points) -> Callable[[Real], Real]:
 
 def _branch(holds: Any, yes: Callable[[], Real], no: Callable[[], Real]) -> Real:
     return yes() if holds else no()
-
-
-#: The functions of `bondgraph.ir.expr` on doubles; some of them keep a fraction a fraction.
-DOUBLES: dict[str, Callable[..., Any]] = {
-    **{
-        name: getattr(math, name)
-        for name in "sqrt cbrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh"
-        " pow atan2".split()
-    },
-    "abs": abs,
-    "min": min,
-    "max": max,
-    "sign": lambda x: 1 if x > 0 else -1 if x < 0 else x,
-    "ssqrt": lambda x: math.copysign(math.sqrt(abs(x)), x),
-    "ssq": lambda x: x * abs(x),
-}
-
-
-# -------------------------------------------------------------------- expressions
-
-X = TypeVar("X")
-#: What nodes do with one kind of number. An operation gives None, or raises ArithmeticError or
-#: ValueError, where there is no value; one that is not there never has any.
-Operations: TypeAlias = Mapping[Op, Callable[[Expr, list[X]], X | None]]
-
-
-class Evaluated(Generic[X]):
-    """Values of expressions at one point, each node once; None where a part has no value.
-
-    `leaf` gives the value of a symbol, and may ask for that of the expression it stands for;
-    `known` are values that are there already.
-    """
-
-    def __init__(
-        self,
-        operations: Operations[X],
-        leaf: Callable[[Expr], X | None],
-        known: Mapping[Expr, X | None] | None = None,
-    ) -> None:
-        self.known: dict[Expr, X | None] = dict(known or {})
-        self._operations: Operations[X] = {**operations, Op.SYM: lambda node, _: leaf(node)}
-
-    def value(self, root: Expr) -> X | None:
-        """The value of an expression."""
-        known = self.known
-        if root not in known:
-            self.run([root])
-        return known[root]
-
-    def values(self, roots: Iterable[Expr]) -> dict[Expr, X]:
-        """The values of all that is `known` afterwards, without those that there are not."""
-        self.run(roots)
-        return {node: x for node, x in self.known.items() if x is not None}
-
-    def run(self, roots: Iterable[Expr]) -> None:
-        """Make the values of some expressions, and of all that they are made of, `known`."""
-        known, operations = self.known, self._operations
-        for node in topological(roots, stop=known.__contains__):
-            if node in known:
-                continue
-            known[node] = None  # also the answer for a definition that runs in a circle
-            args: list[X] = []
-            for a in node.args:
-                x = known[a]
-                if x is None:
-                    break
-                args.append(x)
-            else:
-                operation = operations.get(node.op)
-                try:
-                    known[node] = None if operation is None else operation(node, args)
-                except (ArithmeticError, ValueError):
-                    continue
-
-
-def _compare(node: Expr, args: list[Any]) -> bool:
-    left, right = args
-    if node.name == "==":
-        return bool(left == right)
-    return bool(left < right if node.name == "<" else left <= right)
-
-
-def _logic(node: Expr, args: list[Any]) -> bool:
-    if node.name == "not":
-        return not args[0]
-    return all(args) if node.name == "and" else any(args)
-
-
-def _function(node: Expr, args: list[Any]) -> Any:
-    function = DOUBLES.get(node.name)
-    return None if function is None else function(*args)
-
-
-#: Rational numbers, as long as functions leave them rational; then doubles.
-EXACT: dict[Op, Callable[[Expr, list[Any]], Any]] = {
-    Op.NUM: lambda node, _: node.number,
-    Op.ADD: lambda node, args: sum(map(mul, node.coefficients, args)),
-    Op.MUL: lambda node, args: math.prod(map(pow, map(_rational, args), node.exponents)),
-    Op.FN: _function,
-    Op.IF: lambda _, args: args[1] if args[0] else args[2],
-    Op.CMP: _compare,
-    Op.LOGIC: _logic,
-}
-
-
-def _rational(x: Any) -> Any:
-    return Fraction(x) if isinstance(x, int) else x
-
-
-# ------------------------------------------------------------------------ programs
 
 
 class Number(NamedTuple):

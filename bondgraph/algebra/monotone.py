@@ -13,8 +13,9 @@ from functools import reduce
 from itertools import pairwise
 
 from bondgraph.algebra.affine import affine
-from bondgraph.algebra.interpreter import DOUBLES, Evaluated
+from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.algebra.zero import is_zero
+from bondgraph.field.evaluation import Evaluated
 from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, backwards, topological
 from bondgraph.ir.functions import ALL, FUNCTIONS, POSITIVE, Function, Interval
 

@@ -8,7 +8,8 @@ from functools import cached_property
 from operator import mul
 from typing import TYPE_CHECKING
 
-from bondgraph.algebra.interpreter import DOUBLES, EXACT, Evaluated
+from bondgraph.algebra.numeric import DOUBLES, EXACT
+from bondgraph.field.evaluation import Evaluated
 from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 

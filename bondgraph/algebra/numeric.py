@@ -3,15 +3,66 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from typing import TypeAlias
+from operator import mul
+from typing import Any, TypeAlias
 
-from bondgraph.algebra.interpreter import EXACT, Evaluated
+from bondgraph.field.evaluation import Evaluated
 from bondgraph.ir.expr import Expr, Op
 from bondgraph.ir.graph import BondGraph
 
 Number: TypeAlias = float | Fraction | int
+
+#: The functions of `bondgraph.ir.functions` on doubles; some of them keep a fraction a fraction.
+DOUBLES: dict[str, Callable[..., Any]] = {
+    **{
+        name: getattr(math, name)
+        for name in "sqrt cbrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh"
+        " pow atan2".split()
+    },
+    "abs": abs,
+    "min": min,
+    "max": max,
+    "sign": lambda x: 1 if x > 0 else -1 if x < 0 else x,
+    "ssqrt": lambda x: math.copysign(math.sqrt(abs(x)), x),
+    "ssq": lambda x: x * abs(x),
+}
+
+
+def _compare(node: Expr, args: list[Any]) -> bool:
+    left, right = args
+    if node.name == "==":
+        return bool(left == right)
+    return bool(left < right if node.name == "<" else left <= right)
+
+
+def _logic(node: Expr, args: list[Any]) -> bool:
+    if node.name == "not":
+        return not args[0]
+    return all(args) if node.name == "and" else any(args)
+
+
+def _function(node: Expr, args: list[Any]) -> Any:
+    function = DOUBLES.get(node.name)
+    return None if function is None else function(*args)
+
+
+#: Rational numbers, as long as functions leave them rational; then doubles.
+EXACT: dict[Op, Callable[[Expr, list[Any]], Any]] = {
+    Op.NUM: lambda node, _: node.number,
+    Op.ADD: lambda node, args: sum(map(mul, node.coefficients, args)),
+    Op.MUL: lambda node, args: math.prod(map(pow, map(_rational, args), node.exponents)),
+    Op.FN: _function,
+    Op.IF: lambda _, args: args[1] if args[0] else args[2],
+    Op.CMP: _compare,
+    Op.LOGIC: _logic,
+}
+
+
+def _rational(x: Any) -> Any:
+    return Fraction(x) if isinstance(x, int) else x
+
 
 def evaluate(root: Expr, values: Mapping[str, Number]) -> Number | None:
     """The value of a constant expression; None where a symbol has none or it is not defined.

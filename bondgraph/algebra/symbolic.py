@@ -9,7 +9,7 @@ from typing import Any
 import sympy as sp
 from sympy.logic.boolalg import Boolean
 
-from bondgraph.algebra.interpreter import Evaluated
+from bondgraph.field.evaluation import Evaluated
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, Symbol
 
 #: Time, on which every known signal depends in the SymPy form of a relation.

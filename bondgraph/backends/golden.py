@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
-from bondgraph.backends.evaluate import Evaluation, Value, value
+from bondgraph.backends.forty_digits import Evaluation, Value, value
 from bondgraph.backends.spelling import DOUBLE_INTEGRAL, INTEGRAL, START, suffixes
 from bondgraph.backends.walk import reads
 from bondgraph.ir.program import Known, Program, Ref

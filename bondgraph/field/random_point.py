@@ -9,13 +9,15 @@ an identity of functions is not seen, and the answer can err towards "not zero" 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from operator import mul
 from zlib import crc32
 
+from bondgraph.field.evaluation import Evaluated
 from bondgraph.field.prime import P
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.expr import Expr, Op, Rational, topological
 
 
-class RandomPoint:
+class RandomPoint(Evaluated[int]):
     """Values and slopes of expressions at one random point; the point is the same for one seed.
 
     `given` are the expressions of which some symbols have the values.
@@ -29,14 +31,7 @@ class RandomPoint:
     def __init__(self, seed: int, given: Mapping[Expr, Expr] | None = None) -> None:
         self._seed = seed
         self._given = given or {}
-        self._values: dict[Expr, int | None] = {}
-
-    def value(self, expr: Expr) -> int | None:
-        """The value at the point; None where a part of it divides by zero there."""
-        for node in topological([expr], stop=self._values.__contains__):
-            if node not in self._values:
-                self._values[node] = self._value(node)
-        return self._values[expr]
+        super().__init__({**dict.fromkeys(Op, self._apart), **_RESIDUES}, self._symbol)
 
     def gradient(
         self, zero: Expr, wanted: Callable[[Expr], bool], rate: int | None = None
@@ -56,27 +51,12 @@ class RandomPoint:
             rows[node] = total
         return {v: c for v, c in rows[zero].items() if c}
 
-    def _value(self, node: Expr) -> int | None:
-        args = [x for a in node.args if (x := self._values[a]) is not None]
-        if len(args) < len(node.args):
-            return None
-        match node.op:
-            case Op.NUM:
-                return _quotient(node.number.numerator, node.number.denominator)
-            case Op.SYM if node in self._given:
-                return self.value(self._given[node])
-            case Op.SYM:
-                return self._drawn(node.symbol.name)
-            case Op.ADD:
-                terms = zip(node.coefficients, args, strict=True)
-                return sum(_quotient(c.numerator, c.denominator) * x for c, x in terms) % P
-            case Op.MUL:
-                product = 1
-                for x, exponent in zip(args, node.exponents, strict=True):
-                    if not x and exponent < 0:
-                        return None
-                    product = product * pow(x, exponent, P) % P
-                return product
+    def _symbol(self, symbol: Expr) -> int | None:
+        given = self._given.get(symbol)
+        return self._drawn(symbol.symbol.name) if given is None else self.value(given)
+
+    def _apart(self, node: Expr, args: list[int]) -> int:
+        """What is no sum and no product: the same number for the same arguments."""
         data = node.root.zero.id if node.op is Op.ROOT else node.data
         return self._drawn(f"{node.op.value}:{data}:{args}")
 
@@ -84,8 +64,7 @@ class RandomPoint:
         """The derivative of a node by one of its arguments."""
         match node.op:
             case Op.ADD:
-                c = node.coefficients[at]
-                return _quotient(c.numerator, c.denominator)
+                return residue(node.coefficients[at])
             case Op.DER:
                 return rate or 0
             case Op.INT:
@@ -109,5 +88,23 @@ class RandomPoint:
         return (crc32(data) << 29 ^ crc32(data[::-1]) * 0x9E3779B97F4A7C15) % P
 
 
-def _quotient(numerator: int, denominator: int) -> int:
-    return numerator * (1 if denominator == 1 else pow(denominator, -1, P)) % P
+def residue(value: Rational) -> int:
+    """A rational number modulo the prime; raises ValueError where that divides its denominator."""
+    if value.denominator == 1:
+        return value.numerator % P
+    return value.numerator * pow(value.denominator, -1, P) % P
+
+
+def _product(node: Expr, args: list[int]) -> int:
+    value = 1
+    for exponent, x in zip(node.exponents, args, strict=True):
+        value = value * (x if exponent == 1 else pow(x, exponent, P)) % P
+    return value
+
+
+#: Arithmetic modulo the prime; a division by zero has no value.
+_RESIDUES: dict[Op, Callable[[Expr, list[int]], int]] = {
+    Op.NUM: lambda node, _: residue(node.number),
+    Op.ADD: lambda node, args: sum(map(mul, map(residue, node.coefficients), args)) % P,
+    Op.MUL: _product,
+}

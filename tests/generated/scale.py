@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bondgraph.backends.evaluate import Evaluation, value
+from bondgraph.backends.forty_digits import Evaluation, value
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
 from bondgraph.ir.program import Program, Ref

@@ -19,7 +19,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "code generation": tuple(
         f"backends/{name}.py"
         for name in (
-            "blocks c c_code emit evaluate golden identifiers members procedure_lines python roots"
+            "blocks c c_code emit forty_digits golden identifiers members procedure_lines python roots"
             " runnable spell spelling target vectors walk"
         ).split()
     ),

@@ -10,7 +10,8 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from bondgraph.algebra.interpreter import DOUBLES, interpolation
+from bondgraph.algebra.interpreter import interpolation
+from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.ir.expr import Expr, Op, Pool
 
 _INLINE = 40  # letters of a subexpression that is written where it is used

@@ -9,7 +9,7 @@ from fractions import Fraction
 import pytest
 
 from bondgraph.backends import evaluate as module
-from bondgraph.backends.evaluate import Evaluation, value
+from bondgraph.backends.forty_digits import Evaluation, value
 from bondgraph.backends.golden import golden
 from bondgraph.ir.program import Const, Function, PolynomialTape, Ref
 from tests.unit.backends import programs

@@ -9,8 +9,7 @@ from collections.abc import Callable
 import mpmath
 import pytest
 
-from bondgraph.algebra.interpreter import DOUBLES
-from bondgraph.algebra.numeric import evaluate
+from bondgraph.algebra.numeric import DOUBLES, evaluate
 from bondgraph.algebra.symbolic import to_sympy
 from bondgraph.backends.target import load, targets
 from bondgraph.ir.expr import Expr, Kind, Pool

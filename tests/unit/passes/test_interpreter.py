@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy import signal as sig
 
-from bondgraph.backends.evaluate import Evaluation, value
+from bondgraph.backends.forty_digits import Evaluation, value
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.program import Program, Ref
 from bondgraph.passes.lowering.lower import LowerOptions

@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterable, Sequence
 from decimal import Context, Decimal, localcontext
 from functools import partial
 
-from bondgraph.algebra.interpreter import DOUBLES, Interpreter, Number, interpolation
+from bondgraph.algebra.interpreter import Interpreter, Number, interpolation
+from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.ir.program import Assign, Dot, NewtonBlock, PolynomialTape, Program, Ref
 
 _CONTEXT = Context(prec=40, Emax=99999, Emin=-99999)
