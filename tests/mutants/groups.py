@@ -19,10 +19,11 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "code generation": tuple(
         f"backends/{name}.py"
         for name in (
-            "blocks c c_code emit forty_digits golden identifiers members procedure_lines python roots"
-            " runnable spell spelling target vectors walk"
+            "blocks c c_code emit forty_digits golden identifiers members procedure_lines python"
+            " roots runnable spelling target vectors walk"
         ).split()
-    ),
+    )
+    + ("notation/*.py",),
 }
 
 #: Tests that take minutes, wait for a clock or a browser, or look at nothing that is mutated.
