@@ -340,8 +340,7 @@ class Compilation:
         from bondgraph.structural.hitting import diagnoses
 
         matrix = self.signatures
-        sees = {name: matrix.signature(name) for name in matrix.residuals}
-        return diagnoses(sees, fired, silent, at_most)
+        return diagnoses(matrix.sees, fired, silent, at_most)
 
     @cached_property
     def facts(self) -> Facts:

@@ -77,7 +77,7 @@ def _modes(found: ModeSignatures) -> dict[str, object]:
             item["reason"] = mode.reason
         else:
             matrix = mode.matrix
-            item["signatures"] = {r: list(matrix.signature(r)) for r in matrix.residuals}
+            item["signatures"] = {r: list(seen) for r, seen in matrix.sees.items()}
             item["undetectable"] = list(matrix.undetectable)
             item["groups"] = [list(group) for group in matrix.groups]
         listed.append(item)

@@ -7,9 +7,11 @@ bond end. Nothing here is shared with the elimination that this oracle checks.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
 
+from bondgraph.exact.offsets import Redundancy
+from bondgraph.exact.outline import outline
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.ir.groups import Groups
@@ -36,16 +38,14 @@ class Rate(NamedTuple):
 class Assembly(NamedTuple):
     """All equations of a plant in numbered variables.
 
-    `active` are the variables that the equations are about, all of them or those of a part.
     `place[symbol]` is (variable, sign) for every symbol that is not constant. `free` are the
     variables that the plant leaves open: known inputs first, then unknown ones. `silent` are
     variables that are zero because an ideal detector takes no power. `readings` are sensors
     whose reading a law or another sensor uses: a variable with the expression that it reads.
-    `pool` has made all expressions.
+    `shown` are the sensors: name, symbol and what each reads. `pool` has made all expressions.
     """
 
     count_of: int
-    active: tuple[int, ...]
     place: dict[Expr, tuple[int, int]]
     free: tuple[int, ...]
     unknown: tuple[int, ...]
@@ -54,6 +54,7 @@ class Assembly(NamedTuple):
     laws: tuple[tuple[int, Expr], ...]
     rates: tuple[Rate, ...]
     readings: tuple[tuple[str, int, Expr], ...]
+    shown: tuple[tuple[str, Expr, Expr], ...]
     pool: Pool
 
 
@@ -64,7 +65,7 @@ class _Builder:
         for number, bond in enumerate(graph.bonds):
             self.ends[bond.tail.node].append((number, -1))
             self.ends[bond.head.node].append((number, 1))
-        self.numbers = Groups[int]()  # what junctions make common: effort 2b, flow 2b + 1
+        self.numbers = Groups[int]()  # effort 2b, flow 2b + 1
         self.place: dict[Expr, tuple[int, int]] = {}
         self.size = 0
         self.inner: dict[Expr, Expr] = {}  # what is differentiated, to the symbol made for it
@@ -171,7 +172,6 @@ class _Builder:
         self.rest([law for _, law in laws] + [r.value for r in rates])
         return Assembly(
             self.size,
-            tuple(range(self.size)),
             self.place,
             tuple(free),
             tuple(unknown),
@@ -180,6 +180,7 @@ class _Builder:
             tuple(laws),
             tuple(rates),
             readings,
+            tuple((s.name, s.symbol, s.reads) for s in graph.sensors if s.same_as is None),
             graph.pool,
         )
 
@@ -209,135 +210,140 @@ def assemble(graph: BondGraph) -> Assembly:
 
 
 class Parts:
-    """The parts of a plant that share no variable: each can be simulated without the others."""
+    """Sub-plants: some of the equations about some of the variables, all else left open.
+
+    What a plant does its sub-plants can do: a relation that holds on one, whatever faults act
+    there, holds on the plant with these faults and with all that are elsewhere. The variables of
+    a sub-plant have numbers of their own, so that its size is all that it costs.
+    """
 
     def __init__(self, plant: Assembly) -> None:
         self._plant = plant
-        self._numbers = Groups[int]()
-        for _, terms, when, common in plant.balances:
-            self._join([common, *[v for v, _ in terms], *self._variables([when] if when else [])])
-        for _, law in plant.laws:
-            self._join(self._variables([law]))
-        for _, variable, value in plant.rates:
-            self._join([variable, *self._variables([value])])
-        for _, variable, reads in plant.readings:
-            self._join([variable, *self._variables([reads])])
+        self._entries: list[tuple[str, Any]] = []  # of which field of the assembly, and what
+        self._rows: list[list[int]] = []  # the variables of each equation
+        numbers = Groups[int]()
+        for field in _EQUATIONS:
+            for entry in getattr(plant, field):
+                row = self._about(field, entry)
+                self._entries.append((field, entry))
+                self._rows.append(row)
+                for v in row[1:]:
+                    numbers.join(row[0], v)
+        self._component = [numbers.find(v) for v in range(plant.count_of)]
+        self._inside: dict[int, tuple[list[int], list[int]]] = {-1: ([], [])}
+        for variable, component in enumerate(self._component):
+            self._inside.setdefault(component, ([], []))[1].append(variable)
+        for number, row in enumerate(self._rows):
+            self._inside[self._component[row[0]] if row else -1][0].append(number)
+        self._symbols: dict[int, list[Expr]] = {}
+        for symbol, (variable, _) in plant.place.items():
+            self._symbols.setdefault(variable, []).append(symbol)
+        self._sensors: dict[Expr | None, list[tuple[str, Expr, Expr]]] = {}  # by a symbol in each
+        for sensor in plant.shown:
+            first = next((s for s in outline(sensor[2]).symbols if s in plant.place), None)
+            self._sensors.setdefault(first, []).append(sensor)
+        self._open = (frozenset(plant.free), frozenset(plant.unknown))
+        self._redundancy: Redundancy | None = None
         self._known: dict[frozenset[int], Assembly] = {}
 
-    def _variables(self, roots: list[Expr]) -> list[int]:
+    def _about(self, field: str, entry: Any) -> list[int]:
+        """The variables of an equation."""
+        inside = self._variables(_expression(field, entry))
+        if field == "silent":
+            return [entry]
+        if field == "balances":
+            return [entry.common, *[v for v, _ in entry.terms], *inside]
+        return inside if field == "laws" else [entry[1], *inside]
+
+    def _variables(self, expr: Expr | None) -> list[int]:
         place = self._plant.place
-        return [place[n][0] for n in topological(roots) if n in place]
+        return [place[s][0] for s in outline(expr).symbols if s in place] if expr else []
 
-    def _join(self, variables: list[int]) -> None:
-        for v in variables[1:]:
-            self._numbers.join(variables[0], v)
-
-    def about(self, roots: list[Expr]) -> Assembly:
-        """The part of the plant that the variables in the expressions belong to."""
-        find = self._numbers.find
-        wanted = frozenset(find(v) for v in self._variables(roots))
+    def about(self, symbols: Iterable[Expr]) -> Assembly:
+        """What hangs together with some symbols: it can be simulated without the rest."""
+        place = self._plant.place
+        wanted = frozenset(self._component[place[s][0]] for s in symbols if s in place)
         found = self._known.get(wanted)
         if found is None:
-            found = self._known[wanted] = self._part(wanted)
+            parts = [self._inside[root] for root in (-1, *sorted(wanted))]
+            found = self._known[wanted] = self._part(
+                [number for equations, _ in parts for number in equations],
+                [variable for _, variables in parts for variable in variables],
+                [s for _, variables in parts for v in variables for s in self._symbols.get(v, ())],
+            )
         return found
 
-    def _part(self, wanted: frozenset[int]) -> Assembly:
-        plant = self._plant
-        active = tuple(v for v in range(plant.count_of) if self._numbers.find(v) in wanted)
-        inside = frozenset(active)
+    def resting_on(self, told: Iterable[Expr]) -> Assembly:
+        """The equations that say more than their variables can take once some values are told.
 
-        def holds(expr: Expr) -> bool:
-            return inside.issuperset(self._variables([expr]))
+        A relation among these values rests on no others, where numbers do not happen to agree
+        (Dulmage and Mendelsohn, 1958).
+        """
+        if self._redundancy is None:
+            rows = [
+                [v for v, _ in entry.terms] if field == "balances" and entry.when is None else row
+                for (field, entry), row in zip(self._entries, self._rows, strict=True)
+            ]
+            self._redundancy = Redundancy(rows, self._plant.count_of)
+        told = list(told)
+        rows = [self._variables(value) for value in told]
+        found = self._redundancy.about(rows)
+        named = {s: None for value in told for s in outline(value).symbols}
+        for field, entry in (self._entries[number] for number in found):
+            expr = _expression(field, entry)
+            named.update((s, None) for s in (outline(expr).symbols if expr else ()))
+            if field in ("rates", "readings"):
+                named.update((s, None) for s in self._symbols.get(entry[1], ()))
+        return self._part(found, [v for row in rows for v in row], named)
 
+    def _part(
+        self, equations: Iterable[int], shown: Iterable[int], named: Iterable[Expr]
+    ) -> Assembly:
+        """Some equations, about their variables and those `shown`; `named` are symbols of them."""
+        plant, ordered = self._plant, sorted(equations)
+        inside = sorted({*shown, *[v for number in ordered for v in self._rows[number]]})
+        new = {variable: at for at, variable in enumerate(inside)}
+        fields: dict[str, Any] = {field: [] for field in _EQUATIONS}
+        for number in ordered:
+            field, entry = self._entries[number]
+            fields[field].append(_renumbered(field, entry, new))
+        for field in _EQUATIONS:
+            fields[field] = tuple(fields[field])
+        where = [(s, plant.place[s]) for s in named if s in plant.place]
+        place = {s: (new[variable], sign) for s, (variable, sign) in where}
         return plant._replace(
-            active=active,
-            free=tuple(v for v in plant.free if v in inside),
-            unknown=tuple(v for v in plant.unknown if v in inside),
-            silent=tuple(v for v in plant.silent if v in inside),
-            balances=tuple(b for b in plant.balances if b.common in inside),
-            laws=tuple(law for law in plant.laws if holds(law[1])),
-            rates=tuple(r for r in plant.rates if r.variable in inside),
-            readings=tuple(r for r in plant.readings if r[1] in inside),
+            count_of=len(inside),
+            place=place,
+            free=tuple(new[v] for v in inside if v in self._open[0]),
+            unknown=tuple(new[v] for v in inside if v in self._open[1]),
+            shown=tuple(
+                sensor
+                for symbol in (None, *place)
+                for sensor in self._sensors.get(symbol, ())
+                if all(s in place for s in outline(sensor[2]).symbols if s in plant.place)
+            ),
+            **fields,
         )
 
 
-class Surroundings:
-    """Sub-plants: the equations of what is near in the bond graph, all else left open.
+_EQUATIONS = ("silent", "balances", "laws", "rates", "readings")  # fields of an assembly
 
-    What a plant does its sub-plants can do: a relation that holds on one, whatever faults act
-    there, holds on the plant with these faults and with all that are further away.
-    """
 
-    def __init__(self, plant: Assembly, graph: BondGraph) -> None:
-        self._plant = plant
-        self._near: list[list[int]] = [[] for _ in graph.nodes]
-        for bond in graph.bonds:
-            a, b = bond.tail.node, bond.head.node
-            self._near[a].append(b)
-            self._near[b].append(a)
-        self._laws: list[list[Expr]] = [[] for _ in graph.nodes]
-        self._rates: list[list[Rate]] = [[] for _ in graph.nodes]
-        self._balances = {b.node: b for b in plant.balances}
-        for number, law in plant.laws:
-            if number >= 0:
-                self._laws[number].append(law)
-        for rate in plant.rates:
-            if rate.node >= 0:
-                self._rates[rate.node].append(rate)
-        self._silent = frozenset(plant.silent)
-        self._known: dict[tuple[frozenset[int], frozenset[int]], Assembly] = {}
-        self._about = [self._symbols(number) for number in range(len(graph.nodes))]
-        self._variables = [frozenset(x for x in s if isinstance(x, int)) for s in self._about]
-        self._homes: dict[Expr | int, list[int]] = {}
-        for number, inside in enumerate(self._about):
-            for what in inside:
-                self._homes.setdefault(what, []).append(number)
+def _expression(field: str, entry: Any) -> Expr | None:
+    """What an equation says of symbols, if it says anything of them."""
+    found: Expr | None = None
+    if field != "silent":
+        found = entry[1] if field == "laws" else entry[2]  # of a balance, while what it holds
+    return found
 
-    def _symbols(self, node: int) -> set[Expr | int]:
-        """The variables and the constants in the equations of a node."""
-        place = self._plant.place
-        found: set[Expr | int] = set()
-        values = [rate.value for rate in self._rates[node]]
-        for n in topological([*self._laws[node], *values]):
-            if n.op is Op.SYM:
-                found.add(place[n][0] if n in place else n)
-        found.update(rate.variable for rate in self._rates[node])
-        if node in self._balances:
-            balance = self._balances[node]
-            found.update((balance.common, *[v for v, _ in balance.terms]))
-        return found
 
-    def of(self, symbols: Iterable[Expr]) -> frozenset[int]:
-        """The nodes with a variable among the symbols, or a constant that no other node has."""
-        place = self._plant.place
-        found: set[int] = set()
-        for symbol in symbols:
-            variable = symbol in place
-            homes = self._homes.get(place[symbol][0] if variable else symbol, [])
-            if variable or len(homes) == 1:
-                found.update(homes)
-        return frozenset(found)
-
-    def wider(self, nodes: frozenset[int]) -> frozenset[int]:
-        """The nodes, and those next to them."""
-        return nodes.union(*[self._near[node] for node in nodes])
-
-    def part(self, nodes: frozenset[int], shown: Iterable[Expr]) -> Assembly:
-        """The equations of some nodes, about their variables and the ones `shown`."""
-        plant, place = self._plant, self._plant.place
-        outside = frozenset(place[s][0] for s in shown if s in place)
-        if (nodes, outside) in self._known:
-            return self._known[nodes, outside]
-        inside = outside.union(*[self._variables[node] for node in nodes])
-        ordered = sorted(nodes)
-        found = self._known[nodes, outside] = plant._replace(
-            active=tuple(sorted(inside)),
-            free=tuple(v for v in plant.free if v in inside),
-            unknown=tuple(v for v in plant.unknown if v in inside),
-            silent=tuple(sorted(self._silent & inside)),
-            balances=tuple(self._balances[n] for n in ordered if n in self._balances),
-            laws=tuple((n, law) for n in ordered for law in self._laws[n]),
-            rates=tuple(rate for n in ordered for rate in self._rates[n]),
-            readings=(),
-        )
-        return found
+def _renumbered(field: str, entry: Any, new: Mapping[int, int]) -> Any:
+    """An equation in other numbers of its variables."""
+    if field == "silent":
+        return new[entry]
+    if field == "balances":
+        terms = tuple((new[v], c) for v, c in entry.terms)
+        return entry._replace(terms=terms, common=new[entry.common])
+    if field == "rates":
+        return entry._replace(variable=new[entry.variable])
+    return (entry[0], new[entry[1]], entry[2]) if field == "readings" else entry

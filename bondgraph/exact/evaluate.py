@@ -8,12 +8,12 @@ pass more (Griewank and Walther, 2008, ch. 3).
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import lru_cache
 from typing import Any, NamedTuple, Protocol
 
 from bondgraph.exact import root_values as implicit
-from bondgraph.exact.signal_algebra import Algebra, Mixed, Values, Waves, compare
-from bondgraph.field.numbers import Number, Undefined
+from bondgraph.exact.outline import demands, integral_depth, outline, plan, static
+from bondgraph.exact.signal_algebra import Algebra, Mixed, Taylor, Values, Waves, compare
+from bondgraph.field.numbers import Number, Numbers, Undefined
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Symbol, topological
 
 
@@ -64,46 +64,6 @@ class Sensitivity(NamedTuple):
     lasting: frozenset[Expr]
 
 
-def demands(nodes: Sequence[Expr], roots: Sequence[Expr], n: int) -> dict[Expr, int]:
-    """How many Taylor coefficients each node must deliver so that each root has `n`."""
-    need = dict.fromkeys(nodes, 0)
-    for node in roots:
-        need[node] = max(need[node], n)
-    for node in reversed(nodes):
-        wanted = need[node]
-        if node.op is Op.DER:
-            wanted += 1
-        elif node.op is Op.INT:
-            wanted = max(wanted - 1, 1)
-        for a in node.args:
-            if need[a] < wanted:
-                need[a] = wanted
-    return need
-
-
-@lru_cache(maxsize=512)
-def plan(root: Expr, n: int) -> tuple[list[Expr], dict[Expr, int]]:
-    """The nodes below a law, arguments first, and what each must deliver; asked again and again."""
-    nodes = topological([root])
-    return nodes, demands(nodes, [root], n)
-
-
-def highest_order(roots: Sequence[Expr], n: int = 1) -> int:
-    """The highest derivative of any symbol that `n` coefficients of the roots ask for."""
-    nodes = topological(roots)
-    need = demands(nodes, roots, n)
-    return max((need[v] for v in nodes if v.op is Op.SYM), default=1) - 1
-
-
-def integral_depth(roots: Sequence[Expr]) -> int:
-    """How deep integrals are nested below the roots."""
-    depth: dict[Expr, int] = {}
-    for node in topological(roots):
-        below = max([depth[a] for a in node.args], default=0)
-        depth[node] = below + (node.op is Op.INT)
-    return max([depth[r] for r in roots], default=0)
-
-
 def telling(roots: Sequence[Expr]) -> int:
     """How many coefficients of the roots say whether they vanish on a plant, faulty or not."""
     return integral_depth(roots) + 1
@@ -115,6 +75,11 @@ def evaluate(roots: Sequence[Expr], sample: Assignment, n: int = 1) -> list[Any]
     Raises `Undefined` if a value that a root rests on does not exist at this point, `Mixed` if
     an operation leads out of the sample's algebra.
     """
+    if n == 1 and isinstance(sample.algebra, Taylor):
+        numbers = _numbers(tuple(roots), sample)
+        if numbers is not None:
+            return [[numbers[root]] for root in roots]
+    nodes: Sequence[Expr]
     if len(roots) == 1:
         nodes, need = plan(roots[0], n)
     else:
@@ -125,6 +90,64 @@ def evaluate(roots: Sequence[Expr], sample: Assignment, n: int = 1) -> list[Any]
         if root in failures:
             raise failures[root]
     return [values[root] for root in roots]
+
+
+def _numbers(roots: tuple[Expr, ...], sample: Assignment) -> dict[Expr, Number] | None:
+    """Sums and products at the point itself; None for others, and where a value is missing."""
+    nodes = static(roots)
+    if nodes is None:
+        return None
+    numbers, values = sample.algebra.numbers, dict[Expr, Number]()
+    try:
+        for node in nodes:
+            total: Number
+            if node.op is Op.ADD:
+                total = 0
+                for c, a in zip(node.coefficients, node.args, strict=True):
+                    weight = c.numerator if c.denominator == 1 else numbers.fraction(c)
+                    total += weight * values[a]
+            elif node.op is Op.MUL:
+                total = 1
+                for a, e in zip(node.args, node.exponents, strict=True):
+                    total *= values[a] if e == 1 else _power(numbers, values[a], e)
+            elif node.op is Op.SYM:
+                total = sample.value(node)[0]
+            else:
+                total = numbers.fraction(node.number)
+            values[node] = total
+    except Undefined:
+        return None
+    return values
+
+
+def _power(numbers: Numbers, x: Number, exponent: int) -> Number:
+    base = x if exponent > 0 else numbers.inverse(x)
+    return base ** abs(exponent)
+
+
+def _number_slopes(
+    root: Expr, values: dict[Expr, Number], numbers: Numbers
+) -> dict[Expr, Number]:
+    """The derivatives of a root that is made of sums and products, where they are not zero."""
+    adjoints: dict[Expr, Number] = {root: 1}
+    out: dict[Expr, Number] = {}
+    for node in reversed(outline(root).nodes):
+        adjoint = adjoints.pop(node, 0)
+        if not numbers.nonzero(adjoint):
+            continue
+        out[node] = adjoint
+        if node.op is Op.ADD:
+            for c, a in zip(node.coefficients, node.args, strict=True):
+                part = (c.numerator if c.denominator == 1 else numbers.fraction(c)) * adjoint
+                adjoints[a] = adjoints.get(a, 0) + part
+        elif node.op is Op.MUL:
+            for a, e in zip(node.args, node.exponents, strict=True):
+                slope = adjoint if e == 1 else adjoint * e * _power(numbers, values[a], e - 1)
+                for b, f in zip(node.args, node.exponents, strict=True):
+                    if b is not a:
+                        slope *= values[b] if f == 1 else _power(numbers, values[b], f)
+                adjoints[a] = adjoints.get(a, 0) + slope
+    return out
 
 
 def values_of(
@@ -212,13 +235,14 @@ def node_value(
     """The value of one node from those of its arguments."""
     op = node.op
     if op is Op.ADD:
+        fraction = algebra.numbers.fraction
         terms = [
-            (c.numerator if c.denominator == 1 else algebra.numbers.fraction(c), values[a])
-            for c, a in node.terms
+            (c.numerator if c.denominator == 1 else fraction(c), values[a])
+            for c, a in zip(node.coefficients, node.args, strict=True)
         ]
         return algebra.combine(terms, n)
     if op is Op.MUL:
-        factors = [(values[a], e) for a, e in node.factors]
+        factors = [(values[a], e) for a, e in zip(node.args, node.exponents, strict=True)]
         return algebra.product(factors, n)
     if op is Op.SYM:
         return sample.value(node)
@@ -280,6 +304,7 @@ def slopes(
             factors = [
                 (values[b], f - (k == at))
                 for k, (b, f) in enumerate(zip(args, node.exponents, strict=True))
+                if f != 1 or k != at
             ]
             slope = algebra.product(factors, n)
             out.append((a, slope if e == 1 else algebra.combine([(e, slope)], n)))
@@ -354,24 +379,41 @@ def pull(
                 give(argument, algebra.back(adjoint, slope, need[argument]))
 
 
-def sensitivities(root: Expr, sample: Sample, jumps: bool = False) -> Sensitivity:
+class Forward:
+    """The values below some roots at a point, of which each is to be differentiated by itself."""
+
+    def __init__(self, roots: Sequence[Expr], sample: Sample) -> None:
+        self.numbers: dict[Expr, Number] | None = None
+        if isinstance(sample.algebra, Taylor):
+            self.numbers = _numbers(tuple(roots), sample)
+        if self.numbers is None:
+            nodes = topological(roots)
+            self.need = demands(nodes, roots, 1)
+            self.values, self.failures = values_of(nodes, self.need, sample)
+
+
+def sensitivities(
+    root: Expr, sample: Sample, jumps: bool = False, forward: Forward | None = None
+) -> Sensitivity:
     """What the value of `root` depends on at a point, by reverse mode.
 
     With `jumps` what a decision rests on counts as having an influence.
 
     Signals and parameters are functions of time. An integral carries dependence on the past: it
     is followed at earlier points of the same plant, one more for each nested integral, with
-    random weights. Raises like `evaluate`.
+    random weights. Raises like `evaluate`. What several roots share is computed once with a
+    `forward` of them all.
     """
+    forward = forward or Forward([root], sample)
     if isinstance(sample.algebra, Waves):
         while True:
             try:
-                return _sensitivities(root, sample, jumps)
+                return _sensitivities(root, sample, jumps, forward)
             except Mixed as failure:
                 if "cancel" not in str(failure) or sample.algebra.terms > 1 << 14:
                     raise
                 sample.algebra.terms *= 4
-    return _sensitivities(root, sample, jumps)
+    return _sensitivities(root, sample, jumps, forward)
 
 
 def _decides(node: Expr) -> bool:
@@ -379,8 +421,21 @@ def _decides(node: Expr) -> bool:
     return node.op is Op.IF or (node.op is Op.FN and node.name in ("sign", "min", "max"))
 
 
-def _sensitivities(root: Expr, sample: Sample, jumps: bool) -> Sensitivity:
-    nodes = topological([root])
+def _static_sensitivities(root: Expr, values: dict[Expr, Number], numbers: Numbers) -> Sensitivity:
+    """Of sums and products: what is seen is seen at once, and as long as it lasts."""
+    found = _number_slopes(root, values, numbers)
+    nodes = outline(root).nodes
+    inside = outline(root).symbols
+    orders = {v: 0 for v in inside if v in found and v.symbol.kind in KNOWN_SIGNALS}
+    dead = frozenset(v for v in nodes if v not in found)
+    lasting = frozenset(v for v in inside if v in found)
+    return Sensitivity({v: v in found for v in inside}, orders, dead, (), lasting)
+
+
+def _sensitivities(root: Expr, sample: Sample, jumps: bool, forward: Forward) -> Sensitivity:
+    if forward.numbers is not None:
+        return _static_sensitivities(root, forward.numbers, sample.algebra.numbers)
+    nodes = outline(root).nodes
     integrals = [v for v in nodes if v.op is Op.INT]
     depth = integral_depth([root]) if integrals else 0
     algebra = sample.algebra
@@ -395,9 +450,13 @@ def _sensitivities(root: Expr, sample: Sample, jumps: bool) -> Sensitivity:
         top = [root] if back == 0 else [v.args[0] for v in integrals if memory.get(v)]
         if not top:
             break
-        below = topological(top) if back else nodes
-        need = demands(below, top, 1)
-        values, failures = values_of(below, need, point)
+        below: Sequence[Expr]
+        if back:
+            below = topological(top)
+            need = demands(below, top, 1)
+            values, failures = values_of(below, need, point)
+        else:
+            below, need, values, failures = nodes, forward.need, forward.values, forward.failures
         for node in top:
             if node in failures:
                 raise failures[node]
@@ -421,7 +480,7 @@ def _sensitivities(root: Expr, sample: Sample, jumps: bool) -> Sensitivity:
                 share = algebra.start_of(adjoint) * (7919 + 2 * back)
                 memory[node] = memory.get(node, 0) + share
                 starts[node.symbol] = None
-            elif node.kind in KNOWN_SIGNALS:
+            elif node.op is Op.SYM and node.symbol.kind in KNOWN_SIGNALS:
                 orders[node] = max(orders.get(node, -1), -1 if back else algebra.order(adjoint))
             elif jumps and _decides(node):
                 alive.update(dict.fromkeys(topological(node.args)))

@@ -51,7 +51,7 @@ def amplitudes(
         rows.append(row)
     pivots = eliminate(numbers, rows)
     determined = {p.column for p in pivots}
-    values = {j: numbers.any(random) for j in plant.active if j not in determined}
+    values = {j: numbers.any(random) for j in range(plant.count_of) if j not in determined}
     back_substitute(pivots, values)
     return values
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from bondgraph.exact.evaluate import highest_order
+from bondgraph.exact.outline import highest_order, outline
 from bondgraph.exact.signal_algebra import Algebra, Taylor, Wave, Waves
 from bondgraph.field.numbers import Number
 from bondgraph.field.prime import PrimeField
-from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, Symbol, topological
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, Symbol
 
 
 class FreeSample:
@@ -25,9 +25,9 @@ class FreeSample:
 
     @classmethod
     def of(cls, expr: Expr, seed: int) -> FreeSample:
-        """Exponentials where the expression is linear in its signals, else power series."""
+        """Exponentials where the expression is linear in derivatives of signals, else series."""
         numbers = PrimeField(seed)
-        if linear(expr):
+        if highest_order([expr]) and linear(expr):
             draw = random.Random(seed)
             return cls(Waves(numbers, numbers.any(draw), numbers.any(draw)), 0, seed)
         return cls(Taylor(numbers), highest_order([expr]), seed)
@@ -64,7 +64,7 @@ class FreeSample:
 def linear(expr: Expr) -> bool:
     """Whether an expression is a sum of constants times derivatives of signals."""
     degree: dict[Expr, int] = {}
-    for node in topological([expr]):
+    for node in outline(expr).nodes:
         below = [degree[a] for a in node.args]
         if node.op is Op.SYM:
             if node.symbol.kind is Kind.MODE:

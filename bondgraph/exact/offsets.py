@@ -63,6 +63,30 @@ class _Matching:
             j = previous
 
 
+class Redundancy:
+    """Which equations are more than enough once some of their variables are told."""
+
+    def __init__(self, rows: Sequence[Sequence[int]], variables: int) -> None:
+        """`rows` are the variables of each equation."""
+        self._rows = [dict.fromkeys(row, 0) for row in rows]
+        self._matching = _Matching(self._rows, variables)
+        for i in range(len(rows)):
+            self._matching.augment(i, [], None)
+
+    def about(self, told: Sequence[Sequence[int]]) -> list[int]:
+        """The equations in the over-determined part about values that are told.
+
+        Each is told in the variables that it is made of: one equation more.
+        """
+        more = _Matching([*self._rows, *[dict.fromkeys(row, 0) for row in told]], 0)
+        more.equation_of = self._matching.equation_of.copy()
+        more.variable_of = [*self._matching.variable_of, *[-1] * len(told)]
+        count = len(self._rows)
+        reached = [more.augment(count + k, [], None) for k in range(len(told))]
+        owners = {more.equation_of[j] for variables in reached for j in variables or ()}
+        return sorted(i for i in owners if i < count)
+
+
 def square_part(signature: Sequence[dict[int, int]], variables: int) -> list[tuple[int, int]]:
     """The equations that leave their variables no freedom, each with a variable of its own.
 

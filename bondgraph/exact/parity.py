@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from bondgraph.exact.evaluate import demands, evaluate, pull, values_of
+from bondgraph.exact.evaluate import evaluate, pull, values_of
+from bondgraph.exact.outline import demands
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.point import STRIDE
 from bondgraph.exact.trajectory import Trajectory
@@ -69,7 +70,6 @@ class _Rows:
     ) -> None:
         self.plant = plant.graph
         self.part = trajectory.part
-        self.active = frozenset(self.part.active)
         self.truth = _Truth(trajectory)
         self.times = times
         symbols = plant.graph.fault_symbols()
@@ -80,8 +80,7 @@ class _Rows:
         """Every equation with its derivatives."""
         part, graph = self.part, self.plant
         for variable in part.silent:
-            if variable in self.active:
-                self.plain({variable: 1})
+            self.plain({variable: 1})
         for _, terms, when, common in part.balances:
             off = when is not None and not self.truth.algebra.numbers.nonzero(
                 self.truth.algebra.lead(evaluate([when], self.truth)[0])
@@ -92,25 +91,18 @@ class _Rows:
         for _, variable, value in part.rates:
             self.expression(value, variable, derivative=True)
         read = {name: at for name, at, _ in part.readings}
-        for sensor in graph.sensors:
-            if sensor.same_as is not None or not self.inside(sensor.reads):
-                continue
-            if sensor.name in read:
-                at = read[sensor.name]
-                self.expression(sensor.reads, at, fault=sensor.symbol)
+        for name, symbol, reads in part.shown:
+            if name in read:
+                at = read[name]
+                self.expression(reads, at, fault=symbol)
                 self.plain({at: 1})  # the reading itself is known
             else:
-                self.expression(sensor.reads, fault=sensor.symbol)
+                self.expression(reads, fault=symbol)
         for source in graph.inputs:
             where = part.place.get(source.symbol)
-            if source.known and not source.mode and where is not None and where[0] in self.active:
+            if source.known and not source.mode and where is not None:
                 self.known(source.symbol, where[0])
         return self.rows
-
-    def inside(self, expr: Expr) -> bool:
-        """Whether an expression is about this part of the plant."""
-        place = self.part.place
-        return all(place[n][0] in self.active for n in topological([expr]) if n in place)
 
     def plain(self, terms: dict[int, int]) -> None:
         """A sum of variables that is zero."""

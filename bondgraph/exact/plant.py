@@ -11,13 +11,15 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
+from itertools import chain
 from random import Random
 from typing import NamedTuple
 
-from bondgraph.exact.assembly import Assembly, Parts, Surroundings, assemble
-from bondgraph.exact.evaluate import evaluate, highest_order, integral_depth
+from bondgraph.exact.assembly import Assembly, Parts, assemble
+from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.exponentials import WaveSample, amplitudes, linear, tell
 from bondgraph.exact.known import KnownSample
+from bondgraph.exact.outline import highest_order, integral_depth, outline, rational
 from bondgraph.exact.plant_equations import Setting, Writer, written
 from bondgraph.exact.signal_algebra import Mixed, Taylor, Waves
 from bondgraph.exact.taylor import OverDetermined, Solver, solve
@@ -28,7 +30,7 @@ from bondgraph.field.numbers import Number, Numbers, Undefined
 from bondgraph.field.prime import PrimeField
 from bondgraph.field.series import Series
 from bondgraph.field.sparse import Contradiction, Singular
-from bondgraph.ir.expr import Expr, Kind, Op, Symbol, symbols, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Symbol, topological
 from bondgraph.ir.graph import BondGraph
 
 _STILL = 5  # points that are tried with factors at rest, where there are no others
@@ -37,7 +39,6 @@ _SMALL, _USUAL, _GREAT = (-3, 0), (0, 0), (0, 1.3)  # powers of ten: the sizes o
 _SIZES = (_SMALL, _SMALL, _USUAL, _GREAT)
 _FULL_SIZE = 4  # points that are tried with signals of any size, before small ones only are
 _MODULAR = 6  # points that are tried in a prime field, before real ones are
-_WIDER = 1.4  # times as large the next sub-plant is, at least
 _LARGE = 4000  # coefficients of a trajectory that are many
 _EXTRA = 16  # coefficients of time-varying parameters beyond the order asked for
 
@@ -56,8 +57,6 @@ class Contradictory(ExactUnavailable):
         super().__init__(message)
         self.node = node
 
-
-_Shown = tuple[str, Expr, Expr]  # a sensor: name, symbol, what it reads
 
 
 class _Wanted(NamedTuple):
@@ -112,15 +111,9 @@ def _error(numbers: Numbers, random: Random, value: Series, n: int) -> Series:
     return [numbers.error(random, at) for _ in range(n)]
 
 
-def _rational(roots: Iterable[Expr]) -> bool:
-    """Whether expressions are rational, decisions by known booleans apart."""
-    decided: dict[Expr, bool] = {}
-    for node in topological(roots):
-        below = all(decided[a] for a in node.args)
-        decided[node] = below and (node.op is not Op.SYM or node.symbol.kind is Kind.MODE)
-        if node.op in (Op.FN, Op.ROOT, Op.CMP) or (node.op is Op.IF and not decided[node.args[0]]):
-            return False
-    return True
+def _symbols(roots: Iterable[Expr]) -> Iterator[Expr]:
+    """The symbols in some expressions, those of each by itself."""
+    return chain.from_iterable(outline(root).symbols for root in roots)
 
 
 class Plant:
@@ -132,17 +125,8 @@ class Plant:
     def __init__(self, graph: BondGraph) -> None:
         self.graph = graph
         self.assembly: Assembly = assemble(graph)
-        self._symbols_of: dict[int, list[Expr]] = {}
-        for symbol, (variable, _) in self.assembly.place.items():
-            self._symbols_of.setdefault(variable, []).append(symbol)
-        self._sensors: list[tuple[_Shown, list[int]]] = []  # and the variables that they rest on
-        place = self.assembly.place
-        for s in graph.sensors:
-            if s.same_as is None:
-                variables = [place[n][0] for n in topological([s.reads]) if n in place]
-                self._sensors.append(((s.name, s.symbol, s.reads), variables))
         self._parts: Parts | None = None
-        self._surroundings: Surroundings | None = None
+        self._cones: dict[Expr, Assembly] = {}
         roots = [
             *[law for _, law in self.assembly.laws],
             *[r.value for r in self.assembly.rates],
@@ -163,6 +147,8 @@ class Plant:
         self._reads = {s.symbol: s.reads for s in graph.sensors if s.same_as is None}
         self._read = {name for name, _, _ in self.assembly.readings}
         self._starts: dict[Expr, Expr] = {}  # initial value to the variable that it is one of
+        self._start_of: dict[Expr, list[Expr]] = {}
+        self._begins: dict[Symbol, Expr] = {}
         for node in graph.nodes:
             for port in node.ports:
                 if port.state is not None:
@@ -172,9 +158,13 @@ class Plant:
         for item in graph.integrals:
             if item.initial.op is Op.SYM:
                 self._starts[item.initial] = item.symbol
+        for start, state in self._starts.items():
+            self._start_of.setdefault(state, []).append(start)
+            self._begins[start.symbol] = state
         self.constants = [n for n in found if n.symbol.kind in constant and n not in self._starts]
         self._constants = frozenset(self.constants)
         self._samples: dict[object, Trajectory | WaveSample] = {}
+        self._waves: dict[object, tuple[Waves, dict[Expr, Series], dict[int, Number]]] = {}
         #: Parts whose laws no second point was found for once their constants were drawn.
         self.momentary: list[Assembly] = []
         self._declared = {v.symbol: v.value for v in graph.values}
@@ -194,7 +184,7 @@ class Plant:
         """
         other = copy(self)
         other._apart = frozenset(self._declared if constants is None else constants)
-        other._samples, other.momentary, other._hopeless = {}, [], {}
+        other._samples, other._waves, other.momentary, other._hopeless = {}, {}, [], {}
         return other
 
     def declared_starts(self) -> list[tuple[Expr, Expr, Expr]]:
@@ -226,14 +216,14 @@ class Plant:
         )
         other._asked = tuple(dropped)
         other.held = tuple(initial for initial, state in self._starts.items() if state in starts)
-        other._parts = other._surroundings = None
+        other._parts, other._cones = None, {}
         other._rational, other._reached = {}, {}
-        other._samples, other.momentary, other._hopeless = {}, [], {}
+        other._samples, other._waves, other.momentary, other._hopeless = {}, {}, [], {}
         return other
 
     def numbered(self, expr: Expr) -> list[Expr]:
         """The constants with a declared number that the plant or an expression uses."""
-        used = dict.fromkeys((*self.constants, *symbols(expr)))
+        used = dict.fromkeys((*self.constants, *outline(expr).symbols))
         numbers = [s for s in used if (v := self._declared.get(s)) is not None and v.op is Op.NUM]
         return sorted(numbers, key=lambda s: s.id)
 
@@ -241,13 +231,11 @@ class Plant:
         """The symbols that a part of the plant is made of; no other fault can act in it."""
         found = self._reached.get(id(part))
         if found is None:
-            inside = frozenset(part.active)
             roots = [law for _, law in part.laws] + [r.value for r in part.rates]
-            roots += [reads for _, _, reads in (*part.readings, *self._shown(part))]
+            roots += [reads for _, _, reads in (*part.readings, *part.shown)]
             roots += [b.when for b in part.balances if b.when is not None]
-            own = [s for v in inside for s in self._symbols_of.get(v, ())]
-            own += [symbol for _, symbol, _ in self._shown(part)]
-            found = self._reached[id(part)] = frozenset((*symbols(*roots), *own))
+            own = [symbol for _, symbol, _ in part.shown]
+            found = self._reached[id(part)] = frozenset((*_symbols(roots), *part.place, *own))
         return found
 
     def rational(self, part: Assembly, roots: Iterable[Expr] = ()) -> bool:
@@ -257,9 +245,9 @@ class Plant:
         """
         if id(part) not in self._rational:
             parts = [law for _, law in part.laws] + [r.value for r in part.rates]
-            parts += [reads for _, _, reads in (*part.readings, *self._shown(part))]
-            self._rational[id(part)] = _rational(parts)
-        return self._rational[id(part)] and _rational(roots)
+            parts += [reads for _, _, reads in (*part.readings, *part.shown)]
+            self._rational[id(part)] = rational(parts)
+        return self._rational[id(part)] and rational(roots)
 
     def trajectory(
         self,
@@ -288,7 +276,7 @@ class Plant:
         for name in acting:
             self._names[name]
         roots = list(roots)
-        read = frozenset(symbols(*roots)) if roots else None
+        read = frozenset(_symbols(roots)) if roots else None
         inside = part or self.assembly
         wanted = _Wanted(seed, order, acting, modes or {}, inside, solver, read, turned)
         if self.rational(wanted.part, roots):
@@ -369,49 +357,50 @@ class Plant:
         Faults are random constants on parameters and random exponentials on signals. Raises
         `Mixed` if the plant is not linear with constant coefficients, `ExactUnavailable`.
         """
+        plant, acting = part or self.assembly, [self._names[name] for name in faults]
+        if any(self._names[name] in acting for name in self._read):
+            raise Mixed("a law that uses a faulty reading")
+        changed = tuple(symbol for symbol in acting if symbol in self._constants)
+        key = (seed, tuple((modes or {}).items()), id(plant), changed)
+        if key not in self._waves:
+            self._waves[key] = self._wave(seed, modes or {}, changed, plant)
+        algebra, constants, found = self._waves[key]
+        if changed:
+            del self._waves[key]  # only what truly happens to a healthy plant is asked for again
+        reads = {symbol: reads for _, symbol, reads in plant.shown}
+        random = Random(f"{seed}:errors")
+        told = [s for s in acting if s in reads or (s in plant.place and s not in changed)]
+        sample = WaveSample(algebra, plant.place, constants, found, {})
+        tell(sample, reads, {symbol: algebra.numbers.any(random) for symbol in told})
+        return sample
+
+    def _wave(
+        self, seed: int, modes: Mapping[Expr, int], changed: Sequence[Expr], plant: Assembly
+    ) -> tuple[Waves, dict[Expr, Series], dict[int, Number]]:
+        """Constants, and the amplitudes of all variables while some constants are others."""
         failure: Exception | None = None
         for attempt in range(ATTEMPTS):
             numbers = PrimeField(seed * ATTEMPTS + attempt)
             random = Random(seed * 2011 + attempt)
             algebra = Waves(numbers, numbers.any(random), numbers.any(random))
             try:
-                constants = self.draw_constants(seed, attempt, modes or {}, numbers)
-                acting = tuple(faults)
-                return self._wave(algebra, random, acting, constants, part or self.assembly)
-            except (Undefined, Contradiction) as found:
-                failure = found
+                constants = self.draw_constants(seed, attempt, modes, numbers)
+                true = dict(constants)
+                true.update((s, [true[s][0] + numbers.any(random)]) for s in changed)
+                equations = Writer(plant, Setting(true, numbers, 1)).all({})
+                if not linear(equations):
+                    raise Mixed("a law that is not linear")
+                found = amplitudes(numbers, plant, equations, algebra.s, random)
+                return algebra, constants, found
+            except (Undefined, Contradiction) as reason:
+                failure = reason
         raise ExactUnavailable(self._reason(failure))
 
-    def _wave(
-        self,
-        algebra: Waves,
-        random: Random,
-        faults: Sequence[str],
-        constants: Mapping[Expr, Series],
-        plant: Assembly,
-    ) -> WaveSample:
-        numbers = algebra.numbers
-        true = dict(constants)
-        errors = {self._names[name]: numbers.any(random) for name in faults}
-        if any(self._names[name] in errors for name in self._read):
-            raise Mixed("a law that uses a faulty reading")
-        for symbol, error in errors.items():
-            if symbol in true:
-                true[symbol] = [true[symbol][0] + error]
-        equations = Writer(plant, Setting(true, numbers, 1)).all({})
-        if not linear(equations):
-            raise Mixed("a law that is not linear")
-        found = amplitudes(numbers, plant, equations, algebra.s, random)
-        sample = WaveSample(algebra, plant.place, constants, found, {})
-        inside = frozenset(plant.active)
-        reads = {symbol: reads for _, symbol, reads in self._shown(plant)}
-        errors = {
-            v: e
-            for v, e in errors.items()
-            if v in reads or (v in plant.place and plant.place[v][0] in inside)
-        }
-        tell(sample, reads, errors)
-        return sample
+    def many(self, roots: Sequence[Expr], n: int, part: Assembly) -> bool:
+        """Whether a trajectory has so many coefficients that exponentials are tried first."""
+        order = highest_order(roots, n)
+        large = order * part.count_of > _LARGE and not integral_depth(roots)
+        return large and self.rational(part, roots)
 
     def sample(
         self,
@@ -421,6 +410,7 @@ class Plant:
         *,
         faults: Iterable[str] = (),
         modes: Mapping[Expr, int] | None = None,
+        part: Assembly | None = None,
         turned: bool = False,
     ) -> Trajectory | WaveSample:
         """A point on which `n` coefficients of all roots can be evaluated.
@@ -429,11 +419,12 @@ class Plant:
         plant and the roots are linear. A healthy point is remembered. Raises `ExactUnavailable`.
         """
         acting = tuple(faults)
+        inside = part or self.part_for(roots)
         if acting or modes:
-            return self._sample(roots, seed, n, acting, modes, turned)
-        key = (tuple(roots), seed, n)
+            return self._sample(roots, seed, n, acting, modes, inside, turned)
+        key = (tuple(roots), seed, n, id(inside))
         if key not in self._samples:
-            self._samples[key] = self._sample(roots, seed, n, (), None, False)
+            self._samples[key] = self._sample(roots, seed, n, (), None, inside, False)
         return self._samples[key]
 
     def _sample(
@@ -443,12 +434,11 @@ class Plant:
         n: int,
         faults: tuple[str, ...],
         modes: Mapping[Expr, int] | None,
+        part: Assembly,
         turned: bool,
     ) -> Trajectory | WaveSample:
         order = highest_order(roots, n)
-        part = self.part_for(roots)
-        large = order * len(part.active) > _LARGE and not integral_depth(roots)
-        if large and self.rational(part, roots):
+        if self.many(roots, n, part):
             try:
                 found = self.wave(seed, faults, modes, part)
                 evaluate(roots, found)
@@ -510,7 +500,7 @@ class Plant:
                 true[symbol] = _changed(numbers, random, true[symbol], n, turn)
             elif name in self._read:
                 readings[name] = _error(numbers, random, [], n)
-        told_sensors = [s for s in self._shown(part) if read is None or s[1] in read]
+        told_sensors = [s for s in part.shown if read is None or s[1] in read]
         shown: tuple[Expr, ...] = ()
         if numbers.real:
             shown = (*[reads for _, _, reads in told_sensors], *self._inside(part, self._asked))
@@ -524,9 +514,9 @@ class Plant:
             raise ExactUnavailable(f"a law of the model holds {failure}") from None
         truth = KnownSample(plant.place, setting, values)
         told = dict(constants)
-        inside = frozenset(plant.active)
-        for name, symbol in self._inputs.items():
-            if name in faults and part.place[symbol][0] in inside:
+        for name in faults:
+            symbol = self._names[name]
+            if name in self._inputs and symbol in part.place:
                 true_value = truth.value(symbol)
                 told[symbol] = series.add(true_value, _error(numbers, random, true_value, n))
         for name, symbol, reads in told_sensors:
@@ -534,21 +524,16 @@ class Plant:
             wrong = _error(numbers, random, reading, n) if name in faults else [0]
             told[symbol] = series.add(reading, wrong)
         starts: dict[Symbol, Number] = {}
-        for initial, state in self._starts.items():
-            if plant.place[state][0] in inside:
+        for state in plant.place:
+            for initial in self._start_of.get(state, ()):
                 starts[initial.symbol] = truth.value(state)[0]
                 told.setdefault(initial, [starts[initial.symbol]])
         return Trajectory(self, seed, order, tuple(faults), told, truth, starts, part, still, read)
 
     def _inside(self, part: Assembly, exprs: Iterable[Expr]) -> list[Expr]:
         """Those of the expressions that rest on variables of a part alone."""
-        inside, place = frozenset(part.active), part.place
-        return [e for e in exprs if all(place[s][0] in inside for s in symbols(e) if s in place)]
-
-    def _shown(self, plant: Assembly) -> list[_Shown]:
-        """The sensors of a part of the plant: name, symbol, reads."""
-        inside = frozenset(plant.active)
-        return [shown for shown, variables in self._sensors if inside.issuperset(variables)]
+        whole = self.assembly.place
+        return [e for e in exprs if all(s in part.place for s in outline(e).symbols if s in whole)]
 
     def part_for(self, roots: Sequence[Expr]) -> Assembly:
         """The part of the plant that shows the signals in the roots."""
@@ -557,36 +542,30 @@ class Plant:
         seen: dict[Expr, None] = {}
         found = list(roots)
         while found:
-            found = [n for n in topological(found) if n.op is Op.SYM and n not in seen]
+            found = [n for n in dict.fromkeys(_symbols(found)) if n not in seen]
             seen.update(dict.fromkeys(found))
             found = [self._reads[n] for n in found if n in self._reads]
-        starts = {i.symbol: state for i, state in self._starts.items()}
-        for node in topological(roots):
-            if node.op is Op.INT and node.symbol in starts:
-                seen[starts[node.symbol]] = None
+        for root in roots:
+            for node in outline(root).nodes if Op.INT in outline(root).ops else ():
+                if node.op is Op.INT and node.symbol in self._begins:
+                    seen[self._begins[node.symbol]] = None
         seen.update((self._starts[n], None) for n in list(seen) if n in self._starts)
-        return self._parts.about(list(seen))
+        return self._parts.about(seen)
 
-    def surroundings(self, root: Expr) -> Iterator[Assembly]:
-        """Ever larger sub-plants about a relation, as long as they are small beside its part.
+    def cone(self, root: Expr) -> Assembly:
+        """The sub-plant that a relation can rest on, and no more.
 
-        What does not move the relation on one does not move it on the plant.
+        What does not move the relation there does not move it on the plant.
         """
-        if self._surroundings is None:
-            self._surroundings = Surroundings(self.assembly, self.graph)
-        whole = self.part_for([root])
-        inside = symbols(root)
-        shown = [*inside, *symbols(*[self._reads[s] for s in inside if s in self._reads])]
-        nodes = self._surroundings.of(shown)
-        last, fewer = 0, frozenset[int]()
-        while len(nodes) > len(fewer):
-            fewer, nodes = nodes, self._surroundings.wider(nodes)
-            part = self._surroundings.part(nodes, shown)
-            if 2 * len(part.active) > len(whole.active):
-                return
-            if len(part.active) > _WIDER * last:
-                yield part
-                last = len(part.active)
+        if self._parts is None:
+            self._parts = Parts(self.assembly)
+        found = self._cones.get(root)
+        if found is None:
+            told = [self._reads.get(s, s) for s in outline(root).symbols]
+            place = self.assembly.place
+            values = [t for t in told if any(s in place for s in outline(t).symbols)]
+            found = self._cones[root] = self._parts.resting_on(values)
+        return found
 
     # ------------------------------------------------------------------------ explanations
 

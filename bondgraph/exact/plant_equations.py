@@ -10,8 +10,9 @@ from random import Random
 from typing import NamedTuple
 
 from bondgraph.exact.assembly import Assembly
-from bondgraph.exact.evaluate import demands, evaluate, plan, values_of
+from bondgraph.exact.evaluate import evaluate, values_of
 from bondgraph.exact.forms import ORDERS, Form, Forms
+from bondgraph.exact.outline import demands, plan
 from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.field.numbers import Number, Numbers
 from bondgraph.field.series import Series

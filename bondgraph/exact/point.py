@@ -13,9 +13,10 @@ from heapq import heapify, heappop, heappush
 from math import isfinite
 from random import Random
 
-from bondgraph.exact.evaluate import chosen, evaluate, plan, values_of
+from bondgraph.exact.evaluate import chosen, evaluate, values_of
 from bondgraph.exact.forms import Form, Forms, NotLinear
 from bondgraph.exact.known import KnownSample, gradient
+from bondgraph.exact.outline import plan
 from bondgraph.exact.plant_equations import (
     Equation,
     FormSample,

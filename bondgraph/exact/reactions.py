@@ -7,29 +7,32 @@ fault is found whatever its course.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
+from operator import attrgetter
 from typing import NamedTuple, TypeVar
 
 from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.evaluate import (
+    Forward,
     Sensitivity,
     evaluate,
-    highest_order,
     sensitivities,
     telling,
 )
 from bondgraph.exact.free import FreeSample
 from bondgraph.exact.from_start import from_start
+from bondgraph.exact.outline import Outline, highest_order, outline
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.plant_equations import has_sides
 from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.exact.switch_modes import assignments, modes_of
 from bondgraph.exact.trajectory import Trajectory
 from bondgraph.field.numbers import Undefined
-from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological
+from bondgraph.ir.expr import Expr, Kind, Op
 
 T = TypeVar("T")
+_ID = attrgetter("id")
 
 #: Points at which a relation is tried: one is enough for one without branches (it errs with a
 #: probability of about its degree / 2**61 in a field, less over the reals), a branch not taken at
@@ -54,10 +57,12 @@ class Reactions:
         self.turns = _turns(laws, dict.fromkeys(plant.modes, 0))
         self.symbols = graph.fault_symbols()
         self.faults = {symbol: name for name, symbol in self.symbols.items()}
+        self._faulty_parameters = [s for s in self.faults if s.symbol.kind is Kind.PARAM]
 
     def at_free_signals(self, expr: Expr) -> Sensitivity:
         """What the relation depends on when its signals are independent of each other."""
-        found = Sensitivity(dict.fromkeys(symbols(expr), False), {}, frozenset(), (), frozenset())
+        none = dict.fromkeys(outline(expr).symbols, False)
+        found = Sensitivity(none, {}, frozenset(), (), frozenset())
         for point in range(_points([expr], None)):
             try:
                 here = self.draw(
@@ -96,26 +101,35 @@ class Reactions:
             # told a parameter that moves, a relation may show what no plant would make it show
             doubtful = [s for s in seen if s.symbol.kind is Kind.PARAM and s not in sure]
             seen.difference_update(doubtful)
-            unseen = [s for s in dict.fromkeys((*symbols(expr), *others)) if s not in seen]
+            unseen = [s for s in dict.fromkeys((*outline(expr).symbols, *others)) if s not in seen]
             seen.update(self.movers(expr, [s for s in unseen if s in self.faults]))
         return reacts
 
-    def movers(self, expr: Expr, candidates: list[Expr]) -> list[Expr]:
-        """Those of the faults that move a relation; asked one by one only if all together do."""
+    def movers(
+        self, expr: Expr, candidates: Collection[Expr], but: Collection[Expr] = ()
+    ) -> list[Expr]:
+        """Those of the faults, some left out, that move a relation.
+
+        Asked one by one only if all together do.
+        """
+        if not candidates or self._unmoved_nearby(expr, candidates, but):
+            return []
+        tried = [s for s in candidates if s not in but]
         try:
             alone = self.turns > 1 or _turns([expr], self.modes) > 1  # each in branches of its own
-            if len(candidates) > (_FEW if alone else 1) and not self.moves(expr, *candidates):
+            if len(tried) > (_FEW if alone else 1) and not self._moves_anywhere(expr, tried):
                 return []
         except ExactUnavailable:
             pass  # so many faults at once leave no plant to speak of
-        return [s for s in candidates if self.moves(expr, s)]
+        return [s for s in tried if self.moves(expr, s)]
 
     def at_trajectory(
         self, exprs: list[Expr], modes: Mapping[Expr, int] | None, number: int
     ) -> list[Sensitivity]:
         """Derivatives of all relations at one healthy trajectory."""
         sample = self.plant.sample(exprs, number, telling(exprs), modes=modes)
-        return [sensitivities(expr, sample) for expr in exprs]
+        forward = Forward(exprs, sample)
+        return [sensitivities(expr, sample, forward=forward) for expr in exprs]
 
     def settings(self, exprs: list[Expr]) -> list[Mapping[Expr, int] | None]:
         """The modes at each of the points that are tried."""
@@ -133,13 +147,16 @@ class Reactions:
         of finite size shows; and a parameter may cancel out of a relation only while it is
         constant.
         """
-        reached = self.plant.reached(self.plant.part_for([expr]))
-        faults = tuple(self.faults[s] for s in acting if s in self.faults and s in reached)
+        if self._unmoved_nearby(expr, acting):
+            return False
+        return self._moves_anywhere(expr, acting)
+
+    def _moves_anywhere(self, expr: Expr, acting: Collection[Expr]) -> bool:
+        """Whether faults move a relation on the whole part of the plant that shows its signals."""
+        faults = self._within(self.plant.part_for([expr]), acting)
         if not faults:
             return False
         size = telling([expr])
-        if self._unmoved_nearby(expr, faults, size):
-            return False
 
         def value(modes: Mapping[Expr, int] | None, turned: bool, number: int) -> bool:
             sample = self.plant.sample(
@@ -170,31 +187,37 @@ class Reactions:
             raise failure
         return False
 
-    def _unmoved_nearby(self, expr: Expr, faults: tuple[str, ...], size: int) -> bool:
-        """Whether faults leave a relation unmoved on a small part of the plant, and so on all.
+    def _within(
+        self, part: Assembly, candidates: Collection[Expr], but: Collection[Expr] = ()
+    ) -> tuple[str, ...]:
+        """The names of the faults that can act in a part of the plant."""
+        reached = [s for s in self.plant.reached(part) if s in candidates and s not in but]
+        return tuple(self.faults[s] for s in sorted(reached, key=_ID) if s in self.faults)
 
-        Where nothing has branches: one point then stands for all.
+    def _unmoved_nearby(
+        self, expr: Expr, candidates: Collection[Expr], but: Collection[Expr] = ()
+    ) -> bool:
+        """Whether faults leave a relation unmoved where it is all that the equations say.
+
+        And so on the plant. Where nothing has branches: one point then stands for all.
         """
         if self.turns > 1 or self.modes or _turns([expr], None) > 1 or self.plant.modes:
             return False
-        order = highest_order([expr], size)
-        for part in self.plant.surroundings(expr):
-            reached = self.plant.reached(part)
-            acting = [f for f in faults if self.symbols[f] in reached]
+        size, part = telling([expr]), self.plant.part_for([expr])
+        changed = (s for s in self._faulty_parameters if s in candidates and s not in but)
+        if any(changed) or not self.plant.many([expr], size, part):
+            part = self.plant.cone(expr)  # else the whole moves as it does without the faults
+        acting = self._within(part, candidates, but)
 
-            def moved(number: int, part: Assembly = part, acting: list[str] = acting) -> bool:
-                sample = self.plant.trajectory(
-                    number, order, faults=acting, part=part, roots=[expr]
-                )
-                found = evaluate([expr], sample, size)[0]
-                return sample.still or sample.algebra.moves(found)
+        def moved(number: int) -> bool:
+            sample = self.plant.sample([expr], number, size, faults=acting, part=part)
+            found = evaluate([expr], sample, size)[0]
+            return sample.algebra.moves(found) or (isinstance(sample, Trajectory) and sample.still)
 
-            try:
-                if not self.draw(moved, 3000 * self.seed):
-                    return True
-            except (ExactUnavailable, Mixed):
-                return False
-        return False
+        try:
+            return not self.draw(moved, 3000 * self.seed)
+        except (ExactUnavailable, Mixed):
+            return False
 
     def draw(self, attempt: Callable[[int], T], number: int) -> T:
         """The result at a random point; points where something has no value are drawn again."""
@@ -208,7 +231,7 @@ class Reactions:
 
 def _by_presence(expr: Expr) -> Sensitivity:
     """What a relation may depend on, where it has no value at any random point."""
-    inside = symbols(expr)
+    inside = outline(expr).symbols
     signals = [s for s in inside if s.symbol.kind in (Kind.INPUT, Kind.SENSOR, Kind.READING)]
     order = highest_order([expr])
     orders = dict.fromkeys(signals, order)
@@ -218,15 +241,19 @@ def _by_presence(expr: Expr) -> Sensitivity:
 
 def branches(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None = None) -> bool:
     """Whether an expression takes branches that the modes do not decide."""
+    return any(_branches(outline(expr), modes) for expr in exprs)
+
+
+def _branches(expr: Outline, modes: Mapping[Expr, int] | None) -> bool:
+    known = modes or {}
+    if any(s.symbol.kind is Kind.MODE and s not in known for s in expr.symbols):
+        return True
+    if expr.ops.isdisjoint((Op.IF, Op.FN, Op.ROOT)):
+        return False
     decided: dict[Expr, bool] = {}
-    for n in topological(exprs):
-        if n.op is Op.SYM:
-            decided[n] = modes is not None and n in modes
-            found = n.symbol.kind is Kind.MODE and not decided[n]
-        else:
-            decided[n] = all(decided[a] for a in n.args)
-            found = (n.op is Op.IF and not decided[n.args[0]]) or _branching(n)
-        if found:
+    for n in expr.nodes:
+        decided[n] = n in known if n.op is Op.SYM else all(decided[a] for a in n.args)
+        if (n.op is Op.IF and not decided[n.args[0]]) or _branching(n):
             return True
     return False
 
@@ -235,8 +262,8 @@ def _turns(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:
     """Points at which faults of finite size are tried; every second one turns their signs."""
     if branches(exprs, modes):
         return _TURNS
-    cut = any(n.op is Op.FN and n.name in _CUT for n in topological(exprs))
-    return 2 if cut else 1
+    called = [n for e in exprs if Op.FN in outline(e).ops for n in outline(e).nodes]
+    return 2 if any(n.op is Op.FN and n.name in _CUT for n in called) else 1
 
 
 def _points(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:
@@ -247,7 +274,7 @@ def _points(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:
 def _branching(node: Expr) -> bool:
     """Whether a node is a function of several branches, or iteration goes through one."""
     if node.op is Op.ROOT:
-        inside = topological([node.root.zero])
+        inside = outline(node.root.zero).nodes
         return any(n.op is Op.IF or _branching(n) for n in inside)
     return has_sides(node)
 
@@ -291,7 +318,7 @@ def _apart(
 
     Initial values are among them where `declared` holds states that never leave theirs.
     """
-    hidden = [s for s in symbols(expr) if s in declared.faults and s not in seen]
+    hidden = [s for s in outline(expr).symbols if s in declared.faults and s not in seen]
     seed = declared.seed
     if not hidden:
         return {}

@@ -138,6 +138,11 @@ class Taylor:
 
     def combine(self, terms: Sequence[tuple[Number, Series]], n: int) -> Series:
         """The sum of number times value."""
+        if n == 1:
+            total: Number = 0
+            for c, a in terms:
+                total += c * a[0]
+            return [total]
         out: Series = [0] * max(min(n, len(a)) for _, a in terms)
         for c, a in terms:
             for i, x in enumerate(a[:n]):

@@ -43,9 +43,8 @@ def rest(
 
 def _still(plant: Assembly) -> list[Equation]:
     grows = {v for s, (v, _) in plant.place.items() if s.symbol.kind in _MAY_GROW}
-    return [
-        Equation(-1, {v * ORDERS + 1: [1]}, None, {v: 1}) for v in plant.active if v not in grows
-    ]
+    stays = [v for v in range(plant.count_of) if v not in grows]
+    return [Equation(-1, {v * ORDERS + 1: [1]}, None, {v: 1}) for v in stays]
 
 
 def _with(
@@ -61,11 +60,11 @@ def _with(
     times = [_TOP] * len(both)
     point.linear(both, times)
     point.nonlinear(both, times)
-    found = point.complete([v * STRIDE + k for v in plant.active for k in range(_TOP + 1)])
-    values: list[Series] = [[] for _ in range(plant.count_of)]
-    for v in plant.active:
+    found = point.complete([v * STRIDE + k for v in range(plant.count_of) for k in range(_TOP + 1)])
+    values: list[Series] = []
+    for v in range(plant.count_of):
         series = [found[v * STRIDE + k] for k in range(_TOP + 1)]
         while len(series) > 1 and not setting.numbers.nonzero(series[-1]):
             series.pop()
-        values[v] = series
+        values.append(series)
     return values

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from bondgraph.ir.expr import Expr, Kind, topological
+from bondgraph.exact.outline import outline
+from bondgraph.ir.expr import Expr, Kind
 from bondgraph.ir.graph import BondGraph
 
 #: Boolean inputs all of whose assignments are tried; beyond them the others go along.
@@ -21,7 +22,7 @@ def modes_of(graph: BondGraph, exprs: Iterable[Expr] = ()) -> list[Expr]:
     roots += [node.when for node in graph.nodes if node.when is not None]
     roots += [i.integrand for i in graph.integrals]
     roots += [s.reads for s in graph.sensors]
-    used = {n for n in topological(roots) if n.kind is Kind.MODE}
+    used = {s for r in roots for s in outline(r).symbols if s.symbol.kind is Kind.MODE}
     return [i.symbol for i in graph.inputs if i.symbol in used]
 
 

@@ -69,17 +69,21 @@ def solve(
     except Contradiction as failure:
         raise Contradiction(failure.row, equations[failure.row].node) from None
     given = set(system.given)
+    length = [size + 1 for size in d]
     found = point.complete(
-        [j * STRIDE + k for j in plant.active for k in range(order + 1 if j in given else d[j] + 1)]
+        [
+            j * STRIDE + k
+            for j, size in enumerate(length)
+            for k in range(order + 1 if j in given else size)
+        ]
     )
-    length = {j: d[j] + 1 for j in plant.active}
     for column in found:
         j, k = divmod(column, STRIDE)
         if j in given:  # a free function: what nothing asks for is zero
             length[j] = max(length[j], k + 1)
-    values: list[Series] = [[] for _ in range(plant.count_of)]
-    for j, size in length.items():
-        values[j] = [found.get(j * STRIDE + k, 0) for k in range(size)]
+    values: list[Series] = [
+        [found.get(j * STRIDE + k, 0) for k in range(size)] for j, size in enumerate(length)
+    ]
     try:
         _continue(system, plant, setting, values, order)
     except Singular:
@@ -142,7 +146,7 @@ def _continue(
     """
     c, d = system.offsets.equations, system.offsets.variables
     given = set(system.given)
-    inner = [j for j in plant.active if j not in given]
+    inner = [j for j in range(plant.count_of) if j not in given]
     position = {j: at for at, j in enumerate(inner)}
     slack = min((d[j] for j in inner), default=0)
     if not inner:
@@ -209,8 +213,6 @@ def _all_at_once(
     point = Point(plant.place, setting, random)
     point.linear(system.equations, [top] * len(c))
     point.nonlinear(system.equations, [order + i + 1 for i in c])
-    found = point.complete([j * STRIDE + k for j in plant.active for k in range(order + 1)])
-    values: list[Series] = [[] for _ in range(plant.count_of)]
-    for j in plant.active:
-        values[j] = [found[j * STRIDE + k] for k in range(order + 1)]
-    return values
+    wanted = [[j * STRIDE + k for k in range(order + 1)] for j in range(plant.count_of)]
+    found = point.complete([column for columns in wanted for column in columns])
+    return [[found[column] for column in columns] for columns in wanted]

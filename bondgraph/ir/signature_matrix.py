@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from html import escape
+from itertools import compress
+from operator import itemgetter
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -44,7 +46,16 @@ class SignatureMatrix(NamedTuple):
     def signature(self, residual: str) -> tuple[str, ...]:
         """The faults that a residual sees."""
         at = self.residuals.index(residual)
-        return tuple(f for f, row in zip(self.faults, self.rows, strict=True) if row[at])
+        return tuple(compress(self.faults, map(itemgetter(at), self.rows)))
+
+    @property
+    def sees(self) -> dict[str, tuple[str, ...]]:
+        """The faults that each residual sees."""
+        found: dict[str, list[str]] = {residual: [] for residual in self.residuals}
+        for fault, row in zip(self.faults, self.rows, strict=True):
+            for residual in compress(self.residuals, row):
+                found[residual].append(fault)
+        return {residual: tuple(faults) for residual, faults in found.items()}
 
     @property
     def undetectable(self) -> tuple[str, ...]:

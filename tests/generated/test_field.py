@@ -17,7 +17,8 @@ from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import load
 from bondgraph.backends.write import write
 from bondgraph.exact.signal_algebra import Taylor
-from bondgraph.exact.evaluate import evaluate, highest_order
+from bondgraph.exact.evaluate import evaluate
+from bondgraph.exact.outline import highest_order
 from bondgraph.field.prime import PrimeField
 from bondgraph.exact.free import FreeSample
 from bondgraph.ir.expr import Expr, Kind, Op, symbols, topological

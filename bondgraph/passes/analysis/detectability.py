@@ -7,15 +7,9 @@ from functools import cached_property, partial
 from random import Random
 from typing import Any
 
-from bondgraph.exact.evaluate import (
-    Evaluated,
-    Sample,
-    evaluate,
-    highest_order,
-    integral_depth,
-    sensitivities,
-)
+from bondgraph.exact.evaluate import Evaluated, Sample, evaluate, sensitivities
 from bondgraph.exact.exponentials import WaveSample
+from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.reactions import Reactions
 from bondgraph.exact.signal_algebra import Mixed
@@ -49,10 +43,12 @@ def detectability(
     Decided at the declared numbers, as the signatures are. Where the machine has no steady
     operation it is taken at rest (no flow), and without that the answer is None.
     """
-    items = [(r.expr, matrix.signature(r.name)) for r in residuals.residuals]
+    sees = matrix.sees
+    items = [(r.expr, sees[r.name]) for r in residuals.residuals]
     columns = _strong(items, plant, seed)
     strong = tuple(
-        tuple(None if own is None else fault in own for own in columns) for fault in matrix.faults
+        tuple([None if own is None else fault in own for own in columns])
+        for fault in matrix.faults
     )
     return Detectability(matrix.residuals, matrix.faults, strong, matrix)
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import partial
 
-from bondgraph.exact.evaluate import highest_order, integral_depth
+from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.parity import parity
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.reactions import Reactions

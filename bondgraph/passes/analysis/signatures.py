@@ -47,6 +47,7 @@ class _Analysis:
 
     def run(self) -> tuple[ResidualSet, SignatureMatrix]:
         relations: list[tuple[Closing, Expr, dict[Expr, int]]] = []
+        met: set[Expr] = set()
         for closing in self.reduced.closings:
             free = self.reactions.at_free_signals(closing.expr)
             alive = any(v and s.symbol.kind is not Kind.CONST for s, v in free.depends.items())
@@ -56,7 +57,8 @@ class _Analysis:
                 bases += [b for b in nothings(self.nominal, own.expr) if symbols(b)]
                 expr = cleared(self.pool, own.expr, bases)
                 expr = upright(self.pool, expr)
-                if all(expr is not other for _, other, _ in relations):  # two equal gyrators
+                if expr not in met:  # two equal gyrators
+                    met.add(expr)
                     relations.append((own, expr, free.orders))
         names = [f"r{i + 1}" for i in range(len(relations))]
         seen = entries(self.plant, self.seed, [(e, _behind(c)) for c, e, _ in relations])
@@ -65,10 +67,15 @@ class _Analysis:
             for name, (c, expr, _) in zip(names, relations, strict=True)
         )
         faults = self.graph.fault_symbols()
-        rows = [tuple(symbol in own.seen for own in seen) for symbol in faults.values()]
+        hits = {symbol: [False] * len(names) for symbol in faults.values()}
+        for at, sees in enumerate(seen):
+            for symbol in sees.seen:
+                if symbol in hits:
+                    hits[symbol][at] = True
         apart = {
             (name, fault): tuple(v.symbol.name for v in own.apart[symbol])
             for name, own in zip(names, seen, strict=True)
+            if own.apart
             for fault, symbol in faults.items()
             if symbol in own.apart
         }
@@ -80,7 +87,12 @@ class _Analysis:
                 reduced.system, residuals, reduced.unsolved, reduced.unmonitored, reduced.missing
             ),
             SignatureMatrix(
-                tuple(names), tuple(faults), tuple(rows), orders, apart, unconfirmed
+                tuple(names),
+                tuple(faults),
+                tuple(map(tuple, hits.values())),
+                orders,
+                apart,
+                unconfirmed,
             ),
         )
 

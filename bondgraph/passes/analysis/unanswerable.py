@@ -7,7 +7,8 @@ from typing import Any
 
 from bondgraph.algebra.affine import affine
 from bondgraph.algebra.nominal import Nominal
-from bondgraph.exact.evaluate import Sample, demands, values_of
+from bondgraph.exact.evaluate import Sample, values_of
+from bondgraph.exact.outline import demands
 from bondgraph.exact.plant import ExactUnavailable
 from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.exact.trajectory import Trajectory

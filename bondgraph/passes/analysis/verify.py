@@ -9,15 +9,16 @@ from __future__ import annotations
 
 from contextlib import suppress
 
-from bondgraph.exact.evaluate import Sample, evaluate, sensitivities, telling
+from bondgraph.exact.evaluate import Forward, Sample, evaluate, sensitivities, telling
 from bondgraph.exact.from_start import from_start
+from bondgraph.exact.outline import outline
 from bondgraph.exact.plant import Contradictory, ExactUnavailable, Plant
 from bondgraph.exact.reactions import Reactions, branches
 from bondgraph.exact.switch_modes import assignments, modes_of
 from bondgraph.exact.trajectory import Trajectory
 from bondgraph.exact.verification import Verification
 from bondgraph.field.numbers import Undefined
-from bondgraph.ir.expr import Expr, Kind, symbols, topological
+from bondgraph.ir.expr import Expr, Kind
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
@@ -26,7 +27,6 @@ from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
 _BRANCHES = 6  # healthy plants where a law or a residual decides something, else one
-_WORK = 200_000  # nodes that may be looked at for the entries of the matrix, before a sample is
 _TRIES = 20  # points at which a residual or a law may have no value, drawn again
 _APART = 499  # the seed of other points than those that the signatures were decided at
 
@@ -70,6 +70,9 @@ class _Check:
         self.residuals = residuals.residuals
         self.exprs = [r.expr for r in self.residuals]
         self.signatures = signatures
+        faults = graph.fault_symbols()
+        self.faulty = frozenset(faults.values())
+        self.seen = {r: {faults[f] for f in seen} for r, seen in signatures.sees.items()}
         self.report = report
         self.seed = seed + _APART
         self.plant = plant
@@ -85,7 +88,7 @@ class _Check:
     def run(self) -> Verification:
         """Everything, in the order of cost; the first thing found wrong is reported."""
         for residual in self.residuals:
-            if all(s.symbol.kind is not Kind.SENSOR for s in symbols(residual.expr)):
+            if all(s.symbol.kind is not Kind.SENSOR for s in outline(residual.expr).symbols):
                 closing = residual.closing  # what the sources alone must satisfy is no residual
                 unanswerable.contradictory(self.report, closing.name, closing.origin)
                 return self.result("not verified: a relation without a sensor")
@@ -166,11 +169,9 @@ class _Check:
         Such a relation may vanish all the same, whatever fault is there; looked at where a
         relation does not see all that it holds.
         """
-        faults = self.graph.fault_symbols()
         for at, residual in enumerate(self.residuals):
-            seen = self.signatures.signature(residual.name)
-            inside = set(symbols(residual.expr))
-            if any(s in inside and fault not in seen for fault, s in faults.items()):
+            seen = self.seen[residual.name]
+            if any(s in self.faulty and s not in seen for s in outline(residual.expr).symbols):
                 divisor = unanswerable.divided_away(self.graph.pool, self.points, residual)
                 if divisor is not None:
                     raise unanswerable.Resting(at, divisor)
@@ -183,35 +184,31 @@ class _Check:
     def entries(self) -> None:
         """Every residual sees what it is said to see and nothing else, at other points too.
 
-        Of large models only some residuals are looked at. Where laws have branches, what these
-        points do not show may have been seen in a branch that they do not take.
+        Where laws have branches, what these points do not show may have been seen in a branch
+        that they do not take.
         """
-        matrix, faults = self.signatures, self.graph.fault_symbols()
-        size = sum(len(topological([e])) for e in self.exprs)
-        step = 1 + size // _WORK
         reactions = Reactions(from_start(self.plant), self.seed)
-        for at in range(0, len(self.exprs), step):
-            expr, name = self.exprs[at], self.residuals[at].name
-            if name in matrix.unconfirmed:
+        forward = None if self.decides else Forward(self.exprs, self.points[0])
+        for residual in self.residuals:
+            name, expr, seen = residual.name, residual.expr, self.seen[residual.name]
+            if name in self.signatures.unconfirmed:
                 continue
-            seen = set(matrix.signature(name))
-            for symbol in reactions.movers(expr, [s for f, s in faults.items() if f not in seen]):
+            for symbol in reactions.movers(expr, reactions.faults, seen):
                 self.contradicted(name, symbol, "sees", "at some points, its signature does not")
-            unproved = [] if self.decides else self.unproved(expr, [faults[f] for f in seen])
+            unproved = [] if forward is None else self.unproved(expr, seen, forward)
             for symbol in sorted(unproved, key=lambda s: s.id):
                 if not reactions.moves(expr, symbol):
                     self.contradicted(name, symbol, "does not see", "at some points, as it should")
-        self.faults = len(matrix.faults) // step
+        self.faults = len(self.signatures.faults)
 
-    def unproved(self, expr: Expr, faults: list[Expr]) -> list[Expr]:
+    def unproved(self, expr: Expr, seen: set[Expr], forward: Forward) -> set[Expr]:
         """The faults along which a residual has no slope at the healthy point."""
         try:
-            found = sensitivities(expr, self.points[0])
+            found = sensitivities(expr, self.points[0], forward=forward)
         except Undefined:
-            return faults
-        proved = [s for s, hit in found.depends.items() if hit]
-        proved = [s for s in proved if s.symbol.kind is not Kind.PARAM or s in found.lasting]
-        return [s for s in faults if s not in proved]
+            return seen
+        proved = {s for s, hit in found.depends.items() if hit}
+        return seen - {s for s in proved if s.symbol.kind is not Kind.PARAM or s in found.lasting}
 
     def contradicted(self, residual: str, fault: Expr, does: str, where: str) -> None:
         """Say that other points contradict an entry of the matrix."""

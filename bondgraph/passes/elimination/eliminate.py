@@ -5,7 +5,7 @@ Most models take one elimination (`chain`). What costs more is tried only where 
 
 from __future__ import annotations
 
-from bondgraph.exact.evaluate import highest_order
+from bondgraph.exact.outline import highest_order
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.residuals import Missing, ReducedSystem
 from bondgraph.passes.elimination.chaining import Chain, Way

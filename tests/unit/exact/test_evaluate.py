@@ -4,12 +4,8 @@ from fractions import Fraction
 
 import pytest
 
-from bondgraph.exact.evaluate import (
-    evaluate,
-    highest_order,
-    integral_depth,
-    sensitivities,
-)
+from bondgraph.exact.evaluate import evaluate, sensitivities
+from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.plant import Plant
 from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.field.series import Series

@@ -3,7 +3,8 @@
 import pytest
 from flint import arb, nmod
 
-from bondgraph.exact.evaluate import evaluate, highest_order
+from bondgraph.exact.evaluate import evaluate
+from bondgraph.exact.outline import highest_order
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.field.prime import inverse
 from bondgraph.field.series import Series
