@@ -16,6 +16,7 @@ STAGES = (
     "derivative",
     "causal",
     "equations",
+    "reduced",
     "residuals",
     "signatures",
     "program",
@@ -57,6 +58,10 @@ def text_of(compilation: Compilation, stage: str) -> str:
             return f"{text_of(compilation, 'integral')}\n\n{text_of(compilation, 'derivative')}"
         case "equations":
             return dump.dump_equations(compilation.equations)
+        case "reduced":
+            from bondgraph.ir.dump_reduced import dump_reduced
+
+            return dump_reduced(compilation.reduced)
         case "residuals":
             return dump.dump_residuals(compilation.residuals.stage)
         case "signatures":

@@ -97,11 +97,15 @@ class Closing(NamedTuple):
 class ReducedSystem(NamedTuple):
     """The equations after elimination, before what cancels is taken out.
 
+    `steps` give every variable that was reached, once, in the order of the elimination; in `closed`
+    a torn variable may still stand for itself, which the steps of a closing have resolved as far as
+    that is possible. Of a plant that was eliminated in each mode they are chosen by the mode.
     `unsolved` are variables that no sensor reaches, `unmonitored` the equations that hold them.
     `missing` are relations that exist but could not be brought to known signals.
     """
 
     system: EquationSystem
+    steps: tuple[Step, ...]
     closings: tuple[Closing, ...]
     unsolved: tuple[Expr, ...]
     unmonitored: tuple[Equation, ...]

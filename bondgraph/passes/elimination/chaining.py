@@ -387,7 +387,10 @@ class Chain:
             costs, closing = ([self.system.equations[r] for r in own] for own in (about, rows))
             missing += loop_unsolvable(costs, inside, closing, below)
         missing += self.unaccounted([*[c.equation for c in closings], *[m.about for m in missing]])
-        return ReducedSystem(self.system, tuple(closings), unsolved, unmonitored, tuple(missing))
+        steps = tuple(self.steps[v] for v in sorted(self.steps, key=self.sequence.__getitem__))
+        return ReducedSystem(
+            self.system, steps, tuple(closings), unsolved, unmonitored, tuple(missing)
+        )
 
     def unaccounted(self, told: list[Equation]) -> list[Missing]:
         """Hold the number of relations to theory: what is neither found nor told to be missing."""

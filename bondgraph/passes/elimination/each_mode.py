@@ -130,6 +130,7 @@ class _Join:
         dark = [{self.number[id(e)] for e in a.unmonitored} for a in found]
         return ReducedSystem(
             self.system,
+            self.steps(self.answers),
             tuple(self.closing(row, column) for row, column in closings),
             tuple(v for v in self.system.unknowns if v in unsolved),
             tuple(self.system.equations[r] for r in sorted(set.intersection(*dark))),
@@ -169,7 +170,7 @@ class _Join:
             self._chosen(raws),
         )
 
-    def steps(self, column: list[Closing | None]) -> tuple[Step, ...]:
+    def steps(self, column: Sequence[Closing | ReducedSystem | None]) -> tuple[Step, ...]:
         """The steps of all modes; what a variable is in a mode that has no use for it is open."""
         told = [{s.variable: s for s in c.steps} if c else {} for c in column]
         order = dict.fromkeys(v for own in told for v in own)
