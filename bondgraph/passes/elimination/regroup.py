@@ -39,11 +39,12 @@ def regroup(system: ReducedSystem) -> ReducedSystem:
     """
     pool = system.system.graph.pool
     closings = list(system.closings)
+    order = [s.variable for s in system.steps]
     modes = [s for s in symbols(*[c.expr for c in closings]) if s.symbol.kind is Kind.MODE]
     for mode in modes[:_MODES]:
         members = [at for at, c in enumerate(closings) if _switched(c, mode)]
         if 1 < len(members) <= _MOST:
-            _exchange(pool, closings, members, mode)
+            _exchange(pool, order, closings, members, mode)
     return system._replace(closings=tuple(closings))
 
 
@@ -56,7 +57,9 @@ def _switched(closing: Closing, mode: Expr) -> bool:
     return closing.expr in holders and not any(n.op in (Op.INT, Op.ROOT) for n in holders)
 
 
-def _exchange(pool: Pool, closings: list[Closing], members: list[int], mode: Expr) -> None:
+def _exchange(
+    pool: Pool, order: list[Expr], closings: list[Closing], members: list[int], mode: Expr
+) -> None:
     """Join the halves of some relations in the best order."""
     try:
         halves = [_halves(pool, closings[at], mode) for at in members]
@@ -65,8 +68,8 @@ def _exchange(pool: Pool, closings: list[Closing], members: list[int], mode: Exp
     held = [tuple(_held(expr) for expr in half.told) for half in halves]
     alone = [tuple(summands(expr) for expr in half.told) for half in halves]
 
-    def cost(order: tuple[int, ...]) -> tuple[int, int]:
-        pairs = list(enumerate(order))
+    def cost(partners: tuple[int, ...]) -> tuple[int, int]:
+        pairs = list(enumerate(partners))
         union = sum(len(held[a][0] | held[b][1]) for a, b in pairs)
         shared = sum(len(alone[a][0].keys() & alone[b][1].keys()) for a, b in pairs)
         return union, -shared
@@ -82,7 +85,7 @@ def _exchange(pool: Pool, closings: list[Closing], members: list[int], mode: Exp
         closings[at] = old[yes]._replace(
             expr=_joined(pool, mode, one.told[0], other.told[1], turned),
             raw=_joined(pool, mode, one.raw[0], other.raw[1], turned),
-            steps=_steps((*old[yes].steps, *old[no].steps)),
+            steps=_steps((*old[no].steps, *old[yes].steps), order),
             differentiated=max(old[yes].differentiated, old[no].differentiated),
         )
 
@@ -103,9 +106,7 @@ def _joined(pool: Pool, mode: Expr, yes: Expr, no: Expr, turned: bool) -> Expr:
     return chosen(pool, [mode], [yes, pool.neg(no) if turned else no])
 
 
-def _steps(steps: Iterable[Step]) -> tuple[Step, ...]:
-    """The steps, each variable once."""
-    found: dict[Expr, Step] = {}
-    for step in steps:
-        found.setdefault(step.variable, step)
-    return tuple(found.values())
+def _steps(steps: Iterable[Step], order: Iterable[Expr]) -> tuple[Step, ...]:
+    """The steps in the order of the elimination, each variable once: of several the last."""
+    found = {step.variable: step for step in steps}
+    return tuple([found[v] for v in order if v in found])
