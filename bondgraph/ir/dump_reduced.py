@@ -61,7 +61,8 @@ def _step_rows(
 ) -> list[tuple[str, ...]]:
     left, value, why = step_row(step, source)
     order = orders[step.closed]
-    rows = [(left, value, "" if order is None else f"D {order}", why)]
+    takes = "" if order is None else f"D {order}"
+    rows: list[tuple[str, ...]] = [(left, value, takes, why)]
     if step.how == "loop" and step.closed is not step.value:
         rows.append(("", f"= {show(step.closed)}"))
     return rows
