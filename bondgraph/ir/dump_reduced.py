@@ -21,8 +21,9 @@ def dump_reduced(reduced: ReducedSystem) -> str:
     resolved = {s.variable: s for closing in reduced.closings for s in closing.steps}
     steps = [resolved.get(s.variable, s) for s in reduced.steps]
     orders = derivative_orders(s.closed for s in steps)
-    total = len(reduced.system.unknowns)
-    lines = [f"{len(steps)} of {total} unknowns follow, {len(reduced.closings)} relations", ""]
+    total, found = len(reduced.system.unknowns), len(reduced.closings)
+    relations = f"{found} relation{'' if found == 1 else 's'}"
+    lines = [f"{len(steps)} of {total} unknowns follow, {relations}", ""]
     lines += table(row for step in steps for row in _step_rows(step, orders, source))
     for closing in reduced.closings:
         lines += ["", *_closing_lines(closing, source)]
