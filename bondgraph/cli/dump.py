@@ -59,7 +59,7 @@ def text_of(compilation: Compilation, stage: str) -> str:
         case "equations":
             return dump.dump_equations(compilation.equations)
         case "reduced":
-            from bondgraph.ir.dump_reduced import dump_reduced
+            from bondgraph.notation.dump_reduced import dump_reduced
 
             return dump_reduced(compilation.reduced)
         case "residuals":

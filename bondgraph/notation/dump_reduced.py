@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from bondgraph.ir.dump import equation_name, step_row, table
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, topological
 from bondgraph.ir.residuals import Closing, Missing, ReducedSystem, Step
-from bondgraph.ir.show import show
+from bondgraph.notation.dump_stages import equation_name, step_row, table
+from bondgraph.notation.line import show
 from bondgraph.text.source import Source
 
 
