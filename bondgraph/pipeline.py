@@ -7,11 +7,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from bondgraph.text.diagnostic import CompileError, Report
+from bondgraph.text.numerals import plural
+from bondgraph.text.renamed import by_new_name
 from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
+    from typing import TypedDict, Unpack
 
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
@@ -27,8 +30,9 @@ if TYPE_CHECKING:
     from bondgraph.ir.structural_model import StructuralModel
     from bondgraph.ir.syntax import File
     from bondgraph.passes.elimination.state_equations import Wanted
+    from bondgraph.passes.lowering.lower import LowerOptions
     from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
-    from bondgraph.runtime.diagnosis.healthy import Facts
+    from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
     from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.simulation.run import Run
@@ -42,9 +46,10 @@ class Options(NamedTuple):
     """What a compilation may be asked for beyond the model.
 
     `rate` in samples a second, `bandwidth` of the residual filter in rad/s (None: chosen from the
-    rate), `resolution` the relative size below which a term cannot be seen (12 bits), `targets`
-    the languages to emit, `seed` of the random points that the exact verification uses,
-    `decouple` the faults that further relations are to be free of, by combining relations.
+    rate), `resolution` the relative size below which a term cannot be seen (12 bits; 0: each is
+    seen), `targets` the languages to emit, `seed` of the random points that the exact verification
+    uses, `decouple` the faults that further relations are to be free of, by combining relations.
+    With `open_ports` the model is a part of a machine: its ports may be left without a bond.
     """
 
     rate: float = 1000.0
@@ -53,45 +58,110 @@ class Options(NamedTuple):
     targets: tuple[str, ...] = ("c", "python")
     seed: int = 1
     decouple: tuple[str, ...] = ()
+    open_ports: bool = False
+
+
+if TYPE_CHECKING:
+
+    class OptionValues(TypedDict, total=False):
+        """Options as keyword arguments; those that are left out stay as they are."""
+
+        rate: float
+        bandwidth: float | None
+        resolution: float
+        targets: tuple[str, ...]
+        seed: int
+        decouple: tuple[str, ...]
+        open_ports: bool
 
 
 class Compilation:
     """One model on its way through the compiler; each stage is computed when it is asked for.
 
-    Every stage raises `CompileError` with all diagnostics so far if the model is wrong there.
+    Source, model and options stay what they were at construction, so that a stage is always the
+    one of these: `with_options` gives another compilation. Every stage raises `CompileError` with
+    all diagnostics so far if the model is wrong there. Raises ValueError for an option that is no
+    positive number, TypeError for names that are no sequence of names.
 
     >>> import bondgraph
     >>> c = bondgraph.compile("models/dc_motor.bg")
     >>> len(c.residuals)
     2
+    >>> c
+    Compilation(Motor in models/dc_motor.bg: 9 elements, 2 sensors, 2 residuals)
     """
+
+    source: Source
+    model: str | None
+    options: Options
+    report: Report
 
     def __init__(
         self, source: Source, model: str | None = None, options: Options | None = None
     ) -> None:
-        self.source = source
-        self.model = model
-        self.options = options or Options()
-        self.report = Report()
-        self.open_ports = False
+        chosen = _checked(options or Options())
+        vars(self).update(source=source, model=model, options=chosen, report=Report())
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(
+            f"{name} of a compilation cannot be set; c.with_options(...) is another compilation"
+        )
+
+    if not TYPE_CHECKING:
+        __getattr__ = by_new_name
+
+    def __repr__(self) -> str:
+        """Model, elements, sensors and residuals as far as they are known; computes nothing."""
+        graph, found = vars(self).get("graph"), vars(self).get("_analysis")
+        name, parts = self.model, []
+        if graph is not None:
+            elements = sum(node.common is None for node in graph.nodes)
+            name = graph.name
+            parts = [plural(elements, "element"), plural(len(graph.sensors), "sensor")]
+        if found is not None:
+            parts.append(plural(len(found[0].residuals), "residual"))
+        if self.report.failed:
+            parts.append(str(CompileError(tuple(self.report.diagnostics))))
+        about = f"{name} in {self.source.path}" if name else self.source.path
+        return f"Compilation({': '.join(filter(None, (about, ', '.join(parts))))})"
+
+    def with_options(self, **changes: Unpack[OptionValues]) -> Compilation:
+        """The same model with other options, compiled anew; raises as `compile` does.
+
+        >>> import bondgraph
+        >>> c = bondgraph.compile("models/dc_motor.bg", rate=500.0)
+        >>> c.with_options(bandwidth=20.0).options[:2]
+        (500.0, 20.0)
+        """
+        return Compilation(self.source, self.model, self.options._replace(**changes))
 
     # ------------------------------------------------------------ the stages, in order
 
     @cached_property
     def syntax(self) -> File:
-        """The syntax tree."""
+        """The syntax tree: what is written, and where."""
         from bondgraph.frontend.parser import parse
 
         return self._stage(parse(self.source, self.report))
 
     @cached_property
     def graph(self) -> BondGraph:
-        """The flat bond graph."""
+        """The flat bond graph: submodels opened, arrays unrolled, names as paths.
+
+        >>> import bondgraph
+        >>> bondgraph.compile("models/dc_motor.bg").graph.faults
+        ('L', 'R', 'k', 'J', 'f', 'load', 'U', 'current', 'speed')
+        """
         from bondgraph.passes.elaboration.elaborate import elaborate
 
         return self._stage(
             elaborate(
-                self.syntax, self.source, self.model, self._load, self.report, self.open_ports
+                self.syntax,
+                self.source,
+                self.model,
+                self._load,
+                self.report,
+                self.options.open_ports,
             )
         )
 
@@ -124,14 +194,22 @@ class Compilation:
         return self._stage(system)
 
     def state_equations(self, wanted: Wanted | None = None) -> StateEquations:
-        """The state equations for simulation, in one mode of the switches (None: all on)."""
+        """The state equations for simulation, in one mode of the switches (None: all on).
+
+        >>> import bondgraph
+        >>> [s.name for s in bondgraph.compile("models/dc_motor.bg").state_equations().states]
+        ['L.p', 'J.p']
+        """
         from bondgraph.passes.elimination.state_equations import Wanted, state_equations
 
         chosen = wanted or Wanted({i.name: True for i in self.graph.inputs if i.mode})
         return self._stage(state_equations(self.equations, self.integral, chosen, self.report))
 
     def scenario(self, path: str | os.PathLike[str]) -> Scenario:
-        """Read a scenario file for this model; raises `CompileError` if it is wrong."""
+        """Read a scenario file (docs/simulation.md) for this model.
+
+        Raises `CompileError` if it is wrong or not there.
+        """
         from bondgraph.frontend.read import read
         from bondgraph.runtime.simulation.read_scenario import read_scenario
 
@@ -149,14 +227,15 @@ class Compilation:
     ) -> Run:
         """Run a scenario (or the file of one) on the virtual machine.
 
-        Raises `CompileError` where scenario or model are wrong, `SimulationError` where the
-        machine has no motion beyond some moment.
+        Signals in SI units, at `run.log.time` in s: `run.log` as sensors read them, `run.truth`
+        without noise, with the states. `progress` is told the share that is done, 0 to 1. Raises
+        `CompileError` where scenario or model are wrong, `SimulationError` where the machine has
+        no motion beyond some moment, KeyError for a parameter without a value.
 
         >>> import bondgraph
         >>> c = bondgraph.compile("models/dc_motor.bg")
-        >>> from bondgraph.runtime.simulation.scenario import Course, Scenario
-        >>> twelve = {"U": Course(None, ((0.0, 12.0),))}
-        >>> run = c.simulate(Scenario("step", duration=2.0, inputs=twelve))
+        >>> twelve = {"U": bondgraph.Course(None, ((0.0, 12.0),))}
+        >>> run = c.simulate(bondgraph.Scenario("step", duration=2.0, inputs=twelve))
         >>> f"{run.truth.columns['speed'][-1]:.1f} rad/s"
         '189.9 rad/s'
         """
@@ -181,8 +260,11 @@ class Compilation:
         return self._stage(eliminate(self.equations, self.report))
 
     @cached_property
-    def combined(self) -> ReducedSystem:
-        """The same with relations that are free of the faults to `decouple`, if there are any."""
+    def decoupled(self) -> ReducedSystem:
+        """The same with relations that are free of the faults to `decouple`, if there are any.
+
+        Raises KeyError for a fault that the model does not have.
+        """
         if not self.options.decouple:
             return self.reduced
         from bondgraph.passes.analysis.signatures import signatures
@@ -195,33 +277,63 @@ class Compilation:
 
     @cached_property
     def residuals(self) -> Relations:
-        """The analytical redundancy relations, without what cancels in them."""
+        """The analytical redundancy relations, without what cancels in them.
+
+        >>> import bondgraph
+        >>> bondgraph.compile("models/dc_motor.bg").residuals
+        r1 = U - k*speed - R*current - L*D(current)
+        r2 = load + f*speed + J*D(speed) - k*current
+        """
         from bondgraph.views import Relations
 
         return Relations(*self._analysis)
 
     @cached_property
     def signatures(self) -> SignatureMatrix:
-        """The fault signature matrix."""
+        """The fault signature matrix: which residual sees which fault.
+
+        >>> import bondgraph
+        >>> matrix = bondgraph.compile("models/dc_motor.bg").signatures
+        >>> matrix.signature("r1"), matrix.to_numpy().shape
+        (('L', 'R', 'k', 'U', 'current', 'speed'), (9, 2))
+        """
         return self._analysis[1]
 
     @cached_property
-    def modes(self) -> ModeSignatures:
-        """The fault signature matrix of each mode of a switched machine."""
+    def mode_signatures(self) -> ModeSignatures:
+        """The fault signature matrix of each mode of a switched machine.
+
+        >>> import bondgraph
+        >>> found = bondgraph.compile("models/oven.bg").mode_signatures
+        >>> [mode.modes for mode in found.modes]
+        [{'on': False}, {'on': True}]
+        """
         from bondgraph.passes.analysis.modes import modes
 
         return modes(*self._analysis, self._plant, self.options.seed)
 
     @cached_property
     def detectability(self) -> Detectability:
-        """Which faults a residual sees as long as they last, which only in transients."""
+        """Which faults a residual sees as long as they last, which only in transients.
+
+        >>> import bondgraph
+        >>> bondgraph.compile("models/dc_motor.bg").detectability.only_weak
+        ('L', 'J')
+        """
         from bondgraph.passes.analysis.detectability import detectability
 
         return detectability(*self._analysis, self._plant, self.options.seed)
 
     @cached_property
-    def best(self) -> tuple[tuple[str, ...], ...] | None:
-        """The detectable faults in groups that no set of residuals could divide any further."""
+    def maximum_isolability(self) -> tuple[tuple[str, ...], ...] | None:
+        """The detectable faults in groups that no set of residuals could divide any further.
+
+        None where that could not be decided.
+
+        >>> import bondgraph
+        >>> bondgraph.compile("models/dc_motor.bg").maximum_isolability
+        (('L', 'R', 'U'), ('k',), ('J', 'f', 'load'), ('current',), ('speed',))
+        """
         from bondgraph.passes.analysis.isolability import isolability
 
         residuals, matrix = self._analysis
@@ -234,7 +346,7 @@ class Compilation:
         from bondgraph.passes.analysis.signatures import signatures
         from bondgraph.passes.elimination.shortfall import stop_without_any
 
-        found = signatures(self.combined, self.report, self.options.seed, self._plant)
+        found = signatures(self.decoupled, self.report, self.options.seed, self._plant)
         stop_without_any(self.report, found[0])
         return self._stage(found)
 
@@ -253,53 +365,69 @@ class Compilation:
         return self._stage(verify(self.graph, *self._analysis, self.report, self.options.seed))
 
     @cached_property
-    def received(self) -> Program:
+    def program(self) -> Program:
+        """The residual program, for a verified model only."""
+        from bondgraph.passes.lowering.lower import lower
+
+        assert self.verification
+        return self._stage(lower(self.graph, *self._analysis, self._lowering))
+
+    @cached_property
+    def program_with_readings(self) -> Program:
         """The residual program in which the readings that laws received are signals of their own.
 
         It tells what a wrong sensor does. For a verified model only.
         """
-        from bondgraph.passes.lowering.lower import LowerOptions, lower
+        from bondgraph.passes.lowering.lower import lower
 
-        residuals = self._analysis[0].residuals
-        relations = [r.expr for r in residuals]
+        relations = [r.expr for r in self._analysis[0].residuals]
+        program = self.program
         if self.graph.pool.logged(relations) == relations:
-            return self.program
-        options = LowerOptions(*self.options[:2], resolution=self.options.resolution)
-        assert self.program
-        return self._stage(lower(self.graph, *self._analysis, options, received=True))
-
-    @cached_property
-    def program(self) -> Program:
-        """The residual program, for a verified model only."""
-        from bondgraph.passes.lowering.lower import LowerOptions, lower
-
-        assert self.verification
-        options = LowerOptions(*self.options[:2], resolution=self.options.resolution)
-        return self._stage(lower(self.graph, *self._analysis, options))
+            return program
+        return self._stage(lower(self.graph, *self._analysis, self._lowering, received=True))
 
     @cached_property
     def thresholds(self) -> Program | None:
         """The program of the adaptive thresholds, None for a model without tolerances."""
-        from bondgraph.passes.lowering.lower import LowerOptions
         from bondgraph.passes.lowering.thresholds import thresholds
 
-        options = LowerOptions(*self.options[:2], resolution=self.options.resolution)
-        return thresholds(self.graph, self._analysis[0], self.program, options)
+        return thresholds(self.graph, self._analysis[0], self.program, self._lowering)
 
     @cached_property
     def artifacts(self) -> tuple[Artifact, ...]:
-        """The files, as text."""
-        from bondgraph.backends.emit import emit
+        """The files, as text; raises ValueError for a target that is not there."""
+        return self._emitted(self.options.targets)
 
-        return emit(self.program, self.options.targets, self._bounds)
+    def write(
+        self, folder: str | os.PathLike[str], targets: Sequence[str] | None = None
+    ) -> tuple[str, ...]:
+        """Write the files below `folder`, all or none; their paths, with the folder.
+
+        `targets` are the languages, without it those of the options. A model without redundancy
+        has no files. Files of an earlier call that are as they were written are replaced. Raises
+        `ForeignFiles`, with nothing written, where any other file is in the way, OSError if the
+        disk refuses, ValueError for a target that is not there.
+
+        >>> import bondgraph, os, tempfile
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     paths = c.write(folder, targets=["python"])
+        >>> [os.path.basename(path) for path in paths[:3]]
+        ['motor_residuals.py', 'example.py', 'selftest.py']
+        """
+        from bondgraph.backends.write import write
+
+        if not self.residuals:
+            return ()
+        return write(self.artifacts if targets is None else self._emitted(targets), folder)
 
     @cached_property
-    def runnables(self) -> tuple[Runnable, Runnable | None]:
+    def runnable_programs(self) -> tuple[Runnable, Runnable | None]:
         """The code of residuals and thresholds, to be loaded and run here; None without these."""
         from bondgraph.backends.runnable import runnable
 
         bounds = self._bounds
-        return runnable(self.received), None if bounds is None else runnable(bounds)
+        return runnable(self.program_with_readings), None if bounds is None else runnable(bounds)
 
     def engine(
         self, native: bool | None = None, tell: Callable[[str], None] | None = None
@@ -307,7 +435,7 @@ class Compilation:
         """What runs the residuals and thresholds over arrays of samples, at nominal parameters.
 
         In C compiled here, or in Python (`native` False, or None and no compiler, which is told
-        in one line to `tell`). Raises NativeError if it must be C and cannot be.
+        in one line to `tell`). Raises `NativeError` if it must be C and cannot be.
 
         >>> import bondgraph
         >>> engine = bondgraph.compile("models/dc_motor.bg").engine()
@@ -319,9 +447,9 @@ class Compilation:
         """
         from bondgraph.runtime.monitoring.native import start
 
-        return start(*self.runnables, native=native, tell=tell)
+        return start(*self.runnable_programs, native=native, tell=tell)
 
-    def diagnoses(
+    def minimal_diagnoses(
         self, fired: Iterable[str], silent: Iterable[str] = (), at_most: int | None = None
     ) -> tuple[tuple[str, ...], ...]:
         """The minimal sets of faults that explain the residuals that have `fired`.
@@ -332,9 +460,9 @@ class Compilation:
 
         >>> import bondgraph
         >>> c = bondgraph.compile("models/dc_motor.bg")
-        >>> c.diagnoses(["r1", "r2"], at_most=1)
+        >>> c.minimal_diagnoses(["r1", "r2"], at_most=1)
         (('k',), ('current',), ('speed',))
-        >>> c.diagnoses(["r2"], silent=["r1"])
+        >>> c.minimal_diagnoses(["r2"], silent=["r1"])
         (('J',), ('f',), ('load',))
         """
         from bondgraph.structural.hitting import diagnoses
@@ -343,17 +471,26 @@ class Compilation:
         return diagnoses(matrix.sees, fired, silent, at_most)
 
     @cached_property
-    def facts(self) -> Facts:
-        """What a monitor has to know of the machine beside its residuals."""
-        from bondgraph.runtime.diagnosis.healthy import facts
+    def diagnosis_model(self) -> DiagnosisModel:
+        """What a diagnosis has to know of the machine beside its residuals."""
+        from bondgraph.runtime.diagnosis.healthy import diagnosis_model
 
-        return facts(self.graph, self._analysis[0], self.signatures, self.received)
+        return diagnosis_model(self.graph, *self._analysis, self.program_with_readings)
 
     def diagnosis(self, engine: Engine, tuning: Tuning | None = None) -> Diagnosis:
         """What says verdicts about the residuals of an engine of this model.
 
         Without a `tuning` (`bondgraph tune`) it learns the noise from the first seconds. Raises
         ValueError for a tuning of another model, rate or bandwidth.
+
+        >>> import bondgraph, numpy
+        >>> c = bondgraph.compile("models/dc_motor.bg")
+        >>> engine = c.engine(native=False)
+        >>> diagnosis = c.diagnosis(engine)
+        >>> time, samples = numpy.arange(2000) / 1000, numpy.tile([0.0, 6.0, 0.3, 0.2], (2000, 1))
+        >>> for verdict in diagnosis.update(time, engine.run(samples), samples):
+        ...     print(f"{verdict.event} at {verdict.time:.1f} s: {verdict.message[:33]}")
+        warm-up at 0.5 s: the noise of r1 and r2 is learned
         """
         from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
 
@@ -362,7 +499,7 @@ class Compilation:
                 raise ValueError("it is of another model, or of other options")
             if abs(tuning.bandwidth / engine.bandwidth - 1) > 1e-9:
                 raise ValueError(f"it is for a filter of {tuning.bandwidth:g} rad/s")
-        return Diagnosis(engine, self.facts, tuning)
+        return Diagnosis(engine, self.diagnosis_model, tuning)
 
     @cached_property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -393,6 +530,18 @@ class Compilation:
     # ------------------------------------------------------------------------- helpers
 
     @property
+    def _lowering(self) -> LowerOptions:
+        from bondgraph.passes.lowering.lower import LowerOptions
+
+        rate, bandwidth, resolution = self.options[:3]
+        return LowerOptions(rate, bandwidth, resolution=resolution)
+
+    def _emitted(self, targets: Sequence[str]) -> tuple[Artifact, ...]:
+        from bondgraph.backends.emit import emit
+
+        return emit(self.program, tuple(targets), self._bounds)
+
+    @property
     def _bounds(self) -> Program | None:
         """The thresholds if any residual has one; the report says why if none has."""
         bounds = self.thresholds
@@ -417,21 +566,56 @@ class Compilation:
 
 
 def compile(
-    path: str | os.PathLike[str], model: str | None = None, **options: object
+    path: str | os.PathLike[str] | None = None,
+    model: str | None = None,
+    *,
+    text: str | None = None,
+    **options: Unpack[OptionValues],
 ) -> Compilation:
-    """Open a model for compilation; `path` may name the model: `robot.bg:Drive`.
+    """Open a model for compilation, in the file at `path`, or in a `text`.
 
-    Options are those of `Options`. Nothing is computed before a stage is asked for. Raises
-    `CompileError` if the file cannot be read, TypeError for an unknown option.
+    A path may name the model: `robot.bg:Drive`. A text needs no path; one says what it is called
+    in messages, and beside which files its imports are. Options are those of `Options`: `rate`,
+    `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `open_ports`. Nothing is computed
+    before a stage is asked for. Raises `CompileError` if the file cannot be read, TypeError for an
+    unknown option, ValueError for a number that is not positive.
+
+    >>> import bondgraph
+    >>> bondgraph.compile("models/dc_motor.bg", rate=500.0)
+    Compilation(models/dc_motor.bg)
+    >>> c = bondgraph.compile(text="bg 1\\nmodel M { 1:j { <- Se:U; -> R:r = 2; -> Df:i } }")
+    >>> c.residuals["r1"]
+    <r1: U - 2*i>
     """
-    from bondgraph.frontend.read import read
+    from bondgraph.frontend.read import decode, read
 
-    name = os.fspath(path)
-    if model is None and not os.path.exists(name) and ":" in os.path.basename(name):
-        name, _, model = name.rpartition(":")
     report = Report()
-    source = read(name, report)
+    if text is not None:
+        name = "<text>" if path is None else os.fspath(path)
+        source = decode(name, text.encode(errors="surrogatepass"), report)
+    elif path is None:
+        raise TypeError("compile needs the path of a model file, or a text=")
+    else:
+        name = os.fspath(path)
+        if "\n" in name:
+            raise TypeError("a path has one line; for a model in a string say compile(text=...)")
+        if model is None and not os.path.exists(name) and ":" in os.path.basename(name):
+            name, _, model = name.rpartition(":")
+        source = read(name, report)
     if source is None:
         raise CompileError(tuple(report.diagnostics))
-    chosen = Options(**options)  # type: ignore[arg-type]
-    return Compilation(source, model, chosen)
+    return Compilation(source, model, Options(**options))
+
+
+def _checked(options: Options) -> Options:
+    """The options, with tuples for lists; raises ValueError or TypeError for what none can be."""
+    for name in ("rate", "bandwidth", "resolution"):
+        value = getattr(options, name)
+        every = name == "resolution" and value == 0.0  # term is seen
+        if value is not None and not every and not 0.0 < value < float("inf"):
+            raise ValueError(f"{name} must be a positive number, not {value!r}")
+    for name in ("targets", "decouple"):
+        value = getattr(options, name)
+        if isinstance(value, str):
+            raise TypeError(f"{name} is a sequence of names: [{value!r}]")
+    return options._replace(targets=tuple(options.targets), decouple=tuple(options.decouple))

@@ -10,6 +10,7 @@ from bondgraph.ir.expr import ZERO_START, Expr, Kind
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Missing, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
+from bondgraph.text.renamed import by_new_name
 
 if TYPE_CHECKING:
     from bondgraph.algebra.present import ClosedForm
@@ -143,11 +144,17 @@ class Relation:
 
 
 class Relations(Sequence[Relation]):
-    """All relations of a model in stable order; by position or by name."""
+    """All relations of a model in stable order; by position or by name.
+
+    `residual_set` is what the passes know of them.
+    """
+
+    if not TYPE_CHECKING:
+        __getattr__ = by_new_name
 
     def __init__(self, residuals: ResidualSet, matrix: SignatureMatrix) -> None:
         graph = residuals.system.graph
-        self.stage = residuals
+        self.residual_set = residuals
         self._all = tuple(Relation(graph, r, matrix) for r in residuals.residuals)
 
     @overload
@@ -164,14 +171,9 @@ class Relations(Sequence[Relation]):
         return self._all[key]
 
     @property
-    def residuals(self) -> tuple[Residual, ...]:
-        """The residuals as the passes know them."""
-        return self.stage.residuals
-
-    @property
     def missing(self) -> tuple[Missing, ...]:
         """The relations that the model has as well but that could not be had, and why."""
-        return self.stage.missing
+        return self.residual_set.missing
 
     def __len__(self) -> int:
         return len(self._all)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from bondgraph import compile
 from bondgraph.cli import console
 from bondgraph.text.diagnostic import CompileError, Diagnostic
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -46,15 +47,14 @@ def run(args: Namespace) -> int:
 
 
 def _check(name: str) -> tuple[str, tuple[Diagnostic, ...]]:
-    compilation = compile(name)
-    compilation.open_ports = True  # a part of a machine is sound without its surroundings
+    compilation = compile(name, open_ports=True)  # a part is sound without its surroundings
     graph = compilation.integral.graph
     elements = sum(node.common is None for node in graph.nodes)
     sizes = (
-        console.plural(elements, "element"),
-        console.plural(len(graph.nodes) - elements, "junction"),
-        console.plural(len(graph.bonds), "bond"),
-        console.plural(len(graph.sensors), "sensor"),
+        plural(elements, "element"),
+        plural(len(graph.nodes) - elements, "junction"),
+        plural(len(graph.bonds), "bond"),
+        plural(len(graph.sensors), "sensor"),
     )
     line = f"{compilation.source.path}: {graph.name} is sound ({', '.join(sizes)})"
     return line, tuple(compilation.report.diagnostics)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from bondgraph import Compilation, Options
+from bondgraph import Compilation, ForeignFiles, Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
 from bondgraph.cli.number_arguments import bits, positive
@@ -70,15 +70,14 @@ def run(args: Namespace) -> int:
             listed = ", ".join(targets())
             print(f"error: no target is called {unknown[0]}; there are {listed}", file=sys.stderr)
             return 2
-    options: dict[str, Any] = {
-        "rate": args.rate,
-        "bandwidth": args.bandwidth,
-        "resolution": 2.0**-args.bits,
-    }
-    if args.target:
-        options["targets"] = tuple(dict.fromkeys(args.target))
-    options["decouple"] = tuple(dict.fromkeys(args.decouple))
-    compilation = open_model(args.model, **options)
+    compilation = open_model(
+        args.model,
+        rate=args.rate,
+        bandwidth=args.bandwidth,
+        resolution=2.0**-args.bits,
+        targets=tuple(dict.fromkeys(args.target or Options().targets)),
+        decouple=tuple(dict.fromkeys(args.decouple)),
+    )
     for fault in args.decouple:
         if fault not in compilation.graph.faults:
             return console.unknown(fault, "no fault of the model", compilation.graph.faults)
@@ -100,7 +99,7 @@ def run(args: Namespace) -> int:
 _STAGES = (
     ("reading", "graph"),
     ("causality", "integral"),
-    ("eliminating", "combined"),
+    ("eliminating", "decoupled"),
     ("signatures", "signatures"),
     ("verifying", "verification"),
     ("lowering", "program"),
@@ -122,11 +121,8 @@ def _write(compilation: Compilation, output: str | None) -> list[str]:
     """Write all files or none; the paths that were written."""
     if not compilation.residuals:
         return []
-    from bondgraph.backends.write import ForeignFiles, write
-
-    folder = output or _default(compilation.source.path)
     try:
-        return list(write(compilation.artifacts, folder))
+        return list(compilation.write(output or _default(compilation.source.path)))
     except ForeignFiles as error:
         raise console.Trouble(str(error)) from error
 

@@ -98,13 +98,6 @@ def write_whole(path: str, text: str) -> None:
             os.unlink(temporary)
 
 
-def plural(number: int, noun: str) -> str:
-    """`1 bond`, `2 bonds`."""
-    if number == 1:
-        return f"1 {noun}"
-    return f"{number} {noun[:-1]}ies" if noun.endswith("y") else f"{number} {noun}s"
-
-
 @contextmanager
 def progress_bar(word: str, patience: float = 1.0) -> Iterator[Callable[[float], None]]:
     """Gives a function that says which share, 0 to 1, is done; a bar as of `progress`."""

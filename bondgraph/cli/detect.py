@@ -89,7 +89,8 @@ def run(args: Namespace) -> int:
     situation = situation_of(args, program)
     tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
     try:
-        found = smallest(compilation.received, compilation.thresholds, tolerances, situation)
+        received = compilation.program_with_readings
+        found = smallest(received, compilation.thresholds, tolerances, situation)
     except ValueError as error:
         raise console.Trouble(f"{error}, and without it nothing has a size") from error
     if args.json:

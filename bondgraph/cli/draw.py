@@ -31,8 +31,7 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Write the figure; where strokes cannot be placed, one that shows why, with the status 1."""
-    compilation = compile(args.model)
-    compilation.open_ports = True
+    compilation = compile(args.model, open_ports=True)
     conflicts = compilation.conflicts
     svg = compilation.drawing(args.derivative)
     found = [*compilation.report.diagnostics, *[conflict.finding for conflict in conflicts]]

@@ -63,7 +63,7 @@ def text_of(compilation: Compilation, stage: str) -> str:
 
             return dump_reduced(compilation.reduced)
         case "residuals":
-            return dump.dump_residuals(compilation.residuals.stage)
+            return dump.dump_residuals(compilation.residuals.residual_set)
         case "signatures":
             return dump.dump_signatures(compilation.signatures)
         case _:

@@ -250,7 +250,7 @@ def _fault(compilation: Compilation, name: str) -> list[str]:
 
 def _combined(compilation: Compilation, name: str, others: Sequence[str]) -> list[str]:
     """What other residuals, made by combining these, could tell the fault from."""
-    group = next((g for g in compilation.best or () if name in g), None)
+    group = next((g for g in compilation.maximum_isolability or () if name in g), None)
     if group is None:
         return []
     apart = [f for f in others if f not in group]

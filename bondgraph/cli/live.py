@@ -12,6 +12,7 @@ from bondgraph.cli import console, monitor
 from bondgraph.cli.number_arguments import positive
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -177,7 +178,7 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
         source,
         simulated or replayed,
         args.speed if simulated or replayed else None,
-        f"{console.plural(len(engine.residuals), 'residual')} at {1 / wide.sample_time:g} samples"
+        f"{plural(len(engine.residuals), 'residual')} at {1 / wide.sample_time:g} samples"
         " a second",
     )
 

@@ -11,6 +11,7 @@ from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
 from bondgraph.cli.number_arguments import positive
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -138,13 +139,14 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
         _publisher(verdicts, args.journal, journal),
         journal,
     )
-    what = f"{compilation.graph.name}: {console.plural(len(compilation.facts.sees), 'residual')}"
+    watched = len(compilation.diagnosis_model.sees)
+    what = f"{compilation.graph.name}: {plural(watched, 'residual')}"
     with _stop() as stop:
         what += f" at {1 / engine.sample_time:g} samples a second"
         untaken = Monitor(parts, what).run(stop)
     if untaken:
         kept = "they are sent after the next start" if args.journal else "--journal would keep them"
-        what = console.plural(untaken, "verdict")
+        what = plural(untaken, "verdict")
         print(f"note: the broker has not taken {what}; {kept}", file=sys.stderr)
     return 0
 
@@ -180,7 +182,7 @@ def watching(
         engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
     except ValueError as error:
         raise console.Trouble(str(error)) from error
-    if not compilation.facts.sees:
+    if not compilation.diagnosis_model.sees:
         raise console.Trouble(f"{compilation.graph.name} has no residual that could be watched")
     if tuning is not None:
         engine = engine.configured(bandwidth=tuning.bandwidth)

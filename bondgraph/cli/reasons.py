@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bondgraph.cli.console import plural
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.nodes import occurs
 from bondgraph.notation.dump_stages import equation_name
 from bondgraph.structural.matching import decompose
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -46,7 +46,7 @@ def _nothing(compilation: Compilation) -> str:
     sensors = [s.name for s in graph.sensors if s.same_as is None]
     if not sensors:
         return "the model has no sensor, so no fault can be detected"
-    found = compilation.residuals.stage
+    found = compilation.residuals.residual_set
     hidden = _unknowns(found)
     if _needed(found, hidden):
         names = _and(_few([f"`{s}`" for s in sensors]))
@@ -75,7 +75,7 @@ def reasons(compilation: Compilation) -> dict[str, list[str]]:
 def reason(compilation: Compilation, fault: str) -> str:
     """Why no residual sees a fault, in words of the model."""
     symbol = compilation.graph.fault_symbol(fault)
-    found = compilation.residuals.stage
+    found = compilation.residuals.residual_set
     holding = [e for e in found.system.equations if occurs(symbol, e.zero)]
     if not holding:
         return "no law uses it"

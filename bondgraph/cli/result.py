@@ -29,10 +29,10 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
     graph = compilation.graph
     matrix = compilation.signatures
     names = names_of(graph)
-    lasting, best = compilation.detectability, compilation.best
+    lasting, best = compilation.detectability, compilation.maximum_isolability
     arrs = [
         _arr(graph, residual, lasting, names)
-        for residual in compilation.residuals.stage.residuals
+        for residual in compilation.residuals.residual_set.residuals
     ]
     used = {symbol for _, symbols in arrs for symbol in symbols}
     return {
@@ -62,7 +62,7 @@ def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:
         "weak": list(lasting.only_weak),
         "groups": [list(group) for group in matrix.groups],
         "best": None if best is None else [list(group) for group in best],
-        **_modes(compilation.modes),
+        **_modes(compilation.mode_signatures),
     }
 
 

@@ -6,9 +6,9 @@ import sys
 from typing import TYPE_CHECKING
 
 from bondgraph.cli import console
-from bondgraph.cli.console import plural
 from bondgraph.cli.structural import MODEL_HELP, named, open_structure
 from bondgraph.cli.terminal_layout import names, width
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

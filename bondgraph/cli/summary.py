@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from bondgraph.cli.console import plural
 from bondgraph.cli.reasons import message, missing, reasons
 from bondgraph.cli.terminal_layout import formula, names, prose, signature_table, width
 from bondgraph.ir.expr import topological
 from bondgraph.notation.dump_stages import equation_name
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -113,7 +113,7 @@ def closed_form(
 
 def _modes(compilation: Compilation, columns: int) -> list[str]:
     """What can be detected in each mode of a switched machine, one mode a line."""
-    matrix, found = compilation.signatures, compilation.modes
+    matrix, found = compilation.signatures, compilation.mode_signatures
     if not found.modes or not matrix.residuals:
         return []
     lines = ["", "While the machine stays in one mode"]

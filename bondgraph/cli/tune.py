@@ -9,6 +9,7 @@ from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
 from bondgraph.cli.number_arguments import positive
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -66,7 +67,7 @@ def run(args: Namespace) -> int:
                 found.append(
                     tune(
                         _filtered(engine, bandwidth),
-                        compilation.facts,
+                        compilation.diagnosis_model,
                         logs,
                         compilation.program.digest,
                         args.false_alarms,
@@ -156,7 +157,7 @@ def _score(tuned: Tuned, found: list[Tuned]) -> float:
 def _message(compilation: Compilation, best: Tuned) -> str:
     t = best.tuning
     return (
-        f"{compilation.graph.name}: {console.plural(len(t.limits), 'residual')}, tuned on"
+        f"{compilation.graph.name}: {plural(len(t.limits), 'residual')}, tuned on"
         f" {t.seconds:.0f} s for {t.false_alarms:g} false alarms an hour, filter of"
         f" {t.bandwidth:g} rad/s"
     )
@@ -185,7 +186,7 @@ def _result(compilation: Compilation, best: Tuned, found: list[Tuned]) -> dict[s
 
 
 def _relative(compilation: Compilation, shown: Shown) -> float | None:
-    nominal = compilation.facts.faults.get(shown.hypothesis.fault)
+    nominal = compilation.diagnosis_model.faults.get(shown.hypothesis.fault)
     if shown.size is None:
         return None
     if shown.hypothesis.kind == "gain":

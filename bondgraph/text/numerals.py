@@ -14,3 +14,14 @@ def readable(value: float, digits: int = 3) -> str:
     mantissa, _, power = f"{value:.{digits}g}".partition("e")
     text = mantissa.replace("-", "−")
     return f"{text}·10{str(int(power)).translate(_ABOVE)}" if power else text
+
+
+def plural(number: int, noun: str) -> str:
+    """A number of things.
+
+    >>> plural(1, "bond"), plural(2, "bond"), plural(0, "density")
+    ('1 bond', '2 bonds', '0 densities')
+    """
+    if number == 1:
+        return f"1 {noun}"
+    return f"{number} {noun[:-1]}ies" if noun.endswith("y") else f"{number} {noun}s"

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from bondgraph.frontend.read import decode
 from bondgraph.passes.elaboration import size as limits
-from bondgraph.pipeline import Compilation
+from bondgraph.pipeline import Compilation, Options
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.render import as_json, render
 from bondgraph.text.source import Source
@@ -48,8 +48,7 @@ def check(text: str) -> str:
     path = str(ROOT / "models" / "fuzz.bg")
     report = Report()
     source = decode(path, text.encode(ENCODING, BYTES), report)
-    compilation = Compilation(source or Source(path, ""))
-    compilation.open_ports = True
+    compilation = Compilation(source or Source(path, ""), options=Options(open_ports=True))
     answer = "sound"
     try:
         report.stop_on_error()

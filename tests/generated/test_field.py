@@ -64,7 +64,7 @@ def _without_definitions(c: Any) -> list[Expr]:
         for v in graph.values
         if v.value is not None and not v.fault and symbols(v.value)
     }
-    exprs: list[Expr] = [r.expr for r in c.residuals.residuals]
+    exprs: list[Expr] = [r.residual.expr for r in c.residuals]
     while True:
         replaced: list[Expr] = graph.pool.substitute(exprs, defined)
         if replaced == exprs:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,6 +13,7 @@ from bondgraph.frontend.read import read
 from bondgraph.ir.syntax import File, Node, Ref
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import Report
+from bondgraph.text.source import Span
 from tests.properties import rewrite
 
 ROOT = Path(__file__).parents[2]
@@ -29,23 +31,23 @@ class Verdict(NamedTuple):
 
 def verdict(path: Path, change=lambda file: file, name=lambda fault: fault) -> Verdict:
     """The verdict on a model after its syntax tree was changed; `name` gives the old names back."""
-    source = read(str(path), Report())
-    compilation = Compilation(source)
-    file = change(parse(source, compilation.report))
-    compilation.__dict__["syntax"] = file
-    load = compilation._load
-    compilation._load = lambda p, origin: _imported(change, load(p, origin))
-    matrix = compilation.signatures
+
+    class Changed(Compilation):
+        @cached_property
+        def syntax(self) -> File:
+            return change(super().syntax)
+
+        def _load(self, path: str, origin: Span) -> File | None:
+            file = super()._load(path, origin)
+            return None if file is None else change(file)
+
+    matrix = Changed(read(str(path), Report())).signatures
     return Verdict(
         len(matrix.residuals),
         frozenset(name(f) for f in matrix.undetectable),
         frozenset(frozenset(name(f) for f in g) for g in matrix.groups),
         tuple(sorted(sum(column) for column in zip(*matrix.rows, strict=True))),
     )
-
-
-def _imported(change, file: File | None) -> File | None:
-    return None if file is None else change(file)
 
 
 @pytest.fixture(scope="module", params=MODELS, ids=lambda p: p.stem)

@@ -111,7 +111,7 @@ def tuned(seeds: range, duration: float, false_alarms: float, robot: Robot = ENC
     own, watcher = engine(robot.model), compiled(robot.model)
     runs = (compiled().simulate(errands(seed, duration, robot=robot)).log for seed in seeds)
     logs = [samples(log, robot) for log in runs]
-    return tune(own, watcher.facts, logs, watcher.program.digest, false_alarms)
+    return tune(own, watcher.diagnosis_model, logs, watcher.program.digest, false_alarms)
 
 
 def fault(kind: Kind, size: float) -> Fault:

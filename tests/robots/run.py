@@ -133,7 +133,7 @@ def _faulty(
 ) -> str:  # fmt: skip
     """A row for each kind; sizes are those of `sized`, the limits those of `tuned`."""
     sizes = {(s.hypothesis.fault, s.hypothesis.kind): s for s in sized.shown}
-    groups = {f: g for g in campaign.compiled(robot.model).facts.groups for f in g}
+    groups = {f: g for g in campaign.compiled(robot.model).diagnosis_model.groups for f in g}
     rows = ["| fault | size | detected | delay | right class | until named | wrong at the end"
             " | wrong at times | itself first | false before |",
             "|---|---|---|---|---|---|---|---|---|---|"]  # fmt: skip

@@ -37,7 +37,7 @@ def test_a_healthy_robot_is_left_alone() -> None:
 @pytest.mark.parametrize("number", [0, 6], ids=lambda k: KINDS[k].name)
 def test_a_fault_of_three_times_the_smallest_size_is_found_and_named(number: int) -> None:
     found = _seen(10_001, number)
-    groups = {f: g for g in campaign.compiled().facts.groups for f in g}
+    groups = {f: g for g in campaign.compiled().diagnosis_model.groups for f in g}
     assert found.alarms == 0
     assert found.delay is not None and found.delay < 1.0
     assert found.last == groups[KINDS[number].target]

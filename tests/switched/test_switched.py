@@ -99,7 +99,7 @@ def test_every_fault_of_a_mode_is_seen_in_that_mode(name: str) -> None:
     for fault in compilation.signatures.faults:
         found = _faulty(name, fault)
         batch = _run(name, found.signals, native=True)
-        for told in compilation.modes.modes:
+        for told in compilation.mode_signatures.modes:
             if told.matrix is None:
                 continue
             at = [told.modes[m] for m in plant.modes]

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.backends.report.content import Content, Drawing, Quantity
 from bondgraph.backends.report.formulas import Typesetter
-from bondgraph.cli.console import plural, status
+from bondgraph.cli.console import status
 from bondgraph.cli.reasons import message, missing
 from bondgraph.cli.reporting.matrix import matrix
 from bondgraph.cli.reporting.relations import relations
 from bondgraph.cli.reporting.seen import Assumed, seen
 from bondgraph.ir.expr import symbols
 from bondgraph.text.diagnostic import CompileError
-from bondgraph.text.numerals import readable
+from bondgraph.text.numerals import plural, readable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def matrix(compilation: Compilation, program: Program | None) -> Signatures:
     """The matrix with how long each fault shows, the groups, the best there could be, modes."""
-    found, best = compilation.signatures, compilation.best
+    found, best = compilation.signatures, compilation.maximum_isolability
     cells = _cells(compilation, program)
     groups = []
     for number, faults in enumerate(found.groups, 1):
@@ -25,7 +25,7 @@ def matrix(compilation: Compilation, program: Program | None) -> Signatures:
         parts = tuple(part for part in best or (faults,) if part[0] in faults)
         groups.append(Group(number, seen, rows, parts))
     why = reasons(compilation) if found.undetectable else {}
-    modes = compilation.modes if found.residuals else None
+    modes = compilation.mode_signatures if found.residuals else None
     return Signatures(
         found.residuals,
         tuple(groups),

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from bondgraph.algebra.present import parts
 from bondgraph.backends.report.content import PathLine, RelationPart
 from bondgraph.backends.report.formulas import operations
-from bondgraph.cli.console import plural
 from bondgraph.notation.dump_stages import equation_name, place
 from bondgraph.passes.relation.path import path
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

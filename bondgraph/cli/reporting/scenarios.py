@@ -68,8 +68,7 @@ def played(compilation: Compilation, run: Run) -> Episode:
     scenario = run.scenario
     rate = scenario.sampling.rate
     if rate != compilation.options.rate:
-        options = compilation.options._replace(rate=rate)
-        compilation = Compilation(compilation.source, compilation.model, options)
+        compilation = compilation.with_options(rate=rate)
     seen = _watched(compilation, run) if compilation.residuals else None
     time = run.log.time if seen is None else seen.time
     return Episode(

@@ -76,9 +76,9 @@ def _detection(
     try:
         if assumed.samples:
             engine = compilation.engine()
-            received = compilation.received
+            received = compilation.program_with_readings
             return shown(received, engine, tolerances, assumed.situation, assumed.samples), ""
-        found = smallest(compilation.received, compilation.thresholds, tolerances,
+        found = smallest(compilation.program_with_readings, compilation.thresholds, tolerances,
                          assumed.situation)  # fmt: skip
         return found, ""
     except ValueError as error:

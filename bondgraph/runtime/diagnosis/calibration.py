@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from bondgraph.runtime.diagnosis.doubt import Doubt
-from bondgraph.runtime.diagnosis.healthy import Facts, grown, slack, tolerated
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, grown, slack, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import (
     Bank,
     Hypothesis,
@@ -52,9 +52,9 @@ class Tuned(NamedTuple):
 
 def tune(
     engine: Engine,
-    facts: Facts,
+    model: DiagnosisModel,
     logs: Sequence[Array],
-    model: str,
+    digest: str,
     false_alarms: float,
     window: float = 2.0,
     progress: Callable[[float], None] = lambda _: None,
@@ -65,7 +65,7 @@ def tune(
     log may be of another machine, with parameters of its own inside their tolerances. Raises
     ValueError where the logs are too short to be of use.
     """
-    work = _Work(engine, facts, logs)
+    work = _Work(engine, model, logs)
     total = 2 * len(logs)
     noise: list[_Noise] = []
     for k, log in enumerate(logs):
@@ -79,7 +79,7 @@ def tune(
             f"no log is longer than the warm-up of {engine.warm_up:g} s: nothing can be learned"
         )
     limits = _limits(engine, noise, false_alarms)
-    tuning = Tuning(model, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, limits)
+    tuning = Tuning(digest, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, limits)
     sizes: list[list[_Seen]] = [[] for _ in work.all]
     for k, log in enumerate(logs):
         for seen in work.windows(log, limits, window):
@@ -116,17 +116,17 @@ class _Seen(NamedTuple):
 
 
 class _Work:
-    def __init__(self, engine: Engine, facts: Facts, logs: Sequence[Array]) -> None:
+    def __init__(self, engine: Engine, model: DiagnosisModel, logs: Sequence[Array]) -> None:
         self.engine = engine
-        self.facts = facts
-        self.nominal = {f: v for f, v in facts.faults.items() if v is not None}
+        self.model = model
+        self.nominal = {f: v for f, v in model.faults.items() if v is not None}
         sizes = Sizes(engine)
         for log in logs:
             sizes.add(log)
-        found = hypotheses(engine, facts.faults, facts.units, sizes.found())
+        found = hypotheses(engine, model.faults, model.units, sizes.found())
         longest = max(logs, key=len, default=np.empty((0, len(engine.signals))))[:_CHUNK]
-        self.all = sized(engine, found, facts.deliveries, self.nominal, longest)
-        self.tolerated, self.spread = tolerated(self.all, facts)
+        self.all = sized(engine, found, model.deliveries, self.nominal, longest)
+        self.tolerated, self.spread = tolerated(self.all, model)
         self.every = rows_apart(engine)
 
     def noise(self, samples: Array) -> _Noise | None:
@@ -199,7 +199,7 @@ class _Work:
             yield [self._seen(h, slopes[:, k], batch, top) for k, h in enumerate(self.all)]
 
     def _seen(self, hypothesis: Hypothesis, slopes: Array, batch: Batch, top: Array) -> _Seen:
-        share = self.facts.tolerances.get(hypothesis.fault, 0.0)
+        share = self.model.tolerances.get(hypothesis.fault, 0.0)
         own = share * abs(self.nominal.get(hypothesis.fault, 0.0)) * slopes
         need = 2.0 * batch.bound - np.minimum(own, batch.bound) + top
         least = np.divide(
@@ -217,7 +217,7 @@ class _Whole:
     def __init__(self, work: _Work) -> None:
         self.engine = work.engine.configured()
         self._bank = Bank(work.engine.configured(bounds=False), work.tolerated, work.nominal)
-        self._doubt, self._tolerated = Doubt(work.engine, work.facts), work.tolerated
+        self._doubt, self._tolerated = Doubt(work.engine, work.model), work.tolerated
         self._age = 0
 
     def run(self, samples: Array) -> tuple[Batch, Array]:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.doubt import Doubt
-from bondgraph.runtime.diagnosis.healthy import Facts, grown, slack, tolerated
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, grown, slack, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Sizes, hypotheses, rows_apart, sized
 from bondgraph.runtime.diagnosis.isolation import History, inverse
 from bondgraph.runtime.diagnosis.learning import Learning
@@ -42,24 +42,24 @@ class Diagnosis:
     noise is learned from the first seconds, which then have to be healthy ones.
     """
 
-    def __init__(self, engine: Engine, facts: Facts, tuning: Tuning | None = None) -> None:
-        self._facts = facts
+    def __init__(self, engine: Engine, model: DiagnosisModel, tuning: Tuning | None = None) -> None:
+        self._model = model
         self._engine = engine
         self._every = rows_apart(engine)
-        self._nominal = {f: v for f, v in facts.faults.items() if v is not None}
+        self._nominal = {f: v for f, v in model.faults.items() if v is not None}
         self._sizes = Sizes(engine)
-        known = hypotheses(engine, facts.faults, facts.units, {})
-        self._tolerated, spread = tolerated(known, facts)
+        known = hypotheses(engine, model.faults, model.units, {})
+        self._tolerated, spread = tolerated(known, model)
         self._lasting = len(spread)  # those that stay; starts that were estimated stand behind
         self._history = History(spread)
-        self._used = np.array([name in facts.sees for name in engine.residuals], dtype=bool)
+        self._used = np.array([name in model.sees for name in engine.residuals], dtype=bool)
         self._telling = Telling(engine, self._used)
-        self._doubt = Doubt(engine, facts, walks=tuning is None)
-        self._origins = Origins(engine, facts.memories, self._every)
+        self._doubt = Doubt(engine, model, walks=tuning is None)
+        self._origins = Origins(engine, model.memories, self._every)
         self._past: deque[Row] = deque(maxlen=int(_MEMORY))
         self._learning: Learning | None = None
         if tuning is None:
-            self._learning = Learning(engine, known, self._used, facts)
+            self._learning = Learning(engine, known, self._used, model)
             self._limits = self._learning.limits
         else:
             self._limits = np.array(limits(tuning, engine.residuals), dtype=float)
@@ -183,7 +183,7 @@ class Diagnosis:
 
     def _settle(self) -> None:
         """Go on with starts that nobody knew, once they are known; rows are as with these then."""
-        for _ in self._facts.memories:
+        for _ in self._model.memories:
             found = self._origins.settled(
                 self._past, self._tolerated, self._nominal, self._history, self._limits
             )
@@ -303,11 +303,11 @@ class Diagnosis:
 
     def _compare(self, engine: Engine, healthy: Array, own: int, rows: Sequence[Row]) -> None:
         """Begin to compare faults behind the `healthy` samples, `own` of these of the first row."""
-        facts = self._facts
+        model = self._model
         self._after = self._told = 0
-        found = hypotheses(self._engine, facts.faults, facts.units, self._sizes.found())
+        found = hypotheses(self._engine, model.faults, model.units, self._sizes.found())
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
-        found = sized(engine, found, facts.deliveries, self._nominal, samples)
+        found = sized(engine, found, model.deliveries, self._nominal, samples)
         self._compared = Comparison(engine, healthy, own, found, self._nominal)
         for row in rows:
             self._compared.step(row, self._weight(row))
@@ -328,10 +328,10 @@ class Diagnosis:
             found = self._compared.explained(self._history)
         except np.linalg.LinAlgError:
             return
-        found = candidates(found, self._facts.faults, self._facts.sees, self._levels())
+        found = candidates(found, self._model.faults, self._model.sees, self._levels())
         sigma = np.where(self._origins.waiting, math.inf, self._limits[:, 0]).tolist()
         noise = dict(zip(self._engine.residuals, sigma, strict=True))
-        groups = classes(self._facts.groups, self._facts.sees, noise)
+        groups = classes(self._model.groups, self._model.sees, noise)
         group, leads = named(found, groups)
         sure, self._leads = group if leads == self._leads else (), leads
         if group and not sure and self._latched["said"] is None and self._after == _JUDGE:

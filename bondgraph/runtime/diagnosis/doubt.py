@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bondgraph.runtime.diagnosis.healthy import Facts
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import rows_apart
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
@@ -30,11 +30,11 @@ class Doubt:
     - What adds up readings for ever adds up their noise, which walks away with the root of time.
     """
 
-    def __init__(self, engine: Engine, facts: Facts, walks: bool = False) -> None:
+    def __init__(self, engine: Engine, model: DiagnosisModel, walks: bool = False) -> None:
         """Sums walk away where `walks`; limits of a tuning know how far they come."""
         self._engine, self._walks = engine, walks
         self._every = rows_apart(engine)
-        natures = [facts.natures[name] for name in engine.residuals]
+        natures = [model.natures[name] for name in engine.residuals]
         place = {k.path: at for at, k in enumerate(engine.signals)}
         self._modes = sorted({place[m] for n in natures for m in n.modes})
         self._bent = [(k, n.stages) for k, n in enumerate(natures) if n.approximate]

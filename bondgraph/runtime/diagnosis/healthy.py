@@ -35,7 +35,7 @@ class Nature(NamedTuple):
     drifts: bool
 
 
-class Facts(NamedTuple):
+class DiagnosisModel(NamedTuple):
     """What a diagnosis knows of the machine.
 
     `faults` that some residual sees, with the nominal value of a parameter and None for a signal;
@@ -54,10 +54,10 @@ class Facts(NamedTuple):
     deliveries: frozenset[str]
 
 
-def facts(
+def diagnosis_model(
     graph: BondGraph, residuals: ResidualSet, matrix: SignatureMatrix, program: Program
-) -> Facts:
-    """The facts of a model, as far as the code sees its faults at its sample rate."""
+) -> DiagnosisModel:
+    """What a diagnosis knows of a model, as far as the code sees its faults at its sample rate."""
     values = Values(graph)
     numbers = {v.name: values.constant(v.symbol) for v in graph.values}
     sees = {
@@ -69,7 +69,7 @@ def facts(
     units = {v.name: v.unit or "" for v in graph.values}
     units |= {i.name: i.unit or "" for i in graph.inputs}
     units |= {s.name: s.unit or "" for s in graph.sensors}
-    return Facts(
+    return DiagnosisModel(
         {f: numbers.get(f) for f in matrix.faults if f in seen},
         {v.name: float(v.tolerance) for v in graph.values if v.tolerance},
         units,
@@ -95,7 +95,9 @@ def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict
     return found
 
 
-def tolerated(known: Sequence[Hypothesis], facts: Facts) -> tuple[tuple[Hypothesis, ...], Array]:
+def tolerated(
+    known: Sequence[Hypothesis], model: DiagnosisModel
+) -> tuple[tuple[Hypothesis, ...], Array]:
     """What may be off for ever while all is well, and by how much (standard deviations).
 
     Parameters within their tolerances, and encoders by one count: where within a count an encoder
@@ -103,8 +105,8 @@ def tolerated(known: Sequence[Hypothesis], facts: Facts) -> tuple[tuple[Hypothes
     """
     found, most = [], []
     for one in known:
-        if one.kind == "value" and facts.tolerances.get(one.fault):
-            most.append(facts.tolerances[one.fault] * abs(facts.faults[one.fault] or 0.0))
+        if one.kind == "value" and model.tolerances.get(one.fault):
+            most.append(model.tolerances[one.fault] * abs(model.faults[one.fault] or 0.0))
         elif one.kind == "offset" and one.unit == COUNT:
             most.append(_COUNT)
         else:

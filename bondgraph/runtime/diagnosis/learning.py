@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bondgraph.runtime.diagnosis.healthy import Facts
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.rows import Part, Row
 from bondgraph.runtime.diagnosis.tuning import height, kappa
@@ -48,7 +48,7 @@ class Learning:
         engine: Engine,
         known: Sequence[Hypothesis],
         used: npt.NDArray[np.bool_],
-        facts: Facts,
+        model: DiagnosisModel,
     ) -> None:
         counted = {h.fault for h in known if h.unit == COUNT}  # exact, however far they have come
         self._gains = tuple(h for h in known if h.kind == "gain" and h.fault not in counted)
@@ -56,7 +56,7 @@ class Learning:
         self._steps: list[dict[_Settings, list[float]]] = [{} for _ in used]
         self._all: list[list[tuple[float, _Settings]]] = [[] for _ in used]
         self._scale = np.zeros(len(used))
-        natures = [facts.natures[n] for n in engine.residuals]
+        natures = [model.natures[n] for n in engine.residuals]
         place = {k.path: at for at, k in enumerate(engine.signals)}
         self._modes = [[place[m] for m in n.modes] for n in natures]
         self._learned: list[_Settings] = [frozenset() for _ in used]

@@ -159,7 +159,7 @@ def test_a_switch_is_not_differentiated() -> None:
     assert sp.simplify(r.expr.subs(on, 1).doit() - closed) == 0
     assert sp.simplify(r.expr.subs(on, 0).doit() - i) == 0
     assert c.verification.method.startswith("exact")
-    off, closed_ = [[any(row) for row in m.matrix.rows] for m in c.modes.modes]
+    off, closed_ = [[any(row) for row in m.matrix.rows] for m in c.mode_signatures.modes]
     assert c.signatures.faults == ("R", "C", "U", "i")
     assert off == [False, False, False, True]
     assert all(closed_)

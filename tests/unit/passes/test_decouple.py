@@ -186,7 +186,7 @@ def test_with_a_mode() -> None:
     """The wall of an oven: heat balance of both sides together, whether the heater is on or not."""
     c, (relation,) = of(OVEN, "G")
     assert set(relation.faults) == {"Ch", "Co", "Ga", "Ta", "Th", "To"}
-    for mode in c.modes.modes:
+    for mode in c.mode_signatures.modes:
         assert mode.matrix is not None
         assert set(mode.matrix.signature(relation.name)) == set(relation.faults)
 
@@ -197,8 +197,8 @@ def test_it_helps_to_isolate() -> None:
     assert ("k", "i", "w") in alone.signatures.groups
     c = Compilation(Source("model.bg", "bg 1\n" + MOTOR), options=Options(decouple=("k", "i", "w")))
     assert {("k",), ("i",), ("w",)} <= set(c.signatures.groups)
-    assert c.best is not None and alone.best is not None
-    assert set(c.best) == set(alone.best)
+    assert c.maximum_isolability is not None and alone.maximum_isolability is not None
+    assert set(c.maximum_isolability) == set(alone.maximum_isolability)
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,7 @@ def compiled(text: str) -> Compilation:
 
 def shown(model: Compilation) -> list[str]:
     """The relations."""
-    return [show(r.expr) for r in model.residuals.residuals]
+    return [show(r.residual.expr) for r in model.residuals]
 
 
 def test_what_the_modes_share_stays_outside_the_choice() -> None:
@@ -40,7 +40,7 @@ def test_what_the_modes_share_stays_outside_the_choice() -> None:
 
 
 def test_the_path_to_a_relation_has_a_choice_where_the_modes_part() -> None:
-    (relation,) = compiled(CONVERTER.format("on", "not on")).residuals.residuals
+    (relation,) = compiled(CONVERTER.format("on", "not on")).residuals.residual_set.residuals
     steps = {show(s.variable): (show(s.value), show(s.closed)) for s in relation.steps}
     assert steps["coil.f"] == ("i", "i")
     assert steps["r.e"] == ("coil.f/2", "i/2")
@@ -52,12 +52,12 @@ def test_the_path_to_a_relation_has_a_choice_where_the_modes_part() -> None:
 def test_a_mode_without_current_has_a_relation_of_its_own() -> None:
     """Both switches open: the coil carries nothing. Both closed: there is no such machine."""
     model = compiled("input d : bool\n" + CONVERTER.format("on", "d"))
-    (relation,) = model.residuals.residuals
+    (relation,) = model.residuals.residual_set.residuals
     choices = [n for n in topological([relation.expr]) if n.op is Op.IF]
     assert {show(c.args[0]) for c in choices} == {"on", "d"}
     inner = next(c for c in choices if show(c.args[0]) == "d")
     assert show(inner.args[2]) in ("i", "-i")
-    none = [m for m in model.modes.modes if m.matrix is None]
+    none = [m for m in model.mode_signatures.modes if m.matrix is None]
     assert [m.modes for m in none] == [{"on": True, "d": True}]
 
 

@@ -133,7 +133,7 @@ def test_nothing_at_all_is_refused() -> None:
 
 def test_a_relation_that_turns_out_to_say_nothing_is_none() -> None:
     c = model(f"{SWING}\n{COIL}")
-    found = c.residuals.stage
+    found = c.residuals.residual_set
     report = Report()
     for d in c.report.diagnostics:
         report.add(d)

@@ -65,7 +65,7 @@ def verdict(matrix: SignatureMatrix) -> tuple[set[str], set[frozenset[str]]]:
 @pytest.mark.parametrize("on", [False, True])
 def test_as_if_the_switch_were_built_in(name: str, on: bool) -> None:
     c = compiled(SWITCHED[name])
-    mode = next(m for m in c.modes.modes if m.modes == {"on": on})
+    mode = next(m for m in c.mode_signatures.modes if m.modes == {"on": on})
     assert mode.matrix is not None
     assert c.verification.residuals == len(c.residuals)
     wired = compiled(hard_wired(SWITCHED[name], on)).signatures
@@ -77,7 +77,7 @@ def test_as_if_the_switch_were_built_in(name: str, on: bool) -> None:
 
 def seen(c: Compilation, **modes: bool) -> set[frozenset[str]]:
     """What each residual sees in a mode, as a set of supports."""
-    (found,) = (m.matrix for m in c.modes.modes if m.modes == modes)
+    (found,) = (m.matrix for m in c.mode_signatures.modes if m.modes == modes)
     assert found is not None
     return {frozenset(found.signature(r)) for r in found.residuals}
 
@@ -100,8 +100,9 @@ def test_every_mode_is_met() -> None:
         Se:U -> 1:x; x { -> R:R; -> y }
         0:y { -> C:C; -> De:v; <- MSf:s = if(a and b and c and d and g, p5, 0) } }"""
     )
-    assert len(c.modes.modes) == c.modes.total == 32
-    sees = [m.modes for m in c.modes.modes if m.matrix and "p5" not in m.matrix.undetectable]
+    assert len(c.mode_signatures.modes) == c.mode_signatures.total == 32
+    modes = c.mode_signatures.modes
+    sees = [m.modes for m in modes if m.matrix and "p5" not in m.matrix.undetectable]
     assert sees == [dict.fromkeys("abcdg", True)]
     assert "p5" not in c.signatures.undetectable
     assert c.verification.method.startswith("exact")
@@ -115,13 +116,13 @@ def test_more_modes_than_are_listed() -> None:
         {inputs}
         Se:U -> 1:x; x {{ -> R:R; -> Df:i; -> Se:load = 0{gain} }} }}"""
     )
-    assert (len(c.modes.modes), c.modes.total) == (64, 256)
-    assert len({tuple(m.modes.values()) for m in c.modes.modes}) == 64
+    assert (len(c.mode_signatures.modes), c.mode_signatures.total) == (64, 256)
+    assert len({tuple(m.modes.values()) for m in c.mode_signatures.modes}) == 64
 
 
 def test_no_mode_without_boolean_inputs() -> None:
     c = compiled("model M { param R=1; input on : bool\n Se:U -> 1:x; x { -> R:R; -> Df:i } }")
-    assert c.modes.modes == ()
+    assert c.mode_signatures.modes == ()
 
 
 def test_a_mode_without_behaviour(tmp_path: object, capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,10 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from bondgraph.pipeline import Compilation
 from bondgraph.pipeline import compile as open_model
 from bondgraph.text.diagnostic import Diagnostic
-from bondgraph.text.source import Source
 
 OURS = {"part-not-measured", "part-not-driven", "value-not-used", "value-without-name"}
 MACHINE = "Se:U -> 1:i; i -> R:R; i -> Df:y; param R = 2 Ohm; "
@@ -18,8 +16,7 @@ MACHINE = "Se:U -> 1:i; i -> R:R; i -> Df:y; param R = 2 Ohm; "
 def said(body: str, before: str = "", open_ports: bool = False) -> list[Diagnostic]:
     """What is said of a model with this body."""
     text = "bg 1\n" + before + "\nmodel M {\n" + body.replace("; ", "\n") + "\n}\n"
-    compilation = Compilation(Source("m.bg", text))
-    compilation.open_ports = open_ports
+    compilation = open_model(text=text, open_ports=open_ports)
     assert compilation.graph
     return [d for d in compilation.report.diagnostics if d.code in OURS]
 

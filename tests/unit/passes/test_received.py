@@ -282,9 +282,9 @@ def test_the_machine_that_runs_on_a_wrong_reading_moves_what_is_said(name: str) 
 
 def test_in_each_mode_of_the_controller() -> None:
     c = _compiled("a switch, by hand")
-    assert c.modes.names == ("auto",)
+    assert c.mode_signatures.names == ("auto",)
     found = []
-    for mode in c.modes.modes:
+    for mode in c.mode_signatures.modes:
         assert mode.matrix is not None
         found.append((mode.modes, [set(mode.matrix.signature(r)) for r in mode.matrix.residuals]))
     assert found == [
@@ -296,7 +296,7 @@ def test_in_each_mode_of_the_controller() -> None:
 def test_what_could_be_told_apart_at_best() -> None:
     # K and r move both residuals by (r - y) dK and K dr, in one proportion; only u moves the
     # second one alone, and all others only the first
-    best = _compiled("P, its command logged").best
+    best = _compiled("P, its command logged").maximum_isolability
     assert best is not None
     assert {frozenset(g) for g in best} == {
         frozenset({"K", "r"}), frozenset({"c", "g", "pump", "y"}), frozenset({"u"}),
@@ -319,10 +319,10 @@ def test_sensitivities_are_those_of_the_measurement() -> None:
 def test_the_code_has_one_signal_for_a_sensor() -> None:
     c = _compiled("P, its command hidden")
     assert [k.path for k in c.program.knowns] == ["r", "y"]
-    assert [k.kind for k in c.received.knowns] == ["input", "sensor", "reading"]
+    assert [k.kind for k in c.program_with_readings.knowns] == ["input", "sensor", "reading"]
     assert not any("y_read" in a.text for a in c.artifacts)
     assert [k.path for k in c.engine().signals] == ["r", "y"]
-    assert c.program.digest != c.received.digest
+    assert c.program.digest != c.program_with_readings.digest
     assert next(iter(c.residuals)).text == "K*(r - y) + pump - g*y - c*D(y)"
 
 
@@ -340,7 +340,7 @@ _SERVO = """model Servo {
 
 def test_both_programs_keep_the_same_terms_and_stages() -> None:
     for c in (*map(_compiled, LOOPS), compiled(_SERVO)):
-        for one, other in zip(c.program.residuals, c.received.residuals, strict=True):
+        for one, other in zip(c.program.residuals, c.program_with_readings.residuals, strict=True):
             assert (one.stages, one.settle, one.invisible, one.approximate) == (
                 other.stages, other.settle, other.invisible, other.approximate,
             )  # fmt: skip
@@ -356,7 +356,7 @@ def test_a_position_loop_with_an_encoder() -> None:
     assert [(e.name, e.target) for e in c.graph.events] == [
         ("weak", "motor.error"), ("bent", "th"),
     ]  # fmt: skip
-    assert [(k.path, k.kind) for k in c.received.knowns] == [
+    assert [(k.path, k.kind) for k in c.program_with_readings.knowns] == [
         ("want", "input"), ("th", "sensor"), ("th", "reading"),
     ]  # fmt: skip
     assert [(k.path, k.kind) for k in c.program.knowns] == [("want", "input"), ("th", "sensor")]
@@ -379,7 +379,7 @@ def test_a_passive_law_that_uses_a_reading_gets_a_note() -> None:
 
 def test_a_program_without_readings_is_one_program() -> None:
     c = compiled("model M { Se:U -> 1:i; i -> R:R1 = 2; i -> I:L1 = 3; i -> Df:y }")
-    assert c.received is c.program
+    assert c.program_with_readings is c.program
 
 
 def test_the_interpreter_and_the_engine_agree_on_the_emitted_program() -> None:

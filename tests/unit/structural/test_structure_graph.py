@@ -70,7 +70,8 @@ def test_structure_bounds_what_the_residuals_tell_apart(name: str) -> None:
         if any(sees and not other for sees, other in rows):
             assert best.isolable(i, j), (matrix.faults[i], matrix.faults[j])
     # nor can combinations of the residuals and their derivatives, which know the laws
-    of = {fault: k for k, group in enumerate(compilation.best or ()) for fault in group}
+    groups = compilation.maximum_isolability or ()
+    of = {fault: k for k, group in enumerate(groups) for fault in group}
     for i, j in permutations(range(len(matrix.faults)), 2):
         known = [of.get(matrix.faults[f]) for f in (i, j)]
         assert None in known or known[0] == known[1] or best.isolable(i, j)

@@ -75,7 +75,7 @@ def test_a_fault_is_dated_within_the_time_that_the_filter_takes() -> None:
 def test_what_is_found_late_goes_on_from_where_the_samples_are() -> None:
     # more rows than samples are kept of, before anybody asks: slopes go on as in one run
     brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
-    engine, facts = brake.engine(), brake.facts
+    engine, facts = brake.engine(), brake.diagnosis_model
     known = hypotheses(engine, facts.faults, facts.units, {})
     nominal = {n: v for n, v in facts.faults.items() if v is not None}
     t = np.arange(70 * 20) / _RATE

@@ -102,8 +102,8 @@ def test_a_wrong_sensor_changes_what_it_measures_and_not_what_was_commanded(
     # at rest: r1 = K(r - y) + pump - g y and r2 = u - K(r - y) - Ki int(r - y), y = 1, r = 3
     c = _compiled(LOGGED)
     engine = c.engine(native)
-    known = hypotheses(engine, c.facts.faults, c.facts.units, {})
-    nominal = {n: v for n, v in c.facts.faults.items() if v is not None}
+    known = hypotheses(engine, c.diagnosis_model.faults, c.diagnosis_model.units, {})
+    nominal = {n: v for n, v in c.diagnosis_model.faults.items() if v is not None}
     at = {(h.fault, h.kind): k for k, h in enumerate(known)}
     row = {"r": 3.0, "y": 1.0, "u": 2.0}
     rows = np.tile([[row[k.path] for k in engine.signals]], (2000, 1))
@@ -119,10 +119,10 @@ def test_a_usual_wrong_delivery_is_a_share_of_the_largest_signal() -> None:
     # r1 = K(r - y) + pump - g y - c y' at rest: K r = 4.5 is the largest, beside g y = 0.5
     c = _compiled(HIDDEN)
     engine = c.engine()
-    known = hypotheses(engine, c.facts.faults, c.facts.units, {})
-    nominal = {n: v for n, v in c.facts.faults.items() if v is not None}
+    known = hypotheses(engine, c.diagnosis_model.faults, c.diagnosis_model.units, {})
+    nominal = {n: v for n, v in c.diagnosis_model.faults.items() if v is not None}
     rows = np.tile([[3.0, 1.0]], (3000, 1))  # r, y
-    found = sized(engine.configured(), known, c.facts.deliveries, nominal, rows)
+    found = sized(engine.configured(), known, c.diagnosis_model.deliveries, nominal, rows)
     changed = {h.fault: h.usual for h, old in zip(found, known, strict=True) if h != old}
     assert changed == {"pump": pytest.approx(0.3 * _K * 3.0, rel=1e-3)}
     assert sized(engine.configured(), known, (), nominal, rows) == known
@@ -150,8 +150,8 @@ def test_the_noise_of_a_reading_that_a_controller_follows_is_that_of_its_measure
     )
     noisy = Situation(at={"r": 3.0, "y": 1.0, "Q": 3.0}, noise={"y": 0.01})
     c = _compiled(HIDDEN)
-    found = smallest(c.received, c.thresholds, {}, noisy)
-    same = smallest(other.received, other.thresholds, {}, noisy)
+    found = smallest(c.program_with_readings, c.thresholds, {}, noisy)
+    same = smallest(other.program_with_readings, other.thresholds, {}, noisy)
     sigma = found.sigma["r1"]
     assert sigma is not None and sigma > 0.0
     assert sigma == pytest.approx(same.sigma["r1"], rel=1e-9)
@@ -173,7 +173,7 @@ def test_tuning_tells_the_smallest_wrong_delivery() -> None:
     c = _compiled(LOGGED)
     noise = {"y": 2e-3, "u": 2e-3}
     logs = [_samples(LOGGED, {}, noise, 50 + k)[: round(8.0 / _STEP)] for k in range(2)]
-    found = tune(c.engine(), c.facts, logs, c.program.digest, 1.0)
+    found = tune(c.engine(), c.diagnosis_model, logs, c.program.digest, 1.0)
     shown = {(s.hypothesis.fault, s.hypothesis.kind): s for s in found.shown}
     pump, y = shown["pump", "value"], shown["y", "offset"]
     assert pump.residual == y.residual == "r1"

@@ -98,7 +98,7 @@ def _samples(
 @cache
 def _tuned() -> Tuned:
     logs = [_samples(100 + k, 6.0)[1] for k in range(4)]
-    return tune(_engine(), _motor().facts, logs, _motor().program.digest, 1.0)
+    return tune(_engine(), _motor().diagnosis_model, logs, _motor().program.digest, 1.0)
 
 
 def _said(t: np.ndarray, rows: np.ndarray, block: int = 700, **how: object) -> list[Verdict]:
@@ -114,7 +114,7 @@ def _said(t: np.ndarray, rows: np.ndarray, block: int = 700, **how: object) -> l
 
 def test_slopes_are_those_of_the_closed_form() -> None:
     # steady: r1 = U - R i - k w, r2 = k i - f w - load (up to a factor that stays the same)
-    facts = _motor().facts
+    facts = _motor().diagnosis_model
     known = hypotheses(_engine(), facts.faults, facts.units, {})
     nominal = {n: v for n, v in facts.faults.items() if v is not None}
     rows = np.tile([[0.0, 9.0, 0.3, 90.0]], (3000, 1))
@@ -134,7 +134,7 @@ def test_slopes_are_those_of_the_closed_form() -> None:
 
 def test_a_bank_that_begins_later_goes_on_from_what_was() -> None:
     # a change at the moment t0 moves the filtered residual like a step through its own filter
-    facts = _motor().facts
+    facts = _motor().diagnosis_model
     known = [h for h in hypotheses(_engine(), facts.faults, facts.units, {}) if h.fault == "U"]
     rows = np.tile([[0.0, 9.0, 0.3, 90.0]], (2000, 1))
     engine = _engine().configured(bounds=False)
@@ -169,7 +169,7 @@ def test_a_fault_is_named_with_its_size(
     alarm = next(v for v in said if v.event == "fault")
     assert 0.0 < alarm.time - _ONSET < 0.5
     last = said[-1]
-    groups = {f: g for g in _motor().facts.groups for f in g}
+    groups = {f: g for g in _motor().diagnosis_model.groups for f in g}
     assert last.group == groups[fault]
     own = next(c for c in last.candidates if c.fault == fault)
     assert own.size == pytest.approx(size, rel=0.3)
@@ -243,7 +243,7 @@ def test_a_tuning_of_another_model_is_refused() -> None:
     with pytest.raises(ValueError, match="rad/s"):
         _motor().diagnosis(_engine(), tuning._replace(bandwidth=3.0))
     with pytest.raises(ValueError, match="warm-up"):
-        tune(_engine(), _motor().facts, [np.zeros((5, 4))], "x", 1.0)
+        tune(_engine(), _motor().diagnosis_model, [np.zeros((5, 4))], "x", 1.0)
 
 
 def test_what_is_remembered_are_rows_and_not_the_samples_that_they_were_cut_from() -> None:

@@ -25,7 +25,7 @@ model M {
 def learner(*known: Hypothesis) -> tuple[Learning, Engine]:
     model = Compilation(Source("m.bg", _TEXT))
     engine = model.engine(native=False)
-    return Learning(engine, known, np.ones(1, dtype=bool), model.facts), engine
+    return Learning(engine, known, np.ones(1, dtype=bool), model.diagnosis_model), engine
 
 
 def row(engine: Engine, value: float, valid: bool = True) -> Row:

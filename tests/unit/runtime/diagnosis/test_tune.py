@@ -44,7 +44,7 @@ def tuned() -> Tuned:
     for seed, count in ((1, _COUNT), (2, _COUNT // 2), (3, 5)):
         current = _I + np.random.default_rng(seed).normal(0.0, _NOISE, count)
         logs.append(np.column_stack([np.full(count, _R * _I), current]))
-    return tune(engine, model().facts, logs, "digest", 2.0, _WINDOW)
+    return tune(engine, model().diagnosis_model, logs, "digest", 2.0, _WINDOW)
 
 
 def _sigma() -> float:
@@ -105,7 +105,7 @@ def test_a_limit_stays_above_what_a_healthy_machine_has_reached(first: bool) -> 
     pulse = quiet.copy()
     pulse[3000, 1] += 1.0  # of too few samples to count as noise
     logs = [pulse, quiet] if first else [quiet, pulse]
-    limit = tune(engine, model().facts, logs, "digest", 2.0, _WINDOW).tuning.limits["r1"]
+    limit = tune(engine, model().diagnosis_model, logs, "digest", 2.0, _WINDOW).tuning.limits["r1"]
     reached = np.abs(engine.configured().run(pulse).value).max()
     assert limit.kappa * limit.sigma == pytest.approx(1.2 * reached)
 
@@ -116,7 +116,7 @@ def test_a_log_that_ends_with_the_first_row_behind_the_warm_up_teaches_nothing()
     logs = [np.tile([_R * _I, _I], (short, 1))]
     logs[0][:, 1] += np.random.default_rng(6).normal(0.0, _NOISE, short)
     with pytest.raises(ValueError, match="nothing can be learned"):
-        tune(engine, model().facts, logs, "digest", 2.0)
+        tune(engine, model().diagnosis_model, logs, "digest", 2.0)
 
 
 def test_samples_that_are_missing_do_not_count_as_noise() -> None:
@@ -125,8 +125,8 @@ def test_samples_that_are_missing_do_not_count_as_noise() -> None:
     whole = np.column_stack([np.full(_COUNT, _R * _I), current])
     holes = whole.copy()
     holes[6000:6020] = math.nan
-    found = tune(engine, model().facts, [holes], "digest", 2.0, _WINDOW).tuning.limits["r1"]
-    assert found.sigma == pytest.approx(_sigma(), rel=0.1)
+    found = tune(engine, model().diagnosis_model, [holes], "digest", 2.0, _WINDOW).tuning
+    assert found.limits["r1"].sigma == pytest.approx(_sigma(), rel=0.1)
 
 
 @pytest.mark.parametrize(
@@ -149,7 +149,7 @@ def test_what_is_sure_to_show_shows_in_nine_windows_of_ten(sizes: list[float], s
 def test_logs_that_are_too_short_teach_nothing() -> None:
     engine = model().engine(native=False)
     with pytest.raises(ValueError, match="nothing can be learned"):
-        tune(engine, model().facts, [np.zeros((4, 2))], "digest", 2.0)
+        tune(engine, model().diagnosis_model, [np.zeros((4, 2))], "digest", 2.0)
 
 
 def test_slopes_are_what_a_change_makes_of_the_residual() -> None:

@@ -192,7 +192,7 @@ def test_reset_and_bandwidth_and_warm_up(native: bool) -> None:
 
 
 def test_what_is_unavailable_is_not_waited_for() -> None:
-    made, _ = _motor().runnables
+    made, _ = _motor().runnable_programs
     first, second = made.program.residuals
     rows = (first._replace(settle=40.0), second._replace(settle=500.0, unavailable="too long"))
     program = made.program._replace(residuals=rows, rate=1000.0)

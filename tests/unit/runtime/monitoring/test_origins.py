@@ -98,7 +98,7 @@ def test_only_laws_of_position_remember_where_it_began(
 ) -> None:
     path = ROOT / "models" / f"{model}.bg"
     compilation = _robot().compilation if str(path) == _ROBOT else bondgraph.compile(path)
-    found = compilation.facts.memories
+    found = compilation.diagnosis_model.memories
     assert {m.residuals: m.signals for m in found} == memory
     assert all(set(m.signals) <= set(m.reads) for m in found)
     assert all(m.integral == (model == "slider_crank") for m in found)
