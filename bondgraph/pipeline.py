@@ -234,7 +234,7 @@ class Compilation:
 
         >>> import bondgraph
         >>> c = bondgraph.compile("models/dc_motor.bg")
-        >>> twelve = {"U": bondgraph.Course(None, ((0.0, 12.0),))}
+        >>> twelve = {"U": bondgraph.Course.constant(12.0)}
         >>> run = c.simulate(bondgraph.Scenario("step", duration=2.0, inputs=twelve))
         >>> f"{run.truth.columns['speed'][-1]:.1f} rad/s"
         '189.9 rad/s'

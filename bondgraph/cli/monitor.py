@@ -196,11 +196,11 @@ def watching(
 
 def read_tuning(path: str) -> Tuning:
     """The limits that `bondgraph tune` wrote."""
-    from bondgraph.runtime.diagnosis.tuning import from_json
+    from bondgraph.runtime.diagnosis.tuning import Tuning
 
     try:
         with open(path, encoding="utf-8") as file:
-            return from_json(file.read())
+            return Tuning.from_json(file.read())
     except (ValueError, UnicodeDecodeError) as error:
         raise console.Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
 

@@ -137,7 +137,7 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
     for name, value in args.input:
         _known(name, "input", [i.name for i in graph.inputs])
         mode = any(i.name == name and i.mode for i in graph.inputs)
-        (modes if mode else inputs)[name] = Course(None, ((0.0, value),))
+        (modes if mode else inputs)[name] = Course.constant(value)
     driven = {c.input for c in chosen.controllers} & {name for name, _ in args.input}
     if driven:
         raise console.Trouble(f"`{min(driven)}` is driven by a controller of the scenario")

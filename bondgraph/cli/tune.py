@@ -53,7 +53,6 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Learn, choose a bandwidth, write the limits, say what follows."""
     from bondgraph.runtime.diagnosis.calibration import tune
-    from bondgraph.runtime.diagnosis.tuning import to_json
     from bondgraph.runtime.log import LogError
 
     if bool(args.logs) == bool(args.simulate):
@@ -78,7 +77,7 @@ def run(args: Namespace) -> int:
     except (LogError, ValueError) as error:
         raise console.Trouble(str(error)) from error
     best = min(found, key=lambda t: (_score(t, found), -t.tuning.bandwidth))
-    console.write_whole(args.output, to_json(best.tuning))
+    console.write_whole(args.output, best.tuning.to_json())
     if args.json:
         from bondgraph.text.render import as_json
 

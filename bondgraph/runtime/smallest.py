@@ -78,8 +78,9 @@ def smallest(
 ) -> Detection:
     """What each residual can show of each fault that it sees.
 
-    `program` has what laws received as signals of their own (`Compilation.received`): an error or
-    the noise of a sensor is in what it measures, and a law acted on just what it received.
+    `program` has what laws received as signals of their own
+    (`Compilation.program_with_readings`): an error or the noise of a sensor is in what it
+    measures, and a law acted on just what it received.
 
     A change d of a fault is sure to be seen where s d, with s = dr/dfault through the filter, is
     above the threshold a + kappa sigma even if all other parameters work against it with a minus

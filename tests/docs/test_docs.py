@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import doctest
 import os
 import re
 import subprocess
@@ -158,3 +159,10 @@ def test_examples_in_python_run(page: str, tmp_path: Path) -> None:
             )
             assert done.returncode == 0, done.stderr
             assert "r1" in done.stdout
+
+
+def test_the_page_about_python_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    done = doctest.testfile(str(ROOT / "docs" / "python.md"), module_relative=False)
+    assert done.attempted > 20
+    assert done.failed == 0

@@ -88,7 +88,7 @@ def engine(model: str = PLANT) -> Engine:
 def errands(seed: int, duration: float, *faults: Fault, robot: Robot = ENCODERS) -> Scenario:
     """One robot out of many, on its errands."""
     chosen = compiled().scenario(SCENARIO)
-    inputs = chosen.inputs if robot.load else {**chosen.inputs, "load": Course(None, ((0.0, 0.0),))}
+    inputs = chosen.inputs if robot.load else {**chosen.inputs, "load": Course.constant(0.0)}
     return chosen._replace(
         seed=seed, duration=duration, spread="uniform", faults=faults, inputs=inputs
     )

@@ -31,6 +31,11 @@ class Tuning(NamedTuple):
 
     `false_alarms` are those wanted per hour, of all residuals and both tests together; `model` is
     the digest of the residuals that it belongs to, `seconds` how much healthy data it is from.
+
+    >>> limits = {"r1": Limit(sigma=0.2, crossings=10.0, kappa=4.7, height=9.3)}
+    >>> tuning = Tuning("7888fd5a1d32470a", 1000.0, 20.0, 1.0, 60.0, limits)
+    >>> Tuning.from_json(tuning.to_json()) == tuning
+    True
     """
 
     model: str
@@ -39,6 +44,39 @@ class Tuning(NamedTuple):
     false_alarms: float
     seconds: float
     limits: Mapping[str, Limit]
+
+    def to_json(self) -> str:
+        """A text for people and programs, as `bondgraph tune` writes it."""
+        record = {
+            "bondgraph tuning": EDITION,
+            **self._asdict(),
+            "limits": {name: limit._asdict() for name, limit in self.limits.items()},
+        }
+        return json.dumps(record, indent=2) + "\n"
+
+    @classmethod
+    def from_json(cls, text: str) -> Tuning:
+        """The tuning in a text; raises ValueError, with the reason, for any other text."""
+        try:
+            record: dict[str, Any] = json.loads(text)
+            if record["bondgraph tuning"] != EDITION:
+                raise ValueError(f"edition {record['bondgraph tuning']} is not known here")
+            limits = {
+                str(name): Limit(*[float(limit[key]) for key in Limit._fields])
+                for name, limit in record["limits"].items()
+            }
+            return cls(
+                str(record["model"]),
+                float(record["rate"]),
+                float(record["bandwidth"]),
+                float(record["false_alarms"]),
+                float(record["seconds"]),
+                limits,
+            )
+        except (KeyError, TypeError, AttributeError) as error:
+            raise ValueError(f"this is no tuning: {error}") from error
+        except json.JSONDecodeError as error:
+            raise ValueError(f"this is no tuning: {error.msg} in line {error.lineno}") from error
 
 
 _NEVER = Limit(math.inf, 1.0, 1.0, math.inf)
@@ -83,37 +121,3 @@ def height(rows: float, alarms: float) -> float:
 def _between(height: float) -> float:
     b = height + 1.166
     return 2.0 * (math.expm1(min(b, 700.0)) - b)
-
-
-def to_json(tuning: Tuning) -> str:
-    """The tuning as a text for people and programs."""
-    record = {
-        "bondgraph tuning": EDITION,
-        **tuning._asdict(),
-        "limits": {name: limit._asdict() for name, limit in tuning.limits.items()},
-    }
-    return json.dumps(record, indent=2) + "\n"
-
-
-def from_json(text: str) -> Tuning:
-    """The tuning in a text; raises ValueError, with the reason, for any other text."""
-    try:
-        record: dict[str, Any] = json.loads(text)
-        if record["bondgraph tuning"] != EDITION:
-            raise ValueError(f"edition {record['bondgraph tuning']} is not known here")
-        limits = {
-            str(name): Limit(*[float(limit[key]) for key in Limit._fields])
-            for name, limit in record["limits"].items()
-        }
-        return Tuning(
-            str(record["model"]),
-            float(record["rate"]),
-            float(record["bandwidth"]),
-            float(record["false_alarms"]),
-            float(record["seconds"]),
-            limits,
-        )
-    except (KeyError, TypeError, AttributeError) as error:
-        raise ValueError(f"this is no tuning: {error}") from error
-    except json.JSONDecodeError as error:
-        raise ValueError(f"this is no tuning: {error.msg} in line {error.lineno}") from error

@@ -33,7 +33,7 @@ class Fed:
         self.faults: list[Fault] = []
         self.modes = tuple(i.name for i in graph.inputs if i.mode)
         self.names = tuple(i.name for i in graph.inputs)
-        zero = Course(None, ((0.0, 0.0),))
+        zero = Course.constant(0.0)
         written = {**scenario.inputs, **scenario.modes}
         self._courses = {n: written.get(n, zero) for n in self.names}
         self._values = values

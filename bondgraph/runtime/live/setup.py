@@ -83,17 +83,16 @@ def wish(message: Mapping[str, object], setup: Setup, targets: Mapping[str, Targ
     change, value = message.get("change"), message.get("value", 0.0)
     if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e300:
         return f"{target.name}: the size is no number"
-    inf = float("inf")
     if change == "stuck" and target.kind != "param":
-        return Fault(target.name, "stuck", 0.0, 0.0, inf, 0.0, 0.0, 1.0, f"{target.name} stuck")
+        return Fault(target.name, "stuck", 0.0, 0.0, label=f"{target.name} stuck")
     if change == "missing" and target.kind == "sensor":
-        return Fault(target.name, "missing", 0.0, 0.0, inf, 0.0, 0.0, 1.0, f"{target.name} missing")
+        return Fault(target.name, "missing", 0.0, 0.0, label=f"{target.name} missing")
     shown = f"{value:g}"
     if change == "*=":
         label = f"{target.name} × {shown}"
-        return Fault(target.name, "*=", float(value), 0.0, inf, 0.0, 0.0, 1.0, label)
+        return Fault(target.name, "*=", float(value), 0.0, label=label)
     if change == "+=":
         unit = "" if target.unit in ("", "1") else f" {target.unit}"
         label = f"{target.name} {'−' if value < 0 else '+'} {abs(value):g}{unit}"
-        return Fault(target.name, "+=", value * target.factor, 0.0, inf, 0.0, 0.0, 1.0, label)
+        return Fault(target.name, "+=", value * target.factor, 0.0, label=label)
     return f"{target.name}: there is no such change"

@@ -12,7 +12,7 @@ class Wrong:
     """All faults of one target, in the order given.
 
     >>> from bondgraph.runtime.simulation.scenario import Fault
-    >>> low = Fault("U", "*=", 0.5, 1.0, math.inf, 2.0, 0.0, 1.0, "weak battery")
+    >>> low = Fault("U", "*=", 0.5, at=1.0, ramp=2.0, label="weak battery")
     >>> Wrong([low]).at(2.0)
     (0.75, 0.0)
     """
@@ -45,7 +45,7 @@ class Wrong:
         """How gain and bias change, per s; only ramps do.
 
         >>> from bondgraph.runtime.simulation.scenario import Fault
-        >>> low = Fault("U", "*=", 0.5, 1.0, math.inf, 2.0, 0.0, 1.0, "weak battery")
+        >>> low = Fault("U", "*=", 0.5, at=1.0, ramp=2.0, label="weak battery")
         >>> Wrong([low]).slope(2.0)
         (-0.25, 0.0)
         """

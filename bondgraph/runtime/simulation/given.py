@@ -39,7 +39,7 @@ class Given:
         }
         self.pids = [Pid(c, self._function(c.setpoint)) for c in scenario.controllers]
         self._driven = {p.controller.input: p for p in self.pids}
-        zero = Course(None, ((0.0, 0.0),))
+        zero = Course.constant(0.0)
         written = {**scenario.inputs, **scenario.modes}
         self.courses = {
             i.name: written.get(i.name, zero) for i in graph.inputs if i.name not in self._driven

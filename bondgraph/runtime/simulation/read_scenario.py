@@ -186,7 +186,7 @@ class _Reader:
                 dimension = over(dimension, SECOND)
         setpoint = table.course("setpoint", dimension)
         if setpoint is None:
-            setpoint = Course(None, ((0.0, 0.0),))
+            setpoint = Course.constant(0.0)
             if "setpoint" not in table:
                 self.document.no_key(
                     table.path,

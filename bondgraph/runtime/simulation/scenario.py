@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Literal
 
@@ -14,11 +15,20 @@ class Course(NamedTuple):
     """A signal over time: an expression of `t`, or points (t, value) in s and SI units.
 
     Between points it is a straight line, or with `hold` the value of the point before.
+
+    >>> ramp = Course(None, ((0.0, 0.0), (2.0, 12.0)))
+    >>> Course.constant(12.0)
+    Course(expr=None, points=((0.0, 12.0),), hold=False)
     """
 
     expr: Expr | None
     points: tuple[tuple[float, float], ...] = ()
     hold: bool = False
+
+    @classmethod
+    def constant(cls, value: float) -> Course:
+        """Always the same value."""
+        return cls(None, ((0.0, value),))
 
 
 class Controller(NamedTuple):
@@ -66,22 +76,25 @@ Change = Literal["+=", "*=", "=", "stuck", "missing"]
 
 
 class Fault(NamedTuple):
-    """Something goes wrong: the value of `target` changes by `op` `value`, from `at` on.
+    """Something goes wrong: the value of `target` changes by `op` `value`, from `at` on (s).
 
     `stuck` keeps the value of the moment, `missing` gives no sample. It sets in over `ramp`
     seconds, ends at `until`, and with a `period` it is there for the share `duty` of each.
     `label` is what to call it.
+
+    >>> Fault("R", "*=", 1.3, at=3.0, label="worn brush").until
+    inf
     """
 
     target: str
     op: Change
     value: float
     at: float
-    until: float
-    ramp: float
-    period: float
-    duty: float
-    label: str
+    until: float = math.inf
+    ramp: float = 0.0
+    period: float = 0.0
+    duty: float = 1.0
+    label: str = ""
     origin: Span | None = None
 
 

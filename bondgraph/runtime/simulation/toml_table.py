@@ -215,14 +215,14 @@ class Table:
         if value is None:
             return None
         if truth and isinstance(value, bool):
-            return Course(None, ((0.0, float(value)),))
+            return Course.constant(float(value))
         if isinstance(value, str):
             expr = self.term(path, value, dimension, timely=True, truth=truth)
             return None if expr is None else Course(expr)
         if isinstance(value, Mapping):
             return Table(self.document, path, value).points(dimension)
         number = self._quantity(path, value, dimension)
-        return None if number is None else Course(None, ((0.0, number),))
+        return None if number is None else Course.constant(number)
 
     def points(self, dimension: Dimension | None) -> Course | None:
         """A course from `table = [[t, value], ...]` or from `file`, `column`."""

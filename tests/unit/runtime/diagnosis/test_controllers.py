@@ -238,7 +238,7 @@ def test_the_virtual_machine_runs_on_the_reading(
 ) -> None:
     c = _compiled("P, its command logged")
     wrong = Fault(of, "+=", size, 2.0, math.inf, 0.0, 0.0, 1.0, of)
-    scenario = Scenario("wrong", duration=8.0, inputs={"r": Course(None, ((0.0, 3.0),))},
+    scenario = Scenario("wrong", duration=8.0, inputs={"r": Course.constant(3.0)},
                         faults=(wrong,))  # fmt: skip
     log = c.simulate(scenario).log
     engine = c.engine()
