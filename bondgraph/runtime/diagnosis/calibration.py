@@ -119,7 +119,7 @@ class _Work:
     def __init__(self, engine: Engine, model: DiagnosisModel, logs: Sequence[Array]) -> None:
         self.engine = engine
         self.model = model
-        self.nominal = {f: v for f, v in model.faults.items() if v is not None}
+        self.nominal = model.nominal
         sizes = Sizes(engine)
         for log in logs:
             sizes.add(log)

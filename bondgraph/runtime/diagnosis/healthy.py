@@ -53,6 +53,11 @@ class DiagnosisModel(NamedTuple):
     natures: Mapping[str, Nature]
     deliveries: frozenset[str]
 
+    @property
+    def nominal(self) -> dict[str, float]:
+        """The nominal values of the parameters among the faults."""
+        return {f: v for f, v in self.faults.items() if v is not None}
+
 
 def diagnosis_model(
     graph: BondGraph, residuals: ResidualSet, matrix: SignatureMatrix, program: Program

@@ -8,6 +8,7 @@ from typing import Any
 
 from bondgraph.runtime.diagnosis.isolation import Explained, probabilities
 from bondgraph.runtime.monitoring.verdict import Candidate, Verdict, described
+from bondgraph.text.tuples import NamedTuple
 
 _SURE = 0.75  # probability from which on a class is named
 _ELSE = 0.5  # of the most probable fault of a class: what none outside may be above
@@ -48,26 +49,60 @@ def candidates(
     ]
 
 
-def news(said: list[Any] | None, wanted: list[Any], again: bool, waited: int) -> bool:
+class Judgement(NamedTuple):
+    """The class that is named, () if of none, and the most probable candidate."""
+
+    group: tuple[str, ...]
+    fault: str | None
+
+
+class Latched(NamedTuple):
+    """An alarm: `since` when (s), what was `said` of it last, and how many `times` so far."""
+
+    since: float
+    said: Judgement | None = None
+    times: int = 0
+
+    def state(self) -> dict[str, Any]:
+        """All that `resumed` needs, as plain JSON."""
+        said = self.said and [list(self.said.group), self.said.fault, self.times]
+        return {"since": self.since, "said": said}
+
+    @classmethod
+    def resumed(cls, state: Mapping[str, Any]) -> Latched:
+        """From a state; raises KeyError, TypeError or ValueError for one of another kind.
+
+        >>> latched = Latched(3.5, Judgement(("a", "b"), "a"), 2)
+        >>> Latched.resumed(latched.state()) == latched
+        True
+        """
+        since = float(state["since"])
+        if state["said"] is None:
+            return cls(since)
+        group, fault, times = state["said"]
+        return cls(since, Judgement(tuple(group), fault), int(times))
+
+
+def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
     """Whether a judgement is to be told: something else than before, and for good.
 
-    `said` is the class that was named, the first candidate, and the number of updates so far;
-    `wanted` the class and candidate now, `again` whether the judgement before had the same. Who
-    waits longer each time does not go back and forth between two that are alike.
+    `again` says whether the judgement before had the same, `waited` how many rows ago the last one
+    was told. Who waits longer each time does not go back and forth between two that are alike.
 
-    >>> news([["a", "b"], "a", 1], [["a", "b"], "b"], False, 100)
+    >>> a, b = Judgement(("a", "b"), "a"), Judgement(("a", "b"), "b")
+    >>> news(Latched(0.0, a, 1), b, False, 100)
     False
-    >>> [news([["a", "b"], "a", k], [["a", "b"], "b"], True, 20) for k in (1, 2, 3)]
+    >>> [news(Latched(0.0, a, k), b, True, 20) for k in (1, 2, 3)]
     [True, True, False]
     """
+    said = latched.said
     if said is None:
         return True
-    group, fault, times = said
-    if wanted == [group, fault] or (not wanted[0] and wanted[1] in group):
+    if wanted == said or (not wanted.group and wanted.fault in said.group):
         return False  # the same, or only less sure of it
-    if wanted[0] and not group:
+    if wanted.group and not said.group:
         return True
-    return again and waited >= min(_AGAIN * 2.0 ** min(times, 9), LONGEST)
+    return again and waited >= min(_AGAIN * 2.0 ** min(latched.times, 9), LONGEST)
 
 
 def classes(

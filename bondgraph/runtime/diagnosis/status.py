@@ -19,7 +19,7 @@ _PATIENCE = 5.0  # warm-ups in which a residual should have had a value
 _Mask = npt.NDArray[np.bool_]
 
 
-class Telling:
+class WatchStatus:
     """Says once what has changed since it was last said."""
 
     def __init__(self, engine: Engine, used: _Mask) -> None:
@@ -38,7 +38,7 @@ class Telling:
         """Residuals by name."""
         return listed([n for n, own in zip(self._engine.residuals, of, strict=True) if own], "and")
 
-    def warmth(
+    def warm_up(
         self, time: Array, valid: _Mask, noise: Array, origins: Origins, out: list[Verdict]
     ) -> None:
         """Say so once all have had a value that ever will: the slowest filter has settled.
@@ -113,7 +113,7 @@ class Telling:
             out.append(Verdict("invalid", time, message=message))
         self._hopeless = hopeless.copy()
 
-    def anew(self, time: float, fresh: _Mask, out: list[Verdict]) -> None:
+    def relearning(self, time: float, fresh: _Mask, out: list[Verdict]) -> None:
         """The switches are as never before, and the noise of `fresh` residuals is not known."""
         if fresh.any():
             message = f"switches are as never before: {self._learning(time, fresh)}"

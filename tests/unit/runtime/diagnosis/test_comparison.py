@@ -77,7 +77,7 @@ def test_what_is_found_late_goes_on_from_where_the_samples_are() -> None:
     brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
     engine, facts = brake.engine(), brake.diagnosis_model
     known = hypotheses(engine, facts.faults, facts.units, {})
-    nominal = {n: v for n, v in facts.faults.items() if v is not None}
+    nominal = facts.nominal
     t = np.arange(70 * 20) / _RATE
     columns = {"T": np.sin(9.0 * t), "w": 2.0 + np.cos(7.0 * t)}
     samples = np.column_stack([columns[k.path] for k in engine.signals])

@@ -103,7 +103,7 @@ def test_a_wrong_sensor_changes_what_it_measures_and_not_what_was_commanded(
     c = _compiled(LOGGED)
     engine = c.engine(native)
     known = hypotheses(engine, c.diagnosis_model.faults, c.diagnosis_model.units, {})
-    nominal = {n: v for n, v in c.diagnosis_model.faults.items() if v is not None}
+    nominal = c.diagnosis_model.nominal
     at = {(h.fault, h.kind): k for k, h in enumerate(known)}
     row = {"r": 3.0, "y": 1.0, "u": 2.0}
     rows = np.tile([[row[k.path] for k in engine.signals]], (2000, 1))
@@ -120,7 +120,7 @@ def test_a_usual_wrong_delivery_is_a_share_of_the_largest_signal() -> None:
     c = _compiled(HIDDEN)
     engine = c.engine()
     known = hypotheses(engine, c.diagnosis_model.faults, c.diagnosis_model.units, {})
-    nominal = {n: v for n, v in c.diagnosis_model.faults.items() if v is not None}
+    nominal = c.diagnosis_model.nominal
     rows = np.tile([[3.0, 1.0]], (3000, 1))  # r, y
     found = sized(engine.configured(), known, c.diagnosis_model.deliveries, nominal, rows)
     changed = {h.fault: h.usual for h, old in zip(found, known, strict=True) if h != old}

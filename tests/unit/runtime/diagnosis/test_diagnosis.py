@@ -116,7 +116,7 @@ def test_slopes_are_those_of_the_closed_form() -> None:
     # steady: r1 = U - R i - k w, r2 = k i - f w - load (up to a factor that stays the same)
     facts = _motor().diagnosis_model
     known = hypotheses(_engine(), facts.faults, facts.units, {})
-    nominal = {n: v for n, v in facts.faults.items() if v is not None}
+    nominal = facts.nominal
     rows = np.tile([[0.0, 9.0, 0.3, 90.0]], (3000, 1))
     at = {(h.fault, h.kind): k for k, h in enumerate(known)}
     slopes = Bank(_engine().configured(), known, nominal).run(rows)[-1]

@@ -1,0 +1,134 @@
+"""What is wrong: faults compared since the onset, and what is told of them when that is news."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from bondgraph.runtime.diagnosis.comparison import Comparison
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
+from bondgraph.runtime.diagnosis.hypotheses import Sizes, hypotheses, sized
+from bondgraph.runtime.diagnosis.isolation import History
+from bondgraph.runtime.diagnosis.naming import (
+    Judgement,
+    Latched,
+    candidates,
+    classes,
+    named,
+    news,
+    update,
+)
+from bondgraph.runtime.diagnosis.rows import Row, weight
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.verdict import Verdict
+
+_JUDGE = 5  # rows after an alarm before a fault is named
+_AGAIN = 5  # rows between later judgements
+
+
+class Judge:
+    """Compares faults while an alarm is `latched`; between alarms it learns how large signals are.
+
+    `sigma` is the noise of each residual, by which rows are weighed.
+    """
+
+    def __init__(self, engine: Engine, model: DiagnosisModel) -> None:
+        self._engine, self._model = engine, model
+        self._sizes = Sizes(engine)
+        self.latched: Latched | None = None
+        self.restart()
+
+    def restart(self) -> None:
+        """The residuals begin anew; the alarm stays."""
+        self._compared: Comparison | None = None
+        self._after = self._told = 0  # rows since the alarm, and until the last update
+        self._leads: tuple[str, ...] = ()  # the class that the last judgement found best
+        self._wanted: Judgement | None = None  # what the last judgement would have said
+
+    def learn(self, samples: Array) -> None:
+        """Further (n, signals) samples, one after the other."""
+        self._sizes.add(samples)
+
+    def latch(self, since: float) -> None:
+        """There is an alarm, for something that began at this time."""
+        self.latched, self._wanted = Latched(since), None
+
+    def renew(self) -> None:
+        """There is more to go by than before: compare anew, and do not wait to tell it."""
+        self._compared = None
+        if self.latched is not None:
+            self.latched = self.latched._replace(times=0)
+
+    def clear(self) -> None:
+        """What was wrong is over."""
+        self._compared, self.latched = None, None
+
+    def compare(
+        self, engine: Engine, healthy: Array, own: int, rows: Sequence[Row], sigma: Array
+    ) -> None:
+        """Begin to compare faults behind the `healthy` samples, `own` of these of the first row."""
+        model = self._model
+        self._after = self._told = 0
+        found = hypotheses(self._engine, model.faults, model.units, self._sizes.found())
+        samples = np.concatenate([healthy, *[row.samples for row in rows]])
+        found = sized(engine, found, model.deliveries, model.nominal, samples)
+        self._compared = Comparison(engine, healthy, own, found, model.nominal)
+        for row in rows:
+            self._compared.step(row, weight(row, sigma))
+
+    def step(self, row: Row, past: Sequence[Row], sigma: Array) -> bool:
+        """One more row, the last of the `past`; False while there is none to begin with."""
+        if self._compared is None:
+            self._begin_again(row, past, sigma)
+        if self._compared is None:
+            return False
+        if not self._compared.has(row):
+            self._compared.step(row, weight(row, sigma))
+        self._after += 1
+        return True
+
+    def _begin_again(self, row: Row, past: Sequence[Row], sigma: Array) -> None:
+        """After a restart: compare faults from the onset on, or from where there are residuals."""
+        assert self.latched is not None
+        since = self.latched.since
+        anew = row.time <= since  # the clock has begun again
+        rows = [r for r in past if weight(r, sigma).any() and (anew or r.time > since)]
+        if not rows:
+            return
+        first, samples = rows[0], len(rows[0].samples)
+        ago = math.ceil((first.time - since) / self._engine.sample_time)
+        healthy = 0 if anew or ago >= samples else samples - max(1, ago)
+        self.compare(first.engine, first.samples[:healthy], healthy, rows, sigma)
+
+    def verdict(
+        self, time: float, levels: Mapping[str, float], noise: Mapping[str, float], history: History
+    ) -> Verdict | None:
+        """The fault by name when there is enough to go by, and again when that changes.
+
+        `levels` are those of the residuals that have fired, `noise` is infinite where nobody knows
+        it.
+        """
+        due = self._after >= _JUDGE and (self._after < 10 or self._after % _AGAIN == 0)
+        if not due or self.latched is None or not self._compared:
+            return None
+        try:
+            found = self._compared.explained(history)
+        except np.linalg.LinAlgError:
+            return None
+        model = self._model
+        found = candidates(found, model.faults, model.sees, levels)
+        group, leads = named(found, classes(model.groups, model.sees, noise))
+        sure, self._leads = group if leads == self._leads else (), leads
+        if group and not sure and self.latched.said is None and self._after == _JUDGE:
+            return None  # the next row may confirm it
+        verdict = update(time, self.latched.since, levels, sure, found)
+        wanted = Judgement(sure, verdict.candidates[0].fault if verdict.candidates else None)
+        again, self._wanted = self._wanted == wanted, wanted
+        if not news(self.latched, wanted, again, self._after - self._told):
+            return None
+        self.latched = self.latched._replace(said=wanted, times=self.latched.times + 1)
+        self._told = self._after
+        return verdict
