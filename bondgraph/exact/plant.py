@@ -23,7 +23,7 @@ from bondgraph.exact.outline import highest_order, integral_depth, outline, rati
 from bondgraph.exact.plant_equations import Setting, Writer, written
 from bondgraph.exact.signal_algebra import Mixed, Taylor, Waves
 from bondgraph.exact.taylor import OverDetermined, Solver, solve
-from bondgraph.exact.trajectory import ATTEMPTS, Trajectory
+from bondgraph.exact.trajectory import Trajectory
 from bondgraph.field import series
 from bondgraph.field.balls import Precision, Reals
 from bondgraph.field.numbers import Number, Numbers, Undefined
@@ -33,6 +33,8 @@ from bondgraph.field.sparse import Contradiction, Singular
 from bondgraph.ir.expr import Expr, Kind, Op, Symbol, topological
 from bondgraph.ir.graph import BondGraph
 
+#: Random points that are tried before a plant is said to have none.
+ATTEMPTS = 40
 _STILL = 5  # points that are tried with factors at rest, where there are no others
 _LOOSE = 6  # nonlinear elements that are left out, one after the other, where these fail too
 _SMALL, _USUAL, _GREAT = (-3, 0), (0, 0), (0, 1.3)  # powers of ten: the sizes of signals
@@ -528,7 +530,33 @@ class Plant:
             for initial in self._start_of.get(state, ()):
                 starts[initial.symbol] = truth.value(state)[0]
                 told.setdefault(initial, [starts[initial.symbol]])
-        return Trajectory(self, seed, order, tuple(faults), told, truth, starts, part, still, read)
+        acting = tuple(faults)
+        return Trajectory(
+            self._earlier, seed, order, acting, told, truth, starts, part, still, read
+        )
+
+    def _earlier(
+        self, now: Trajectory, steps: int, constants: dict[Expr, Series]
+    ) -> Trajectory | None:
+        """A healthy trajectory with the same constants, of another time."""
+        if any(part is now.part for part in self.momentary):
+            return None
+        numbers = now.algebra.numbers
+        for attempt in range(ATTEMPTS):
+            seed = (now.seed * 31 + steps) * ATTEMPTS + attempt
+            with suppress(Undefined, Contradiction, Singular):
+                return self.draw(
+                    seed,
+                    now.order,
+                    (),
+                    constants,
+                    numbers,
+                    now.part,
+                    still=now.still,
+                    read=now.read,
+                )
+        self.momentary.append(now.part)
+        return None
 
     def _inside(self, part: Assembly, exprs: Iterable[Expr]) -> list[Expr]:
         """Those of the expressions that rest on variables of a part alone."""

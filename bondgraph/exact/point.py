@@ -13,7 +13,7 @@ from heapq import heapify, heappop, heappush
 from math import isfinite
 from random import Random
 
-from bondgraph.exact.evaluate import chosen, evaluate, values_of
+from bondgraph.exact.evaluate import chosen, evaluate, solve, values_of
 from bondgraph.exact.forms import Form, Forms, NotLinear
 from bondgraph.exact.known import KnownSample, gradient
 from bondgraph.exact.outline import plan
@@ -24,7 +24,6 @@ from bondgraph.exact.plant_equations import (
     coefficient_row,
     reach,
 )
-from bondgraph.exact.root_values import solve
 from bondgraph.field import series
 from bondgraph.field.numbers import INVERSES, Number, Numbers, Undefined
 from bondgraph.field.series import Series

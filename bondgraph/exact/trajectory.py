@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from random import Random
-from typing import TYPE_CHECKING
+from typing import TypeAlias
 
 from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.known import KnownSample
 from bondgraph.exact.signal_algebra import Mixed
-from bondgraph.field.numbers import Number, Undefined
+from bondgraph.field.numbers import Number
 from bondgraph.field.series import Series
-from bondgraph.field.sparse import Contradiction, Singular
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Symbol
 
-if TYPE_CHECKING:
-    from bondgraph.exact.plant import Plant
-
-#: Random points that are tried before a plant is said to have none.
-ATTEMPTS = 40
+#: What draws the same healthy plant with the same constants at another time, if it can be found.
+Again: TypeAlias = "Callable[[Trajectory, int, dict[Expr, Series]], Trajectory | None]"
 
 
 class Trajectory:
@@ -31,7 +28,7 @@ class Trajectory:
 
     def __init__(
         self,
-        plant: Plant,
+        again: Again,
         seed: int,
         order: int,
         faults: tuple[str, ...],
@@ -43,7 +40,7 @@ class Trajectory:
         read: frozenset[Expr] | None = None,
     ) -> None:
         self.read = read
-        self.plant = plant
+        self._again = again
         self.part = part
         self.still = still
         self.seed = seed
@@ -98,26 +95,6 @@ class Trajectory:
         if found is None:
             constants = {s: v for s, v in self._told.items() if s.symbol.kind in CONSTANTS}
             constants.update((s, v) for s, v in self._told.items() if s.symbol.kind is Kind.MODE)
-            found = self._draw_earlier(steps, constants) or self
+            found = self._again(self, steps, constants) or self
             self._earlier[steps] = found
         return found
-
-    def _draw_earlier(self, steps: int, constants: dict[Expr, Series]) -> Trajectory | None:
-        numbers = self.algebra.numbers
-        for attempt in range(0 if any(p is self.part for p in self.plant.momentary) else ATTEMPTS):
-            seed = (self.seed * 31 + steps) * ATTEMPTS + attempt
-            try:
-                return self.plant.draw(
-                    seed,
-                    self.order,
-                    (),
-                    constants,
-                    numbers,
-                    self.part,
-                    still=self.still,
-                    read=self.read,
-                )
-            except (Undefined, Contradiction, Singular):
-                continue
-        self.plant.momentary.append(self.part)
-        return None

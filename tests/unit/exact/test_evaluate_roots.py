@@ -7,7 +7,7 @@ from random import Random
 import pytest
 from flint import arb
 
-from bondgraph.exact.root_values import solve
+from bondgraph.exact.evaluate import solve
 from bondgraph.field.balls import NOTHING, Reals, zero_of
 from bondgraph.field.numbers import Number, Undefined
 from bondgraph.ir.expr import Kind, Pool
