@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from functools import cached_property
+from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar
 
 from bondgraph.text.diagnostic import CompileError, Report
@@ -589,6 +590,7 @@ def compile(
     """
     from bondgraph.frontend.read import decode, read
 
+    import_module("bondgraph.notation.line")  # in Python, nodes of a model are looked at
     report = Report()
     if text is not None:
         name = "<text>" if path is None else os.fspath(path)

@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+import bondgraph.notation.line  # noqa: F401  # nodes in messages are written as formulas
+
 # The matrices here are small: threads of a numeric library would only wait for each other. Set
 # before any test imports it.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
 from fractions import Fraction
 from operator import attrgetter
-from typing import TypeAlias
+from typing import ClassVar, TypeAlias
 
 from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.text.tuples import NamedTuple
@@ -155,10 +155,11 @@ class Expr:
         assert isinstance(self.data, str)
         return self.data
 
-    def __repr__(self) -> str:
-        from bondgraph.notation.line import show  # the one arrow up: only when somebody looks
+    #: How a node is written for a person: `bondgraph.notation.line` says so once it is there.
+    written: ClassVar[Callable[[Expr], str]] = lambda node: f"<node {node.id}: {node.op.value}>"
 
-        return show(self)
+    def __repr__(self) -> str:
+        return type(self).written(self)
 
 
 def whole(value: Rational) -> Rational:

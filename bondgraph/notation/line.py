@@ -62,3 +62,6 @@ class Line(Speller):
             text, level, _ = self.number(size)
             above.insert(0, text if level == ATOM else f"({text})")
         return self._quotient(above, below)
+
+
+Expr.written = show  # nodes show themselves to whoever looks at them in Python
