@@ -24,8 +24,8 @@ _STAGES: dict[str, tuple[str, Callable[[Compilation], object]]] = {
     "derivative": ("CausalGraph", lambda c: c.derivative),
     "equations": ("EquationSystem", lambda c: c.equations),
     "reduced": ("ReducedSystem", lambda c: c.reduced),
-    "residuals": ("ResidualSet", lambda c: c.residuals.stage),
-    "signatures": ("Analysis", lambda c: (c.residuals.stage, c.signatures)),
+    "residuals": ("ResidualSet", lambda c: c.residuals.residual_set),
+    "signatures": ("Analysis", lambda c: (c.residuals.residual_set, c.signatures)),
     "program": ("Program", lambda c: c.program),
     "thresholds": ("Program", lambda c: c.thresholds),
 }

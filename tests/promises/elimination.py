@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from bondgraph.algebra.zero import is_zero
-from bondgraph.exact.evaluate import highest_order
+from bondgraph.exact.outline import highest_order
 from bondgraph.ir.expr import (
     CONSTANTS,
     KNOWN_SIGNALS,

@@ -159,7 +159,7 @@ def reduced(name: str = "dc_motor") -> Callable[[], Any]:
 
 
 def residuals() -> Any:
-    return of("dc_motor").residuals.stage
+    return of("dc_motor").residuals.residual_set
 
 
 def analysis() -> Any:
