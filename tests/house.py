@@ -21,7 +21,7 @@ _OWN_NAMES = frozenset({"acosh", "asinh", "atanh", "cbrt", "ssq", "ssqrt"})
 
 #: Questions about expressions, and things that every layer needs: each is defined once.
 WORDS = (
-    "affine below constant has holding occurs rebuilt symbols topological variables Groups"
+    "affine constant has holding occurs rebuilt symbols topological variables Groups"
 ).split()
 
 

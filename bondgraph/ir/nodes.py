@@ -55,7 +55,7 @@ def rebuilt(
     >>> from bondgraph.ir.expr import Kind
     >>> p = Pool(); x, k = p.symbol("x", Kind.SENSOR), p.symbol("k", Kind.PARAM)
     >>> rebuilt(p, [p.der(p.mul(k, x))], lambda n, args: args[0] if n.op is Op.DER else None)
-    [k*x]
+    [x*k]
     """
     exprs = list(exprs)
     new: dict[Expr, Expr] = {}

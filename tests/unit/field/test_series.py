@@ -30,8 +30,11 @@ def same(f: Numbers, a: Series, b: Series, n: int = N) -> bool:
     return not any(f.nonzero(x - y) for x, y in zip(a, b, strict=True))
 
 
+_ONE = sorted(set(FUNCTIONS) - {"pow", "min", "max", "atan2"})
+
+
 @kinds
-@pytest.mark.parametrize("name", sorted(FUNCTIONS - {"pow", "min", "max", "atan2"}) + ["table:t"])
+@pytest.mark.parametrize("name", [*_ONE, "table:t"])
 def test_functions_obey_the_chain_rule(f: Numbers, name: str) -> None:
     done = 0
     for seed in range(30):
@@ -67,7 +70,7 @@ def test_functions_of_two_arguments_obey_the_chain_rule(f: Numbers, name: str) -
     assert done > 3
 
 
-@pytest.mark.parametrize("name", sorted(FUNCTIONS - {"pow", "min", "max", "atan2", "sign"}))
+@pytest.mark.parametrize("name", sorted(set(FUNCTIONS) - {"pow", "min", "max", "atan2", "sign"}))
 def test_slopes_are_limits_of_difference_quotients(name: str) -> None:
     f = Reals({})
     h = f.fraction(Fraction(1, 2**40))
