@@ -1,7 +1,7 @@
 """Operator elimination: torn variables whose derivatives stand in rows drop out of them.
 
 Rows that are linear in them, with polynomials in D = d/dt of constant coefficients, are multiplied
-crosswise by what the polynomials do not share: the polynomial null space (Frisk and Nyberg, 2001).
+by what the polynomials do not share: the polynomial null space (Frisk and Nyberg, 2001).
 In any other row the highest derivative of a variable is replaced by what another row says it is:
 the division of Ore (1933), which reduces the index by one (Gear, 1988).
 """
@@ -133,7 +133,7 @@ class Operators:
         return _trim(polynomials), rest
 
     def relations(self, rows: list[LinearRow]) -> list[tuple[tuple[int, ...], Expr]]:
-        """Combine rows crosswise until each torn variable has dropped out of the others."""
+        """Combine rows by cross products until each torn variable has dropped out of the others."""
         found = []
         while rows:
             rows.sort(key=lambda r: (len(r.entries), max(map(len, r.entries.values()), default=0)))

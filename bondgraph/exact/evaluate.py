@@ -12,7 +12,7 @@ from random import Random
 from typing import Any, NamedTuple, Protocol
 
 from bondgraph.exact.outline import demands, integral_depth, outline, plan, static
-from bondgraph.exact.signal_algebra import Algebra, Mixed, Taylor, Values, Waves, compare
+from bondgraph.exact.signal_algebra import Algebra, Exponentials, Mixed, Taylor, Values, compare
 from bondgraph.field.balls import zero_of
 from bondgraph.field.numbers import Number, Numbers, Undefined
 from bondgraph.field.series import Series
@@ -66,7 +66,7 @@ class Sensitivity(NamedTuple):
     lasting: frozenset[Expr]
 
 
-def telling(roots: Sequence[Expr]) -> int:
+def terms_needed(roots: Sequence[Expr]) -> int:
     """How many coefficients of the roots say whether they vanish on a plant, faulty or not."""
     return integral_depth(roots) + 1
 
@@ -343,7 +343,7 @@ def _slopes_of_choice(
     other = no if taken is yes else yes
     if other not in values:
         out.append((condition, algebra.number(1)))
-    elif not isinstance(algebra, Waves):
+    elif not isinstance(algebra, Exponentials):
         out.append((condition, algebra.combine([(1, values[yes]), (-1, values[no])], n)))
     elif values[yes] != values[no]:
         out.append((condition, algebra.number(1)))
@@ -407,7 +407,7 @@ def sensitivities(
     `forward` of them all.
     """
     forward = forward or Forward([root], sample)
-    if isinstance(sample.algebra, Waves):
+    if isinstance(sample.algebra, Exponentials):
         while True:
             try:
                 return _sensitivities(root, sample, jumps, forward)
@@ -522,7 +522,7 @@ def root_value(node: Expr, args: Sequence[Any], sample: Any, n: int) -> Any:
     """
     algebra = sample.algebra
     if not isinstance(algebra, Taylor):
-        if isinstance(algebra, Waves) and all(not a.degree for a in args):
+        if isinstance(algebra, Exponentials) and all(not a.degree for a in args):
             raise Undefined("a root of constants among exponentials")
         raise Mixed("an equation without a closed solution")
     root = node.root

@@ -13,7 +13,7 @@ from bondgraph.exact.assembly import Assembly
 from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.forms import ORDERS
 from bondgraph.exact.plant_equations import Equation
-from bondgraph.exact.signal_algebra import Mixed, Wave, Waves
+from bondgraph.exact.signal_algebra import Exponential, Exponentials, Mixed
 from bondgraph.field.numbers import Number, Numbers
 from bondgraph.field.series import Series
 from bondgraph.field.sparse import CONSTANT, Row, back_substitute, eliminate
@@ -56,16 +56,16 @@ def amplitudes(
     return values
 
 
-class WaveSample:
+class ExponentialSample:
     """Told signals and constants as exponentials; what is not told is what the plant shows."""
 
     def __init__(
         self,
-        algebra: Waves,
+        algebra: Exponentials,
         place: Mapping[Expr, tuple[int, int]],
         constants: Mapping[Expr, Series],
         found: Mapping[int, Number],
-        told: dict[Expr, Wave],
+        told: dict[Expr, Exponential],
     ) -> None:
         self.algebra = algebra
         self._place = place
@@ -73,33 +73,35 @@ class WaveSample:
         self._found = found
         self._told = told
 
-    def value(self, symbol: Expr) -> Wave:
+    def value(self, symbol: Expr) -> Exponential:
         """What a residual is told about a symbol."""
         known = self._told.get(symbol)
         if known is not None:
             return known
         constant = self._constants.get(symbol)
         if constant is not None:
-            return Wave(constant[0], 0)
+            return Exponential(constant[0], 0)
         if symbol not in self._place:
             raise Mixed("the initial value of a state")
         variable, sign = self._place[symbol]
-        return Wave(self._found[variable] * sign, 1)
+        return Exponential(self._found[variable] * sign, 1)
 
     def start(self, initial: Symbol) -> Number:
         """Exponentials have no integrals from an initial value."""
         raise Mixed("an integral from an initial value")
 
-    def earlier(self, steps: int) -> WaveSample:
+    def earlier(self, steps: int) -> ExponentialSample:
         """Linear residuals look the same at every time."""
         return self
 
     def tell(self, symbol: Expr, amplitude: Number) -> None:
         """Say what a residual is told about a signal."""
-        self._told[symbol] = Wave(amplitude, 1)
+        self._told[symbol] = Exponential(amplitude, 1)
 
 
-def tell(sample: WaveSample, readings: Mapping[Expr, Expr], errors: Mapping[Expr, Number]) -> None:
+def tell(
+    sample: ExponentialSample, readings: Mapping[Expr, Expr], errors: Mapping[Expr, Number]
+) -> None:
     """Fill in what sensors show, and the errors of sensors and known inputs."""
     for symbol, reads in readings.items():
         value = evaluate([reads], sample)[0]

@@ -6,7 +6,7 @@ import random
 from typing import Any
 
 from bondgraph.exact.outline import highest_order, outline
-from bondgraph.exact.signal_algebra import Algebra, Taylor, Wave, Waves
+from bondgraph.exact.signal_algebra import Algebra, Exponential, Exponentials, Taylor
 from bondgraph.field.numbers import Number
 from bondgraph.field.prime import PrimeField
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, Symbol
@@ -29,7 +29,7 @@ class FreeSample:
         numbers = PrimeField(seed)
         if highest_order([expr]) and linear(expr):
             draw = random.Random(seed)
-            return cls(Waves(numbers, numbers.any(draw), numbers.any(draw)), 0, seed)
+            return cls(Exponentials(numbers, numbers.any(draw), numbers.any(draw)), 0, seed)
         return cls(Taylor(numbers), highest_order([expr]), seed)
 
     @property
@@ -43,8 +43,8 @@ class FreeSample:
         source = self._seed if signal else self._constants
         draw = random.Random(f"{source}:{symbol.symbol.name}")
         numbers = self._algebra.numbers
-        if isinstance(self._algebra, Waves):
-            return Wave(numbers.any(draw), int(signal))
+        if isinstance(self._algebra, Exponentials):
+            return Exponential(numbers.any(draw), int(signal))
         if symbol.symbol.kind is Kind.MODE:
             return [draw.randrange(2)]
         if not signal:

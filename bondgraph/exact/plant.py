@@ -17,11 +17,11 @@ from typing import NamedTuple
 
 from bondgraph.exact.assembly import Assembly, Parts, assemble
 from bondgraph.exact.evaluate import evaluate
-from bondgraph.exact.exponentials import WaveSample, amplitudes, linear, tell
+from bondgraph.exact.exponentials import ExponentialSample, amplitudes, linear, tell
 from bondgraph.exact.known import KnownSample
 from bondgraph.exact.outline import highest_order, integral_depth, outline, rational
 from bondgraph.exact.plant_equations import Setting, Writer, written
-from bondgraph.exact.signal_algebra import Mixed, Taylor, Waves
+from bondgraph.exact.signal_algebra import Exponentials, Mixed, Taylor
 from bondgraph.exact.taylor import OverDetermined, Solver, solve
 from bondgraph.exact.trajectory import Trajectory
 from bondgraph.field import series
@@ -165,8 +165,10 @@ class Plant:
             self._begins[start.symbol] = state
         self.constants = [n for n in found if n.symbol.kind in constant and n not in self._starts]
         self._constants = frozenset(self.constants)
-        self._samples: dict[object, Trajectory | WaveSample] = {}
-        self._waves: dict[object, tuple[Waves, dict[Expr, Series], dict[int, Number]]] = {}
+        self._samples: dict[object, Trajectory | ExponentialSample] = {}
+        self._exponentials: dict[
+            object, tuple[Exponentials, dict[Expr, Series], dict[int, Number]]
+        ] = {}
         #: Parts whose laws no second point was found for once their constants were drawn.
         self.momentary: list[Assembly] = []
         self._declared = {v.symbol: v.value for v in graph.values}
@@ -186,7 +188,7 @@ class Plant:
         """
         other = copy(self)
         other._apart = frozenset(self._declared if constants is None else constants)
-        other._samples, other._waves, other.momentary, other._hopeless = {}, {}, [], {}
+        other._samples, other._exponentials, other.momentary, other._hopeless = {}, {}, [], {}
         return other
 
     def declared_starts(self) -> list[tuple[Expr, Expr, Expr]]:
@@ -220,7 +222,7 @@ class Plant:
         other.held = tuple(initial for initial, state in self._starts.items() if state in starts)
         other._parts, other._cones = None, {}
         other._rational, other._reached = {}, {}
-        other._samples, other._waves, other.momentary, other._hopeless = {}, {}, [], {}
+        other._samples, other._exponentials, other.momentary, other._hopeless = {}, {}, [], {}
         return other
 
     def numbered(self, expr: Expr) -> list[Expr]:
@@ -347,13 +349,13 @@ class Plant:
         scale = 10.0 ** draw.uniform(low, high)
         return Reals(self.graph.pool.tables, self._precision, scale)
 
-    def wave(
+    def exponential(
         self,
         seed: int,
         faults: Iterable[str] = (),
         modes: Mapping[Expr, int] | None = None,
         part: Assembly | None = None,
-    ) -> WaveSample:
+    ) -> ExponentialSample:
         """The plant with all signals exponentials of one random exponent, for any size.
 
         Faults are random constants on parameters and random exponentials on signals. Raises
@@ -364,27 +366,27 @@ class Plant:
             raise Mixed("a law that uses a faulty reading")
         changed = tuple(symbol for symbol in acting if symbol in self._constants)
         key = (seed, tuple((modes or {}).items()), id(plant), changed)
-        if key not in self._waves:
-            self._waves[key] = self._wave(seed, modes or {}, changed, plant)
-        algebra, constants, found = self._waves[key]
+        if key not in self._exponentials:
+            self._exponentials[key] = self._exponential(seed, modes or {}, changed, plant)
+        algebra, constants, found = self._exponentials[key]
         if changed:
-            del self._waves[key]  # only what truly happens to a healthy plant is asked for again
+            del self._exponentials[key]  # only a healthy plant is asked for again
         reads = {symbol: reads for _, symbol, reads in plant.shown}
         random = Random(f"{seed}:errors")
         told = [s for s in acting if s in reads or (s in plant.place and s not in changed)]
-        sample = WaveSample(algebra, plant.place, constants, found, {})
+        sample = ExponentialSample(algebra, plant.place, constants, found, {})
         tell(sample, reads, {symbol: algebra.numbers.any(random) for symbol in told})
         return sample
 
-    def _wave(
+    def _exponential(
         self, seed: int, modes: Mapping[Expr, int], changed: Sequence[Expr], plant: Assembly
-    ) -> tuple[Waves, dict[Expr, Series], dict[int, Number]]:
+    ) -> tuple[Exponentials, dict[Expr, Series], dict[int, Number]]:
         """Constants, and the amplitudes of all variables while some constants are others."""
         failure: Exception | None = None
         for attempt in range(ATTEMPTS):
             numbers = PrimeField(seed * ATTEMPTS + attempt)
             random = Random(seed * 2011 + attempt)
-            algebra = Waves(numbers, numbers.any(random), numbers.any(random))
+            algebra = Exponentials(numbers, numbers.any(random), numbers.any(random))
             try:
                 constants = self.draw_constants(seed, attempt, modes, numbers)
                 true = dict(constants)
@@ -414,7 +416,7 @@ class Plant:
         modes: Mapping[Expr, int] | None = None,
         part: Assembly | None = None,
         turned: bool = False,
-    ) -> Trajectory | WaveSample:
+    ) -> Trajectory | ExponentialSample:
         """A point on which `n` coefficients of all roots can be evaluated.
 
         A trajectory where that is affordable; exponentials where the orders are many and the
@@ -438,11 +440,11 @@ class Plant:
         modes: Mapping[Expr, int] | None,
         part: Assembly,
         turned: bool,
-    ) -> Trajectory | WaveSample:
+    ) -> Trajectory | ExponentialSample:
         order = highest_order(roots, n)
         if self.many(roots, n, part):
             try:
-                found = self.wave(seed, faults, modes, part)
+                found = self.exponential(seed, faults, modes, part)
                 evaluate(roots, found)
                 return found
             except (Mixed, Undefined):

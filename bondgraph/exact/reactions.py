@@ -18,7 +18,7 @@ from bondgraph.exact.evaluate import (
     Sensitivity,
     evaluate,
     sensitivities,
-    telling,
+    terms_needed,
 )
 from bondgraph.exact.free import FreeSample
 from bondgraph.exact.from_start import from_start
@@ -127,7 +127,7 @@ class Reactions:
         self, exprs: list[Expr], modes: Mapping[Expr, int] | None, number: int
     ) -> list[Sensitivity]:
         """Derivatives of all relations at one healthy trajectory."""
-        sample = self.plant.sample(exprs, number, telling(exprs), modes=modes)
+        sample = self.plant.sample(exprs, number, terms_needed(exprs), modes=modes)
         forward = Forward(exprs, sample)
         return [sensitivities(expr, sample, forward=forward) for expr in exprs]
 
@@ -156,7 +156,7 @@ class Reactions:
         faults = self._within(self.plant.part_for([expr]), acting)
         if not faults:
             return False
-        size = telling([expr])
+        size = terms_needed([expr])
 
         def value(modes: Mapping[Expr, int] | None, turned: bool, number: int) -> bool:
             sample = self.plant.sample(
@@ -203,7 +203,7 @@ class Reactions:
         """
         if self.turns > 1 or self.modes or _turns([expr], None) > 1 or self.plant.modes:
             return False
-        size, part = telling([expr]), self.plant.part_for([expr])
+        size, part = terms_needed([expr]), self.plant.part_for([expr])
         changed = (s for s in self._faulty_parameters if s in candidates and s not in but)
         if any(changed) or not self.plant.many([expr], size, part):
             part = self.plant.cone(expr)  # else the whole moves as it does without the faults

@@ -227,7 +227,7 @@ class Taylor:
         return self.numbers.nonzero(adjoint[0])
 
 
-class Wave(NamedTuple):
+class Exponential(NamedTuple):
     """amplitude * e^(degree s t); a constant has degree 0."""
 
     amplitude: Number
@@ -235,7 +235,7 @@ class Wave(NamedTuple):
 
 
 class Impulse(NamedTuple):
-    """An adjoint of a wave: its number `value` for changes that grow like e^(sigma t).
+    """An adjoint of an exponential: its number `value` for changes that grow like e^(sigma t).
 
     As a polynomial in sigma its coefficients from `degree` down to `floor` are `leading`; those
     below `floor` are not kept. `still` is the number for changes that are constant, sigma = 0.
@@ -248,7 +248,7 @@ class Impulse(NamedTuple):
     leading: Series
 
 
-class Waves:
+class Exponentials:
     """Exponentials e^(d s t) with one random s: the derivative is a multiplication by d s.
 
     For plants and residuals linear in their signals, in time independent of the order. Changes
@@ -263,17 +263,17 @@ class Waves:
         self.terms = terms
         self.kind = "exponentials modulo a 61-bit prime"
 
-    def number(self, x: Number) -> Wave:
+    def number(self, x: Number) -> Exponential:
         """A constant."""
-        return Wave(x, 0)
+        return Exponential(x, 0)
 
-    def lead(self, a: Wave) -> Number:
+    def lead(self, a: Exponential) -> Number:
         """The value at the point."""
         if a.degree and a.amplitude:
             raise Mixed("a decision on a signal")
         return a.amplitude
 
-    def combine(self, terms: Sequence[tuple[Number, Wave]], n: int) -> Wave:
+    def combine(self, terms: Sequence[tuple[Number, Exponential]], n: int) -> Exponential:
         """The sum of number times value."""
         degree = None
         total = 0
@@ -283,9 +283,9 @@ class Waves:
                     raise Mixed("a sum of a signal and a constant")
                 degree = d
                 total += c * x
-        return Wave(total, degree or 0)
+        return Exponential(total, degree or 0)
 
-    def product(self, factors: Sequence[tuple[Wave, int]], n: int) -> Wave:
+    def product(self, factors: Sequence[tuple[Exponential, int]], n: int) -> Exponential:
         """The product of integer powers."""
         value, degree = 1, 0
         for (x, d), exponent in factors:
@@ -294,45 +294,47 @@ class Waves:
             elif exponent:
                 value = value * (x**exponent if x else root(x, Fraction(exponent)))
             degree += d * exponent
-        return Wave(value, degree)
+        return Exponential(value, degree)
 
-    def _constants(self, args: Sequence[Wave]) -> list[Series]:
+    def _constants(self, args: Sequence[Exponential]) -> list[Series]:
         if any(a.degree and a.amplitude for a in args):
             raise Mixed("a function of a signal")
         return [[a.amplitude] for a in args]
 
-    def rational(self, a: Wave, exponent: Fraction, n: int) -> Wave:
+    def rational(self, a: Exponential, exponent: Fraction, n: int) -> Exponential:
         """A rational power."""
-        return Wave(root(self._constants([a])[0][0], exponent), 0)
+        return Exponential(root(self._constants([a])[0][0], exponent), 0)
 
-    def function(self, name: str, args: Sequence[Wave], n: int) -> Wave:
+    def function(self, name: str, args: Sequence[Exponential], n: int) -> Exponential:
         """A function of one or two arguments."""
         if name in ("sign", "abs") and args[0].degree:
             raise Mixed("a function of a signal")
         constants = self._constants(args)
         if len(args) == 1:
-            return Wave(series.function(self.numbers, name, constants[0], 1)[0], 0)
+            return Exponential(series.function(self.numbers, name, constants[0], 1)[0], 0)
         a, b = constants
-        return Wave(series.function_of_two(self.numbers, name, a, b, 1)[0], 0)
+        return Exponential(series.function_of_two(self.numbers, name, a, b, 1)[0], 0)
 
-    def slopes(self, name: str, args: Sequence[Wave], value: Wave, n: int) -> Sequence[Wave]:
+    def slopes(
+        self, name: str, args: Sequence[Exponential], value: Exponential, n: int
+    ) -> Sequence[Exponential]:
         """The partial derivatives of a function."""
         constants = self._constants(args)
         f, of = self.numbers, [value.amplitude]
         if len(args) == 1:
-            return [Wave(series.slope_of(f, name, constants[0], of, 1)[0], 0)]
+            return [Exponential(series.slope_of(f, name, constants[0], of, 1)[0], 0)]
         both = series.slopes_of_two(f, name, constants[0], constants[1], of, 1)
-        return [Wave(x[0], 0) for x in both]
+        return [Exponential(x[0], 0) for x in both]
 
-    def der(self, a: Wave) -> Wave:
+    def der(self, a: Exponential) -> Exponential:
         """The time derivative."""
-        return Wave(a.amplitude * a.degree * self.s, a.degree)
+        return Exponential(a.amplitude * a.degree * self.s, a.degree)
 
-    def integral(self, a: Wave, start: Number) -> Wave:
+    def integral(self, a: Exponential, start: Number) -> Exponential:
         """The integral that begins at `start`."""
         raise Mixed("an integral from an initial value")
 
-    def moves(self, a: Wave) -> bool:
+    def moves(self, a: Exponential) -> bool:
         """Whether the amplitude is not zero."""
         return self.numbers.nonzero(a.amplitude)
 
@@ -358,14 +360,14 @@ class Waves:
         """Whether an adjoint is zero."""
         return not a.value
 
-    def back(self, adjoint: Impulse, slope: Wave, n: int) -> Impulse:
+    def back(self, adjoint: Impulse, slope: Exponential, n: int) -> Impulse:
         """The adjoint of an argument."""
         c = slope.amplitude
         value, still, degree, floor, leading = adjoint
         leading = series.scale(c, leading)
         return Impulse(value * c, still * c, degree, floor, leading)
 
-    def back_der(self, adjoint: Impulse, argument: Wave) -> Impulse:
+    def back_der(self, adjoint: Impulse, argument: Exponential) -> Impulse:
         """The adjoint of what was differentiated."""
         own = argument.degree * self.s
         value, still, degree, floor, leading = adjoint

@@ -1,4 +1,4 @@
-"""Many runs of one residual program side by side: every number is an array, one lane for a run."""
+"""Many runs of one residual program side by side: every number is an array over the runs."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Lanes(Interpreter):
 
     def __init__(self, program: Program, params: Mapping[str, Any]) -> None:
         super().__init__(program, ARRAYS)
-        # Most lanes, and samples of constant signals, differ in nothing that a root rests on.
+        # Most runs, and samples of constant signals, differ in nothing that a root rests on.
         self._found: dict[tuple[str | float, ...], Any] = {}
         self.configure(params)
         self._coefs = {ref: value for ref, value in self.values.items() if ref.space == "coef"}
@@ -91,9 +91,9 @@ class Lanes(Interpreter):
         if len(self._found) > _KEPT:
             self._found.clear()
         values = []
-        for lane in zip(*(a.tolist() for a in wide), strict=True):
-            key = (block.name, *lane)
+        for inputs in zip(*(a.tolist() for a in wide), strict=True):
+            key = (block.name, *inputs)
             if key not in self._found:
-                self._found[key] = super()._root(block, lane)
+                self._found[key] = super()._root(block, inputs)
             values.append(self._found[key])
         return np.array(values)

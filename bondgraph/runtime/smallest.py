@@ -179,18 +179,18 @@ def _moved(
     program: Program, faults: list[Fault], situation: Situation
 ) -> dict[str, dict[str, Array]]:
     """Per fault and residual the sensitivity at each valid sample, 0 where it is rounding."""
-    lanes = 2 * len(faults)
+    runs = 2 * len(faults)
     params: dict[str, Array] = {}
     signals: dict[str, Array] = {}
     known = {k.name for k in program.knowns}
     for k, fault in enumerate(faults):
         if not fault.name:
             continue
-        shift = np.zeros(lanes)
+        shift = np.zeros(runs)
         shift[2 * k], shift[2 * k + 1] = fault.step, -fault.step
         into = signals if fault.nominal is None and fault.name in known else params
         into[fault.name] = shift if into is signals else shift + float(fault.nominal or 0.0)
-    result, sizes = _simulated(program, params, signals, lanes, situation)
+    result, sizes = _simulated(program, params, signals, runs, situation)
     found: dict[str, dict[str, Array]] = {}
     for k, fault in enumerate(faults):
         own = found[fault.path] = {}
@@ -206,12 +206,12 @@ def _simulated(
     program: Program,
     params: Mapping[str, Array],
     errors: Mapping[str, Array],
-    lanes: int,
+    runs: int,
     situation: Situation,
 ) -> tuple[dict[str, Array], dict[str, Array]]:
-    """The residuals, samples by lanes, from when they are valid over one period of the signals.
+    """The residuals, samples by runs, from when they are valid over one period of the signals.
 
-    Besides, by lane, the largest number in the filter of each. An error of a signal is there from
+    Besides, by run, the largest number in the filter of each. An error of a signal is there from
     the start; that of a position too.
     """
     run = Lanes(program, dict(params))
@@ -220,7 +220,7 @@ def _simulated(
     period = math.ceil(program.rate / situation.frequency) if moving else 1
     total = settled + min(period, _MOST)
     rows: dict[str, list[Array]] = {r.name: [] for r in program.residuals}
-    sizes = {r.name: np.zeros(lanes) for r in program.residuals}
+    sizes = {r.name: np.zeros(runs) for r in program.residuals}
     own = {r.name: [s.name for s in program.states if s.name.startswith(f"{r.name}_")]
            for r in program.residuals}  # fmt: skip
     states: dict[str, Any] | None = None
@@ -248,7 +248,7 @@ def _simulated(
         residuals, states = run.sample(signals, increments, totals, modes, states)
         if k >= settled:
             for name, value in residuals.items():
-                rows[name].append(np.broadcast_to(np.asarray(value, dtype=float), (lanes,)))
+                rows[name].append(np.broadcast_to(np.asarray(value, dtype=float), (runs,)))
                 for state in own[name]:
                     sizes[name] = np.maximum(sizes[name], np.abs(states[state]))
     return {name: np.array(r) for name, r in rows.items()}, sizes
@@ -309,14 +309,14 @@ def _linear(program: Program, situation: Situation) -> tuple[Array, Array, Array
     _, rest = run.sample(signals, counts, counts, modes)
     names = list(rest)
     size, inputs = len(names), len(plain) + 2 * len(coders)
-    lanes = 2 * (size + inputs)
+    runs = 2 * (size + inputs)
     steps: list[float] = []
 
     def spread(value: float) -> Array:
-        """The value with one pair of lanes of its own, a little above and below."""
+        """The value with one pair of runs of its own, a little above and below."""
         k, step = len(steps), _STEP * ((abs(value) or 1.0) if math.isfinite(value) else 1.0)
         steps.append(step)
-        out = np.full(lanes, value, dtype=float)
+        out = np.full(runs, value, dtype=float)
         out[2 * k] += step
         out[2 * k + 1] -= step
         return out
@@ -328,7 +328,7 @@ def _linear(program: Program, situation: Situation) -> tuple[Array, Array, Array
     residuals, after = run.sample(wide, increments, totals, modes, states)
 
     def slopes(value: Any) -> Array:
-        v = np.broadcast_to(np.asarray(value, dtype=float), (lanes,))
+        v = np.broadcast_to(np.asarray(value, dtype=float), (runs,))
         found = (v[0::2] - v[1::2]) / (2 * np.array(steps))
         found[np.abs(found) * np.array(steps) <= 1e-14 * np.max(np.abs(v), initial=0.0)] = 0.0
         return np.asarray(found)

@@ -8,7 +8,7 @@ from random import Random
 from typing import Any
 
 from bondgraph.exact.evaluate import Evaluated, Sample, evaluate, sensitivities
-from bondgraph.exact.exponentials import WaveSample
+from bondgraph.exact.exponentials import ExponentialSample
 from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.reactions import Reactions
@@ -93,12 +93,14 @@ def _strong(
 class _Point:
     """Steady operation, and on demand the same plant in motion."""
 
-    def __init__(self, still: Trajectory, move: Callable[[], Trajectory | WaveSample]) -> None:
+    def __init__(
+        self, still: Trajectory, move: Callable[[], Trajectory | ExponentialSample]
+    ) -> None:
         self.still = still
         self._move = move
 
     @cached_property
-    def moving(self) -> Trajectory | WaveSample:
+    def moving(self) -> Trajectory | ExponentialSample:
         """The plant in motion."""
         return self._move()
 

@@ -19,7 +19,7 @@ from bondgraph.exact.reactions import Reactions, entries
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
-from bondgraph.passes.relation.cleared import cleared, moduli, nothings
+from bondgraph.passes.relation.cleared import cleared, moduli, vanishing_divisors
 from bondgraph.text.diagnostic import Report
 
 _LONG = 2000  # nodes
@@ -54,7 +54,7 @@ class _Analysis:
             if alive and self._says_something(closing.expr):
                 own = pruned(self.pool, closing, free)
                 bases = moduli(self.reduced.system, own.steps)
-                bases += [b for b in nothings(self.nominal, own.expr) if symbols(b)]
+                bases += [b for b in vanishing_divisors(self.nominal, own.expr) if symbols(b)]
                 expr = cleared(self.pool, own.expr, bases)
                 expr = upright(self.pool, expr)
                 if expr not in met:  # two equal gyrators

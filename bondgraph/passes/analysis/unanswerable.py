@@ -16,7 +16,7 @@ from bondgraph.ir.expr import Expr, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual, Step
 from bondgraph.notation.line import show
-from bondgraph.passes.relation.cleared import nothings
+from bondgraph.passes.relation.cleared import vanishing_divisors
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 
@@ -127,7 +127,7 @@ def divides_by_nothing(graph: BondGraph, exprs: Sequence[Expr]) -> None:
     """
     nominal = Nominal(graph)
     for at, expr in enumerate(exprs):
-        for base in nothings(nominal, expr):
+        for base in vanishing_divisors(nominal, expr):
             raise Resting(at, base)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 
-from bondgraph.exact.evaluate import Forward, Sample, evaluate, sensitivities, telling
+from bondgraph.exact.evaluate import Forward, Sample, evaluate, sensitivities, terms_needed
 from bondgraph.exact.from_start import from_start
 from bondgraph.exact.outline import outline
 from bondgraph.exact.plant import Contradictory, ExactUnavailable, Plant
@@ -76,7 +76,7 @@ class _Check:
         self.report = report
         self.seed = seed + _APART
         self.plant = plant
-        self.terms = telling(self.exprs)
+        self.terms = terms_needed(self.exprs)
         self.trajectories = 0
         self.points: list[Sample] = []  # healthy ones
         self.faults = 0

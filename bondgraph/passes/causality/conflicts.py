@@ -5,7 +5,7 @@ from __future__ import annotations
 from bondgraph.ir.causal import Conflict
 from bondgraph.ir.graph import BondGraph
 from bondgraph.passes.causality.cores import cores
-from bondgraph.passes.causality.explanation import Story, story
+from bondgraph.passes.causality.explanation import Explanation, explanation
 from bondgraph.passes.causality.mends import Mend, mends
 from bondgraph.passes.causality.node_words import sentence
 from bondgraph.passes.causality.rules import demands, network
@@ -35,12 +35,14 @@ def conflicts(graph: BondGraph) -> tuple[Conflict, ...]:
     for core, nodes in zip(found, members, strict=True):
         away = {alike[n] for other in members if other is not nodes for n in other}
         others = {n for n, kind in enumerate(alike) if kind in away}
-        what = story(graph, net, core)
+        what = explanation(graph, net, core)
         told.append(_conflict(graph, nodes, what, mends(graph, nodes, what, others, alike)))
     return tuple(told)
 
 
-def _conflict(graph: BondGraph, nodes: list[int], what: Story, changes: list[Mend]) -> Conflict:
+def _conflict(
+    graph: BondGraph, nodes: list[int], what: Explanation, changes: list[Mend]
+) -> Conflict:
     inside = set(nodes)
     bonds = tuple(
         b

@@ -14,7 +14,7 @@ from bondgraph.text.tuples import NamedTuple
 _LABELS = 10
 
 
-class Story(NamedTuple):
+class Explanation(NamedTuple):
     """A core told: `message` is the headline without its full stop, `meet` where it shows.
 
     `over` says whether there is too much (True) or too little (False) at that place; None where
@@ -89,16 +89,16 @@ _NOBODY = {
 }
 
 
-def story(graph: BondGraph, net: Network, core: Core) -> Story:
+def explanation(graph: BondGraph, net: Network, core: Core) -> Explanation:
     """Tell a core of the rules `net` of a graph."""
     small, place = net.part(core.rules, [must.bond for must in core.musts])
     musts = [must._replace(bond=place[must.bond]) for must in core.musts]
     refutation = refute(small, musts)
     assert refutation is not None
-    return _Teller(graph, small, musts, list(place), refutation).story()
+    return _Explainer(graph, small, musts, list(place), refutation).explanation()
 
 
-class _Teller:
+class _Explainer:
     """Tells one core; `bonds[b]` is the bond of the graph that bond b of the small net is."""
 
     def __init__(
@@ -134,7 +134,7 @@ class _Teller:
         ends = self.graph.bonds[self.bonds[bond]]
         return ends.head.node if ends.tail.node == n else ends.tail.node
 
-    def story(self) -> Story:
+    def explanation(self) -> Explanation:
         clash, wish = self.clash, self.wish
         if clash is None:
             return self.branched()
@@ -160,9 +160,9 @@ class _Teller:
         over: bool | None,
         ring: bool,
         strokes: tuple[tuple[int, int], ...],
-    ) -> Story:
+    ) -> Explanation:
         labels, roles = tuple(self.labels[:_LABELS]), tuple(self.roles.items())
-        return Story(message, physics, labels, meet, over, ring, strokes, roles)
+        return Explanation(message, physics, labels, meet, over, ring, strokes, roles)
 
     # ------------------------------------------------------------- at a junction
 
@@ -173,7 +173,7 @@ class _Teller:
         bonds: list[int],
         direct: list[int],
         last: tuple[tuple[int, int], ...] = (),
-    ) -> Story:
+    ) -> Explanation:
         """Parties meet at a junction or two-port: by these bonds, or as elements on it."""
         node = self.node(where)
         message, physics, label = (_TWICE if over else _NOBODY)[node.kind]
@@ -286,7 +286,7 @@ class _Teller:
 
     # -------------------------------------------------- at a bond, and in a loop
 
-    def bond(self, first: int, second: int, last: tuple[tuple[int, int], ...]) -> Story:
+    def bond(self, first: int, second: int, last: tuple[tuple[int, int], ...]) -> Explanation:
         """Two on one bond that both impose."""
         a, b = self.node(first), self.node(second)
         what = "effort" if {a.kind, b.kind} <= {"Se", "Df", "0"} else "flow"
@@ -302,7 +302,7 @@ class _Teller:
             ((at, 1 - last[0][1]), *last),
         )
 
-    def branched(self) -> Story:
+    def branched(self) -> Explanation:
         """A contradiction that shows only when the junctions are taken together."""
         forced = [b for b, value in enumerate(self.strokes.value) if value >= 0]
         strokes = tuple((self.bonds[b], self.strokes.value[b]) for b in forced)

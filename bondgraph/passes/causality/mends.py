@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from bondgraph.ir.graph import BondGraph, End
 from bondgraph.passes.causality.cores import refute
-from bondgraph.passes.causality.explanation import Story
+from bondgraph.passes.causality.explanation import Explanation
 from bondgraph.passes.causality.node_words import name
 from bondgraph.passes.causality.rules import Wish, must, rules
 from bondgraph.text.tuples import NamedTuple
@@ -43,7 +43,7 @@ class Mend(NamedTuple):
 
 
 def mends(
-    graph: BondGraph, core: list[int], told: Story, others: set[int], alike: list[int]
+    graph: BondGraph, core: list[int], told: Explanation, others: set[int], alike: list[int]
 ) -> list[Mend]:
     """Up to five changes with each of which the conflict is gone.
 
@@ -70,7 +70,9 @@ def mends(
     return found
 
 
-def _candidates(graph: BondGraph, core: list[int], told: Story) -> Iterator[tuple[Change, str]]:
+def _candidates(
+    graph: BondGraph, core: list[int], told: Explanation
+) -> Iterator[tuple[Change, str]]:
     """Changes worth a trial, the likeliest first."""
     nodes = graph.nodes
     at: dict[int, list[int]] = {n: [] for n in core}

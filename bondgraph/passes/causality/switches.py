@@ -9,7 +9,7 @@ from bondgraph.ir.expr import Expr, Op, symbols
 from bondgraph.ir.graph import BondGraph
 from bondgraph.notation.line import show
 from bondgraph.passes.causality.cores import Core, cores, refute
-from bondgraph.passes.causality.explanation import story
+from bondgraph.passes.causality.explanation import explanation
 from bondgraph.passes.causality.node_words import name, sentence
 from bondgraph.passes.causality.rules import Network, Wish
 from bondgraph.text.diagnostic import Report
@@ -88,7 +88,7 @@ def report_settings(graph: BondGraph, net: Network, musts: list[Wish], report: R
     for setting, off in settings(graph):
         part, imposed = held(net, off)
         for core in cores(part, [*imposed, *musts], most=1):
-            told = story(graph, part, core)
+            told = explanation(graph, part, core)
             inside = set(core.nodes(part))
             whens = [graph.nodes[n].when for n in sorted(inside)]
             own = {a for when in whens if when is not None for a in _atoms(when)}
@@ -138,7 +138,7 @@ def _follows(graph: BondGraph, when: Expr, sources: list[int]) -> bool:
 def _tell(
     graph: BondGraph, net: Network, core: Core, junction: int, when: Expr, report: Report
 ) -> None:
-    told = story(graph, net, core)
+    told = explanation(graph, net, core)
     node = graph.nodes[junction]
     negated = when.op is Op.LOGIC and when.data == "not"
     mode = f"`{show(when.args[0])}` holds" if negated else f"`{show(when)}` does not hold"

@@ -62,7 +62,7 @@ class _Offer(NamedTuple):
 _CHECKED = 2000
 
 
-class Way(NamedTuple):
+class Strategy(NamedTuple):
     """How to eliminate.
 
     Derivatives up to the order `free` are not avoided: shorter paths count more. Without `starts`
@@ -78,12 +78,12 @@ class Way(NamedTuple):
 class Chain:
     """The state of one elimination."""
 
-    def __init__(self, system: EquationSystem, way: Way | None = None) -> None:
-        way = way or Way()
+    def __init__(self, system: EquationSystem, strategy: Strategy | None = None) -> None:
+        chosen = strategy or Strategy()
         self.system = system
-        self.free = way.free
-        self.starts = way.starts
-        self.eager = way.eager
+        self.free = chosen.free
+        self.starts = chosen.starts
+        self.eager = chosen.eager
         self.pool = system.graph.pool
         self.colour, self.variable_colour = colours(system)
         self.position = {v: i for i, v in enumerate(system.unknowns)}
@@ -101,7 +101,7 @@ class Chain:
         self.heap: list[_Offer] = []
         self.later: list[_Offer] = []
         self.nominal = Nominal(system.graph)
-        self.loops = Loops(self.pool, self.nominal, patient=not way.starts)
+        self.loops = Loops(self.pool, self.nominal, patient=not chosen.starts)
         self.oversized: list[list[Equation]] = []  # linear loops too large to be written out
 
     # ---------------------------------------------------------------- chaining

@@ -8,7 +8,7 @@ from __future__ import annotations
 from bondgraph.exact.outline import highest_order
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.residuals import Missing, ReducedSystem
-from bondgraph.passes.elimination.chaining import Chain, Way
+from bondgraph.passes.elimination.chaining import Chain, Strategy
 from bondgraph.passes.elimination.cost import FREE_START, ITERATION
 from bondgraph.passes.elimination.each_mode import each_mode
 from bondgraph.passes.elimination.regroup import regroup
@@ -16,10 +16,10 @@ from bondgraph.passes.elimination.shortfall import tell
 from bondgraph.text.diagnostic import Report
 
 #: What is tried where the first elimination misses a relation for the reason given, in this order.
-_OTHER_WAYS = (
-    ("initial-value-needed", Way(starts=False)),
-    ("loop-unsolvable", Way(eager=ITERATION)),
-    ("loop-unsolvable", Way(eager=2 * FREE_START)),
+_OTHER_STRATEGIES = (
+    ("initial-value-needed", Strategy(starts=False)),
+    ("loop-unsolvable", Strategy(eager=ITERATION)),
+    ("loop-unsolvable", Strategy(eager=2 * FREE_START)),
 )
 
 
@@ -46,19 +46,19 @@ def _eliminated(system: EquationSystem) -> ReducedSystem:
     chain = _run(Chain(system))
     if chain.tangled():
         order = highest_order([row.expr for row in chain.loops.plain])
-        near = _run(Chain(system, Way(free=order)))
+        near = _run(Chain(system, Strategy(free=order)))
         if len(near.loops.plain) >= len(chain.loops.plain):
             chain = near
     best = chain.result()
     if chain.loops.raised:  # an integral from a declared start may need fewer derivatives
-        anew = _run(Chain(system, Way(eager=ITERATION))).result()
+        anew = _run(Chain(system, Strategy(eager=ITERATION))).result()
         whole = not _lacking(anew) and len(anew.closings) >= len(best.closings)
         best = anew if whole and _order(anew) < _order(best) else best
     lacking = _lacking(best)
     codes = {m.finding.code for m in lacking}
     most = len(best.closings) + len(lacking)
-    for way in [way for code, way in _OTHER_WAYS if code in codes]:
-        anew = _run(Chain(system, way)).result()
+    for strategy in [s for code, s in _OTHER_STRATEGIES if code in codes]:
+        anew = _run(Chain(system, strategy)).result()
         if not _lacking(anew) and len(anew.closings) >= most:
             return anew
         if len(anew.closings) > len(best.closings):

@@ -150,7 +150,7 @@ class _Causaliser:
     def _rows(self) -> list[_Row]:
         """The equations of the mode, with what may be wrong and without what is nothing."""
         pool, system = self.pool, self.system
-        replaced, nothings = self._disturbed(), self._nothings()
+        replaced, absent = self._disturbed(), self._absent()
         truth = {i.symbol: self.wanted.modes[i.name] for i in self.graph.inputs if i.mode}
         errors = {d.name: d for d in self.disturbances}
         rows = []
@@ -166,7 +166,7 @@ class _Causaliser:
                 if counted is not None:
                     rows.append(counted)
             try:
-                zero = pool.substitute([zero], replaced | nothings)[0]
+                zero = pool.substitute([zero], replaced | absent)[0]
             except ZeroDivisionError:  # a law has no value: the run says so
                 zero = pool.substitute([zero], replaced)[0]
             zero = in_mode(pool, [zero], truth)[0] if truth else zero
@@ -230,7 +230,7 @@ class _Causaliser:
             if d.name in symbols
         }
 
-    def _nothings(self) -> dict[Expr, Expr]:
+    def _absent(self) -> dict[Expr, Expr]:
         """Parameters that are zero: an inertia of nothing stores nothing."""
         nominal = Nominal(self.graph)
         disturbed = set(self.wanted.disturbed)

@@ -45,7 +45,7 @@ def moduli(system: EquationSystem, steps: Sequence[Step]) -> list[Expr]:
     return [base for base in found if base in known]
 
 
-def nothings(nominal: Nominal, expr: Expr) -> list[Expr]:
+def vanishing_divisors(nominal: Nominal, expr: Expr) -> list[Expr]:
     """The constants below an expression that it divides by and that are nominally zero."""
     nodes = topological([expr])
     known: dict[Expr, bool] = {}

@@ -18,7 +18,7 @@ from bondgraph.runtime.diagnosis.isolation import History, inverse
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched
-from bondgraph.runtime.diagnosis.onset import calm, odd
+from bondgraph.runtime.diagnosis.onset import odd, samples_before
 from bondgraph.runtime.diagnosis.origins import Origins, starts_in
 from bondgraph.runtime.diagnosis.rows import Part, Row, together, usual, weight
 from bondgraph.runtime.diagnosis.status import WatchStatus
@@ -30,7 +30,7 @@ from bondgraph.runtime.monitoring.verdict import Verdict
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset
 _FORGET = 1000.0  # rows after which healthy operation counts a third
-_CALM = 5  # rows that have to be calm behind one before it counts as healthy
+_HEALTHY = 5  # rows that have to be as usual behind one before it counts as healthy
 
 
 class Diagnosis:
@@ -187,7 +187,7 @@ class Diagnosis:
             self._over(row, out)
 
     def _remember(self, row: Row) -> None:
-        """Learn from a row once the ones behind it are calm too: before an alarm a fault acts.
+        """Learn from a row once the ones behind it are as usual too: before an alarm a fault acts.
 
         While noise is being learned nobody knows how much a row is worth: it waits.
         """
@@ -195,7 +195,7 @@ class Diagnosis:
             self._calm.clear()
             return
         self._calm.append(row)
-        wait = _CALM if self._learning is None else int(_MEMORY)
+        wait = _HEALTHY if self._learning is None else int(_MEMORY)
         while len(self._calm) > wait:
             old = self._calm.popleft()
             self._history.add(old.value, self._weight(old), old.slopes, 1.0 - 1.0 / _FORGET)
@@ -237,7 +237,7 @@ class Diagnosis:
         noise = inverse(self._weight(last))
         samples = np.concatenate([last.samples[:0], *piece])
         fired = self._detection.fired
-        count = calm(engine, samples, self._history, last.slopes, noise, fired)
+        count = samples_before(engine, samples, self._history, last.slopes, noise, fired)
         healthy = np.concatenate([last.samples, samples[:count]])
         self._judge.compare(last.engine, healthy, count, chosen, sigma)
         return last.time + count * self._engine.sample_time

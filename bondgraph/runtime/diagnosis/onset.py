@@ -23,7 +23,7 @@ def odd(history: History, value: Array, slopes: Array, noise: Array) -> Mask:
     return np.asarray(np.abs(value - expected) > _ODD * np.sqrt(variance + noise))
 
 
-def calm(
+def samples_before(
     engine: Engine, samples: Array, history: History, slopes: Array, noise: Array, fired: Mask
 ) -> int:
     """How many of the samples come before the fault; `engine` stands before them.

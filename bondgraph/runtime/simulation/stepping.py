@@ -12,7 +12,6 @@ import numpy.typing as npt
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.passes.elimination.state_equations import Wanted, state_equations
-from bondgraph.runtime.simulation.brisk import Brisk
 from bondgraph.runtime.simulation.faults import Wrong
 from bondgraph.runtime.simulation.given import inside
 from bondgraph.runtime.simulation.handover import handed_over
@@ -21,6 +20,7 @@ from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Scenario
+from bondgraph.runtime.simulation.short_segments import ShortSegments
 from bondgraph.runtime.simulation.spread import spread
 from bondgraph.runtime.simulation.start import start
 from bondgraph.text.diagnostic import CompileError, Report
@@ -79,7 +79,7 @@ class Stepper:
         self._inputs: dict[int, Inputs] = {}
         self._acting: Acting | None = None
         scenario = self.scenario
-        self._integrator = Brisk(scenario.method, scenario.tolerance, _HORIZON)
+        self._integrator = ShortSegments(scenario.method, scenario.tolerance, _HORIZON)
 
     def jump(self, t: float) -> None:
         """Go on from another time: the clock has jumped, the machine has not moved."""

@@ -156,7 +156,7 @@ def motor_residual(g: object = None) -> tuple[Plant, Expr]:
 def test_series_and_exponentials_say_the_same() -> None:
     plant, r = motor_residual()
     one = sensitivities(r, plant.trajectory(1, highest_order([r])))
-    two = sensitivities(r, plant.wave(1))
+    two = sensitivities(r, plant.exponential(1))
     assert one == two
     assert {k.symbol.name: v for k, v in two.orders.items()} == {"w": 2, "U": 0}
 
@@ -172,16 +172,16 @@ def test_exponentials_find_orders_below_long_cancellations() -> None:
     for _ in range(11):
         same = p.add((1, p.der(same)), (1, p.mul(k, same)))
     r = p.add((1, high), (-1, p.der(same)), (-1, p.mul(k, same)), (1, p.der(U)), (1, w))
-    assert sensitivities(r, plant.wave(2)).orders == {w: 0, U: 1}
+    assert sensitivities(r, plant.exponential(2)).orders == {w: 0, U: 1}
 
 
 def test_exponentials_refuse_what_is_not_linear() -> None:
     plant, _ = motor_residual()
     p, s = plant.graph.pool, symbols(plant.graph)
     with pytest.raises(Mixed):
-        evaluate([p.fn("sin", s["w"])], plant.wave(1))
+        evaluate([p.fn("sin", s["w"])], plant.exponential(1))
     with pytest.raises(Mixed):
-        evaluate([p.add((1, s["w"]), (1, p.mul(s["w"], s["w"])))], plant.wave(1))
+        evaluate([p.add((1, s["w"]), (1, p.mul(s["w"], s["w"])))], plant.exponential(1))
 
 
 def test_an_integral_on_a_trajectory_begins_at_the_declared_value() -> None:

@@ -143,12 +143,12 @@ def test_an_unknown_fault_is_a_key_error() -> None:
 def test_exponentials_agree_with_the_transfer_function() -> None:
     # w/U = k / ((L s + Re)(J s + b) + k^2)
     model = graph(MOTOR)
-    wave = Plant(model).wave(3)
+    exponential = Plant(model).exponential(3)
     v = symbols(model)
-    L, Re, k, J, b = (wave.value(v[n]).amplitude for n in ("L", "Re", "k", "J", "b"))
-    s = wave.algebra.s
+    L, Re, k, J, b = (exponential.value(v[n]).amplitude for n in ("L", "Re", "k", "J", "b"))
+    s = exponential.algebra.s
     below = (L * s + Re) * (J * s + b) + k * k
-    assert wave.value(v["w"]).amplitude * below == k * wave.value(v["U"]).amplitude
+    assert exponential.value(v["w"]).amplitude * below == k * exponential.value(v["U"]).amplitude
 
 
 HARD = {

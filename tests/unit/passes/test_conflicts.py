@@ -10,7 +10,7 @@ from bondgraph.ir.expr import Pool
 from bondgraph.ir.graph import BondGraph
 from bondgraph.passes.causality.conflicts import conflicts
 from bondgraph.passes.causality.cores import cores
-from bondgraph.passes.causality.explanation import story
+from bondgraph.passes.causality.explanation import explanation
 from bondgraph.passes.causality.mends import Change, mends
 from bondgraph.passes.causality.rules import demands, network
 from bondgraph.pipeline import Compilation
@@ -56,7 +56,7 @@ def test_every_proposed_change_mends(shape: str) -> None:
             continue
         nodes = found[0].nodes(net)
         alike = list(range(len(graph.nodes)))
-        told = story(graph, net, found[0])
+        told = explanation(graph, net, found[0])
         for change, text in mends(graph, nodes, told, set(), alike):
             proposed += 1
             assert most(hard(changed(graph, change)), []) is not None, text
@@ -242,7 +242,7 @@ def test_a_change_shows_at_all_like_places_of_the_first_node_too() -> None:
     net, at = network(graph)
     core = cores(net, demands(graph, at, "integral")[0])[0]
     alike = [0, 1, 2, 3] * 2
-    found = mends(graph, core.nodes(net), story(graph, net, core), set(), alike)
+    found = mends(graph, core.nodes(net), explanation(graph, net, core), set(), alike)
     (text,) = [mend.text for mend in found if mend.change == Change(turn=0)]
     assert text.startswith("make 0:n (and the 1 like it) a 1-junction")
 
@@ -251,7 +251,7 @@ def test_work_on_proposals_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     graph = build("Se:a -> 0:n <- Se:b; n -> R:r")
     net, at = network(graph)
     (core,) = cores(net, demands(graph, at, "integral")[0])
-    told, nodes = story(graph, net, core), core.nodes(net)
+    told, nodes = explanation(graph, net, core), core.nodes(net)
     every = mends(graph, nodes, told, set(), [0, 1, 2, 3])
     assert len(every) > 2
     # a trial of the whole model looks at its three bonds: the second one takes more than is left

@@ -11,7 +11,7 @@ from bondgraph.exact.plant import Plant
 from bondgraph.exact.reactions import Reactions
 from bondgraph.ir.expr import Expr, Kind, Pool, symbols
 from bondgraph.passes.elimination.initial import without_free_integrals
-from bondgraph.passes.relation.cleared import nothings
+from bondgraph.passes.relation.cleared import vanishing_divisors
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.source import Source
@@ -186,7 +186,7 @@ def test_two_equal_moments_of_inertia_are_no_divisor() -> None:
     assert len(c.residuals) == 2
     assert c.verification.method.startswith("exact")
     nominal = Nominal(c.graph)
-    assert not [d for r in c.residuals for d in nothings(nominal, r.residual.expr)]
+    assert not [d for r in c.residuals for d in vanishing_divisors(nominal, r.residual.expr)]
 
 
 def test_a_product_with_a_factor_at_rest_is_one_relation_more() -> None:

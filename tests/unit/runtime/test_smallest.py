@@ -144,7 +144,7 @@ def test_a_swing_shows_an_inertia(motor: Compilation) -> None:
 def test_recorded_signals_show_what_the_same_signals_show(
     kind: str, swing: dict[str, float], motor: Compilation, tmp_path: Path
 ) -> None:
-    """By the generated code over samples, one engine for each change, against lanes of numbers."""
+    """By the generated code over samples, one engine for each change, against arrays of runs."""
     compilation, at = motor, {"U": 6.0, "current": 0.03, "speed": 1000.0}
     if kind == "spindle":
         path = tmp_path / "spindle.bg"

@@ -18,7 +18,7 @@ _COARSE = 1e-6  # relative tolerance of a step: finer than instruments are
 _STEPS = 20_000  # in one segment
 
 
-class Brisk:
+class ShortSegments:
     """As `Integrator`, with less around it: LSODA (Petzold, 1983) straight from ODEPACK.
 
     A step is no finer than the tolerance 1e-6. What this cannot do, and all that a scenario names a
