@@ -4,9 +4,10 @@ shared parts named by the variable of the model that they are."""
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from fractions import Fraction
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, Symbol, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.nodes import constant, rebuilt
 from bondgraph.ir.residuals import Residual
@@ -149,10 +150,15 @@ def shared(root: Expr, variables: dict[Expr, str]) -> Parts:
     return Parts(root, tuple(order), chosen, variables)
 
 
-def closed_form(graph: BondGraph, residual: Residual) -> ClosedForm:
-    """The relation as nested text; what occurs more than once is named and written once."""
+def closed_form(
+    graph: BondGraph, residual: Residual, starts: Mapping[Symbol, Expr] | None = None
+) -> ClosedForm:
+    """The relation as nested text; what occurs more than once is named and written once.
+
+    `starts` are the graph's initial values, for who asks for many relations of one graph.
+    """
     root, order, chosen, _ = parts(graph, residual)
-    reader, line = Reader(chosen, graph.initial_values()), Line()
+    reader, line = Reader(chosen, graph.initial_values() if starts is None else starts), Line()
     where = [
         (chosen[node], line.spell(reader.definition(node)).text)
         for node in reversed(order)

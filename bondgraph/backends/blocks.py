@@ -5,6 +5,7 @@ A bad sample restarts the filter of the blocks that see its signal, and no other
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
 
 from bondgraph.backends.walk import references
@@ -48,17 +49,23 @@ def blocks(program: Program) -> tuple[Block, ...]:
     members: dict[_Key, list[str]] = {}
     for info in program.residuals:
         members.setdefault(groups.find(("residual", info.name)), []).append(info.name)
-    found: list[Block] = []
-    for root, residuals in members.items():
-        begin = tuple(s for key, s in first if groups.find(key) == root)
-        go_on = tuple(s for key, s in step if groups.find(key) == root)
-        if begin or go_on:
-            found.append(_block(program, residuals, begin, go_on))
-    return tuple(found)
+    own: dict[_Key, tuple[list[Assign], list[Assign]]] = {root: ([], []) for root in members}
+    for at, statements in enumerate((first, step)):
+        for key, statement in statements:
+            if (root := groups.find(key)) in own:
+                own[root][at].append(statement)
+    knowns = {k.name: at for at, k in enumerate(program.knowns)}
+    states = {s.name: at for at, s in enumerate(program.states)}
+    return tuple(
+        _block(knowns, states, residuals, tuple(own[root][0]), tuple(own[root][1]))
+        for root, residuals in members.items()
+        if any(own[root])
+    )
 
 
 def _block(
-    program: Program,
+    knowns: Mapping[str, int],
+    states: Mapping[str, int],
     residuals: list[str],
     first: tuple[Assign, ...],
     step: tuple[Assign, ...],
@@ -72,8 +79,8 @@ def _block(
     return Block(
         "_".join(residuals) if few else f"{residuals[0]}_to_{residuals[-1]}",
         tuple(residuals),
-        tuple(k.name for k in program.knowns if k.name in signals),
-        tuple(s.name for s in program.states if s.name in memory),
+        tuple(sorted(signals & knowns.keys(), key=knowns.__getitem__)),
+        tuple(sorted(memory & states.keys(), key=states.__getitem__)),
         first,
         step,
         "nothing is known yet" if empty else "the filter as if it had always been so",

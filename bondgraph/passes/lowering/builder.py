@@ -100,6 +100,17 @@ class Builder:
         return self.pool.symbol(f"{OPTION}{name}@", Kind.CONST)
 
     @cached_property
+    def absent(self) -> tuple[str, ...]:
+        """The faults that are nominally zero."""
+        values = self.graph.values
+        return tuple(v.name for v in values if v.fault and self.floats.get(v.name) == 0.0)
+
+    @cached_property
+    def fault_symbols(self) -> dict[str, Expr]:
+        """The symbol of each fault candidate."""
+        return self.graph.fault_symbols()
+
+    @cached_property
     def pace(self) -> Expr:
         """bandwidth * time_unit: its powers stay in range where those of either would not."""
         product = Product((Ref("option", "bandwidth"), Ref("option", "time_unit")))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 
 from bondgraph.algebra.derivative import TooManyOperations
 from bondgraph.algebra.normalise import LIMIT, normalise
 from bondgraph.algebra.present import closed_form
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.expr import Expr, Op, Symbol, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.program import (
@@ -112,11 +113,12 @@ def lower(
     if time_unit is None:
         time_unit = max([t.time_unit for t in tapes if t is not None], default=1.0)
     lowered: list[_Lowered] = []
+    sees, starts = signatures.sees, graph.initial_values()
     own_and_other = zip(exprs, others, strict=True)
     for residual, form, tape, (expr, other) in zip(
         residuals.residuals, forms, tapes, own_and_other, strict=True
     ):
-        text = _text(graph, residual)
+        text = _text(graph, residual, starts)
         builder.origin = residual.closing.origin
         arrays = {} if tape is None else tape.arrays
         order = exactly.residual(residual, form, arrays, text)
@@ -127,7 +129,8 @@ def lower(
             form = switched.form(expr, form)
         visible = _visible(builder, form, tape, options)
         found = _terms(builder, visible, twin, options, received)
-        low = _realise(builder, filter, residual, signatures, found, options, text, switched)
+        faults = sees[residual.name]
+        low = _realise(builder, filter, residual, faults, found, options, text, switched)
         if order is None:
             info = low.info._replace(order=_highest(form), unwritten=_TOO_LONG)
         else:
@@ -172,14 +175,13 @@ def _realise(
     builder: Builder,
     filter: Filter,
     residual: Residual,
-    signatures: SignatureMatrix,
+    faults: tuple[str, ...],
     found: _Terms | str,
     options: LowerOptions,
     text: str,
     switched: Switched,
 ) -> _Lowered:
     """One residual of `step`, or the reason why it has none."""
-    faults = signatures.signature(residual.name)
     name = identifier(residual.name)
     origin = residual.closing.origin
     info = ResidualInfo(name, residual.name, text, 0, 0, faults, (), origin)
@@ -284,10 +286,10 @@ def _reason(moving: list[Term]) -> str:
     return f"a nonlinear term holds a derivative: {short(moving[0].atom)}"
 
 
-def _text(graph: BondGraph, residual: Residual) -> str:
+def _text(graph: BondGraph, residual: Residual, starts: Mapping[Symbol, Expr]) -> str:
     """The residual as a person writes it, where that is short enough to be read."""
     if len(topological([residual.expr])) <= _TEXT_NODES:
-        text = str(closed_form(graph, residual))
+        text = str(closed_form(graph, residual, starts))
         if len(text) <= _TEXT_LENGTH:
             return f"{residual.name} = {text}"
     return f"{residual.name}: {residual.closing.name} with everything else inserted"

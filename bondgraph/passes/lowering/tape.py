@@ -17,7 +17,7 @@ from bondgraph.passes.lowering.exactly import label
 from bondgraph.passes.lowering.polynomials import Effects, low_orders
 from bondgraph.passes.lowering.procedure import Procedure
 from bondgraph.passes.lowering.program_names import identifier, short
-from bondgraph.passes.lowering.visible import Seen, absent, frequency, split
+from bondgraph.passes.lowering.visible import Seen, frequency, split
 from bondgraph.text.tuples import NamedTuple
 
 _ENOUGH = 64  # orders that the time unit is judged by
@@ -58,7 +58,7 @@ class Large(NamedTuple):
                 else:
                     far.append((Term(leaf.atom, k, pool.one, leaf.static), 0.0))
         effect = Effects(builder, self.tape, rate, highest)
-        found = split(tuple(terms), sizes, rate, resolution, effect, absent(builder))
+        found = split(tuple(terms), sizes, rate, resolution, effect, builder.absent)
         return found._replace(dropped=(*found.dropped, *far))
 
 

@@ -102,14 +102,7 @@ def seen(builder: Builder, terms: tuple[Term, ...], rate: float, resolution: flo
         if not math.isfinite(size):
             return Seen(terms, (), None, effect)
         sizes.append(size)
-    return split(terms, sizes, rate, resolution, effect, absent(builder))
-
-
-def absent(builder: Builder) -> tuple[str, ...]:
-    """The faults that are nominally zero."""
-    return tuple(
-        v.name for v in builder.graph.values if v.fault and builder.floats.get(v.name) == 0.0
-    )
+    return split(terms, sizes, rate, resolution, effect, builder.absent)
 
 
 def split(
@@ -154,10 +147,9 @@ def unseen_faults(
         return ()
     spectra, w = result.spectra, frequency(rate)
     inside = {s for t in result.kept for s in symbols(*builder.resolve([t.atom]))}
-    symbol = builder.graph.fault_symbols()
 
     def acts(name: str) -> bool:
-        if symbol[name] in inside:
+        if builder.fault_symbols[name] in inside:
             return True
         return any(
             _share(result.effect(t, name), spectra[t.atom], t.order, w) >= resolution

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import pytest
 
-from bondgraph.backends import evaluate as module
+from bondgraph.backends import forty_digits as module
 from bondgraph.backends.forty_digits import Evaluation, value
 from bondgraph.backends.golden import golden
 from bondgraph.ir.program import Const, Function, PolynomialTape, Ref
