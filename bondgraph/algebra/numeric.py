@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from operator import mul
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 from bondgraph.field.evaluation import Evaluated
-from bondgraph.ir.expr import Expr, Op
+from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
 
 Number: TypeAlias = float | Fraction | int
@@ -69,15 +69,7 @@ def evaluate(root: Expr, values: Mapping[str, Number]) -> Number | None:
 
     Rational arithmetic stays exact as long as the values are rational.
     """
-    found = evaluate_all([root], values)
-    return None if found is None else found[root]
-
-
-def evaluate_all(roots: Sequence[Expr], values: Mapping[str, Number]) -> dict[Expr, Number] | None:
-    """The values of constant expressions and of all that they are made of; None as `evaluate`."""
-    at = Evaluated[Number](EXACT, lambda node: values.get(node.symbol.name))
-    found = at.values(roots)
-    return found if len(found) == len(at.known) else None
+    return Valued(values).value(root)
 
 
 def nominal(graph: BondGraph) -> dict[str, Fraction | float]:
@@ -104,33 +96,33 @@ def nominal(graph: BondGraph) -> dict[str, Fraction | float]:
     return found
 
 
-def sensitivities(
-    weights: Mapping[Expr, float], values: Mapping[str, float]
-) -> dict[str, float] | None:
-    """theta * d sum / d theta of a weighted sum of constant expressions, by parameter.
+class Valued(Evaluated[Number]):
+    """Constant expressions where symbols have numbers, by name; what was found once is kept."""
 
-    At the nominal values; d sum / d theta where theta is 0. One pass back over all expressions, as
-    there may be hundreds of parameters (Linnainmaa, 1970). Not a number where a slope is not
-    defined, None where the expressions have no value.
-    """
-    found = evaluate_all(list(weights), values)
-    if found is None:
-        return None
-    adjoint = dict.fromkeys(found, 0.0)
-    for root, weight in weights.items():
-        adjoint[root] += weight
-    slopes: dict[str, float] = {}
-    for node in reversed(found):
-        above = adjoint[node]
-        if not above:
-            continue
-        if node.op is Op.SYM:
-            slopes[node.symbol.name] = above * (values[node.symbol.name] or 1.0)
-            continue
-        own = [found[a] for a in node.args]
-        for i, arg in enumerate(node.args):
-            adjoint[arg] += above * _slope(node, own, i)
-    return slopes
+    def __init__(self, values: Mapping[str, Number]) -> None:
+        super().__init__(EXACT, lambda node: values.get(node.symbol.name))
+
+    def sensitivities(self, weights: Mapping[Expr, float]) -> dict[str, float] | None:
+        """theta * d sum / d theta of a weighted sum of expressions, by parameter.
+
+        At the nominal values; d sum / d theta where theta is 0. One pass back over all expressions,
+        as there may be hundreds of parameters (Linnainmaa, 1970). Not a number where a slope is not
+        defined, None where the expressions have no value.
+        """
+        if any(self.value(root) is None for root in weights):
+            return None
+        adjoint = dict(weights)
+        slopes: dict[str, float] = {}
+        for node in reversed(topological(weights)):
+            above = adjoint.get(node)
+            if not above:
+                continue
+            own = [cast(Number, self.known[a]) for a in node.args]
+            if node.op is Op.SYM:
+                slopes[node.symbol.name] = above * (float(cast(Number, self.known[node])) or 1.0)
+            for i, arg in enumerate(node.args):
+                adjoint[arg] = adjoint.get(arg, 0.0) + above * _slope(node, own, i)
+        return slopes
 
 
 def _slope(node: Expr, args: list[Number], i: int) -> float:

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Literal
 
 from bondgraph.algebra.derivative import Jets
-from bondgraph.algebra.numeric import evaluate, nominal
+from bondgraph.algebra.numeric import Valued, nominal
 from bondgraph.ir.expr import ZERO_START, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph, Input, Sensor, Value
 from bondgraph.ir.nodes import constant
@@ -55,6 +55,7 @@ class Builder:
         self.jets = Jets(graph.pool)
         self.values: dict[str, Fraction | float] = nominal(graph)
         self.floats = {name: float(value) for name, value in self.values.items()}
+        self.nominal = Valued(self.floats)
         self.fields: list[Field] = []
         self.names = Names()
         self.extent: dict[str, list[int]] = {}  # lowest and highest order that exact needs
@@ -236,7 +237,7 @@ class Builder:
         if isinstance(declared, Input):
             kind = "mode" if declared.mode else "input"
         elif declared.counts is not None:
-            value = evaluate(self.resolve([declared.counts])[0], self.floats)
+            value = self.nominal.value(self.resolve([declared.counts])[0])
             counts = 0.0 if value is None else float(value)
         if signal.symbol.symbol.kind is Kind.READING:
             kind = "reading"

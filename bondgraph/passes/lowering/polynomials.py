@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from bondgraph.algebra.numeric import evaluate_all, sensitivities
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.normal import Tape, Term
 from bondgraph.passes.lowering.builder import Builder
@@ -34,10 +33,10 @@ def low_orders(
 def _factors(builder: Builder, tape: Tape) -> dict[Expr, float] | None:
     scales = list(dict.fromkeys(e.scale for e in tape.edges))
     resolved = builder.resolve(scales)
-    values = evaluate_all(resolved, builder.floats)
-    if values is None:
+    values = [x for r in resolved if (x := builder.nominal.value(r)) is not None]
+    if len(values) < len(resolved):
         return None
-    return {scale: float(values[r]) for scale, r in zip(scales, resolved, strict=True)}
+    return dict(zip(scales, map(float, values), strict=True))
 
 
 class Effects:
@@ -91,4 +90,4 @@ class Effects:
         scales = list(slopes)
         for scale, resolved in zip(scales, builder.resolve(scales), strict=True):
             weights[resolved] = weights.get(resolved, 0.0) + slopes[scale]
-        return sensitivities(weights, builder.floats) or {}
+        return builder.nominal.sensitivities(weights) or {}

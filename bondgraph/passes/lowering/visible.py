@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from bondgraph.algebra.numeric import evaluate, sensitivities
 from bondgraph.ir.expr import Expr, symbols
 from bondgraph.ir.normal import Term
 from bondgraph.passes.lowering.builder import Builder
@@ -87,14 +86,14 @@ def seen(builder: Builder, terms: tuple[Term, ...], rate: float, resolution: flo
     def effect(term: Term, name: str) -> float | None:
         coefficient = coefficients[term.atom, term.order]
         if coefficient not in effects:
-            effects[coefficient] = sensitivities({coefficient: 1.0}, builder.floats)
+            effects[coefficient] = builder.nominal.sensitivities({coefficient: 1.0})
         found = effects[coefficient]
         own = None if found is None else found.get(name, 0.0)
         return None if own is None or math.isnan(own) else own
 
     sizes: list[float] = []
     for term in terms:
-        value = evaluate(coefficients[term.atom, term.order], builder.floats)
+        value = builder.nominal.value(coefficients[term.atom, term.order])
         try:
             size = math.inf if value is None else abs(float(value)) * w**term.order
         except OverflowError:

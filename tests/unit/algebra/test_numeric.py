@@ -9,7 +9,7 @@ from fractions import Fraction
 import pytest
 import sympy as sp
 
-from bondgraph.algebra.numeric import evaluate, sensitivities
+from bondgraph.algebra.numeric import Valued, evaluate
 from bondgraph.ir.expr import Expr, Kind, Pool
 
 NAMES = ("a", "b", "c", "d")
@@ -42,7 +42,7 @@ def draw(seed: int) -> tuple[Expr, sp.Expr, dict[str, float]]:
 @pytest.mark.parametrize("seed", range(8))
 def test_sensitivities_are_derivatives(seed: int) -> None:
     expr, same, values = draw(seed)
-    found = sensitivities({expr: 2.0}, values)
+    found = Valued(values).sensitivities({expr: 2.0})
     assert found is not None
     assert evaluate(expr, values) == pytest.approx(float(same.subs(values)))
     for name in NAMES:
@@ -53,7 +53,7 @@ def test_sensitivities_are_derivatives(seed: int) -> None:
 def test_a_sum_of_several_roots_weighs_each() -> None:
     p = Pool()
     a, b = p.symbol("a", Kind.PARAM), p.symbol("b", Kind.PARAM)
-    found = sensitivities({p.mul(a, b): 10.0, a: 1.0}, {"a": 3.0, "b": 0.0})
+    found = Valued({"a": 3.0, "b": 0.0}).sensitivities({p.mul(a, b): 10.0, a: 1.0})
     assert found == {"a": 3.0, "b": 30.0}
 
 
@@ -72,9 +72,9 @@ def test_comparisons_below_at_and_above_a_limit(op: str, expected: tuple[int, ..
 def test_no_value_and_no_slope() -> None:
     p = Pool()
     a = p.symbol("a", Kind.PARAM)
-    assert sensitivities({p.div(p.one, a): 1.0}, {"a": 0.0}) is None
-    assert sensitivities({a: 1.0}, {}) is None
-    found = sensitivities({p.fn("sqrt", a): 1.0}, {"a": 0.0})
+    assert Valued({"a": 0.0}).sensitivities({p.div(p.one, a): 1.0}) is None
+    assert Valued({}).sensitivities({a: 1.0}) is None
+    found = Valued({"a": 0.0}).sensitivities({p.fn("sqrt", a): 1.0})
     assert found is not None and math.isnan(found["a"])  # below zero there is no root
 
 
