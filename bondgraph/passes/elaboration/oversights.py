@@ -15,6 +15,7 @@ from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
 
 _SHOWN = 4  # places of one finding
+_NAMED = 24  # elements of one note that are named, the others counted
 
 # ------------------------------------------------------------------------------- values
 
@@ -85,7 +86,7 @@ def report_nameless(nodes: Iterable[NodeEntry], report: Report) -> None:
     number = example.declaration.value.origin.text
     report.info(
         "value-without-name",
-        f"{listed(names, len(names))} {'have' if many else 'has'} a number for a value: "
+        f"{listed(names, _NAMED)} {'have' if many else 'has'} a number for a value: "
         f"{'they are' if many else 'it is'} no fault {'candidates' if many else 'candidate'}.",
         *[Label(origin, "a number") for origin in list(first)[:_SHOWN]],
         help=f"What may fail is a param: `param {example.name} = {number}` and "
