@@ -37,11 +37,11 @@ def parity(
     part = plant.part_for(roots)
     trajectory = plant.trajectory(number, times + 2, modes=modes, part=part, roots=roots)
     rows = _Rows(plant, trajectory, faults, times).all()
-    left: list[Row] = []
+    left: dict[int, Row] = {}
     numbers = trajectory.algebra.numbers
     eliminate(numbers, rows, left)
     columns: dict[int, Row] = {}
-    for at, row in enumerate(left):
+    for at, row in enumerate(left.values()):
         for column, x in row.items():
             columns.setdefault(column, {})[at] = x
     found: dict[str, list[Row]] = {fault: [] for fault in faults}

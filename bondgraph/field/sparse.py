@@ -53,11 +53,11 @@ def add_multiple(numbers: Numbers, target: Row, factor: Number, source: Row) -> 
             target.pop(column, None)
 
 
-def eliminate(numbers: Numbers, rows: list[Row], left: list[Row] | None = None) -> list[Pivot]:
+def eliminate(numbers: Numbers, rows: list[Row], left: dict[int, Row] | None = None) -> list[Pivot]:
     """The pivots in the order of elimination; the rows are used up.
 
     Dependent rows vanish; columns without a pivot are free. Negative columns are never
-    eliminated: rows that have no others raise `Contradiction`, or are collected in `left`.
+    eliminated: rows that have no others raise `Contradiction`, or are kept in `left` by their number.
     """
     nonzero = numbers.nonzero
     where: dict[int, set[int]] = {}
@@ -80,7 +80,7 @@ def eliminate(numbers: Numbers, rows: list[Row], left: list[Row] | None = None) 
             if row and left is None:
                 raise Contradiction(number)
             if row and left is not None:
-                left.append(row)
+                left[number] = row
             continue
         column = min(columns, key=lambda c: (len(where[c]), c))
         scale = numbers.inverse(row.pop(column))

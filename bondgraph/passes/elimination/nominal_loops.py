@@ -10,11 +10,11 @@ decimals are exact there, so that a gain of exactly 1 is told from one that is c
 from __future__ import annotations
 
 from collections.abc import Container, Mapping
-from heapq import heapify, heappop, heappush
 from typing import TypeVar
 
-from bondgraph.field.prime import P
+from bondgraph.field.prime import ONE, PrimeField
 from bondgraph.field.random_point import RandomPoint
+from bondgraph.field.sparse import Row, eliminate
 from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import Expr, Kind, symbols
 from bondgraph.notation.line import show
@@ -101,50 +101,13 @@ def _circuits(rows: list[_Row]) -> list[list[int] | None]:
     Such a set loses its dependence with any one of its members. Elimination takes the shortest row
     first, each pivot in its rarest column (Markowitz 1957).
     """
-    rows = [dict(row) for row in rows]
-    made = [{k: 1} for k in range(len(rows))]
-    holders: dict[Expr, set[int]] = {}
+    numbers = PrimeField(1)
+    marked: list[Row] = []  # each row has a mark of its own: what is left of one is what it is of
     for k, row in enumerate(rows):
-        for variable in row:
-            holders.setdefault(variable, set()).add(k)
-    heap = [(len(row), k) for k, row in enumerate(rows)]
-    heapify(heap)
-    found: list[list[int] | None] = [None] * len(rows)
-    done = [False] * len(rows)
-    while heap:
-        size, k = heappop(heap)
-        row = rows[k]
-        if done[k] or size != len(row):
-            continue
-        done[k] = True
-        if not row:
-            found[k] = sorted(made[k])
-            continue
-        for variable in row:
-            holders[variable].discard(k)
-        pivot = min(row, key=lambda v: (len(holders[v]), v.id))
-        inverse = pow(row[pivot], -1, P)
-        for other in sorted(holders[pivot]):
-            factor = rows[other][pivot] * inverse % P
-            before = set(rows[other])
-            _subtract(rows[other], factor, row)
-            _subtract(made[other], factor, made[k])
-            for variable in row:
-                if variable in rows[other]:
-                    holders[variable].add(other)
-                elif variable in before:
-                    holders[variable].discard(other)
-            heappush(heap, (len(rows[other]), other))
-    return found
-
-
-def _subtract(target: dict[K, int], factor: int, source: dict[K, int]) -> None:
-    for key, c in source.items():
-        left = (target.get(key, 0) - factor * c) % P
-        if left:
-            target[key] = left
-        else:
-            target.pop(key, None)
+        marked.append({v.id: numbers.number(c) for v, c in row.items()} | {-2 - k: ONE})
+    left: dict[int, Row] = {}
+    eliminate(numbers, marked, left)
+    return [sorted(-2 - c for c in left[k]) if k in left else None for k in range(len(rows))]
 
 
 # ------------------------------------------------------------------------ telling
