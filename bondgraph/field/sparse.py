@@ -56,8 +56,8 @@ def add_multiple(numbers: Numbers, target: Row, factor: Number, source: Row) -> 
 def eliminate(numbers: Numbers, rows: list[Row], left: dict[int, Row] | None = None) -> list[Pivot]:
     """The pivots in the order of elimination; the rows are used up.
 
-    Dependent rows vanish; columns without a pivot are free. Negative columns are never
-    eliminated: rows that have no others raise `Contradiction`, or are kept in `left` by their number.
+    Dependent rows vanish; columns without a pivot are free. Negative columns are never eliminated:
+    rows that have no others raise `Contradiction`, or are kept in `left` by their number.
     """
     nonzero = numbers.nonzero
     where: dict[int, set[int]] = {}

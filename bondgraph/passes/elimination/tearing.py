@@ -8,17 +8,18 @@ D = d/dt with constant coefficients. A row that holds a torn variable without de
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterable
 from contextlib import suppress
+from operator import attrgetter
 
 from bondgraph.algebra.affine import affine
 from bondgraph.algebra.implicit import invert
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.operators import LinearRow, Operators
-from bondgraph.algebra.solve import ITERATED, Solution, solve
+from bondgraph.algebra.solve import solve
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
-from bondgraph.ir.nodes import constant, holding
+from bondgraph.ir.nodes import holding
 from bondgraph.text.tuples import NamedTuple
 
 
@@ -29,16 +30,38 @@ class _Row(NamedTuple):
     expr: Expr
 
 
-class _Pivot(NamedTuple):
-    """A row, a torn variable of it, its value, and how many signals that is divided by."""
+class _Price(NamedTuple):
+    """What is to be avoided in a pivot, the worst first.
 
+    It may give a torn variable in terms of others although the row is not linear in it, turn a law
+    around, or divide by signals: so many of them and of their derivatives.
+    """
+
+    nested: bool
+    inverted: bool
+    divisors: int
+
+
+class _Offer(NamedTuple):
+    """A row and a torn variable that it holds without derivative."""
+
+    price: _Price
     item: _Row
     symbol: Expr
+
+
+class _Pivot(NamedTuple):
+    """An offer with the value of the variable."""
+
+    offer: _Offer
     value: Expr
-    divisors: int = 0
 
 
-class _Knot(NamedTuple):
+_price = attrgetter("price")
+_PLAIN = _Price(nested=False, inverted=False, divisors=0)
+
+
+class _Tied(NamedTuple):
     """Places of pending rows that torn variables tie to a nonlinear one.
 
     `surplus` is how many relations they would give if these variables could be computed, `linear`
@@ -76,7 +99,7 @@ class Loops:
         self.plain: list[_Row] = []
         self.lost: list[Lost] = []  # what cost a relation
         self.tears: dict[Expr, list[Expr]] = {}  # expression to the torn variables in it
-        self.gentle: dict[Expr, _Pivot | None] = {}  # row to the pivot that it offers
+        self.priced: dict[Expr, list[tuple[_Price, Expr]]] = {}  # row to what it could give
         self.unsolvable: set[tuple[Expr, Expr]] = set()
         self.identities = 0  # relations that hold whatever the machine does
         self.raised = False  # whether a derivative was put into another row
@@ -130,88 +153,61 @@ class Loops:
     def solve_algebraic(self) -> None:
         """Give a value to every torn variable that some row holds without derivative."""
         while self.pending:
-            gentle = self._gentlest() if self.patient else None
-            harsh = self.patient and (gentle is None or gentle.divisors)
-            if harsh and self._lower(self._knots()[0]):
+            found = self._cheapest()
+            dear = found is None or found.offer.price > _PLAIN
+            if self.patient and dear and self._lower(self._tied()[0]):
                 continue
-            found = gentle or self._first(self._pivot) or self._first(self._nested)
             if found is None:
                 return
-            self.pending.remove(found.item)
-            self._record(found.symbol, _Row(found.item.rows, found.value))
+            item = found.offer.item
+            self.pending.remove(item)
+            self._record(found.offer.symbol, _Row(item.rows, found.value))
 
-    def _first(self, attempt: Callable[[_Row], tuple[Expr, Expr] | None]) -> _Pivot | None:
-        pivots = ((item, attempt(item)) for item in self.pending)
-        return next((_Pivot(item, *pivot) for item, pivot in pivots if pivot is not None), None)
-
-    def _gentlest(self) -> _Pivot | None:
-        """The row that gives a torn variable while it is divided by the fewest signals."""
-        best: _Pivot | None = None
-        for item in self.pending:
-            if item.expr not in self.gentle:
-                self.gentle[item.expr] = self._gentle(item)
-            found = self.gentle[item.expr]
-            if found is not None and (best is None or found.divisors < best.divisors):
-                best = found._replace(item=item)
-                if not best.divisors:
-                    return best
-        return best
-
-    def _gentle(self, item: _Row) -> _Pivot | None:
-        """The torn variable that a row linear in it gives with the fewest signals as divisors."""
-        pivots = []
-        for symbol in self._tears(item.expr):
-            parts = affine(self.pool, item.expr, symbol)
-            if parts is None or self._tears(parts[0]) or is_zero(parts[0]):
-                continue
-            found = solve(self.pool, item.expr, symbol, self.nominal.vanishes)
-            if found is not None:
-                pivots.append(_Pivot(item, symbol, found.value, _signals(parts[0])))
-        return min(pivots, key=lambda p: p.divisors, default=None)
-
-    def _nested(self, item: _Row) -> tuple[Expr, Expr] | None:
-        """A torn variable that a nonlinear row gives in terms of other torn ones."""
-        for symbol in self._tears(item.expr):
-            if not _differentiated(item.expr, symbol):
-                found = self._solve(item.expr, symbol)
-                if found is not None:
-                    return symbol, found.value
+    def _cheapest(self) -> _Pivot | None:
+        """The first offer that has a solution."""
+        for offer in self._offers():
+            value = self._value(offer.item.expr, offer.symbol)
+            if value is not None:
+                return _Pivot(offer, value)
         return None
 
-    def _solve(self, zero: Expr, symbol: Expr) -> Solution | None:
+    def _offers(self) -> Iterable[_Offer]:
+        """What rows could give: row after row, if `patient` the cheapest of all of them first."""
+        if self.patient:
+            return sorted((o for item in self.pending for o in self._in(item)), key=_price)
+        each = [(nested, item) for nested in (False, True) for item in self.pending]
+        return (o for nested, item in each for o in self._in(item) if o.price.nested is nested)
+
+    def _in(self, item: _Row) -> list[_Offer]:
+        """The torn variables that a row holds without derivative, the cheapest first."""
+        if item.expr not in self.priced:
+            prices = ((s, self._priced(item.expr, s)) for s in self._tears(item.expr))
+            found = [(price, symbol) for symbol, price in prices if price is not None]
+            self.priced[item.expr] = sorted(found, key=lambda offer: offer[0])
+        return [_Offer(price, item, symbol) for price, symbol in self.priced[item.expr]]
+
+    def _priced(self, zero: Expr, symbol: Expr) -> _Price | None:
+        """What it would take to have a torn variable from a row; None where it cannot give it."""
+        if _differentiated(zero, symbol):
+            return None
+        parts = affine(self.pool, zero, symbol)
+        if parts is None:
+            return _Price(len(self._tears(zero)) > 1, True, 0)
+        if is_zero(parts[0]):
+            return None
+        return _Price(bool(self._tears(parts[0])), False, _signals(parts[0]))
+
+    def _value(self, zero: Expr, symbol: Expr) -> Expr | None:
         """The value of a torn variable, by iteration where there is no closed form."""
         if (zero, symbol) in self.unsolvable:
             return None
-        found = solve(self.pool, zero, symbol, self.nominal.vanishes)
-        if found is None and affine(self.pool, zero, symbol) is None:
+        solved = solve(self.pool, zero, symbol, self.nominal.vanishes)
+        value = None if solved is None else solved.value
+        if solved is None and affine(self.pool, zero, symbol) is None:
             value = invert(self.pool, zero, symbol, self.nominal.value, self.variable[symbol])
-            found = None if value is None else Solution(value, ITERATED, True)
-        if found is None:
+        if value is None:
             self.unsolvable.add((zero, symbol))
-        return found
-
-    def _pivot(self, item: _Row) -> tuple[Expr, Expr] | None:
-        """A torn variable of the row and its value from it."""
-        tears = self._tears(item.expr)
-        fallback = None
-        for symbol in tears:
-            parts = affine(self.pool, item.expr, symbol)
-            if parts is None:
-                if len(tears) == 1 and not _differentiated(item.expr, symbol):
-                    found = self._solve(item.expr, symbol)
-                    if found is not None:
-                        return symbol, found.value
-                continue
-            slope = parts[0]
-            if self._tears(slope) or is_zero(slope):
-                continue
-            found = solve(self.pool, item.expr, symbol, self.nominal.vanishes)
-            if found is None:
-                continue
-            if constant(slope):
-                return symbol, found.value
-            fallback = fallback or (symbol, found.value)
-        return fallback
+        return value
 
     def _record(self, symbol: Expr, value: _Row) -> None:
         self.solved[symbol] = value
@@ -237,24 +233,24 @@ class Loops:
         among the others say of each other is not.
         """
         self.solve_algebraic()
-        knots, linear = self._knots()
-        while self._lower([knot for knot in knots if knot.surplus]):
+        groups, linear = self._tied()
+        while self._lower([group for group in groups if group.surplus]):
             self.solve_algebraic()
-            knots, linear = self._knots()
+            groups, linear = self._tied()
         found = [(item.rows, item.expr) for item in self.plain] + self.operators.relations(linear)
-        for knot in knots:
-            alone = self.operators.relations(knot.linear)
+        for group in groups:
+            alone = self.operators.relations(group.linear)
             found += alone
-            surplus = knot.surplus - len(alone)
+            surplus = group.surplus - len(alone)
             if surplus > 0:
-                items = [self.pending[at] for at in knot.members]
+                items = [self.pending[at] for at in group.members]
                 rows = tuple(r for item in items for r in item.rows)
                 self.lost.append(Lost(rows, tuple(i.rows[-1] for i in items[-surplus:])))
         telling = [(rows, expr) for rows, expr in found if not is_zero(expr)]
         self.identities = len(found) - len(telling)
         return telling
 
-    def _knots(self) -> tuple[list[_Knot], list[LinearRow]]:
+    def _tied(self) -> tuple[list[_Tied], list[LinearRow]]:
         """Pending rows that are tied to a nonlinear one by torn variables, and the linear rest."""
         forms = [self.operators.linear(item.rows, item.expr) for item in self.pending]
         tears = [
@@ -265,7 +261,7 @@ class Loops:
         for at, names in enumerate(tears):
             for symbol in names:
                 holders.setdefault(symbol, []).append(at)
-        knots = []
+        groups = []
         held: set[int] = set()
         for start, form in enumerate(forms):
             if form is not None or start in held:
@@ -282,18 +278,18 @@ class Loops:
                         members += tied
             members.sort()
             inside = [form for at in members if (form := forms[at]) is not None]
-            knots.append(_Knot(members, max(0, len(members) - variables), inside))
-        return knots, [f for at, f in enumerate(forms) if f is not None and at not in held]
+            groups.append(_Tied(members, max(0, len(members) - variables), inside))
+        return groups, [f for at, f in enumerate(forms) if f is not None and at not in held]
 
-    def _lower(self, knots: list[_Knot]) -> bool:
-        """Take a derivative out of a row of each knot; False if there is none to take."""
+    def _lower(self, groups: list[_Tied]) -> bool:
+        """Take a derivative out of a row of each group; False if there is none to take."""
         done = False
-        for knot in knots:
-            items = [self.pending[at] for at in knot.members]
+        for group in groups:
+            items = [self.pending[at] for at in group.members]
             found = self.operators.lowered([item.expr for item in items])
             if found is not None:
                 rows = tuple(dict.fromkeys((*items[found.by].rows, *items[found.row].rows)))
-                self.pending[knot.members[found.row]] = _Row(rows, found.expr)
+                self.pending[group.members[found.row]] = _Row(rows, found.expr)
                 self.raised = done = True
         self.plain += [item for item in self.pending if not self._tears(item.expr)]
         self.pending = [item for item in self.pending if self._tears(item.expr)]
