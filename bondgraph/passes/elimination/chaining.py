@@ -5,7 +5,7 @@ forward from sensors and sources, and each equation that is left when its variab
 is an analytical redundancy relation. Cheapest means: no integration of a storage, then no
 division by a signal, then the lowest derivative, then the shortest path (Knuth's generalisation
 of Dijkstra's algorithm, 1977); ties go by the surroundings and never by names. What stalls is a
-loop (`loops`) or a storage whose only access is through its integral.
+loop (`tearing`) or a storage whose only access is through its integral.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Eliminate the unknowns, in another order where the first leaves something to be wished for.
 
-Most models take one elimination (`chain`). What costs more is tried only where it is needed.
+Most models take one elimination (`chaining`). What costs more is tried only where it is needed.
 """
 
 from __future__ import annotations
