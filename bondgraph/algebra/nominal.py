@@ -70,9 +70,12 @@ class Nominal:
         """
         if expr.op is Op.NUM:
             return not expr.number
-        for node in topological([expr], stop=self._nothing.__contains__):
-            if node not in self._nothing:
-                self._nothing[node] = self._vanishes(node)
+        if expr not in self._nothing:
+            self.value(expr)  # of all that it is made of, in one pass, and so is the next
+            self._doubt(expr)
+            for node in topological([expr], stop=self._nothing.__contains__):
+                if node not in self._nothing:
+                    self._nothing[node] = self._vanishes(node)
         return self._nothing[expr]
 
     def _vanishes(self, node: Expr) -> bool:
@@ -140,9 +143,10 @@ class Nominal:
 
     def _doubt(self, expr: Expr) -> float:
         """A bound on the rounding error of `value` (running error analysis, Wilkinson 1963)."""
-        for node in topological([expr], stop=self._doubts.__contains__):
-            if node not in self._doubts:
-                self._doubts[node] = self._rounding(node)
+        if expr not in self._doubts:
+            for node in topological([expr], stop=self._doubts.__contains__):
+                if node not in self._doubts:
+                    self._doubts[node] = self._rounding(node)
         return self._doubts[expr]
 
     def _rounding(self, node: Expr) -> float:
