@@ -182,7 +182,7 @@ def _add_values(
             failures[node] = failure
 
 
-class Evaluated:
+class Incremental:
     """A relation at a point, evaluated again and again with little that is different.
 
     What does not rest on what has changed is computed once.

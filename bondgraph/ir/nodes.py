@@ -7,17 +7,17 @@ from collections.abc import Callable, Iterable
 from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, below, topological
 
 
-def holding(roots: Iterable[Expr], own: Callable[[Expr], object]) -> dict[Expr, None]:
+def holding(roots: Iterable[Expr], own: Callable[[Expr], bool]) -> dict[Expr, None]:
     """The nodes of which `own` is true, and all that are made of them, arguments first.
 
     >>> from bondgraph.ir.expr import Kind, Pool
     >>> p = Pool(); x, y = p.symbol("x", Kind.SENSOR), p.symbol("y", Kind.SENSOR)
-    >>> list(holding([p.add((1, x), (2, p.mul(x, y)))], y.__eq__))
+    >>> list(holding([p.add((1, x), (2, p.mul(x, y)))], lambda node: node is y))
     [y, x*y, x + 2*x*y]
     """
     found: dict[Expr, None] = {}
     for node in topological(roots):
-        if own(node) is True or any(a in found for a in node.args):
+        if own(node) or any(a in found for a in node.args):
             found[node] = None
     return found
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import ClassVar
@@ -24,7 +25,7 @@ def spoken(name: str) -> str:
     return _SPEAKING.get(name, name.rpartition(":")[2])
 
 
-class Typeset(Speller):
+class Typeset(Speller, ABC):
     """Spells formulas in two dimensions, with `letters` for the names.
 
     `words` has the template of every sign: `fraction`, `e` (digits, power of ten), `dash` (the
@@ -44,9 +45,9 @@ class Typeset(Speller):
         """The digits of a number."""
         return text
 
+    @abstractmethod
     def called(self, name: str) -> str:
         """The name of a function."""
-        raise NotImplementedError
 
     def d_dt(self, order: int) -> str:
         """The sign of the time derivative of some order."""

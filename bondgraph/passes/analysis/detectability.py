@@ -7,7 +7,7 @@ from functools import cached_property, partial
 from random import Random
 from typing import Any
 
-from bondgraph.exact.evaluate import Evaluated, Sample, evaluate, sensitivities
+from bondgraph.exact.evaluate import Incremental, Sample, evaluate, sensitivities
 from bondgraph.exact.exponentials import ExponentialSample
 from bondgraph.exact.outline import highest_order, integral_depth
 from bondgraph.exact.plant import ExactUnavailable, Plant
@@ -142,7 +142,7 @@ class _Relation:
         self._expr = expr
         self._integrals = [node for node in topological([expr]) if node.op is Op.INT]
         self._size = integral_depth([expr]) + 2
-        self._evaluated: dict[tuple[Expr, Sample], Evaluated] = {}
+        self._evaluated: dict[tuple[Expr, Sample], Incremental] = {}
 
     @cached_property
     def _sloped(self) -> frozenset[Expr]:
@@ -202,11 +202,11 @@ class _Relation:
         except (ExactUnavailable, Undefined, Mixed):
             return True
 
-    def _at(self, expr: Expr, point: Sample) -> Evaluated:
+    def _at(self, expr: Expr, point: Sample) -> Incremental:
         size = self._size if expr is self._expr else 1
         found = self._evaluated.get((expr, point))
         if found is None:
-            found = self._evaluated[expr, point] = Evaluated(expr, point, size)
+            found = self._evaluated[expr, point] = Incremental(expr, point, size)
         return found
 
 

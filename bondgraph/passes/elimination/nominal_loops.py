@@ -110,7 +110,7 @@ def _circuits(rows: list[_Row]) -> list[list[int] | None]:
     return [sorted(-2 - c for c in left[k]) if k in left else None for k in range(len(rows))]
 
 
-# ------------------------------------------------------------------------ telling
+# ------------------------------------------------------------------ what is told
 
 
 def _decisive(

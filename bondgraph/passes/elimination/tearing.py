@@ -246,9 +246,9 @@ class Loops:
                 items = [self.pending[at] for at in group.members]
                 rows = tuple(r for item in items for r in item.rows)
                 self.lost.append(Lost(rows, tuple(i.rows[-1] for i in items[-surplus:])))
-        telling = [(rows, expr) for rows, expr in found if not is_zero(expr)]
-        self.identities = len(found) - len(telling)
-        return telling
+        relations = [(rows, expr) for rows, expr in found if not is_zero(expr)]
+        self.identities = len(found) - len(relations)
+        return relations
 
     def _tied(self) -> tuple[list[_Tied], list[LinearRow]]:
         """Pending rows that are tied to a nonlinear one by torn variables, and the linear rest."""
