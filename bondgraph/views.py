@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, overload
 
-from bondgraph.ir.expr import ZERO_START, Expr, Kind
+from bondgraph.ir.expr import ZERO_START, Expr, Kind, Symbol
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Missing, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
@@ -29,9 +29,16 @@ class Relation:
     (1, False)
     """
 
-    def __init__(self, graph: BondGraph, residual: Residual, matrix: SignatureMatrix) -> None:
+    def __init__(
+        self,
+        graph: BondGraph,
+        residual: Residual,
+        matrix: SignatureMatrix,
+        starts: Mapping[Symbol, Expr],
+    ) -> None:
         self._graph = graph
         self._matrix = matrix
+        self._starts = starts  # the graph's initial values, found once for all its relations
         self.residual = residual
         self.name = residual.name
 
@@ -42,14 +49,14 @@ class Relation:
         from bondgraph.algebra.symbolic import to_sympy
 
         root = tidy(self._graph.pool, *self._graph.pool.logged([self.residual.expr]))[0]
-        return to_sympy(root, starts=self._graph.initial_values())
+        return to_sympy(root, starts=self._starts)
 
     @cached_property
     def closed_form(self) -> ClosedForm:
         """The relation as text, its shared parts named and written once."""
         from bondgraph.algebra.present import closed_form
 
-        return closed_form(self._graph, self.residual)
+        return closed_form(self._graph, self.residual, self._starts)
 
     @property
     def text(self) -> str:
@@ -63,7 +70,7 @@ class Relation:
         from bondgraph.notation.latex import latex
 
         root = tidy(self._graph.pool, *self._graph.pool.logged([self.residual.expr]))[0]
-        return latex(root, self._graph.initial_values())
+        return latex(root, self._starts)
 
     @property
     def orders(self) -> dict[str, int]:
@@ -88,7 +95,7 @@ class Relation:
 
         pool = self._graph.pool
         zero = pool.symbol(ZERO_START, Kind.INITIAL).symbol
-        starts = {**self._graph.initial_values(), zero: pool.zero}
+        starts = {**self._starts, zero: pool.zero}
         return to_sympy(self.sensitivity_node(fault), starts=starts)
 
     def sensitivity_node(self, fault: str) -> Expr:
@@ -98,9 +105,9 @@ class Relation:
         if fault not in self._graph.faults:
             raise KeyError(fault)
         symbol = self._graph.fault_symbol(fault)
-        starts = self._graph.initial_values()
-        slope = sensitivity(self._graph.pool, self.residual.expr, [symbol], starts)[symbol]
-        return self._graph.pool.logged([slope])[0]
+        pool, root = self._graph.pool, self.residual.expr
+        slope = sensitivity(pool, root, [symbol], self._starts)[symbol]
+        return pool.logged([slope])[0]
 
     def effect(self, fault: str, signals: Mapping[str, Any], at: float = 0.0) -> float:
         """The relative sensitivity theta dr/dtheta: by how much the relation is off for 100 %.
@@ -154,8 +161,9 @@ class Relations(Sequence[Relation]):
 
     def __init__(self, residuals: ResidualSet, matrix: SignatureMatrix) -> None:
         graph = residuals.system.graph
+        starts = graph.initial_values()
         self.residual_set = residuals
-        self._all = tuple(Relation(graph, r, matrix) for r in residuals.residuals)
+        self._all = tuple(Relation(graph, r, matrix, starts) for r in residuals.residuals)
 
     @overload
     def __getitem__(self, key: int | str) -> Relation: ...

@@ -153,12 +153,7 @@ class Code:
 
     def block(self, number: int, block: Block) -> dict[str, object]:
         """The holes of block.c.j2."""
-        known = {k.name: k for k in self.program.knowns}
-        samples = [
-            f"s->{self.spelling.knowns[name]}"
-            for name in block.knowns
-            if known[name].kind != "mode" and known[name].counts is None
-        ]
+        samples = [f"s->{name}" for name in self.spelling.measured(block)]
         numbers = [self._number(r) for r in block.residuals]
         results = [f"r[{number}]" for number in numbers]
         return {
@@ -190,9 +185,8 @@ class Code:
             self.target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
         )
         counts = [
-            f"    {count}(&monitor->e.{name}, s->{spelling.knowns[signal]});"
-            for (owner, signal), name in spelling.encoders.items()
-            if owner == block.name
+            f"    {count}(&monitor->e.{memory}, s->{member});"
+            for memory, member in spelling.counted(block)
         ]
         head = self._pointers(statements, "cxe", bool(counts))
         if counts:

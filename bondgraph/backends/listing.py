@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
+from bisect import bisect_right
 from collections.abc import Iterable
 
 from bondgraph.backends.target import Target
@@ -85,16 +86,18 @@ def _fill(text: str, first: str, rest: str, target: Target) -> list[str]:
     A line that begins deeper in brackets, or in the middle of a product, stands further right.
     """
     places = _places(text)
+    ends = [at for at, _, _ in places]
     lines: list[str] = []
     lead, start, began = first, 0, -2
     while True:
         room = start + target.width - len(lead)
-        ahead = [p for p in places if p[0] > start]
+        ahead = bisect_right(ends, start)
+        within = places[ahead : bisect_right(ends, room)]
         # a line that began deep in brackets ends where they do
-        outer = next((p for p in ahead if p[1] < began and p[0] <= room), None)
+        outer = next((p for p in within if p[1] < began), None)
         if outer is None and len(text) <= room:
             break
-        fitting = [p for p in ahead if p[0] <= room] or ahead[:1]
+        fitting = within or places[ahead : ahead + 1]
         if not fitting:
             break
         least = min(cost for _, cost, _ in fitting)

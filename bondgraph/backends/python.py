@@ -338,12 +338,7 @@ class _Module:
 
     def _block(self, number: int, block: Block) -> dict[str, object]:
         spelling = self.spelling
-        known = {k.name: k for k in self.program.knowns}
-        measured = [
-            f"s.{spelling.knowns[name]}"
-            for name in block.knowns
-            if known[name].kind != "mode" and known[name].counts is None
-        ]
+        measured = [f"s.{name}" for name in spelling.measured(block)]
         results = [f"r.{spelling.residuals[r]}" for r in block.residuals]
         return {
             "name": block.name,
@@ -368,9 +363,8 @@ class _Module:
         if "state" in spaces:
             head.append("        x = self._x")
         counts = [
-            f"        self._e.{name}.{count}(s.{spelling.knowns[signal]})"
-            for (owner, signal), name in spelling.encoders.items()
-            if owner == block.name
+            f"        self._e.{memory}.{count}(s.{member})"
+            for memory, member in spelling.counted(block)
         ]
         if spaces & {"increment", "total"}:
             head.append("        e = self._e")

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
+from functools import cached_property
 
-from bondgraph.backends.blocks import blocks
+from bondgraph.backends.blocks import Block, blocks
 from bondgraph.backends.identifiers import identifier, snake, spellings
 from bondgraph.backends.target import Target
 from bondgraph.ir.expr import backwards, read_backwards
@@ -56,14 +58,16 @@ class Spelling:
 
     def _numbers(self, program: Program) -> dict[str, str]:
         upper = {r.name: identifier(r.name).upper() for r in program.residuals}
+        taken = set(CONSTANTS)
         free: dict[str, str] = {}
         for name, own in upper.items():
-            while own in CONSTANTS or own in free.values():
+            while own in taken:
                 own += "_"
+            taken.add(own)
             free[name] = own
         return free
 
-    @property
+    @cached_property
     def progress(self) -> dict[str, str]:
         """The memory that has to be 1 before a residual is valid, by residual."""
         return {o.residual: self.states[o.progress] for o in self._openings}
@@ -76,10 +80,9 @@ class Spelling:
             for name in block.knowns
             if self._known[name].counts is not None
         ]
-        signals = [name for _, name in pairs]
+        users = Counter(name for _, name in pairs)
         wanted = {
-            (block, name): name if signals.count(name) == 1 else f"{name}_{block}"
-            for block, name in pairs
+            (block, name): name if users[name] == 1 else f"{name}_{block}" for block, name in pairs
         }
         free = spellings(wanted.values(), self.target.words)
         return {key: free[name] for key, name in wanted.items()}
@@ -99,6 +102,16 @@ class Spelling:
             taken.add(own)
             found[key] = own
         return found
+
+    def measured(self, block: Block) -> list[str]:
+        """The members of a sample that a block reads as they are: plain numbers."""
+        plain = (self._known[name] for name in block.knowns)
+        return [self.knowns[k.name] for k in plain if k.kind != "mode" and k.counts is None]
+
+    def counted(self, block: Block) -> list[tuple[str, str]]:
+        """The encoders of a block: the memory of each and its member of a sample."""
+        memories = ((self.encoders.get((block.name, name)), name) for name in block.knowns)
+        return [(memory, self.knowns[name]) for memory, name in memories if memory is not None]
 
     def has_derivatives(self, known: str) -> bool:
         """Whether exact takes the signal as an array: itself and its derivatives."""

@@ -35,7 +35,7 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
         for name, why in missing(compilation):
             lines += [f"  {name}", *prose(why, columns, "    ")]
     if matrix.faults and matrix.residuals:
-        lines += ["", "Fault signatures", *signature_table(matrix)]
+        lines += ["", "Fault signatures", *signature_table(matrix, columns)]
     lines += _elsewhere(matrix, columns)
     lines += [f"  {r}  is not confirmed: {why}" for r, why in matrix.unconfirmed.items()]
     lines += _modes(compilation, columns)

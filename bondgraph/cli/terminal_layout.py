@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import textwrap
+from itertools import compress
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -86,16 +87,19 @@ def prose(text: str, columns: int, lead: str) -> list[str]:
     return lines or [lead]
 
 
-def signature_table(matrix: SignatureMatrix) -> list[str]:
+def signature_table(matrix: SignatureMatrix, columns: int) -> list[str]:
     """The detectable faults with the residuals that see them; equal signatures stand together.
 
-    Mb says that a fault can be detected, Ib that it can be told apart from all others.
+    Mb says that a fault can be detected, Ib that it can be told apart from all others. A table
+    wider than two lines of output cannot be read; its signatures are listed by name instead.
     """
     longest = max([5, *(len(f) for f in matrix.faults)])
     cells = [max(3, len(r)) for r in matrix.residuals]
+    blocks = [list(group) for group in matrix.groups]
+    if longest + sum(cells) + 2 * len(cells) > 2 * columns:
+        return _listed_signatures(matrix, blocks, columns)
     head = "  ".join(r.rjust(w) for r, w in zip(matrix.residuals, cells, strict=True))
     lines = [f"  {'':{longest}}  {head}   Mb  Ib"]
-    blocks = [list(group) for group in matrix.groups]
     if matrix.undetectable:
         blocks.append(list(matrix.undetectable))
     for block in blocks:
@@ -108,4 +112,16 @@ def signature_table(matrix: SignatureMatrix) -> list[str]:
             lines.append(f"  {fault:{longest}}  {marks}   {detected:2}  {alone:2}")
         if block is not blocks[-1]:
             lines.append("")
+    return lines
+
+
+def _listed_signatures(
+    matrix: SignatureMatrix, groups: list[list[str]], columns: int
+) -> list[str]:
+    """The faults of each group above the residuals that see them."""
+    rows = dict(zip(matrix.faults, matrix.rows, strict=True))
+    lines = []
+    for group in groups:
+        lines += names(group, columns, "  ")
+        lines += names(compress(matrix.residuals, rows[group[0]]), columns, "      seen by ")
     return lines

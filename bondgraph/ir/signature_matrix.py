@@ -74,7 +74,7 @@ class SignatureMatrix(NamedTuple):
     def only_off_nominal(self, residual: str) -> dict[str, tuple[str, ...]]:
         """The faults that a residual sees only where declared values differ, with these values."""
         found = {fault: values for (name, fault), values in self.apart.items() if name == residual}
-        return {fault: found[fault] for fault in self.faults if fault in found}
+        return {fault: found[fault] for fault in self.faults if fault in found} if found else {}
 
     def confused_with(self, fault: str) -> tuple[str, ...]:
         """The other faults with the same signature."""

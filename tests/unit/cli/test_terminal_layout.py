@@ -57,7 +57,7 @@ def test_equal_signatures_stand_together() -> None:
         ((True, False), (False, True), (True, False), (False, False)),
         ({}, {}),
     )
-    assert signature_table(matrix) == [
+    assert signature_table(matrix, 100) == [
         "          r1   r2   Mb  Ib",
         "  R        1    .    1   0",
         "  L        1    .    1   0",
@@ -66,3 +66,11 @@ def test_equal_signatures_stand_together() -> None:
         "",
         "  m        .    .    0   0",
     ]
+
+
+def test_signatures_too_wide_for_a_table_are_listed() -> None:
+    residuals = tuple(f"r{k}" for k in range(1, 7))
+    rows = ((True, *[False] * 4, True), (True, *[False] * 4, True), (False,) * 6)
+    matrix = SignatureMatrix(residuals, ("R", "K", "m"), rows, ({},) * 6)
+    assert len(signature_table(matrix, 20)[0]) > 20  # two lines of output hold it
+    assert signature_table(matrix, 15) == ["  R, K", "      seen by r1,", "              r6"]
