@@ -49,7 +49,7 @@ class Options(NamedTuple):
     `rate` in samples a second, `bandwidth` of the residual filter in rad/s (None: chosen from the
     rate), `resolution` the relative size below which a term cannot be seen (12 bits; 0: each is
     seen), `targets` the languages to emit, `seed` of the random points that the exact verification
-    uses, `decouple` the faults that further relations are to be free of, by combining relations.
+    uses, `decouple` the faults that further relations are to be free of.
     With `open_ports` the model is a part of a machine: its ports may be left without a bond.
     """
 
@@ -261,22 +261,6 @@ class Compilation:
         return self._stage(eliminate(self.equations, self.report))
 
     @cached_property
-    def decoupled(self) -> ReducedSystem:
-        """The same with relations that are free of the faults to `decouple`, if there are any.
-
-        Raises KeyError for a fault that the model does not have.
-        """
-        if not self.options.decouple:
-            return self.reduced
-        from bondgraph.passes.analysis.signatures import signatures
-        from bondgraph.passes.elimination.decouple import decouple
-
-        seed, plant = self.options.seed, self._plant
-        first = signatures(self.reduced, self.report, seed, plant)
-        faults = self.options.decouple
-        return self._stage(decouple(self.reduced, *first, faults, plant, self.report, seed))
-
-    @cached_property
     def residuals(self) -> Relations:
         """The analytical redundancy relations, without what cancels in them.
 
@@ -346,10 +330,19 @@ class Compilation:
     def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:
         from bondgraph.passes.analysis.signatures import signatures
         from bondgraph.passes.elimination.shortfall import stop_without_any
+        from bondgraph.passes.relation.form import relations, with_further
 
-        found = signatures(self.decoupled, self.report, self.options.seed, self._plant)
-        stop_without_any(self.report, found[0])
-        return self._stage(found)
+        seed, plant = self.options.seed, self._plant
+        residuals = relations(self.reduced, plant, seed)
+        matrix = signatures(residuals, plant, seed)
+        if self.options.decouple:
+            from bondgraph.passes.elimination.decouple import decouple
+
+            found = decouple(residuals, matrix, self.options.decouple, self.report)
+            residuals = with_further(residuals, found, plant, seed)
+            matrix = signatures(residuals, plant, seed)
+        stop_without_any(self.report, residuals)
+        return self._stage((residuals, matrix))
 
     @cached_property
     def _plant(self) -> Plant:

@@ -99,7 +99,7 @@ def run(args: Namespace) -> int:
 _STAGES = (
     ("reading", "graph"),
     ("causality", "integral"),
-    ("eliminating", "decoupled"),
+    ("eliminating", "reduced"),
     ("signatures", "signatures"),
     ("verifying", "verification"),
     ("lowering", "program"),

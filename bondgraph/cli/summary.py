@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bondgraph.cli.reasons import message, missing, reasons
 from bondgraph.cli.terminal_layout import formula, names, prose, signature_table, width
 from bondgraph.ir.expr import topological
-from bondgraph.notation.dump_stages import equation_name
+from bondgraph.notation.dump_stages import residual_origin
 from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ def closed_form(
     At most `longest` lines (None: all).
     """
     source = compilation.source
-    lines = [f"{relation.name}  {equation_name(relation.residual.closing, source)}"]
+    lines = [f"{relation.name}  {residual_origin(relation.residual, source)}"]
     indent = " " * (len(relation.name) + 2)
     nodes = len(topological([relation.residual.expr]))
     if longest is not None and nodes > 40 * longest:  # not worth the time it takes to write

@@ -31,8 +31,9 @@ class Residual(NamedTuple):
     `closing` is the equation that was left over and became the relation, `steps` the elimination
     steps that it rests on, in order: the causal path from the known signals to the closing
     equation. `differentiated` counts how often the relation was differentiated because an initial
-    value is not declared. `free_of` names the fault that it was made to be free of, by combining
-    two others.
+    value is not declared. `free_of` names the fault that it was made to be free of. `raw` is as in
+    `Closing`; `orders` has the highest derivative of each known signal that the residual holds
+    (-1: only under an integral).
     """
 
     name: str
@@ -40,7 +41,9 @@ class Residual(NamedTuple):
     closing: Equation
     steps: tuple[Step, ...]
     differentiated: int
-    free_of: str | None = None
+    free_of: str | None
+    raw: Expr
+    orders: dict[str, int]
 
 
 class Missing(NamedTuple):

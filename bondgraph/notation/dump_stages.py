@@ -264,7 +264,7 @@ def dump_residuals(found: ResidualSet) -> str:
 
 def residual_path(residual: Residual, source: Source) -> str:
     """The elimination path of one residual, from the known signals to the closing equation."""
-    lines = [f"{residual.name}: left over is {equation_name(residual.closing, source)}"]
+    lines = [f"{residual.name}: left over is {residual_origin(residual, source)}"]
     lines += table(step_row(step, source) for step in residual.steps)
     if residual.differentiated:
         times = "once" if residual.differentiated == 1 else f"{residual.differentiated} times"
@@ -289,6 +289,12 @@ def equation_name(equation: Equation, source: Source) -> str:
         "sensor": "sensor",
     }[equation.kind]
     return f"{noun} {equation.name}, {place(equation.origin, source)}"
+
+
+def residual_origin(residual: Residual, source: Source) -> str:
+    """Where a residual stands in the model, and what it was made to be free of."""
+    made = "" if residual.free_of is None else f", free of {residual.free_of}"
+    return equation_name(residual.closing, source) + made
 
 
 def dump_signatures(matrix: SignatureMatrix) -> str:

@@ -9,7 +9,6 @@ from warnings import warn
 RENAMED = {
     "Compilation": {
         "best": "maximum_isolability",
-        "combined": "decoupled",
         "diagnoses": "minimal_diagnoses",
         "facts": "diagnosis_model",
         "modes": "mode_signatures",

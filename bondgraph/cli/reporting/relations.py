@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bondgraph.algebra.present import parts
 from bondgraph.backends.report.content import PathLine, RelationPart
 from bondgraph.backends.report.formulas import operations
-from bondgraph.notation.dump_stages import equation_name, place
+from bondgraph.notation.dump_stages import place, residual_origin
 from bondgraph.passes.relation.path import path
 from bondgraph.text.numerals import plural
 
@@ -63,7 +63,7 @@ def _relation(
     orders = {s: n for s, n in relation.orders.items() if s not in modes}
     return RelationPart(
         relation.name,
-        equation_name(residual.closing, source),
+        residual_origin(residual, source),
         html,
         too_long,
         lines,
@@ -113,7 +113,7 @@ def _notes(compilation: Compilation, relation: Relation, program: Program | None
     residual = relation.residual
     notes = []
     if residual.free_of is not None:
-        notes.append(f"Combined from two others so that {residual.free_of} does not move it.")
+        notes.append(f"It does not react to {residual.free_of}, which was taken as unknown for it.")
     if residual.differentiated:
         notes.append("Differentiated, because an initial value is not declared.")
     if compilation.detectability.weak(relation.name) is None and relation.faults:

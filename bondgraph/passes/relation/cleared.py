@@ -53,6 +53,13 @@ def vanishing_divisors(nominal: Nominal, expr: Expr) -> list[Expr]:
     return [base for base in found if constant(base, known) and nominal.vanishes(base)]
 
 
+def signals_below(expr: Expr) -> list[Expr]:
+    """What a relation divides by and that holds known signals: it may become zero on the way."""
+    found = dict.fromkeys(_divisors(topological([expr])))
+    moving = holding(found, lambda n: n.kind in KNOWN_SIGNALS)
+    return [base for base in found if base in moving]
+
+
 def _divisors(nodes: Iterable[Expr]) -> list[Expr]:
     return [
         arg

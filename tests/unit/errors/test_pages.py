@@ -20,6 +20,7 @@ from bondgraph.frontend.read import MAX_BYTES
 from bondgraph.passes.analysis.signatures import signatures
 from bondgraph.passes.elimination import chaining as chain
 from bondgraph.passes.elimination import shortfall
+from bondgraph.passes.relation.form import relations
 from bondgraph.pipeline import Compilation
 from bondgraph.pipeline import compile as open_model
 from bondgraph.text.diagnostic import CompileError, Diagnostic, Report, Severity
@@ -199,15 +200,15 @@ def _mistaken(monkeypatch: pytest.MonkeyPatch, wrong: bool) -> str:
     """Only a mistake of the compiler: here it forgets a term of the residual."""
 
     def forgetful(*args: Any) -> Any:
-        residuals, matrix = signatures(*args)
+        residuals = relations(*args)
         first, *others = residuals.residuals
         pool = residuals.system.graph.pool
         sensor = residuals.system.graph.sensors[0].symbol
         wrong_one = first._replace(expr=pool.add((1, first.expr), (1, pool.der(sensor))))
-        return residuals._replace(residuals=(wrong_one, *others)), matrix
+        return residuals._replace(residuals=(wrong_one, *others))
 
     if wrong:
-        monkeypatch.setattr("bondgraph.passes.analysis.signatures.signatures", forgetful)
+        monkeypatch.setattr("bondgraph.passes.relation.form.relations", forgetful)
     return BRIEF.format("")
 
 
@@ -215,9 +216,9 @@ def _denied(monkeypatch: pytest.MonkeyPatch, wrong: bool) -> str:
     """A branch that only the points of the check meet; here an entry is turned round."""
 
     def denied(*args: Any) -> Any:
-        residuals, matrix = signatures(*args)
+        matrix = signatures(*args)
         first = tuple(not entry for entry in matrix.rows[0])
-        return residuals, matrix._replace(rows=(first, *matrix.rows[1:]))
+        return matrix._replace(rows=(first, *matrix.rows[1:]))
 
     if wrong:
         monkeypatch.setattr("bondgraph.passes.analysis.signatures.signatures", denied)

@@ -75,7 +75,8 @@ class Bench:
         equation = Equation("balance", "junction", self.pool.zero, (), 0, HERE)
         names = tuple(f"r{i + 1}" for i in range(len(exprs)))
         residuals = tuple(
-            Residual(n, e, equation, (), 0) for n, e in zip(names, exprs, strict=True)
+            Residual(n, e, equation, (), 0, None, e, {})
+            for n, e in zip(names, exprs, strict=True)
         )
         system = EquationSystem(graph, (equation,), (), (), (), {})
         rows = tuple((True,) * len(exprs) for _ in graph.faults)

@@ -169,15 +169,16 @@ def test_a_signal_in_three_relations() -> None:
 def test_a_mass_that_is_used_twice() -> None:
     """m in two momenta, (m s)' = a and (m z)' = y, a = F - c s - y; m may change meanwhile.
 
-    With P = m s: P z/s is the other momentum, whose derivative is y; so P follows without m.
+    The first times z less the second times s holds m alone: m (z s' - s z') = z a - s y. With that
+    m the second momentum still has to grow with y.
     """
     _, (relation,) = of(CART, "m")
 
     def by_hand(m, c, K, F, s, y, z):
         a = F - c * s - y
-        below = s * D(z) - z * D(s)
-        momentum = s * (y * s - a * z) / below
-        return below**2 * (D(momentum) - a)
+        below = z * D(s) - s * D(z)
+        mass = (z * a - s * y) / below
+        return below**2 * (D(mass * z) - y)
 
     assert is_multiple(relation, by_hand, {"m": Q(2), "c": Q(3), "K": Q(5)}, ("F", "s", "y", "z"))
 
@@ -248,8 +249,26 @@ def test_through_the_flow_that_a_fault_changes() -> None:
     )
 
     def by_hand(A1, l3, k12, k23, A3, ko, p2, p3):
-        return ssqrt((p2 - p3) / k23) - A3 * D(p3) - (ko + l3) * ssqrt(p3)
+        flow = A3 * D(p3) + (ko + l3) * ssqrt(p3)
+        return p2 - p3 - k23 * flow * sp.Abs(flow)
 
     numbers = {"A1": Q(11), "l3": Q(13), "k12": Q(2), "k23": Q(3), "A3": Q(5), "ko": Q(7)}
     assert is_multiple(relation, by_hand, numbers, ("p2", "p3"))
     assert set(relation.faults) == {"k23", "A3", "ko", "l3", "p2", "p3"}
+
+
+def test_a_gain_before_a_limit() -> None:
+    """K acts through a limited command alone; what the command is, its sensor says."""
+    _, (relation,) = of(
+        """model M { param m=2; param b=3; param K=4; input u
+        let s = min(max(K*(u - w), -2), 2)
+        1:v { -> I:m; -> R:b; -> Df:w; <- Se:drive = s }
+        sensor z = s }""",
+        "K",
+    )
+
+    def by_hand(m, b, drive, w, z):
+        return z + drive - m * D(w) - b * w
+
+    assert is_multiple(relation, by_hand, {"m": Q(2), "b": Q(3), "drive": Q(1, 5)}, ("w", "z"))
+    assert set(relation.faults) == {"m", "b", "drive", "w", "z"}

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from bondgraph.exact.plant import Plant
 from bondgraph.passes.analysis.signatures import signatures
-from bondgraph.text.diagnostic import Report
+from bondgraph.passes.relation.form import relations
 from tests.unit.passes.relations import compiled
 
 CASES = {
@@ -117,6 +118,7 @@ def test_a_relation_of_very_many_steps_has_the_signature_of_the_same_with_few() 
     )
     (closing,) = c.reduced.closings
     long = closing._replace(steps=closing.steps * 1000)
-    _, matrix = signatures(c.reduced._replace(closings=(long,)), Report())
+    plant = Plant(c.graph)
+    matrix = signatures(relations(c.reduced._replace(closings=(long,)), plant), plant)
     assert matrix == c.signatures
     assert set(matrix.signature("r1")) == {"m", "k", "b", "F", "y"}

@@ -2,9 +2,11 @@
 
 import pytest
 
+from bondgraph.exact.plant import Plant
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.passes.analysis.signatures import signatures
 from bondgraph.passes.analysis.verify import verify
+from bondgraph.passes.relation.form import relations
 from bondgraph.pipeline import Compilation
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source
@@ -44,7 +46,9 @@ class Compiled:
     def __init__(self, text: str) -> None:
         c = Compilation(Source("test.bg", text))
         self.graph = c.graph
-        self.residuals, self.signatures = signatures(c.reduced, Report())
+        plant = Plant(c.graph)
+        self.residuals = relations(c.reduced, plant)
+        self.signatures = signatures(self.residuals, plant)
 
 
 @pytest.mark.parametrize("text", [DRIVE, SWITCHED, NONLINEAR])
