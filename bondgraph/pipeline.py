@@ -49,7 +49,8 @@ class Options(NamedTuple):
     `rate` in samples a second, `bandwidth` of the residual filter in rad/s (None: chosen from the
     rate), `resolution` the relative size below which a term cannot be seen (12 bits; 0: each is
     seen), `targets` the languages to emit, `seed` of the random points that the exact verification
-    uses, `decouple` the faults that further relations are to be free of.
+    uses, `decouple` the faults that further relations are to be free of. With `isolate` there are
+    further relations that tell apart what the sensors allow to be told apart.
     With `open_ports` the model is a part of a machine: its ports may be left without a bond.
     """
 
@@ -59,6 +60,7 @@ class Options(NamedTuple):
     targets: tuple[str, ...] = ("c", "python")
     seed: int = 1
     decouple: tuple[str, ...] = ()
+    isolate: bool = False
     open_ports: bool = False
 
 
@@ -73,6 +75,7 @@ if TYPE_CHECKING:
         targets: tuple[str, ...]
         seed: int
         decouple: tuple[str, ...]
+        isolate: bool
         open_ports: bool
 
 
@@ -321,10 +324,7 @@ class Compilation:
         """
         from bondgraph.passes.analysis.isolability import isolability
 
-        residuals, matrix = self._analysis
-        exprs = [r.expr for r in residuals.residuals]
-        made = [r.free_of is not None for r in residuals.residuals]  # they add nothing new
-        return isolability(exprs, made, matrix, self._plant, self.options.seed)
+        return isolability(*self._analysis, self._plant, self.options.seed)
 
     @cached_property
     def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:
@@ -341,6 +341,14 @@ class Compilation:
             found = decouple(residuals, matrix, self.options.decouple, self.report)
             residuals = with_further(residuals, found, plant, seed)
             matrix = signatures(residuals, plant, seed)
+        if self.options.isolate:
+            from bondgraph.passes.analysis.isolability import isolability
+            from bondgraph.passes.analysis.isolating_set import isolating_set
+
+            best = isolability(residuals, matrix, plant, seed)
+            if best is not None and len(best) > len(matrix.groups):
+                own = isolating_set(residuals, matrix, best, plant, self.report, seed)
+                residuals, matrix = own
         stop_without_any(self.report, residuals)
         return self._stage((residuals, matrix))
 
@@ -570,9 +578,9 @@ def compile(
 
     A path may name the model: `robot.bg:Drive`. A text needs no path; one says what it is called
     in messages, and beside which files its imports are. Options are those of `Options`: `rate`,
-    `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `open_ports`. Nothing is computed
-    before a stage is asked for. Raises `CompileError` if the file cannot be read, TypeError for an
-    unknown option, ValueError for a number that is not positive.
+    `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `open_ports`. Nothing is
+    computed before a stage is asked for. Raises `CompileError` if the file cannot be read,
+    TypeError for an unknown option, ValueError for a number that is not positive.
 
     >>> import bondgraph
     >>> bondgraph.compile("models/dc_motor.bg", rate=500.0)

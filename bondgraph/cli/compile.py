@@ -55,8 +55,12 @@ def arguments(parser: ArgumentParser) -> None:
         metavar="FAULT",
         action="append",
         default=[],
-        help="add relations, combined from the others, that are free of this fault; may be"
-        " repeated",
+        help="add relations that are free of this fault; may be repeated",
+    )
+    parser.add_argument(
+        "--isolate",
+        action="store_true",
+        help="add the few relations that tell faults apart as far as the sensors allow",
     )
 
 
@@ -77,6 +81,7 @@ def run(args: Namespace) -> int:
         resolution=2.0**-args.bits,
         targets=tuple(dict.fromkeys(args.target or Options().targets)),
         decouple=tuple(dict.fromkeys(args.decouple)),
+        isolate=args.isolate,
     )
     for fault in args.decouple:
         if fault not in compilation.graph.faults:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from bondgraph.pipeline import Compilation
     from bondgraph.views import Relation
 
+_SMALL = 200  # bonds of a model for which it is found out what could be told apart at best
 _LONGEST = 24  # lines of one residual in a report; more than that nobody reads
 
 
@@ -36,6 +37,7 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
             lines += [f"  {name}", *prose(why, columns, "    ")]
     if matrix.faults and matrix.residuals:
         lines += ["", "Fault signatures", *signature_table(matrix, columns)]
+        lines += _at_best(compilation)
     lines += _elsewhere(matrix, columns)
     lines += [f"  {r}  is not confirmed: {why}" for r, why in matrix.unconfirmed.items()]
     lines += _modes(compilation, columns)
@@ -61,6 +63,19 @@ def _checked(compilation: Compilation) -> str:
         f"checked exactly{at}: {plural(done.residuals, 'residual')} on the healthy model,"
         f" {plural(done.faults, 'fault')} one at a time"
     )
+
+
+def _at_best(compilation: Compilation) -> list[str]:
+    """What further relations would bring; of a small model, where the answer costs little."""
+    if len(compilation.graph.bonds) > _SMALL and not compilation.options.isolate:
+        return []
+    best, groups = compilation.maximum_isolability, compilation.signatures.groups
+    if best is None or len(best) <= len(groups):
+        return []
+    lines = ["", f"{plural(len(best), 'group')} at best, whatever residuals are used"]
+    if not compilation.options.isolate:
+        lines[-1] += ": compile --isolate adds residuals for them"
+    return lines
 
 
 def _elsewhere(matrix: SignatureMatrix, columns: int) -> list[str]:

@@ -8,7 +8,7 @@ makes the residuals.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from bondgraph.exact.evaluate import evaluate, pull, values_of
@@ -133,9 +133,7 @@ class _Rows:
         values, failures = values_of(nodes, need, self.truth)
         if expr in failures:
             raise failures[expr]
-        for k in range(self.times + 1):
-            adjoints: dict[Expr, Any] = {expr: [*[0] * k, 1]}
-            pull(nodes, need, values, self.truth.algebra, adjoints)
+        for k, adjoints in enumerate(self.adjoints(expr, nodes, need, values)):
             row: Row = {}
             for node, adjoint in adjoints.items():
                 if node.op is Op.SYM:
@@ -146,6 +144,22 @@ class _Rows:
             if fault is not None and fault in self.fault:
                 self.add(row, self.column(fault, k), 1)
             self.rows.append(row)
+
+    def adjoints(
+        self, expr: Expr, nodes: list[Expr], need: dict[Expr, int], values: dict[Expr, Any]
+    ) -> Iterator[dict[Expr, Any]]:
+        """For each coefficient of an expression in turn, how those of every node enter it.
+
+        Without derivatives and integrals coefficient k is a convolution: how coefficient j enters
+        depends on k - j alone, so that the last tells all.
+        """
+        algebra, last = self.truth.algebra, self.times
+        shifted = not any(n.op in (Op.DER, Op.INT) for n in nodes)
+        for k in range(last + 1):
+            if not (shifted and k):
+                adjoints: dict[Expr, Any] = {expr: [*[0] * (last if shifted else k), 1]}
+                pull(nodes, need, values, algebra, adjoints)
+            yield {n: own[last - k :] for n, own in adjoints.items()} if shifted else adjoints
 
     def enter(self, row: Row, symbol: Expr, adjoint: list[Number]) -> None:
         """The share of one symbol, a variable or a faulty parameter."""

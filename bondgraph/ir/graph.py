@@ -8,7 +8,9 @@ is said by the signs in `End`.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from bondgraph.ir.expr import Expr, Kind, Pool, Symbol
@@ -236,8 +238,15 @@ class BondGraph(NamedTuple):
 
     def fault_symbol(self, name: str) -> Expr:
         """The symbol of a fault candidate; raises KeyError for another name."""
-        for group in (self.values, self.inputs, self.sensors):
-            for item in group:
-                if item.name == name:
-                    return item.symbol
+        return self._declared(name).symbol
+
+    def fault_origin(self, name: str) -> Span:
+        """Where a fault candidate is declared; raises KeyError for another name."""
+        return self._declared(name).origin
+
+    def _declared(self, name: str) -> Value | Input | Sensor:
+        declared: Iterator[Value | Input | Sensor] = chain(self.values, self.inputs, self.sensors)
+        for item in declared:
+            if item.name == name:
+                return item
         raise KeyError(name)

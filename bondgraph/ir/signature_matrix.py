@@ -83,6 +83,29 @@ class SignatureMatrix(NamedTuple):
             f for f, row in zip(self.faults, self.rows, strict=True) if row == own and f != fault
         )
 
+    def renamed(self, names: Mapping[str, str]) -> SignatureMatrix:
+        """The residuals that are keys of `names`, under other names."""
+        at = [k for k, name in enumerate(self.residuals) if name in names]
+        return SignatureMatrix(
+            tuple(names[self.residuals[k]] for k in at),
+            self.faults,
+            tuple(tuple(row[k] for k in at) for row in self.rows),
+            tuple(self.orders[k] for k in at),
+            {(names[r], f): own for (r, f), own in self.apart.items() if r in names},
+            {names[r]: why for r, why in self.unconfirmed.items() if r in names},
+        )
+
+    def beside(self, other: SignatureMatrix) -> SignatureMatrix:
+        """The matrix with the residuals of another one, of the same faults, behind its own."""
+        return SignatureMatrix(
+            self.residuals + other.residuals,
+            self.faults,
+            tuple(own + more for own, more in zip(self.rows, other.rows, strict=True)),
+            self.orders + other.orders,
+            {**self.apart, **other.apart},
+            {**self.unconfirmed, **other.unconfirmed},
+        )
+
     def to_numpy(self) -> npt.NDArray[np.bool_]:
         """The matrix as an array of shape (faults, residuals)."""
         import numpy as np

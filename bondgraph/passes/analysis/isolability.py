@@ -19,27 +19,26 @@ from bondgraph.exact.reactions import Reactions
 from bondgraph.field.numbers import Numbers
 from bondgraph.field.sparse import Row, eliminate
 from bondgraph.ir.expr import Expr
+from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
 
 _MOST = 16  # times that a relation is differentiated
 
 
 def isolability(
-    exprs: list[Expr],
-    combined: list[bool],
-    matrix: SignatureMatrix,
-    plant: Plant,
-    seed: int = 1,
+    residuals: ResidualSet, matrix: SignatureMatrix, plant: Plant, seed: int = 1
 ) -> tuple[tuple[str, ...], ...] | None:
     """The detectable faults in groups that no set of residuals could divide any further.
 
     Fault i can be told from fault j if rank [J F_j F_i] > rank [J F_j], with J the Jacobian of the
     plant and its derivatives with respect to all unknowns and F the columns of a fault that is an
     arbitrary function of time, on healthy trajectories at the declared numbers. It is asked for
-    faults of equal signatures only: others are told apart. `exprs` are the residuals, of which
-    those `combined` from others are passed over. Of a machine with modes it is enough that one
-    mode divides them. None where the plant has no trajectory.
+    faults of equal signatures only: others are told apart. Residuals that were made to be free of a
+    fault say nothing new, and are passed over. Of a machine with modes it is enough that one mode
+    divides them. None where the plant has no trajectory.
     """
+    exprs = [r.expr for r in residuals.residuals]
+    combined = [r.free_of is not None for r in residuals.residuals]
     fixed: list[list[str]] = []
     open_: list[tuple[list[str], tuple[int, ...]]] = []
     for group in matrix.groups:

@@ -123,13 +123,9 @@ def _say(report: Report, residuals: ResidualSet, fault: str, seen: list[Residual
     else:
         names = ", ".join(r.name for r in seen)
         why = f"{names} hold it in a way that has no solution in closed form"
-    graph = residuals.system.graph
-    origins = [v.origin for v in graph.values if v.name == fault]
-    origins += [i.origin for i in graph.inputs if i.name == fault]
-    origins += [s.origin for s in graph.sensors if s.name == fault]
     report.info(
         "not-decoupled",
         f"No combination of the relations was made to be free of `{fault}`: {why}.",
-        *origins[:1],
+        residuals.system.graph.fault_origin(fault),
         help="One sensor more gives one relation more to combine." if seen else "",
     )

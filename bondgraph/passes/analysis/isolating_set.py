@@ -1,0 +1,126 @@
+"""Add the few relations that tell apart what the sensors allow to be told apart.
+
+Two faults of equal signatures can be told apart if they do not enter the relations through
+proportional operators (`isolability`); then what holds without the one reacts to the other. So for
+each fault that should stand alone the relations free of it are had by elimination (`decouple`),
+and of all of these as few are kept as divide the faults as far (Staroswiecki and Comtet-Varga,
+2001; a residual for each fault that must not move it: the structured residuals of Gertler, 1991).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from bondgraph.algebra.normalise import normalise
+from bondgraph.exact.outline import highest_order
+from bondgraph.exact.plant import Plant
+from bondgraph.ir.expr import Pool, topological
+from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.residuals import Residual, ResidualSet
+from bondgraph.ir.signature_matrix import SignatureMatrix
+from bondgraph.passes.analysis.signatures import signatures
+from bondgraph.passes.elimination.decouple import free_of
+from bondgraph.passes.relation.form import with_further
+from bondgraph.text.diagnostic import Report
+from bondgraph.text.tuples import NamedTuple
+
+
+class _Cost(NamedTuple):
+    """What is to be avoided in a further relation, the worst first.
+
+    Its signature may not be confirmed, or its samples not give it exactly; then the highest
+    derivative, and how many operations it takes.
+    """
+
+    unconfirmed: bool
+    inexact: bool
+    order: int
+    operations: int
+
+
+def isolating_set(
+    residuals: ResidualSet,
+    matrix: SignatureMatrix,
+    best: Sequence[Sequence[str]],
+    plant: Plant,
+    report: Report,
+    seed: int = 1,
+) -> tuple[ResidualSet, SignatureMatrix]:
+    """The relations and their matrix, and behind them further ones that divide the groups.
+
+    `best` are the groups that no set of relations could divide. A further relation is not kept
+    where the others divide the faults as far without it, the dearest left out first. Reports
+    `not-isolated` where a group stays whole that could be divided.
+    """
+    closings = [
+        closing
+        for group in matrix.groups
+        for fault in _to_be_divided(group, best)
+        for closing in free_of(fault, _that_see(fault, residuals, matrix), residuals)
+    ]
+    whole = with_further(residuals, closings, plant, seed)
+    further = whole.residuals[len(residuals.residuals) :]
+    found = signatures(whole._replace(residuals=further), plant, seed)
+    pool = residuals.system.graph.pool
+    costs = {r.name: _cost(pool, r, r.name in found.unconfirmed) for r in further}
+    kept = _needed(matrix, found, sorted(costs, key=costs.__getitem__, reverse=True))
+    names = {
+        name: f"r{len(residuals.residuals) + at}"
+        for at, name in enumerate((n for n in found.residuals if n in kept), 1)
+    }
+    chosen = tuple(r._replace(name=names[r.name]) for r in further if r.name in names)
+    sharpened = matrix.beside(found.renamed(names))
+    for group in sharpened.groups:
+        _tell(report, residuals.system.graph, _to_be_divided(group, best))
+    return whole._replace(residuals=(*residuals.residuals, *chosen)), sharpened
+
+
+def _to_be_divided(group: Sequence[str], best: Sequence[Sequence[str]]) -> list[str]:
+    """A fault of each part that a group of equal signatures could be divided into."""
+    part = {fault: number for number, own in enumerate(best) for fault in own}
+    first: dict[int, str] = {}
+    for fault in group:
+        first.setdefault(part[fault], fault)
+    return list(first.values()) if len(first) > 1 else []
+
+
+def _tell(report: Report, graph: BondGraph, together: list[str]) -> None:
+    """Say which faults stay in one group that could be told apart."""
+    if together:
+        *most, last = [f"`{fault}`" for fault in together]
+        report.info(
+            "not-isolated",
+            f"{', '.join(most)} and {last} could be told apart, but no relation that is free of one"
+            " of them was found in closed form.",
+            *[graph.fault_origin(fault) for fault in together],
+            help="A sensor that tells what stands in a law without inverse gives such a relation.",
+        )
+
+
+def _that_see(fault: str, residuals: ResidualSet, matrix: SignatureMatrix) -> list[Residual]:
+    hits = matrix.row(fault)
+    return [r for r, hit in zip(residuals.residuals, hits, strict=True) if hit]
+
+
+def _cost(pool: Pool, residual: Residual, unconfirmed: bool) -> _Cost:
+    inexact = not normalise(pool, residual.expr).exact
+    operations = len(topological([residual.expr]))
+    return _Cost(unconfirmed, inexact, highest_order([residual.expr]), operations)
+
+
+def _needed(matrix: SignatureMatrix, further: SignatureMatrix, dearest: list[str]) -> set[str]:
+    """The further residuals without which fewer groups of faults would be told apart."""
+    groups = {fault: at for at, group in enumerate(matrix.groups) for fault in group}
+    bit = {name: 1 << at for at, name in enumerate(further.residuals)}
+    masks = {
+        (groups[fault], sum(b for b, hit in zip(bit.values(), row, strict=True) if hit))
+        for fault, row in zip(further.faults, further.rows, strict=True)
+        if fault in groups
+    }
+    kept = set(bit)
+    for name in dearest:
+        fewer = {(group, mask & ~bit[name]) for group, mask in masks}
+        if len(fewer) == len(masks):
+            masks = fewer
+            kept.remove(name)
+    return kept
