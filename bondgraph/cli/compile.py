@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Compilation, ForeignFiles, Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
+from bondgraph.cli.further_residuals import further
 from bondgraph.cli.number_arguments import bits, positive
 
 if TYPE_CHECKING:
@@ -50,18 +51,7 @@ def arguments(parser: ArgumentParser) -> None:
         action="append",
         help=f"emit this language; may be repeated (default: {', '.join(defaults.targets)})",
     )
-    parser.add_argument(
-        "--decouple",
-        metavar="FAULT",
-        action="append",
-        default=[],
-        help="add relations that are free of this fault; may be repeated",
-    )
-    parser.add_argument(
-        "--isolate",
-        action="store_true",
-        help="add the few relations that tell faults apart as far as the sensors allow",
-    )
+    further(parser)
 
 
 def run(args: Namespace) -> int:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
+from bondgraph.cli.further_residuals import isolating
 from bondgraph.cli.number_arguments import assigned, bits, noise, positive
 from bondgraph.cli.terminal_layout import width
 
@@ -24,6 +25,7 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
     sampling(parser)
     signals(parser)
+    isolating(parser)
 
 
 def sampling(parser: ArgumentParser) -> None:
@@ -79,7 +81,11 @@ def run(args: Namespace) -> int:
     from bondgraph.runtime.smallest import smallest
 
     compilation = open_model(
-        args.model, rate=args.rate, bandwidth=args.bandwidth, resolution=2.0**-args.bits
+        args.model,
+        rate=args.rate,
+        bandwidth=args.bandwidth,
+        resolution=2.0**-args.bits,
+        isolate=args.isolate,
     )
     program = compilation.program
     name = no_signal(args, program)

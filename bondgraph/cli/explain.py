@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph import Compilation, compile
 from bondgraph.cli import console
+from bondgraph.cli.further_residuals import isolating
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 def arguments(parser: ArgumentParser) -> None:
     """The arguments of `explain`."""
-    parser.usage = "bondgraph explain [-h] [--latex] (CODE | MODEL NAME)"
+    parser.usage = "bondgraph explain [-h] [--latex] [--isolate] (CODE | MODEL NAME)"
     parser.add_argument(
         "subject", metavar="CODE or MODEL", help="the code of a diagnostic, or a model"
     )
@@ -31,13 +32,14 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--latex", action="store_true", help="of a residual: its closed form in LaTeX"
     )
+    isolating(parser)
 
 
 def run(args: Namespace) -> int:
     """Print the explanation; the exit status is 2 where there is nothing of that name."""
     if args.name is None:
         return _code(args.subject)
-    compilation = compile(args.subject)
+    compilation = compile(args.subject, isolate=args.isolate)
     if args.latex:
         return _latex(compilation, args.name)
     lines = about(compilation, args.name)

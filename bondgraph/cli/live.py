@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console, monitor
+from bondgraph.cli.further_residuals import isolating
 from bondgraph.cli.number_arguments import positive
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
@@ -44,6 +45,7 @@ def arguments(parser: ArgumentParser) -> None:
         help="the monitored machine: a .csv or .parquet file, or - for standard input (default:"
         " a simulation of the scenario in a process of its own)")  # fmt: skip
     monitor.sampled(add)
+    isolating(parser)
 
 
 def run(args: Namespace) -> int:
@@ -96,11 +98,11 @@ def _serve(args: Namespace, made: Any) -> int:
     from bondgraph.runtime.simulation.scenario import Scenario
 
     rate = args.rate
-    compilation = open_model(args.model)
+    compilation = open_model(args.model, isolate=args.isolate)
     scenario = compilation.scenario(args.scenario) if args.scenario else Scenario("live")
     if rate is None:
         rate = scenario.sampling.rate if args.scenario else Options().rate
-    compilation = open_model(args.model, rate=rate, bandwidth=args.bandwidth)
+    compilation = compilation.with_options(rate=rate, bandwidth=args.bandwidth)
     if args.scenario:  # read for this one: its expressions belong to the graph of the model
         scenario = compilation.scenario(args.scenario)
     try:

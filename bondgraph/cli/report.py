@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Compilation, compile
 from bondgraph.cli import console
 from bondgraph.cli.detect import no_signal, sampling, signals
+from bondgraph.cli.further_residuals import further
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -37,13 +38,7 @@ def arguments(parser: ArgumentParser) -> None:
     )
     sampling(parser)
     signals(parser)
-    parser.add_argument(
-        "--decouple",
-        metavar="FAULT",
-        action="append",
-        default=[],
-        help="add relations that are free of this fault; may be repeated",
-    )
+    further(parser)
 
 
 def run(args: Namespace) -> int:
@@ -58,6 +53,7 @@ def run(args: Namespace) -> int:
         bandwidth=args.bandwidth,
         resolution=2.0**-args.bits,
         decouple=tuple(dict.fromkeys(args.decouple)),
+        isolate=args.isolate,
     )
     for fault in args.decouple:
         if fault not in compilation.graph.faults:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
+from bondgraph.cli.further_residuals import isolating
 from bondgraph.cli.number_arguments import positive
 from bondgraph.text.numerals import plural
 
@@ -47,6 +48,7 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--rate", metavar="HZ", type=positive, default=None,
                         help="samples a second (default: that of the first log)")  # fmt: skip
     parser.add_argument("--map", metavar="FILE.toml", help="which column is which signal")
+    isolating(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
 
 
@@ -109,12 +111,14 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
 
     read = []
     if args.simulate:
-        compilation = open_model(args.model, rate=args.rate or Options().rate)
+        compilation = open_model(
+            args.model, rate=args.rate or Options().rate, isolate=args.isolate
+        )
         scenario = compilation.scenario(args.simulate)
         if scenario.faults:
             raise console.Trouble(f"{args.simulate} has a fault: tune on what is healthy")
         if scenario.sampling.rate != compilation.options.rate:
-            compilation = open_model(args.model, rate=scenario.sampling.rate)
+            compilation = compilation.with_options(rate=scenario.sampling.rate)
             scenario = compilation.scenario(args.simulate)
         with console.progress_bar("simulating") as progress:
             for k in range(args.runs):
@@ -127,7 +131,8 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
         names = list(args.logs)
         steps = np.diff(read[0].time)
         usual = float(np.median(steps)) if len(steps) else 1.0 / Options().rate
-        compilation = open_model(args.model, rate=args.rate or round(1.0 / usual, 6))
+        rate = args.rate or round(1.0 / usual, 6)
+        compilation = open_model(args.model, rate=rate, isolate=args.isolate)
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
     logs = []

@@ -65,9 +65,15 @@ def _about(expr: Expr) -> frozenset[Expr]:
 
 
 def _below(residuals: list[Residual], system: EquationSystem) -> EquationSystem:
-    """The equations in the variables that some residuals rest on."""
+    """The equations in the variables that some residuals rest on.
+
+    Where these do not have the redundancy of the residuals (steps that a switch chooses may name
+    what they rest on in one mode only), all equations.
+    """
     known = {step.variable for residual in residuals for step in residual.steps}
-    return _of(system, [e for e in system.equations if known.issuperset(e.variables)])
+    part = _of(system, [e for e in system.equations if known.issuperset(e.variables)])
+    enough = len(part.equations) - len(part.unknowns) >= len(residuals)
+    return part if enough else system
 
 
 def _of(system: EquationSystem, equations: list[Equation]) -> EquationSystem:
