@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from bondgraph.algebra.affine import affine
+from bondgraph.algebra.cleared import below_terms, cleared
 from bondgraph.algebra.derivative import Jets, TooManyOperations
 from bondgraph.algebra.fractions import monomials, trimmed, without_common_divisor
 from bondgraph.algebra.normalise import normalise
-from bondgraph.algebra.summands import summands
 from bondgraph.algebra.zero import is_zero, share_factor
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.nodes import constant, has
@@ -161,7 +161,7 @@ class Operators:
         >>> work.lowered([p.sub(p.der(z), y), p.add((1, x), (2, p.der(z)))]).expr
         x + 2*y
         >>> work.lowered([p.add((1, p.der(x)), (3, x)), p.add((1, p.der(z)), (-1, y))]).expr
-        x*D(y) - y - 3*x*y
+        (x*D(y) - 3*x*y) - y
         """
         for form in (self._sum, self._inward):
             shaped = [form(row) for row in rows]
@@ -218,7 +218,8 @@ class Operators:
         for _ in range(_TURNS):
             high = _at_least(row, rate)
             if not high:
-                return _whole(self.pool, row)
+                below = [d for d in below_terms(row) if not _torn(d)]
+                return cleared(self.pool, row, below, inside=False)
             values = {n: self.pool.der(value, _order(n) - _order(rate)) for n in high}
             shaped = form(self.pool.substitute([row], values)[0])
             if shaped is None:
@@ -286,19 +287,6 @@ def _trim(entries: dict[Expr, Polynomial]) -> dict[Expr, Polynomial]:
 
 def _lowest(polynomial: Polynomial) -> int:
     return next(k for k, c in enumerate(polynomial) if not is_zero(c))
-
-
-def _whole(pool: Pool, row: Expr) -> Expr:
-    """The row times what divides its terms, so that nothing has to be divided by a modulus."""
-    terms = summands(row)
-    divisors: dict[Expr, int] = {}
-    for term in terms:
-        if term.op is Op.MUL:
-            for base, power in term.factors:
-                if power < 0 and not constant(base) and not _torn(base):
-                    divisors[base] = max(divisors.get(base, 0), -power)
-    factor = pool.mul(*[pool.power(base, power) for base, power in divisors.items()])
-    return pool.add(*[(c, pool.mul(term, factor)) for term, c in terms.items()])
 
 
 def _torn(expr: Expr) -> bool:

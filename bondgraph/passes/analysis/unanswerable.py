@@ -16,7 +16,7 @@ from bondgraph.ir.expr import Expr, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual, Step
 from bondgraph.notation.line import show
-from bondgraph.passes.relation.cleared import vanishing_divisors
+from bondgraph.passes.relation.moduli import vanishing_divisors
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Span
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from bondgraph.algebra.cancelled import without
+from bondgraph.algebra.cleared import cleared
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.present import upright
 from bondgraph.exact.evaluate import Sensitivity
@@ -19,7 +20,7 @@ from bondgraph.exact.reactions import Reactions
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.residuals import Closing, ReducedSystem, Residual, ResidualSet
-from bondgraph.passes.relation.cleared import cleared, moduli, signals_below, vanishing_divisors
+from bondgraph.passes.relation.moduli import moduli, signals_below, vanishing_divisors
 
 
 def relations(reduced: ReducedSystem, plant: Plant, seed: int = 1) -> ResidualSet:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from bondgraph.algebra.cleared import cleared
 from bondgraph.algebra.symbolic import to_sympy
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
-from bondgraph.passes.relation.cleared import cleared
 from tests.unit.passes.relations import compiled, is_multiple, t
 
 Q = sp.Rational

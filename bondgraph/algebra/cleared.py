@@ -1,66 +1,21 @@
-"""Multiply a relation through with the moduli it divides by, so that it holds where they are zero.
+"""Multiply a relation through with what it divides by, so that it holds where that is zero.
 
-A two-port that a known signal modulates is read backwards by dividing by its modulus: by 1 - a of
-a duty cycle a, by a speed of a rotating body. Both may be zero while the machine runs, and a leak,
-or the difference of two moments of inertia, is zero all the time. The relation is kept as a
-fraction and only its numerator is left: (N/m)' becomes N' m - N m'.
+The relation is kept as a fraction and only its numerator is left: (N/m)' becomes N' m - N m'.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from bondgraph.algebra.nominal import Nominal
-from bondgraph.ir.equation_system import EquationSystem
-from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, topological
-from bondgraph.ir.nodes import constant, holding
-from bondgraph.ir.residuals import Step
+from bondgraph.algebra.summands import summands
+from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.nodes import constant
 
 Denominator = dict[Expr, int]
 
 
-def moduli(system: EquationSystem, steps: Sequence[Step]) -> list[Expr]:
-    """The moduli of two-ports that some step divides by, in known signals.
-
-    They stand in the law of a two-port or, where it modulates another one, in a balance or a loop.
-    Constant ones are left out: a transformer whose ratio is zero is none.
-    """
-    pool = system.graph.pool
-    top: dict[Expr, None] = {}
-    inside: dict[Expr, None] = {}
-    seen: set[Expr] = set()  # values of a loop share nearly all that they are made of
-    for step in steps:
-        equation = step.equation
-        kind = system.graph.nodes[equation.node].kind if equation.node >= 0 else ""
-        if step.how == "loop":
-            top.update(dict.fromkeys(_divisors([step.closed])))
-        elif equation.kind == "balance" or kind in ("TF", "GY"):
-            written = {*_divisors(topological([equation.zero]))}  # no work of the elimination
-            nodes = topological([step.value], stop=seen.__contains__)
-            own = _divisors(n for n in nodes if n not in seen)
-            inside.update(dict.fromkeys(d for d in own if d not in written))
-            seen.update(nodes)
-    found = dict.fromkeys([*top, *pool.substitute(inside, {s.variable: s.closed for s in steps})])
-    known = holding(found, lambda n: n.kind in KNOWN_SIGNALS)
-    return [base for base in found if base in known]
-
-
-def vanishing_divisors(nominal: Nominal, expr: Expr) -> list[Expr]:
-    """The constants below an expression that it divides by and that are nominally zero."""
-    nodes = topological([expr])
-    known: dict[Expr, bool] = {}
-    found = dict.fromkeys(_divisors(nodes))
-    return [base for base in found if constant(base, known) and nominal.vanishes(base)]
-
-
-def signals_below(expr: Expr) -> list[Expr]:
-    """What a relation divides by and that holds known signals: it may become zero on the way."""
-    found = dict.fromkeys(_divisors(topological([expr])))
-    moving = holding(found, lambda n: n.kind in KNOWN_SIGNALS)
-    return [base for base in found if base in moving]
-
-
-def _divisors(nodes: Iterable[Expr]) -> list[Expr]:
+def divisors(nodes: Iterable[Expr]) -> list[Expr]:
+    """What some nodes divide by, once for each that does."""
     return [
         arg
         for item in nodes
@@ -70,8 +25,21 @@ def _divisors(nodes: Iterable[Expr]) -> list[Expr]:
     ]
 
 
-def cleared(pool: Pool, expr: Expr, bases: Iterable[Expr]) -> Expr:
+def below_terms(expr: Expr) -> list[Expr]:
+    """The signals that whole terms of a relation are divided by.
+
+    >>> from bondgraph.ir.expr import Kind
+    >>> p = Pool(); U, y = p.symbol("U", Kind.INPUT), p.symbol("y", Kind.SENSOR)
+    >>> below_terms(p.add((1, p.div(U, y)), (1, p.der(p.div(y, U)))))
+    [y]
+    """
+    return [base for base in divisors(summands(expr)) if not constant(base)]
+
+
+def cleared(pool: Pool, expr: Expr, bases: Iterable[Expr], inside: bool = True) -> Expr:
     """The numerator of a relation, as far as its denominators are among the `bases`.
+
+    If not `inside`, whole terms are multiplied, and a quotient that is part of one stays.
 
     >>> from bondgraph.ir.expr import Kind
     >>> p = Pool(); U, y, m = (p.symbol(n, Kind.INPUT) for n in ("U", "y", "m"))
@@ -79,9 +47,11 @@ def cleared(pool: Pool, expr: Expr, bases: Iterable[Expr]) -> Expr:
     U*m - y
     >>> cleared(p, p.sub(U, p.der(p.div(y, m))), [m])
     U*m^2 - (m*D(y) - y*D(m))
+    >>> cleared(p, p.sub(p.div(U, m), p.der(p.div(y, m))), [m], inside=False)
+    U - m*D(y/m)
     """
     work = _Fractions(pool, dict.fromkeys(bases))
-    for node in topological([expr]):
+    for node in topological([expr], stop=lambda n: not inside and n.op is not Op.ADD):
         work.visit(node)
     return work.parts[expr][0] if expr in work.parts else expr
 
