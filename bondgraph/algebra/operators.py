@@ -110,7 +110,8 @@ class Operators:
                 forms[node] = {(t, k + 1): v for (t, k), v in part.items()}, pool.der(rest)
             elif node.op is Op.INT:  # of the torn variable from zero, of the rest from its start
                 part, rest = forms[inside[0]]
-                if not all(constant(v) for v in part.values()):
+                began = any(k > 0 for _, k in part)  # int(x') knows where x began
+                if began or not all(constant(v) for v in part.values()):
                     return None
                 forms[node] = (
                     {(t, k - 1): v for (t, k), v in part.items()},
@@ -182,8 +183,10 @@ class Operators:
         """The row as a sum of derivatives; None where it is too long or holds integrals."""
         if row not in self._summed:
             pool = self.pool
-            whole = not has([row], Op.INT)
-            terms = normalise(pool, row, _LIMIT).terms if whole else ()
+            try:
+                terms = () if has([row], Op.INT) else normalise(pool, row, _LIMIT).terms
+            except ZeroDivisionError:  # by the derivative of a constant
+                terms = ()
             parts = [pool.mul(t.coefficient, pool.der(t.atom, t.order)) for t in terms]
             self._summed[row] = pool.add(*[(1, part) for part in parts]) if parts else None
         return self._summed[row]

@@ -225,3 +225,17 @@ def test_a_rate_that_a_product_with_an_integral_holds_costs_no_relation() -> Non
     assert len(c.residuals) == 2
     assert not c.reduced.missing
     assert c.verification.method.startswith("exact")
+
+
+def test_an_integral_with_a_signal_or_a_rate_is_not_linear() -> None:
+    """No derivative takes u int(x) to x and its derivatives; int(x') knows where x began."""
+    pool = Pool()
+    x, u, y, _ = symbols(pool)
+    start = pool.symbol("x.q0", Kind.CONST)
+    work = Operators(pool)
+    for row in (
+        pool.mul(u, pool.integral(x, start)),
+        pool.integral(pool.mul(u, x), start),
+        pool.integral(pool.der(x), start),
+    ):
+        assert work.linear((0,), pool.sub(row, y)) is None

@@ -272,3 +272,22 @@ def test_a_gain_before_a_limit() -> None:
 
     assert is_multiple(relation, by_hand, {"m": Q(2), "b": Q(3), "drive": Q(1, 5)}, ("w", "z"))
     assert set(relation.faults) == {"m", "b", "drive", "w", "z"}
+
+
+def test_a_level_that_moves_an_outflow_and_a_content_in_the_same_two_relations() -> None:
+    """A pump's flow is split by s: what tank 2 takes is (1 - s) F, whatever the level of tank 1."""
+    _, (relation,) = of(
+        """model M { input pump unknown; param s=0.4; param A1=1; param A2=1.5; param k1=0.7
+        param k2=0.6
+        0:t1 { <- Sf:p1 = s*pump; -> C:A1; -> R:k1 { f = k1*ssqrt(e) }; -> De:h1 }
+        0:t2 { <- Sf:p2 = (1 - s)*pump; -> C:A2; -> R:k2 { f = k2*ssqrt(e) }; -> De:h2 }
+        sensor F = p1.f + p2.f }""",
+        "h1",
+    )
+
+    def by_hand(s, A2, k2, F, h2):
+        return A2 * D(h2) + k2 * ssqrt(h2) - (1 - s) * F
+
+    numbers = {"s": Q(2, 5), "A2": Q(5), "k2": Q(11)}
+    assert is_multiple(relation, by_hand, numbers, ("F", "h2"))
+    assert set(relation.faults) == {"s", "A2", "k2", "F", "h2"}
