@@ -160,6 +160,10 @@ class Procedure:
         self.append, self._under = outer
         return tuple(statements), found
 
+    def named(self, node: Expr) -> Expression | None:
+        """The name that a value has since an earlier call."""
+        return self._made.get(node)
+
     # ------------------------------------------------------------ analysis
 
     def _also(self, under: _Under) -> _Under:
