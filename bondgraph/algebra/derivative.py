@@ -11,7 +11,7 @@ piece; a jump of a mode or of a sign has no derivative and contributes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable
+from collections.abc import Generator, Iterable, Mapping
 from fractions import Fraction
 from itertools import pairwise
 from math import comb
@@ -260,9 +260,20 @@ def partial(pool: Pool, expr: Expr, symbol: Expr) -> Expr:
     slopes: dict[Expr, Expr] = {symbol: pool.one}
     for node in topological([expr]):
         if node is not symbol and any(a in slopes for a in node.args):
-            parts = zip(partials(pool, node), node.args, strict=True)
-            slopes[node] = pool.add(*[(1, pool.mul(d, slopes[a])) for d, a in parts if a in slopes])
+            slopes[node] = tangent(pool, node, slopes)
     return slopes.get(expr, pool.zero)
+
+
+def tangent(pool: Pool, node: Expr, changes: Mapping[Expr, Expr]) -> Expr:
+    """How a node of ADD, MUL, FN, IF or ROOT changes with its arguments; see `partials`.
+
+    That of a choice is a choice: on the side that is not taken nothing need have a value.
+    """
+    if node.op is Op.IF:
+        condition, *sides = node.args
+        return pool.choose(condition, *[changes.get(a, pool.zero) for a in sides])
+    parts = zip(partials(pool, node), node.args, strict=True)
+    return pool.add(*[(1, pool.mul(d, changes[a])) for d, a in parts if a in changes])
 
 
 def root_slope(pool: Pool, node: Expr, place: Expr) -> Expr:

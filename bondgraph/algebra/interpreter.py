@@ -6,11 +6,14 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
+from functools import partial
 from typing import Any, NamedTuple, assert_never
 
 from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.ir.program import (
     Assign,
+    Assignment,
+    Branch,
     Choice,
     Compare,
     Condition,
@@ -25,6 +28,7 @@ from bondgraph.ir.program import (
     Product,
     Program,
     Ref,
+    Statement,
     Sum,
     integer_power,
 )
@@ -112,12 +116,15 @@ class Interpreter:
             self.values[Ref("option", name)] = value
         self.run(program.configure)
 
-    def run(self, statements: Iterable[Assign | Dot | PolynomialTape]) -> None:
+    def run(self, statements: Iterable[Statement]) -> None:
         """Run a procedure, or a part of it."""
         for statement in statements:
             match statement:
                 case Assign():
                     self.put(statement.target, self._value(statement.value))
+                case Branch(target, (condition, x, y), yes, no):
+                    sides = partial(self._after, yes, x), partial(self._after, no, y)
+                    self.put(target, self.number.choose(self._holds(condition), *sides))
                 case Dot():
                     self.put(statement.target, self._dot(statement))
                 case PolynomialTape():
@@ -127,6 +134,10 @@ class Interpreter:
                             self.values[Ref("coef", output.array, k)] = rows[output.row][k]
                 case _:
                     assert_never(statement)
+
+    def _after(self, statements: tuple[Assignment, ...], value: Expression) -> Real:
+        self.run(statements)
+        return self._value(value)
 
     def put(self, target: Ref, value: Real) -> None:
         """Keep what a statement has computed."""
@@ -209,12 +220,18 @@ class Interpreter:
                     return left == right
                 return left < right if node.op == "<" else left <= right
             case Logic():
-                first, *rest = [self._holds(a) for a in node.args]
+                found = self._holds(node.args[0])
                 if node.op == "not":
-                    return first ^ True
-                for other in rest:
-                    first = first & other if node.op == "and" else first | other
-                return first
+                    return found ^ True
+                whole, choose = node.op == "and", self.number.choose
+                for arg in node.args[1:]:
+                    further = partial(self._holds, arg)
+                    found = (
+                        choose(found, further, lambda: False)
+                        if whole
+                        else choose(found, lambda: True, further)
+                    )
+                return found
         assert_never(node)
 
     def _root(self, block: NewtonBlock, args: Sequence[Real]) -> Real:
@@ -224,9 +241,8 @@ class Interpreter:
             Ref("local", name): x for name, x in zip(block.arguments, args, strict=True)
         }
 
-        def part(statements: tuple[Assign, ...], value: Expression) -> float:
-            inside.run(statements)
-            return float(inside._value(value))
+        def part(statements: tuple[Assignment, ...], value: Expression) -> float:
+            return float(inside._after(statements, value))
 
         def look(x: float) -> tuple[float, float]:
             inside.values[Ref("local", "x")] = self.number.real(x)

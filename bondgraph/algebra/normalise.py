@@ -96,11 +96,16 @@ def rewritten(
 
 def static(node: Expr) -> bool:
     """Whether a value follows from one sample of the known signals and running integrals."""
-    if node.op is Op.DER:
-        return False
-    if node.op is Op.INT and node.args[0].op is Op.DER:
-        return static(node.args[0].args[0])  # the change of a value since the start
-    return all(map(static, node.args))
+    stack, seen = [node], {node}
+    while stack:
+        node = stack.pop()
+        if node.op is Op.DER:
+            return False
+        if node.op is Op.INT and node.args[0].op is Op.DER:
+            node = node.args[0]  # the change of a value since the start
+        stack += [a for a in node.args if a not in seen]
+        seen.update(node.args)
+    return True
 
 
 def decided(condition: Expr) -> bool:

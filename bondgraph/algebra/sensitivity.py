@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from bondgraph.algebra.derivative import partials
+from bondgraph.algebra.derivative import partials, tangent
 from bondgraph.algebra.present import tidy
 from bondgraph.ir.expr import ZERO_START, Expr, Kind, Op, Pool, Symbol, topological
 from bondgraph.ir.nodes import has, holding
@@ -73,13 +73,47 @@ def _reverse(pool: Pool, expr: Expr, wrt: Sequence[Expr]) -> list[Expr]:
     adjoints: dict[Expr, list[Expr]] = {expr: [pool.one]}
     total: dict[Expr, Expr] = {}
     for node in reversed(holders):
-        own = total[node] = pool.add(*[(1, a) for a in adjoints.get(node, [])])
+        own = total[node] = _together(pool, adjoints.get(node, []))
         if own is pool.zero or not node.args:
             continue
-        for a, slope in zip(node.args, partials(pool, node), strict=True):
-            if a in holders and slope is not pool.zero:
-                adjoints.setdefault(a, []).append(pool.mul(own, slope))
+        if node.op is Op.IF:
+            condition, yes, no = node.args
+            own_yes = pool.choose(condition, own, pool.zero)
+            pairs = [(yes, own_yes), (no, pool.choose(condition, pool.zero, own))]
+        else:
+            slopes = zip(node.args, partials(pool, node), strict=True)
+            pairs = [(a, _where(pool, own, slope)) for a, slope in slopes if a in holders]
+        for a, adjoint in pairs:
+            if a in holders and adjoint is not pool.zero:
+                adjoints.setdefault(a, []).append(adjoint)
     return [total.get(s, pool.zero) for s in wrt]
+
+
+def _together(pool: Pool, terms: Sequence[Expr]) -> Expr:
+    """The sum of adjoints; choices by one condition are added side by side, so none grows."""
+    sides: dict[Expr, list[Expr]] = {}
+    for term in terms:
+        if term.op is Op.IF:
+            sides.setdefault(term.args[0], []).append(term)
+    plain = [t for t in terms if t.op is not Op.IF]
+    for condition, choices in sides.items():
+        yes, no = (_together(pool, [t.args[k] for t in choices]) for k in (1, 2))
+        plain.append(pool.choose(condition, yes, no))
+    return pool.add(*[(1, t) for t in plain])
+
+
+def _where(pool: Pool, adjoint: Expr, slope: Expr) -> Expr:
+    """adjoint*slope, where the slope need not have a value on a side on which the adjoint is 0."""
+    if adjoint is pool.zero or slope is pool.zero:
+        return pool.zero
+    if adjoint.op is Op.IF and pool.zero in adjoint.args:
+        condition, *sides = adjoint.args
+        return pool.choose(condition, *[_where(pool, side, slope) for side in sides])
+    if adjoint.op is Op.ADD and all(t.op is Op.IF and pool.zero in t.args for t in adjoint.args):
+        return _together(pool, [
+            pool.scale(c, _where(pool, t, slope)) for c, t in adjoint.terms
+        ])  # fmt: skip
+    return pool.mul(adjoint, slope)
 
 
 def _forward(
@@ -109,8 +143,7 @@ def _carry(
         elif node.op is Op.DER:
             terms = [(1, pool.der(tangents[a])) for a in moving]
         elif moving:
-            pairs = zip(node.args, partials(pool, node), strict=True)
-            terms = [(1, pool.mul(slope, tangents[a])) for a, slope in pairs if a in tangents]
+            terms = [(1, tangent(pool, node, tangents))]
         else:
             continue
         if terms:

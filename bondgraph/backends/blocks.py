@@ -10,7 +10,7 @@ from functools import lru_cache
 
 from bondgraph.backends.walk import references
 from bondgraph.ir.groups import Groups
-from bondgraph.ir.program import Assign, Const, Program, Ref
+from bondgraph.ir.program import Assignment, Const, Program, Ref, flat
 from bondgraph.text.tuples import NamedTuple
 
 
@@ -21,8 +21,8 @@ class Block(NamedTuple):
     residuals: tuple[str, ...]
     knowns: tuple[str, ...]
     states: tuple[str, ...]
-    first: tuple[Assign, ...]
-    step: tuple[Assign, ...]
+    first: tuple[Assignment, ...]
+    step: tuple[Assignment, ...]
     begins: str  # what the filter does on its first sample
 
 
@@ -41,15 +41,17 @@ def blocks(program: Program) -> tuple[Block, ...]:
     step = [(_key(s.target, "step"), s) for s in program.step]
     for procedure, statements in (("first", first), ("step", step)):
         for key, statement in statements:
-            for ref in references(statement.value):
-                if ref.space in ("state", "local", "residual"):
-                    groups.join(key, _key(ref, procedure))
+            for part in flat([statement]):
+                for ref in (part.target, *references(part.value)):
+                    if ref.space in ("state", "local", "residual"):
+                        groups.join(key, _key(ref, procedure))
     for opening in program.openings:  # what is valid and when is decided together with the value
         groups.join(("residual", opening.residual), ("state", opening.progress))
     members: dict[_Key, list[str]] = {}
     for info in program.residuals:
         members.setdefault(groups.find(("residual", info.name)), []).append(info.name)
-    own: dict[_Key, tuple[list[Assign], list[Assign]]] = {root: ([], []) for root in members}
+    own: dict[_Key, tuple[list[Assignment], list[Assignment]]]
+    own = {root: ([], []) for root in members}
     for at, statements in enumerate((first, step)):
         for key, statement in statements:
             if (root := groups.find(key)) in own:
@@ -67,10 +69,10 @@ def _block(
     knowns: Mapping[str, int],
     states: Mapping[str, int],
     residuals: list[str],
-    first: tuple[Assign, ...],
-    step: tuple[Assign, ...],
+    first: tuple[Assignment, ...],
+    step: tuple[Assignment, ...],
 ) -> Block:
-    refs = [ref for s in (*first, *step) for ref in (s.target, *references(s.value))]
+    refs = [ref for s in flat((*first, *step)) for ref in (s.target, *references(s.value))]
     signals = {ref.name for ref in refs if ref.space in _SIGNALS}
     memory = {ref.name for ref in refs if ref.space == "state"}
     few = len(residuals) <= 3

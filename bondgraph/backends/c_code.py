@@ -9,7 +9,15 @@ from bondgraph.backends.blocks import Block
 from bondgraph.backends.procedure_lines import lines
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.walk import reads
-from bondgraph.ir.program import Assign, Const, PolynomialTape, Program, Ref, ResidualInfo
+from bondgraph.ir.program import (
+    Assignment,
+    Const,
+    PolynomialTape,
+    Program,
+    Ref,
+    ResidualInfo,
+    Statement,
+)
 from bondgraph.notation.dialect import CodeSpeller
 
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
@@ -179,7 +187,7 @@ class Code:
         rows = listing.statement(test, " + ".join(names), self.target, 4)
         return [row.replace("\1", "{") for row in rows]
 
-    def _run(self, block: Block, statements: tuple[Assign, ...], count: str) -> list[str]:
+    def _run(self, block: Block, statements: tuple[Assignment, ...], count: str) -> list[str]:
         spelling = self.spelling
         speller = CodeSpeller(
             self.target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables
@@ -194,7 +202,7 @@ class Code:
         return [*head, *counts, *lines(statements, spelling, speller, 4)]
 
     def _pointers(
-        self, statements: Iterable[Assign | PolynomialTape], members: str, counts: bool = False
+        self, statements: Iterable[Statement], members: str, counts: bool = False
     ) -> list[str]:
         """Short names for the parts of the monitor that the statements use."""
         found = reads(statements)

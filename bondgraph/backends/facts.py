@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from bondgraph.backends import listing
 from bondgraph.backends.identifiers import snake
@@ -10,13 +10,14 @@ from bondgraph.backends.walk import functions, nodes, reads
 from bondgraph.ir.program import (
     Assign,
     Const,
-    Dot,
     Expression,
     Field,
     Known,
     PolynomialTape,
     Program,
     ResidualInfo,
+    Statement,
+    flat,
 )
 from bondgraph.text.tuples import NamedTuple
 
@@ -83,10 +84,8 @@ def facts(program: Program) -> Facts:
     )
 
 
-def _values(
-    statements: tuple[Assign | Dot | PolynomialTape, ...] | tuple[Assign | Dot, ...],
-) -> Iterator[Expression]:
-    for statement in statements:
+def _values(statements: Iterable[Statement]) -> Iterator[Expression]:
+    for statement in flat(statements):
         if isinstance(statement, Assign):
             yield statement.value
         elif isinstance(statement, PolynomialTape):

@@ -13,7 +13,7 @@ from functools import partial
 
 from bondgraph.algebra.interpreter import Interpreter, Number, interpolation
 from bondgraph.algebra.numeric import DOUBLES
-from bondgraph.ir.program import Assign, Dot, NewtonBlock, PolynomialTape, Program, Ref
+from bondgraph.ir.program import NewtonBlock, PolynomialTape, Program, Ref, Statement
 
 _CONTEXT = Context(prec=40, Emax=99999, Emin=-99999)
 _BUMP = 1e-7
@@ -101,7 +101,7 @@ class Evaluation(Interpreter):
     def __init__(self, program: Program) -> None:
         super().__init__(program, _SIZED)
 
-    def run(self, statements: Iterable[Assign | Dot | PolynomialTape]) -> None:
+    def run(self, statements: Iterable[Statement]) -> None:
         """Run a procedure with 40 digits."""
         with localcontext(_CONTEXT):
             super().run(statements)

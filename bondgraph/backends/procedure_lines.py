@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable
 
 from bondgraph.backends import listing
 from bondgraph.backends.spelling import Spelling
-from bondgraph.ir.program import Assign, Dot, PolynomialTape
+from bondgraph.ir.program import Assignment, Branch, Dot, Expression, PolynomialTape, Ref, Statement
 from bondgraph.notation.dialect import CodeSpeller
 
 
 def lines(
-    statements: Iterable[Assign | Dot | PolynomialTape],
+    statements: Iterable[Statement],
     spelling: Spelling,
     speller: CodeSpeller,
     indent: int,
@@ -33,17 +33,44 @@ def lines(
             assert tape is not None, "a tape stands only in configure"
             found += tape(statement, speller)
             continue
-        left = speller.name(statement.target)
         style = target.statements
+        if isinstance(statement, Branch):
+            found += _branch(statement, spelling, speller, indent)
+            continue
         pattern = style.local if statement.target.space == "local" else style.assign
         if isinstance(statement, Dot):
             value = _dot(statement, spelling)
         else:
             value = speller.expression(statement.value)
-        # only the value is left open: braces of neither side are holes
-        prefix = pattern.replace("{0}", left).replace("{1}", "{0}")
-        found += listing.statement(prefix, value, target, indent)
+        found += _assigned(pattern, statement.target, value, spelling, speller, indent)
     return found
+
+
+def _assigned(
+    pattern: str, left: Ref, value: str, spelling: Spelling, speller: CodeSpeller, indent: int
+) -> list[str]:
+    # only the value is left open: braces of neither side are holes
+    prefix = pattern.replace("{0}", speller.name(left)).replace("{1}", "{0}")
+    return listing.statement(prefix, value, spelling.target, indent)
+
+
+def _branch(branch: Branch, spelling: Spelling, speller: CodeSpeller, indent: int) -> list[str]:
+    target = spelling.target
+    style, space = target.statements, " " * indent
+
+    def side(statements: tuple[Assignment, ...], value: Expression) -> list[str]:
+        deeper = indent + target.tab
+        before = lines(statements, spelling, speller, deeper)
+        text = speller.expression(value)
+        last = _assigned(style.assign, branch.target, text, spelling, speller, deeper)
+        return [*before, "", *last] if before else last
+
+    if_, else_, end = style.branch
+    found = [space + style.declared.format(speller.name(branch.target))] if style.declared else []
+    found += listing.statement(if_, speller.expression(branch.value.condition), target, indent)
+    found += [*side(branch.yes, branch.value.yes), space + else_]
+    found += side(branch.no, branch.value.no)
+    return [*found, space + end] if end else found
 
 
 def _dot(statement: Dot, spelling: Spelling) -> str:

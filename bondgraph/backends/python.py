@@ -25,7 +25,7 @@ from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
 from bondgraph.backends.vectors import Vectors
 from bondgraph.backends.walk import reads
-from bondgraph.ir.program import Assign, Dot, PolynomialTape, Program
+from bondgraph.ir.program import Assignment, Dot, PolynomialTape, Program
 from bondgraph.notation.dialect import CodeSpeller, digits
 
 _HELPERS = ("sign", "ssqrt", "ssq", "power", "table", "root")
@@ -351,7 +351,7 @@ class _Module:
             "zero": [f"            {name} = 0.0" for name in results],
         }
 
-    def _run(self, block: Block, statements: tuple[Assign, ...], count: str) -> list[str]:
+    def _run(self, block: Block, statements: tuple[Assignment, ...], count: str) -> list[str]:
         spelling = self.spelling
         speller = CodeSpeller(
             self.target.dialect, lambda ref: spelling.value(ref, block.name), spelling.tables

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bondgraph.backends import listing
 from bondgraph.backends.procedure_lines import lines
 from bondgraph.backends.spelling import Spelling
-from bondgraph.ir.program import Assign, Expression, NewtonBlock, Program
+from bondgraph.ir.program import Assignment, Expression, NewtonBlock, Program
 from bondgraph.notation.dialect import CodeSpeller, digits
 
 
@@ -20,7 +20,7 @@ def _root(block: NewtonBlock, spelling: Spelling, argument: str, indent: int) ->
     target = spelling.target
     speller = CodeSpeller(target.dialect, spelling.value, spelling.tables)
 
-    def part(statements: tuple[Assign, ...], name: str, value: Expression) -> list[str]:
+    def part(statements: tuple[Assignment, ...], name: str, value: Expression) -> list[str]:
         prefix = target.statements.local.replace("{0}", name).replace("{1}", "{0}")
         last = listing.statement(prefix, speller.expression(value), target, indent)
         return [*lines(statements, spelling, speller, indent), *last]

@@ -10,7 +10,7 @@ from bondgraph.backends.blocks import Block, blocks
 from bondgraph.backends.identifiers import identifier, snake, spellings
 from bondgraph.backends.target import Target
 from bondgraph.ir.expr import backwards, read_backwards
-from bondgraph.ir.program import Assign, Dot, Known, Mode, Program, Ref, Statement
+from bondgraph.ir.program import Known, Mode, PolynomialTape, Program, Ref, Statement, flat
 
 #: Suffixes of the further members that exact takes for one signal.
 INTEGRAL, DOUBLE_INTEGRAL, START = "integral", "double_integral", "start"
@@ -186,7 +186,7 @@ def suffixes(known: Known) -> tuple[str, ...]:
 
 
 def _locals(program: Program) -> Iterable[str]:
-    statements: list[Statement | Dot] = [
+    statements: list[Statement] = [
         *(s for block in program.roots for s in (*block.body, *block.further)),
         *program.configure,
         *program.exact,
@@ -195,8 +195,8 @@ def _locals(program: Program) -> Iterable[str]:
     ]
     names = [
         s.target.name
-        for s in statements
-        if isinstance(s, Assign | Dot) and s.target.space == "local"
+        for s in flat(statements)
+        if not isinstance(s, PolynomialTape) and s.target.space == "local"
     ]
     names += [name for block in program.roots for name in ("x", *block.arguments)]
     return dict.fromkeys(names)

@@ -16,13 +16,16 @@ class Statements(NamedTuple):
 
     `comment` is what opens it, begins its further lines and closes it, `brackets` stand around a
     value that needs several lines, `unforeseen` may not occur in a comment: each with what
-    replaces it.
+    replaces it. `declared` goes before a `branch` that assigns it: its lines before either side
+    and at the end, those that the language needs.
     """
 
     comment: tuple[str, str, str]
     brackets: tuple[str, str]
     local: str
     assign: str
+    declared: str
+    branch: tuple[str, str, str]
     dot: str
     unforeseen: tuple[tuple[str, str], ...]
 
@@ -64,6 +67,7 @@ def load(folder: str) -> Target:
     statement = data["statement"]
     opening, closing = statement["brackets"]
     begin, go_on, end = statement["comment"]
+    if_, else_, done = statement["branch"]
     return Target(
         folder,
         data["name"],
@@ -75,6 +79,8 @@ def load(folder: str) -> Target:
             (opening, closing),
             statement["local"],
             statement["assign"],
+            statement["declared"],
+            (if_, else_, done),
             statement["dot"],
             tuple((bad, good) for bad, good in statement["unforeseen"]),
         ),

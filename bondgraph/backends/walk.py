@@ -19,7 +19,9 @@ from bondgraph.ir.program import (
     PolynomialTape,
     Product,
     Ref,
+    Statement,
     Sum,
+    flat,
     integer_power,
 )
 from bondgraph.notation.dialect import is_written_out
@@ -68,10 +70,10 @@ def references(value: Expression | Condition) -> list[Ref]:
     return found
 
 
-def reads(statements: Iterable[Assign | Dot | PolynomialTape]) -> list[Ref]:
+def reads(statements: Iterable[Statement]) -> list[Ref]:
     """Everything that statements read, and what they write."""
     found: list[Ref] = []
-    for statement in statements:
+    for statement in flat(statements):
         match statement:
             case Assign():
                 found += [statement.target, *references(statement.value)]

@@ -569,6 +569,8 @@ def tangent(root: Expr, wrt: Expr, values: dict[Expr, Any], algebra: Any, n: int
     for node in topological([root]):
         if node is wrt or not any(a in tangents for a in node.args):
             continue
+        if node not in values:
+            continue  # on a side that is not taken
         parts = [
             (1, algebra.product([(slope, 1), (tangents[a], 1)], n))
             for a, slope in slopes(node, values, algebra, n, False)

@@ -8,7 +8,8 @@ cascade of first-order stages. All arithmetic is on one type, `real`.
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from collections.abc import Iterable, Iterator
+from typing import Literal, TypeAlias, overload
 
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
@@ -134,6 +135,22 @@ class Assign(NamedTuple):
     origin: Span | None
 
 
+class Branch(NamedTuple):
+    """`target` = `value`, and what only one side of that choice needs.
+
+    Where the condition holds, the statements `yes` are run before `value.yes`, else `no` before
+    `value.no`. Their locals are read nowhere else, so that a law need have no value on the side
+    that is not taken. A choice whose sides need no statements is an `Assign`.
+    """
+
+    target: Ref
+    value: Choice
+    yes: tuple[Assignment, ...]
+    no: tuple[Assignment, ...]
+    comment: str
+    origin: Span | None
+
+
 class TapeOp(NamedTuple):
     """`row[target][i + shift] += scale * row[source][i]` for i < length; a `fresh` target is
     set to zero first. `target` and `source` differ; `scale` is an index."""
@@ -183,9 +200,9 @@ class NewtonBlock(NamedTuple):
 
     name: str
     arguments: tuple[str, ...]
-    body: tuple[Assign, ...]
+    body: tuple[Assignment, ...]
     value: Expression
-    further: tuple[Assign, ...]
+    further: tuple[Assignment, ...]
     slope: Expression
     rising: bool
     guess: float
@@ -211,8 +228,26 @@ class Dot(NamedTuple):
     origin: Span | None
 
 
-Statement: TypeAlias = Assign | PolynomialTape
-ExactStatement: TypeAlias = Assign | Dot
+Assignment: TypeAlias = Assign | Branch
+Statement: TypeAlias = Assignment | PolynomialTape | Dot
+
+
+@overload
+def flat(statements: Iterable[Assignment]) -> Iterator[Assign]: ...
+@overload
+def flat(statements: Iterable[Statement]) -> Iterator[Assign | PolynomialTape | Dot]: ...
+def flat(statements: Iterable[Statement]) -> Iterator[Assign | PolynomialTape | Dot]:
+    """The statements with those of both sides of every branch before it, itself as its choice.
+
+    This is for who asks what is read and given, not when.
+    """
+    for statement in statements:
+        if isinstance(statement, Branch):
+            yield from flat((*statement.yes, *statement.no))
+            target, value, _, _, comment, origin = statement
+            yield Assign(target, value, comment, origin)
+        else:
+            yield statement
 
 # --------------------------------------------------------------------- program
 
@@ -319,10 +354,10 @@ class Program(NamedTuple):
     coefs: tuple[Field, ...]
     states: tuple[Field, ...]
     residuals: tuple[ResidualInfo, ...]
-    configure: tuple[Statement, ...]
-    exact: tuple[ExactStatement, ...]
-    first: tuple[Assign, ...]  # step, when it starts: steady state of the first sample
-    step: tuple[Assign, ...]
+    configure: tuple[Assignment | PolynomialTape, ...]
+    exact: tuple[Assignment | Dot, ...]
+    first: tuple[Assignment, ...]  # step, when it starts: steady state of the first sample
+    step: tuple[Assignment, ...]
     dropped: tuple[Dropped, ...]
     rate: float  # samples a second that the code was made for
     bandwidth: float  # rad/s, default of configure

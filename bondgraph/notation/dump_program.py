@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import assert_never
 
-from bondgraph.ir.program import Assign, Dot, Mode, PolynomialTape, Program, Ref
+from bondgraph.ir.program import Assign, Branch, Dot, Mode, PolynomialTape, Program, Ref, Statement
 from bondgraph.notation.dialect import PLAIN, CodeSpeller
 from bondgraph.notation.dump_stages import place, table
 
@@ -61,13 +61,22 @@ def _default(value: float | None) -> str:
     return "given at configure" if value is None else repr(value)
 
 
-def _procedure(statements: Iterable[Assign | PolynomialTape | Dot]) -> list[str]:
+def _procedure(statements: Iterable[Statement]) -> list[str]:
+    return table(_rows(statements))
+
+
+def _rows(statements: Iterable[Statement], space: str = "") -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = []
     for statement in statements:
         where = "" if statement.origin is None else f"  # {place(statement.origin)}"
         match statement:
             case Assign():
-                rows.append((_text(statement.target), f"= {_text(statement.value)}{where}"))
+                rows.append((space + _text(statement.target), f"= {_text(statement.value)}{where}"))
+            case Branch(target, (condition, x, y), yes, no):
+                rows.append((f"{space}if {_text(condition)}{where}",))
+                rows += _rows((*yes, Assign(target, x, "", None)), space + "  ")
+                rows.append((f"{space}else",))
+                rows += _rows((*no, Assign(target, y, "", None)), space + "  ")
             case Dot():
                 terms = [f"{t.array} . D({t.signal}, 0..{t.length - 1})" for t in statement.terms]
                 rows.append((_text(statement.target), f"= {' + '.join(terms)}{where}"))
@@ -76,7 +85,7 @@ def _procedure(statements: Iterable[Assign | PolynomialTape | Dot]) -> list[str]
                 rows.append((outputs, f"= tape of {len(statement.ops)} steps{where}"))
             case _:
                 assert_never(statement)
-    return table(rows)
+    return rows
 
 
 def _called(value: Ref | Mode) -> str:

@@ -55,7 +55,8 @@ class Lanes(Interpreter):
         super().__init__(program, ARRAYS)
         # Most runs, and samples of constant signals, differ in nothing that a root rests on.
         self._found: dict[tuple[str | float, ...], Any] = {}
-        self.configure(params)
+        with np.errstate(all="ignore"):
+            self.configure(params)
         self._coefs = {ref: value for ref, value in self.values.items() if ref.space == "coef"}
 
     def sample(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import assert_never
 
 from bondgraph.ir.program import (
     Assign,
+    Branch,
     Choice,
     Compare,
     Condition,
@@ -21,7 +23,9 @@ from bondgraph.ir.program import (
     Product,
     Program,
     Ref,
+    Statement,
     Sum,
+    flat,
 )
 from tests.promises.check import promise
 from tests.promises.graphs import twice
@@ -87,12 +91,12 @@ def _given(statement: Assign | PolynomialTape | Dot) -> list[Ref]:
 def _procedures(
     program: Program,
 ) -> dict[str, tuple[Assign | PolynomialTape | Dot, ...]]:
-    return {name: getattr(program, name) for name in _SPACES}
+    return {name: tuple(flat(getattr(program, name))) for name in _SPACES}
 
 
 def _blocks(program: Program) -> Iterator[tuple[NewtonBlock, list[Ref | Function | Mode]]]:
     for block in program.roots:
-        own = [leaf for s in (*block.body, *block.further) for leaf in leaves(s.value)]
+        own = [leaf for s in flat((*block.body, *block.further)) for leaf in leaves(s.value)]
         yield block, [*own, *leaves(block.value), *leaves(block.slope)]
 
 
@@ -122,7 +126,7 @@ def locals_are_given_before_they_are_read(program: Program) -> Iterator[str]:
                 given.add((target.space, target.name))
     for block in program.roots:
         known = {"x", *block.arguments}
-        for assign in (*block.body, *block.further):
+        for assign in flat((*block.body, *block.further)):
             yield from _unknown_in(block, assign.value, known)
             known.add(assign.target.name)
         yield from _unknown_in(block, block.value, known)
@@ -133,6 +137,29 @@ def _unknown_in(block: NewtonBlock, value: Expression, known: set[str]) -> Itera
     for ref in leaves(value):
         if isinstance(ref, Ref) and ref.space == "local" and ref.name not in known:
             yield f"root {block.name} reads {ref.name}"
+
+
+def _branches(statements: Iterable[Statement]) -> Iterator[Branch]:
+    for statement in statements:
+        if isinstance(statement, Branch):
+            yield statement
+            yield from _branches((*statement.yes, *statement.no))
+
+
+@promise("Program")
+def sides_of_branches_keep_their_locals(program: Program) -> Iterator[str]:
+    """A branch has statements, and what they give is read on the same side and nowhere else."""
+    whole = [getattr(program, name) for name in _SPACES]
+    for statements in [*whole, *((*b.body, *b.further) for b in program.roots)]:
+        for branch in _branches(statements):
+            if not branch.yes and not branch.no:
+                yield f"{branch.target.name} needs no branch"
+            for side, value in (branch.yes, branch.value.yes), (branch.no, branch.value.no):
+                own = {s.target for s in flat(side)}
+                here = Counter(r for s in flat(side) for r in _read(s) if r in own)
+                here.update(r for r in leaves(value) if r in own)
+                if here != Counter(r for s in flat(statements) for r in _read(s) if r in own):
+                    yield f"{branch.target.name}: a local of one side is read elsewhere"
 
 
 @promise("Program")
@@ -218,7 +245,8 @@ def what_is_declared_is_used(program: Program) -> Iterator[str]:
 @promise("Program")
 def coefficients_are_given_once(program: Program) -> Iterator[str]:
     """Configure gives every element of a coefficient once, within its size."""
-    given = [ref for s in program.configure for ref in _given(s) if ref.space == "coef"]
+    statements = _procedures(program)["configure"]
+    given = [ref for s in statements for ref in _given(s) if ref.space == "coef"]
     yield from (f"{ref} twice" for ref in twice(given))
     sizes = {f.name: max(f.size, 1) for f in program.coefs}
     for ref in given:
@@ -243,7 +271,7 @@ def residuals_have_values(program: Program) -> Iterator[str]:
 def derivatives_are_asked_for(program: Program) -> Iterator[str]:
     """Exact reads no derivative or integral of a signal beyond what `knowns` declare."""
     range_of = {k.name: (k.lowest, k.highest, k.start) for k in program.knowns}
-    for statement in program.exact:
+    for statement in _procedures(program)["exact"]:
         for ref in _read(statement):
             if isinstance(ref, Ref) and ref.name in range_of:
                 low, high, start = range_of[ref.name]

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from bondgraph.ir.expr import Kind
-from bondgraph.ir.program import Assign, PolynomialTape, Ref
+from bondgraph.ir.program import Assign, Branch, PolynomialTape, Ref
 from bondgraph.pipeline import Compilation, compile
 from bondgraph.text.source import Source
 from tests.conftest import ROOT
@@ -45,7 +45,9 @@ def of(name: str) -> Compilation:
     texts = {"ladder": LADDER, "same": SAME}
     if name in texts:
         return Compilation(Source(f"{name}.bg", texts[name]))
-    folder = "models" if name in ("dc_motor", "oven") else "tests/adversary/models"
+    folder = {"dc_motor": "models", "oven": "models", "branch": "tests/cases/program"}.get(
+        name, "tests/adversary/models"
+    )
     return compile(ROOT / folder / f"{name}.bg")
 
 
@@ -182,6 +184,17 @@ def tape(program: Any) -> Any:
     return program._replace(configure=put(program.configure, at, ops=ops))
 
 
+def branched(instead: Callable[[Branch], tuple[Any, ...]]) -> Callable[[Any], Any]:
+    """A program with other statements in place of its first branch."""
+
+    def broken(program: Any) -> Any:
+        at = next(n for n, s in enumerate(program.step) if isinstance(s, Branch))
+        made = instead(program.step[at])
+        return program._replace(step=(*program.step[:at], *made, *program.step[at + 1 :]))
+
+    return broken
+
+
 def stray() -> Assign:
     """An assignment to a local that nothing reads, of one that nothing gives."""
     return Assign(Ref("local", "somewhere"), Ref("local", "nowhere"), "", None)
@@ -305,6 +318,10 @@ BREAKS = [
           lambda p: p._replace(step=(stray(), *p.step))),
     Break("locals_are_given_before_they_are_read", program("two_tanh"),
           change("roots", 0, value=Ref("local", "nowhere"))),
+    Break("sides_of_branches_keep_their_locals", program("branch"),
+          branched(lambda b: (b, stray()._replace(value=b.yes[0].target)))),
+    Break("sides_of_branches_keep_their_locals", program("branch"),
+          branched(lambda b: (b._replace(yes=(), no=()),))),
     Break("locals_are_read", program(), lambda p: p._replace(step=(stray(), *p.step))),
     Break("procedures_read_what_is_theirs", program(),
           lambda p: change("step", 0, value=Ref("param", p.params[0].name))(p)),

@@ -15,6 +15,7 @@ from bondgraph.ir.graph import BondGraph, Input, Sensor, Value
 from bondgraph.ir.nodes import constant
 from bondgraph.ir.program import (
     Assign,
+    Assignment,
     Choice,
     Expression,
     Field,
@@ -154,9 +155,9 @@ class Builder:
         """An element of an array of coefficients as a symbol, for use in other coefficients."""
         return self.pool.symbol(f"{OPTION}{array}@{at}", Kind.CONST)
 
-    def configure(self) -> list[Assign]:
+    def configure(self) -> list[Assignment]:
         """The statements that compute all coefficients; each stands after what it rests on."""
-        out = list(self.prelude)
+        out: list[Assignment] = list(self.prelude)
         resolved = self.resolve([w.value for w in self._wanted])
         work = Procedure(self.pool, self.leaf, out.append, self.names, "t")
         places: dict[Expr, Span | None] = {}

@@ -8,9 +8,9 @@ from bondgraph.ir.expr import Expr, Kind, Op
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.program import (
     Assign,
+    Assignment,
     Dot,
     DotTerm,
-    ExactStatement,
     Expression,
     Field,
     Product,
@@ -32,7 +32,7 @@ class Exactly:
 
     def __init__(self, builder: Builder) -> None:
         self.builder = builder
-        self.statements: list[ExactStatement] = []
+        self.statements: list[Assignment | Dot] = []
         self.highest = 0
         self._procedure = Procedure(
             builder.pool,

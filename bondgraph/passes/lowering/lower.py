@@ -13,13 +13,14 @@ from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.program import (
     Assign,
+    Assignment,
     Dropped,
     Field,
     Opening,
+    PolynomialTape,
     Program,
     Ref,
     ResidualInfo,
-    Statement,
 )
 from bondgraph.ir.residuals import Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
@@ -72,8 +73,8 @@ def fastest(options: LowerOptions) -> float:
 
 class _Lowered(NamedTuple):
     info: ResidualInfo
-    first: list[Assign]
-    step: list[Assign]
+    first: list[Assignment]
+    step: list[Assignment]
     states: list[Field]
     dropped: list[Dropped]
     opening: Opening | None = None
@@ -136,7 +137,7 @@ def lower(
         else:
             info = low.info._replace(order=order)
         lowered.append(low._replace(info=info))
-    configure: list[Statement] = []
+    configure: list[Assignment | PolynomialTape] = []
     for tape in tapes:
         configure += [] if tape is None else [*tape.before, tape.statement]
     own = builder.configure()

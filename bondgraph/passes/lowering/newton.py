@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from bondgraph.algebra.derivative import partial
 from bondgraph.ir.expr import Expr, Op, Pool, Root, topological
-from bondgraph.ir.program import Assign, Expression, NewtonBlock, Ref
+from bondgraph.ir.program import Assignment, Expression, NewtonBlock, Ref
 from bondgraph.notation.line import show
 from bondgraph.passes.lowering.procedure import Procedure
 from bondgraph.passes.lowering.program_names import Names
@@ -39,7 +39,7 @@ def _block(pool: Pool, root: Root) -> NewtonBlock:
     arguments = tuple(names.new(f"c{k}") for k in range(len(root.places)))
     given: dict[Expr, Expression] = {root.unknown: Ref("local", names.new("x"))}
     given |= {p: Ref("local", a) for p, a in zip(root.places, arguments, strict=True)}
-    body: list[Assign] = []
+    body: list[Assignment] = []
     work = Procedure(pool, given.get, body.append, names, "v")
     slope = partial(pool, root.zero, root.unknown)
     value = work.value(root.zero, None)

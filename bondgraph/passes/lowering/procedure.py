@@ -1,5 +1,8 @@
 """Expressions of the graph as statements: what is used twice gets a name, the rest is written out.
 
+What is needed whatever a condition says is computed before it, anything else on its own side only:
+on the other one it need not have a value.
+
 Constant parts can be taken out of a procedure (`hoist`): they then become coefficients that
 configure computes, and a step never divides by a parameter.
 """
@@ -8,10 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from functools import partial
+from typing import TypeVar
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.program import (
     Assign,
+    Assignment,
+    Branch,
     Choice,
     Compare,
     Condition,
@@ -29,9 +36,13 @@ from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
 _DEEPEST = 6  # brackets inside brackets, before a part gets a name
+_BRANCHES = 50  # branches inside of one; beyond, both sides are computed before: text has to end
 
 ONE = Const(1.0)
 ZERO = Const(0.0)
+
+_T = TypeVar("_T")
+_Under = tuple[tuple[Expr, bool], ...]
 
 
 class _Piece(NamedTuple):
@@ -52,7 +63,7 @@ class Procedure:
         self,
         pool: Pool,
         leaf: Callable[[Expr], Expression | None],
-        append: Callable[[Assign], None],
+        append: Callable[[Assignment], None],
         names: Names,
         prefix: str,
         hoist: Callable[[Expr], Expression] | None = None,
@@ -67,6 +78,10 @@ class Procedure:
         self.constant = constant
         self._made: dict[Expr, Expression] = {}
         self._users: dict[Expr, int] = {}
+        self._needs: dict[Expr, list[Expr]] = {}  # of each node, whatever conditions say
+        self._depth: dict[Expr, int] = {}
+        self._under: _Under = ()  # constant conditions that hold, or not, where values are used
+        self._origin: Span | Mapping[Expr, Span | None] | None = None
 
     def values(
         self, roots: Iterable[Expr], origin: Span | Mapping[Expr, Span | None] | None
@@ -76,66 +91,156 @@ class Procedure:
         `origin` is the place that the statements come from, or the place of each node.
         """
         roots = list(roots)
-        outer = self._made, self._users  # a leaf may need values of its own
-        self._made, self._users = dict(self._made), {}
+        # a leaf may need values of its own
+        outer = self._made, self._users, self._needs, self._depth, self._under, self._origin
+        self._made, self._users, self._depth = dict(self._made), {}, {}
+        self._under, self._origin = (), origin
         for node in topological(roots):
             for arg in node.args:
                 self._users[arg] = self._users.get(arg, 0) + 1
-        uses, pieces = self._uses(roots)
-        depth: dict[Expr, int] = {}
-        for node in sorted(uses, key=lambda n: n.id):
-            if node in self._made:
-                continue
-            value = self._leaf(node)
-            if value is None:
-                value = self._value(node, pieces.get(node))
-                depth[node] = 1 + max((depth.get(a, 0) for a in node.args), default=0)
-                if uses[node] > 1 or depth[node] > _DEEPEST:
-                    if not isinstance(value, Ref | Const):
-                        target = Ref("local", self.names.new(self.prefix))
-                        place = origin.get(node) if isinstance(origin, Mapping) else origin
-                        self.append(Assign(target, value, brief(node), place))
-                        value = target
-                    depth[node] = 0
-            self._made[node] = value
+        *_, self._needs = self._uses(roots)  # all leaves write here what they are made of
+        self._defer()
+        self._write(roots)
         found = [self._made[r] for r in roots]
         # what was written out in one place has no name to be called by in another
         named = {n: v for n, v in self._made.items() if isinstance(v, Ref | Const)}
-        self._made, self._users = {**outer[0], **named}, outer[1]
+        self._made, self._users, self._needs, self._depth, self._under, self._origin = outer
+        self._made = {**self._made, **named}
         return found
 
     def value(self, root: Expr, origin: Span | None) -> Expression:
         """The value of one expression."""
         return self.values([root], origin)[0]
 
+    def _write(self, roots: list[Expr]) -> None:
+        """Make the values of the roots, after the statements that they need in any case."""
+        uses, pieces, _ = self._uses(roots)
+        needed = self._needed(roots)
+        for node in sorted(uses, key=lambda n: n.id):
+            if node in self._made or node not in needed:
+                continue
+            value = self._leaf(node)
+            if value is None:
+                value = self._value(node, pieces.get(node))
+                depth = 1 + max((self._depth.get(a, 0) for a in node.args), default=0)
+                if uses[node] > 1 or depth > _DEEPEST:
+                    if not isinstance(value, Ref | Const):
+                        value = self._named(node, value)
+                    depth = 0
+                self._depth[node] = depth
+            self._made[node] = value
+
+    def _named(
+        self,
+        node: Expr,
+        value: Expression,
+        yes: tuple[Assignment, ...] = (),
+        no: tuple[Assignment, ...] = (),
+    ) -> Ref:
+        """A value as a statement; `yes` and `no` are what the sides of a choice need."""
+        target = Ref("local", self.names.new(self.prefix))
+        place = self._origin.get(node) if isinstance(self._origin, Mapping) else self._origin
+        if isinstance(value, Choice) and (yes or no):
+            self.append(Branch(target, value, yes, no, brief(node), place))
+        else:
+            self.append(Assign(target, value, brief(node), place))
+        return target
+
+    def _side(
+        self, roots: list[Expr], finish: Callable[[], _T], under: _Under
+    ) -> tuple[tuple[Assignment, ...], _T]:
+        """What is made of the roots where they are needed, and the statements for that."""
+        statements: list[Assignment] = []
+        outer, size = (self.append, self._under), len(self._made)
+        self.append, self._under = statements.append, self._also(under)
+        self._write(roots)
+        found = finish()
+        while len(self._made) > size:
+            self._made.popitem()
+        self.append, self._under = outer
+        return tuple(statements), found
+
+    def named(self, node: Expr) -> Expression | None:
+        """The name that a value has since an earlier call."""
+        return self._made.get(node)
+
     # ------------------------------------------------------------ analysis
+
+    def _also(self, under: _Under) -> _Under:
+        """The constant conditions here, with those of a side."""
+        return (*self._under, *((c, holds) for c, holds in under if self.constant(c)))
 
     def _leaf(self, node: Expr) -> Expression | None:
         if node.op is Op.NUM:
             return _number(node.number)
         if self.hoist is not None and self.constant(node):
-            return self.hoist(node)
+            return self._hoisted(node)
         return self.leaf(node)
 
-    def _uses(self, roots: list[Expr]) -> tuple[dict[Expr, int], dict[Expr, _Piece]]:
+    def _hoisted(self, value: Expr) -> Expression:
+        """The coefficient of a constant; where it may have no value, only if it is needed."""
+        assert self.hoist is not None
+        if not _polynomial(value):
+            pool = self.pool
+            for condition, holds in self._under:
+                sides = (value, pool.zero) if holds else (pool.zero, value)
+                value = pool.choose(condition, *sides)
+        return self.hoist(value)
+
+    def _uses(
+        self, roots: list[Expr]
+    ) -> tuple[dict[Expr, int], dict[Expr, _Piece], dict[Expr, list[Expr]]]:
+        """How often each node is used, sums and products as they are written, all operands."""
         uses: dict[Expr, int] = {}
         pieces: dict[Expr, _Piece] = {}
-        stack = list(roots)
+        operands: dict[Expr, list[Expr]] = {}
+        here = self._under
+        stack = [(root, here) for root in roots]
         while stack:
-            node = stack.pop()
+            node, self._under = stack.pop()
             uses[node] = uses.get(node, 0) + 1
             if uses[node] > 1 or node in self._made or self._leaf(node) is not None:
                 continue
             if node.op in (Op.ADD, Op.MUL):
                 piece = pieces[node] = self._piece(node)
-                stack += [
-                    a for _, _, fs in piece.terms for a, e in fs for _ in range(min(abs(e), 2))
-                ]
+                own = [
+                    (a, self._under)
+                    for _, _, fs in piece.terms for a, e in fs for _ in range(min(abs(e), 2))
+                ]  # fmt: skip
             elif node.op in (Op.CMP, Op.LOGIC, Op.IF, Op.FN, Op.ROOT):
-                stack += _operands(node)
+                own = [(a, self._also(under)) for a, under in _operands(node)]
             else:
                 raise ValueError(f"no value for {show(node)}")
-        return uses, pieces
+            operands[node] = [a for a, _ in own]
+            stack += own
+        self._under = here
+        return uses, pieces, operands
+
+    def _defer(self) -> None:
+        """Leave to each node only what it needs whatever conditions say."""
+        branches: dict[Expr, int] = {}
+        for node in sorted(self._needs, key=lambda n: n.id):
+            if node.op not in (Op.IF, Op.LOGIC):
+                continue
+            operands = _operands(node)
+            apart = [self._needed([a]) for a, under in operands if under]
+            both = apart[-2] & apart[-1] if node.op is Op.IF else set()
+            inside = set[Expr]().union(*apart) - both
+            count = 1 + sum(branches.get(n, 0) for n in inside)
+            if count <= _BRANCHES:
+                branches[node] = count
+                self._needs[node] = [*(a for a, under in operands if not under), *both]
+
+    def _needed(self, roots: list[Expr]) -> set[Expr]:
+        """All that the roots need whatever conditions say."""
+        found: set[Expr] = set()
+        stack = list(roots)
+        while stack:
+            node = stack.pop()
+            if node not in found:
+                found.add(node)
+                stack += self._needs.get(node, ())
+        return found
 
     def _piece(self, node: Expr) -> _Piece:
         if node.op is Op.MUL:
@@ -175,23 +280,49 @@ class Procedure:
         if node.op is Op.ROOT:
             return Function(f"root:{node.root.name}", tuple(self._made[a] for a in node.args))
         if node.op is Op.IF:
-            yes, no = (self._made[a] for a in node.args[1:])
-            return Choice(self._condition(node.args[0]), yes, no)
+            return self._choice(node, *node.args)
         if node.op in (Op.CMP, Op.LOGIC):  # a truth value used as a number
             return Choice(self._condition(node), ONE, ZERO)
         raise ValueError(f"no value for {show(node)}")
+
+    def _choice(self, node: Expr, condition: Expr, yes: Expr, no: Expr) -> Expression:
+        holds = self._condition(condition)
+        before, x = self._side([yes], lambda: self._made[yes], ((condition, True),))
+        else_before, y = self._side([no], lambda: self._made[no], ((condition, False),))
+        value = Choice(holds, x, y)
+        return self._named(node, value, before, else_before) if before or else_before else value
 
     def _condition(self, node: Expr) -> Condition:
         if node.op is Op.CMP:
             left, right = (self._made[a] for a in node.args)
             return Compare(node.name, left, right)
         if node.op is Op.LOGIC:
-            return Logic(node.name, tuple(self._condition(a) for a in node.args))
+            return self._logic(node)
         if node.kind is Kind.MODE:
             value = self._made[node]
             assert isinstance(value, Choice)
             return value.condition
         return Logic("not", (Compare("==", self._made[node], ZERO),))
+
+    def _logic(self, node: Expr) -> Condition:
+        """A condition of which a part may need statements where it is looked at."""
+        first, *rest = node.args
+        found: list[Condition] = [self._condition(first)]
+        under: _Under = ((first, node.name == "and"),)
+        for arg in rest:
+            always = [v for v, later in _looks(arg) if not later]
+            before, last = self._side(always, partial(self._condition, arg), under)
+            under = (*under, (arg, node.name == "and"))
+            found.append(last)
+            if before:
+                so_far = found[0] if len(found) == 2 else Logic(node.name, tuple(found[:-1]))
+                truth = Choice(last, ONE, ZERO)
+                if node.name == "and":
+                    value = self._named(node, Choice(so_far, truth, ZERO), yes=before)
+                else:
+                    value = self._named(node, Choice(so_far, ONE, truth), no=before)
+                found = [Logic("not", (Compare("==", value, ZERO),))]
+        return found[0] if rest and len(found) == 1 else Logic(node.name, tuple(found))
 
     def _sum(self, piece: _Piece) -> Expression:
         terms = [self._term(*t) for t in piece.terms]
@@ -209,7 +340,7 @@ class Procedure:
         if fixed is not None and self.hoist is not None:
             sign, fixed = positive_part(self.pool, self.pool.scale(abs(c), fixed))
             positive ^= not sign
-            above.append(self.hoist(fixed))
+            above.append(self._hoisted(fixed))
         else:
             _times(abs(c), above, below)
         for node, exponent in factors:
@@ -229,17 +360,32 @@ def positive_part(pool: Pool, node: Expr) -> tuple[bool, Expr]:
     return True, node
 
 
-def _operands(node: Expr) -> list[Expr]:
-    """The values that a node needs, looking through conditions."""
+def _operands(node: Expr) -> list[tuple[Expr, _Under]]:
+    """The values that a node needs, looking through conditions, each with when it needs them."""
     if node.op is Op.IF:
-        return [*_inside(node.args[0]), *node.args[1:]]
-    return _inside(node) if node.op in (Op.CMP, Op.LOGIC) else list(node.args)
+        condition, yes, no = node.args
+        return [*_looks(condition), (yes, ((condition, True),)), (no, ((condition, False),))]
+    return _looks(node) if node.op in (Op.CMP, Op.LOGIC) else [(a, ()) for a in node.args]
 
 
-def _inside(condition: Expr) -> list[Expr]:
-    if condition.op is Op.LOGIC:
-        return [v for a in condition.args for v in _inside(a)]
-    return list(condition.args) if condition.op is Op.CMP else [condition]
+def _looks(condition: Expr, under: _Under = ()) -> list[tuple[Expr, _Under]]:
+    """What a condition looks at; `and` and `or` go on only where that decides."""
+    if condition.op is not Op.LOGIC:
+        values = condition.args if condition.op is Op.CMP else [condition]
+        return [(v, under) for v in values]
+    found: list[tuple[Expr, _Under]] = []
+    for arg in condition.args:
+        found += _looks(arg, under)
+        under = (*under, (arg, condition.name == "and"))
+    return found
+
+
+def _polynomial(value: Expr) -> bool:
+    """Whether a value is made by sums and products alone, and so is there for all numbers."""
+    return all(
+        n.op in (Op.NUM, Op.SYM, Op.ADD) or (n.op is Op.MUL and min(n.exponents) > 0)
+        for n in topological([value])
+    )
 
 
 def _number(value: Fraction) -> Expression:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TypeVar
 
-from bondgraph.ir.program import Assign, Dot, PolynomialTape, Program, Ref, Statement
+from bondgraph.ir.program import Dot, PolynomialTape, Program, Ref, Statement, flat
 
-_S = TypeVar("_S", bound="Assign | Dot | PolynomialTape")
+_S = TypeVar("_S", bound=Statement)
 
 
 def pruned(program: Program) -> Program:
@@ -18,7 +18,8 @@ def pruned(program: Program) -> Program:
     wanted = {
         name: None for s in (*exact, *first, *step) for space, name in _reads(s) if space == "coef"
     }
-    configure = tuple(_narrow(s, wanted) for s in _live(program.configure, wanted))
+    live = _live(program.configure, wanted)
+    configure = tuple(_narrow(s, wanted) if isinstance(s, PolynomialTape) else s for s in live)
     given = {name for s in configure for space, name in _reads(s) if space == "param"}
     return program._replace(
         params=tuple(p for p in program.params if p.name in given),
@@ -51,21 +52,20 @@ def _live(statements: Sequence[_S], coefs: dict[str, None]) -> tuple[_S, ...]:
     return tuple(reversed(kept))
 
 
-def _narrow(statement: Statement, coefs: dict[str, None]) -> Statement:
+def _narrow(tape: PolynomialTape, coefs: dict[str, None]) -> PolynomialTape:
     """A tape without the outputs that nobody reads."""
-    if not isinstance(statement, PolynomialTape):
-        return statement
-    outputs = tuple(out for out in statement.outputs if out.array in coefs)
-    return statement._replace(outputs=outputs)
+    return tape._replace(outputs=tuple(out for out in tape.outputs if out.array in coefs))
 
 
-def _reads(statement: Assign | Dot | PolynomialTape) -> Iterable[tuple[str, str]]:
+def _reads(statement: Statement) -> Iterable[tuple[str, str]]:
     """Space and name of everything that a statement reads."""
     if isinstance(statement, Dot):
         return [("coef", term.array) for term in statement.terms]
     found: dict[tuple[str, str], None] = {}
     stack: list[object] = [
-        statement.scales if isinstance(statement, PolynomialTape) else statement.value
+        s.scales if isinstance(s, PolynomialTape) else s.value
+        for s in flat([statement])
+        if not isinstance(s, Dot)
     ]
     while stack:
         node = stack.pop()

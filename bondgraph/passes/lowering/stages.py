@@ -16,7 +16,7 @@ from math import comb
 from bondgraph.algebra.derivative import TooManyOperations, operations
 from bondgraph.ir.expr import Expr, Kind, Op
 from bondgraph.ir.normal import Term
-from bondgraph.ir.program import Assign, Expression, Field, Product, Ref, Sum
+from bondgraph.ir.program import Assign, Assignment, Expression, Field, Product, Ref, Sum
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder, Signal
 from bondgraph.passes.lowering.exactly import LARGEST, label, total
@@ -44,8 +44,8 @@ class Chain:
         self.name = identifier(residual.name)
         self.origin = residual.closing.origin
         self.stages = stages
-        self.first: list[Assign] = []
-        self.step: list[Assign] = []
+        self.first: list[Assignment] = []
+        self.step: list[Assignment] = []
         self.states: list[Field] = []
         self.names = names or Names()
         self._leaves: dict[tuple[Expr, bool], Expression] = {}
@@ -94,7 +94,7 @@ class Chain:
             outside.insert(0, (True, output))
         self._both(Assign(Ref("residual", self.name), total(outside), text, self.origin))
 
-    def _both(self, statement: Assign) -> None:
+    def _both(self, statement: Assignment) -> None:
         self.first.append(statement)
         self.step.append(statement)
 

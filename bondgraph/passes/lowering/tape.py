@@ -10,7 +10,7 @@ import math
 
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.normal import Tape, Term
-from bondgraph.ir.program import Assign, PolynomialTape, TapeOp, TapeOutput
+from bondgraph.ir.program import Assignment, PolynomialTape, TapeOp, TapeOutput
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import label
@@ -30,7 +30,7 @@ class Large(NamedTuple):
     """
 
     tape: Tape
-    before: list[Assign]
+    before: list[Assignment]
     statement: PolynomialTape
     arrays: dict[Expr, tuple[str, int]]
     scales: list[Expr]
@@ -86,7 +86,7 @@ def large(builder: Builder, residual: Residual, tape: Tape, rate: float) -> Larg
         at = scales.setdefault(value, len(scales))
         table.append(TapeOp(target, source, edge.shift, at, length_, fresh))
     resolved = builder.resolve(list(scales))
-    before: list[Assign] = []
+    before: list[Assignment] = []
     work = Procedure(builder.pool, builder.leaf, before.append, builder.names, "t")
     values = work.values(resolved, origin)
     outputs = [TapeOutput(arrays[f.atom][0], where[f.node], f.degree + 1) for f in tape.leaves]

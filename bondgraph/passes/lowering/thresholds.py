@@ -8,6 +8,7 @@ from bondgraph.ir.expr import Expr
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import (
     Assign,
+    Assignment,
     Expression,
     Field,
     Function,
@@ -41,8 +42,8 @@ class _Threshold:
 
     def __init__(self, info: ResidualInfo) -> None:
         self.info = info
-        self.first: list[Assign] = []
-        self.step: list[Assign] = []
+        self.first: list[Assignment] = []
+        self.step: list[Assignment] = []
         self.states: list[Field] = []
         self.exprs: list[Expr] = []
         self.opening: Opening | None = None
@@ -173,7 +174,7 @@ def _named(share: Share) -> str:
     return f"what the tolerances of {first} and {second} can do together"
 
 
-def _local(statement: Assign, name: str) -> Assign:
+def _local(statement: Assignment, name: str) -> Assignment:
     """The output of a chain as a local of the threshold."""
     if statement.target == Ref("residual", name):
         return statement._replace(target=Ref("local", name))

@@ -18,6 +18,7 @@ from bondgraph.ir.program import (
     Program,
     Ref,
     Sum,
+    flat,
 )
 from bondgraph.text.tuples import NamedTuple
 
@@ -83,11 +84,11 @@ class _Work:
         self._first: dict[_Name, list[Ref]] = {}
         self._kept: dict[_Name, list[_Name]] = {}  # what a value has in it as it is
         lasting: set[_Name] = set()
-        for assign in program.first:
+        for assign in flat(program.first):
             at = (assign.target.space, assign.target.name)
             self._first.setdefault(at, []).extend(_refs(assign.value))
             lasting.add(at)
-        for assign in program.step:
+        for assign in flat(program.step):
             at = (assign.target.space, assign.target.name)
             self._made.setdefault(at, []).extend(_refs(assign.value))
             self._kept.setdefault(at, []).extend(_whole(assign.value))

@@ -1,151 +1,114 @@
 """Expressions become Python source over plain floats: what is computed thousands of times a second.
 
-Parts that hold nothing but numbers are computed once, while the source is written. The branches of
-`if` are written as branches, so that the one not taken may be undefined.
+Parts that hold nothing but numbers are computed once, while the source is written.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from bondgraph.algebra.interpreter import interpolation
 from bondgraph.algebra.numeric import DOUBLES
-from bondgraph.ir.expr import Expr, Op, Pool
-
-_INLINE = 40  # letters of a subexpression that is written where it is used
-
+from bondgraph.ir.expr import Expr, Kind, Op, Pool
+from bondgraph.ir.program import Assignment, Branch, Choice, Const, Expression, Mode, Ref
+from bondgraph.notation.dialect import CodeSpeller, Dialect
+from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure
+from bondgraph.passes.lowering.program_names import Names
 
 #: What the source may call.
 NAMES: dict[str, Any] = {**DOUBLES, "nan": math.nan, "inf": math.inf, "__builtins__": {}}
 
+_PYTHON = Dialect(
+    "{0}", "{1} if {0} else {2}", "and", "or", "not {0}", "{0} == {1}", "{0} != {1}",
+    {"power": "pow({0}, {1})", "table": "{1}({0})"},
+)  # fmt: skip
+
 
 class Code:
-    """Lines of a function body, and the names of what was computed so far."""
+    """Lines of a function body, and what was computed so far.
+
+    `leaves` are names of Python; `outer` is the code of the function around this one. Raises
+    KeyError with the name of a symbol that is neither a leaf nor a number.
+    """
 
     def __init__(
-        self, pool: Pool, leaves: Mapping[Expr, str], number: Callable[[Expr], float | None]
+        self,
+        pool: Pool,
+        leaves: Mapping[Expr, str],
+        number: Callable[[Expr], float | None],
+        outer: Code | None = None,
     ) -> None:
         self.pool = pool
         self.number = number
         self.lines: list[str] = []
-        self.known: dict[Expr, str] = dict(leaves)
-        self.names = dict(NAMES)
-        self.tables: dict[str, str] = {}
-        self._count = 0
-        self._depth = 0
+        self.names: dict[str, Any] = outer.names if outer else dict(NAMES)
+        self.free: Names = outer.free if outer else Names()
+        self._outer = outer
+        self._depth: int = outer._depth + 1 if outer else 1
+        self._known: dict[Expr, Expression] = {}
+        self._meant: dict[Expr, Expr] = outer._meant if outer else {}
+        self._tables: dict[str, str] = outer._tables if outer else {}
+        self._speller = CodeSpeller(_PYTHON, lambda ref: ref.name, self._tables)
+        self._work = Procedure(
+            pool, self._leaf, self._write, self.free, "v", self._constant,
+            lambda e: number(e) is not None,
+        )  # fmt: skip
+        for leaf, name in leaves.items():
+            self.know(leaf, name)
 
-    def line(self, text: str) -> None:
-        """One more line, at the present depth."""
-        self.lines.append("    " * (self._depth + 1) + text)
+    def know(self, leaf: Expr, name: str) -> None:
+        """From here on a symbol has this name."""
+        mode = leaf.kind is Kind.MODE
+        self._known[leaf] = Choice(Mode(name), ONE, ZERO) if mode else Ref("local", name)
 
-    def fresh(self, stem: str = "v") -> str:
-        """A name that nothing has yet."""
-        self._count += 1
-        return f"{stem}{self._count}"
+    def line(self, text: str, deeper: int = 0) -> None:
+        """One more line."""
+        self.lines.append("    " * (self._depth + deeper) + text)
 
-    def assign(self, target: Expr, value: str) -> str:
-        """Keep a value under the name of a symbol."""
-        name = self.fresh()
-        self.line(f"{name} = {value}")
-        self.known[target] = name
-        return name
+    def text(self, exprs: Sequence[Expr]) -> list[str]:
+        """What to write for expressions; their parts are computed by lines before."""
+        exprs = self.pool.substitute(list(exprs), self._meant)
+        return [self._speller.expression(v) for v in self._work.values(exprs, None)]
 
-    def write(self, expr: Expr) -> str:
-        """What to write for an expression; its parts are computed by lines before."""
-        found = self.known.get(expr)
-        if found is not None:
-            return found
-        number = self.number(expr)
-        if number is not None:
-            text = repr(float(number))
-            return f"({text})" if text.startswith("-") else text
-        if expr.op is Op.IF:
-            return self._branches(expr)
-        text = self._text(expr)
-        if len(text) > _INLINE or expr.op is Op.FN:
-            return self.assign(expr, text)
-        return f"({text})"
+    def define(self, symbol: Expr, value: Expr) -> None:
+        """From here on a symbol means this expression."""
+        (self._meant[symbol],) = self.pool.substitute([value], self._meant)
 
-    def _branches(self, expr: Expr) -> str:
-        condition, *branches = expr.args
-        name = self.fresh()
-        self.line(f"if {self.condition(condition)}:")
-        for k, branch in enumerate(branches):
-            if k:
-                self.line("else:")
-            before = dict(self.known)
-            self._depth += 1
-            self.line(f"{name} = {self.write(branch)}")
-            self._depth -= 1
-            self.known = before
-        self.known[expr] = name
-        return name
+    def _leaf(self, node: Expr) -> Expression | None:
+        found = self._known.get(node)
+        if found is None and self._outer is not None:
+            found = self._outer._known.get(node) or self._outer._work.named(node)
+        if found is None and node.op in (Op.SYM, Op.DER, Op.INT):
+            raise KeyError(repr(node))
+        if node.op is Op.FN and node.name.startswith("table:"):
+            self._table(node.name.removeprefix("table:"))
+        return found
 
-    def condition(self, expr: Expr) -> str:
-        """A condition as Python writes it."""
-        if expr.op is Op.CMP:
-            left, right = (self.write(a) for a in expr.args)
-            return f"({left} {expr.name} {right})"
-        if expr.op is Op.LOGIC:
-            parts = [self.condition(a) for a in expr.args]
-            joined = f" {expr.name} ".join(parts)
-            return f"(not {parts[0]})" if expr.name == "not" else f"({joined})"
-        return f"({self.write(expr)} != 0)"
+    def _table(self, name: str) -> None:
+        if name not in self._tables:
+            self._tables[name] = f"table{len(self._tables)}"
+            self.names[self._tables[name]] = interpolation(self.pool.rows(name))
 
-    def _text(self, expr: Expr) -> str:
-        match expr.op:
-            case Op.ADD:
-                return self._sum(expr)
-            case Op.MUL:
-                return self._product(expr)
-            case Op.FN:
-                return self._function(expr)
-            case Op.CMP | Op.LOGIC:
-                return f"(1.0 if {self.condition(expr)} else 0.0)"
-            case _:
-                raise KeyError(repr(expr))
+    def _constant(self, value: Expr) -> Expression:
+        number = self.number(value)
+        return Const(math.nan if number is None else number)  # divided by a parameter of zero
 
-    def _sum(self, expr: Expr) -> str:
-        text = ""
-        for c, arg in expr.terms:
-            own = self.write(arg)
-            size = abs(float(c))
-            term = own if size == 1 else f"{size!r}*{own}"
-            if c < 0:
-                text += f" - {term}" if text else f"-{term}"
-            else:
-                text += f" + {term}" if text else term
-        return text
-
-    def _product(self, expr: Expr) -> str:
-        above, below, scale = "", "", 1.0
-        for arg, exponent in expr.factors:
-            number = self.number(arg)
-            if number is not None and (number or exponent > 0):
-                scale *= number**exponent
-                continue
-            own = self.write(arg)
-            size = abs(exponent)
-            factor = "*".join([own] * size) if size <= 3 else f"{own}**{size}"
-            if exponent > 0:
-                above += f"*{factor}" if above else factor
-            else:
-                below += f"*{factor}" if below else factor
-        if scale != 1.0 or not above:
-            above = f"{scale!r}*{above}" if above else repr(scale)
-        return f"{above}/({below})" if below else above
-
-    def _function(self, expr: Expr) -> str:
-        args = ", ".join(self.write(a) for a in expr.args)
-        if not expr.name.startswith("table:"):
-            return f"{expr.name}({args})"
-        if expr.name not in self.tables:
-            self.tables[expr.name] = f"table{len(self.tables)}"
-            rows = self.pool.rows(expr.name.removeprefix("table:"))
-            self.names[self.tables[expr.name]] = interpolation(rows)
-        return f"{self.tables[expr.name]}({args})"
+    def _write(self, statement: Assignment, deeper: int = 0) -> None:
+        name, text = statement.target.name, self._speller.expression
+        if not isinstance(statement, Branch):
+            self.line(f"{name} = {text(statement.value)}", deeper)
+            return
+        condition, yes, no = statement.value
+        for head, side, value in (
+            (f"if {text(condition)}:", statement.yes, yes),
+            ("else:", statement.no, no),
+        ):
+            self.line(head, deeper)
+            for inner in side:
+                self._write(inner, deeper + 1)
+            self.line(f"{name} = {text(value)}", deeper + 1)
 
     def function(
         self, name: str, arguments: str, result: str, **more: object

@@ -50,7 +50,7 @@ def function(
         if node.op is Op.SYM and node is not time:
             values.number(node)  # says which one has no value
     code = Code(pool, {time: "t"}, values.constant)
-    found = code.function("course", "t", code.write(expr))
+    found = code.function("course", "t", *code.text([expr]))
 
     def defined(t: float) -> float:
         try:
@@ -113,7 +113,7 @@ def jumps(course: Course, pool: Pool, values: Values, times: Array) -> list[floa
         if values.constant(margin) is not None:
             continue
         code = Code(pool, {time_symbol(pool): "t"}, values.constant)
-        side = code.function("margin", "t", code.write(margin))
+        side = code.function("margin", "t", *code.text([margin]))
         found += _crossings(side, times)
     return found
 

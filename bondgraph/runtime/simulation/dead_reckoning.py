@@ -277,5 +277,5 @@ def _compiled(
     pool: Any, leaves: Mapping[Expr, str], values: Values, wanted: list[Expr]
 ) -> Callable[..., list[float]]:
     code = Code(pool, leaves, values.constant)
-    result = f"[{', '.join(code.write(e) for e in wanted)}]"
+    result = f"[{', '.join(code.text(wanted))}]"
     return code.function("reckoned", "w, d, s", result)

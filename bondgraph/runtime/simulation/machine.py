@@ -195,13 +195,12 @@ class Machine:
             if number not in needed:
                 continue
             if block.value is not None:
-                text = code.write(block.value)
-                code.known[block.unknowns[0]] = text
+                code.define(block.unknowns[0], block.value)
             elif block.rests:
                 self._linear(code, number, block, more)
             else:
                 self._iterated(code, number, block, more)
-        result = f"[{', '.join(code.write(e) for e in wanted)}]"
+        result = f"[{', '.join(code.text(wanted))}]"
         return code.function(name, "t, x, u", result, **more)
 
     def _leaf(self, signal: Signal) -> Expr:
@@ -229,8 +228,8 @@ class Machine:
     def _linear(self, code: Code, number: int, block: Block, more: dict[str, object]) -> None:
         """Matrix times unknowns = right side; factorised once where the matrix is constant."""
         pool = code.pool
-        right = [code.write(pool.neg(r)) for r in block.rests]
-        size = len(right)
+        rests = [pool.neg(r) for r in block.rests]
+        size = len(rests)
         entries = [
             (i, j, slope)
             for i, row in enumerate(block.slopes)
@@ -242,29 +241,32 @@ class Machine:
         if all(n is not None for n in numbers):
             places = [(i, j) for i, j, _ in entries]
             more[solve] = factorised(size, places, np.array(numbers, float))
-            given = f"[{', '.join(right)}]"
+            given = f"[{', '.join(code.text(rests))}]"
         else:
-            texts = [code.write(slope) for _, _, slope in entries]
             more[solve] = solver(size, [(i, j) for i, j, _ in entries])
-            given = f"[{', '.join(texts)}], [{', '.join(right)}]"
-        names = [code.fresh() for _ in right]
-        code.line(f"{', '.join(names)}, = {solve}({given})")
-        code.known.update(zip(block.unknowns, names, strict=True))
+            texts = code.text([*rests, *(slope for _, _, slope in entries)])
+            given = f"[{', '.join(texts[size:])}], [{', '.join(texts[:size])}]"
+        _solved(code, block, f"{solve}({given})")
 
     def _iterated(self, code: Code, number: int, block: Block, more: dict[str, object]) -> None:
         """A function of the unknowns gives zeros and slopes, and Newton's method its root."""
-        names = [code.fresh() for _ in block.unknowns]
-        inner = Code(code.pool, {**code.known, **dict(zip(block.unknowns, names, strict=True))},
-                     self.values.constant)  # fmt: skip
-        inner.names, inner.tables = code.names, code.tables
-        inner._count, inner._depth = code._count, code._depth + 1
-        zeros = ", ".join(inner.write(z) for z in block.zeros)
-        slopes = ", ".join(f"[{', '.join(inner.write(s) for s in row)}]" for row in block.slopes)
+        size = len(block.unknowns)
+        names = [code.free.new("v") for _ in block.unknowns]
+        leaves = dict(zip(block.unknowns, names, strict=True))
+        inner = Code(code.pool, leaves, self.values.constant, code)
+        texts = inner.text([*block.zeros, *(s for row in block.slopes for s in row)])
+        slopes = [f"[{', '.join(texts[k : k + size])}]" for k in range(size, len(texts), size)]
         look, root = f"look{number}", f"newton{number}"
         code.line(f"def {look}({', '.join(names)}):")
         code.lines += inner.lines
-        code.line(f"    return [{zeros}], [{slopes}]")
-        code._count = inner._count
-        more[root] = self._newton.setdefault(number, iteration(len(block.unknowns)))
-        code.line(f"{', '.join(names)}, = {root}({look})")
-        code.known.update(zip(block.unknowns, names, strict=True))
+        code.line(f"    return [{', '.join(texts[:size])}], [{', '.join(slopes)}]")
+        more[root] = self._newton.setdefault(number, iteration(size))
+        _solved(code, block, f"{root}({look})")
+
+
+def _solved(code: Code, block: Block, solution: str) -> None:
+    """The unknowns of a block from a list of them."""
+    names = [code.free.new("v") for _ in block.unknowns]
+    code.line(f"{', '.join(names)}, = {solution}")
+    for unknown, name in zip(block.unknowns, names, strict=True):
+        code.know(unknown, name)
