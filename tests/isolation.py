@@ -67,7 +67,7 @@ def rows(folder: str) -> Iterator[Row]:
 
 
 def table(found: list[Row]) -> str:
-    """The models whose residuals could tell more apart than they do by default, and all together."""
+    """The models whose residuals could tell more apart than by default, and all together."""
     lines = [
         "| Model | Residuals | Groups | with `--isolate` | at best | Not told apart |",
         "|---|---|---|---|---|---|",

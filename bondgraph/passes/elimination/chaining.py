@@ -15,6 +15,7 @@ import itertools
 import math
 from contextlib import suppress
 
+from bondgraph.algebra.conjugates import two_valued
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.solve import ITERATED, Solution, solve
 from bondgraph.ir.equation_system import Equation, EquationSystem
@@ -235,7 +236,7 @@ class Chain:
         self.loops.solve_algebraic()
         if self.postponed(self.eager) or self.tear(states=False):
             return True
-        if self.postponed():
+        if self.postponed() or self.tear_doubtful():
             return True
         return self.tear(states=True) or self.tear(states=True, stubborn=True)
 
@@ -295,10 +296,25 @@ class Chain:
         for variable in chosen:
             column = columns[variable]
             row = next(r for r, members in zip(rows, graph, strict=True) if column in members)
-            holder = self.system.equations[row]
-            tear = self.loops.tear(variable)
-            self.settle(variable, Step(variable, tear, tear, holder, "loop"), LOOP)
+            self.torn(variable, row)
         return done or bool(chosen)
+
+    def tear_doubtful(self) -> bool:
+        """Take a variable as known of which an equation leaves two values."""
+        for row, count in enumerate(self.waiting):
+            equation = self.system.equations[row]
+            if count == 1 and not self.used[row] and equation.state is None:
+                variable = next(v for v in equation.variables if v not in self.closed)
+                if two_valued(self.pool, equation.zero, variable) is not None:
+                    self.torn(variable, row)
+                    return True
+        return False
+
+    def torn(self, variable: Expr, row: int) -> None:
+        """A variable is taken as known; an equation that holds it is where a person finds it."""
+        tear = self.loops.tear(variable)
+        holder = self.system.equations[row]
+        self.settle(variable, Step(variable, tear, tear, holder, "loop"), LOOP)
 
     def block(self, rows: list[int]) -> bool:
         """Solve a large linear block as a whole; False if it is none."""

@@ -13,6 +13,7 @@ from contextlib import suppress
 from operator import attrgetter
 
 from bondgraph.algebra.affine import affine
+from bondgraph.algebra.conjugates import TwoValued, norm, two_valued
 from bondgraph.algebra.implicit import invert
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.algebra.operators import LinearRow, Operators
@@ -101,6 +102,7 @@ class Loops:
         self.tears: dict[Expr, list[Expr]] = {}  # expression to the torn variables in it
         self.priced: dict[Expr, list[tuple[_Price, Expr]]] = {}  # row to what it could give
         self.unsolvable: set[tuple[Expr, Expr]] = set()
+        self.doubtful: list[TwoValued] = []  # torn variables that are known up to a choice of two
         self.identities = 0  # relations that hold whatever the machine does
         self.raised = False  # whether a derivative was put into another row
 
@@ -234,7 +236,9 @@ class Loops:
         """
         self.solve_algebraic()
         groups, linear = self._tied()
-        while self._lower([group for group in groups if group.surplus]):
+        while self._lower(lacking := [group for group in groups if group.surplus]) or self._choose(
+            lacking
+        ):
             self.solve_algebraic()
             groups, linear = self._tied()
         found = [(item.rows, item.expr) for item in self.plain] + self.operators.relations(linear)
@@ -246,9 +250,42 @@ class Loops:
                 items = [self.pending[at] for at in group.members]
                 rows = tuple(r for item in items for r in item.rows)
                 self.lost.append(Lost(rows, tuple(i.rows[-1] for i in items[-surplus:])))
+        if self.doubtful:
+            whole = [(rows, self._without_choice(expr)) for rows, expr in found]
+            self.lost += [Lost(rows, rows[-1:]) for rows, expr in whole if expr is None]
+            found = [(rows, expr) for rows, expr in whole if expr is not None]
         relations = [(rows, expr) for rows, expr in found if not is_zero(expr)]
         self.identities = len(found) - len(relations)
         return relations
+
+    def _choose(self, groups: list[_Tied]) -> bool:
+        """Take a torn variable for known of which a row leaves two values; False without any.
+
+        It stands for itself until the relations are complete, in which the choice is no matter.
+        """
+        for item in [self.pending[at] for group in groups for at in group.members]:
+            tears = self._tears(item.expr)
+            if len(tears) != 1:
+                continue
+            name = self.variable[tears[0]].symbol.name
+            own = self.pool.symbol(f"±{name}", Kind.INPUT)
+            zero = self.pool.substitute([item.expr], {tears[0]: own})[0]
+            known = two_valued(self.pool, zero, own)
+            if known is not None:
+                self.doubtful.append(known)
+                self.pending.remove(item)
+                self._record(tears[0], _Row(item.rows, own))
+                return True
+        return False
+
+    def _without_choice(self, expr: Expr) -> Expr | None:
+        """A relation that holds for either value of what is known up to a choice of two."""
+        for known in reversed(self.doubtful):
+            found = norm(self.pool, expr, known)
+            if found is None:
+                return None
+            expr = found
+        return expr
 
     def _tied(self) -> tuple[list[_Tied], list[LinearRow]]:
         """Pending rows that are tied to a nonlinear one by torn variables, and the linear rest."""
