@@ -197,7 +197,7 @@ class Operators:
             held = any(n.op in (Op.INT, Op.ROOT) and _torn(n) for n in topological([row]))
             try:
                 self._moved_in[row] = None if held else self._jets.of(row, 0, _LARGE)
-            except TooManyOperations:
+            except (TooManyOperations, ZeroDivisionError):
                 self._moved_in[row] = None
         return self._moved_in[row]
 

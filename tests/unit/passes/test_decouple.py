@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 import sympy as sp
 
 from bondgraph.cli.main import main
+from bondgraph.passes.elimination.decouple import free_of
 from bondgraph.pipeline import Compilation, Options
 from bondgraph.text.source import Source
 from bondgraph.views import Relation
@@ -291,3 +293,11 @@ def test_a_level_that_moves_an_outflow_and_a_content_in_the_same_two_relations()
     numbers = {"s": Q(2, 5), "A2": Q(5), "k2": Q(11)}
     assert is_multiple(relation, by_hand, numbers, ("F", "h2"))
     assert set(relation.faults) == {"s", "A2", "k2", "F", "h2"}
+
+
+def test_a_loop_that_divides_by_what_is_constant() -> None:
+    """Without p0 a row of a loop divides by the derivative of a constant: no traceback."""
+    text = (Path(__file__).parents[2] / "random" / "once" / "cancelled_divisor.bg").read_text()
+    c = Compilation(Source("model.bg", text))
+    seen = [r for r in c.residuals.residual_set.residuals if "p0" in c.signatures.signature(r.name)]
+    assert len(free_of("p0", seen, c.residuals.residual_set)) <= len(seen)
