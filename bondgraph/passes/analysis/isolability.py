@@ -18,7 +18,7 @@ from bondgraph.exact.plant import ExactUnavailable, Plant
 from bondgraph.exact.reactions import Reactions
 from bondgraph.field.numbers import Numbers
 from bondgraph.field.sparse import Row, eliminate
-from bondgraph.ir.expr import Expr
+from bondgraph.ir.expr import Expr, Kind, symbols
 from bondgraph.ir.residuals import ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
 
@@ -44,7 +44,7 @@ def isolability(
     for group in matrix.groups:
         hits = zip(matrix.row(group[0]), combined, strict=True)
         rows = tuple(at for at, (hit, made) in enumerate(hits) if hit and not made)
-        if len(group) > 1 and len(rows) > 1:
+        if len(group) > 1 and (len(rows) > 1 or any(_switched(exprs[at]) for at in rows)):
             open_.append((list(group), rows))
         else:
             fixed.append(list(group))
@@ -53,6 +53,11 @@ def isolability(
         return None
     order = {fault: at for at, fault in enumerate(matrix.faults)}
     return tuple(tuple(g) for g in sorted([*fixed, *divided], key=lambda g: order[g[0]]))
+
+
+def _switched(expr: Expr) -> bool:
+    """Whether a relation is another one in another mode: it may see a fault in one of them only."""
+    return any(s.symbol.kind is Kind.MODE for s in symbols(expr))
 
 
 def _divided(
@@ -109,7 +114,9 @@ def _parallel(
         own = columns.get(fault, [])
         for part in parts:
             first = columns.get(part[0], [])
-            if _rank(numbers, [*first, *own]) == max(_rank(numbers, first), _rank(numbers, own)):
+            sizes = _rank(numbers, first), _rank(numbers, own)
+            # where one of them acts alone, as in a position of a switch, that tells them apart
+            if all(sizes) == any(sizes) and _rank(numbers, [*first, *own]) == max(sizes):
                 part.append(fault)
                 break
         else:

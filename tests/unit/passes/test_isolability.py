@@ -164,3 +164,17 @@ def test_a_rank_that_needs_more_digits_is_taken_again(monkeypatch: pytest.Monkey
     monkeypatch.setattr(isolability, "_rank", rank)
     assert compiled(text).maximum_isolability == expected
     assert len(asked) > 1
+
+
+def test_a_mode_in_which_one_of_two_faults_acts() -> None:
+    """if(on, E, u) - r i - L i': while it is off the supply is cut off, and L and r are not."""
+    c = compiled(
+        """model M { input on : bool; param L=0.3; param r=0.2; param C=0.4; param R=2
+        1:tr when on { <- Se:E; -> x }
+        0:x -> 1:coil; coil { -> I:L; -> R:r; -> Df:i }
+        1:fw when not on { -> x; <- o }
+        0:o { -> C:C; -> R:R; -> De:u } }"""
+    )
+    assert ("L", "r", "E") in c.signatures.groups
+    assert c.maximum_isolability is not None
+    assert {("L", "r"), ("E",)} <= set(c.maximum_isolability)

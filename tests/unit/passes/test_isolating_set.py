@@ -68,12 +68,12 @@ def test_what_is_best_does_not_depend_on_it() -> None:
 
 
 def test_where_there_is_no_closed_form() -> None:
-    """A speed in sin(k w) and in cos(k w) cannot be had from either."""
+    """A speed in sin(k w) and in cos(2 k w) cannot be had from either."""
     c = isolating(
         """model M { param k=2; param b=1; input drive unknown
         1:shaft { <- Sf:w = drive; -> R:b; -> Df:speed }
         sensor one = shaft.f + sin(k*shaft.f)
-        sensor two = shaft.f + cos(k*shaft.f) }"""
+        sensor two = shaft.f + cos(2*k*shaft.f) }"""
     )
     assert ("k", "speed") in c.signatures.groups
     (told,) = [d for d in c.report.diagnostics if d.code == "not-isolated"]
