@@ -69,6 +69,7 @@ def main() -> None:
     verification(3 if short else 11)
     print()
     whole.report(short)
+    whole.sharper()
     print()
     instructions.report()
     print()
