@@ -5,14 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bondgraph.cli import console
+from bondgraph.cli.reasons import at_best
 from bondgraph.cli.structural import MODEL_HELP, named, open_structure
 from bondgraph.cli.terminal_layout import names, width
+from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
     from bondgraph.ir.structural_model import StructuralModel
+    from bondgraph.pipeline import Compilation
     from bondgraph.structural.analyse import Analysis, Chosen
 
 LIMIT = 10_000
@@ -44,7 +47,7 @@ _count.__name__ = "number above 0"
 
 def run(args: Namespace) -> int:
     """Search, choose, print."""
-    model, diagnostics, _ = open_structure(args.model)
+    model, diagnostics, compilation = open_structure(args.model)
     from bondgraph.structural.analyse import analyse
 
     steps = 100
@@ -58,16 +61,26 @@ def run(args: Namespace) -> int:
                 advance(f"{found} sets")
 
         analysis = analyse(model, args.limit, progress)
+    laws = None if compilation is None else _by_laws(compilation)
     if args.json:
         from bondgraph.text.render import as_json
 
         diagnosed = as_json(diagnostics)
         console.print_json({"status": "ok", "message": message(analysis),
-                            "diagnostics": diagnosed, **_result(analysis, args.sets)})  # fmt: skip
+                            "diagnostics": diagnosed,
+                            **_result(analysis, args.sets), "best": laws})  # fmt: skip
         return 0
     console.show(diagnostics)
-    print("\n".join(_lines(analysis, args.sets)))
+    print("\n".join(_lines(analysis, args.sets, laws)))
     return 0
+
+
+def _by_laws(compilation: Compilation) -> tuple[tuple[str, ...], ...] | None:
+    """The groups that no residuals could divide, by the laws of a model that is small and right."""
+    try:
+        return at_best(compilation)
+    except CompileError:  # `compile` says why
+        return None
 
 
 def message(analysis: Analysis) -> str:
@@ -113,13 +126,21 @@ def _entry(model: StructuralModel, chosen: Chosen) -> dict[str, object]:
     }
 
 
-def _lines(analysis: Analysis, all_sets: bool) -> list[str]:
+def _lines(
+    analysis: Analysis, all_sets: bool, laws: tuple[tuple[str, ...], ...] | None
+) -> list[str]:
     model, columns = analysis.model, width()
     lines = [f"{model.name}: {message(analysis)}", *_counts(analysis)]
     if analysis.best.groups:
         lines += ["", "Told apart at best by the structure, whatever residuals are used"]
         for group in analysis.best.groups:
             lines += names(named(model, group), columns, "  ")
+    if laws is not None and {frozenset(named(model, g)) for g in analysis.best.groups} != {
+        frozenset(g) for g in laws
+    }:
+        lines += ["", f"By the laws themselves {plural(len(laws), 'group')}: others act alike"]
+        for part in laws:
+            lines += names(part, columns, "  ")
     if analysis.best.undetectable:
         lines += ["", "Undetectable"]
         lines += names(named(model, analysis.best.undetectable), columns, "  ")

@@ -40,6 +40,20 @@ def message(compilation: Compilation) -> str:
     )
 
 
+#: Bonds of a model for which it is always found out what could be told apart at best.
+_SMALL = 200
+
+
+def at_best(compilation: Compilation) -> tuple[tuple[str, ...], ...] | None:
+    """The groups that no residuals could divide any further, where the answer costs little.
+
+    None of a large model that was not compiled with `--isolate`, and where it is not known.
+    """
+    if len(compilation.graph.bonds) > _SMALL and not compilation.options.isolate:
+        return None
+    return compilation.maximum_isolability
+
+
 def _nothing(compilation: Compilation) -> str:
     """Why a model has no redundancy."""
     graph = compilation.graph

@@ -119,7 +119,7 @@ class _Found:
         """One line on what is, and what could be."""
         count = len(self.model.faults)
         return (
-            f"{self._detected(self.now)} of {plural(count, 'fault')} can be detected,"
+            f"at best {self._detected(self.now)} of {plural(count, 'fault')} can be detected,"
             f" in {plural(len(self.now.groups), 'group')}; with a sensor at every place"
             f" {self._detected(self.best)}, in {plural(len(self.best.groups), 'group')}"
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from bondgraph.cli.reasons import message, missing, reasons
+from bondgraph.cli.reasons import at_best, message, missing, reasons
 from bondgraph.cli.terminal_layout import formula, names, prose, signature_table, width
 from bondgraph.ir.expr import topological
 from bondgraph.notation.dump_stages import residual_origin
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from bondgraph.pipeline import Compilation
     from bondgraph.views import Relation
 
-_SMALL = 200  # bonds of a model for which it is found out what could be told apart at best
 _LONGEST = 24  # lines of one residual in a report; more than that nobody reads
 
 
@@ -66,10 +65,8 @@ def _checked(compilation: Compilation) -> str:
 
 
 def _at_best(compilation: Compilation) -> list[str]:
-    """What further relations would bring; of a small model, where the answer costs little."""
-    if len(compilation.graph.bonds) > _SMALL and not compilation.options.isolate:
-        return []
-    best, groups = compilation.maximum_isolability, compilation.signatures.groups
+    """What further relations would bring."""
+    best, groups = at_best(compilation), compilation.signatures.groups
     if best is None or len(best) <= len(groups):
         return []
     lines = ["", f"{plural(len(best), 'group')} at best, whatever residuals are used"]

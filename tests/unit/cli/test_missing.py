@@ -23,7 +23,7 @@ model Three {
     param m = 2
     param L = 1
     param A = 2
-    1:v { <- Se:F; -> I:m; -> C:pend { e = 2*sin(q) }; -> Df:y }
+    1:v { <- Se:F; -> I:m; -> C:pend { e = q + 2*sin(q) }; -> Df:y }
     1:a { <- Se:U; -> R:R = 2; -> I:L; -> Df:i }
     0:t { <- Sf:Q; -> C:A; -> R:out { f = ssqrt(e) }; -> De:p }
 }
@@ -33,7 +33,7 @@ SEES = "the relation at `v` might see it, and could not be had"
 THREE = Plant(
     "three",
     TEXT,
-    "F - D(P) - 2*sin(q); P - m*v; v - D(q); U - D(l) - 2*j; l - L*j; Q - D(z) - sqrt(h); z - A*h",
+    "F - D(P) - q - 2*sin(q); P - m*v; v - D(q); U - D(l) - 2*j; l - L*j; Q - D(z) - sqrt(h); z - A*h",
     {"y": "v", "i": "j", "p": "h"},
     2,
     params="m L A",
@@ -126,7 +126,7 @@ def test_what_is_there_detects_and_watches(three: Path, tmp_path: Path, bondgrap
         u = 3 + np.sin(7 * t) - (0.5 if t >= 4 else 0.0)
         q = 1 + 0.2 * np.sin(5 * t)
         f = 0.5 * np.sin(3 * t)
-        return [(f - 2 * np.sin(x[1])) / 2, x[0], u - 2 * x[2],
+        return [(f - x[1] - 2 * np.sin(x[1])) / 2, x[0], u - 2 * x[2],
                 (q - np.sqrt(x[3])) / 2]  # fmt: skip
 
     x = solve_ivp(rates, (0, 6), [0.1, 0.4, 1.5, 1.0], "RK45", time, rtol=1e-9, max_step=0.01).y

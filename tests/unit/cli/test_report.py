@@ -174,7 +174,7 @@ def test_what_cannot_be_eliminated_still_has_its_strokes_and_the_reason(tmp_path
     param B = 2
     param ra = 3
     Sf:Q -> 0:a { -> C:A; -> R:ra }
-    0:b { <- Sf:x = ra.f; -> C:B; -> R:rb { f = e^2 } }
+    0:b { <- Sf:x = ra.f; -> C:B; -> R:rb { f = e^4 } }
     sensor y = a.e + b.e
 }
 """

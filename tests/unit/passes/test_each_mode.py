@@ -67,7 +67,7 @@ def test_a_mode_without_current_has_a_relation_of_its_own() -> None:
         # seven modes are more than are looked at
         INPUTS + CONVERTER.format(SEVEN, f"not ({SEVEN})"),
         # the charge that flowed while the switch was closed: no mode knows what others added
-        CONVERTER.format("on", "not on") + "sensor q = int(tr.f)^2",
+        CONVERTER.format("on", "not on") + "sensor q = int(tr.f)^4",
     ],
 )
 def test_what_no_mode_by_itself_decides_is_refused(text: str) -> None:

@@ -13,7 +13,7 @@ from bondgraph.text.diagnostic import CompileError, Report
 from tests.unit.passes.relations import compiled
 
 #: A swing whose angle at the start is not declared.
-SWING = "1:v { <- Se:F; -> I:m = 2; -> C:pend { e = 2*sin(q) }; -> Df:y }"
+SWING = "1:v { <- Se:F; -> I:m = 2; -> C:pend { e = q + 2*sin(q) }; -> Df:y }"
 #: The voltage of node n, which is not measured, has several values.
 WAVE = """1:s { <- Se:U; -> R:R = 2; -> n }
         0:n { -> R:wave { f = e + 3*sin(e) }; -> b; -> c }
@@ -35,8 +35,8 @@ CASES = {
     ),
     "two swings and a coil": (
         f"{SWING}\n{SWING.replace('v', 'w').replace('F', 'G').replace(':y', ':z')}\n{COIL}".replace(
-            "I:m = 2; -> C:pend { e = 2*sin(q) }; -> Df:z",
-            "I:m2 = 2; -> C:pend2 { e = 2*sin(q) }; -> Df:z",
+            "I:m = 2; -> C:pend { e = q + 2*sin(q) }; -> Df:z",
+            "I:m2 = 2; -> C:pend2 { e = q + 2*sin(q) }; -> Df:z",
         ),
         3,
         1,
@@ -61,7 +61,7 @@ CASES = {
         [("v", "initial-value-needed", {"pend"})],
     ),
     "a swing that shares a node with what can be told": (
-        """1:v { <- Se:F; -> I:m = 2; -> C:pend { e = 2*sin(q) }; -> Df:y; -> n }
+        """1:v { <- Se:F; -> I:m = 2; -> C:pend { e = q + 2*sin(q) }; -> Df:y; -> n }
         0:n { -> R:leak = 2; -> C:k = 1; -> De:e1 }
         sensor y3 = 2*leak.f""",
         3,

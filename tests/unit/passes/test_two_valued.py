@@ -51,6 +51,20 @@ def arm(J, b, T, y):
     return T**2 * s2**3 - (J * (D(y, 2) * s2 + y * D(y) ** 2) + b * D(y) * s2) ** 2
 
 
+def spring(m, k, F, y):
+    """S = k q^2 with q' = y, so S' = 2 k q y and S'^2 = 4 k S y^2, wherever q began."""
+    force = F - m * D(y)
+    return 4 * k * force * y**2 - D(force) ** 2
+
+
+def swing(m, k, F, y):
+    """S = k sin q, so S' = k y cos q and S'^2 = y^2 (k^2 - S^2)."""
+    force = F - m * D(y)
+    return y**2 * (k**2 - force**2) - D(force) ** 2
+
+
+SPRING = """model M {{ param m=1; param k=2
+    1:v {{ <- Se:F; -> I:m; -> C:s {{ e = k*{} }}; -> Df:y }} }}"""
 COIL = """model M {{ param L=1; param R=2
     1:a {{ <- Se:U; -> I:L; -> R:R }}
     sensor y = {} }}"""
@@ -63,6 +77,12 @@ ARM_NUMBERS = {"J": Q(3), "b": Q(5)}
 HAND = {
     "a series motor by its speed alone": (
         SERIES_MOTOR, series_motor, {"L": 2, "R": 3, "k": 5, "J": 7, "f": 11}, ("U", "w"),
+    ),
+    "a force that is even in the path": (
+        SPRING.format("q^2"), spring, {"m": 3, "k": 5}, ("F", "y"),
+    ),
+    "a swing whose angle at the start is unknown": (
+        SPRING.format("sin(q)"), swing, {"m": 3, "k": 5}, ("F", "y"),
     ),
     "a current squared": (COIL.format("a.f^2"), square, COIL_NUMBERS, ("U", "y")),
     "a parabola": (COIL.format("a.f^2 + a.f"), parabola, COIL_NUMBERS, ("U", "y")),
