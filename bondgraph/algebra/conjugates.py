@@ -9,12 +9,13 @@ the resultant of the relation and the equation of x, of least degree.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from fractions import Fraction
 from typing import NamedTuple
 
 from bondgraph.algebra.cleared import cleared, divisors
 from bondgraph.algebra.zero import is_zero
-from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, topological
 from bondgraph.ir.nodes import constant, holding
 
 _SWITCHES = 4  # conditions in each of whose positions a relation is looked at by itself
@@ -128,7 +129,10 @@ def norm(pool: Pool, expr: Expr, known: TwoValued) -> Expr | None:
     >>> norm(p, p.add((3, p.der(x)), (-1, y)), root)
     4*y^3 - 9*D(y)^2
     """
-    found = _element(pool, expr, known)
+    try:
+        found = _element(pool, expr, known)
+    except ZeroDivisionError:  # by what vanishes for both values
+        return None
     if found is None:
         return None
     whole = _product(pool, found, known.square, _SWITCHES)
@@ -140,18 +144,20 @@ def _product(pool: Pool, own: Element, square: Expr, switches: int) -> Expr:
     """An element times its conjugate; itself in a position of a switch in which it has no root."""
     if is_zero(own.root):
         return own.rational
-    if is_zero(own.rational):
-        return own.root
+    if is_zero(own.rational):  # the root is zero where nothing else can be
+        moving = holding([own.root], lambda n: n.kind in KNOWN_SIGNALS)
+        return own.root if moving else pool.mul(own.root, square)
     choices = [n for n in topological([own.root]) if n.op is Op.IF] if switches else []
     if choices:
         condition = choices[-1].args[0]
         same = [n for n in topological([*own]) if n.op is Op.IF and n.args[0] is condition]
-        yes, no = (
-            Element(*pool.substitute([*own], {n: n.args[position] for n in same}))
-            for position in (1, 2)
-        )
-        sides = (_product(pool, side, square, switches - 1) for side in (yes, no))
-        return pool.choose(condition, *sides)
+        with suppress(ZeroDivisionError):  # in a position in which the relation has no value
+            yes, no = (
+                Element(*pool.substitute([*own], {n: n.args[position] for n in same}))
+                for position in (1, 2)
+            )
+            sides = [_product(pool, side, square, switches - 1) for side in (yes, no)]
+            return pool.choose(condition, *sides)
     return pool.sub(pool.power(own.rational, 2), pool.mul(pool.power(own.root, 2), square))
 
 
