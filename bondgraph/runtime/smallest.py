@@ -308,23 +308,27 @@ def _linear(program: Program, situation: Situation) -> tuple[Array, Array, Array
     modes = {k.name: situation.at.get(k.path, 1.0) != 0 for k in program.knowns if k.kind == "mode"}
     _, rest = run.sample(signals, counts, counts, modes)
     names = list(rest)
+    # A state that is nearly zero where all is well is moved as far as the signals move it.
+    tried = [{**signals, name: x + _STEP * (abs(x) or 1.0)} for name, x in signals.items()]
+    near = [rest, *[run.sample(other, counts, counts, modes)[1] for other in tried]]
+    scale = {name: max(abs(float(states[name])) for states in near) for name in names}
     size, inputs = len(names), len(plain) + 2 * len(coders)
     runs = 2 * (size + inputs)
     steps: list[float] = []
 
-    def spread(value: float) -> Array:
+    def spread(value: float, scale: float) -> Array:
         """The value with one pair of runs of its own, a little above and below."""
-        k, step = len(steps), _STEP * ((abs(value) or 1.0) if math.isfinite(value) else 1.0)
+        k, step = len(steps), _STEP * ((scale or 1.0) if math.isfinite(scale) else 1.0)
         steps.append(step)
         out = np.full(runs, value, dtype=float)
         out[2 * k] += step
         out[2 * k + 1] -= step
         return out
 
-    states = {name: spread(float(rest[name])) for name in names}
-    wide = {name: spread(value) for name, value in signals.items()}
-    increments = {name: spread(0.0) for name in counts}
-    totals = {name: spread(0.0) for name in counts}
+    states = {name: spread(float(rest[name]), scale[name]) for name in names}
+    wide = {name: spread(value, abs(value)) for name, value in signals.items()}
+    increments = {name: spread(0.0, 0.0) for name in counts}
+    totals = {name: spread(0.0, 0.0) for name in counts}
     residuals, after = run.sample(wide, increments, totals, modes, states)
 
     def slopes(value: Any) -> Array:
