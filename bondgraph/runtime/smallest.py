@@ -89,18 +89,23 @@ def smallest(
     step, X = A X A' + B B' (discrete Lyapunov equation), linearised at the first sample.
     Raises ValueError if a parameter has no number.
     """
-    missing = [f.path for f in program.params if f.default is None]
-    if missing:
-        raise ValueError(f"{missing[0]} has no value in the model")
+    need_numbers(program)
     if not program.residuals:
         return Detection({}, ())
     known = faults(program, tolerances, situation)
-    moved = _moved(program, known, situation)
+    moved = sensitivities(program, known, situation)
     bound: dict[str, Array] = {}
     if thresholds is not None:
         bound = {n: r[:, 0] for n, r in _simulated(thresholds, {}, {}, 1, situation)[0].items()}
     sigma = noise(program, situation)
     return told(program, known, moved, bound, sigma, situation.kappa)
+
+
+def need_numbers(program: Program) -> None:
+    """Raises ValueError if a parameter has no number."""
+    missing = [f.path for f in program.params if f.default is None]
+    if missing:
+        raise ValueError(f"{missing[0]} has no value in the model")
 
 
 def told(
@@ -175,7 +180,7 @@ def faults(program: Program, tolerances: Mapping[str, float], situation: Situati
     return found
 
 
-def _moved(
+def sensitivities(
     program: Program, faults: list[Fault], situation: Situation
 ) -> dict[str, dict[str, Array]]:
     """Per fault and residual the sensitivity at each valid sample, 0 where it is rounding."""
@@ -268,11 +273,11 @@ def noise(program: Program, situation: Situation) -> dict[str, float | None]:
     left out where it has no value at these signals.
     """
     with np.errstate(all="ignore"):
-        a, b, c, d = _linear(program, situation)
+        a, b, c, d = linear(program, situation)
     found: dict[str, float | None] = {}
     for k, info in enumerate(program.residuals):
-        used = _reached(c[k] != 0, a)
-        used &= _reached((b != 0).any(axis=1), a.T)
+        used = reached(c[k] != 0, a)
+        used &= reached((b != 0).any(axis=1), a.T)
         own = a[np.ix_(used, used)]
         if info.unavailable:
             found[info.name] = None
@@ -288,7 +293,7 @@ def noise(program: Program, situation: Situation) -> dict[str, float | None]:
     return found
 
 
-def _reached(start: Any, a: Array) -> Any:
+def reached(start: Any, a: Array) -> Any:
     """The states that the given ones depend on, through as many samples as it takes."""
     used = start.copy()
     while True:
@@ -298,7 +303,7 @@ def _reached(start: Any, a: Array) -> Any:
         used = more
 
 
-def _linear(program: Program, situation: Situation) -> tuple[Array, Array, Array, Array]:
+def linear(program: Program, situation: Situation) -> tuple[Array, Array, Array, Array]:
     """A, B, C, D of the realised step, from noise of variance one; encoders remember a sample."""
     run = Lanes(program, {})
     plain = [k for k in program.knowns if k.counts is None and k.kind != "mode"]
