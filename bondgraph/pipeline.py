@@ -26,7 +26,12 @@ if TYPE_CHECKING:
     from bondgraph.ir.program import Program
     from bondgraph.ir.residuals import ReducedSystem, ResidualSet
     from bondgraph.ir.runnable_code import Runnable
-    from bondgraph.ir.signature_matrix import Detectability, ModeSignatures, SignatureMatrix
+    from bondgraph.ir.signature_matrix import (
+        Detectability,
+        DoubleFaults,
+        ModeSignatures,
+        SignatureMatrix,
+    )
     from bondgraph.ir.state import StateEquations
     from bondgraph.ir.structural_model import StructuralModel
     from bondgraph.ir.syntax import File
@@ -325,6 +330,22 @@ class Compilation:
         from bondgraph.passes.analysis.isolability import isolability
 
         return isolability(*self._analysis, self._plant, self.options.seed)
+
+    @cached_property
+    def double_faults(self) -> DoubleFaults:
+        """Which two faults at once could look like a third one alone, whatever residuals are used.
+
+        >>> import bondgraph
+        >>> found = bondgraph.compile("models/dc_motor.bg").double_faults
+        >>> found.any_two
+        True
+        >>> found.like("k")
+        ((('L', 'R', 'U'), ('J', 'f', 'load'), ('current',), ('speed',)),)
+        """
+        from bondgraph.passes.analysis.double_faults import double_faults
+
+        best = self.maximum_isolability
+        return double_faults(*self._analysis, best, self._plant, self.options.seed)
 
     @cached_property
     def _analysis(self) -> tuple[ResidualSet, SignatureMatrix]:

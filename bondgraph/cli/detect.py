@@ -9,6 +9,7 @@ from bondgraph import compile as open_model
 from bondgraph.cli import console
 from bondgraph.cli.further_residuals import isolating
 from bondgraph.cli.number_arguments import assigned, bits, noise, positive
+from bondgraph.cli.terminal_layout import names as listed
 from bondgraph.cli.terminal_layout import width
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     from bondgraph.ir.program import Program
     from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.separation import Separation
     from bondgraph.runtime.smallest import Detection, Situation, Smallest
 
 
@@ -23,6 +25,9 @@ def arguments(parser: ArgumentParser) -> None:
     """The arguments of `detect`."""
     parser.add_argument("model", metavar="MODEL", help="file.bg or file.bg:Name")
     parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
+    parser.add_argument("--pairs", action="store_true",
+                        help="also how large each fault has to be to be told from each other"
+                        " one")  # fmt: skip
     sampling(parser)
     signals(parser)
     isolating(parser)
@@ -78,6 +83,7 @@ def situation_of(args: Namespace, program: Program) -> Situation:
 
 def run(args: Namespace) -> int:
     """Compile, look for the smallest changes, print."""
+    from bondgraph.runtime.separation import separation
     from bondgraph.runtime.smallest import smallest
 
     compilation = open_model(
@@ -97,6 +103,7 @@ def run(args: Namespace) -> int:
     try:
         received = compilation.program_with_readings
         found = smallest(received, compilation.thresholds, tolerances, situation)
+        apart = separation(received, tolerances, situation) if args.pairs else None
     except ValueError as error:
         raise console.Trouble(f"{error}, and without it nothing has a size") from error
     if args.json:
@@ -104,10 +111,14 @@ def run(args: Namespace) -> int:
 
         console.print_json({"status": "ok", "message": _message(compilation, found),
                             "diagnostics": as_json(compilation.report.diagnostics),
-                            **_result(compilation, found)})  # fmt: skip
+                            **_result(compilation, found),
+                            **_told_apart(compilation, apart)})  # fmt: skip
         return 0
     console.show(compilation.report.diagnostics)
-    print("\n".join(_lines(compilation, found, situation)))
+    lines = _lines(compilation, found, situation)
+    if apart is not None:
+        lines += _pairs(compilation, apart, situation)
+    print("\n".join(lines))
     return 0
 
 
@@ -134,6 +145,17 @@ def _result(compilation: Compilation, found: Detection) -> dict[str, object]:
         ],
         "faults": [_row(s, units) for s in found.smallest],
     }
+
+
+def _told_apart(compilation: Compilation, found: Separation | None) -> dict[str, object]:
+    """For each fault what it takes to tell it from each other one; nothing if not asked for."""
+    if found is None:
+        return {}
+    units = _units(compilation)
+    rows = zip(found.faults, found.changes, strict=True)
+    return {"pairs": [{"fault": a, "unit": units.get(a, ""),
+                       "from": {b: x for b, x in zip(found.faults, row, strict=True) if a != b}}
+                      for a, row in rows]}  # fmt: skip
 
 
 def _row(found: Smallest, units: dict[str, str]) -> dict[str, object]:
@@ -182,6 +204,35 @@ def _lines(compilation: Compilation, found: Detection, situation: Situation) -> 
     if not any((*situation.at.values(), *situation.swing.values())):
         lines += ["", "All signals are zero: parameters need signals to be seen, give --at or"
                   " --swing."]  # fmt: skip
+    return lines
+
+
+def _pairs(compilation: Compilation, found: Separation, situation: Situation) -> list[str]:
+    """A row for each fault, a column for each group; too wide a table is a list by fault."""
+    units, groups = _units(compilation), found.groups
+    if len(groups) < 2:
+        return ["", "No fault is told from another with these signals."]
+    head = [found.faults[g[0]] + (f" +{len(g) - 1}" if len(g) > 1 else "") for g in groups]
+    kappa = f"{situation.kappa:g} sigma"
+    lines = ["", f"Smallest change that no change of another fault explains ({kappa})"]
+    names = [f"{f} ({units[f]})" if units.get(f) else f for f in found.faults]
+    cells = [["-" if row[g[0]] is None else f"{row[g[0]]:.3g}" for g in groups]
+             for row in found.changes]  # fmt: skip
+    first, sizes = max(map(len, names)), [max(8, len(h)) for h in head]
+    if first + sum(sizes) + 2 * len(sizes) > width():
+        for name, row in zip(names, cells, strict=True):
+            shown = [f"{h} {x}" for h, x in zip(head, row, strict=True) if x != "-"]
+            lines += [name, *listed(shown, width(), "    from ")]
+    else:
+        table = [["", *head], *([n, *row] for n, row in zip(names, cells, strict=True))]
+        for label, *row in table:
+            shown = [x.rjust(n) for x, n in zip(row, sizes, strict=True)]
+            lines.append("  ".join([label.ljust(first), *shown]))
+    for group in groups:
+        if len(group) > 1:
+            lines += listed([found.faults[k] for k in group], width(), "  not told apart: ")
+    if not any(situation.noise.values()):
+        lines += ["", "Without --noise tolerances and counts of encoders alone make these sizes."]
     return lines
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Compilation, compile
 from bondgraph.cli import console
 from bondgraph.cli.further_residuals import isolating
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from bondgraph.ir.causal import CausalGraph
     from bondgraph.ir.graph import Bond, BondGraph
     from bondgraph.views import Relation
+
+_SETS = 4  # sets of faults any two of which could look like a fault: more nobody reads
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -245,6 +248,7 @@ def _fault(compilation: Compilation, name: str) -> list[str]:
         lines += _combined(compilation, name, others)
     else:
         lines.append("  is told apart from all other faults")
+    lines += _double(compilation, name)
     events = [e for e in compilation.graph.events if e.target == name]
     lines += [f"  event {e.name}: {e.doc}".rstrip(": ") for e in events]
     return lines
@@ -259,3 +263,23 @@ def _combined(compilation: Compilation, name: str, others: Sequence[str]) -> lis
     if not apart:
         return ["  and no combination of the residuals would help"]
     return ["  but combinations of the residuals tell it from", *_listed(apart, 100)]
+
+
+def _double(compilation: Compilation, name: str) -> list[str]:
+    """Which two faults of other groups, at once, could look like the fault."""
+    found = compilation.double_faults
+    if len(found.groups) < 3:
+        return []
+    if found.reason:
+        return [f"  whether two faults at once look like it is not known: {found.reason}"]
+    if found.any_two:
+        return ["  any two other faults that could be told apart, at once, could look like it"]
+    sets = found.like(name)
+    lines = []
+    for several in sets[:_SETS]:
+        listed = [g[0] + (f" or {len(g) - 1} more" if len(g) > 1 else "") for g in several]
+        which = "any two, at once, of" if len(several) > 2 else "both, at once, of"
+        lines += [f"  could be {which}", *_listed(listed, 100)]
+    if len(sets) > _SETS:
+        lines.append(f"  or two faults of {plural(len(sets) - _SETS, 'set')} more")
+    return lines or ["  no two faults of other groups, at once, look like it"]

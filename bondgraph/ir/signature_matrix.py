@@ -188,3 +188,34 @@ class Detectability(NamedTuple):
             for fault, hits, row in zip(self.faults, self.matrix.rows, self.strong, strict=True)
             if any(hits) and all(s is False for s, hit in zip(row, hits, strict=True) if hit)
         )
+
+
+class DoubleFaults(NamedTuple):
+    """Which two faults at once could look like one alone, by number of its group.
+
+    `groups` are the detectable faults, those together that nothing tells apart. Any two groups in
+    a set of `alike[k]` have faults that, each of some course in time, move every residual like a
+    fault of group k. Where it is not known `alike` is empty, and `reason` says why.
+    """
+
+    groups: tuple[tuple[str, ...], ...]
+    alike: tuple[tuple[tuple[int, ...], ...], ...]
+    reason: str
+
+    @property
+    def any_two(self) -> bool:
+        """Whether any two groups look like any other, as where residuals have two dimensions."""
+        every = range(len(self.groups))
+        others = [(tuple(k for k in every if k != own),) for own in every]
+        return len(self.groups) > 2 and list(self.alike) == others
+
+    def like(self, fault: str) -> tuple[tuple[tuple[str, ...], ...], ...]:
+        """Sets of groups: two faults of different groups in a set could look like this one alone.
+
+        Raises KeyError for a fault that is in no group.
+        """
+        for own, group in enumerate(self.groups):
+            if fault in group:
+                found = self.alike[own] if self.alike else ()
+                return tuple(tuple(self.groups[k] for k in several) for several in found)
+        raise KeyError(fault)

@@ -89,18 +89,23 @@ def smallest(
     step, X = A X A' + B B' (discrete Lyapunov equation), linearised at the first sample.
     Raises ValueError if a parameter has no number.
     """
-    missing = [f.path for f in program.params if f.default is None]
-    if missing:
-        raise ValueError(f"{missing[0]} has no value in the model")
+    need_numbers(program)
     if not program.residuals:
         return Detection({}, ())
     known = faults(program, tolerances, situation)
-    moved = _moved(program, known, situation)
+    moved = sensitivities(program, known, situation)
     bound: dict[str, Array] = {}
     if thresholds is not None:
         bound = {n: r[:, 0] for n, r in _simulated(thresholds, {}, {}, 1, situation)[0].items()}
     sigma = noise(program, situation)
     return told(program, known, moved, bound, sigma, situation.kappa)
+
+
+def need_numbers(program: Program) -> None:
+    """Raises ValueError if a parameter has no number."""
+    missing = [f.path for f in program.params if f.default is None]
+    if missing:
+        raise ValueError(f"{missing[0]} has no value in the model")
 
 
 def told(
@@ -175,7 +180,7 @@ def faults(program: Program, tolerances: Mapping[str, float], situation: Situati
     return found
 
 
-def _moved(
+def sensitivities(
     program: Program, faults: list[Fault], situation: Situation
 ) -> dict[str, dict[str, Array]]:
     """Per fault and residual the sensitivity at each valid sample, 0 where it is rounding."""
@@ -268,11 +273,11 @@ def noise(program: Program, situation: Situation) -> dict[str, float | None]:
     left out where it has no value at these signals.
     """
     with np.errstate(all="ignore"):
-        a, b, c, d = _linear(program, situation)
+        a, b, c, d = linear(program, situation)
     found: dict[str, float | None] = {}
     for k, info in enumerate(program.residuals):
-        used = _reached(c[k] != 0, a)
-        used &= _reached((b != 0).any(axis=1), a.T)
+        used = reached(c[k] != 0, a)
+        used &= reached((b != 0).any(axis=1), a.T)
         own = a[np.ix_(used, used)]
         if info.unavailable:
             found[info.name] = None
@@ -288,7 +293,7 @@ def noise(program: Program, situation: Situation) -> dict[str, float | None]:
     return found
 
 
-def _reached(start: Any, a: Array) -> Any:
+def reached(start: Any, a: Array) -> Any:
     """The states that the given ones depend on, through as many samples as it takes."""
     used = start.copy()
     while True:
@@ -298,7 +303,7 @@ def _reached(start: Any, a: Array) -> Any:
         used = more
 
 
-def _linear(program: Program, situation: Situation) -> tuple[Array, Array, Array, Array]:
+def linear(program: Program, situation: Situation) -> tuple[Array, Array, Array, Array]:
     """A, B, C, D of the realised step, from noise of variance one; encoders remember a sample."""
     run = Lanes(program, {})
     plain = [k for k in program.knowns if k.counts is None and k.kind != "mode"]
@@ -308,23 +313,27 @@ def _linear(program: Program, situation: Situation) -> tuple[Array, Array, Array
     modes = {k.name: situation.at.get(k.path, 1.0) != 0 for k in program.knowns if k.kind == "mode"}
     _, rest = run.sample(signals, counts, counts, modes)
     names = list(rest)
+    # A state that is nearly zero where all is well is moved as far as the signals move it.
+    tried = [{**signals, name: x + _STEP * (abs(x) or 1.0)} for name, x in signals.items()]
+    near = [rest, *[run.sample(other, counts, counts, modes)[1] for other in tried]]
+    scale = {name: max(abs(float(states[name])) for states in near) for name in names}
     size, inputs = len(names), len(plain) + 2 * len(coders)
     runs = 2 * (size + inputs)
     steps: list[float] = []
 
-    def spread(value: float) -> Array:
+    def spread(value: float, scale: float) -> Array:
         """The value with one pair of runs of its own, a little above and below."""
-        k, step = len(steps), _STEP * ((abs(value) or 1.0) if math.isfinite(value) else 1.0)
+        k, step = len(steps), _STEP * ((scale or 1.0) if math.isfinite(scale) else 1.0)
         steps.append(step)
         out = np.full(runs, value, dtype=float)
         out[2 * k] += step
         out[2 * k + 1] -= step
         return out
 
-    states = {name: spread(float(rest[name])) for name in names}
-    wide = {name: spread(value) for name, value in signals.items()}
-    increments = {name: spread(0.0) for name in counts}
-    totals = {name: spread(0.0) for name in counts}
+    states = {name: spread(float(rest[name]), scale[name]) for name in names}
+    wide = {name: spread(value, abs(value)) for name, value in signals.items()}
+    increments = {name: spread(0.0, 0.0) for name in counts}
+    totals = {name: spread(0.0, 0.0) for name in counts}
     residuals, after = run.sample(wide, increments, totals, modes, states)
 
     def slopes(value: Any) -> Array:

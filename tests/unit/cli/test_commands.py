@@ -205,6 +205,16 @@ def test_explain_other_things(bondgraph: Command) -> None:
     assert bondgraph("explain", "causality-conflict").out.startswith("# causality-conflict")
 
 
+def test_explain_says_which_two_faults_look_like_one(bondgraph: Command) -> None:
+    """The motor has two residuals; the robot two for each side, and one for its line."""
+    assert "any two other faults that could be told apart" in bondgraph("explain", MOTOR, "k").out
+    out = bondgraph("explain", MODELS / "khepera.bg", "m[1].me.K").out
+    sets = out.partition("could be any two, at once, of\n")[2]
+    assert "m[1].ge.N, m[1].wh.Js or 3 more" in sets
+    assert "m[2]" not in sets and "line" not in sets
+    assert "no two faults of other" in bondgraph("explain", MODELS / "khepera.bg", "line.L").out
+
+
 def test_explain_suggests_a_name(bondgraph: Command) -> None:
     done = bondgraph("explain", MOTOR, "armatur")
     assert done.status == 2 and "armature" in done.err

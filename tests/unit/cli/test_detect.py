@@ -35,6 +35,28 @@ def test_zero_signals_are_said_to_be_the_reason(capsys: pytest.CaptureFixture[st
     assert "give --at" in capsys.readouterr().out
 
 
+def test_pairs_are_a_table_with_a_column_for_each_group(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """r1 = U - R i - k w and r2 = k i - f w - load: load is told from R by r2, from f never."""
+    words = ["--at", "speed=1000", "--at", "current=0.03", "--noise", "load=1e-4"]
+    assert main(["detect", _MODEL, "--pairs", *words, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    told = next(row for row in found["pairs"] if row["fault"] == "load")
+    assert told["unit"] == "N.m" and told["from"]["f"] is None and "load" not in told["from"]
+    # 5 standard deviations: of the noise, k off by 2 % and f by 10 %, both evenly
+    sigma = next(row["sigma"] for row in found["noise"] if row["residual"] == "r2")
+    k, f = 0.02 * 3.51e-3 * 0.03, 0.1 * 1.19e-5 * 1000
+    expected = 5 * (sigma**2 + (f**2 + k**2) / 3) ** 0.5
+    assert told["from"]["R"] == pytest.approx(expected, rel=0.01)
+    assert main(["detect", _MODEL, "--pairs", *words]) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["R", "+1", "k", "current", "speed", "f", "+1"] in lines
+    assert next(x for x in lines if x[:2] == ["load", "(N.m)"])[2] == f"{told['from']['R']:.3g}"
+    assert main(["detect", _MODEL, *words, "--json"]) == 0
+    assert "pairs" not in json.loads(capsys.readouterr().out)
+
+
 @pytest.mark.parametrize(
     "words", [["--at", "sped=1"], ["--noise", "x=1"], ["--noise", "-1"], ["--swing", "speed"]]
 )

@@ -101,6 +101,18 @@ def test_noise_of_an_encoder_is_that_of_its_counts(tmp_path: Path) -> None:
     assert 0.85 < np.std(off) / expected < 1.15
 
 
+def test_noise_where_the_residuals_are_zero(motor: Compilation) -> None:
+    """A linear machine has the noise of zero signals where it truly runs: U = R i + k w, k i = f w.
+
+    What the filter of r2 holds there is a rounding error.
+    """
+    deviations = {"current": 2e-4, "speed": 0.5}
+    w = 12.0 / (17.6 * 1.19e-5 / 3.51e-3 + 3.51e-3)
+    at = {"U": 12.0, "speed": w, "current": 1.19e-5 * w / 3.51e-3}
+    running = noise(motor.program, Situation(at=at, noise=deviations))
+    assert running == pytest.approx(noise(motor.program, Situation(noise=deviations)))
+
+
 def test_constant_signals(motor: Compilation) -> None:
     """r1 = U - R i - k w and r2 = k i - f w - load at rest, tolerances 5, 2 and 10 %."""
     i, w = 0.03, 1000.0
