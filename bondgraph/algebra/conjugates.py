@@ -127,7 +127,7 @@ def norm(pool: Pool, expr: Expr, known: TwoValued) -> Expr | None:
     >>> p = Pool(); x, y = p.symbol("x", Kind.INPUT), p.symbol("y", Kind.SENSOR)
     >>> root = two_valued(p, p.sub(y, p.power(x, 2)), x)
     >>> norm(p, p.add((3, p.der(x)), (-1, y)), root)
-    4*y^3 - 9*D(y)^2
+    y^3 - 2.25*D(y)^2
     """
     try:
         found = _element(pool, expr, known)

@@ -138,7 +138,7 @@ def _lines(
     if laws is not None and {frozenset(named(model, g)) for g in analysis.best.groups} != {
         frozenset(g) for g in laws
     }:
-        lines += ["", f"By the laws themselves {plural(len(laws), 'group')}: others act alike"]
+        lines += ["", f"Told apart at best by the laws themselves: {plural(len(laws), 'group')}"]
         for part in laws:
             lines += names(part, columns, "  ")
     if analysis.best.undetectable:

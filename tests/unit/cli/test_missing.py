@@ -33,7 +33,8 @@ SEES = "the relation at `v` might see it, and could not be had"
 THREE = Plant(
     "three",
     TEXT,
-    "F - D(P) - q - 2*sin(q); P - m*v; v - D(q); U - D(l) - 2*j; l - L*j; Q - D(z) - sqrt(h); z - A*h",
+    "F - D(P) - q - 2*sin(q); P - m*v; v - D(q); "
+    "U - D(l) - 2*j; l - L*j; Q - D(z) - sqrt(h); z - A*h",
     {"y": "v", "i": "j", "p": "h"},
     2,
     params="m L A",
