@@ -262,7 +262,9 @@ def _combined(compilation: Compilation, name: str, others: Sequence[str]) -> lis
     apart = [f for f in others if f not in group]
     if not apart:
         return ["  and no combination of the residuals would help"]
-    return ["  but combinations of the residuals tell it from", *_listed(apart, 100)]
+    sharp = compilation.options.isolate
+    what = "and no residual in closed form tells" if sharp else "but --isolate may tell"
+    return [f"  {what} it from", *_listed(apart, 100)]
 
 
 def _double(compilation: Compilation, name: str) -> list[str]:
