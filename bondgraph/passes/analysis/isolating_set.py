@@ -98,8 +98,9 @@ def _tell(report: Report, graph: BondGraph, together: list[str]) -> None:
 
 
 def _that_see(fault: str, residuals: ResidualSet, matrix: SignatureMatrix) -> list[Residual]:
-    hits = matrix.row(fault)
-    return [r for r, hit in zip(residuals.residuals, hits, strict=True) if hit]
+    """The residuals that see a fault, but for those that were made of others already."""
+    hits = zip(residuals.residuals, matrix.row(fault), strict=True)
+    return [r for r, hit in hits if hit and r.free_of is None]
 
 
 def _cost(pool: Pool, residual: Residual, unconfirmed: bool) -> _Cost:

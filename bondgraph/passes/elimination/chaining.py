@@ -236,7 +236,7 @@ class Chain:
         self.loops.solve_algebraic()
         if self.postponed(self.eager) or self.tear(states=False):
             return True
-        if self.postponed() or self.tear_doubtful():
+        if self.postponed() or self.tear_two_valued():
             return True
         return self.tear(states=True) or self.tear(states=True, stubborn=True)
 
@@ -299,7 +299,7 @@ class Chain:
             self.torn(variable, row)
         return done or bool(chosen)
 
-    def tear_doubtful(self) -> bool:
+    def tear_two_valued(self) -> bool:
         """Take a variable as known of which an equation leaves two values."""
         for row, count in enumerate(self.waiting):
             equation = self.system.equations[row]

@@ -48,11 +48,11 @@ def free_of(fault: str, seen: list[Residual], residuals: ResidualSet) -> list[Cl
     new: list[Closing] = []
     for system in _without(fault, _below(seen, residuals.system)):
         known = [r.expr for r in residuals.residuals] + [c.expr for c in new]
-        there = Counter(map(_about, known))
+        there = Counter(map(_support, known))
         for closing in eliminate(system, Report()).closings:
-            about = _about(closing.expr)
-            if there[about]:
-                there[about] -= 1
+            support = _support(closing.expr)
+            if there[support]:
+                there[support] -= 1
             else:
                 new.append(closing._replace(free_of=fault))
         if len(new) >= len(seen) - 1:
@@ -60,7 +60,7 @@ def free_of(fault: str, seen: list[Residual], residuals: ResidualSet) -> list[Cl
     return sorted(new, key=lambda c: len(topological([c.expr])))
 
 
-def _about(expr: Expr) -> frozenset[Expr]:
+def _support(expr: Expr) -> frozenset[Expr]:
     return frozenset(symbols(expr))
 
 
@@ -91,12 +91,12 @@ def _without(fault: str, system: EquationSystem) -> Iterator[EquationSystem]:
     pool = system.graph.pool
     unknown = pool.symbol(f"{fault}(t)", Kind.UNKNOWN)
     moving = {system.graph.fault_symbol(fault): unknown}
-    first = rows = [_told_anew(e, moving, pool) for e in system.equations]
+    first = rows = [_substituted(e, moving, pool) for e in system.equations]
     parts = 0
     while (shared := _shared([r.zero for r in rows], unknown)) not in (None, unknown):
         parts += 1
         part = pool.symbol(f"{fault}(t) in {show(shared)}", Kind.UNKNOWN)
-        rows = [_told_anew(r, {shared: part}, pool) for r in rows]
+        rows = [_substituted(r, {shared: part}, pool) for r in rows]
     alone = [] if shared else [r for r in rows if occurs(unknown, r.zero)]
     if parts + bool(shared or alone) > 1:
         yield _of(system, first)
@@ -112,7 +112,7 @@ def _shared(zeros: list[Expr], unknown: Expr) -> Expr | None:
     return max(found, key=lambda n: n.id, default=None)
 
 
-def _told_anew(equation: Equation, new: Mapping[Expr, Expr], pool: Pool) -> Equation:
+def _substituted(equation: Equation, new: Mapping[Expr, Expr], pool: Pool) -> Equation:
     """An equation with other values for some parts."""
     zero, rate = pool.substitute([equation.zero, equation.rate or equation.zero], new)
     held = variables(zero)

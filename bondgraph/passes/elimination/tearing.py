@@ -102,7 +102,7 @@ class Loops:
         self.tears: dict[Expr, list[Expr]] = {}  # expression to the torn variables in it
         self.priced: dict[Expr, list[tuple[_Price, Expr]]] = {}  # row to what it could give
         self.unsolvable: set[tuple[Expr, Expr]] = set()
-        self.doubtful: list[TwoValued] = []  # torn variables that are known up to a choice of two
+        self.two_valued: list[TwoValued] = []  # torn variables that are known up to a choice of two
         self.identities = 0  # relations that hold whatever the machine does
         self.raised = False  # whether a derivative was put into another row
 
@@ -125,8 +125,9 @@ class Loops:
         (self.pending if self._tears(expr) else self.plain).append(item)
 
     def open_in(self, expr: Expr) -> bool:
-        """Whether an expression holds a torn variable that has no value yet."""
-        return any(t not in self.solved for t in self._tears(expr))
+        """Whether an expression holds a torn variable that has no value yet, or two."""
+        two = {known.variable for known in self.two_valued}
+        return any(t not in self.solved or self.solved[t].expr in two for t in self._tears(expr))
 
     def rows_for(self, variable: Expr) -> tuple[int, ...]:
         """The equations that gave a torn variable its value, or that it dropped out of."""
@@ -234,13 +235,12 @@ class Loops:
         Those that exist but are lost in a nonlinear loop are then in `lost`; what the linear rows
         among the others say of each other is not.
         """
-        self.solve_algebraic()
-        groups, linear = self._tied()
-        while self._lower(lacking := [group for group in groups if group.surplus]) or self._choose(
-            lacking
-        ):
+        while True:
             self.solve_algebraic()
             groups, linear = self._tied()
+            lacking = [group for group in groups if group.surplus]
+            if not (self._lower(lacking) or self._take_two_valued(lacking)):
+                break
         found = [(item.rows, item.expr) for item in self.plain] + self.operators.relations(linear)
         for group in groups:
             alone = self.operators.relations(group.linear)
@@ -250,15 +250,15 @@ class Loops:
                 items = [self.pending[at] for at in group.members]
                 rows = tuple(r for item in items for r in item.rows)
                 self.lost.append(Lost(rows, tuple(i.rows[-1] for i in items[-surplus:])))
-        if self.doubtful:
-            whole = [(rows, self._without_choice(expr)) for rows, expr in found]
+        if self.two_valued:
+            whole = [(rows, self._norm(expr)) for rows, expr in found]
             self.lost += [Lost(rows, rows[-1:]) for rows, expr in whole if expr is None]
             found = [(rows, expr) for rows, expr in whole if expr is not None]
         relations = [(rows, expr) for rows, expr in found if not is_zero(expr)]
         self.identities = len(found) - len(relations)
         return relations
 
-    def _choose(self, groups: list[_Tied]) -> bool:
+    def _take_two_valued(self, groups: list[_Tied]) -> bool:
         """Take a torn variable for known of which a row leaves two values; False without any.
 
         It stands for itself until the relations are complete, in which the choice is no matter.
@@ -272,15 +272,15 @@ class Loops:
             zero = self.pool.substitute([item.expr], {tears[0]: own})[0]
             known = two_valued(self.pool, zero, own)
             if known is not None:
-                self.doubtful.append(known)
+                self.two_valued.append(known)
                 self.pending.remove(item)
                 self._record(tears[0], _Row(item.rows, own))
                 return True
         return False
 
-    def _without_choice(self, expr: Expr) -> Expr | None:
+    def _norm(self, expr: Expr) -> Expr | None:
         """A relation that holds for either value of what is known up to a choice of two."""
-        for known in reversed(self.doubtful):
+        for known in reversed(self.two_valued):
             found = norm(self.pool, expr, known)
             if found is None:
                 return None

@@ -13,6 +13,7 @@ from bondgraph.passes.elimination.decouple import free_of
 from bondgraph.pipeline import Compilation, Options
 from bondgraph.text.source import Source
 from bondgraph.views import Relation
+from tests.real.draw import of_seed
 from tests.unit.passes.relations import is_multiple, t
 
 Q = sp.Rational
@@ -301,3 +302,13 @@ def test_a_loop_that_divides_by_what_is_constant() -> None:
     c = Compilation(Source("model.bg", text))
     seen = [r for r in c.residuals.residual_set.residuals if "p0" in c.signatures.signature(r.name)]
     assert len(free_of("p0", seen, c.residuals.residual_set)) <= len(seen)
+
+
+@pytest.mark.parametrize("seed", [3, 13, 31, 39, 47, 58])
+def test_what_is_free_of_a_fault_does_not_react_to_it(seed: int) -> None:
+    """Random plants, with controllers on readings: the oracle, which eliminates nothing, judges."""
+    plain = Compilation(Source("model.bg", of_seed(seed).text))
+    faults = tuple(group[0] for group in plain.signatures.groups)
+    c = plain.with_options(decouple=faults)
+    assert not [r.name for r in c.residuals if r.residual.free_of in r.faults]
+    assert len(c.residuals) > len(plain.residuals)

@@ -129,3 +129,15 @@ def test_a_cube_beside_a_sine_is_still_refused() -> None:
         sensor y = a.f^3 + sin(a.f) - 2*a.f }"""
     )
     assert [m.finding.code for m in c.residuals.missing] == ["loop-unsolvable"]
+
+
+def test_what_the_missing_relation_would_rest_on_is_named() -> None:
+    """exp(i) with i known up to its sign has no norm: the whole loop is told, not its last law."""
+    c = compiled(
+        """model M { param L=1
+        1:a { <- Se:U; -> I:L; -> R:d { e = exp(f) - 1 } }
+        1:b { <- Se:V; -> R:r = 2; -> Df:w }
+        sensor y = a.f^2 }"""
+    )
+    (missing,) = c.residuals.missing
+    assert {"d", "L"} <= set(missing.elements)
