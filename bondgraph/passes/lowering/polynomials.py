@@ -3,30 +3,36 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING, TypeAlias
 
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.normal import Tape, Term
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.visible import frequency
 
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+#: Coefficients by node of a tape (rows) and order (columns).
+Orders: TypeAlias = "npt.NDArray[np.float64]"
+
 
 def low_orders(
     builder: Builder, tape: Tape, unit: float, highest: int
-) -> dict[int, list[float]] | None:
-    """The first `highest` coefficients times unit**-k, by node; None without numbers."""
+) -> Orders | None:
+    """The first `highest` coefficients times unit**-k, a row a node; None without numbers."""
+    import numpy as np  # few models have so long a relation
+
     factors = _factors(builder, tape)
     if factors is None:
         return None
-    rows: dict[int, list[float]] = {0: [1.0]}
-    for edge in tape.edges:
-        factor = factors[edge.scale] / unit**edge.shift
-        source = rows[edge.source]
-        target = rows.setdefault(edge.target, [])
-        size = min(len(source) + edge.shift, highest)
-        target += [0.0] * (size - len(target))
-        place = slice(edge.shift, size)
-        sums = zip(target[place], source, strict=False)  # what is of higher order is left out
-        target[place] = [t + factor * s for t, s in sums]
+    rows = np.zeros((tape.nodes, highest))
+    rows[0, 0] = 1.0
+    with np.errstate(all="ignore"):  # too large is infinite, and said to be
+        for edge in tape.edges:  # what is of higher order is left out
+            factor = factors[edge.scale] / unit**edge.shift
+            rows[edge.target, edge.shift :] += factor * rows[edge.source, : highest - edge.shift]
     return rows
 
 
@@ -52,7 +58,7 @@ class Effects:
         self.unit = 1 / frequency(rate)
         self.highest = highest
         self._found: dict[tuple[Expr, int], dict[str, float]] = {}
-        self._rows: dict[int, dict[int, list[float]]] = {}
+        self._rows: dict[int, Orders] = {}
 
     def __call__(self, term: Term, name: str) -> float | None:
         """theta * d coefficient / d theta of a term."""
@@ -64,28 +70,31 @@ class Effects:
 
     def _effects(self, term: Term) -> dict[str, float]:
         """By parameter, for the coefficient times unit**-order."""
+        import numpy as np
+
         builder, size = self.builder, term.order + 1
         factors = _factors(builder, self.tape)
+        assert factors is not None  # or there were no terms to ask about
         if size not in self._rows:
-            self._rows[size] = low_orders(builder, self.tape, self.unit, size) or {}
+            found = low_orders(builder, self.tape, self.unit, size)
+            assert found is not None
+            self._rows[size] = found
         rows = self._rows[size]
-        assert factors is not None
         leaf = next(f for f in self.tape.leaves if f.atom is term.atom)
-        adjoint: dict[int, list[float]] = {leaf.node: [0.0] * term.order + [1.0]}
+        adjoint = np.zeros_like(rows)
+        adjoint[leaf.node, term.order] = 1.0
+        met = {leaf.node}
         slopes: dict[Expr, float] = {}
         for edge in reversed(self.tape.edges):
-            above = adjoint.get(edge.target)
-            if above is None:
+            if edge.target not in met:
                 continue
+            met.add(edge.source)
             gain = 1 / self.unit**edge.shift
-            source = rows[edge.source]
-            product = sum(a * s for a, s in zip(above[edge.shift :], source, strict=False))
+            above, low = adjoint[edge.target, edge.shift :], size - edge.shift
+            product = float(above @ rows[edge.source, :low])
             if product:
                 slopes[edge.scale] = slopes.get(edge.scale, 0.0) + gain * product
-            factor = gain * factors[edge.scale]
-            below = adjoint.setdefault(edge.source, [0.0] * size)
-            for i, value in enumerate(above[edge.shift :]):
-                below[i] += factor * value
+            adjoint[edge.source, :low] += gain * factors[edge.scale] * above
         weights: dict[Expr, float] = {}
         scales = list(slopes)
         for scale, resolved in zip(scales, builder.resolve(scales), strict=True):

@@ -47,7 +47,7 @@ class Large(NamedTuple):
         far: list[tuple[Term, float]] = []
         for leaf in self.tape.leaves:
             array, length = self.arrays[leaf.atom]
-            row = low[leaf.node]
+            row = low[leaf.node].tolist()
             for k in range(length):
                 if k < len(row):
                     # time_unit**k, so written that bandwidth**k of the filter cancels
@@ -138,16 +138,15 @@ def _allocate(
 
 def _time_unit(builder: Builder, tape: Tape, rate: float) -> float:
     """A power of two seconds in which no coefficient is larger than the first by far."""
+    import numpy as np
+
     start = 1 / frequency(rate)
     sizes = low_orders(builder, tape, start, _ENOUGH)
     if sizes is None:
         return 1.0
-    most = [0.0] * _ENOUGH
-    for row in sizes.values():
-        scale = abs(row[0]) if row and row[0] else max(map(abs, row), default=0.0)
-        if scale:
-            most[: len(row)] = [
-                max(m, abs(v) / scale) for m, v in zip(most, row, strict=False)
-            ]
+    sizes = np.abs(sizes)
+    first = sizes[:, :1]
+    scale = np.where(first > 0, first, sizes.max(axis=1, keepdims=True))
+    most = np.divide(sizes, scale, out=np.zeros_like(sizes), where=scale > 0).max(axis=0).tolist()
     unit = max(start * m ** (1 / k) for k, m in enumerate(most) if k)
     return 2.0 ** math.ceil(math.log2(unit)) if unit else 1.0
