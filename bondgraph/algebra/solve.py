@@ -26,7 +26,7 @@ from bondgraph.ir.expr import (
     topological,
     whole,
 )
-from bondgraph.ir.functions import FUNCTIONS
+from bondgraph.ir.functions import FUNCTIONS, root
 from bondgraph.ir.nodes import constant, holding
 from bondgraph.text.tuples import NamedTuple
 
@@ -205,7 +205,8 @@ def _root(pool: Pool, target: Expr, power: int) -> Expr | None:
         target, power = pool.power(target, -1), -power
     if power == 1:
         return target
-    return pool.fn("cbrt", target) if power == 3 else None
+    undoing = root(power)
+    return None if undoing is None else pool.fn(undoing, target)
 
 
 def _inverse_table(pool: Pool, name: str) -> str | None:

@@ -14,7 +14,7 @@ from fractions import Fraction
 from operator import attrgetter
 from typing import ClassVar, TypeAlias
 
-from bondgraph.ir.functions import FUNCTIONS
+from bondgraph.ir.functions import FUNCTIONS, SIGNED_SQUARE
 from bondgraph.text.tuples import NamedTuple
 
 Rational: TypeAlias = int | Fraction
@@ -345,7 +345,7 @@ class Pool:
             if collected.get(inner, 0) >= 1 and collected[base] >= 1:
                 collected[inner] -= 1
                 collected[base] -= 1
-                signed = self.fn("ssq", inner)
+                signed = self.fn(SIGNED_SQUARE, inner)
                 collected[signed] = collected.get(signed, 0) + 1
         kept = [n for n, e in collected.items() if e]
         if not kept:

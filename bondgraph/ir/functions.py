@@ -48,9 +48,9 @@ class Function(NamedTuple):
     intervals that the value and the (first) slope keep to wherever the `domain` has its argument;
     both are given for functions of one argument that have them. `inverse` undoes a function that is
     one to one: a name, or the power to raise to. `integral` of f(x) dx is a number times a function
-    of x. `zero` is f(0). `unit` is the power of its argument's unit that the value has, None
-    for functions of pure numbers. A function `jumps` or `bends` where its argument is zero, or its
-    arguments are equal.
+    of x. `zero` is f(0). `odd` is the g of f(x) = sign(x) g(|x|), a name or the power to raise to.
+    `unit` is the power of its argument's unit that the value has, None for functions of pure
+    numbers. A function `jumps` or `bends` where its argument is zero, or its arguments are equal.
     """
 
     slopes: tuple[Slope, ...]
@@ -61,6 +61,7 @@ class Function(NamedTuple):
     inverse: str | int | None = None
     integral: tuple[Fraction, str] | None = None
     zero: int | None = None
+    odd: str | int | None = None
     bends: bool = False
 
     @property
@@ -111,11 +112,11 @@ FUNCTIONS: dict[str, Function] = {
     ),
     "ssqrt": Function(
         (lambda p, f, x: p.scale(Fraction(1, 2), p.power(p.fn("abs", f), -1)),), Fraction(1, 2),
-        rates=POSITIVE, inverse="ssq", zero=0,
+        rates=POSITIVE, inverse="ssq", zero=0, odd="sqrt",
     ),
     "ssq": Function(
         (lambda p, f, x: p.scale(2, p.fn("abs", x)),), Fraction(2),
-        rates=POSITIVE, inverse="ssqrt", zero=0,
+        rates=POSITIVE, inverse="ssqrt", zero=0, odd=2,
     ),
     "exp": Function(
         (lambda p, f, x: f,), values=POSITIVE, rates=POSITIVE, inverse="log",
@@ -179,3 +180,15 @@ FUNCTIONS: dict[str, Function] = {
         lambda p, f, x, y: p.mul(f, p.fn("log", x)),
     )),
 }  # fmt: skip
+
+#: x |x|, as one function.
+SIGNED_SQUARE = next(name for name, f in FUNCTIONS.items() if f.odd == 2)
+
+
+def root(power: int) -> str | None:
+    """The function that undoes a power of any number; an even power is that of two.
+
+    >>> root(3), root(2)
+    ('cbrt', None)
+    """
+    return next((name for name, f in FUNCTIONS.items() if f.inverse == power and f.grows), None)
