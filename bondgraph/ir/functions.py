@@ -86,11 +86,7 @@ def _choice(which: str, first: int) -> Slope:
 
 def _lowered(p: Any, x: Any, y: Any) -> Any:
     """x**(y - 1)."""
-    return p.fn("pow", x, p.add(*_terms(y), (-1, p.one)))
-
-
-def _terms(y: Any) -> Any:
-    return list(y.terms) if y.op.value == "add" else [(1, y)]
+    return p.fn("pow", x, p.add(*y.terms, (-1, p.one)))
 
 
 FUNCTIONS: dict[str, Function] = {
