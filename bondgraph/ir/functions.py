@@ -50,7 +50,8 @@ class Function(NamedTuple):
     one to one: a name, or the power to raise to. `integral` of f(x) dx is a number times a function
     of x. `zero` is f(0). `odd` is the g of f(x) = sign(x) g(|x|), a name or the power to raise to.
     `unit` is the power of its argument's unit that the value has, None for functions of pure
-    numbers. A function `jumps` or `bends` where its argument is zero, or its arguments are equal.
+    numbers. A function `bends`, or jumps, where its argument is zero, or its arguments are equal.
+    `spoken` is what mathematicians call it, and what a model may call it as well.
     """
 
     slopes: tuple[Slope, ...]
@@ -63,6 +64,7 @@ class Function(NamedTuple):
     zero: int | None = None
     odd: str | int | None = None
     bends: bool = False
+    spoken: str | None = None
 
     @property
     def grows(self) -> bool:
@@ -96,7 +98,7 @@ FUNCTIONS: dict[str, Function] = {
     ),
     "sign": Function(
         (lambda p, f, x: p.zero,), Fraction(0), values=_ENDS,
-        rates=Interval(0.0, open_low=False), zero=0, bends=True,
+        rates=Interval(0.0, open_low=False), zero=0, bends=True, spoken="sgn",
     ),
     "sqrt": Function(
         (lambda p, f, x: p.scale(Fraction(1, 2), p.power(f, -1)),), Fraction(1, 2), _FROM_ZERO,
@@ -120,6 +122,7 @@ FUNCTIONS: dict[str, Function] = {
     ),
     "log": Function(
         (lambda p, f, x: p.power(x, -1),), domain=POSITIVE, rates=POSITIVE, inverse="exp",
+        spoken="ln",
     ),
     "sin": Function(
         (lambda p, f, x: p.fn("cos", x),), values=_BETWEEN, rates=_BETWEEN,
@@ -133,14 +136,15 @@ FUNCTIONS: dict[str, Function] = {
     "asin": Function(
         (lambda p, f, x: _over_root(p, p.sub(p.one, p.power(x, 2))),), domain=_ENDS,
         values=Interval(-pi / 2, pi / 2), rates=_ABOVE_ONE, inverse="sin", zero=0,
+        spoken="arcsin",
     ),
     "acos": Function(
         (lambda p, f, x: p.neg(_over_root(p, p.sub(p.one, p.power(x, 2)))),), domain=_ENDS,
-        values=Interval(0.0, pi), rates=Interval(-inf, -1.0),
+        values=Interval(0.0, pi), rates=Interval(-inf, -1.0), spoken="arccos",
     ),
     "atan": Function(
         (lambda p, f, x: p.power(p.add((1, p.one), (1, p.power(x, 2))), -1),),
-        values=Interval(-pi / 2, pi / 2), rates=_UNIT, inverse="tan", zero=0,
+        values=Interval(-pi / 2, pi / 2), rates=_UNIT, inverse="tan", zero=0, spoken="arctan",
     ),
     "sinh": Function(
         (lambda p, f, x: p.fn("cosh", x),), rates=_ABOVE_ONE, inverse="asinh",

@@ -18,12 +18,11 @@ _DOTS = 2  # more derivatives of a name become an exponent
 _FRACTIONS = (2, 3, 4, 6, 8, 12)  # of small numbers: written as fractions rather than decimals
 _NARROW = 3.0  # em, of what may be written twice
 _AROUND: Mapping[object, float] = {None: 0.6, 2: 0.9, 3: 1.0}  # em, of bars, and of roots
-_SPEAKING = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "sign": "sgn", "log": "ln"}
 
 
 def spoken(name: str) -> str:
     """A function as mathematicians call it, a table by its own name."""
-    return _SPEAKING.get(name, name.rpartition(":")[2])
+    return (name in FUNCTIONS and FUNCTIONS[name].spoken) or name.rpartition(":")[2]
 
 
 class Typeset(Speller, ABC):
