@@ -21,7 +21,8 @@ _OWN_NAMES = frozenset({"acosh", "asinh", "atanh", "cbrt", "ssq", "ssqrt"})
 
 #: Questions about expressions, and things that every layer needs: each is defined once.
 WORDS = (
-    "affine constant has holding occurs rebuilt symbols topological variables Groups"
+    "affine constant first_degree has holding linear_terms occurs rebuilt symbols topological"
+    " variables Groups"
 ).split()
 
 

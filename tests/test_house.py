@@ -7,6 +7,14 @@ import ast
 from tests import house
 
 FILES = house.modules()
+RECORD = {"ir.functions"}
+NUMBERS = {
+    "algebra.numeric", "algebra.symbolic", "field.balls", "field.numbers", "field.prime",
+    "field.series", "runtime.batch",
+}  # fmt: skip
+LANGUAGES = {
+    "backends.c", "backends.python", "notation.latex", "notation.mathml", "notation.parsable",
+}  # fmt: skip
 
 
 def test_no_modules_import_each_other() -> None:
@@ -19,6 +27,11 @@ def test_no_two_modules_share_a_name() -> None:
 
 def test_each_word_of_the_vocabulary_is_defined_once() -> None:
     assert [w for w in house.WORDS if len(house.definitions(FILES, w)) != 1] == []
+
+
+def test_functions_have_names_in_their_record_and_in_tables_only() -> None:
+    knowing = {name.removeprefix("bondgraph.") for name in house.knowing_functions(FILES)}
+    assert sorted(knowing - RECORD - NUMBERS - LANGUAGES) == []
 
 
 def test_what_is_counted_is_found() -> None:

@@ -5,36 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bondgraph.ir.expr import Expr, Op, Pool, topological
-from bondgraph.ir.nodes import holding
-
-
-def plainly_affine(pool: Pool, zero: Expr, variable: Expr) -> tuple[Expr, Expr] | None:
-    """`affine` for the usual balance or linear law: a sum of symbols and products of symbols.
-
-    None where the equation is of another form or holds the variable more than once.
-    """
-    if zero.op is not Op.ADD:
-        return None
-    found: tuple[Expr, Expr] | None = None
-    rest = []
-    for c, arg in zero.terms:
-        if arg.op is Op.MUL:
-            if any(a.op is not Op.SYM for a in arg.args):
-                return None
-            if variable not in arg.args:
-                rest.append((c, arg))
-                continue
-            if arg.exponents[arg.args.index(variable)] != 1:
-                return None
-        elif arg.op is not Op.SYM:
-            return None
-        elif arg is not variable:
-            rest.append((c, arg))
-            continue
-        if found is not None:
-            return None
-        found = pool.scale(c, pool.div(arg, variable)), pool.zero
-    return None if found is None else (found[0], pool.add(*rest))
+from bondgraph.ir.nodes import holding, linear_terms
 
 
 def affine(pool: Pool, node: Expr, variable: Expr) -> tuple[Expr, Expr] | None:
@@ -46,31 +17,16 @@ def affine(pool: Pool, node: Expr, variable: Expr) -> tuple[Expr, Expr] | None:
     for item in holders:
         if item is variable:
             continue
-        if item.op is Op.ADD:
-            slopes, rests = [], []
-            for c, arg in item.terms:
-                slope, rest = parts.get(arg, (pool.zero, arg))
-                slopes.append((c, slope))
-                rests.append((c, rest))
-            parts[item] = pool.add(*slopes), pool.add(*rests)
-        elif item.op is Op.MUL:
-            inside = [a for a in item.args if a in parts]
-            power = item.exponents[item.args.index(inside[0])]
-            if len(inside) != 1 or power != 1:
-                return None
-            slope, rest = parts[inside[0]]
-            others = [
-                pool.power(a, e)
-                for a, e in item.factors
-                if a is not inside[0]
-            ]
-            parts[item] = pool.mul(slope, *others), pool.mul(rest, *others)
+        own = [parts.get(a, (pool.zero, a)) for a in item.args]
+        terms = linear_terms(item, parts)
+        if terms is not None:
+            held = [t for t in terms if t.arg in parts]
+            slope = pool.add(*[t.of(pool, parts[t.arg][0]) for t in held])
         elif item.op is Op.IF and item.args[0] not in parts:
-            yes, no = (parts.get(a, (pool.zero, a)) for a in item.args[1:])
-            slope = pool.choose(item.args[0], yes[0], no[0])
-            parts[item] = slope, pool.choose(item.args[0], yes[1], no[1])
+            slope = pool.choose(item.args[0], own[1][0], own[2][0])
         else:
             return None
+        parts[item] = slope, pool.rebuild(item, tuple([rest for _, rest in own]))
     return parts[node]
 
 

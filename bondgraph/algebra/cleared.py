@@ -16,13 +16,7 @@ Denominator = dict[Expr, int]
 
 def divisors(nodes: Iterable[Expr]) -> list[Expr]:
     """What some nodes divide by, once for each that does."""
-    return [
-        arg
-        for item in nodes
-        if item.op is Op.MUL
-        for arg, exponent in item.factors
-        if exponent < 0
-    ]
+    return [arg for item in nodes for arg, exponent in item.factors if exponent < 0]
 
 
 def below_terms(expr: Expr) -> list[Expr]:

@@ -17,7 +17,7 @@ from itertools import pairwise
 from math import comb
 from typing import TypeAlias
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, backwards, topological
+from bondgraph.ir.expr import CONSTANTS, RATIONAL, Expr, Kind, Op, Pool, backwards, topological
 from bondgraph.ir.functions import FUNCTIONS
 
 #: A node and the order of its derivative.
@@ -234,8 +234,7 @@ class Jets:
         pool = self.pool
         if y.op is Op.NUM and y.number < 0 and order > 1:
             return (yield from self._falling(node, x, y.number, order))
-        exponent = list(y.terms) if y.op is Op.ADD else [(1, y)]
-        lowered = pool.fn("pow", x, pool.add(*exponent, (-1, pool.one)))
+        lowered = pool.fn("pow", x, pool.add(*y.terms, (-1, pool.one)))
         slope = pool.mul(y, lowered)
         base = yield from self._chain(slope, x, order)
         if (yield y, 1) is pool.zero:
@@ -349,11 +348,11 @@ def _slopes(pool: Pool, node: Expr) -> list[Expr]:
 def operations(roots: Iterable[Expr]) -> int:
     """How many operations the roots take, what they share counted once; D and Int are given."""
     total = 0
-    for node in topological(roots, stop=lambda n: n.op in (Op.DER, Op.INT)):
-        if node.op in (Op.ADD, Op.MUL):
+    for node in topological(roots, stop=lambda n: n.order != 0):
+        if node.op in RATIONAL:
             total += len(node.args)
-        elif node.op in (Op.FN, Op.IF, Op.CMP, Op.LOGIC):
-            total += 1
         elif node.op is Op.ROOT:  # about ten steps of Newton's method
             total += 10 * operations([node.root.zero])
+        elif not node.order:
+            total += 1
     return total

@@ -39,7 +39,7 @@ def invert(
     root(f, y - (f + sinh(f)))
     """
     holders = holding([zero, variable], lambda n: n is variable)
-    if any(n.op in (Op.DER, Op.INT) or _switched(n, holders) for n in holders):
+    if any(n.order or _switched(n, holders) for n in holders):
         return None
     way = direction(pool, zero, variable, number) or _by_symbols(pool, zero, variable, number)
     if way is None:

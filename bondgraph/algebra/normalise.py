@@ -18,7 +18,7 @@ from bondgraph.algebra.record import record
 from bondgraph.algebra.zero import Constants
 from bondgraph.ir.expr import CONSTANTS, ZERO_START, Expr, Kind, Op, Pool, topological
 from bondgraph.ir.functions import FUNCTIONS
-from bondgraph.ir.nodes import constant, rebuilt
+from bondgraph.ir.nodes import constant, decided, rebuilt
 from bondgraph.ir.normal import NormalForm, Term
 
 #: A linear form: coefficient by (atom, order of p).
@@ -106,14 +106,6 @@ def static(node: Expr) -> bool:
         stack += [a for a in node.args if a not in seen]
         seen.update(node.args)
     return True
-
-
-def decided(condition: Expr) -> bool:
-    """Whether boolean inputs alone decide a condition."""
-    return all(
-        n.op in (Op.NUM, Op.LOGIC) or (n.kind is Kind.MODE)
-        for n in topological([condition])
-    )
 
 
 def _at_rest(pool: Pool, expr: Expr) -> Expr:
@@ -251,9 +243,8 @@ class _Normaliser:
 
     def _collected(self, product: Expr, factor: Expr) -> Form:
         """A product after rewriting its factors, which may have brought numbers to the front."""
-        if product.op is Op.ADD and len(product.args) == 1:
-            factor = self.pool.scale(product.coefficients[0], factor)
-            product = product.args[0]
+        number, product = product.scaled
+        factor = self.pool.scale(number, factor)
         if product.op is Op.NUM:
             return {(self.pool.one, 0): self.pool.mul(factor, product)}
         return {(product, 0): factor}
@@ -329,20 +320,12 @@ class _Normaliser:
     def _total(self, factor: Expr, atom: Expr) -> tuple[Fraction, Expr] | None:
         """`factor` * D(`atom`) as number * D(...), where the factor is a function of the atom."""
         pool = self.pool
-        number = Fraction(1)
-        if factor.op is Op.ADD and len(factor.args) == 1:
-            number, factor = factor.coefficients[0], factor.args[0]
-        exponent = None
-        if factor is atom:
-            exponent = 1
-        elif factor.op is Op.MUL and factor.args == (atom,):
-            exponent = factor.exponents[0]
-        elif atom.op is Op.MUL and factor.op is Op.MUL and factor.args == atom.args:
-            ratios = {Fraction(e, f) for e, f in zip(factor.exponents, atom.exponents, strict=True)}
-            if len(ratios) == 1 and min(ratios).denominator == 1:
-                exponent = int(min(ratios))
-        if exponent is not None and exponent != -1:
-            return number / (exponent + 1), pool.power(atom, exponent + 1)
+        number, factor = factor.scaled
+        own, powers = dict(atom.factors), dict(factor.factors)
+        if own.keys() == powers.keys():
+            ratio, *others = {Fraction(powers[a], own[a]) for a in own}
+            if not others and ratio.denominator == 1 and ratio != -1:
+                return Fraction(number) / (ratio + 1), pool.power(atom, int(ratio) + 1)
         if factor.op is Op.FN and factor.args == (atom,) and factor.name in FUNCTIONS:
             found = FUNCTIONS[factor.name].integral
             return None if found is None else (number * found[0], pool.fn(found[1], atom))

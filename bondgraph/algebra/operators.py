@@ -17,7 +17,7 @@ from bondgraph.algebra.fractions import monomials, trimmed, without_common_divis
 from bondgraph.algebra.normalise import normalise
 from bondgraph.algebra.zero import is_zero, share_factor
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
-from bondgraph.ir.nodes import constant, has
+from bondgraph.ir.nodes import constant, has, linear_terms
 from bondgraph.text.tuples import NamedTuple
 
 Polynomial = list[Expr]  # coefficients of D**0, D**1, ...
@@ -78,47 +78,24 @@ class Operators:
             inside = [a for a in node.args if a in forms]
             if node in forms or not inside:
                 continue
-            if node.op is Op.ADD:
+            own = [forms.get(a, ({}, a)) for a in node.args]
+            terms = linear_terms(node, forms)
+            if terms is not None:
                 entries: dict[tuple[Expr, int], list[Expr]] = {}
-                rests = []
-                for c, arg in node.terms:
-                    part, rest = forms.get(arg, ({}, arg))
-                    rests.append((c, rest))
-                    for key, value in part.items():
-                        entries.setdefault(key, []).append(pool.scale(c, value))
-                total = {k: pool.add(*[(1, v) for v in vs]) for k, vs in entries.items()}
-                forms[node] = total, pool.add(*rests)
-            elif node.op is Op.MUL and len(inside) == 1:
-                others = pool.mul(
-                    *[
-                        pool.power(a, e)
-                        for a, e in node.factors
-                        if a is not inside[0]
-                    ]
-                )
-                if node.exponents[node.args.index(inside[0])] != 1:
+                for term in [t for t in terms if t.arg in forms]:
+                    factor = term.factor(pool)
+                    for key, value in forms[term.arg][0].items():
+                        entries.setdefault(key, []).append(pool.mul(factor, value))
+                part = {k: pool.add(*[(1, v) for v in vs]) for k, vs in entries.items()}
+            elif node.order:  # an integral: of the torn variable from zero
+                inner = own[0][0]
+                began = node.op is Op.INT and any(k > 0 for _, k in inner)  # int(x') knows where
+                if began or not all(constant(v) for v in inner.values()):
                     return None
-                part, rest = forms[inside[0]]
-                forms[node] = (
-                    {k: pool.mul(v, others) for k, v in part.items()},
-                    pool.mul(rest, others),
-                )
-            elif node.op is Op.DER:
-                part, rest = forms[inside[0]]
-                if not all(constant(v) for v in part.values()):
-                    return None
-                forms[node] = {(t, k + 1): v for (t, k), v in part.items()}, pool.der(rest)
-            elif node.op is Op.INT:  # of the torn variable from zero, of the rest from its start
-                part, rest = forms[inside[0]]
-                began = any(k > 0 for _, k in part)  # int(x') knows where x began
-                if began or not all(constant(v) for v in part.values()):
-                    return None
-                forms[node] = (
-                    {(t, k - 1): v for (t, k), v in part.items()},
-                    pool.rebuild(node, (rest,)),
-                )
+                part = {(t, k + node.order): v for (t, k), v in inner.items()}
             else:
                 return None
+            forms[node] = part, pool.rebuild(node, tuple([rest for _, rest in own]))
         part, rest = forms[expr]
         if not all(constant(v) for v in part.values()):
             return None

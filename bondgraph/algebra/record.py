@@ -6,37 +6,36 @@ factor on the way. One row a node and one operation an edge, whatever the number
 
 from __future__ import annotations
 
-from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, topological
+from collections.abc import Container
+
+from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.nodes import constant, holding, linear_terms
 from bondgraph.ir.normal import Edge, Leaf, Tape
 
 
 def record(pool: Pool, expr: Expr) -> Tape:
     """The tape of a residual; integrals and nonlinear expressions are its leaves."""
-    fixed: dict[Expr, bool] = {}
-    moving: dict[Expr, bool] = {}
-    for node in topological([expr]):
-        fixed[node] = node.op is not Op.INT and all(fixed[a] for a in node.args)
-        if node.op is Op.SYM:
-            fixed[node] = node.symbol.kind in CONSTANTS
-        moving[node] = node.op is Op.DER or any(moving[a] for a in node.args)
+    memo: dict[Expr, bool] = {}
+    varying = {n for n in topological([expr]) if not constant(n, memo)}
+    moving = holding([expr], lambda n: n.op is Op.DER)
     degree: dict[Expr, int] = {expr: 0}
     rows: dict[Expr, int] = {}
     edges: list[Edge] = []
     leaves: list[Leaf] = []
     incoming: dict[Expr, list[tuple[Expr, int, Expr]]] = {}
-    for node in reversed(topological([expr], stop=lambda n: fixed[n])):
+    for node in reversed(topological([expr], stop=lambda n: n not in varying)):
         if node not in degree:
             continue  # only reached through an atom
-        below = _factors(pool, node, fixed)
+        below = _factors(pool, node, varying)
         rows[node] = len(rows)
         edges += [Edge(rows[node], rows[s], k, c) for s, k, c in incoming.pop(node, ())]
         if below is None:
-            leaves.append(Leaf(node, rows[node], degree[node], not moving[node]))
+            leaves.append(Leaf(node, rows[node], degree[node], node not in moving))
             continue
         for child, shift, scale in below:
             incoming.setdefault(child, []).append((node, shift, scale))
             degree[child] = max(degree.get(child, 0), degree[node] + shift)
-    constants = [n for n in incoming if fixed[n]]
+    constants = [n for n in incoming if n not in varying]
     if constants:
         rows[pool.one] = len(rows)
         for node in sorted(constants, key=lambda n: n.id):
@@ -49,17 +48,10 @@ def record(pool: Pool, expr: Expr) -> Tape:
 
 
 def _factors(
-    pool: Pool, node: Expr, fixed: dict[Expr, bool]
+    pool: Pool, node: Expr, varying: Container[Expr]
 ) -> list[tuple[Expr, int, Expr]] | None:
     """What a node is linear in: (argument, power of p, factor); None for an atom."""
-    if node.op is Op.ADD:
-        return [(a, 0, pool.num(c)) for c, a in node.terms]
     if node.op is Op.DER:
         return [(node.args[0], 1, pool.one)]
-    if node.op is Op.MUL:
-        pairs = list(node.factors)
-        varying = [(a, e) for a, e in pairs if not fixed[a]]
-        if len(varying) == 1 and varying[0][1] == 1:
-            factor = pool.mul(*[pool.power(a, e) for a, e in pairs if fixed[a]])
-            return [(varying[0][0], 0, factor)]
-    return None
+    terms = linear_terms(node, varying)
+    return None if terms is None else [(t.arg, 0, t.factor(pool)) for t in terms]

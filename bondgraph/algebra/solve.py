@@ -10,7 +10,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from itertools import pairwise
 
-from bondgraph.algebra.affine import affine, plainly_affine
+from bondgraph.algebra.affine import affine
 from bondgraph.algebra.implicit import invert
 from bondgraph.algebra.in_mode import in_each_mode
 from bondgraph.algebra.zero import is_zero
@@ -26,7 +26,7 @@ from bondgraph.ir.expr import (
     topological,
     whole,
 )
-from bondgraph.ir.functions import FUNCTIONS
+from bondgraph.ir.functions import FUNCTIONS, root
 from bondgraph.ir.nodes import constant, holding
 from bondgraph.text.tuples import NamedTuple
 
@@ -64,12 +64,10 @@ def solve(
     alone = _isolated(pool, zero, variable)
     if alone is not None:
         return Solution(alone, 0, False)
-    linear = plainly_affine(pool, zero, variable)
-    if linear is None:
-        holders = holding([zero], lambda n: n is variable)
-        if zero not in holders:
-            return None
-        linear = affine(pool, zero, variable)
+    holders = holding([zero], lambda n: n is variable)
+    if zero not in holders:
+        return None
+    linear = affine(pool, zero, variable)
     if linear is not None:
         slope, rest = linear
         if slope is pool.zero or not _dividable(pool, slope, vanishes):
@@ -99,10 +97,8 @@ def _isolated(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
     for c, arg in zero.terms:
         if arg is variable:
             continue
-        if arg.op is not Op.SYM and (
-            arg.op is not Op.MUL
-            or variable in arg.args
-            or any(a.op is not Op.SYM for a in arg.args)
+        if arg.op is not Op.SYM and any(
+            a is variable or a.op is not Op.SYM for a, _ in arg.factors
         ):
             return None
         terms.append((factor * c, arg))
@@ -135,11 +131,8 @@ def _quotient(pool: Pool, rest: Expr, slope: Expr) -> Expr:
         return pool.zero
     if slope.op is Op.NUM:
         factor = whole(-1 / slope.number)
-        if rest.op is Op.ADD:
-            terms = rest.terms
-            return pool.add(*[(factor * c, a) for c, a in terms])
-        return pool.add((factor, rest))
-    if slope.op is Op.ADD and len(slope.args) == 1 and slope.coefficients[0] < 0:
+        return pool.add(*[(factor * c, a) for c, a in rest.terms])
+    if slope.scaled[0] < 0:
         return pool.div(rest, pool.neg(slope))
     return pool.div(pool.neg(rest), slope)
 
@@ -205,7 +198,8 @@ def _root(pool: Pool, target: Expr, power: int) -> Expr | None:
         target, power = pool.power(target, -1), -power
     if power == 1:
         return target
-    return pool.fn("cbrt", target) if power == 3 else None
+    undoing = root(power)
+    return None if undoing is None else pool.fn(undoing, target)
 
 
 def _inverse_table(pool: Pool, name: str) -> str | None:

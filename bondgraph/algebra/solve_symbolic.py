@@ -9,7 +9,7 @@ import sympy as sp
 
 from bondgraph.algebra.fractions import monomials, only_root
 from bondgraph.algebra.symbolic import from_sympy, to_sympy
-from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.expr import RATIONAL, Expr, Op, Pool, topological
 from bondgraph.ir.nodes import holding
 
 _EXPANDED = 500  # terms that SymPy may make of an equation
@@ -25,7 +25,7 @@ def solve_symbolic(pool: Pool, zero: Expr, variable: Expr) -> Expr | None:
     holders = holding([zero, variable], lambda n: n is variable)
     leaves: dict[Expr, Any] = {variable: sp.Symbol("x", real=True)}
     names: dict[Any, Expr] = {leaves[variable]: variable}
-    if any(n.op not in (Op.ADD, Op.MUL, Op.SYM) for n in holders):
+    if any(n.op not in RATIONAL for n in holders):
         return None  # a choice is no fraction, whatever SymPy makes of it
     for node in holders:
         for arg in node.args:
@@ -57,7 +57,7 @@ def simplified_slope(
     leaves: dict[Expr, Any] = {variable: sp.Symbol("x", real=True)}
     for node in holders:
         power = node.op is Op.FN and node.name in ("sqrt", "pow")
-        if not power and node.op not in (Op.ADD, Op.MUL, Op.SYM):
+        if not power and node.op not in RATIONAL:
             return None  # factoring sums of functions may take for ever
         for arg in node.args:
             if arg not in holders and arg not in leaves and arg.op is not Op.NUM:

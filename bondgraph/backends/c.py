@@ -23,10 +23,12 @@ from bondgraph.backends.roots import roots
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
 from bondgraph.backends.vectors import Vectors
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.ir.program import Dot, Program
 from bondgraph.notation.dialect import digits
 
 _PURE = ("sign", "ssqrt", "ssq", "equal", "min", "max", "power", "table", "root")
+_ARITHMETIC = frozenset({"sign", "ssq", "min", "max"})  # functions that take no library
 
 _SCALED = ";\n * derivative k times time_unit to the power k"
 
@@ -58,9 +60,9 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         "helpers": _helpers(program, facts, spelling, has_dot, code),
         "tables": _tables(program, spelling, code),
         "roots": roots(program, spelling, "real {0}", 8),
-        "needs_functions": facts.library,
-        "libm": " -lm" if facts.library else "",
-        "needs_math": facts.library or unset or unwritten or bool(program.roots) or gaps,
+        "needs_functions": needs_library(facts),
+        "libm": " -lm" if needs_library(facts) else "",
+        "needs_math": needs_library(facts) or unset or unwritten or bool(program.roots) or gaps,
         "unwritten": unwritten,
         "needs_stddef": "table" in facts.laws or has_dot or bool(code.tapes),
         "beyond_float": ", ".join(f"{n:g}" for n in facts.beyond_float[:8]),
@@ -180,6 +182,11 @@ class _Declarations:
             for name, member, doc, pairs in parts
             if pairs
         ]
+
+
+def needs_library(facts: Facts) -> bool:
+    """Whether the code calls the mathematical library of C."""
+    return bool(facts.laws & (FUNCTIONS.keys() - _ARITHMETIC))
 
 
 def _empty(what: str) -> tuple[str, str]:

@@ -27,11 +27,6 @@ ABI = 1
 #: The least bandwidth * sample_time at which a filter still moves, for double and for float.
 SLOWEST, SLOWEST_FLOAT = 1e-9, 1e-4
 
-_LIBRARY = frozenset(
-    "abs sqrt cbrt ssqrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh pow "
-    "atan2".split()
-)
-
 _FLOAT_MIN, _FLOAT_MAX = 1.2e-38, 3.4e38
 
 
@@ -40,8 +35,7 @@ class Facts(NamedTuple):
 
     `fastest` is the largest bandwidth * sample_time; `least_sample_time` is 0.0 where no term was
     left out, and so any rate will do. `file` is the name of the module, `noun` what it computes,
-    `headline` both in one sentence. `laws` are the functions that the code needs, `library` says
-    that the mathematical library of C has some of them.
+    `headline` both in one sentence. `laws` are the functions that the code needs.
     """
 
     stem: str
@@ -51,7 +45,6 @@ class Facts(NamedTuple):
     fastest: float
     least_sample_time: float
     laws: frozenset[str]
-    library: bool
     beyond_float: tuple[float, ...]
 
 
@@ -79,7 +72,6 @@ def facts(program: Program) -> Facts:
         max(3.0, 1.01 * default),
         0.999999 / program.rate if program.dropped else 0.0,
         frozenset(laws),
-        bool(laws & _LIBRARY),
         tuple(dict.fromkeys(beyond)),
     )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from bondgraph.backends import listing
+from bondgraph.backends.c import needs_library
 from bondgraph.backends.c_code import together
 from bondgraph.backends.facts import Facts
 from bondgraph.backends.identifiers import identifier, snake
@@ -145,7 +146,7 @@ def _parameters(params: Sequence[Field]) -> list[str]:
 
 
 def _c_example(stem: str, text: str, facts: Facts) -> dict[str, object]:
-    libm = " -lm" if facts.library else ""
+    libm = " -lm" if needs_library(facts) else ""
     return {
         "title": "A complete program in C",
         "language": "c",

@@ -28,7 +28,7 @@ from bondgraph.exact.plant_equations import has_sides
 from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.exact.switch_modes import assignments, modes_of
 from bondgraph.exact.trajectory import Trajectory
-from bondgraph.field.numbers import Undefined
+from bondgraph.field.numbers import CUT, Undefined
 from bondgraph.ir.expr import Expr, Kind, Op
 
 T = TypeVar("T")
@@ -39,8 +39,6 @@ _ID = attrgetter("id")
 #: one point is taken at another.
 _POINTS, _POINTS_WITH_BRANCHES = 1, 12
 _TURNS = 8  # points at which faults act, where laws of the plant have branches
-#: Functions with several branches: a parameter of the other sign may show where none else does.
-_CUT = frozenset({"sqrt", "pow", "log", "acosh", "asin", "acos", "atan"})
 _FEW = 8  # faults that are tried one by one where there are branches
 _TRIES = 40  # a point where a square root has no value is drawn again
 
@@ -263,7 +261,7 @@ def _turns(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:
     if branches(exprs, modes):
         return _TURNS
     called = [n for e in exprs if Op.FN in outline(e).ops for n in outline(e).nodes]
-    return 2 if any(n.op is Op.FN and n.name in _CUT for n in called) else 1
+    return 2 if any(n.op is Op.FN and n.name in CUT for n in called) else 1
 
 
 def _points(exprs: Sequence[Expr], modes: Mapping[Expr, int] | None) -> int:

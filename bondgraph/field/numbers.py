@@ -130,3 +130,6 @@ INVERSES = {
     "acosh": "cosh",
     "atanh": "tanh",
 }
+
+#: Functions with several branches: a parameter of the other sign may show where none else does.
+CUT = frozenset({"sqrt", "pow", "log", "acosh", "asin", "acos", "atan"})

@@ -62,18 +62,15 @@ class RandomPoint(Evaluated[int]):
 
     def _slope(self, node: Expr, at: int, rate: int | None) -> int:
         """The derivative of a node by one of its arguments."""
-        match node.op:
-            case Op.ADD:
-                return residue(node.coefficients[at])
-            case Op.DER:
-                return rate or 0
-            case Op.INT:
-                return pow(rate, -1, P) if rate else 0
-            case Op.MUL:
-                product = node.exponents[at]
-                for k, (arg, exponent) in enumerate(node.factors):
-                    product = product * self._power(arg, exponent - (k == at)) % P
-                return product
+        if node.op is Op.ADD:
+            return residue(node.coefficients[at])
+        if node.order:
+            return pow(rate, node.order, P) if rate else 0
+        if node.op is Op.MUL:
+            product = node.exponents[at]
+            for k, (arg, exponent) in enumerate(node.factors):
+                product = product * self._power(arg, exponent - (k == at)) % P
+            return product
         return self._drawn(f"slope:{node.id}:{at}")
 
     def _power(self, node: Expr, exponent: int) -> int:

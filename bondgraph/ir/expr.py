@@ -8,13 +8,13 @@ The arguments of a node are always older than the node: ascending `id` is a topo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from enum import Enum
 from fractions import Fraction
 from operator import attrgetter
 from typing import ClassVar, TypeAlias
 
-from bondgraph.ir.functions import FUNCTIONS
+from bondgraph.ir.functions import FUNCTIONS, SIGNED_SQUARE
 from bondgraph.text.tuples import NamedTuple
 
 Rational: TypeAlias = int | Fraction
@@ -36,6 +36,10 @@ class Op(Enum):
     CMP = "cmp"  # data: "<", "<=" or "=="
     LOGIC = "logic"  # data: "and", "or" or "not"
     ROOT = "root"  # data: Root; args: what stands in its places
+
+
+RATIONAL = frozenset({Op.NUM, Op.SYM, Op.ADD, Op.MUL})  # what rational functions are made of
+CONDITIONS = frozenset({Op.CMP, Op.LOGIC})  # true or false
 
 
 class Kind(Enum):
@@ -129,14 +133,30 @@ class Expr:
         return self.data
 
     @property
-    def terms(self) -> Iterator[tuple[Fraction, Expr]]:
-        """The terms of an ADD node: coefficient and argument."""
-        return zip(self.coefficients, self.args, strict=True)
+    def terms(self) -> Iterable[tuple[Fraction, Expr]]:
+        """The terms of an ADD node: coefficient and argument; any other is its only term."""
+        if self.op is Op.ADD:
+            return zip(self.coefficients, self.args, strict=True)
+        return ((_ONE, self),)
 
     @property
-    def factors(self) -> Iterator[tuple[Expr, int]]:
-        """The factors of a MUL node: argument and exponent."""
-        return zip(self.args, self.exponents, strict=True)
+    def factors(self) -> Iterable[tuple[Expr, int]]:
+        """The factors of a MUL node: argument and exponent; any other is its only factor."""
+        if self.op is Op.MUL:
+            return zip(self.args, self.exponents, strict=True)
+        return ((self, 1),)
+
+    @property
+    def scaled(self) -> tuple[Fraction, Expr]:
+        """The number that a node is multiplied by, and the node without it."""
+        if self.op is Op.ADD and len(self.args) == 1:
+            return self.coefficients[0], self.args[0]
+        return _ONE, self
+
+    @property
+    def order(self) -> int:
+        """How often a node differentiates its argument: 1 for DER, -1 for INT, 0 for others."""
+        return 1 if self.op is Op.DER else -1 if self.op is Op.INT else 0
 
     @property
     def kind(self) -> Kind | None:
@@ -179,7 +199,7 @@ def raised(base: Rational, exponent: int) -> Rational:
 
 
 _ID = attrgetter("id")
-_ZERO = Fraction(0)
+_ZERO, _ONE = Fraction(0), Fraction(1)
 _ROUNDING = 1e-9  # of a table's range: far above what doubles lose, far below what a sensor tells
 
 
@@ -208,7 +228,7 @@ class Pool:
     def __init__(self) -> None:
         self._table: dict[object, Expr] = {}
         self.zero = self._make(Op.NUM, (), _ZERO)
-        self.one = self._make(Op.NUM, (), Fraction(1))
+        self.one = self._make(Op.NUM, (), _ONE)
         #: piecewise linear tables by id: ((x, y), ...) ascending in x; see `rows`
         self.tables: dict[str, tuple[tuple[Fraction, Fraction], ...]] = {}
         #: what each `Root` of the pool solves, by name
@@ -345,7 +365,7 @@ class Pool:
             if collected.get(inner, 0) >= 1 and collected[base] >= 1:
                 collected[inner] -= 1
                 collected[base] -= 1
-                signed = self.fn("ssq", inner)
+                signed = self.fn(SIGNED_SQUARE, inner)
                 collected[signed] = collected.get(signed, 0) + 1
         kept = [n for n, e in collected.items() if e]
         if not kept:
@@ -378,14 +398,13 @@ class Pool:
         return node
 
     def _derivative(self, node: Expr) -> Expr:
-        if node.op is Op.NUM:
-            return self.zero
-        if node.op is Op.SYM and node.symbol.kind in (Kind.CONST, Kind.INITIAL, Kind.FREE):
+        if node.op is Op.NUM or node.kind in (Kind.CONST, Kind.INITIAL, Kind.FREE):
             return self.zero
         if node.op is Op.INT:
             return node.args[0]
-        if node.op is Op.ADD and len(node.args) == 1:
-            return self.add((node.coefficients[0], self.der(node.args[0])))
+        factor, inner = node.scaled
+        if inner is not node:
+            return self.add((factor, self.der(inner)))
         return self._make(Op.DER, (node,), None)
 
     def integral(self, node: Expr, initial: Expr) -> Expr:

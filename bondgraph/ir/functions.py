@@ -48,9 +48,10 @@ class Function(NamedTuple):
     intervals that the value and the (first) slope keep to wherever the `domain` has its argument;
     both are given for functions of one argument that have them. `inverse` undoes a function that is
     one to one: a name, or the power to raise to. `integral` of f(x) dx is a number times a function
-    of x. `zero` is f(0). `unit` is the power of its argument's unit that the value has, None
-    for functions of pure numbers. A function `jumps` or `bends` where its argument is zero, or its
-    arguments are equal.
+    of x. `zero` is f(0). `odd` is the g of f(x) = sign(x) g(|x|), a name or the power to raise to.
+    `unit` is the power of its argument's unit that the value has, None for functions of pure
+    numbers. A function `bends`, or jumps, where its argument is zero, or its arguments are equal.
+    `spoken` is what mathematicians call it, and what a model may call it as well.
     """
 
     slopes: tuple[Slope, ...]
@@ -61,7 +62,9 @@ class Function(NamedTuple):
     inverse: str | int | None = None
     integral: tuple[Fraction, str] | None = None
     zero: int | None = None
+    odd: str | int | None = None
     bends: bool = False
+    spoken: str | None = None
 
     @property
     def grows(self) -> bool:
@@ -85,11 +88,7 @@ def _choice(which: str, first: int) -> Slope:
 
 def _lowered(p: Any, x: Any, y: Any) -> Any:
     """x**(y - 1)."""
-    return p.fn("pow", x, p.add(*_terms(y), (-1, p.one)))
-
-
-def _terms(y: Any) -> Any:
-    return list(y.terms) if y.op.value == "add" else [(1, y)]
+    return p.fn("pow", x, p.add(*y.terms, (-1, p.one)))
 
 
 FUNCTIONS: dict[str, Function] = {
@@ -99,7 +98,7 @@ FUNCTIONS: dict[str, Function] = {
     ),
     "sign": Function(
         (lambda p, f, x: p.zero,), Fraction(0), values=_ENDS,
-        rates=Interval(0.0, open_low=False), zero=0, bends=True,
+        rates=Interval(0.0, open_low=False), zero=0, bends=True, spoken="sgn",
     ),
     "sqrt": Function(
         (lambda p, f, x: p.scale(Fraction(1, 2), p.power(f, -1)),), Fraction(1, 2), _FROM_ZERO,
@@ -111,11 +110,11 @@ FUNCTIONS: dict[str, Function] = {
     ),
     "ssqrt": Function(
         (lambda p, f, x: p.scale(Fraction(1, 2), p.power(p.fn("abs", f), -1)),), Fraction(1, 2),
-        rates=POSITIVE, inverse="ssq", zero=0,
+        rates=POSITIVE, inverse="ssq", zero=0, odd="sqrt",
     ),
     "ssq": Function(
         (lambda p, f, x: p.scale(2, p.fn("abs", x)),), Fraction(2),
-        rates=POSITIVE, inverse="ssqrt", zero=0,
+        rates=POSITIVE, inverse="ssqrt", zero=0, odd=2,
     ),
     "exp": Function(
         (lambda p, f, x: f,), values=POSITIVE, rates=POSITIVE, inverse="log",
@@ -123,6 +122,7 @@ FUNCTIONS: dict[str, Function] = {
     ),
     "log": Function(
         (lambda p, f, x: p.power(x, -1),), domain=POSITIVE, rates=POSITIVE, inverse="exp",
+        spoken="ln",
     ),
     "sin": Function(
         (lambda p, f, x: p.fn("cos", x),), values=_BETWEEN, rates=_BETWEEN,
@@ -136,14 +136,15 @@ FUNCTIONS: dict[str, Function] = {
     "asin": Function(
         (lambda p, f, x: _over_root(p, p.sub(p.one, p.power(x, 2))),), domain=_ENDS,
         values=Interval(-pi / 2, pi / 2), rates=_ABOVE_ONE, inverse="sin", zero=0,
+        spoken="arcsin",
     ),
     "acos": Function(
         (lambda p, f, x: p.neg(_over_root(p, p.sub(p.one, p.power(x, 2)))),), domain=_ENDS,
-        values=Interval(0.0, pi), rates=Interval(-inf, -1.0),
+        values=Interval(0.0, pi), rates=Interval(-inf, -1.0), spoken="arccos",
     ),
     "atan": Function(
         (lambda p, f, x: p.power(p.add((1, p.one), (1, p.power(x, 2))), -1),),
-        values=Interval(-pi / 2, pi / 2), rates=_UNIT, inverse="tan", zero=0,
+        values=Interval(-pi / 2, pi / 2), rates=_UNIT, inverse="tan", zero=0, spoken="arctan",
     ),
     "sinh": Function(
         (lambda p, f, x: p.fn("cosh", x),), rates=_ABOVE_ONE, inverse="asinh",
@@ -179,3 +180,15 @@ FUNCTIONS: dict[str, Function] = {
         lambda p, f, x, y: p.mul(f, p.fn("log", x)),
     )),
 }  # fmt: skip
+
+#: x |x|, as one function.
+SIGNED_SQUARE = next(name for name, f in FUNCTIONS.items() if f.odd == 2)
+
+
+def root(power: int) -> str | None:
+    """The function that undoes a power of any number; an even power is that of two.
+
+    >>> root(3), root(2)
+    ('cbrt', None)
+    """
+    return next((name for name, f in FUNCTIONS.items() if f.inverse == power and f.grows), None)

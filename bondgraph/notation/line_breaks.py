@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.notation.formula import Formula, Shape
 from bondgraph.notation.mathml import MathML, escape, sign
 from bondgraph.notation.speller import ATOM, PRODUCT
@@ -116,14 +117,13 @@ class _Opener:
         for part in parts[:-1]:
             part[-1] += self.speller.words[","]
         inner = [piece for part in parts for piece in part]
-        match node.data:
-            case "abs":
-                bar = '<mo stretchy="false" form="{}">|</mo>'
-                return _around(bar.format("prefix"), inner, bar.format("postfix"))
-            case "sqrt" | "cbrt":
-                return _around(_OPEN, inner, _root(2 if node.data == "sqrt" else 3))
-            case _:
-                return _around(self.speller.called(node.data) + _OPEN, inner, _SHUT)
+        if node.data == "abs":
+            bar = '<mo stretchy="false" form="{}">|</mo>'
+            return _around(bar.format("prefix"), inner, bar.format("postfix"))
+        undone = FUNCTIONS[node.data].inverse if node.data in FUNCTIONS else None
+        if isinstance(undone, int):
+            return _around(_OPEN, inner, _root(undone))
+        return _around(self.speller.called(node.data) + _OPEN, inner, _SHUT)
 
     def _choice(self, node: Formula, depth: int) -> list[str]:
         found: list[str] = []

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import ClassVar
 
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.notation.formula import Formula, Shape
 from bondgraph.notation.speller import ATOM, COMPARE, POWER, PRODUCT, Spelled, Speller
 
@@ -16,13 +17,12 @@ Letters = Callable[[str, int], Spelled]
 _DOTS = 2  # more derivatives of a name become an exponent
 _FRACTIONS = (2, 3, 4, 6, 8, 12)  # of small numbers: written as fractions rather than decimals
 _NARROW = 3.0  # em, of what may be written twice
-_AROUND = {"abs": 0.6, "sqrt": 0.9, "cbrt": 1.0}  # functions that are signs, with their width
-_SPEAKING = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "sign": "sgn", "log": "ln"}
+_AROUND: Mapping[object, float] = {None: 0.6, 2: 0.9, 3: 1.0}  # em, of bars, and of roots
 
 
 def spoken(name: str) -> str:
     """A function as mathematicians call it, a table by its own name."""
-    return _SPEAKING.get(name, name.rpartition(":")[2])
+    return (name in FUNCTIONS and FUNCTIONS[name].spoken) or name.rpartition(":")[2]
 
 
 class Typeset(Speller, ABC):
@@ -102,19 +102,21 @@ class Typeset(Speller, ABC):
             base = self.within(node.parts[0], ATOM)
             text = self.words["pow"].format(base.text, args[1].text)
             return Spelled(text, POWER, base.width + 0.7 * args[1].width)
-        if node.data in ("ssq", "ssqrt") and args[0].width <= _NARROW:
+        record = FUNCTIONS.get(node.data)
+        if record is not None and record.odd is not None and args[0].width <= _NARROW:
             bars = self._function("abs", args)
             left, right = self.within(node.parts[0], PRODUCT), bars
-            if node.data == "ssqrt":
-                left, right = self._function("sign", args), self._function("sqrt", [bars])
+            if isinstance(record.odd, str):
+                left, right = self._function("sign", args), self._function(record.odd, [bars])
             text = self.row.format(left.text + right.text)
             return Spelled(text, PRODUCT, left.width + right.width)
         return self._function(node.data, args)
 
     def _function(self, name: str, args: list[Spelled]) -> Spelled:
         width = sum(arg.width for arg in args)
-        if name in _AROUND:
-            return Spelled(self.words[name].format(args[0].text), ATOM, width + _AROUND[name])
+        if name in self.words:
+            around = _AROUND[FUNCTIONS[name].inverse]
+            return Spelled(self.words[name].format(args[0].text), ATOM, width + around)
         inner = self.words[","].join(arg.text for arg in args)
         text = self.words["call"].format(self.called(name), inner)
         return Spelled(text, POWER, width + 0.4 * len(args) + 0.5 * len(name) + 0.8)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from bondgraph.ir.equation_system import EquationSystem
-from bondgraph.ir.expr import Expr, Op
 from bondgraph.ir.structural_model import StructuralModel
 from bondgraph.structural.placement import Candidate
 
@@ -34,18 +33,13 @@ def bond_graph_places(
                 variable = pair[beside.kind == "0"]
             else:
                 continue
-            at = column.get(_plain(variable), -1)
+            at = column.get(variable.scaled[1], -1)
             if at >= 0:
                 found.setdefault(at, (kind, node.path))
     return tuple(
         Candidate(f"{kind} at {path}", at, costs.get(path, 1.0))
         for at, (kind, path) in found.items()
     )
-
-
-def _plain(variable: Expr) -> Expr:
-    """The variable without a sign."""
-    return variable.args[0] if variable.op is Op.ADD and len(variable.args) == 1 else variable
 
 
 def table_places(model: StructuralModel, costs: dict[str, float]) -> tuple[Candidate, ...]:

@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from bondgraph.algebra.affine import affine
+from bondgraph.algebra.cleared import divisors
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.exact.evaluate import Sample, values_of
 from bondgraph.exact.outline import demands
 from bondgraph.exact.plant import ExactUnavailable
 from bondgraph.exact.signal_algebra import Mixed
 from bondgraph.exact.trajectory import Trajectory
-from bondgraph.ir.expr import Expr, Op, Pool, topological
+from bondgraph.ir.expr import Expr, Pool, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.residuals import Residual, Step
 from bondgraph.notation.line import show
@@ -82,13 +83,7 @@ def _slope(pool: Pool, step: Step) -> Expr:
 def _resting(expr: Expr, points: Sequence[Sample | _Truth]) -> Expr | None:
     """A divisor in an expression that is zero at all points."""
     nodes = topological([expr])
-    bases = [
-        base
-        for node in nodes
-        if node.op is Op.MUL
-        for base, power in node.factors
-        if power < 0
-    ]
+    bases = divisors(nodes)
     if not bases or not points:
         return None
     need = demands(nodes, [expr, *bases], _TERMS)
@@ -111,13 +106,10 @@ def blame(exprs: Sequence[Expr], point: Sample, terms: int) -> None:
     nodes = topological(exprs)
     values, _ = values_of(nodes, demands(nodes, exprs, terms), point)
     for at, expr in enumerate(exprs):
-        for node in topological([expr]):
-            if node.op is Op.MUL:
-                for base, power in node.factors:
-                    value = values.get(base)
-                    still = isinstance(value, list) and not point.algebra.moves(value)
-                    if power < 0 and still:
-                        raise Resting(at, base)
+        for base in divisors(topological([expr])):
+            value = values.get(base)
+            if isinstance(value, list) and not point.algebra.moves(value):
+                raise Resting(at, base)
 
 
 def divides_by_nothing(graph: BondGraph, exprs: Sequence[Expr]) -> None:

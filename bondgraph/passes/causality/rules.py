@@ -10,9 +10,9 @@ The stroke of bond `b` is the number 0 (at the tail) or 1 (at the head); the end
 from __future__ import annotations
 
 from bondgraph.ir.causal import Cause, Preference
-from bondgraph.ir.expr import Expr, Op
 from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.ir.groups import Groups
+from bondgraph.ir.nodes import first_degree
 from bondgraph.text.tuples import NamedTuple
 
 
@@ -175,42 +175,6 @@ def one_way(node: Node, port: int) -> bool | None:
     for law in node.laws:
         if law.direction is own.effort or law.direction is own.flow:
             others = [v for v in variables if v is not law.direction]
-            if not _of_first_degree(law.zero, others):
+            if not first_degree(law.zero, others, choices=True):
                 return law.direction is own.effort
     return None
-
-
-def _of_first_degree(zero: Expr, variables: list[Expr]) -> bool:
-    """Whether `zero` is of the first degree in the variables taken together."""
-    youngest = min(v.id for v in variables)
-    wanted = {v.id for v in variables}
-    degree: dict[int, int] = {}  # 0 free of the variables, 1 affine, 2 anything else
-    stack = [zero]
-    while stack:
-        node = stack[-1]
-        if node.id in degree:
-            stack.pop()
-        elif node.id < youngest:  # arguments are older than what is made of them
-            degree[node.id] = 0
-        elif node.id in wanted:
-            degree[node.id] = 1
-        else:
-            missing = [a for a in node.args if a.id not in degree]
-            if missing:
-                stack.extend(missing)
-            else:
-                degree[node.id] = _degree(node, [degree[a.id] for a in node.args])
-    return degree[zero.id] < 2
-
-
-def _degree(node: Expr, degrees: list[int]) -> int:
-    if not any(degrees):
-        return 0
-    if node.op is Op.ADD:
-        return max(degrees)
-    if node.op is Op.MUL:
-        powers = zip(degrees, node.exponents, strict=True)
-        return min(2, sum(d if e == 1 else 2 for d, e in powers if d))
-    if node.op is Op.IF and not degrees[0]:
-        return max(degrees)
-    return 2

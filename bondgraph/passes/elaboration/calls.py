@@ -13,7 +13,7 @@ from bondgraph.passes.elaboration.scope import Typed
 from bondgraph.passes.elaboration.tables import read_table
 from bondgraph.text.diagnostic import Report
 
-_ALIASES = {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "sgn": "sign"}
+_ALIASES = {f.spoken: name for name, f in FUNCTIONS.items() if f.spoken}
 
 #: What is no function of numbers, or is written with others, and how many arguments it takes.
 _OTHERS = {

@@ -233,11 +233,11 @@ class Expressions(ABC):
         """Refuse numbers and powers that the generated code could not hold."""
         if node.op is Op.NUM:
             self.held(node.number, expr.origin)
-        elif node.op is Op.ADD:
-            for coefficient in node.coefficients:
-                self.held(coefficient, expr.origin)
-        elif node.op is Op.MUL and any(abs(e) > _MOST_POWER for e in node.exponents):
-            self.too_high(expr, Fraction(max(map(abs, node.exponents))))
+        for coefficient, _ in node.terms:
+            self.held(coefficient, expr.origin)
+        highest = max(abs(e) for _, e in node.factors)
+        if highest > _MOST_POWER:
+            self.too_high(expr, Fraction(highest))
         return node
 
     def held(self, value: Fraction, origin: Span) -> Fraction:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols
 from bondgraph.ir.graph import Law
-from bondgraph.ir.nodes import occurs
+from bondgraph.ir.nodes import first_degree, occurs
 from bondgraph.ir.syntax import Equation, Node, Number, Part, Ref
 from bondgraph.library.dimensions import Term
 from bondgraph.library.elements import ElementKind
@@ -280,9 +280,9 @@ class Laws:
         """Refuse a law that a variable of its own element drops out of: e = e*f says e = 0 too."""
         own = [v for p in node.ports for v in (p.effort, p.flow, p.state) if v is not None]
         for law in laws:
-            terms = law.zero.args if law.zero.op is Op.ADD else (law.zero,)
             for variable in own:
-                if law.zero is not variable and all(_has_factor(t, variable) for t in terms):
+                terms = law.zero.terms
+                if law.zero is not variable and all(_has_factor(t, variable) for _, t in terms):
                     name = variable.symbol.name
                     fail(self.report, "law-cancels", f"The law of `{node.type}:{node.name}` has "
                          f"`{name}` in each of its terms, so that it cancels.", law.origin,
@@ -365,27 +365,9 @@ def linear(pool: Pool, expr: Expr, pair: tuple[Expr, Expr]) -> tuple[Expr, Expr]
         return None
     first = pool.substitute([expr], {pair[0]: pool.one, pair[1]: pool.zero})[0]
     second = pool.substitute([expr], {pair[0]: pool.zero, pair[1]: pool.one})[0]
-    if first is pool.zero or second is pool.zero or not _degree_one(expr, pair):
+    if first is pool.zero or second is pool.zero or not first_degree(expr, pair, choices=False):
         return None
     return first, second
-
-
-def _degree_one(expr: Expr, pair: tuple[Expr, Expr]) -> bool:
-    """Whether the two variables stand only in sums and once in products above the line."""
-    holds: dict[Expr, bool] = {}
-    for node in topological([expr]):
-        if node.op is Op.SYM:
-            holds[node] = node in pair
-            continue
-        inside = [a for a in node.args if holds[a]]
-        holds[node] = bool(inside)
-        if not inside or node.op is Op.ADD:
-            continue
-        if node.op is not Op.MUL or len(inside) > 1:
-            return False
-        if node.exponents[node.args.index(inside[0])] != 1:
-            return False
-    return True
 
 
 def _is_zero(expr: object) -> bool:
@@ -394,8 +376,4 @@ def _is_zero(expr: object) -> bool:
 
 def _has_factor(term: Expr, variable: Expr) -> bool:
     """Whether a term is the variable times something."""
-    if term.op is Op.ADD and len(term.args) == 1:
-        term = term.args[0]
-    if term.op is not Op.MUL:
-        return term is variable
-    return any(a is variable and e > 0 for a, e in term.factors)
+    return any(a is variable and e > 0 for a, e in term.scaled[1].factors)

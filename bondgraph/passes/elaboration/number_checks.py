@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.expr import RATIONAL, Expr, Op, topological
+from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.ir.graph import BondGraph
 from bondgraph.text.diagnostic import Report
 
@@ -48,16 +49,10 @@ def check_numbers(graph: BondGraph, report: Report) -> None:
 def _plain(expr: Expr, number: Callable[[Expr], float | None]) -> bool:
     """Whether all that occurs is arithmetic of known numbers."""
     for node in topological([expr]):
-        match node.op:
-            case Op.SYM:
-                known = number(node)
-                if known is None or not abs(known) < _LARGEST:
-                    return False
-            case Op.FN:
-                if node.name.startswith("table:"):
-                    return False
-            case Op.NUM | Op.ADD | Op.MUL:
-                pass
-            case _:
+        if node.op is Op.SYM:
+            known = number(node)
+            if known is None or not abs(known) < _LARGEST:
                 return False
+        elif node.op not in RATIONAL and (node.op is not Op.FN or node.name not in FUNCTIONS):
+            return False
     return True

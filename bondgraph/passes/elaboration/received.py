@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols
+from bondgraph.ir.expr import Expr, Kind, Pool, symbols
 from bondgraph.ir.graph import Law, Node
 from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration.problems import listed
@@ -75,11 +75,7 @@ class Received:
 
     def _delivered(self, law: Law, symbol: Expr) -> Law:
         """`f - command = 0` becomes `f - command - symbol = 0`."""
-        zero = law.zero
-        if zero.op is not Op.ADD:
-            return law._replace(zero=self._pool.add((1, zero), (-1, symbol)))
-        terms = zero.terms
-        return law._replace(zero=self._pool.add(*terms, (-1, symbol)))
+        return law._replace(zero=self._pool.add(*law.zero.terms, (-1, symbol)))
 
     def _note(self, entry: NodeEntry, node: Node, used: list[str]) -> None:
         self._report.info(

@@ -9,7 +9,7 @@ from bondgraph.algebra.cancelled import without
 from bondgraph.algebra.summands import summands
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
-from bondgraph.ir.nodes import constant, holding, rebuilt
+from bondgraph.ir.nodes import constant, decided, holding, linear_terms, rebuilt
 from bondgraph.text.tuples import NamedTuple
 
 _Value = Callable[[Expr, int], Expr]
@@ -56,11 +56,7 @@ def _freed(pool: Pool, expr: Expr, switches: int) -> Freed | None:
 
 def _in_each_position(pool: Pool, expr: Expr, switches: int) -> Freed | None:
     """The relation, in each position of a switch without undeclared initial values."""
-    decided: dict[Expr, bool] = {}
-    for node in topological([expr]):
-        known = node.op in (Op.NUM, Op.LOGIC) and all(decided[a] for a in node.args)
-        decided[node] = known or (node.kind is Kind.MODE)
-    choices = [n for n in decided if n.op is Op.IF and decided[n.args[0]]]
+    choices = [n for n in topological([expr]) if n.op is Op.IF and decided(n.args[0])]
     if not choices or not switches:
         return None
     condition = choices[-1].args[0]
@@ -117,10 +113,8 @@ def _flat(pool: Pool, expr: Expr) -> Expr:
     """The expression with sums inside sums written as one, so that V - (V - x) becomes x."""
 
     def opened(node: Expr, args: tuple[Expr, ...]) -> Expr:
-        made = pool.rebuild(node, args)
-        if made.op is not Op.ADD:
-            return made
-        return pool.add(*[(c, term) for term, c in summands(made).items()])
+        found = summands(pool.rebuild(node, args))
+        return pool.add(*[(c, term) for term, c in found.items()])
 
     return rebuilt(pool, [expr], opened)[0]
 
@@ -234,33 +228,18 @@ def _push(pool: Pool, expr: Expr, order: int) -> Expr | None:
 
 def _order_below(node: Expr, k: int, holders: dict[Expr, None]) -> int | None:
     """Which derivative of its arguments the k-th derivative of a node needs; None: too many."""
-    if node.op is Op.DER:
-        return k + 1
-    if node.op is Op.INT:
-        return max(k - 1, 0)
-    if node.op is Op.ADD or k == 0:
+    if node.order or k == 0:
+        return max(k + node.order, 0)
+    terms = linear_terms(node, holders)
+    if terms is not None and all(constant(a) for term in terms for a, _ in term.others):
         return k
-    if node.op is Op.MUL:
-        inside = [e for a, e in node.factors if a in holders]
-        outside = [a for a in node.args if a not in holders]
-        if inside == [1] and all(constant(a) for a in outside):
-            return k
     return None
 
 
 def _derived(pool: Pool, node: Expr, k: int, holders: dict[Expr, None], value: _Value) -> Expr:
-    if node.op is Op.DER:
-        return value(node.args[0], k + 1)
-    if node.op is Op.INT and k > 0:
-        return value(node.args[0], k - 1)
-    if node.op is Op.ADD:
-        terms = node.terms
-        return pool.add(*[(c, value(a, k)) for c, a in terms])
-    if node.op is Op.MUL and k > 0:
-        return pool.mul(
-            *[
-                value(a, k) if a in holders else pool.power(a, e)
-                for a, e in node.factors
-            ]
-        )
+    if node.order and k + node.order >= 0:
+        return value(node.args[0], k + node.order)
+    terms = linear_terms(node, holders) if k else None
+    if terms is not None:
+        return pool.add(*[term.of(pool, value(term.arg, k)) for term in terms])
     return pool.rebuild(node, tuple(value(a, 0) for a in node.args))

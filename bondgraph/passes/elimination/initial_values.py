@@ -77,7 +77,7 @@ class _Start:
             for c, arg in node.terms:
                 _add(total, self._rows[arg], Fraction(c))
             return total
-        if node.op in (Op.DER, Op.INT):
+        if node.order:
             return {node: Fraction(1)}
         if all(set(self._rows[a]) <= {None} for a in node.args):
             value = evaluate(node, self._values)

@@ -343,4 +343,4 @@ def _signals(expr: Expr) -> int:
 
 def _differentiated(expr: Expr, symbol: Expr) -> bool:
     """Whether a derivative or an integral holds the symbol."""
-    return any(n.op in (Op.DER, Op.INT) for n in holding([expr], lambda n: n is symbol))
+    return any(n.order for n in holding([expr], lambda n: n is symbol))

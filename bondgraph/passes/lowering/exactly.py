@@ -159,15 +159,14 @@ class Exactly:
     def leaf(self, node: Expr) -> Expression | None:
         """What exact is given: derivatives and integrals of known signals."""
         builder = self.builder
-        if node.op is Op.SYM and node in builder.signals:
-            if node.symbol.kind is Kind.MODE:
-                return builder.mode(node)
-            return self._need(node, 0)
+        if node.kind is Kind.MODE and node in builder.signals:
+            return builder.mode(node)
         order, inner = 0, node
         while inner.op is Op.DER:
             order, inner = order + 1, inner.args[0]
-        if order and inner in builder.signals:
-            return self._scaled(self._need(inner, order), order)
+        if inner in builder.signals:
+            value = self._need(inner, order)
+            return self._scaled(value, order) if order else value
         return self._integral(node) if node.op is Op.INT else None
 
     def _scaled(self, value: Expression, order: int) -> Expression:
@@ -221,17 +220,18 @@ def total(terms: list[tuple[bool, Expression]]) -> Expression:
     return terms[0][1] if len(terms) == 1 and terms[0][0] else Sum(tuple(terms))
 
 
+_LABELS = {Op.NUM: "constant", Op.MUL: "product", Op.IF: "choice", Op.INT: "integral"}
+
+
 def label(builder: Builder, atom: Expr) -> str:
     """A name for an atom inside the name of a coefficient."""
     if atom in builder.signals:
         return builder.signals[atom].name
-    if atom.op is Op.NUM:
-        return "constant"
     if atom.op is Op.FN:
         return identifier(atom.name.partition(":")[0])
     if atom.op is Op.ROOT:
         return identifier(atom.root.name)
-    return {Op.MUL: "product", Op.IF: "choice", Op.INT: "integral"}.get(atom.op, "term")
+    return _LABELS.get(atom.op, "term")
 
 
 def suffix(order: int) -> str:

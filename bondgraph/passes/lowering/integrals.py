@@ -25,10 +25,9 @@ def _joined(pool: Pool, node: Expr, start: Expr) -> Expr:
     rest: list[tuple[Fraction | int, Expr]] = []
     rates: list[tuple[Fraction | int, Expr]] = []
     for c, arg in node.terms:
-        factors = [arg] if arg.op is not Op.MUL else list(arg.args)
         found = [
             f
-            for f in factors
+            for f, _ in arg.factors
             if f.op is Op.INT and f.data == start.data and f.args[0].op is not Op.DER
         ]
         other = pool.div(arg, found[0]) if found else arg

@@ -57,10 +57,8 @@ class Jumps:
             levels = self._levels[mode]
             jumps = node.symbol.kind is Kind.SENSOR
             return (0 if levels is None else levels.get(node, 0)) if jumps else inf
-        if node.op is Op.DER:
-            return max(args[0] - 1, -1)
-        if node.op is Op.INT:
-            return max(args[0], 0) + 1
+        if node.order:
+            return max(args[0], 0) - node.order
         return min(args, default=inf)
 
 

@@ -14,7 +14,7 @@ from fractions import Fraction
 from functools import partial
 from typing import TypeVar
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.expr import CONDITIONS, RATIONAL, Expr, Kind, Op, Pool, topological
 from bondgraph.ir.program import (
     Assign,
     Assignment,
@@ -207,10 +207,10 @@ class Procedure:
                     (a, self._under)
                     for _, _, fs in piece.terms for a, e in fs for _ in range(min(abs(e), 2))
                 ]  # fmt: skip
-            elif node.op in (Op.CMP, Op.LOGIC, Op.IF, Op.FN, Op.ROOT):
-                own = [(a, self._also(under)) for a, under in _operands(node)]
-            else:
+            elif node.op in RATIONAL or node.order:
                 raise ValueError(f"no value for {show(node)}")
+            else:
+                own = [(a, self._also(under)) for a, under in _operands(node)]
             operands[node] = [a for a, _ in own]
             stack += own
         self._under = here
@@ -281,7 +281,7 @@ class Procedure:
             return Function(f"root:{node.root.name}", tuple(self._made[a] for a in node.args))
         if node.op is Op.IF:
             return self._choice(node, *node.args)
-        if node.op in (Op.CMP, Op.LOGIC):  # a truth value used as a number
+        if node.op in CONDITIONS:  # a truth value used as a number
             return Choice(self._condition(node), ONE, ZERO)
         raise ValueError(f"no value for {show(node)}")
 
@@ -365,7 +365,7 @@ def _operands(node: Expr) -> list[tuple[Expr, _Under]]:
     if node.op is Op.IF:
         condition, yes, no = node.args
         return [*_looks(condition), (yes, ((condition, True),)), (no, ((condition, False),))]
-    return _looks(node) if node.op in (Op.CMP, Op.LOGIC) else [(a, ()) for a in node.args]
+    return _looks(node) if node.op in CONDITIONS else [(a, ()) for a in node.args]
 
 
 def _looks(condition: Expr, under: _Under = ()) -> list[tuple[Expr, _Under]]:
@@ -383,7 +383,7 @@ def _looks(condition: Expr, under: _Under = ()) -> list[tuple[Expr, _Under]]:
 def _polynomial(value: Expr) -> bool:
     """Whether a value is made by sums and products alone, and so is there for all numbers."""
     return all(
-        n.op in (Op.NUM, Op.SYM, Op.ADD) or (n.op is Op.MUL and min(n.exponents) > 0)
+        n.op in RATIONAL and all(exponent > 0 for _, exponent in n.factors)
         for n in topological([value])
     )
 

@@ -70,8 +70,5 @@ def _imposed(system: EquationSystem, causal: CausalGraph) -> dict[tuple[Expr, in
 
 
 def _variable(expr: Expr) -> Expr | None:
-    if expr.op is Op.SYM:
-        return expr
-    if expr.op is Op.ADD and len(expr.args) == 1 and expr.args[0].op is Op.SYM:
-        return expr.args[0]
-    return None
+    _, plain = expr.scaled
+    return plain if plain.op is Op.SYM else None

@@ -69,6 +69,10 @@ def test_slope_integral_inverse_and_intervals_of_one_argument(name: str) -> None
             back = float(exact(mpmath.mpf(at)))
             undo = back**f.inverse if isinstance(f.inverse, int) else DOUBLES[f.inverse](back)
             assert undo == pytest.approx(at, rel=1e-9)
+        if f.odd is not None:
+            size = abs(at)
+            part = size**f.odd if isinstance(f.odd, int) else DOUBLES[f.odd](size)
+            assert math.copysign(part, at) == pytest.approx(float(exact(mpmath.mpf(at))), rel=1e-14)
         if f.integral is not None:
             factor, whole = f.integral
             rate = float(factor) * float(mpmath.diff(truth(whole), at))
