@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from functools import cached_property
 from importlib import import_module
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Literal, TypeVar, get_args
 
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.numerals import plural
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.equation_system import EquationSystem
     from bondgraph.ir.graph import BondGraph
     from bondgraph.ir.program import Program
-    from bondgraph.ir.residuals import ReducedSystem, ResidualSet
+    from bondgraph.ir.residuals import Observer, ReducedSystem, ResidualSet
     from bondgraph.ir.runnable_code import Runnable
     from bondgraph.ir.signature_matrix import (
         Detectability,
@@ -47,6 +47,9 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+#: What a step may be made of, see `Options`.
+Form = Literal["derivative", "observer"]
+
 
 class Options(NamedTuple):
     """What a compilation may be asked for beyond the model.
@@ -56,6 +59,8 @@ class Options(NamedTuple):
     seen), `targets` the languages to emit, `seed` of the random points that the exact verification
     uses, `decouple` the faults that further relations are to be free of. With `isolate` there are
     further relations that tell apart what the sensors allow to be told apart.
+    `form` says how a residual has what a derivative is needed for: from filtered samples
+    (`derivative`), or from states that it follows (`observer`), where it has such a form.
     With `open_ports` the model is a part of a machine: its ports may be left without a bond.
     """
 
@@ -66,6 +71,7 @@ class Options(NamedTuple):
     seed: int = 1
     decouple: tuple[str, ...] = ()
     isolate: bool = False
+    form: Form = "derivative"
     open_ports: bool = False
 
 
@@ -81,6 +87,7 @@ if TYPE_CHECKING:
         seed: int
         decouple: tuple[str, ...]
         isolate: bool
+        form: Form
         open_ports: bool
 
 
@@ -388,12 +395,43 @@ class Compilation:
         return self._stage(verify(self.graph, *self._analysis, self.report, self.options.seed))
 
     @cached_property
+    def observers(self) -> dict[str, Observer | str]:
+        """By residual what it is as an observer, or in words why it has no such form.
+
+        >>> import bondgraph
+        >>> found = bondgraph.compile("models/dc_motor.bg").observers["r1"]
+        >>> found.sensor, found.rates, found.output
+        ('current', (U - k*speed - L.p*R/L,), L.p/L)
+        """
+        from bondgraph.passes.elimination.observer import observer
+
+        residuals = self._analysis[0].residuals
+        return {r.name: observer(self.equations, self.integral, r) for r in residuals}
+
+    @cached_property
+    def _followed(self) -> dict[str, Observer]:
+        """The observers that `step` is made of, verified."""
+        from bondgraph.passes.analysis.verify import follows
+
+        if self.options.form == "derivative":
+            return {}
+        found = {}
+        for residual in self._analysis[0].residuals:
+            observer = self.observers[residual.name]
+            if not isinstance(observer, str):
+                follows(residual, observer, self._plant, self.report, self.options.seed)
+                found[residual.name] = observer
+        return self._stage(found)
+
+    @cached_property
     def program(self) -> Program:
         """The residual program, for a verified model only."""
         from bondgraph.passes.lowering.lower import lower
 
         assert self.verification
-        return self._stage(lower(self.graph, *self._analysis, self._lowering))
+        return self._stage(
+            lower(self.graph, *self._analysis, self._lowering, observers=self._followed)
+        )
 
     @cached_property
     def program_with_readings(self) -> Program:
@@ -407,14 +445,17 @@ class Compilation:
         program = self.program
         if self.graph.pool.logged(relations) == relations:
             return program
-        return self._stage(lower(self.graph, *self._analysis, self._lowering, received=True))
+        return self._stage(
+            lower(self.graph, *self._analysis, self._lowering, True, observers=self._followed)
+        )
 
     @cached_property
     def thresholds(self) -> Program | None:
         """The program of the adaptive thresholds, None for a model without tolerances."""
         from bondgraph.passes.lowering.thresholds import thresholds
 
-        return thresholds(self.graph, self._analysis[0], self.program, self._lowering)
+        own = self.graph, self._analysis[0], self.program, self._lowering
+        return thresholds(*own, observers=self._followed)
 
     @cached_property
     def artifacts(self) -> tuple[Artifact, ...]:
@@ -599,9 +640,9 @@ def compile(
 
     A path may name the model: `robot.bg:Drive`. A text needs no path; one says what it is called
     in messages, and beside which files its imports are. Options are those of `Options`: `rate`,
-    `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `open_ports`. Nothing is
-    computed before a stage is asked for. Raises `CompileError` if the file cannot be read,
-    TypeError for an unknown option, ValueError for a number that is not positive.
+    `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `form`, `open_ports`.
+    Nothing is computed before a stage is asked for. Raises `CompileError` if the file cannot be
+    read, TypeError for an unknown option, ValueError for a number that is not positive.
 
     >>> import bondgraph
     >>> bondgraph.compile("models/dc_motor.bg", rate=500.0)
@@ -638,6 +679,8 @@ def _checked(options: Options) -> Options:
         every = name == "resolution" and value == 0.0  # term is seen
         if value is not None and not every and not 0.0 < value < float("inf"):
             raise ValueError(f"{name} must be a positive number, not {value!r}")
+    if options.form not in get_args(Form):
+        raise ValueError(f"form must be one of {', '.join(get_args(Form))}, not {options.form!r}")
     for name in ("targets", "decouple"):
         value = getattr(options, name)
         if isinstance(value, str):

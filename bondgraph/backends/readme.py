@@ -97,6 +97,8 @@ def _residual(info: ResidualInfo) -> dict[str, object]:
     if info.invisible:
         hidden = ", ".join(f"`{f}`" for f in info.invisible)
         facts.append(f"`step` cannot see at this sample rate: {hidden}")
+    if info.follows:
+        facts.append(f"`step` is an observer that follows `{info.follows}`")
     if info.approximate:
         facts.append(f"`step` is an approximation: {_plain(info.approximate)}")
     if info.unavailable:

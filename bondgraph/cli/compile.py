@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Compilation, ForeignFiles, Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import further
+from bondgraph.cli.further_residuals import further, realised
 from bondgraph.cli.number_arguments import bits, positive
 
 if TYPE_CHECKING:
@@ -52,6 +52,7 @@ def arguments(parser: ArgumentParser) -> None:
         help=f"emit this language; may be repeated (default: {', '.join(defaults.targets)})",
     )
     further(parser)
+    realised(parser)
 
 
 def run(args: Namespace) -> int:
@@ -71,7 +72,7 @@ def run(args: Namespace) -> int:
         resolution=2.0**-args.bits,
         targets=tuple(dict.fromkeys(args.target or Options().targets)),
         decouple=tuple(dict.fromkeys(args.decouple)),
-        isolate=args.isolate,
+        isolate=args.isolate, form=args.form,
     )
     for fault in args.decouple:
         if fault not in compilation.graph.faults:

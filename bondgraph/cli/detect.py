@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import isolating
+from bondgraph.cli.further_residuals import isolating, realised
 from bondgraph.cli.number_arguments import assigned, bits, noise, positive
 from bondgraph.cli.terminal_layout import names as listed
 from bondgraph.cli.terminal_layout import width
@@ -31,6 +31,7 @@ def arguments(parser: ArgumentParser) -> None:
     sampling(parser)
     signals(parser)
     isolating(parser)
+    realised(parser)
 
 
 def sampling(parser: ArgumentParser) -> None:
@@ -91,7 +92,7 @@ def run(args: Namespace) -> int:
         rate=args.rate,
         bandwidth=args.bandwidth,
         resolution=2.0**-args.bits,
-        isolate=args.isolate,
+        isolate=args.isolate, form=args.form,
     )
     program = compilation.program
     name = no_signal(args, program)

@@ -212,6 +212,14 @@ def _residual(compilation: Compilation, relation: Relation) -> list[str]:
         ]
     if residual.differentiated:
         lines += ["", "  The relation is differentiated: an initial value is not declared."]
+    observer = compilation.observers[relation.name]
+    if isinstance(observer, str):
+        lines += ["", "As an observer", f"  none: {observer}"]
+    else:
+        lines += ["", f"As an observer, which follows {observer.sensor} (--form observer)"]
+        for state, rate in zip(observer.states, observer.rates, strict=True):
+            lines += formula(show(rate), columns, f"  D({show(state)}) = ", "    ")
+        lines += formula(show(observer.output), columns, f"  {observer.sensor} = ", "    ")
     shown = [f"{s} {'only integrated' if n < 0 else n}" for s, n in relation.orders.items()]
     lines += ["", "Highest derivatives", *_listed(shown, columns)]
     weak = compilation.detectability.weak(relation.name)

@@ -1,4 +1,4 @@
-"""The options of a command that ask for residuals beyond those of the first elimination."""
+"""The options of a command that say which residuals there are, and what a step is made of."""
 
 from __future__ import annotations
 
@@ -14,6 +14,17 @@ def isolating(parser: ArgumentParser) -> None:
         "--isolate",
         action="store_true",
         help="add the few residuals that tell faults apart as far as the sensors allow",
+    )
+
+
+def realised(parser: ArgumentParser) -> None:
+    """The option `--form`."""
+    parser.add_argument(
+        "--form",
+        choices=("derivative", "observer"),
+        default="derivative",
+        help="what a step is made of: filtered samples, or states that follow a sensor where a "
+        "residual has such a form (default: derivative)",
     )
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console, monitor
-from bondgraph.cli.further_residuals import isolating
+from bondgraph.cli.further_residuals import isolating, realised
 from bondgraph.cli.number_arguments import positive
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
@@ -46,6 +46,7 @@ def arguments(parser: ArgumentParser) -> None:
         " a simulation of the scenario in a process of its own)")  # fmt: skip
     monitor.sampled(add)
     isolating(parser)
+    realised(parser)
 
 
 def run(args: Namespace) -> int:
@@ -98,7 +99,7 @@ def _serve(args: Namespace, made: Any) -> int:
     from bondgraph.runtime.simulation.scenario import Scenario
 
     rate = args.rate
-    compilation = open_model(args.model, isolate=args.isolate)
+    compilation = open_model(args.model, isolate=args.isolate, form=args.form)
     scenario = compilation.scenario(args.scenario) if args.scenario else Scenario("live")
     if rate is None:
         rate = scenario.sampling.rate if args.scenario else Options().rate

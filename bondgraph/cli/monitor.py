@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import isolating
+from bondgraph.cli.further_residuals import isolating, realised
 from bondgraph.cli.number_arguments import positive
 from bondgraph.text.numerals import plural
 
@@ -40,6 +40,7 @@ def arguments(parser: ArgumentParser) -> None:
         help="samples: a .csv or .parquet file, or - for standard input (default)")  # fmt: skip
     sampled(add)
     isolating(parser)
+    realised(parser)
     add("--journal", metavar="FILE", help="keep what was said and go on there after a restart")
     add("--publish", metavar="[HOST[:PORT]/]TOPIC",
         help="publish the verdicts, at the broker of --mqtt if none is named")  # fmt: skip
@@ -128,7 +129,7 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     tuning = read_tuning(args.tuning) if args.tuning else None
     rate = args.rate or known or source.rate() or (tuning.rate if tuning else Options().rate)
     compilation = open_model(
-        args.model, rate=rate, bandwidth=args.bandwidth, isolate=args.isolate
+        args.model, rate=rate, bandwidth=args.bandwidth, isolate=args.isolate, form=args.form
     )
     engine, decided = watching(compilation, tuning)
     mapping = read_map(args.map, engine.signals) if args.map else None

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Compilation, compile
 from bondgraph.cli import console
 from bondgraph.cli.detect import no_signal, sampling, signals
-from bondgraph.cli.further_residuals import further
+from bondgraph.cli.further_residuals import further, realised
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -39,6 +39,7 @@ def arguments(parser: ArgumentParser) -> None:
     sampling(parser)
     signals(parser)
     further(parser)
+    realised(parser)
 
 
 def run(args: Namespace) -> int:
@@ -53,7 +54,7 @@ def run(args: Namespace) -> int:
         bandwidth=args.bandwidth,
         resolution=2.0**-args.bits,
         decouple=tuple(dict.fromkeys(args.decouple)),
-        isolate=args.isolate,
+        isolate=args.isolate, form=args.form,
     )
     for fault in args.decouple:
         if fault not in compilation.graph.faults:

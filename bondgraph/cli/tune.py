@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import isolating
+from bondgraph.cli.further_residuals import isolating, realised
 from bondgraph.cli.number_arguments import positive
 from bondgraph.text.numerals import plural
 
@@ -49,6 +49,7 @@ def arguments(parser: ArgumentParser) -> None:
                         help="samples a second (default: that of the first log)")  # fmt: skip
     parser.add_argument("--map", metavar="FILE.toml", help="which column is which signal")
     isolating(parser)
+    realised(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
 
 
@@ -112,7 +113,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
     read = []
     if args.simulate:
         compilation = open_model(
-            args.model, rate=args.rate or Options().rate, isolate=args.isolate
+            args.model, rate=args.rate or Options().rate, isolate=args.isolate, form=args.form
         )
         scenario = compilation.scenario(args.simulate)
         if scenario.faults:
@@ -132,7 +133,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
         steps = np.diff(read[0].time)
         usual = float(np.median(steps)) if len(steps) else 1.0 / Options().rate
         rate = args.rate or round(1.0 / usual, 6)
-        compilation = open_model(args.model, rate=rate, isolate=args.isolate)
+        compilation = open_model(args.model, rate=rate, isolate=args.isolate, form=args.form)
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
     logs = []

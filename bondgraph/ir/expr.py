@@ -329,6 +329,10 @@ class Pool:
         """The difference of two nodes."""
         return self.add((1, left), (-1, right))
 
+    def dot(self, left: Iterable[Expr], right: Iterable[Expr]) -> Expr:
+        """The sum of the products, pair by pair."""
+        return self.add(*[(1, self.mul(a, b)) for a, b in zip(left, right, strict=True)])
+
     def power(self, base: Expr, exponent: int) -> Expr:
         """An integer power; raises ZeroDivisionError for a negative power of the number zero."""
         return self._product([(base, exponent)])

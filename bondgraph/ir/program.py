@@ -309,7 +309,8 @@ class ResidualInfo(NamedTuple):
     rate. `settle` is how many time constants (1/bandwidth) step needs before it is valid.
     `approximate` says why step puts filtered derivatives into a nonlinear term ("" where step is
     the exact residual, filtered); `unavailable` why step has no value at all (never valid),
-    `unwritten` why exact has none (no statement of it assigns the residual).
+    `unwritten` why exact has none (no statement of it assigns the residual). `follows` is the
+    sensor that step predicts as an observer, "" where it filters derivatives.
     """
 
     name: str
@@ -324,6 +325,7 @@ class ResidualInfo(NamedTuple):
     approximate: str = ""
     unavailable: str = ""
     unwritten: str = ""
+    follows: str = ""
 
 
 class Opening(NamedTuple):

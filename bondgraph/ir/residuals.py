@@ -46,6 +46,24 @@ class Residual(NamedTuple):
     orders: dict[str, int]
 
 
+class Observer(NamedTuple):
+    """A relation solved for its states: x' = `rates` + `entry` w, and y = `output`.
+
+    w is the value of the relation, so that it is zero on a healthy machine. `rates`, `output` and
+    `entry` are in the `states`, in parameters and in known signals that nothing differentiates;
+    `measured` is the known signal y, of the sensor called `sensor`. `starts` are the states of a
+    machine at rest, in known signals and parameters.
+    """
+
+    sensor: str
+    measured: Expr
+    states: tuple[Expr, ...]
+    rates: tuple[Expr, ...]
+    output: Expr
+    entry: tuple[Expr, ...]
+    starts: tuple[Expr, ...]
+
+
 class Missing(NamedTuple):
     """A relation that the model has but that could not be had.
 

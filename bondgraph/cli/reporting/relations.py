@@ -127,6 +127,8 @@ def _notes(compilation: Compilation, relation: Relation, program: Program | None
     if info.invisible:
         names = ", ".join(info.invisible)
         notes.append(f"At {program.rate:g} samples a second its code cannot see {names}.")
+    if info.follows:
+        notes.append(f"Its code is an observer that follows {info.follows}.")
     if info.approximate:
         notes.append(f"Its code is an approximation: {info.approximate}.")
     if info.unavailable:

@@ -20,7 +20,7 @@ from bondgraph.exact.verification import Verification
 from bondgraph.field.numbers import Undefined
 from bondgraph.ir.expr import Expr, Kind
 from bondgraph.ir.graph import BondGraph
-from bondgraph.ir.residuals import ResidualSet
+from bondgraph.ir.residuals import Observer, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.passes.analysis import unanswerable
 from bondgraph.text.diagnostic import Report
@@ -46,6 +46,49 @@ def verify(
     points contradict, or `verification-unavailable` (a warning) with the reason.
     """
     return _Check(graph, residuals, signatures, report, seed, plant or Plant(graph)).run()
+
+
+def follows(
+    residual: Residual, observer: Observer, plant: Plant, report: Report, seed: int = 1
+) -> bool:
+    """Whether a healthy plant moves as an observer says; `verification-failed` where it does not.
+
+    The states are taken from the elimination, which knows them from derivatives. True, too, where
+    the oracle has no trajectory that they could be looked at on.
+    """
+    pool = plant.graph.pool
+    closed = {step.variable: step.closed for step in residual.steps}
+    exprs = [
+        pool.sub(pool.der(closed[x]), pool.substitute([rate], closed)[0])
+        for x, rate in zip(observer.states, observer.rates, strict=True)
+        if x in closed
+    ]
+    exprs.append(pool.sub(observer.measured, pool.substitute([observer.output], closed)[0]))
+    size = terms_needed(exprs)
+
+    def moved(number: int) -> bool:
+        sample = plant.sample(exprs, number, size)
+        still = isinstance(sample, Trajectory) and sample.still
+        return not still and any(map(sample.algebra.moves, evaluate(exprs, sample, size)))
+
+    try:
+        wrong = Reactions(plant, seed).draw(moved, 1000 * (seed + _APART))
+    except ExactUnavailable:
+        return True
+    if wrong:
+        what = f"the observer of {residual.name} does not move as the healthy model does"
+        _failed(report, what, residual)
+    return not wrong
+
+
+def _failed(report: Report, what: str, residual: Residual) -> None:
+    report.error(
+        "verification-failed",
+        what,
+        residual.closing.origin,
+        help="This is a mistake of the compiler, not of the model: nothing was written. "
+        "Please report it with the model.",
+    )
 
 
 class _Failed(Exception):
@@ -116,13 +159,7 @@ class _Check:
             if divisor is not None:
                 unanswerable.resting(self.report, residual, divisor)
                 return self.result("not verified: a step divides by zero")
-            self.report.error(
-                "verification-failed",
-                str(failure),
-                residual.closing.origin,
-                help="This is a mistake of the compiler, not of the model: nothing was written. "
-                "Please report it with the model.",
-            )
+            _failed(self.report, str(failure), residual)
             return self.result("failed")
         return self.result(self.method())
 

@@ -28,8 +28,6 @@ from bondgraph.structural.reduce_index import Column, Reduced, reduce_index
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.tuples import NamedTuple
 
-_UNKNOWN = (VARIABLES | {Kind.SENSOR}) - {Kind.UNKNOWN}
-
 
 class Wanted(NamedTuple):
     """What a simulation needs beyond the model.
@@ -37,12 +35,14 @@ class Wanted(NamedTuple):
     `modes` gives each boolean input its value; storages whose path is one of `static` or lies
     below one are taken as being at rest (quasi-static); values, inputs and sensors named in
     `disturbed` may be wrong; `numbers` are parameters that have another value than the model says.
+    Where sensors are `measured` they are known signals, and no parameter is taken to be nothing.
     """
 
     modes: Mapping[str, bool] = {}
     static: tuple[str, ...] = ()
     disturbed: tuple[str, ...] = ()
     numbers: Mapping[str, float] = {}
+    measured: bool = False
 
 
 def state_equations(
@@ -81,6 +81,8 @@ class _Causaliser:
         self.jets = Jets(self.pool)
         self.static: list[str] = []
         self.disturbances = tuple(disturbance(self.pool, name) for name in wanted.disturbed)
+        sensors = set() if wanted.measured else {Kind.SENSOR}
+        self.unknown = (VARIABLES | sensors) - {Kind.UNKNOWN}
         self.rows = self._rows()
         self._open_rings()
         self.preferred = _preferred(system, integral)
@@ -119,7 +121,7 @@ class _Causaliser:
         """Let every storage whose state follows from others take an impulse from outside."""
         pool = self.pool
         found = []
-        for k, row in enumerate(self.rows):
+        for k, row in enumerate(() if self.wanted.measured else self.rows):
             equation = row.equation
             state = equation.state
             if equation.kind != "state" or state is None or state in alive:
@@ -151,7 +153,8 @@ class _Causaliser:
         """The equations of the mode, with what may be wrong and without what is nothing."""
         pool, system = self.pool, self.system
         replaced, absent = self._disturbed(), self._absent()
-        truth = {i.symbol: self.wanted.modes[i.name] for i in self.graph.inputs if i.mode}
+        told = self.wanted.modes
+        truth = {i.symbol: told[i.name] for i in self.graph.inputs if i.name in told}
         errors = {d.name: d for d in self.disturbances}
         rows = []
         logged = pool.logged([e.zero for e in system.equations])  # a law gets what a sensor says
@@ -171,7 +174,7 @@ class _Causaliser:
                 zero = pool.substitute([zero], replaced)[0]
             zero = in_mode(pool, [zero], truth)[0] if truth else zero
             zero = self.jets.of(zero)
-            rows.append(_Row(equation, zero, _orders(zero)))
+            rows.append(_Row(equation, zero, _orders(zero, self.unknown)))
         return rows
 
     def _open_rings(self) -> None:
@@ -190,7 +193,7 @@ class _Causaliser:
 
         rows = [(r.equation, r.zero) for r in self.rows]
         for k, variable in rings(self.system, rows, number).items():
-            self.rows[k] = _Row(self.rows[k].equation, variable, _orders(variable))
+            self.rows[k] = _Row(self.rows[k].equation, variable, _orders(variable, self.unknown))
 
     def _misread(self, equation: Equation, own: Disturbance) -> tuple[Expr, _Row | None]:
         """The equation of a sensor that may be wrong; an encoder counts wrong from then on.
@@ -210,7 +213,7 @@ class _Causaliser:
         integral = equation._replace(
             kind="integral", zero=zero, state=counted, rate=rate, variables=(counted,)
         )
-        row = _Row(integral, zero, _orders(zero))
+        row = _Row(integral, zero, _orders(zero, self.unknown))
         return pool.add((1, sensor.symbol), (-1, counted), (-1, own.bias)), row
 
     def _at_rest(self, name: str) -> bool:
@@ -236,7 +239,7 @@ class _Causaliser:
         disturbed = set(self.wanted.disturbed)
         numbers = self.wanted.numbers
         zero = {}
-        for value in self.graph.values:
+        for value in () if self.wanted.measured else self.graph.values:
             number = numbers[value.name] if value.name in numbers else nominal.value(value.symbol)
             if number == 0 and value.name not in disturbed:
                 zero[value.symbol] = self.pool.zero
@@ -334,7 +337,7 @@ class _Causaliser:
         return self.pool.symbol(variable.symbol.name + "'" * order, Kind.EFFORT)
 
 
-def _orders(zero: Expr) -> dict[Expr, int]:
+def _orders(zero: Expr, unknown: Set[Kind]) -> dict[Expr, int]:
     """The highest derivative of each unknown in an equation."""
     found: dict[Expr, int] = {}
     seen = {zero}
@@ -345,7 +348,7 @@ def _orders(zero: Expr) -> dict[Expr, int]:
         while node.op is Op.DER:
             order, node = order + 1, node.args[0]
         if node.op is Op.SYM:
-            if node.symbol.kind in _UNKNOWN:
+            if node.symbol.kind in unknown:
                 found[node] = max(found.get(node, 0), order)
             continue
         for arg in node.args:

@@ -22,11 +22,12 @@ from bondgraph.ir.program import (
     Ref,
     ResidualInfo,
 )
-from bondgraph.ir.residuals import Residual, ResidualSet
+from bondgraph.ir.residuals import Observer, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
+from bondgraph.passes.lowering.luenberger import Luenberger
 from bondgraph.passes.lowering.newton import newton_blocks, roots_in
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.program_names import brief, identifier, short
@@ -86,12 +87,14 @@ def lower(
     signatures: SignatureMatrix,
     options: LowerOptions = DEFAULT,
     received: bool = False,
+    observers: Mapping[str, Observer] = {},
 ) -> Program:
     """The residual program of a model: coefficients, exact residuals, realisable residuals.
 
     What a law received of a sensor is the signal of the sensor; with `received` it is a known
     signal of its own, and all else is the same: the terms that are kept, the stages of the filter.
 
+    Of the residuals with an observer among `observers` (by name) step is that observer.
     A residual whose visible order exceeds `HIGHEST` stages, or that has no numbers to tell what
     is visible, gets no step (`ResidualInfo.unavailable`); one of more than `LARGEST` operations no
     exact (`ResidualInfo.unwritten`). See METHOD 4.1, 4.2, 4.5 for the theory.
@@ -132,6 +135,8 @@ def lower(
         found = _terms(builder, visible, twin, options, received)
         faults = sees[residual.name]
         low = _realise(builder, filter, residual, faults, found, options, text, switched)
+        own = observers.get(residual.name)
+        low = low if own is None else _followed(builder, filter, residual, own, text, low)
         if order is None:
             info = low.info._replace(order=_highest(form), unwritten=_TOO_LONG)
         else:
@@ -140,7 +145,7 @@ def lower(
     configure: list[Assignment | PolynomialTape] = []
     for tape in tapes:
         configure += [] if tape is None else [*tape.before, tape.statement]
-    own = builder.configure()
+    coefs = builder.configure()
     wanted = builder.used
     for tape in tapes:
         wanted += [] if tape is None else tape.scales
@@ -154,7 +159,7 @@ def lower(
         coefs=tuple(builder.fields),
         states=tuple(s for low in lowered for s in low.states),
         residuals=tuple(low.info for low in lowered),
-        configure=(*configure, *own),
+        configure=(*configure, *coefs),
         exact=tuple(exactly.statements),
         first=tuple(s for low in lowered for s in low.first),
         step=tuple(s for low in lowered for s in low.step),
@@ -221,6 +226,31 @@ def _realise(
         dropped,
         window.opening,
     )
+
+
+def _followed(
+    builder: Builder,
+    filter: Filter,
+    residual: Residual,
+    observer: Observer,
+    text: str,
+    low: _Lowered,
+) -> _Lowered:
+    """One residual of `step` as an observer, or as it is where that takes too many operations."""
+    chain = Luenberger(builder, filter, residual, len(observer.states))
+    try:
+        chain.follow(observer, text)
+    except TooManyOperations:
+        return low
+    info = low.info._replace(
+        stages=chain.stages,
+        invisible=() if low.info.unavailable else low.info.invisible,
+        settle=settle(chain.stages),
+        approximate="",
+        unavailable="",
+        follows=observer.sensor,
+    )
+    return _Lowered(info, chain.first, chain.step, chain.states, [])
 
 
 def _warmup(info: ResidualInfo) -> float:
@@ -307,12 +337,16 @@ def tables(
     return tuple((name, graph.pool.rows(name)) for name in used)
 
 
+#: What a program without is the same as it was before there was such a field.
+_ADDED = ("openings", "follows")
+
+
 def digest(program: Program, text: str) -> str:
     """A hash of the model and of everything that the program computes, in hexadecimal."""
     lines = [text.replace("\r\n", "\n")]
     for name in program._fields:
-        if name == "openings" and not program.openings:
-            continue  # what a program without switches computes is what it was before
+        if name in _ADDED and not getattr(program, name):
+            continue
         if name not in ("source", "digest", "bounds"):
             lines.append(f"{name}: {_plain(getattr(program, name))!r}")
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]
@@ -326,6 +360,9 @@ def _plain(value: object) -> object:
     fields = getattr(value, "_fields", None)
     if fields is None:
         return tuple(plain)
-    if "origin" in fields:
-        del plain[fields.index("origin")]
-    return (type(value).__name__, *plain)
+    kept = [
+        own
+        for name, own in zip(fields, plain, strict=True)
+        if name != "origin" and (own or name not in _ADDED)
+    ]
+    return (type(value).__name__, *kept)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from bondgraph.algebra.derivative import TooManyOperations
 from bondgraph.algebra.normalise import LIMIT, normalise
 from bondgraph.ir.expr import Expr
@@ -19,11 +21,12 @@ from bondgraph.ir.program import (
     ResidualInfo,
     Sum,
 )
-from bondgraph.ir.residuals import Residual, ResidualSet
+from bondgraph.ir.residuals import Observer, Residual, ResidualSet
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import LARGEST
 from bondgraph.passes.lowering.filter import Filter
 from bondgraph.passes.lowering.lower import LowerOptions, digest, fastest, tables
+from bondgraph.passes.lowering.luenberger import Luenberger
 from bondgraph.passes.lowering.newton import newton_blocks
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.prune import pruned
@@ -50,7 +53,11 @@ class _Threshold:
 
 
 def thresholds(
-    graph: BondGraph, residuals: ResidualSet, program: Program, options: LowerOptions
+    graph: BondGraph,
+    residuals: ResidualSet,
+    program: Program,
+    options: LowerOptions,
+    observers: Mapping[str, Observer] = {},
 ) -> Program | None:
     """A program whose `step` gives a(t) >= |r(t)| of the healthy machine, for each residual.
 
@@ -67,7 +74,9 @@ def thresholds(
     switched = Switched(builder, filter, residuals.system)
     large = {s.residual for s in program.configure if isinstance(s, PolynomialTape)}
     found = [
-        _threshold(builder, switched, residual, info, options, info.name in large)
+        _followed(builder, filter, residual, info, observers[residual.name])
+        if info.follows
+        else _threshold(builder, switched, residual, info, options, info.name in large)
         for residual, info in zip(residuals.residuals, program.residuals, strict=True)
     ]
     configure = builder.configure()
@@ -154,6 +163,24 @@ def _threshold(
     out.first.append(statement)
     out.step.append(statement)
     out.info = out.info._replace(text=text, faults=tuple(words), invisible=())
+    return out
+
+
+def _followed(
+    builder: Builder, filter: Filter, residual: Residual, info: ResidualInfo, observer: Observer
+) -> _Threshold:
+    """The statements for a residual that is an observer: it carries the slopes of its states."""
+    out = _Threshold(info._replace(order=0, unwritten=_UNWRITTEN))
+    builder.origin = residual.closing.origin
+    chain = Luenberger(builder, filter, residual, info.stages)
+    text = f"{info.name}: how far {info.path} can be from zero if no parameter is out of tolerance"
+    try:
+        words = chain.bound(observer, text)
+    except TooManyOperations:
+        return _none(out, f"written out it takes more than {LARGEST} operations")
+    out.first, out.step, out.states = chain.first, chain.step, chain.states
+    out.exprs = [observer.measured, *observer.rates, observer.output]
+    out.info = out.info._replace(text=text, faults=words, invisible=())
     return out
 
 
