@@ -15,6 +15,7 @@ import numpy.typing as npt
 from bondgraph.text.tuples import NamedTuple
 
 Array: TypeAlias = npt.NDArray[np.float64]
+Mask: TypeAlias = npt.NDArray[np.bool_]
 
 #: What files of this program say that they are, and in which edition.
 MARK, EDITION = "bondgraph log", "1"

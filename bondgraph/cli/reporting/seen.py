@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.expr import Expr
     from bondgraph.ir.program import Program
     from bondgraph.pipeline import Compilation
-    from bondgraph.runtime.batch import Array
+    from bondgraph.runtime.log import Array
     from bondgraph.runtime.smallest import Detection, Situation, Smallest
     from bondgraph.views import Relation
 

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.doubt import Doubt
@@ -23,7 +22,7 @@ from bondgraph.runtime.diagnosis.origins import Origins, starts_in
 from bondgraph.runtime.diagnosis.rows import Part, Row, together, usual, weight
 from bondgraph.runtime.diagnosis.status import WatchStatus
 from bondgraph.runtime.diagnosis.tuning import Tuning, limits
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.runtime.monitoring.verdict import Verdict
@@ -207,7 +206,7 @@ class Diagnosis:
     # --------------------------------------------------------------------- alarms
 
     def _fire(
-        self, time: float, fresh: npt.NDArray[np.bool_], piece: list[Array], out: list[Verdict]
+        self, time: float, fresh: Mask, piece: list[Array], out: list[Verdict]
     ) -> None:
         """Latch an alarm; `piece` are the samples since the last row."""
         self._calm.clear()

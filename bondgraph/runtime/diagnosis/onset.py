@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.isolation import History
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
 
 _ODD = 3.0  # standard deviations that a residual has to be away from what is expected
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
 _GROWS = 3  # rows within which a residual has become as large as the fault makes it
-
-Mask = npt.NDArray[np.bool_]
 
 
 def odd(history: History, value: Array, slopes: Array, noise: Array) -> Mask:

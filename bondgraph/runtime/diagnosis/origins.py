@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.encoder_readings import Readings
 from bondgraph.runtime.diagnosis.healthy import slack
@@ -16,7 +15,7 @@ from bondgraph.runtime.diagnosis.isolation import History
 from bondgraph.runtime.diagnosis.origin_fit import Case, Fit, fitted, replayed
 from bondgraph.runtime.diagnosis.remembered import Memory
 from bondgraph.runtime.diagnosis.rows import Row, weight
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.text.tuples import NamedTuple
@@ -103,9 +102,9 @@ class Origins:
         self._hold = _HOLD * self._warm if counted else 0
 
     @property
-    def waiting(self) -> npt.NDArray[np.bool_]:
+    def waiting(self) -> Mask:
         """The residuals that are not judged."""
-        found: npt.NDArray[np.bool_] = np.zeros(len(self._engine.residuals), dtype=np.bool_)
+        found: Mask = np.zeros(len(self._engine.residuals), dtype=np.bool_)
         for group in self._groups:
             if group.waiting:
                 found[group.residuals] = True
@@ -117,15 +116,15 @@ class Origins:
         return any(group.waiting or group.doubtful for group in self._groups)
 
     @property
-    def lost(self) -> npt.NDArray[np.bool_]:
+    def lost(self) -> Mask:
         """Those of them whose start nobody knows."""
-        found: npt.NDArray[np.bool_] = np.zeros(len(self._engine.residuals), dtype=np.bool_)
+        found: Mask = np.zeros(len(self._engine.residuals), dtype=np.bool_)
         for group in self._groups:
             if group.waiting and group.begun and not group.kept:
                 found[group.residuals] = True
         return found
 
-    def unknown(self, of: npt.NDArray[np.bool_]) -> list[str]:
+    def unknown(self, of: Mask) -> list[str]:
         """The signals whose start these residuals wait for."""
         return [s for g in self._groups if of[g.residuals].any() for s in g.memory.signals]
 

@@ -7,16 +7,14 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation import courses
 from bondgraph.runtime.simulation.faults import Wrong, edges
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Course, Fault, Scenario
-
-Array = npt.NDArray[np.float64]
 
 _JUMP = 0.02  # of the largest value so far: a bend from which on it is a jump
 

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.runtime.live.fed import Fed
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.readings import Readings
 from bondgraph.runtime.simulation.scenario import Fault, Scenario
 from bondgraph.runtime.simulation.stepping import Stepper
-
-Array = npt.NDArray[np.float64]
 
 _WINDOW = 2048  # samples for which noise is drawn together
 _LONGEST = 5.0  # s without samples that it goes on through; after more it waits where it is

@@ -11,11 +11,10 @@ from types import ModuleType
 from typing import Any, Protocol
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.program import Known
 from bondgraph.ir.runnable_code import Runnable, Together
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.text.tuples import NamedTuple
 
 _LARGEST = 2.0**53  # a double has all whole numbers up to here
@@ -30,7 +29,7 @@ class Batch(NamedTuple):
     """
 
     value: Array
-    valid: npt.NDArray[np.bool_]
+    valid: Mask
     bound: Array
 
 
@@ -297,7 +296,7 @@ class _Monitor:
 
     def run(
         self, rows: list[list[float]], shape: tuple[int, int]
-    ) -> tuple[Array, npt.NDArray[np.bool_]]:
+    ) -> tuple[Array, Mask]:
         """Results and their validity; what is not valid may have any number."""
         value, valid = np.zeros(shape), np.zeros(shape, dtype=np.bool_)
         step, taken, number = self._monitor.step, self._samples, self._number

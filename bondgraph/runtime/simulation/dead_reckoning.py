@@ -7,17 +7,15 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.expr import KNOWN_SIGNALS, VARIABLES, ZERO_START, Expr, Kind, Op, topological
 from bondgraph.passes.elimination.chaining import Chain
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation import courses
 from bondgraph.runtime.simulation.code import Code
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Scenario
-
-Array = npt.NDArray[np.float64]
 
 _COUNTER = 2.0**32  # an encoder's counter may run over
 

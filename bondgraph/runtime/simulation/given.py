@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Iterable
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation import courses
 from bondgraph.runtime.simulation.controllers import Pid
 from bondgraph.runtime.simulation.faults import Wrong, edges
@@ -16,7 +16,6 @@ from bondgraph.runtime.simulation.machine import Machine, Signal
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Course, Scenario
 
-Array = npt.NDArray[np.float64]
 Inputs = Callable[[float], list[float]]
 
 _EDGE = 2e-12  # of the time: what lies nearer together than half of it is one moment

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.machine import Machine
-
-Array = npt.NDArray[np.float64]
 
 _ROUNDING = 1e-9  # of what a storage holds
 _STEPS = 4  # in which an impulse comes, where it changes how storages move together

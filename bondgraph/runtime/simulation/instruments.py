@@ -6,11 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.scenario import Instrument
-
-Array = npt.NDArray[np.float64]
 
 
 class Reader:

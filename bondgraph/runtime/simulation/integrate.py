@@ -8,11 +8,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.machine import Machine
 
-Array = npt.NDArray[np.float64]
 Inputs = Callable[[float], Sequence[float]]
 
 _ABSOLUTE = 0.1  # of the relative tolerance, in units of the effort or flow of a state

@@ -7,16 +7,14 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.expr import Expr, Kind, Op, topological
 from bondgraph.ir.state import Block, StateEquations
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.algebraic_loops import NoSolution, factorised, iteration, solver
 from bondgraph.runtime.simulation.code import Code
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.text.tuples import NamedTuple
-
-Array = npt.NDArray[np.float64]
 
 _LEAST = 1e-15  # of a state that nothing else says the size of
 _FAILS = (ArithmeticError, ValueError, NoSolution)

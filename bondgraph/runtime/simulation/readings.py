@@ -6,15 +6,13 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.faults import Wrong
 from bondgraph.runtime.simulation.instruments import Reader
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Instrument, Scenario
-
-Array = npt.NDArray[np.float64]
 
 
 class Readings:

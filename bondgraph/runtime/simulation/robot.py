@@ -6,17 +6,14 @@ import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
-from bondgraph.runtime.log import Log
+from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.simulation.given import Given
 from bondgraph.runtime.simulation.readings import Readings
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.stepping import Stepper
-
-Array = npt.NDArray[np.float64]
 
 _WINDOW = 2048  # samples, at least, for which is looked ahead
 _FLUSH = 0.02  # s of samples that are given together

@@ -6,13 +6,12 @@ import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.graph import BondGraph
 from bondgraph.passes.elimination.state_equations import Wanted, state_equations
-from bondgraph.runtime.log import Log
+from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.simulation.given import Given, Inputs, inside
 from bondgraph.runtime.simulation.handover import handed_over
 from bondgraph.runtime.simulation.instruments import Reader
@@ -26,7 +25,6 @@ from bondgraph.runtime.simulation.start import start
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.tuples import NamedTuple
 
-Array = npt.NDArray[np.float64]
 _MOST = 10**8  # samples, all of them in memory
 Progress = Callable[[float], None]
 

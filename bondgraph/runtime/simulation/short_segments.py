@@ -7,12 +7,10 @@ import warnings
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.integrate import Inputs, Integrator
 from bondgraph.runtime.simulation.machine import Machine
-
-Array = npt.NDArray[np.float64]
 
 _COARSE = 1e-6  # relative tolerance of a step: finer than instruments are
 _STEPS = 20_000  # in one segment

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.machine import Machine
-
-Array = npt.NDArray[np.float64]
 
 _GOOD = 1e-7  # of the terms of a rate: what may be left of it
 

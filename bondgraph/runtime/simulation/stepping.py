@@ -6,12 +6,10 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
-import numpy as np
-import numpy.typing as npt
-
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.passes.elimination.state_equations import Wanted, state_equations
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.faults import Wrong
 from bondgraph.runtime.simulation.given import inside
 from bondgraph.runtime.simulation.handover import handed_over
@@ -26,7 +24,6 @@ from bondgraph.runtime.simulation.start import start
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.tuples import NamedTuple
 
-Array = npt.NDArray[np.float64]
 Inputs = Callable[[float], Sequence[float]]
 
 _HORIZON = 60.0  # s, by which it is judged what rings too fast to be followed
