@@ -10,7 +10,7 @@ from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.runtime.live.fed import Fed
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.simulation.readings import Readings
+from bondgraph.runtime.simulation.instruments import Readings
 from bondgraph.runtime.simulation.scenario import Fault, Scenario
 from bondgraph.runtime.simulation.stepping import Stepper
 

@@ -1,12 +1,15 @@
-"""The numbers of a machine: parameters, constants and initial values, some of them replaced."""
+"""The numbers of a machine: parameters, constants, initial values; some replaced or drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.simulation.scenario import Scenario
 
 
 class Values:
@@ -34,3 +37,22 @@ class Values:
     def constant(self, expr: Expr) -> float | None:
         """The value, None where a signal or a parameter without a number is in it."""
         return self._nominal.value(expr)
+
+
+def spread(graph: BondGraph, scenario: Scenario) -> dict[str, float]:
+    """The numbers of one machine out of many; nothing where the scenario wants the nominal one.
+
+    Every parameter with a tolerance is drawn evenly between its limits, from the seed of the
+    scenario; one that the scenario gives is left alone.
+    """
+    if scenario.spread == "none":
+        return {}
+    values = Values(graph, scenario.parameters)
+    drawn = {}
+    for k, value in enumerate(graph.values):
+        if value.tolerance is None or value.name in scenario.parameters:
+            continue
+        draw = np.random.default_rng([scenario.seed, 4, k])
+        share = float(value.tolerance) * draw.uniform(-1.0, 1.0)
+        drawn[value.name] = values.number(value.symbol) * (1.0 + float(share))
+    return drawn

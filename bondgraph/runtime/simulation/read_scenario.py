@@ -25,8 +25,7 @@ from bondgraph.runtime.simulation.scenario import (
     Sampling,
     Scenario,
 )
-from bondgraph.runtime.simulation.toml_places import places
-from bondgraph.runtime.simulation.toml_table import HERTZ, PURE, SECOND, Document, Table
+from bondgraph.runtime.simulation.toml_table import HERTZ, PURE, SECOND, Document, Table, places
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Source, Span
 

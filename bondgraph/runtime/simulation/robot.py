@@ -11,7 +11,7 @@ from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.simulation.given import Given
-from bondgraph.runtime.simulation.readings import Readings
+from bondgraph.runtime.simulation.instruments import Readings
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.stepping import Stepper
 

@@ -18,9 +18,8 @@ from bondgraph.runtime.simulation.instruments import Reader
 from bondgraph.runtime.simulation.integrate import Integrator, SimulationError
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
-from bondgraph.runtime.simulation.parameters import Values
+from bondgraph.runtime.simulation.parameters import Values, spread
 from bondgraph.runtime.simulation.scenario import Instrument, Scenario
-from bondgraph.runtime.simulation.spread import spread
 from bondgraph.runtime.simulation.start import start
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.tuples import NamedTuple

@@ -1,4 +1,4 @@
-"""What every storage of a machine holds before it starts."""
+"""What every storage of a machine holds before it starts, at rest or as declared."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.integrate import SimulationError
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.scenario import Scenario
-from bondgraph.runtime.simulation.steady import NoSteadyState, steady
+
+_GOOD = 1e-7  # of the terms of a rate: what may be left of it
 
 
 def start(
@@ -30,10 +32,7 @@ def start(
     x = [stated.get(name, 0.0) for name in machine.states]
     names = [i.name for i in machine.equations.dependent]
     if scenario.start == "steady" and machine.states:
-        try:
-            found = steady(machine, first, np.array(x))
-        except NoSteadyState as error:
-            raise SimulationError(f"{error}") from error
+        found = steady(machine, first, np.array(x))
         held = [*found.tolist(), *machine.content(0.0, found.tolist(), first).tolist()]
         return dict(zip((*machine.states, *names), held, strict=True))
     rest = machine.content(0.0, x, before).tolist()
@@ -41,3 +40,49 @@ def start(
     every = {p.state.symbol.name: 0.0 for p in ports if p.state is not None}
     following = {n: v for n, v in zip(names, rest, strict=True) if v == v}
     return {**every, **dict(zip(machine.states, x, strict=True)), **following, **stated}
+
+
+def steady(machine: Machine, u: Sequence[float], x: Array) -> Array:
+    """The steady state nearest to where a search from x comes; inputs u as at the start.
+
+    What only adds up, and acts on nothing (the angle of a motor, the place of a vehicle), may go on
+    changing: it stays as it is in x. Raises `SimulationError`.
+    """
+    from scipy.optimize import least_squares
+
+    pattern = machine.pattern().toarray() != 0
+    inner = np.ones(len(x), dtype=bool)
+    while True:
+        acting = inner & pattern[inner].any(axis=0)
+        if (acting == inner).all():
+            break
+        inner = acting
+    if not inner.any():
+        return x
+    scale = machine.scale(0.0, x.tolist(), u)
+
+    def whole(part: Array) -> Array:
+        full = x.copy()
+        full[inner] = part * scale[inner]
+        return full
+
+    def rates(part: Array) -> Array:
+        found = np.array(machine.rates(0.0, whole(part).tolist(), u))[inner]
+        return np.asarray(np.nan_to_num(found / scale[inner], nan=1e30, posinf=1e30, neginf=-1e30))
+
+    start = x[inner] / scale[inner]
+    with np.errstate(all="ignore"):
+        found = least_squares(rates, start, x_scale="jac", xtol=1e-15, ftol=1e-15, gtol=1e-15)
+        for _ in range(3):  # to the last digits, which minimising a square does not give
+            slopes = machine.jacobian(0.0, whole(found.x), u)[np.ix_(inner, inner)]
+            slopes = slopes * scale[inner] / scale[inner][:, None]
+            step = np.linalg.lstsq(slopes, rates(found.x), rcond=1e-12)[0]
+            if np.abs(rates(found.x - step)).max() < np.abs(rates(found.x)).max():
+                found.x = found.x - step
+    terms = np.abs(slopes) @ np.maximum(np.abs(found.x), 1.0)
+    left = np.abs(rates(found.x)) > _GOOD * terms
+    if left.any():
+        names = [n for n, own in zip(machine.states, inner.tolist(), strict=True) if own]
+        moving = [f"`{n}`" for n, bad in zip(names, left.tolist(), strict=True) if bad]
+        raise SimulationError(f"no steady state was found: {', '.join(moving[:4])} goes on changing")
+    return whole(found.x)

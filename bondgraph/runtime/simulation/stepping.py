@@ -13,13 +13,11 @@ from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.faults import Wrong
 from bondgraph.runtime.simulation.given import inside
 from bondgraph.runtime.simulation.handover import handed_over
-from bondgraph.runtime.simulation.integrate import SimulationError
+from bondgraph.runtime.simulation.integrate import ShortSegments, SimulationError
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
-from bondgraph.runtime.simulation.parameters import Values
+from bondgraph.runtime.simulation.parameters import Values, spread
 from bondgraph.runtime.simulation.scenario import Scenario
-from bondgraph.runtime.simulation.short_segments import ShortSegments
-from bondgraph.runtime.simulation.spread import spread
 from bondgraph.runtime.simulation.start import start
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.tuples import NamedTuple
