@@ -41,7 +41,7 @@ class Session:
         self._end = Stop()
         self._round = Stop()
         self.twin = Twin(setup.system, setup.integral, setup.scenario)
-        self.places = Places(setup.system, setup.scenario, self.twin.stepper.values)
+        self.places = Places(setup.system, setup.scenario, self.twin.fed.values)
         self._signals = [k.path for k in setup.engine.signals]
         self._turn = {
             k.path: 1.0 if k.counts is None else 2 * math.pi / k.counts

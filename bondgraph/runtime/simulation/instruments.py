@@ -44,6 +44,11 @@ class Reader:
         """From sample `first` to before `last` it shows noise no more: the sensor is stuck."""
         self._noise[first:last] = self._noise[max(first - 1, 0)]
 
+    @property
+    def unit(self) -> float:
+        """How much one of what is read is, in the unit of the sensor: a count in rad, else 1."""
+        return 1.0 if self.counts is None else 2 * math.pi / self.counts
+
     def own_sample(self, k: int) -> int:
         """The sample whose value is shown at sample k: earlier for a slow instrument."""
         return k - k % self._every
@@ -68,6 +73,19 @@ class Reader:
         return np.asarray(seen[k - k % self._every], dtype=float)
 
 
+def readers(
+    graph: BondGraph, scenario: Scenario, values: Values, samples: int
+) -> dict[str, Reader]:
+    """The instruments of a scenario for so many samples, by name of the sensor."""
+    found = {}
+    for k, sensor in enumerate(s for s in graph.sensors if s.same_as is None):
+        counts = None if sensor.counts is None else values.number(sensor.counts)
+        instrument = scenario.instruments.get(sensor.name, Instrument())
+        seed = [scenario.seed, 2, k]
+        found[sensor.name] = Reader(instrument, counts, samples, scenario.sampling.rate, seed)
+    return found
+
+
 class Readings:
     """The instruments of a scenario, window after window of `size` samples (at least `least`).
 
@@ -77,21 +95,10 @@ class Readings:
     def __init__(self, graph: BondGraph, scenario: Scenario, values: Values, least: int) -> None:
         self.sensors = tuple(s for s in graph.sensors if s.same_as is None)
         self.names = frozenset(s.name for s in self.sensors)
-        rate = scenario.sampling.rate
-        instruments = {s.name: scenario.instruments.get(s.name, Instrument()) for s in self.sensors}
-        slow = [max(1, round(rate / i.rate)) for i in instruments.values() if i.rate]
-        step = math.lcm(*slow) if slow else 1
+        rates = [scenario.instruments.get(s.name, Instrument()).rate for s in self.sensors]
+        step = math.lcm(*(max(1, round(scenario.sampling.rate / r)) for r in rates if r))
         self.size = -(-least // step) * step  # a slow instrument begins with the window
-        self._readers = {
-            s.name: Reader(
-                instruments[s.name],
-                None if s.counts is None else values.number(s.counts),
-                self.size,
-                rate,
-                [scenario.seed, 2, k],
-            )
-            for k, s in enumerate(self.sensors)
-        }
+        self._readers = readers(graph, scenario, values, self.size)
         self._own: dict[str, float] = {}  # what a slow instrument took last
         self._shown: dict[str, float] = {}
         self._fresh = True
@@ -104,9 +111,8 @@ class Readings:
         self._fresh = False
 
     def unit(self, name: str) -> float:
-        """How much one of what is read is, in the unit of the sensor: a count in rad, else 1."""
-        counts = self._readers[name].counts
-        return 1.0 if counts is None else 2 * math.pi / counts
+        """See `Reader.unit`."""
+        return self._readers[name].unit
 
     def read(self, name: str, k: int, true: float) -> float:
         """What one sensor reads at sample k of the window."""

@@ -39,20 +39,20 @@ class Values:
         return self._nominal.value(expr)
 
 
-def spread(graph: BondGraph, scenario: Scenario) -> dict[str, float]:
-    """The numbers of one machine out of many; nothing where the scenario wants the nominal one.
+def drawn(graph: BondGraph, scenario: Scenario) -> Values:
+    """The numbers of the machine of a scenario.
 
-    Every parameter with a tolerance is drawn evenly between its limits, from the seed of the
-    scenario; one that the scenario gives is left alone.
+    With a `spread` it is one out of many: every parameter with a tolerance is drawn evenly between
+    its limits, from the seed of the scenario; one that the scenario gives is left alone.
     """
-    if scenario.spread == "none":
-        return {}
     values = Values(graph, scenario.parameters)
-    drawn = {}
+    if scenario.spread == "none":
+        return values
+    replaced = dict(scenario.parameters)
     for k, value in enumerate(graph.values):
         if value.tolerance is None or value.name in scenario.parameters:
             continue
         draw = np.random.default_rng([scenario.seed, 4, k])
         share = float(value.tolerance) * draw.uniform(-1.0, 1.0)
-        drawn[value.name] = values.number(value.symbol) * (1.0 + float(share))
-    return drawn
+        replaced[value.name] = values.number(value.symbol) * (1.0 + float(share))
+    return Values(graph, replaced)

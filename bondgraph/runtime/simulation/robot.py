@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 import numpy as np
 
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.runtime.log import Array, Log
-from bondgraph.runtime.simulation.given import Given
+from bondgraph.runtime.simulation.given import Given, inside
 from bondgraph.runtime.simulation.instruments import Readings
+from bondgraph.runtime.simulation.parameters import drawn
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.stepping import Stepper
 
@@ -28,10 +28,11 @@ class Robot:
 
     def __init__(self, system: EquationSystem, integral: CausalGraph, scenario: Scenario) -> None:
         self.graph, self.scenario = system.graph, scenario
-        self.stepper = Stepper(system, integral, scenario)
-        self.readings = Readings(self.graph, scenario, self.stepper.values, _WINDOW)
+        values = drawn(self.graph, scenario)
+        self.readings = Readings(self.graph, scenario, values, _WINDOW)
         self.rate = scenario.sampling.rate
-        self.given = Given(self.graph, scenario, self.stepper.values, self._times(0))
+        self.given = Given(self.graph, scenario, values, self._times(0))
+        self.stepper = Stepper(system, integral, scenario, self.given)
         known = [i.name for i in self.graph.inputs if i.known]
         self._known = known
         self.meta = {"model": self.graph.name, "scenario": scenario.name,
@@ -77,9 +78,9 @@ class Robot:
             if b <= self.stepper.time:
                 continue
             last = int(np.searchsorted(times[:-1], b))
-            self._begin(done)
+            self._begin(done, b)
             wanted = times[done:last]
-            rows = self.stepper.advance(self.given, b, wanted)
+            rows = self.stepper.advance(b, wanted)
             log = self._log(done, wanted, rows)
             here = kept[done:last]
             done = last
@@ -87,40 +88,18 @@ class Robot:
                 columns = {n: c[here] for n, c in log.columns.items()}
                 yield log._replace(time=log.time[here], columns=columns)
 
-    def _begin(self, k: int) -> None:
-        """At the start of a segment: faults that stick take hold, controllers read and decide."""
-        t, wrong = self.stepper.time, self.given.wrong
-        sticking = [n for n, w in wrong.items() if any(f.op == "stuck" for f in w.faults)]
-        due = [p for p in self.given.pids if _multiple(t, p.controller.period)]
-        if not sticking and not due:
-            return
-        now = self.stepper.look(self.given)
-        for name in sticking:
-            wrong[name].hold(t, self._healthy(name, now, t))
-        if sticking:
-            now = self.stepper.look(self.given)
-        for pid in due:
-            name = pid.controller.measures
-            gone = name in wrong and wrong[name].missing(t)
-            seen = math.nan if gone else self.readings.read(name, k, now[name])
-            pid.update(t, seen, self.readings.unit(name))
-
-    def _healthy(self, name: str, now: Mapping[str, float], t: float) -> float:
-        """What a value, input or sensor would be now if nothing were wrong with it."""
-        if name in self.readings.names:
-            gain, bias = self.given.wrong[name].at(t)
-            return (now[name] - bias) / gain if gain else 0.0
-        if any(i.name == name for i in self.graph.inputs):
-            return self.given.told(name, t)
-        symbols = {v.name: v.symbol for v in self.graph.values}
-        return self.stepper.values.number(symbols[name])
+    def _begin(self, k: int, end: float) -> None:
+        """At a jump, with sample k of the window: faults take hold, controllers read and decide."""
+        t = inside(self.stepper.time, end)(self.stepper.time)
+        self.given.hold(t, lambda: self.stepper.look(end))
+        self.given.control(
+            t,
+            lambda: self.stepper.look(end),
+            lambda name, true: self.readings.read(name, k, true) * self.readings.unit(name),
+        )
 
     def _log(self, first: int, times: Array, rows: list[dict[str, float]]) -> Log:
         told = {n: np.array([self.given.told(n, t) for t in times.tolist()]) for n in self._known}
         wrong = self.given.wrong
         read = self.readings.all(first, times, rows, wrong)
         return Log(times, told | read, self.units, self.meta)
-
-
-def _multiple(t: float, period: float) -> bool:
-    return abs(t / period - round(t / period)) < 1e-6

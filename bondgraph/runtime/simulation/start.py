@@ -84,5 +84,6 @@ def steady(machine: Machine, u: Sequence[float], x: Array) -> Array:
     if left.any():
         names = [n for n, own in zip(machine.states, inner.tolist(), strict=True) if own]
         moving = [f"`{n}`" for n, bad in zip(names, left.tolist(), strict=True) if bad]
-        raise SimulationError(f"no steady state was found: {', '.join(moving[:4])} goes on changing")
+        told = ", ".join(moving[:4])
+        raise SimulationError(f"no steady state was found: {told} goes on changing")
     return whole(found.x)
