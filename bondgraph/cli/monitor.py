@@ -20,12 +20,11 @@ if TYPE_CHECKING:
 
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.diagnosis.tuning import Tuning
-    from bondgraph.runtime.monitoring.decision import Decision
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
     from bondgraph.runtime.monitoring.mqtt_client import Address
     from bondgraph.runtime.monitoring.publisher import Publisher
-    from bondgraph.runtime.monitoring.sample_pipeline import Stop
+    from bondgraph.runtime.monitoring.sample_pipeline import Decision, Stop
     from bondgraph.runtime.monitoring.sources.sample_source import Source
     from bondgraph.runtime.monitoring.verdict import Verdict
 
@@ -159,9 +158,7 @@ def source(args: Namespace, samples: Address | None) -> Source:
     """The source that the arguments name."""
     from bondgraph.runtime.log_numbers import Form
     from bondgraph.runtime.monitoring.sources.file import file_source
-    from bondgraph.runtime.monitoring.sources.mqtt import Topic
-    from bondgraph.runtime.monitoring.sources.serial_port import SerialPort
-    from bondgraph.runtime.monitoring.sources.stdin import Pipe
+    from bondgraph.runtime.monitoring.sources.streams import Pipe, SerialPort, Topic
 
     name = args.serial or args.mqtt or args.log or "-"
     names = tuple(n.strip() for n in args.columns.split(",")) if args.columns else ()

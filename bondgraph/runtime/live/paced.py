@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Source
 
 _LATE = 0.25  # s on the wall; who is later than that does not catch up, time stretches
@@ -19,7 +18,7 @@ _LOOK = 0.05  # s between two looks at the wishes of people
 _OVER = 2.0  # s on the wall over which the pace is measured
 
 
-class Paced:
+class Paced(Source):
     """A source whose samples come `portion` s at a time, at the latest when `between` was called.
 
     With a `speed` (s of samples a second on the wall) samples wait until it is their time, and
@@ -31,7 +30,7 @@ class Paced:
     ) -> None:
         self._inner = inner
         self.name, self.replays = inner.name, inner.replays
-        self.decoder: Decoder | None = inner.decoder
+        self.decoder = inner.decoder
         self._portion, self._speed, self._between = portion, speed, between
         self.paused = False
         self._anchor: tuple[float, float] | None = None  # on the wall, of the samples

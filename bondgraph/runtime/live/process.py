@@ -6,27 +6,23 @@ import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
 from threading import Event
-from typing import IO, Any
+from typing import IO
 
 from bondgraph.runtime.log_numbers import Form
-from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.sources.sample_source import Chunk, News
-from bondgraph.runtime.monitoring.sources.stdin import Pipe
+from bondgraph.runtime.monitoring.sources.streams import Pipe
 
 _AHEAD = 1 << 16  # bytes of samples that it may be ahead of who reads them
 _END = 5.0  # s to end in
 
 
-class Simulated:
+class Simulated(Pipe):
     """The samples that a command prints; the command ends with the source.
 
     Raises OSError where it cannot be started.
     """
 
-    replays = False
-
     def __init__(self, words: Sequence[str], name: str) -> None:
-        self.name = name
         self._said: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 (closed with the source)
         self._process = subprocess.Popen(
             list(words),
@@ -37,8 +33,7 @@ class Simulated:
         )
         assert self._process.stdout is not None
         self._out = self._process.stdout
-        self._pipe = Pipe(Form(name), self._out.fileno(), name, _AHEAD)
-        self.decoder: Decoder | None = self._pipe.decoder
+        super().__init__(Form(name), self._out.fileno(), name, _AHEAD)
         self._closed = False
 
     @property
@@ -48,7 +43,7 @@ class Simulated:
 
     def chunks(self, stop: Event) -> Iterator[Chunk]:
         """See `Source`; at the end, why it ended."""
-        yield from self._pipe.chunks(stop)
+        yield from super().chunks(stop)
         if not stop.is_set():
             yield Chunk(news=(News("gap", f"the {self.name} has ended: {self._why()}"),))
 
@@ -62,14 +57,6 @@ class Simulated:
         how = f"status {code}" if code >= 0 else f"signal {-code}"
         return f"{lines[-1]} ({how})" if lines else how
 
-    def go(self, position: dict[str, Any]) -> str:
-        """See `Source`."""
-        return self._pipe.go(position)
-
-    def rate(self) -> float | None:
-        """See `Source`."""
-        return None
-
     def close(self) -> None:
         """End the process."""
         if self._closed:
@@ -81,7 +68,7 @@ class Simulated:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
-        self._pipe.close()
-        self._pipe.join(_END)
+        super().close()
+        self.join(_END)
         self._out.close()
         self._said.close()

@@ -8,8 +8,8 @@ from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.monitoring.clock import Clock
-from bondgraph.runtime.monitoring.decision import Decision
 from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.sample_pipeline import Decision
 from bondgraph.runtime.monitoring.sources.sample_source import Source
 from bondgraph.runtime.simulation.scenario import Fault, Scenario
 from bondgraph.text.tuples import NamedTuple

@@ -8,8 +8,8 @@ from typing import Any, Literal
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Known
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.decision import Decision
 from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.sample_pipeline import Decision
 from bondgraph.runtime.monitoring.verdict import Verdict
 
 Hear = Callable[[Array, Batch, Array], None]

@@ -26,7 +26,7 @@ from bondgraph.runtime.live.server import PortTaken, application, listening
 from bondgraph.runtime.live.session import Session
 from bondgraph.runtime.live.setup import Setup, Target, wish
 from bondgraph.runtime.log_numbers import Form
-from bondgraph.runtime.monitoring.sources.stdin import Pipe
+from bondgraph.runtime.monitoring.sources.streams import Pipe
 from bondgraph.runtime.simulation.scenario import Scenario
 from tests.unit.runtime.live.rover import rover, written
 
