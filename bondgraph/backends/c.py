@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Iterable
 
 from bondgraph.backends import listing
-from bondgraph.backends.c_code import Code, together
+from bondgraph.backends.c_code import Code
 from bondgraph.backends.facts import (
     ABI,
     SLOWEST,
@@ -25,6 +25,7 @@ from bondgraph.backends.target import Target
 from bondgraph.backends.vectors import Vectors
 from bondgraph.ir.program import Dot, Program
 from bondgraph.notation.dialect import digits
+from bondgraph.text.numerals import joined
 
 _PURE = ("sign", "ssqrt", "ssq", "equal", "min", "max", "power", "table", "root")
 
@@ -69,7 +70,7 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         "block_count": max(1, len(spelling.blocks)),
         "block_names": listing.comment(
             "samples since the start of "
-            + ("; ".join(together(b.residuals) for b in spelling.blocks) or "nothing"),
+            + ("; ".join(joined(b.residuals) for b in spelling.blocks) or "nothing"),
             target,
             4,
         ),
@@ -165,7 +166,7 @@ class _Declarations:
             for f in self.program.coefs
         ]
         states = [(f"{real} {spelling.states[f.name]};", f.doc) for f in self.program.states]
-        members = {b.name: together(b.residuals) for b in spelling.blocks}
+        members = {b.name: joined(b.residuals) for b in spelling.blocks}
         encoders = [
             (f"{self.stem}_encoder {name};", f"{signal}, read by {members[block]}")
             for (block, signal), name in spelling.encoders.items()

@@ -19,6 +19,7 @@ from bondgraph.ir.program import (
     Statement,
 )
 from bondgraph.notation.dialect import CodeSpeller
+from bondgraph.text.numerals import joined
 
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 
@@ -167,7 +168,7 @@ class Code:
         return {
             "name": block.name,
             "number": number,
-            "title": together(block.residuals),
+            "title": joined(block.residuals),
             "begins": block.begins,
             "first": self._run(block, block.first, "count_from"),
             "step": self._run(block, block.step, "count_on"),
@@ -236,13 +237,3 @@ class Code:
 
 def _samples(refs: Iterable[Ref]) -> bool:
     return any(ref.space == "known" for ref in refs)
-
-
-def together(names: Iterable[str]) -> str:
-    """`r1`, `r1 and r2`, `r1, r2 and r3`.
-
-    >>> together(["r1", "r2", "r3"])
-    'r1, r2 and r3'
-    """
-    *most, last = names
-    return f"{', '.join(most)} and {last}" if most else last

@@ -8,7 +8,6 @@ from collections.abc import Iterable
 
 from bondgraph.backends import listing
 from bondgraph.backends.blocks import Block
-from bondgraph.backends.c_code import together
 from bondgraph.backends.facts import (
     ABI,
     SLOWEST,
@@ -27,6 +26,7 @@ from bondgraph.backends.vectors import Vectors
 from bondgraph.backends.walk import reads
 from bondgraph.ir.program import Assignment, Dot, PolynomialTape, Program
 from bondgraph.notation.dialect import CodeSpeller, digits
+from bondgraph.text.numerals import joined
 
 _HELPERS = ("sign", "ssqrt", "ssq", "power", "table", "root")
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
@@ -143,7 +143,7 @@ class _Module:
         ]
 
     def _encoders(self) -> list[str]:
-        members = {b.name: together(b.residuals) for b in self.spelling.blocks}
+        members = {b.name: joined(b.residuals) for b in self.spelling.blocks}
         return self._members(
             [
                 (f"{name}: Encoder = field(default_factory=Encoder)", f"for {members[block]}")
@@ -343,7 +343,7 @@ class _Module:
         return {
             "name": block.name,
             "number": number,
-            "title": together(block.residuals),
+            "title": joined(block.residuals),
             "begins": block.begins,
             "first": self._run(block, block.first, "count_from"),
             "step": self._run(block, block.step, "count_on"),

@@ -7,10 +7,8 @@ import sys
 from typing import TYPE_CHECKING
 
 from bondgraph import Compilation, ForeignFiles, Options
-from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import further
-from bondgraph.cli.number_arguments import bits, positive
+from bondgraph.cli.options import bits, further, opened, positive
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -64,18 +62,7 @@ def run(args: Namespace) -> int:
             listed = ", ".join(targets())
             print(f"error: no target is called {unknown[0]}; there are {listed}", file=sys.stderr)
             return 2
-    compilation = open_model(
-        args.model,
-        rate=args.rate,
-        bandwidth=args.bandwidth,
-        resolution=2.0**-args.bits,
-        targets=tuple(dict.fromkeys(args.target or Options().targets)),
-        decouple=tuple(dict.fromkeys(args.decouple)),
-        isolate=args.isolate,
-    )
-    for fault in args.decouple:
-        if fault not in compilation.graph.faults:
-            return console.unknown(fault, "no fault of the model", compilation.graph.faults)
+    compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
     _compute(compilation)
     files = _write(compilation, args.output)
     if args.json:
@@ -124,8 +111,7 @@ def _write(compilation: Compilation, output: str | None) -> list[str]:
 
 def _default(model: str) -> str:
     """Where to write if nobody said it; a link there could lead anywhere, so it is refused."""
-    stem = os.path.splitext(os.path.basename(model))[0]
-    folder = os.path.join("generated", stem)
+    folder = os.path.join("generated", console.stem(model))
     for place in ("generated", folder):
         if os.path.islink(place):
             raise console.Trouble(

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console, monitor
-from bondgraph.cli.further_residuals import isolating
-from bondgraph.cli.number_arguments import positive
+from bondgraph.cli.options import isolating, positive
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
 from bondgraph.text.numerals import plural

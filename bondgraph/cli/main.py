@@ -79,6 +79,9 @@ def _run(args: SimpleNamespace | Namespace) -> int:
     except KeyboardInterrupt:
         print("interrupted, nothing half written", file=sys.stderr)
         return 130
+    except console.Unknown as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
     except console.Trouble as error:
         return console.broken(str(error), as_json)
     except OSError as error:

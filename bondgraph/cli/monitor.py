@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import isolating
-from bondgraph.cli.number_arguments import positive
+from bondgraph.cli.options import isolating, positive
 from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING
 
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.number_arguments import assigned, pace, positive
+from bondgraph.cli.options import assigned, pace, positive
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -69,16 +68,13 @@ def run(args: Namespace) -> int:
             files.append(args.truth)
     except LogError as error:
         raise console.Trouble(f"{error}") from error
-    if args.json:
-        from bondgraph.text.render import as_json
-
-        console.print_json({"status": "ok", "message": _message(compilation, found),
-                            "diagnostics": as_json(compilation.report.diagnostics),
-                            "files": files, **_result(found)})  # fmt: skip
-        return 0
-    console.show(compilation.report.diagnostics)
-    print("\n".join(_lines(compilation, found, files)))
-    return 0
+    return console.told(
+        args.json,
+        compilation.report.diagnostics,
+        _message(compilation, found),
+        lambda: {"files": files, **_result(found)},
+        lambda: _lines(compilation, found, files),
+    )
 
 
 def _without_value(error: KeyError) -> console.Trouble:
@@ -126,8 +122,9 @@ def stream(compilation: Compilation, scenario: Scenario, speed: float) -> int:
 def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
     from bondgraph.runtime.simulation.scenario import Course, Scenario
 
-    stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
-    chosen = compilation.scenario(args.scenario) if args.scenario else Scenario(stem)
+    chosen = Scenario(console.stem(compilation.source.path))
+    if args.scenario:
+        chosen = compilation.scenario(args.scenario)
     graph = compilation.graph
     parameters, inputs = dict(chosen.parameters), dict(chosen.inputs)
     for name, value in args.set:
@@ -152,10 +149,7 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
 
 def _known(name: str, what: str, names: list[str]) -> None:
     if name not in names:
-        from difflib import get_close_matches
-
-        close = get_close_matches(name, names, 3, 0.5)
-        hint = f"; did you mean {' or '.join(f'`{c}`' for c in close)}?" if close else ""
+        hint = console.hint(name, names)
         raise console.Trouble(f"the model has no {what} `{name}`{hint}")
 
 

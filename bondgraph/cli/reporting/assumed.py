@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bondgraph.cli.detect import situation_of
 from bondgraph.cli.reporting.seen import Assumed
-from bondgraph.runtime.monitoring.verdict import listed
+from bondgraph.text.numerals import listed
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -21,14 +20,13 @@ if TYPE_CHECKING:
     from bondgraph.runtime.smallest import Situation
 
 
-def assumed(args: Namespace, program: Program) -> Assumed:
+def assumed(args: Namespace, given: Situation, program: Program) -> Assumed:
     """The situation of the arguments, completed, and all of it in words.
 
     Without signals each swings by 1 around 1, in its unit; without noise it is that of samples of
     `--bits` over the range of each signal, a step over the square root of 12. A program that
     iterates gets constant signals: a second of samples would take it a minute.
     """
-    given = situation_of(args, program)
     words = []
     signals = [k for k in program.knowns if k.kind != "mode"]
     if not (args.at or args.swing):
@@ -52,14 +50,17 @@ def assumed(args: Namespace, program: Program) -> Assumed:
 
 
 def observed(
-    args: Namespace, compilation: Compilation, program: Program, runs: Sequence[Run]
+    args: Namespace,
+    given: Situation,
+    compilation: Compilation,
+    program: Program,
+    runs: Sequence[Run],
 ) -> Assumed:
     """The situation of scenarios: their signals until something goes wrong, and their noise.
 
     As if there were none where their samples are too few or too far apart.
     """
-    from bondgraph.runtime.monitoring.clock import clock_of
-    from bondgraph.runtime.monitoring.columns import Columns
+    from bondgraph.runtime.monitoring.clock import on_grid
 
     engine = compilation.engine()
     samples, stretches = [], []
@@ -68,14 +69,13 @@ def observed(
         if end < 3.0 * engine.warm_up:  # nothing would be left
             end = math.inf
         log = run.log.part(0, int((run.log.time < end).sum()))
-        clock = clock_of(engine)
-        pieces = clock.feed(log.time, Columns(engine.signals)(log)) + clock.finish()
+        pieces = on_grid(engine, log)
         enough = engine.warm_up / engine.sample_time
         samples += [p.samples for p in pieces if len(p.samples) > enough]
         until = "" if math.isinf(end) else f" (until its fault at {end:g} s)"
         stretches.append(f"`{run.scenario.name}`{until}")
     if not samples:
-        return assumed(args, program)
+        return assumed(args, given, program)
     every = np.concatenate(samples)
     at, ranges = {}, {}
     for k, known in enumerate(engine.signals):
@@ -86,7 +86,7 @@ def observed(
             column = 2.0 * math.pi * turns / engine.sample_time
         at[known.path] = float(column.mean()) if len(column) else 0.0
         ranges[known.path] = float(np.ptp(np.append(column, 0.0))) or 1.0
-    given = situation_of(args, program)._replace(at=at, swing={})
+    given = given._replace(at=at, swing={})
     words = [
         f"Signals are those of the scenario{'s' * (len(runs) > 1)} {listed(stretches, 'and')}."
     ]

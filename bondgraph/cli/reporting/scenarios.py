@@ -20,7 +20,7 @@ from bondgraph.backends.report.episode import (
 )
 from bondgraph.cli import console
 from bondgraph.cli.residual_units import residual_units
-from bondgraph.runtime.monitoring.verdict import listed
+from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
@@ -86,17 +86,15 @@ def played(compilation: Compilation, run: Run) -> Episode:
 
 def _watched(compilation: Compilation, run: Run) -> Watched | None:
     """The run through the monitor's clock, engine and decision."""
-    from bondgraph.runtime.monitoring.clock import clock_of
-    from bondgraph.runtime.monitoring.columns import Columns
+    from bondgraph.runtime.monitoring.clock import on_grid
 
     try:
         engine = compilation.engine()
     except ValueError as error:
         raise console.Trouble(str(error)) from error
-    clock, decision = clock_of(engine), compilation.diagnosis(engine)
-    pieces = clock.feed(run.log.time, Columns(engine.signals)(run.log)) + clock.finish()
+    decision = compilation.diagnosis(engine)
     parts, verdicts = [], []
-    for piece in pieces:
+    for piece in on_grid(engine, run.log):
         if piece.anew:
             engine.reset()
             decision.restart()

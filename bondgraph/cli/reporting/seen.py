@@ -8,6 +8,7 @@ from bondgraph.algebra.present import parts, shared
 from bondgraph.backends.report.content import Effect, Seen
 from bondgraph.backends.report.formulas import operations
 from bondgraph.cli.reporting.relations import LONGEST
+from bondgraph.runtime.simulation.parameters import units
 from bondgraph.text.numerals import readable
 from bondgraph.text.tuples import NamedTuple
 
@@ -118,8 +119,5 @@ def _noise(found: Detection) -> list[tuple[str, str]]:
 
 
 def _units(compilation: Compilation) -> dict[str, str]:
-    graph = compilation.graph
-    named = [(i.name, i.unit) for i in graph.values]
-    named += [(i.name, i.unit) for i in graph.inputs]
-    named += [(i.name, i.unit) for i in graph.sensors]
-    return {name: unit for name, unit in named if unit and unit != "1"}
+    found = units(compilation.graph)
+    return {name: unit for name, unit in found.items() if unit and unit != "1"}

@@ -11,7 +11,8 @@ from bondgraph.runtime.diagnosis.learning import STEPS
 from bondgraph.runtime.diagnosis.origins import Origins
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.verdict import Verdict, listed
+from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.text.numerals import listed
 
 _PATIENCE = 5.0  # warm-ups in which a residual should have had a value
 

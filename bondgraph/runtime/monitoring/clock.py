@@ -8,12 +8,13 @@ has done, and the filters start anew.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
 from bondgraph.ir.program import Known
-from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.log import Array, Log, Mask
+from bondgraph.runtime.monitoring.columns import Columns, Mapped
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.text.tuples import NamedTuple
 
@@ -283,3 +284,11 @@ def clock_of(engine: Engine, most: float | None = None, wraps: float | None = No
     """The clock of an engine; `most` is one time constant of its filter unless told otherwise."""
     bridged = 1.0 / engine.bandwidth if most is None else most
     return Clock(engine.signals, engine.sample_time, bridged, wraps)
+
+
+def on_grid(
+    engine: Engine, log: Log, mapping: Mapping[str, Mapped] | None = None, name: str = "log"
+) -> list[Piece]:
+    """The signals of an engine in a whole log, on its grid; see `Columns`."""
+    clock = clock_of(engine)
+    return clock.feed(log.time, Columns(engine.signals, mapping, name)(log)) + clock.finish()

@@ -14,7 +14,8 @@ from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.journal import Journal, JournalError, Past
 from bondgraph.runtime.monitoring.publisher import Publisher
 from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Source
-from bondgraph.runtime.monitoring.verdict import Verdict, described, listed, to_json
+from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
+from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
 
 _EVERY = 1.0  # s between two positions in the journal

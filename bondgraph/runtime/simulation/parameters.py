@@ -56,3 +56,10 @@ def drawn(graph: BondGraph, scenario: Scenario) -> Values:
         share = float(value.tolerance) * draw.uniform(-1.0, 1.0)
         replaced[value.name] = values.number(value.symbol) * (1.0 + float(share))
     return Values(graph, replaced)
+
+
+def units(graph: BondGraph) -> dict[str, str]:
+    """The unit of every value, input and sensor as the model writes it, "" for none."""
+    found = {v.name: v.unit or "" for v in graph.values}
+    found |= {i.name: i.unit or "" for i in graph.inputs}
+    return found | {s.name: s.unit or "" for s in graph.sensors}

@@ -11,7 +11,7 @@ from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.simulation.given import Given, inside
 from bondgraph.runtime.simulation.instruments import Readings
-from bondgraph.runtime.simulation.parameters import drawn
+from bondgraph.runtime.simulation.parameters import drawn, units
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.stepping import Stepper
 
@@ -38,9 +38,8 @@ class Robot:
         self.meta = {"model": self.graph.name, "scenario": scenario.name,
                      "seed": str(scenario.seed)}  # fmt: skip
         counted = {s.name: "count" for s in self.readings.sensors if s.counts is not None}
-        units = {i.name: i.unit or "" for i in self.graph.inputs}
-        units |= {s.name: s.unit or "" for s in self.readings.sensors} | counted
-        self.units = {n: units[n] for n in [*known, *(s.name for s in self.readings.sensors)]}
+        told = units(self.graph) | counted
+        self.units = {n: told[n] for n in [*known, *(s.name for s in self.readings.sensors)]}
 
     def logs(self) -> Iterator[Log]:
         """The samples, a few at a time, for ever. Raises what `Stepper.advance` raises."""

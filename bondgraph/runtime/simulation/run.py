@@ -14,7 +14,7 @@ from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.simulation.given import Given, inside
 from bondgraph.runtime.simulation.instruments import readers
 from bondgraph.runtime.simulation.integrate import Integrator, SimulationError
-from bondgraph.runtime.simulation.parameters import drawn
+from bondgraph.runtime.simulation.parameters import drawn, units
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.start import start
 from bondgraph.runtime.simulation.stepping import Mode, Stepper
@@ -164,9 +164,7 @@ class _Simulation(Stepper):
     def _result(self, mode: Mode, table: Array) -> Run:
         scenario, graph = self.scenario, self.graph
         truth = {name: table[:, k].copy() for k, name in enumerate(mode.names)}
-        units = {s.name: s.unit or "" for s in graph.sensors}
-        units |= {i.name: i.unit or "" for i in graph.inputs}
-        units |= {x.name: x.unit or "" for x in graph.lets}
+        written = units(graph) | {x.name: x.unit or "" for x in graph.lets}
         known: dict[str, Array] = {}
         for item in graph.inputs:
             (known if item.known else truth)[item.name] = self.told[item.name]
@@ -181,9 +179,9 @@ class _Simulation(Stepper):
             kept[0] = True
         counted = {s.name: "count" for s in self.sensors if s.counts is not None}
         meta = {"model": graph.name, "scenario": scenario.name, "seed": str(scenario.seed)}
-        own = {name: {**units, **counted}.get(name, "") for name in known}
+        own = {name: {**written, **counted}.get(name, "") for name in known}
         log = Log(self.times[kept], {n: c[kept] for n, c in known.items()}, own, meta)
-        shown = {name: units.get(name, "") for name in truth}
+        shown = {name: written.get(name, "") for name in truth}
         equations = mode.machine.equations
         numbers = {v.name: self.values.constant(v.symbol) for v in graph.values}
         return Run(
