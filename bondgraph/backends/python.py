@@ -18,8 +18,7 @@ from bondgraph.backends.facts import (
 )
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples
-from bondgraph.backends.procedure_lines import lines
-from bondgraph.backends.roots import roots
+from bondgraph.backends.procedure_lines import lines, roots
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
 from bondgraph.backends.vectors import Vectors

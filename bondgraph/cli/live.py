@@ -144,8 +144,7 @@ def _serve(args: Namespace, made: Any) -> int:
 
 def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> Setup:
     """What a session of these arguments is made of."""
-    from bondgraph.runtime.live.setup import Setup
-    from bondgraph.runtime.live.watch import Wide, further
+    from bondgraph.runtime.live.setup import Setup, Wide, further
     from bondgraph.runtime.monitoring.clock import clock_of
     from bondgraph.runtime.monitoring.columns import Columns, read_map
     from bondgraph.runtime.monitoring.mqtt_client import address
@@ -186,7 +185,7 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
 
 def _robot(args: Namespace) -> Any:
     """The monitored machine: the same command that anybody could start, heard through a pipe."""
-    from bondgraph.runtime.live.process import Simulated
+    from bondgraph.runtime.live.samples import Simulated
 
     words = [sys.executable, "-m", "bondgraph", "simulate", args.model, args.scenario]
     return Simulated([*words, "--stream", "--speed", "inf"], "simulated machine")

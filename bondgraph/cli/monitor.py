@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
-    from bondgraph.runtime.monitoring.mqtt_client import Address
-    from bondgraph.runtime.monitoring.publisher import Publisher
+    from bondgraph.runtime.monitoring.mqtt_client import Address, Publisher
     from bondgraph.runtime.monitoring.sample_pipeline import Decision, Stop
     from bondgraph.runtime.monitoring.sources.sample_source import Source
     from bondgraph.runtime.monitoring.verdict import Verdict
@@ -220,7 +219,7 @@ def _journal(
 
 
 def _publisher(at: Address | None, journal: str | None, known: Journal | None) -> Publisher | None:
-    from bondgraph.runtime.monitoring.publisher import Publisher
+    from bondgraph.runtime.monitoring.mqtt_client import Publisher
 
     if at is None:
         return None

@@ -42,8 +42,8 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Collect, write the page; status 1 where it tells why there are no relations."""
     from bondgraph.backends.report.page import page
-    from bondgraph.cli.reporting.assumed import assumed, observed
     from bondgraph.cli.reporting.collect import STAGES, collect
+    from bondgraph.cli.reporting.seen import assumed, observed
 
     compilation = opened(args)
     runs: list[Run] = []

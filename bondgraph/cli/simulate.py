@@ -93,7 +93,7 @@ def stream(compilation: Compilation, scenario: Scenario, speed: float) -> int:
     import time
 
     from bondgraph.runtime.simulation.integrate import SimulationError
-    from bondgraph.runtime.simulation.robot import Robot
+    from bondgraph.runtime.simulation.run import Robot
 
     try:
         robot = Robot(compilation.equations, compilation.integral, scenario)

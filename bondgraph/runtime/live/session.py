@@ -10,11 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from bondgraph.runtime.live.paced import Paced
 from bondgraph.runtime.live.positions import Places
-from bondgraph.runtime.live.setup import Setup, Target, wish
+from bondgraph.runtime.live.samples import Paced
+from bondgraph.runtime.live.setup import Heard, Setup, Target, wish
 from bondgraph.runtime.live.twin import Twin
-from bondgraph.runtime.live.watch import Heard
 from bondgraph.runtime.log import Array, LogError
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.sample_pipeline import Monitor, Parts, Stop

@@ -12,7 +12,7 @@ from bondgraph.runtime.log import TIME_UNIT, Array, Log, LogError
 from bondgraph.runtime.monitoring.clock import Clock, Piece
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.journal import Journal, JournalError, Past
-from bondgraph.runtime.monitoring.publisher import Publisher
+from bondgraph.runtime.monitoring.mqtt_client import Publisher
 from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Source
 from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
 from bondgraph.text.numerals import listed

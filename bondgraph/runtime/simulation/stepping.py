@@ -10,12 +10,11 @@ from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.passes.elimination.state_equations import Wanted, state_equations
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.given import Acting, Inputs, inside
-from bondgraph.runtime.simulation.handover import handed_over
 from bondgraph.runtime.simulation.integrate import Integrator, ShortSegments, SimulationError
 from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.observed import observed
 from bondgraph.runtime.simulation.scenario import Scenario
-from bondgraph.runtime.simulation.start import start
+from bondgraph.runtime.simulation.storages import handed_over, start
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.tuples import NamedTuple
 

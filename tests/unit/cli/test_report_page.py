@@ -11,8 +11,8 @@ import pytest
 
 from bondgraph.backends.report.page import page
 from bondgraph.cli.detect import situation_of
-from bondgraph.cli.reporting.assumed import assumed
 from bondgraph.cli.reporting.collect import collect
+from bondgraph.cli.reporting.seen import assumed
 from bondgraph.pipeline import compile
 from tests.browser import PATH, Tab, browser
 from tests.unit.backends.episodes import episode

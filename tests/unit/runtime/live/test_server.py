@@ -21,7 +21,7 @@ from bondgraph.cli import live as command
 from bondgraph.cli import usage
 from bondgraph.cli.main import main
 from bondgraph.runtime.live.hub import Hub
-from bondgraph.runtime.live.process import Simulated
+from bondgraph.runtime.live.samples import Simulated
 from bondgraph.runtime.live.server import PortTaken, application, listening
 from bondgraph.runtime.live.session import Session
 from bondgraph.runtime.live.setup import Setup, Target, wish
