@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from typing import IO
 
 from bondgraph.text.diagnostic import CompileError, Diagnostic
+from bondgraph.text.whole_file import write_whole
 
 
 class Trouble(Exception):
@@ -115,21 +116,6 @@ def broken(message: str, json: bool) -> int:
     else:
         print(f"error: {message}", file=sys.stderr)
     return 1
-
-
-def write_whole(path: str, text: str) -> None:
-    """Write a file so that it is either the old one or the new one, never half of it."""
-    temporary = f"{path}.{os.urandom(6).hex()}.tmp"
-    try:
-        # a file of our own, not what somebody put there under that name
-        with open(temporary, "x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        if os.path.exists(path):
-            os.chmod(temporary, os.stat(path).st_mode)
-        os.replace(temporary, path)
-    finally:
-        if os.path.exists(temporary):
-            os.unlink(temporary)
 
 
 def stem(path: str) -> str:

@@ -10,6 +10,7 @@ from bondgraph.frontend.formatter import format_text
 from bondgraph.frontend.read import read
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.source import Source
+from bondgraph.text.whole_file import write_whole
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -55,5 +56,5 @@ def _format(name: str, check: bool) -> bool:
         if name == "-":
             sys.stdout.write(text)
         elif text != source.text:
-            console.write_whole(name, text)
+            write_whole(name, text)
     return text != source.text

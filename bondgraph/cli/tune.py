@@ -10,6 +10,7 @@ from bondgraph import compile as open_model
 from bondgraph.cli import console
 from bondgraph.cli.options import isolating, positive
 from bondgraph.text.numerals import plural
+from bondgraph.text.whole_file import write_whole
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -78,7 +79,7 @@ def run(args: Namespace) -> int:
     except (LogError, ValueError) as error:
         raise console.Trouble(str(error)) from error
     best = min(found, key=lambda t: (_score(t, found), -t.tuning.bandwidth))
-    console.write_whole(args.output, best.tuning.to_json())
+    write_whole(args.output, best.tuning.to_json())
     return console.told(
         args.json,
         compilation.report.diagnostics,

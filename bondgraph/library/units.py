@@ -114,12 +114,6 @@ def parse_unit(text: str) -> Unit | None:
     return _units[text]
 
 
-def unit_names() -> tuple[str, ...]:
-    """Every name of the built-in table without prefixes, for completion and suggestions."""
-    _load()
-    return tuple(_entries)
-
-
 def describe(dimension: Dimension) -> str:
     """A unit that a person would write for `dimension`; `parse_unit` reads it back.
 

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from pathlib import Path
+from collections.abc import Iterable, Mapping
 from typing import TypeAlias
 
 import numpy as np
@@ -76,20 +73,6 @@ def joined(logs: Iterable[Log]) -> Log:
         time=np.concatenate([p.time for p in parts]),
         columns={k: np.concatenate([p.columns[k] for p in parts]) for k in first.columns},
     )
-
-
-@contextmanager
-def whole(path: str) -> Iterator[Path]:
-    """A name to write to; what is there becomes `path` at the end, if all went well."""
-    final = Path(path)
-    temporary = final.with_name(f".{final.name}.{os.getpid()}.tmp")
-    try:
-        yield temporary
-        if final.exists():
-            temporary.chmod(final.stat().st_mode)
-        temporary.replace(final)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def name_of_time(columns: Iterable[str]) -> str:

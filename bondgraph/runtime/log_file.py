@@ -25,7 +25,6 @@ from bondgraph.runtime.log import (
     seconds,
     time_column,
     unit_of_time,
-    whole,
 )
 from bondgraph.runtime.log_numbers import (
     Form,
@@ -36,6 +35,7 @@ from bondgraph.runtime.log_numbers import (
     number,
     separator_of,
 )
+from bondgraph.text.whole_file import whole
 
 if TYPE_CHECKING:
     import pyarrow

@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from difflib import get_close_matches
 from itertools import pairwise
 from typing import Any
@@ -93,46 +93,53 @@ class Table:
         """Report the value of a key."""
         self.document.wrong((*self.path, key), message, help)
 
+    def _taken(self, key: str, fits: Callable[[Any], bool], message: str, help: str) -> Any:
+        """The value of a key; None where there is none, and where it is told to be none."""
+        value = self._take(key)
+        if value is None or fits(value):
+            return value
+        self.wrong(key, f"`{key}` {message}", help)
+        return None
+
     def text(self, key: str, default: str = "", choices: Iterable[str] = ()) -> str:
         """A text; one of the `choices` where there are some."""
-        value = self._take(key)
+        value = self._taken(
+            key, lambda v: isinstance(v, str), "is a text.", f'Write it in quotes: {key} = "...".'
+        )
         if value is None:
-            return default
-        if not isinstance(value, str):
-            self.wrong(key, f"`{key}` is a text.", f'Write it in quotes: {key} = "...".')
             return default
         known = list(choices)
         if known and value not in known:
             self.wrong(key, f"`{key}` cannot be `{value}`.", f"It is one of {', '.join(known)}.")
             return default
-        return value
+        return str(value)
 
     def flag(self, key: str) -> bool:
         """True or false."""
-        value = self._take(key)
-        if value is not None and not isinstance(value, bool):
-            self.wrong(key, f"`{key}` is true or false.", f"Write {key} = true.")
-        return value is True
+        help = f"Write {key} = true."
+        return bool(self._taken(key, lambda v: isinstance(v, bool), "is true or false.", help))
 
     def whole(self, key: str, default: int) -> int:
         """A whole number that is not negative."""
-        value = self._take(key)
-        if value is None:
-            return default
-        if not isinstance(value, int) or isinstance(value, bool) or value < 0:
-            self.wrong(key, f"`{key}` is a whole number.", f"Write for instance {key} = 1.")
-            return default
-        return value
+        value = self._taken(
+            key,
+            lambda v: isinstance(v, int) and not isinstance(v, bool) and v >= 0,
+            "is a whole number.",
+            f"Write for instance {key} = 1.",
+        )
+        return default if value is None else int(value)
 
     def names(self, key: str) -> tuple[str, ...]:
         """A list of texts."""
-        value = self._take(key)
-        if value is None:
-            return ()
-        if not isinstance(value, list) or not all(isinstance(v, str) for v in value):
-            self.wrong(key, f"`{key}` is a list of names.", f'Write {key} = ["a", "b"].')
-            return ()
-        return tuple(value)
+        return tuple(
+            self._taken(
+                key,
+                lambda v: isinstance(v, list) and all(isinstance(n, str) for n in v),
+                "is a list of names.",
+                f'Write {key} = ["a", "b"].',
+            )
+            or ()
+        )
 
     def number(
         self,
@@ -165,12 +172,14 @@ class Table:
 
     def limits(self, key: str, dimension: Dimension | None) -> tuple[float, float]:
         """A list of a lower and an upper quantity; no limits where there is none."""
-        value = self._take(key)
         none = (-float("inf"), float("inf"))
+        value = self._taken(
+            key,
+            lambda v: isinstance(v, list) and len(v) == 2,
+            "is a lower and an upper limit.",
+            f"Write {key} = [-5, 5].",
+        )
         if value is None:
-            return none
-        if not isinstance(value, list) or len(value) != 2:
-            self.wrong(key, f"`{key}` is a lower and an upper limit.", f"Write {key} = [-5, 5].")
             return none
         ends = [self._quantity((*self.path, key, k), v, dimension) for k, v in enumerate(value)]
         if ends[0] is None or ends[1] is None:
@@ -290,21 +299,19 @@ class Table:
 
     def table(self, key: str) -> Table:
         """A table inside; an empty one where there is none."""
-        value = self._take(key)
-        if value is not None and not isinstance(value, Mapping):
-            self.wrong(key, f"`{key}` is a table.", f"Write [{key}] on a line of its own.")
-            value = None
+        help = f"Write [{key}] on a line of its own."
+        value = self._taken(key, lambda v: isinstance(v, Mapping), "is a table.", help)
         return Table(self.document, (*self.path, key), value or {})
 
     def tables(self, key: str) -> Iterator[Table]:
         """The tables of an array of tables."""
-        value = self._take(key)
-        if value is None:
-            return
-        if not isinstance(value, list) or not all(isinstance(v, Mapping) for v in value):
-            self.wrong(key, f"`{key}` is a table, once for each.", f"Write [[{key}]] above it.")
-            return
-        for k, item in enumerate(value):
+        value = self._taken(
+            key,
+            lambda v: isinstance(v, list) and all(isinstance(t, Mapping) for t in v),
+            "is a table, once for each.",
+            f"Write [[{key}]] above it.",
+        )
+        for k, item in enumerate(value or ()):
             yield Table(self.document, (*self.path, key, k), item)
 
     @property
