@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from bondgraph.cli.reasons import at_best, message, missing, reasons
 from bondgraph.cli.terminal_layout import formula, names, prose, signature_table, width
 from bondgraph.ir.expr import topological
+from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.notation.dump_stages import residual_origin
+from bondgraph.pipeline import Compilation
 from bondgraph.text.numerals import joined, plural
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from bondgraph.ir.signature_matrix import SignatureMatrix
-    from bondgraph.pipeline import Compilation
-    from bondgraph.views import Relation
+from bondgraph.views import Relation
 
 _LONGEST = 24  # lines of one residual in a report; more than that nobody reads
 

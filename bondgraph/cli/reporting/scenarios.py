@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import numpy.typing as npt
@@ -20,15 +20,15 @@ from bondgraph.backends.report.episode import (
 )
 from bondgraph.cli import console
 from bondgraph.cli.residual_units import residual_units
+from bondgraph.runtime.monitoring.clock import on_grid
+from bondgraph.runtime.monitoring.verdict import Verdict, described
+from bondgraph.runtime.simulation.dead_reckoning import Desired, Reckoning
+from bondgraph.runtime.simulation.integrate import SimulationError
+from bondgraph.runtime.simulation.parameters import Values
+from bondgraph.runtime.simulation.run import Run
+from bondgraph.runtime.simulation.scenario import Course, Sampling, Scenario
 from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from bondgraph.runtime.monitoring.verdict import Verdict
-    from bondgraph.runtime.simulation.run import Run
-    from bondgraph.runtime.simulation.scenario import Scenario
 
 _TOGETHER = 4  # signals of one unit in one panel
 _PANELS = 8  # of an episode
@@ -52,8 +52,6 @@ def simulated(
 
     Raises `CompileError` where the scenario is wrong, Trouble where it cannot be run.
     """
-    from bondgraph.runtime.simulation.integrate import SimulationError
-
     scenario = compilation.scenario(path)
     try:
         return compilation.simulate(scenario, progress)
@@ -86,8 +84,6 @@ def played(compilation: Compilation, run: Run) -> Episode:
 
 def _watched(compilation: Compilation, run: Run) -> Watched | None:
     """The run through the monitor's clock, engine and decision."""
-    from bondgraph.runtime.monitoring.clock import on_grid
-
     try:
         engine = compilation.engine()
     except ValueError as error:
@@ -138,9 +134,6 @@ def _panels(compilation: Compilation, run: Run, seen: Watched | None) -> Iterato
 
 def _planes(compilation: Compilation, run: Run) -> Iterator[Plane]:
     """The way of a vehicle in the plane: as it should be, by its signals, and a healthy twin's."""
-    from bondgraph.runtime.simulation.dead_reckoning import Desired, Reckoning
-    from bondgraph.runtime.simulation.parameters import Values
-
     plane = run.scenario.plane
     if plane is None:
         return
@@ -163,8 +156,6 @@ def _planes(compilation: Compilation, run: Run) -> Iterator[Plane]:
 
 def healthy_twin(run: Run) -> Scenario:
     """The nominal machine under the same commands, with nothing wrong and perfect instruments."""
-    from bondgraph.runtime.simulation.scenario import Course, Sampling
-
     scenario = run.scenario
     driven = {}
     for controller in scenario.controllers:
@@ -191,8 +182,6 @@ def _marks(scenario: Scenario) -> Iterator[Mark]:
 
 def _said(seen: Watched) -> Iterator[Said]:
     """A fault is said until something else is said of it, the warm-up from the start."""
-    from bondgraph.runtime.monitoring.verdict import described
-
     about = [v for v in seen.verdicts if v.event in ("fault", "update", "cleared")]
     for verdict in seen.verdicts:
         text = verdict.message or described(verdict)

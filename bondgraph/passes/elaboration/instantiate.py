@@ -44,6 +44,7 @@ from bondgraph.passes.elaboration.scope import (
 )
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 _KEYWORDS: dict[str, ValueKind] = {"param": "param", "const": "const"}
 #: Names and statements of the whole model: a million bonds, as arrays of submodels, are within it.
@@ -55,16 +56,13 @@ MOST_UNROLLED = 20_000
 _USUAL = 40
 
 
-class Event:
+class Event(NamedTuple):
     """A `fault` statement of one instance."""
 
-    __slots__ = ("declaration", "env", "local", "scope")
-
-    def __init__(self, declaration: Fault, local: str, scope: Scope, env: Env) -> None:
-        self.declaration = declaration
-        self.local = local
-        self.scope = scope
-        self.env = env
+    declaration: Fault
+    local: str
+    scope: Scope
+    env: Env
 
 
 class Arguments:

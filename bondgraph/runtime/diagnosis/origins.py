@@ -37,7 +37,6 @@ _TURN = 2.0**32  # counts after which a counter runs over
 class Settled(NamedTuple):
     """What changes for a diagnosis once a start is known."""
 
-    names: tuple[str, ...]  # of the residuals
     bank: Bank
     rows: list[Row]
     tolerated: tuple[Hypothesis, ...]
@@ -262,7 +261,7 @@ class Origins:
                 if rows[0].valid.any() and length <= self._warm:
                     continue  # residuals that go on need slopes that have settled
                 bank, again = replayed(case, case.start, tolerated)
-                return self._accepted(group, Settled((), bank, again, tolerated, history))
+                return self._accepted(group, Settled(bank, again, tolerated, history))
             few = length < self._warm * self._slow(group) + _FEW * self._every
             if few or group.count < group.next:
                 continue
@@ -278,9 +277,8 @@ class Origins:
             self._told[group.signals] = found.start[group.signals]
             group.starts, group.spread = found.starts, found.spread
             self._taught(group, found, case)
-            return self._accepted(
-                group, Settled((), found.bank, found.rows, found.tolerated, found.history)
-            )
+            settled = Settled(found.bank, found.rows, found.tolerated, found.history)
+            return self._accepted(group, settled)
         return None
 
     def _behind(self, group: _Group, rows: int) -> int:
@@ -325,7 +323,7 @@ class Origins:
             ]
             at = self.waiting
             row.value[at], row.bound[at], row.valid[at] = 0.0, 0.0, False
-        return settled._replace(names=group.memory.residuals)
+        return settled
 
     def _case(
         self,
