@@ -19,11 +19,10 @@ from bondgraph.backends.facts import (
 )
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples
-from bondgraph.backends.procedure_lines import lines, roots
+from bondgraph.backends.procedure_lines import lines, roots, tables
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
 from bondgraph.backends.vectors import Vectors
-from bondgraph.backends.walk import reads
 from bondgraph.ir.program import (
     Assignment,
     Const,
@@ -35,6 +34,7 @@ from bondgraph.ir.program import (
     Statement,
 )
 from bondgraph.notation.dialect import CodeSpeller, digits
+from bondgraph.notation.walk import reads
 from bondgraph.text.numerals import joined
 
 _PURE = ("sign", "ssqrt", "ssq", "equal", "min", "max", "power", "table", "root")
@@ -68,7 +68,7 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         "model": listing.harmless(program.name, target),
         "unset": " (NaN where the model has none)" if unset else "",
         "helpers": _helpers(program, facts, spelling, has_dot, code),
-        "tables": _tables(program, spelling, code),
+        "tables": tables(program, spelling, "{{{0}, {1}}}", code.number),
         "roots": roots(program, spelling, "real {0}", 8),
         "needs_functions": facts.library,
         "libm": " -lm" if facts.library else "",
@@ -211,22 +211,6 @@ def _helpers(
     return found + [name for name, needed in wanted.items() if needed]
 
 
-def _tables(program: Program, spelling: Spelling, code: Code) -> list[dict[str, object]]:
-    found: list[dict[str, object]] = []
-    for name, points in program.tables:
-        pairs = points if len(points) > 1 else points * 2  # a single point is a constant
-        texts = [(code.real(x), "(real)NAN" if math.isnan(y) else code.real(y)) for x, y in pairs]
-        rows = [f"{{{x}, {y}}}" for x, y in texts]
-        found.append(
-            {
-                "comment": listing.harmless(f"The table {name}.", spelling.target),
-                "name": spelling.tables[name],
-                "lines": listing.table(rows, spelling.target, 4),
-            }
-        )
-    return found
-
-
 class Code:
     """Writes configure, exact and step of one program; `stem` begins every name."""
 
@@ -242,6 +226,10 @@ class Code:
         return self._configure.expression(Const(value))
 
     # -------------------------------------------------------------------- configure
+
+    def number(self, value: float) -> str:
+        """A number, or none, as C has it."""
+        return "(real)NAN" if math.isnan(value) else self.real(value)
 
     def configure(self) -> dict[str, object]:
         """The holes of configure.c.j2."""

@@ -125,3 +125,25 @@ def _root(block: NewtonBlock, spelling: Spelling, argument: str, indent: int) ->
         "slope": part(block.further, "slope", block.slope),
         "comment": listing.comment(block.comment, target, 0),
     }
+
+
+def tables(
+    program: Program,
+    spelling: Spelling,
+    row: str,
+    number: Callable[[float], str],
+    end: tuple[str, ...] = (),
+) -> list[dict[str, object]]:
+    """The tables of a program; a `row` holds two numbers, and `end` stands behind the last one."""
+    found: list[dict[str, object]] = []
+    for name, points in program.tables:
+        pairs = points if len(points) > 1 else points * 2  # a single point is a constant
+        rows = [row.format(number(x), number(y)) for x, y in pairs]
+        found.append(
+            {
+                "comment": listing.harmless(f"The table {name}.", spelling.target),
+                "name": spelling.tables[name],
+                "lines": listing.table([*rows, *end], spelling.target, 4),
+            }
+        )
+    return found

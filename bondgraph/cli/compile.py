@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
 
-from bondgraph import Compilation, ForeignFiles, Options
+from bondgraph import Compilation, Options
 from bondgraph.cli import console
 from bondgraph.cli.options import bits, further, opened, positive
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
+from bondgraph.text.diagnostic import Trouble
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -103,10 +101,7 @@ def _write(compilation: Compilation, output: str | None) -> list[str]:
     """Write all files or none; the paths that were written."""
     if not compilation.residuals:
         return []
-    try:
-        return list(compilation.write(output or _default(compilation.source.path)))
-    except ForeignFiles as error:
-        raise console.Trouble(str(error)) from error
+    return list(compilation.write(output or _default(compilation.source.path)))
 
 
 def _default(model: str) -> str:
@@ -114,7 +109,7 @@ def _default(model: str) -> str:
     folder = os.path.join("generated", console.stem(model))
     for place in ("generated", folder):
         if os.path.islink(place):
-            raise console.Trouble(
+            raise Trouble(
                 f"{place} is a link to {os.readlink(place)}; say with -o where to write"
             )
     return folder

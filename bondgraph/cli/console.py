@@ -12,10 +12,6 @@ from bondgraph.text.diagnostic import CompileError, Diagnostic
 from bondgraph.text.whole_file import write_whole
 
 
-class Trouble(Exception):
-    """Something that is wrong neither with the model nor with the compiler: a full message."""
-
-
 class Unknown(Exception):
     """A name among the arguments that nothing has: status 2."""
 

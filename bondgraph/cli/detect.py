@@ -8,6 +8,7 @@ from bondgraph.cli import console
 from bondgraph.cli.options import isolating, opened, sampling, signals
 from bondgraph.cli.terminal_layout import names as listed
 from bondgraph.cli.terminal_layout import width
+from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -59,7 +60,7 @@ def run(args: Namespace) -> int:
         found = smallest(received, compilation.thresholds, tolerances, situation)
         apart = separation(received, tolerances, situation) if args.pairs else None
     except ValueError as error:
-        raise console.Trouble(f"{error}, and without it nothing has a size") from error
+        raise Trouble(f"{error}, and without it nothing has a size") from error
     return console.told(
         args.json,
         compilation.report.diagnostics,

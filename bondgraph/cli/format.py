@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
 
 from bondgraph.cli import console
 from bondgraph.frontend.formatter import format_text
@@ -11,9 +11,6 @@ from bondgraph.frontend.read import read
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.source import Source
 from bondgraph.text.whole_file import write_whole
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
 
 
 def arguments(parser: ArgumentParser) -> None:

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from bondgraph import Options
 from bondgraph import compile as open_model
-from bondgraph.cli import console, monitor
+from bondgraph.cli import monitor
 from bondgraph.cli.options import isolating, positive
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
@@ -50,21 +51,18 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Compile, listen, then serve until somebody stops it."""
     try:
-        from bondgraph.runtime.live.server import PortTaken, listening
+        from bondgraph.runtime.live.server import listening
     except ImportError as error:
         if error.name != "aiohttp":
             raise
-        raise console.Trouble(
+        raise Trouble(
             "the live page needs aiohttp: pip install aiohttp, or install bondgraph-arr[robot]"
         ) from error
     wrong = _wrong(args)
     if wrong:
         print(f"error: {wrong}", file=sys.stderr)
         return 2
-    try:
-        made = listening(args.host, args.port)
-    except PortTaken as error:
-        raise console.Trouble(str(error)) from error
+    made = listening(args.host, args.port)
     try:
         return _serve(args, made)
     finally:
@@ -93,7 +91,6 @@ def _serve(args: Namespace, made: Any) -> int:
     from bondgraph.backends.live_page import live
     from bondgraph.runtime.live.server import serve
     from bondgraph.runtime.live.session import Session
-    from bondgraph.runtime.log import LogError
     from bondgraph.runtime.simulation.scenario import Scenario
 
     rate = args.rate
@@ -106,8 +103,8 @@ def _serve(args: Namespace, made: Any) -> int:
         scenario = compilation.scenario(args.scenario)
     try:
         setup = setup_of(args, compilation, scenario)
-    except (LogError, ValueError) as error:
-        raise console.Trouble(str(error)) from error
+    except ValueError as error:
+        raise Trouble(str(error)) from error
     machine = _machine(args, compilation)
     sessions: list[Session] = []
 
@@ -116,7 +113,7 @@ def _serve(args: Namespace, made: Any) -> int:
             sessions.append(Session(setup, {t.name: t for t in machine.targets}, say))
         except KeyError as error:
             name = error.args[0]
-            raise console.Trouble(
+            raise Trouble(
                 f"`{name}` has no value: give it under [parameters] of the scenario"
             ) from error
         hello.update(_hello(machine, setup, sessions[0]))

@@ -11,6 +11,7 @@ from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
 from bondgraph.cli.options import isolating, positive
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
@@ -67,8 +68,6 @@ def sampled(add: Callable[..., object]) -> None:
 
 def run(args: Namespace) -> int:
     """Open the source, compile, watch."""
-    from bondgraph.runtime.log import LogError
-    from bondgraph.runtime.monitoring.journal import JournalError
     from bondgraph.runtime.monitoring.mqtt_client import address
 
     wrong = _wrong(args)
@@ -81,12 +80,8 @@ def run(args: Namespace) -> int:
     except ValueError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    try:
-        found = source(args, samples)
-        with closing(found):
-            return _watch(args, found, verdicts)
-    except (LogError, JournalError) as error:
-        raise console.Trouble(str(error)) from error
+    with closing(source(args, samples)) as found:
+        return _watch(args, found, verdicts)
 
 
 def _wrong(args: Namespace) -> str:
@@ -180,16 +175,16 @@ def watching(
     try:
         engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
     except ValueError as error:
-        raise console.Trouble(str(error)) from error
+        raise Trouble(str(error)) from error
     if not compilation.diagnosis_model.sees:
-        raise console.Trouble(f"{compilation.graph.name} has no residual that could be watched")
+        raise Trouble(f"{compilation.graph.name} has no residual that could be watched")
     if tuning is not None:
         engine = engine.configured(bandwidth=tuning.bandwidth)
     try:
         compilation.diagnosis(engine, tuning)
     except ValueError as error:
         message = f"the tuning cannot be used: {error}; make it anew with `bondgraph tune`"
-        raise console.Trouble(message) from error
+        raise Trouble(message) from error
     return engine, lambda own: compilation.diagnosis(own, tuning)
 
 
@@ -201,7 +196,7 @@ def read_tuning(path: str) -> Tuning:
         with open(path, encoding="utf-8") as file:
             return Tuning.from_json(file.read())
     except (ValueError, UnicodeDecodeError) as error:
-        raise console.Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
+        raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
 
 
 def _journal(

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeVar
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable
+from typing import TypeVar
 
 from bondgraph import Compilation, Options, compile
 from bondgraph.cli import console
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from collections.abc import Callable
 
 T = TypeVar("T", float, int)
 

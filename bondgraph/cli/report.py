@@ -8,6 +8,7 @@ from bondgraph import Compilation
 from bondgraph.cli import console
 from bondgraph.cli.detect import situation_of
 from bondgraph.cli.options import further, opened, sampling, signals
+from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -71,7 +72,7 @@ def _simulated(compilation: Compilation, paths: list[str]) -> list[Run]:
     from importlib.util import find_spec
 
     if paths and find_spec("matplotlib") is None:
-        raise console.Trouble(
+        raise Trouble(
             "plots of scenarios need matplotlib: pip install 'bondgraph-arr[robot]'"
         )
     from bondgraph.cli.reporting.scenarios import simulated

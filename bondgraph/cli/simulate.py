@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from bondgraph import compile as open_model
 from bondgraph.cli import console
 from bondgraph.cli.options import assigned, pace, positive
+from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -45,9 +46,7 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Simulate, write the log, say how it ended."""
-    from bondgraph.runtime.log import LogError
     from bondgraph.runtime.log_file import write_log
-    from bondgraph.runtime.simulation.integrate import SimulationError
 
     compilation = open_model(args.model)
     chosen = _scenario(args, compilation)
@@ -56,18 +55,13 @@ def run(args: Namespace) -> int:
     with console.progress_bar("simulating") as progress:
         try:
             found = compilation.simulate(chosen, progress)
-        except SimulationError as error:
-            raise console.Trouble(f"{error}") from error
         except KeyError as error:
             raise _without_value(error) from error
     files = [args.output or f"{_stem(chosen.name)}.csv"]
-    try:
-        write_log(found.log, files[0])
-        if args.truth:
-            write_log(found.truth, args.truth)
-            files.append(args.truth)
-    except LogError as error:
-        raise console.Trouble(f"{error}") from error
+    write_log(found.log, files[0])
+    if args.truth:
+        write_log(found.truth, args.truth)
+        files.append(args.truth)
     return console.told(
         args.json,
         compilation.report.diagnostics,
@@ -77,9 +71,9 @@ def run(args: Namespace) -> int:
     )
 
 
-def _without_value(error: KeyError) -> console.Trouble:
+def _without_value(error: KeyError) -> Trouble:
     name = error.args[0]
-    return console.Trouble(
+    return Trouble(
         f"`{name}` has no value: give it under [parameters], or --set {name}=..."
     )
 
@@ -92,7 +86,6 @@ def stream(compilation: Compilation, scenario: Scenario, speed: float) -> int:
     import sys
     import time
 
-    from bondgraph.runtime.simulation.integrate import SimulationError
     from bondgraph.runtime.simulation.run import Robot
 
     try:
@@ -110,8 +103,6 @@ def stream(compilation: Compilation, scenario: Scenario, speed: float) -> int:
             text = (",".join("" if v != v else repr(v) for v in row) for row in rows)
             sys.stdout.write("\n".join(text) + "\n")
             sys.stdout.flush()
-    except SimulationError as error:
-        raise console.Trouble(f"{error}") from error
     except KeyError as error:
         raise _without_value(error) from error
     except KeyboardInterrupt:
@@ -137,7 +128,7 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
         (modes if mode else inputs)[name] = Course.constant(value)
     driven = {c.input for c in chosen.controllers} & {name for name, _ in args.input}
     if driven:
-        raise console.Trouble(f"`{min(driven)}` is driven by a controller of the scenario")
+        raise Trouble(f"`{min(driven)}` is driven by a controller of the scenario")
     return chosen._replace(
         duration=args.duration or chosen.duration,
         seed=chosen.seed if args.seed is None else args.seed,
@@ -150,7 +141,7 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
 def _known(name: str, what: str, names: list[str]) -> None:
     if name not in names:
         hint = console.hint(name, names)
-        raise console.Trouble(f"the model has no {what} `{name}`{hint}")
+        raise Trouble(f"the model has no {what} `{name}`{hint}")
 
 
 def _stem(name: str) -> str:

@@ -9,6 +9,7 @@ from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
 from bondgraph.cli.options import isolating, positive
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 from bondgraph.text.whole_file import write_whole
 
@@ -55,10 +56,9 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Learn, choose a bandwidth, write the limits, say what follows."""
     from bondgraph.runtime.diagnosis.calibration import tune
-    from bondgraph.runtime.log import LogError
 
     if bool(args.logs) == bool(args.simulate):
-        raise console.Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
+        raise Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
     try:
         compilation, engine, logs = _logs(args)
         wanted = args.bandwidth or [f * engine.bandwidth for f in _FACTORS]
@@ -76,8 +76,8 @@ def run(args: Namespace) -> int:
                         _part(progress, k, len(wanted)),
                     )
                 )
-    except (LogError, ValueError) as error:
-        raise console.Trouble(str(error)) from error
+    except ValueError as error:
+        raise Trouble(str(error)) from error
     best = min(found, key=lambda t: (_score(t, found), -t.tuning.bandwidth))
     write_whole(args.output, best.tuning.to_json())
     return console.told(
@@ -108,7 +108,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
         )
         scenario = compilation.scenario(args.simulate)
         if scenario.faults:
-            raise console.Trouble(f"{args.simulate} has a fault: tune on what is healthy")
+            raise Trouble(f"{args.simulate} has a fault: tune on what is healthy")
         if scenario.sampling.rate != compilation.options.rate:
             compilation = compilation.with_options(rate=scenario.sampling.rate)
             scenario = compilation.scenario(args.simulate)

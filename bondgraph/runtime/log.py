@@ -9,6 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.tuples import NamedTuple
 
 Array: TypeAlias = npt.NDArray[np.float64]
@@ -24,7 +25,7 @@ _TIME = re.compile(r"(?:t|time|timestamp)(?:[ _.]*[\[(]?(s|ms|us|µs|ns)[\])]?)?
 _PER_SECOND = {"": 1.0, "s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}
 
 
-class LogError(Exception):
+class LogError(Trouble):
     """A log that cannot be read: file, line (None: the file as a whole), what is wrong, a remedy.
 
     >>> print(LogError("run.csv", 7, "4 cells where the header names 5", "mend or delete the line"))

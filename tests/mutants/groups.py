@@ -20,7 +20,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
         f"backends/{name}.py"
         for name in (
             "blocks c emit forty_digits golden identifiers members procedure_lines python"
-            " runnable spelling target vectors walk"
+            " runnable spelling target vectors"
         ).split()
     )
     + ("notation/*.py",),

@@ -18,7 +18,6 @@ from bondgraph.backends.report.episode import (
     Said,
     Trace,
 )
-from bondgraph.cli import console
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.runtime.monitoring.clock import on_grid
 from bondgraph.runtime.monitoring.verdict import Verdict, described
@@ -27,6 +26,7 @@ from bondgraph.runtime.simulation.integrate import SimulationError
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.run import Run
 from bondgraph.runtime.simulation.scenario import Course, Sampling, Scenario
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
 
@@ -56,9 +56,9 @@ def simulated(
     try:
         return compilation.simulate(scenario, progress)
     except SimulationError as error:
-        raise console.Trouble(f"{path}: {error}") from error
+        raise Trouble(f"{path}: {error}") from error
     except KeyError as error:
-        raise console.Trouble(f"{path}: `{error.args[0]}` has no value") from error
+        raise Trouble(f"{path}: `{error.args[0]}` has no value") from error
 
 
 def played(compilation: Compilation, run: Run) -> Episode:
@@ -87,7 +87,7 @@ def _watched(compilation: Compilation, run: Run) -> Watched | None:
     try:
         engine = compilation.engine()
     except ValueError as error:
-        raise console.Trouble(str(error)) from error
+        raise Trouble(str(error)) from error
     decision = compilation.diagnosis(engine)
     parts, verdicts = [], []
     for piece in on_grid(engine, run.log):

@@ -15,6 +15,7 @@ from aiohttp import WSMsgType, web
 
 from bondgraph.runtime.live.hub import Hub, Viewer
 from bondgraph.runtime.live.session import Session
+from bondgraph.text.diagnostic import Trouble
 
 _LARGEST = 4096  # bytes of a wish
 _LOCAL = ("127.0.0.1", "localhost", "[::1]", "::1")
@@ -35,7 +36,7 @@ _HEADERS = {
 _Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
-class PortTaken(Exception):
+class PortTaken(Trouble):
     """Nobody can listen there; the message says why."""
 
 

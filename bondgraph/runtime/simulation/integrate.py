@@ -14,6 +14,7 @@ import numpy as np
 
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.machine import Machine
+from bondgraph.text.diagnostic import Trouble
 
 Inputs = Callable[[float], Sequence[float]]
 
@@ -31,7 +32,7 @@ _COARSE = 1e-6  # relative tolerance of a step: finer than instruments are
 _STEPS = 20_000  # in one segment
 
 
-class SimulationError(Exception):
+class SimulationError(Trouble):
     """The machine cannot go on: no solution, or a law without a value; the message says when."""
 
 

@@ -331,21 +331,14 @@ class _Reader:
         return found
 
     def _record(self, top: Table) -> tuple[str, ...]:
-        known = named(self.graph)
-        names = top.names("record")
-        return tuple(
-            n
-            for k, n in enumerate(names)
-            if self._known(top, ("record", k), n, "effort or flow", known)
-        )
+        return self._listed(top, "record", "effort or flow", named(self.graph))
 
     def _static(self, top: Table) -> tuple[str, ...]:
         paths = [n.path for n in self.graph.nodes if n.kind in ("C", "I")]
         inside = {p[:k] for p in paths for k, c in enumerate(p) if c in ".["} | set(paths)
-        names = top.names("quasi_static")
-        shown = sorted(inside)
-        return tuple(
-            n
-            for k, n in enumerate(names)
-            if self._known(top, ("quasi_static", k), n, "storage", shown)
-        )
+        return self._listed(top, "quasi_static", "storage", sorted(inside))
+
+    def _listed(self, top: Table, key: str, what: str, known: Iterable[str]) -> tuple[str, ...]:
+        """The names in a list that are known; the others are told."""
+        names = enumerate(top.names(key))
+        return tuple(n for k, n in names if self._known(top, (key, k), n, what, known))
