@@ -13,7 +13,7 @@ from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.ir.unit import Dimension, over, times
 from bondgraph.library.units import DOMAINS
 from bondgraph.passes.elaboration.outside import Outside
-from bondgraph.runtime.simulation.observed import named
+from bondgraph.runtime.simulation.machine import named
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import (
     Change,

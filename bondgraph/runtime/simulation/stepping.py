@@ -11,8 +11,7 @@ from bondgraph.passes.elimination.state_equations import Wanted, state_equations
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.given import Acting, Inputs, inside
 from bondgraph.runtime.simulation.integrate import Integrator, ShortSegments, SimulationError
-from bondgraph.runtime.simulation.machine import Machine
-from bondgraph.runtime.simulation.observed import observed
+from bondgraph.runtime.simulation.machine import Machine, observed
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.storages import handed_over, start
 from bondgraph.text.diagnostic import CompileError, Report
