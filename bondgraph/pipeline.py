@@ -578,7 +578,7 @@ class Compilation:
         As SVG, one self-contained text; a `bare` one for inside of a page that has its colours.
         """
         if self.conflicts:
-            from bondgraph.backends.draw_conflicts import draw_conflicts
+            from bondgraph.backends.figure import draw_conflicts
 
             return draw_conflicts(self.graph, self.conflicts, self.graph.name, bare)
         from bondgraph.backends.figure import draw

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 
-from bondgraph.backends.walk import references
 from bondgraph.ir.groups import Groups
 from bondgraph.ir.program import Assignment, Const, Program, Ref, flat
+from bondgraph.notation.walk import references
 from bondgraph.text.tuples import NamedTuple
 
 

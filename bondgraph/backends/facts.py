@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 
 from bondgraph.backends import listing
 from bondgraph.backends.identifiers import snake
-from bondgraph.backends.walk import functions, nodes, reads
 from bondgraph.ir.program import (
     Assign,
     Const,
@@ -19,6 +18,7 @@ from bondgraph.ir.program import (
     Statement,
     flat,
 )
+from bondgraph.notation.walk import functions, nodes, reads
 from bondgraph.text.tuples import NamedTuple
 
 #: Changes when a struct or a function of the generated code changes.

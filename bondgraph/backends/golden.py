@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 
 from bondgraph.backends.forty_digits import Evaluation, Value, value
 from bondgraph.backends.spelling import DOUBLE_INTEGRAL, INTEGRAL, START, suffixes
-from bondgraph.backends.walk import reads
 from bondgraph.ir.program import Known, Program, Ref
+from bondgraph.notation.walk import reads
 from bondgraph.text.tuples import NamedTuple
 
 _VECTORS = 4

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import keyword
 import re
 from collections.abc import Iterable
 
@@ -23,16 +22,6 @@ def identifier(path: str) -> str:
     text = _INDEX.sub(r"__\1", path).replace(".", "__")
     text = _FOREIGN.sub(lambda found: f"u{ord(found.group()):x}", text)
     return f"_{text}" if not text or text[0].isdigit() else text
-
-
-def python_identifier(path: str) -> str:
-    """`identifier`, with a trailing `_` where that is a Python keyword.
-
-    >>> python_identifier("lambda")
-    'lambda_'
-    """
-    name = identifier(path)
-    return f"{name}_" if keyword.iskeyword(name) else name
 
 
 def spellings(names: Iterable[str], reserved: frozenset[str]) -> dict[str, str]:

@@ -1,4 +1,7 @@
-"""The statements of a procedure as lines of code, each with the model line it comes from."""
+"""The statements of a procedure as lines of code, each with the model line it comes from.
+
+So are the blocks of Newton's method, which fill the holes of the templates `root.*`.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +9,18 @@ from collections.abc import Callable, Iterable
 
 from bondgraph.backends import listing
 from bondgraph.backends.spelling import Spelling
-from bondgraph.ir.program import Assignment, Branch, Dot, Expression, PolynomialTape, Ref, Statement
-from bondgraph.notation.dialect import CodeSpeller
+from bondgraph.ir.program import (
+    Assignment,
+    Branch,
+    Dot,
+    Expression,
+    NewtonBlock,
+    PolynomialTape,
+    Program,
+    Ref,
+    Statement,
+)
+from bondgraph.notation.dialect import CodeSpeller, digits
 
 
 def lines(
@@ -83,3 +96,54 @@ def _dot(statement: Dot, spelling: Spelling) -> str:
         signal = pattern["many" if several else "one"].format(member)
         texts.append(spelling.target.statements.dot.format(array, signal, term.length))
     return " + ".join(texts) or spelling.target.dialect.constant.format("0.0")
+
+
+def roots(
+    program: Program, spelling: Spelling, argument: str, indent: int
+) -> list[dict[str, object]]:
+    """A function for each block, inner ones first; `argument` is the declaration of one."""
+    return [_root(block, spelling, argument, indent) for block in program.roots]
+
+
+def _root(block: NewtonBlock, spelling: Spelling, argument: str, indent: int) -> dict[str, object]:
+    target = spelling.target
+    speller = CodeSpeller(target.dialect, spelling.value, spelling.tables)
+
+    def part(statements: tuple[Assignment, ...], name: str, value: Expression) -> list[str]:
+        prefix = target.statements.local.replace("{0}", name).replace("{1}", "{0}")
+        last = listing.statement(prefix, speller.expression(value), target, indent)
+        return [*lines(statements, spelling, speller, indent), *last]
+
+    return {
+        "name": spelling.tables[f"root:{block.name}"],
+        "arguments": ", ".join(argument.format(spelling.locals[a]) for a in block.arguments),
+        "x": spelling.locals["x"],
+        "guess": digits(block.guess),
+        "rising": block.rising,
+        "most": block.most,
+        "value": part(block.body, "value", block.value),
+        "slope": part(block.further, "slope", block.slope),
+        "comment": listing.comment(block.comment, target, 0),
+    }
+
+
+def tables(
+    program: Program,
+    spelling: Spelling,
+    row: str,
+    number: Callable[[float], str],
+    end: tuple[str, ...] = (),
+) -> list[dict[str, object]]:
+    """The tables of a program; a `row` holds two numbers, and `end` stands behind the last one."""
+    found: list[dict[str, object]] = []
+    for name, points in program.tables:
+        pairs = points if len(points) > 1 else points * 2  # a single point is a constant
+        rows = [row.format(number(x), number(y)) for x, y in pairs]
+        found.append(
+            {
+                "comment": listing.harmless(f"The table {name}.", spelling.target),
+                "name": spelling.tables[name],
+                "lines": listing.table([*rows, *end], spelling.target, 4),
+            }
+        )
+    return found

@@ -8,7 +8,6 @@ from collections.abc import Iterable
 
 from bondgraph.backends import listing
 from bondgraph.backends.blocks import Block
-from bondgraph.backends.c_code import together
 from bondgraph.backends.facts import (
     ABI,
     SLOWEST,
@@ -19,14 +18,14 @@ from bondgraph.backends.facts import (
 )
 from bondgraph.backends.golden import Golden
 from bondgraph.backends.members import Member, derivatives, samples
-from bondgraph.backends.procedure_lines import lines
-from bondgraph.backends.roots import roots
+from bondgraph.backends.procedure_lines import lines, roots, tables
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
 from bondgraph.backends.vectors import Vectors
-from bondgraph.backends.walk import reads
 from bondgraph.ir.program import Assignment, Dot, PolynomialTape, Program
 from bondgraph.notation.dialect import CodeSpeller, digits
+from bondgraph.notation.walk import reads
+from bondgraph.text.numerals import joined
 
 _HELPERS = ("sign", "ssqrt", "ssq", "power", "table", "root")
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
@@ -83,7 +82,10 @@ class _Module:
             "encoder_fields": self._encoders(),
             "helpers": self._helpers(),
             "roots": roots(program, self.spelling, "{0}: float", 12),
-            "tables": [*self._tables(), *map(self._tape_table, self.tapes)],
+            "tables": [
+                *tables(program, self.spelling, "({0}, {1})", _number, ("",)),
+                *map(self._tape_table, self.tapes),
+            ],
             "exact": self._exact(),
             "step": self._step(),
             "blocks": [self._block(k, b) for k, b in enumerate(blocks)],
@@ -143,7 +145,7 @@ class _Module:
         ]
 
     def _encoders(self) -> list[str]:
-        members = {b.name: together(b.residuals) for b in self.spelling.blocks}
+        members = {b.name: joined(b.residuals) for b in self.spelling.blocks}
         return self._members(
             [
                 (f"{name}: Encoder = field(default_factory=Encoder)", f"for {members[block]}")
@@ -275,21 +277,6 @@ class _Module:
             "lines": listing.table([*rows, ""], self.target, 4),
         }
 
-    def _tables(self) -> list[dict[str, object]]:
-        found: list[dict[str, object]] = []
-        for name, points in self.program.tables:
-            pairs = points if len(points) > 1 else points * 2  # a single point is a constant
-            texts = [(digits(x), "math.nan" if math.isnan(y) else digits(y)) for x, y in pairs]
-            rows = [f"({x}, {y})" for x, y in texts]
-            found.append(
-                {
-                    "comment": listing.harmless(f"The table {name}.", self.target),
-                    "name": self.spelling.tables[name],
-                    "lines": listing.table([*rows, ""], self.target, 4),
-                }
-            )
-        return found
-
     # ---------------------------------------------------------------- exact and step
 
     def _exact(self) -> list[str]:
@@ -343,7 +330,7 @@ class _Module:
         return {
             "name": block.name,
             "number": number,
-            "title": together(block.residuals),
+            "title": joined(block.residuals),
             "begins": block.begins,
             "first": self._run(block, block.first, "count_from"),
             "step": self._run(block, block.step, "count_on"),
@@ -393,3 +380,7 @@ def _head(name: str, arguments: list[str], target: Target) -> list[str]:
 
 def _tape_name(tape: PolynomialTape) -> str:
     return f"_{tape.residual.upper()}_TAPE"
+
+
+def _number(value: float) -> str:
+    return "math.nan" if math.isnan(value) else digits(value)

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from bondgraph.backends import listing
 from bondgraph.backends.c import needs_library
-from bondgraph.backends.c_code import together
 from bondgraph.backends.facts import Facts
 from bondgraph.backends.identifiers import identifier, snake
 from bondgraph.ir.program import Dropped, Field, Known, Program, ResidualInfo
+from bondgraph.text.numerals import joined
 
 _ROW_FAULTS = 200  # a longer matrix is left to the list of each residual
 
@@ -189,7 +189,7 @@ def _switches(program: Program) -> list[str]:
     if not when:
         return []
     told = [
-        f"{together(residuals)} where {' or '.join(f'`{m}`' for m in modes)} changes"
+        f"{joined(residuals)} where {' or '.join(f'`{m}`' for m in modes)} changes"
         for modes, residuals in when.items()
     ]
     wait = max(settle[r] for own in when.values() for r in own) / program.bandwidth
@@ -198,7 +198,7 @@ def _switches(program: Program) -> list[str]:
         f"So there it starts anew, and is not valid for {wait:.2g} s: {'; '.join(told)}. Log the "
         "mode with the samples that it holds for; the sample of the change itself does not count."
     )
-    rest = f" {together(goes_on)} {'go' if len(goes_on) > 1 else 'goes'} on." if goes_on else ""
+    rest = f" {joined(goes_on)} {'go' if len(goes_on) > 1 else 'goes'} on." if goes_on else ""
     return [text + rest]
 
 

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Literal
 
 from bondgraph.ir.artifact import Artifact
+from bondgraph.text.diagnostic import Trouble
 
 #: Lists what was generated into a folder, with the hash of each file as it was written.
 MANIFEST = ".bondgraph.json"
@@ -30,7 +31,7 @@ _LARGEST = 10_000_000
 _NOTHING = {errno.ENOENT, errno.ENOTDIR, errno.ENAMETOOLONG}
 
 
-class ForeignFiles(Exception):
+class ForeignFiles(Trouble):
     """The output folder has files in the way that were not generated, or were edited since."""
 
     def __init__(self, folder: Path, names: tuple[str, ...]) -> None:

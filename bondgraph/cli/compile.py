@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
 
-from bondgraph import Compilation, ForeignFiles, Options
-from bondgraph import compile as open_model
+from bondgraph import Compilation, Options
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import further, realised
-from bondgraph.cli.number_arguments import bits, positive
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
+from bondgraph.cli.options import bits, further, opened, positive, realised
+from bondgraph.text.diagnostic import Trouble
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -65,18 +61,7 @@ def run(args: Namespace) -> int:
             listed = ", ".join(targets())
             print(f"error: no target is called {unknown[0]}; there are {listed}", file=sys.stderr)
             return 2
-    compilation = open_model(
-        args.model,
-        rate=args.rate,
-        bandwidth=args.bandwidth,
-        resolution=2.0**-args.bits,
-        targets=tuple(dict.fromkeys(args.target or Options().targets)),
-        decouple=tuple(dict.fromkeys(args.decouple)),
-        isolate=args.isolate, form=args.form,
-    )
-    for fault in args.decouple:
-        if fault not in compilation.graph.faults:
-            return console.unknown(fault, "no fault of the model", compilation.graph.faults)
+    compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
     _compute(compilation)
     files = _write(compilation, args.output)
     if args.json:
@@ -117,19 +102,15 @@ def _write(compilation: Compilation, output: str | None) -> list[str]:
     """Write all files or none; the paths that were written."""
     if not compilation.residuals:
         return []
-    try:
-        return list(compilation.write(output or _default(compilation.source.path)))
-    except ForeignFiles as error:
-        raise console.Trouble(str(error)) from error
+    return list(compilation.write(output or _default(compilation.source.path)))
 
 
 def _default(model: str) -> str:
     """Where to write if nobody said it; a link there could lead anywhere, so it is refused."""
-    stem = os.path.splitext(os.path.basename(model))[0]
-    folder = os.path.join("generated", stem)
+    folder = os.path.join("generated", console.stem(model))
     for place in ("generated", folder):
         if os.path.islink(place):
-            raise console.Trouble(
+            raise Trouble(
                 f"{place} is a link to {os.readlink(place)}; say with -o where to write"
             )
     return folder

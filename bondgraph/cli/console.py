@@ -9,10 +9,22 @@ from contextlib import contextmanager
 from typing import IO
 
 from bondgraph.text.diagnostic import CompileError, Diagnostic
+from bondgraph.text.whole_file import write_whole
 
 
-class Trouble(Exception):
-    """Something that is wrong neither with the model nor with the compiler: a full message."""
+class Unknown(Exception):
+    """A name among the arguments that nothing has: status 2."""
+
+    def __init__(self, name: str, what: str, names: Iterable[str]) -> None:
+        super().__init__(f"{what} is called `{name}`{hint(name, names)}")
+
+
+def hint(name: str, names: Iterable[str]) -> str:
+    """Which names may be meant, as the end of a message."""
+    from difflib import get_close_matches
+
+    close = get_close_matches(name, list(names), 3, 0.5)
+    return f"; did you mean {' or '.join(f'`{c}`' for c in close)}?" if close else ""
 
 
 def coloured(stream: IO[str]) -> bool:
@@ -34,6 +46,25 @@ def print_json(value: object) -> None:
     import json
 
     print(json.dumps(value, indent=2, ensure_ascii=False))
+
+
+def told(
+    json: bool,
+    diagnostics: Iterable[Diagnostic],
+    message: str,
+    result: Callable[[], dict[str, object]],
+    lines: Callable[[], list[str]],
+) -> int:
+    """Print what a command has found, as one JSON object or as lines; the exit status is 0."""
+    if json:
+        from bondgraph.text.render import as_json
+
+        diagnosed = as_json(tuple(diagnostics))
+        print_json({"status": "ok", "message": message, "diagnostics": diagnosed, **result()})
+    else:
+        show(diagnostics)
+        print("\n".join(lines()))
+    return 0
 
 
 #: Findings about a model that is sound, but that the compiler cannot solve.
@@ -83,32 +114,35 @@ def broken(message: str, json: bool) -> int:
     return 1
 
 
-def write_whole(path: str, text: str) -> None:
-    """Write a file so that it is either the old one or the new one, never half of it."""
-    temporary = f"{path}.{os.urandom(6).hex()}.tmp"
-    try:
-        # a file of our own, not what somebody put there under that name
-        with open(temporary, "x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        if os.path.exists(path):
-            os.chmod(temporary, os.stat(path).st_mode)
-        os.replace(temporary, path)
-    finally:
-        if os.path.exists(temporary):
-            os.unlink(temporary)
+def stem(path: str) -> str:
+    """The name of a file without its folder and suffix."""
+    return os.path.splitext(os.path.basename(path))[0]
+
+
+def deliver(output: str, text: str, what: str) -> None:
+    """Write a text to a file and say what it is, or print it alone where the file is `-`."""
+    if output == "-":
+        sys.stdout.write(text)
+        return
+    os.makedirs(os.path.dirname(output) or ".", exist_ok=True)
+    write_whole(output, text)
+    print(f"{output}: {what}")
 
 
 @contextmanager
-def progress_bar(word: str, patience: float = 1.0) -> Iterator[Callable[[float], None]]:
-    """Gives a function that says which share, 0 to 1, is done; a bar as of `progress`."""
+def progress_bar(word: str = "", patience: float = 1.0) -> Iterator[Callable[..., None]]:
+    """Gives a function that says which share, 0 to 1, is done; a bar as of `progress`.
+
+    A word besides says what is being done now, in place of the one for all.
+    """
     parts = 24
     with progress(parts, patience) as advance:
         shown = 0
 
-        def share(done: float) -> None:
+        def share(done: float, now: str = word) -> None:
             nonlocal shown
             while shown <= done * parts:
-                advance(word)
+                advance(now)
                 shown += 1
 
         yield share
@@ -151,13 +185,3 @@ def progress(steps: int, patience: float = 1.0) -> Iterator[Callable[[str], None
     finally:
         finished.set()
         thread.join()
-
-
-def unknown(name: str, what: str, names: Iterable[str]) -> int:
-    """Say that nothing has a name, with those that are close; the exit status for it."""
-    from difflib import get_close_matches
-
-    close = get_close_matches(name, list(names), 3, 0.5)
-    hint = f"; did you mean {' or '.join(f'`{c}`' for c in close)}?" if close else ""
-    print(f"error: {what} is called `{name}`{hint}", file=sys.stderr)
-    return 2

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bondgraph import Options
-from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import isolating, realised
-from bondgraph.cli.number_arguments import assigned, bits, noise, positive
+from bondgraph.cli.options import isolating, opened, realised, sampling, signals
 from bondgraph.cli.terminal_layout import names as listed
 from bondgraph.cli.terminal_layout import width
+from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -34,46 +32,14 @@ def arguments(parser: ArgumentParser) -> None:
     realised(parser)
 
 
-def sampling(parser: ArgumentParser) -> None:
-    """The arguments that say how the machine is sampled."""
-    rate = Options().rate
-    parser.add_argument("--rate", metavar="HZ", type=positive, default=rate,
-                        help=f"samples a second (default: {rate:g})")  # fmt: skip
-    parser.add_argument("--bandwidth", metavar="RAD/S", type=positive, default=None,
-                        help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
-    parser.add_argument("--bits", metavar="N", type=bits, default=12,
-                        help="resolution of the samples (default: 12)")  # fmt: skip
-
-
-def signals(parser: ArgumentParser) -> None:
-    """The arguments that say what the machine does and how well it is measured."""
-    parser.add_argument("--noise", metavar="[NAME=]DEVIATION", type=noise, action="append",
-                        default=[], help="standard deviation of the samples of a signal, without"
-                        " a name of every sensor; may be repeated")  # fmt: skip
-    parser.add_argument("--at", metavar="NAME=VALUE", type=assigned, action="append", default=[],
-                        help="what a signal is (default: 0; an encoder: its speed); may be"
-                        " repeated")  # fmt: skip
-    parser.add_argument("--swing", metavar="NAME=AMPLITUDE", type=assigned, action="append",
-                        default=[], help="how far a signal swings around that; may be"
-                        " repeated")  # fmt: skip
-    parser.add_argument("--frequency", metavar="HZ", type=positive, default=1.0,
-                        help="of the swing (default: 1)")  # fmt: skip
-    parser.add_argument("--kappa", metavar="K", type=positive, default=5.0,
-                        help="standard deviations of noise below the threshold"
-                        " (default: 5)")  # fmt: skip
-
-
-def no_signal(args: Namespace, program: Program) -> str | None:
-    """A name among the arguments that no known signal of the residuals has."""
-    paths = [k.path for k in program.knowns]
-    given = (*args.at, *args.swing, *args.noise)
-    return next((name for name, _ in given if name and name not in paths), None)
-
-
 def situation_of(args: Namespace, program: Program) -> Situation:
-    """What the arguments say."""
+    """What the arguments say; raises Unknown for a name that no known signal has."""
     from bondgraph.runtime.smallest import Situation
 
+    paths = [k.path for k in program.knowns]
+    for name, _ in (*args.at, *args.swing, *args.noise):
+        if name and name not in paths:
+            raise console.Unknown(name, "no known signal of the residuals", paths)
     every = dict(args.noise).get("")
     deviations = {}
     if every is not None:
@@ -87,40 +53,22 @@ def run(args: Namespace) -> int:
     from bondgraph.runtime.separation import separation
     from bondgraph.runtime.smallest import smallest
 
-    compilation = open_model(
-        args.model,
-        rate=args.rate,
-        bandwidth=args.bandwidth,
-        resolution=2.0**-args.bits,
-        isolate=args.isolate, form=args.form,
-    )
-    program = compilation.program
-    name = no_signal(args, program)
-    if name is not None:
-        paths = [k.path for k in program.knowns]
-        return console.unknown(name, "no known signal of the residuals", paths)
-    situation = situation_of(args, program)
+    compilation = opened(args)
+    situation = situation_of(args, compilation.program)
     tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
     try:
         received = compilation.program_with_readings
         found = smallest(received, compilation.thresholds, tolerances, situation)
         apart = separation(received, tolerances, situation) if args.pairs else None
     except ValueError as error:
-        raise console.Trouble(f"{error}, and without it nothing has a size") from error
-    if args.json:
-        from bondgraph.text.render import as_json
-
-        console.print_json({"status": "ok", "message": _message(compilation, found),
-                            "diagnostics": as_json(compilation.report.diagnostics),
-                            **_result(compilation, found),
-                            **_told_apart(compilation, apart)})  # fmt: skip
-        return 0
-    console.show(compilation.report.diagnostics)
-    lines = _lines(compilation, found, situation)
-    if apart is not None:
-        lines += _pairs(compilation, apart, situation)
-    print("\n".join(lines))
-    return 0
+        raise Trouble(f"{error}, and without it nothing has a size") from error
+    return console.told(
+        args.json,
+        compilation.report.diagnostics,
+        _message(compilation, found),
+        lambda: {**_result(compilation, found), **_told_apart(compilation, apart)},
+        lambda: _lines(compilation, found, situation) + _pairs(compilation, apart, situation),
+    )
 
 
 def _message(compilation: Compilation, found: Detection) -> str:
@@ -172,10 +120,9 @@ def _unbounded(compilation: Compilation) -> dict[str, str]:
 
 
 def _units(compilation: Compilation) -> dict[str, str]:
-    graph = compilation.graph
-    units = {v.name: v.unit or "" for v in graph.values}
-    units |= {i.name: i.unit or "" for i in graph.inputs}
-    return units | {s.name: s.unit or "" for s in graph.sensors}
+    from bondgraph.runtime.simulation.parameters import units
+
+    return units(compilation.graph)
 
 
 def _lines(compilation: Compilation, found: Detection, situation: Situation) -> list[str]:
@@ -208,8 +155,12 @@ def _lines(compilation: Compilation, found: Detection, situation: Situation) -> 
     return lines
 
 
-def _pairs(compilation: Compilation, found: Separation, situation: Situation) -> list[str]:
+def _pairs(
+    compilation: Compilation, found: Separation | None, situation: Situation
+) -> list[str]:
     """A row for each fault, a column for each group; too wide a table is a list by fault."""
+    if found is None:
+        return []
     units, groups = _units(compilation), found.groups
     if len(groups) < 2:
         return ["", "No fault is told from another with these signals."]

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import os
-import sys
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
 
 from bondgraph import compile
 from bondgraph.cli import console
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -35,21 +30,11 @@ def run(args: Namespace) -> int:
     conflicts = compilation.conflicts
     svg = compilation.drawing(args.derivative)
     found = [*compilation.report.diagnostics, *[conflict.finding for conflict in conflicts]]
-    stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
-    output = args.output or f"{stem}.svg"
     console.show(found)
-    if output == "-":
-        sys.stdout.write(svg)
-        return 1 if conflicts else 0
-    folder = os.path.dirname(output)
-    if folder:
-        os.makedirs(folder, exist_ok=True)
-    console.write_whole(output, svg)
-    name = compilation.graph.name
+    what = f"in preferred {'derivative' if args.derivative else 'integral'} causality"
     if conflicts:
         many = "conflict" if len(conflicts) == 1 else f"{len(conflicts)} conflicts"
-        print(f"{output}: {name} with its {many} marked")
-        return 1
-    preference = "derivative" if args.derivative else "integral"
-    print(f"{output}: {name} in preferred {preference} causality")
-    return 0
+        what = f"with its {many} marked"
+    output = args.output or f"{console.stem(compilation.source.path)}.svg"
+    console.deliver(output, svg, f"{compilation.graph.name} {what}")
+    return 1 if conflicts else 0

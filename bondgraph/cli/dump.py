@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
 
 from bondgraph import Compilation, compile
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
 
 STAGES = (
     "syntax",

@@ -9,7 +9,11 @@ from typing import TYPE_CHECKING
 
 from bondgraph import Compilation, compile
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import isolating
+from bondgraph.cli.options import isolating
+from bondgraph.cli.terminal_layout import formula, names, prose, width
+from bondgraph.notation.dump_stages import bond_name, equation_name, node_name, place, reason
+from bondgraph.notation.line import show
+from bondgraph.text.diagnostic import CompileError
 from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
@@ -47,7 +51,7 @@ def run(args: Namespace) -> int:
         return _latex(compilation, args.name)
     lines = about(compilation, args.name)
     if not lines:
-        return console.unknown(args.name, "nothing in the model", _all_names(compilation))
+        raise console.Unknown(args.name, "nothing in the model", _all_names(compilation))
     print("\n".join(lines))
     return 0
 
@@ -60,7 +64,7 @@ def _code(code: str) -> int:
         if os.path.exists(code) or code.endswith(".bg"):
             print(f"say what of {code} to explain: explain MODEL NAME", file=sys.stderr)
             return 2
-        return console.unknown(code, "no error code", codes())
+        raise console.Unknown(code, "no error code", codes())
     print(text.rstrip())
     return 0
 
@@ -77,7 +81,7 @@ def _latex(compilation: Compilation, name: str) -> int:
         if relation.name == name:
             print(relation.latex)
             return 0
-    return console.unknown(name, "no residual", compilation.signatures.residuals)
+    raise console.Unknown(name, "no residual", compilation.signatures.residuals)
 
 
 def about(compilation: Compilation, name: str) -> list[str]:
@@ -104,10 +108,6 @@ def about(compilation: Compilation, name: str) -> list[str]:
 
 def _missing(compilation: Compilation, name: str) -> list[list[str]]:
     """The relations that could not be had and are about a name, or fail because of it."""
-    from bondgraph.cli.terminal_layout import prose, width
-    from bondgraph.notation.dump_stages import equation_name
-    from bondgraph.text.diagnostic import CompileError
-
     try:
         found = compilation.reduced.missing
     except CompileError:  # a model that is wrong, or of which no relation can be had, says so
@@ -136,9 +136,6 @@ def _bonds(graph: BondGraph, name: str) -> list[Bond]:
 
 
 def _node(compilation: Compilation, number: int) -> list[str]:
-    from bondgraph.notation.dump_stages import node_name, place
-    from bondgraph.notation.line import show
-
     graph = compilation.graph
     node = graph.nodes[number]
     noun = {"0": "0-junction", "1": "1-junction"}.get(node.kind, f"{node.keyword} element")
@@ -163,8 +160,6 @@ def _node(compilation: Compilation, number: int) -> list[str]:
 
 
 def _bond(compilation: Compilation, bond: Bond) -> list[str]:
-    from bondgraph.notation.dump_stages import bond_name, place
-
     graph = compilation.graph
     lines = [f"{bond_name(graph, bond)}  bond, {place(bond.origin, compilation.source)}"]
     tail, head = graph.nodes[bond.tail.node].path, graph.nodes[bond.head.node].path
@@ -176,8 +171,6 @@ def _bond(compilation: Compilation, bond: Bond) -> list[str]:
 
 
 def _stroke(causal: CausalGraph, bond: Bond) -> str:
-    from bondgraph.notation.dump_stages import bond_name, reason
-
     graph = causal.graph
     stroke = causal.strokes[bond.number]
     end = bond.tail if stroke.at == "tail" else bond.head
@@ -189,9 +182,6 @@ def _stroke(causal: CausalGraph, bond: Bond) -> str:
 
 def _residual(compilation: Compilation, relation: Relation) -> list[str]:
     from bondgraph.cli.summary import closed_form
-    from bondgraph.cli.terminal_layout import formula, width
-    from bondgraph.notation.dump_stages import place
-    from bondgraph.notation.line import show
     from bondgraph.passes.relation.path import path
 
     columns = width()
@@ -221,19 +211,13 @@ def _residual(compilation: Compilation, relation: Relation) -> list[str]:
             lines += formula(show(rate), columns, f"  D({show(state)}) = ", "    ")
         lines += formula(show(observer.output), columns, f"  {observer.sensor} = ", "    ")
     shown = [f"{s} {'only integrated' if n < 0 else n}" for s, n in relation.orders.items()]
-    lines += ["", "Highest derivatives", *_listed(shown, columns)]
+    lines += ["", "Highest derivatives", *names(shown, columns)]
     weak = compilation.detectability.weak(relation.name)
     lasting = [f for f in relation.faults if f not in (weak or ())]
-    lines += ["", "Faults that it sees", *_listed(lasting, columns)]
+    lines += ["", "Faults that it sees", *names(lasting, columns)]
     if weak:
-        lines += ["", "Faults that it sees only while signals change", *_listed(weak, columns)]
+        lines += ["", "Faults that it sees only while signals change", *names(weak, columns)]
     return lines
-
-
-def _listed(names: Sequence[str], columns: int) -> list[str]:
-    from bondgraph.cli.terminal_layout import names as laid_out
-
-    return laid_out(names, columns, "  ")
 
 
 def _fault(compilation: Compilation, name: str) -> list[str]:
@@ -252,7 +236,7 @@ def _fault(compilation: Compilation, name: str) -> list[str]:
         lines.append(f"  of these {', '.join(weak)} only while signals change")
     others = matrix.confused_with(name)
     if others:
-        lines += ["  cannot be told apart from", *_listed(others, 100)]
+        lines += ["  cannot be told apart from", *names(others, 100)]
         lines += _combined(compilation, name, others)
     else:
         lines.append("  is told apart from all other faults")
@@ -272,7 +256,7 @@ def _combined(compilation: Compilation, name: str, others: Sequence[str]) -> lis
         return ["  and no combination of the residuals would help"]
     sharp = compilation.options.isolate
     what = "and no residual in closed form tells" if sharp else "but --isolate may tell"
-    return [f"  {what} it from", *_listed(apart, 100)]
+    return [f"  {what} it from", *names(apart, 100)]
 
 
 def _double(compilation: Compilation, name: str) -> list[str]:
@@ -289,7 +273,7 @@ def _double(compilation: Compilation, name: str) -> list[str]:
     for several in sets[:_SETS]:
         listed = [g[0] + (f" or {len(g) - 1} more" if len(g) > 1 else "") for g in several]
         which = "any two, at once, of" if len(several) > 2 else "both, at once, of"
-        lines += [f"  could be {which}", *_listed(listed, 100)]
+        lines += [f"  could be {which}", *names(listed, 100)]
     if len(sets) > _SETS:
         lines.append(f"  or two faults of {plural(len(sets) - _SETS, 'set')} more")
     return lines or ["  no two faults of other groups, at once, look like it"]

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
 
 from bondgraph.cli import console
 from bondgraph.frontend.formatter import format_text
 from bondgraph.frontend.read import read
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.source import Source
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
+from bondgraph.text.whole_file import write_whole
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -55,5 +53,5 @@ def _format(name: str, check: bool) -> bool:
         if name == "-":
             sys.stdout.write(text)
         elif text != source.text:
-            console.write_whole(name, text)
+            write_whole(name, text)
     return text != source.text

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bondgraph.cli import console
+from bondgraph.cli.options import count
 from bondgraph.cli.reasons import at_best
 from bondgraph.cli.structural import MODEL_HELP, named, open_structure
 from bondgraph.cli.terminal_layout import names, width
@@ -28,21 +29,11 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--limit",
         metavar="N",
-        type=_count,
+        type=count,
         default=LIMIT,
         help=f"stop after so many MSO sets (default: {LIMIT})",
     )
     parser.add_argument("--sets", action="store_true", help="list all MSO sets that were found")
-
-
-def _count(text: str) -> int:
-    value = int(text)
-    if value < 1:
-        raise ValueError
-    return value
-
-
-_count.__name__ = "number above 0"
 
 
 def run(args: Namespace) -> int:
@@ -50,29 +41,18 @@ def run(args: Namespace) -> int:
     model, diagnostics, compilation = open_structure(args.model)
     from bondgraph.structural.analyse import analyse
 
-    steps = 100
-    with console.progress(steps) as advance:
-        shown = 0
-
-        def progress(done: float, found: int) -> None:
-            nonlocal shown
-            while shown < min(done, 1) * steps:
-                shown += 1
-                advance(f"{found} sets")
-
-        analysis = analyse(model, args.limit, progress)
+    with console.progress_bar() as progress:
+        analysis = analyse(
+            model, args.limit, lambda done, found: progress(min(done, 1), f"{found} sets")
+        )
     laws = None if compilation is None else _by_laws(compilation)
-    if args.json:
-        from bondgraph.text.render import as_json
-
-        diagnosed = as_json(diagnostics)
-        console.print_json({"status": "ok", "message": message(analysis),
-                            "diagnostics": diagnosed,
-                            **_result(analysis, args.sets), "best": laws})  # fmt: skip
-        return 0
-    console.show(diagnostics)
-    print("\n".join(_lines(analysis, args.sets, laws)))
-    return 0
+    return console.told(
+        args.json,
+        diagnostics,
+        message(analysis),
+        lambda: {**_result(analysis, args.sets), "best": laws},
+        lambda: _lines(analysis, args.sets, laws),
+    )
 
 
 def _by_laws(compilation: Compilation) -> tuple[tuple[str, ...], ...] | None:
@@ -134,16 +114,16 @@ def _lines(
     if analysis.best.groups:
         lines += ["", "Told apart at best by the structure, whatever residuals are used"]
         for group in analysis.best.groups:
-            lines += names(named(model, group), columns, "  ")
+            lines += names(named(model, group), columns)
     if laws is not None and {frozenset(named(model, g)) for g in analysis.best.groups} != {
         frozenset(g) for g in laws
     }:
         lines += ["", f"Told apart at best by the laws themselves: {plural(len(laws), 'group')}"]
         for part in laws:
-            lines += names(part, columns, "  ")
+            lines += names(part, columns)
     if analysis.best.undetectable:
         lines += ["", "Undetectable"]
-        lines += names(named(model, analysis.best.undetectable), columns, "  ")
+        lines += names(named(model, analysis.best.undetectable), columns)
     if len(analysis.reached.groups) < len(analysis.best.groups):
         lines += [
             "",

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from bondgraph import Options
 from bondgraph import compile as open_model
-from bondgraph.cli import console, monitor
-from bondgraph.cli.further_residuals import isolating, realised
-from bondgraph.cli.number_arguments import positive
+from bondgraph.cli import monitor
+from bondgraph.cli.options import isolating, positive, realised
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
@@ -52,21 +52,18 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Compile, listen, then serve until somebody stops it."""
     try:
-        from bondgraph.runtime.live.server import PortTaken, listening
+        from bondgraph.runtime.live.server import listening
     except ImportError as error:
         if error.name != "aiohttp":
             raise
-        raise console.Trouble(
+        raise Trouble(
             "the live page needs aiohttp: pip install aiohttp, or install bondgraph-arr[robot]"
         ) from error
     wrong = _wrong(args)
     if wrong:
         print(f"error: {wrong}", file=sys.stderr)
         return 2
-    try:
-        made = listening(args.host, args.port)
-    except PortTaken as error:
-        raise console.Trouble(str(error)) from error
+    made = listening(args.host, args.port)
     try:
         return _serve(args, made)
     finally:
@@ -95,7 +92,6 @@ def _serve(args: Namespace, made: Any) -> int:
     from bondgraph.backends.live_page import live
     from bondgraph.runtime.live.server import serve
     from bondgraph.runtime.live.session import Session
-    from bondgraph.runtime.log import LogError
     from bondgraph.runtime.simulation.scenario import Scenario
 
     rate = args.rate
@@ -108,8 +104,8 @@ def _serve(args: Namespace, made: Any) -> int:
         scenario = compilation.scenario(args.scenario)
     try:
         setup = setup_of(args, compilation, scenario)
-    except (LogError, ValueError) as error:
-        raise console.Trouble(str(error)) from error
+    except ValueError as error:
+        raise Trouble(str(error)) from error
     machine = _machine(args, compilation)
     sessions: list[Session] = []
 
@@ -118,7 +114,7 @@ def _serve(args: Namespace, made: Any) -> int:
             sessions.append(Session(setup, {t.name: t for t in machine.targets}, say))
         except KeyError as error:
             name = error.args[0]
-            raise console.Trouble(
+            raise Trouble(
                 f"`{name}` has no value: give it under [parameters] of the scenario"
             ) from error
         hello.update(_hello(machine, setup, sessions[0]))
@@ -146,8 +142,7 @@ def _serve(args: Namespace, made: Any) -> int:
 
 def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> Setup:
     """What a session of these arguments is made of."""
-    from bondgraph.runtime.live.setup import Setup
-    from bondgraph.runtime.live.watch import Wide, further
+    from bondgraph.runtime.live.setup import Setup, Wide, further
     from bondgraph.runtime.monitoring.clock import clock_of
     from bondgraph.runtime.monitoring.columns import Columns, read_map
     from bondgraph.runtime.monitoring.mqtt_client import address
@@ -188,7 +183,7 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
 
 def _robot(args: Namespace) -> Any:
     """The monitored machine: the same command that anybody could start, heard through a pipe."""
-    from bondgraph.runtime.live.process import Simulated
+    from bondgraph.runtime.live.samples import Simulated
 
     words = [sys.executable, "-m", "bondgraph", "simulate", args.model, args.scenario]
     return Simulated([*words, "--stream", "--speed", "inf"], "simulated machine")

@@ -62,7 +62,7 @@ def _run(args: SimpleNamespace | Namespace) -> int:
     from importlib import import_module
 
     from bondgraph.cli import console
-    from bondgraph.text.diagnostic import CompileError
+    from bondgraph.text.diagnostic import CompileError, Trouble
 
     command = import_module(f"bondgraph.cli.{args.command}")
     as_json = bool(getattr(args, "json", False))
@@ -79,7 +79,10 @@ def _run(args: SimpleNamespace | Namespace) -> int:
     except KeyboardInterrupt:
         print("interrupted, nothing half written", file=sys.stderr)
         return 130
-    except console.Trouble as error:
+    except console.Unknown as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except Trouble as error:
         return console.broken(str(error), as_json)
     except OSError as error:
         return console.broken(f"{error.strerror}: {error.filename}", as_json)

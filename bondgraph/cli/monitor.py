@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import isolating, realised
-from bondgraph.cli.number_arguments import positive
+from bondgraph.cli.options import isolating, positive, realised
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
@@ -20,12 +20,10 @@ if TYPE_CHECKING:
 
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.diagnosis.tuning import Tuning
-    from bondgraph.runtime.monitoring.decision import Decision
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
-    from bondgraph.runtime.monitoring.mqtt_client import Address
-    from bondgraph.runtime.monitoring.publisher import Publisher
-    from bondgraph.runtime.monitoring.sample_pipeline import Stop
+    from bondgraph.runtime.monitoring.mqtt_client import Address, Publisher
+    from bondgraph.runtime.monitoring.sample_pipeline import Decision, Stop
     from bondgraph.runtime.monitoring.sources.sample_source import Source
     from bondgraph.runtime.monitoring.verdict import Verdict
 
@@ -71,8 +69,6 @@ def sampled(add: Callable[..., object]) -> None:
 
 def run(args: Namespace) -> int:
     """Open the source, compile, watch."""
-    from bondgraph.runtime.log import LogError
-    from bondgraph.runtime.monitoring.journal import JournalError
     from bondgraph.runtime.monitoring.mqtt_client import address
 
     wrong = _wrong(args)
@@ -85,12 +81,8 @@ def run(args: Namespace) -> int:
     except ValueError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    try:
-        found = source(args, samples)
-        with closing(found):
-            return _watch(args, found, verdicts)
-    except (LogError, JournalError) as error:
-        raise console.Trouble(str(error)) from error
+    with closing(source(args, samples)) as found:
+        return _watch(args, found, verdicts)
 
 
 def _wrong(args: Namespace) -> str:
@@ -160,9 +152,7 @@ def source(args: Namespace, samples: Address | None) -> Source:
     """The source that the arguments name."""
     from bondgraph.runtime.log_numbers import Form
     from bondgraph.runtime.monitoring.sources.file import file_source
-    from bondgraph.runtime.monitoring.sources.mqtt import Topic
-    from bondgraph.runtime.monitoring.sources.serial_port import SerialPort
-    from bondgraph.runtime.monitoring.sources.stdin import Pipe
+    from bondgraph.runtime.monitoring.sources.streams import Pipe, SerialPort, Topic
 
     name = args.serial or args.mqtt or args.log or "-"
     names = tuple(n.strip() for n in args.columns.split(",")) if args.columns else ()
@@ -186,16 +176,16 @@ def watching(
     try:
         engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
     except ValueError as error:
-        raise console.Trouble(str(error)) from error
+        raise Trouble(str(error)) from error
     if not compilation.diagnosis_model.sees:
-        raise console.Trouble(f"{compilation.graph.name} has no residual that could be watched")
+        raise Trouble(f"{compilation.graph.name} has no residual that could be watched")
     if tuning is not None:
         engine = engine.configured(bandwidth=tuning.bandwidth)
     try:
         compilation.diagnosis(engine, tuning)
     except ValueError as error:
         message = f"the tuning cannot be used: {error}; make it anew with `bondgraph tune`"
-        raise console.Trouble(message) from error
+        raise Trouble(message) from error
     return engine, lambda own: compilation.diagnosis(own, tuning)
 
 
@@ -207,7 +197,7 @@ def read_tuning(path: str) -> Tuning:
         with open(path, encoding="utf-8") as file:
             return Tuning.from_json(file.read())
     except (ValueError, UnicodeDecodeError) as error:
-        raise console.Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
+        raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
 
 
 def _journal(
@@ -225,7 +215,7 @@ def _journal(
 
 
 def _publisher(at: Address | None, journal: str | None, known: Journal | None) -> Publisher | None:
-    from bondgraph.runtime.monitoring.publisher import Publisher
+    from bondgraph.runtime.monitoring.mqtt_client import Publisher
 
     if at is None:
         return None

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from bondgraph.ir.equation_system import Equation
 from bondgraph.ir.expr import Expr
 from bondgraph.ir.nodes import occurs
+from bondgraph.ir.residuals import ResidualSet
 from bondgraph.notation.dump_stages import equation_name
+from bondgraph.pipeline import Compilation
 from bondgraph.structural.matching import decompose
-from bondgraph.text.numerals import plural
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from bondgraph.ir.equation_system import Equation
-    from bondgraph.ir.residuals import ResidualSet
-    from bondgraph.pipeline import Compilation
+from bondgraph.text.numerals import joined, plural
 
 
 def message(compilation: Compilation) -> str:
@@ -63,9 +57,9 @@ def _nothing(compilation: Compilation) -> str:
     found = compilation.residuals.residual_set
     hidden = _unknowns(found)
     if _needed(found, hidden):
-        names = _and(_few([f"`{s}`" for s in sensors]))
+        names = joined(_few([f"`{s}`" for s in sensors]))
         verb = "is" if len(sensors) == 1 else "are all"
-        unknown = _and(_few([f"`{u.symbol.name}`" for u in hidden]))
+        unknown = joined(_few([f"`{u.symbol.name}`" for u in hidden]))
         return f"{names} {verb} needed to tell the unknown {unknown}, so no fault can be detected"
     return "nothing is measured twice over, so no fault can be detected"
 
@@ -106,7 +100,7 @@ def reason(compilation: Compilation, fault: str) -> str:
     own = {id(e) for e in holding}
     lost = [m for m in found.missing if any(id(e) in own for e in m.equations)]
     if lost:
-        names = _and(_few([f"`{name}`" for name in dict.fromkeys(m.about.name for m in lost)]))
+        names = joined(_few([f"`{name}`" for name in dict.fromkeys(m.about.name for m in lost)]))
         noun = "the relation" if len(lost) == 1 else "the relations"
         return f"{noun} at {names} might see it, and could not be had"
     if any(id(e) in used for e in holding):
@@ -170,8 +164,3 @@ def _connected(seeds: list[Equation], among: list[Equation]) -> list[Equation]:
 
 def _few(items: list[str]) -> list[str]:
     return items if len(items) <= 3 else [*items[:3], "others"]
-
-
-def _and(names: Iterable[str]) -> str:
-    *most, last = names
-    return f"{', '.join(most)} and {last}" if most else last

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from typing import TYPE_CHECKING
 
-from bondgraph import Compilation, compile
+from bondgraph import Compilation
 from bondgraph.cli import console
-from bondgraph.cli.detect import no_signal, sampling, signals
-from bondgraph.cli.further_residuals import further, realised
+from bondgraph.cli.detect import situation_of
+from bondgraph.cli.options import further, opened, realised, sampling, signals
+from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -45,52 +44,27 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Collect, write the page; status 1 where it tells why there are no relations."""
     from bondgraph.backends.report.page import page
-    from bondgraph.cli.reporting.assumed import assumed, observed
     from bondgraph.cli.reporting.collect import STAGES, collect
+    from bondgraph.cli.reporting.seen import assumed, observed
 
-    compilation = compile(
-        args.model,
-        rate=args.rate,
-        bandwidth=args.bandwidth,
-        resolution=2.0**-args.bits,
-        decouple=tuple(dict.fromkeys(args.decouple)),
-        isolate=args.isolate, form=args.form,
-    )
-    for fault in args.decouple:
-        if fault not in compilation.graph.faults:
-            return console.unknown(fault, "no fault of the model", compilation.graph.faults)
-
+    compilation = opened(args)
     runs: list[Run] = []
 
     def assume(program: Program) -> Assumed:
-        name = no_signal(args, program)
-        if name is not None:
-            raise UnknownSignal(name, [k.path for k in program.knowns])
+        given = situation_of(args, program)
         if args.scenario and not (args.at or args.swing):
             runs.extend(_simulated(compilation, args.scenario))
-            return observed(args, compilation, program, runs)
-        return assumed(args, program)
+            return observed(args, given, compilation, program, runs)
+        return assumed(args, given, program)
 
-    try:
-        with console.progress(STAGES) as advance:
-            content = collect(compilation, assume, advance)
-    except UnknownSignal as error:
-        return console.unknown(error.name, "no known signal of the residuals", error.paths)
+    with console.progress(STAGES) as advance:
+        content = collect(compilation, assume, advance)
     if content.status in ("ok", "no_arr"):
         runs = runs or _simulated(compilation, args.scenario)
         content = content._replace(episodes=_episodes(compilation, runs))
-    stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
-    output = args.output or f"{stem}.html"
     console.show(content.findings)
-    text = page(content)
-    if output == "-":
-        sys.stdout.write(text)
-    else:
-        folder = os.path.dirname(output)
-        if folder:
-            os.makedirs(folder, exist_ok=True)
-        console.write_whole(output, text)
-        print(f"{output}: {content.title}: {content.message}")
+    output = args.output or f"{console.stem(compilation.source.path)}.html"
+    console.deliver(output, page(content), f"{content.title}: {content.message}")
     return 0 if content.status in ("ok", "no_arr") else 1
 
 
@@ -99,7 +73,7 @@ def _simulated(compilation: Compilation, paths: list[str]) -> list[Run]:
     from importlib.util import find_spec
 
     if paths and find_spec("matplotlib") is None:
-        raise console.Trouble(
+        raise Trouble(
             "plots of scenarios need matplotlib: pip install 'bondgraph-arr[robot]'"
         )
     from bondgraph.cli.reporting.scenarios import simulated
@@ -119,12 +93,3 @@ def _episodes(compilation: Compilation, runs: list[Run]) -> tuple[Episode, ...]:
             advance("watching")
             found.append(played(compilation, run))
     return tuple(found)
-
-
-class UnknownSignal(Exception):
-    """An argument names a signal that no residual uses."""
-
-    def __init__(self, name: str, paths: list[str]) -> None:
-        self.name = name
-        self.paths = paths
-        super().__init__(name)

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.functions import FUNCTIONS
 from bondgraph.ir.unit import NONE, Dimension, over, raised, times
 from bondgraph.library.units import describe
-
-if TYPE_CHECKING:
-    from bondgraph.pipeline import Compilation
+from bondgraph.pipeline import Compilation
 
 _SECOND: Dimension = (0, 0, 1, 0, 0, 0, 0)
 

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 from bondgraph.algebra.present import tidy
 from bondgraph.cli.reasons import message, reason
+from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.residuals import Residual
+from bondgraph.ir.signature_matrix import Detectability, ModeSignatures
 from bondgraph.notation.latex import latex
 from bondgraph.notation.parsable import Names, parsable
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from bondgraph.ir.graph import BondGraph
-    from bondgraph.ir.residuals import Residual
-    from bondgraph.ir.signature_matrix import Detectability, ModeSignatures
-    from bondgraph.pipeline import Compilation
+from bondgraph.pipeline import Compilation
 
 
 def result(compilation: Compilation, files: Iterable[str]) -> dict[str, object]:

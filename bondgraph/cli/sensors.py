@@ -60,16 +60,7 @@ def run(args: Namespace) -> int:
         return 2
     candidates = _candidates(model, compilation, costs, args.elements)
     found = _Found(model, candidates, compilation is not None and not args.elements)
-    if args.json:
-        from bondgraph.text.render import as_json
-
-        diagnosed = as_json(diagnostics)
-        console.print_json({"status": "ok", "message": found.message(),
-                            "diagnostics": diagnosed, **found.result()})  # fmt: skip
-        return 0
-    console.show(diagnostics)
-    print("\n".join(found.lines()))
-    return 0
+    return console.told(args.json, diagnostics, found.message(), found.result, found.lines)
 
 
 def _names(model: StructuralModel, compilation: Compilation | None) -> set[str]:
@@ -168,21 +159,21 @@ class _Found:
         if chosen:
             how = "The cheapest" if placement.least else "A cheap choice"
             lines += ["", f"{how} that reaches as much as all (cost {placement.cost:g})"]
-            lines += names(chosen, columns, "  ")
+            lines += names(chosen, columns)
             blind = [name for name in chosen if name not in self.watched]
             if blind:
                 lines += ["", "A failure of these would be taken for another fault"]
-                lines += names(blind, columns, "  ")
+                lines += names(blind, columns)
         else:
             lines += ["", "No added sensor tells more faults apart"]
         together = [g for g in self.best.groups if len(g) > 1]
         if together:
             lines += ["", "No choice of these sensors tells apart"]
             for group in together:
-                lines += names(named(model, group), columns, "  ")
+                lines += names(named(model, group), columns)
         if self.best.undetectable:
             lines += ["", "No choice of these sensors detects"]
-            lines += names(named(model, self.best.undetectable), columns, "  ")
+            lines += names(named(model, self.best.undetectable), columns)
         if self.hint and (together or self.best.undetectable):
             lines += ["", "`--elements` also tries sensors in and across the elements."]
         return lines

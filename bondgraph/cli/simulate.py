@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING
 
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.number_arguments import assigned, pace, positive
+from bondgraph.cli.options import assigned, pace, positive
+from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -46,9 +46,7 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Simulate, write the log, say how it ended."""
-    from bondgraph.runtime.log import LogError
     from bondgraph.runtime.log_file import write_log
-    from bondgraph.runtime.simulation.integrate import SimulationError
 
     compilation = open_model(args.model)
     chosen = _scenario(args, compilation)
@@ -57,33 +55,25 @@ def run(args: Namespace) -> int:
     with console.progress_bar("simulating") as progress:
         try:
             found = compilation.simulate(chosen, progress)
-        except SimulationError as error:
-            raise console.Trouble(f"{error}") from error
         except KeyError as error:
             raise _without_value(error) from error
     files = [args.output or f"{_stem(chosen.name)}.csv"]
-    try:
-        write_log(found.log, files[0])
-        if args.truth:
-            write_log(found.truth, args.truth)
-            files.append(args.truth)
-    except LogError as error:
-        raise console.Trouble(f"{error}") from error
-    if args.json:
-        from bondgraph.text.render import as_json
-
-        console.print_json({"status": "ok", "message": _message(compilation, found),
-                            "diagnostics": as_json(compilation.report.diagnostics),
-                            "files": files, **_result(found)})  # fmt: skip
-        return 0
-    console.show(compilation.report.diagnostics)
-    print("\n".join(_lines(compilation, found, files)))
-    return 0
+    write_log(found.log, files[0])
+    if args.truth:
+        write_log(found.truth, args.truth)
+        files.append(args.truth)
+    return console.told(
+        args.json,
+        compilation.report.diagnostics,
+        _message(compilation, found),
+        lambda: {"files": files, **_result(found)},
+        lambda: _lines(compilation, found, files),
+    )
 
 
-def _without_value(error: KeyError) -> console.Trouble:
+def _without_value(error: KeyError) -> Trouble:
     name = error.args[0]
-    return console.Trouble(
+    return Trouble(
         f"`{name}` has no value: give it under [parameters], or --set {name}=..."
     )
 
@@ -96,8 +86,7 @@ def stream(compilation: Compilation, scenario: Scenario, speed: float) -> int:
     import sys
     import time
 
-    from bondgraph.runtime.simulation.integrate import SimulationError
-    from bondgraph.runtime.simulation.robot import Robot
+    from bondgraph.runtime.simulation.run import Robot
 
     try:
         robot = Robot(compilation.equations, compilation.integral, scenario)
@@ -114,8 +103,6 @@ def stream(compilation: Compilation, scenario: Scenario, speed: float) -> int:
             text = (",".join("" if v != v else repr(v) for v in row) for row in rows)
             sys.stdout.write("\n".join(text) + "\n")
             sys.stdout.flush()
-    except SimulationError as error:
-        raise console.Trouble(f"{error}") from error
     except KeyError as error:
         raise _without_value(error) from error
     except KeyboardInterrupt:
@@ -126,8 +113,9 @@ def stream(compilation: Compilation, scenario: Scenario, speed: float) -> int:
 def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
     from bondgraph.runtime.simulation.scenario import Course, Scenario
 
-    stem = os.path.splitext(os.path.basename(compilation.source.path))[0]
-    chosen = compilation.scenario(args.scenario) if args.scenario else Scenario(stem)
+    chosen = Scenario(console.stem(compilation.source.path))
+    if args.scenario:
+        chosen = compilation.scenario(args.scenario)
     graph = compilation.graph
     parameters, inputs = dict(chosen.parameters), dict(chosen.inputs)
     for name, value in args.set:
@@ -140,7 +128,7 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
         (modes if mode else inputs)[name] = Course.constant(value)
     driven = {c.input for c in chosen.controllers} & {name for name, _ in args.input}
     if driven:
-        raise console.Trouble(f"`{min(driven)}` is driven by a controller of the scenario")
+        raise Trouble(f"`{min(driven)}` is driven by a controller of the scenario")
     return chosen._replace(
         duration=args.duration or chosen.duration,
         seed=chosen.seed if args.seed is None else args.seed,
@@ -152,11 +140,8 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
 
 def _known(name: str, what: str, names: list[str]) -> None:
     if name not in names:
-        from difflib import get_close_matches
-
-        close = get_close_matches(name, names, 3, 0.5)
-        hint = f"; did you mean {' or '.join(f'`{c}`' for c in close)}?" if close else ""
-        raise console.Trouble(f"the model has no {what} `{name}`{hint}")
+        hint = console.hint(name, names)
+        raise Trouble(f"the model has no {what} `{name}`{hint}")
 
 
 def _stem(name: str) -> str:

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from bondgraph.cli.reasons import at_best, message, missing, reasons
 from bondgraph.cli.terminal_layout import formula, names, prose, signature_table, width
 from bondgraph.ir.expr import topological
+from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.notation.dump_stages import residual_origin
-from bondgraph.text.numerals import plural
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from bondgraph.ir.signature_matrix import SignatureMatrix
-    from bondgraph.pipeline import Compilation
-    from bondgraph.views import Relation
+from bondgraph.pipeline import Compilation
+from bondgraph.text.numerals import joined, plural
+from bondgraph.views import Relation
 
 _LONGEST = 24  # lines of one residual in a report; more than that nobody reads
 
@@ -43,14 +39,14 @@ def report(compilation: Compilation, files: Sequence[str]) -> list[str]:
     if matrix.undetectable:
         lines += ["", "Undetectable"]
         for reason, faults in reasons(compilation).items():
-            lines += names(faults, columns, "  ")
+            lines += names(faults, columns)
             lines.append(f"    {reason}")
     if matrix.residuals:
         lines += _numerics(compilation, columns)
     if files:
         folder = os.path.commonpath([os.path.dirname(path) for path in files])
         inside = [os.path.relpath(path, folder) for path in files]
-        lines += ["", f"Written to {folder}", *names(inside, columns, "  ")]
+        lines += ["", f"Written to {folder}", *names(inside, columns)]
     return lines
 
 
@@ -84,15 +80,10 @@ def _elsewhere(matrix: SignatureMatrix, columns: int) -> list[str]:
             by_values.setdefault(values, []).append(fault)
         for values, faults in by_values.items():
             lines += names(faults, columns, f"  {residual}  does not see ")
-            where = f"{_either(values)} differs" if values else "several of them differ"
+            shown = [*values[:4], "another"] if len(values) > 5 else values
+            where = f"{joined(shown, 'or')} differs" if values else "several of them differ"
             lines.append(f"      as it would where {where}")
     return ["", "At the declared numbers", *lines] if lines else []
-
-
-def _either(values: Sequence[str]) -> str:
-    """One or another of some names; of many the first."""
-    shown = [*values[:4], "another"] if len(values) > 5 else [*values]
-    return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} or {shown[-1]}"
 
 
 def closed_form(

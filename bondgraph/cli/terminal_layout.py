@@ -61,7 +61,7 @@ def _break(text: str, room: int) -> tuple[int, int]:
     return (best, deeper) if best > 0 else (-1, 0)
 
 
-def names(items: Iterable[str], columns: int, lead: str) -> list[str]:
+def names(items: Iterable[str], columns: int, lead: str = "  ") -> list[str]:
     """Names with commas, as many to a line as fit; later lines are indented like the first."""
     lines: list[str] = []
     line = lead
@@ -122,6 +122,6 @@ def _listed_signatures(
     rows = dict(zip(matrix.faults, matrix.rows, strict=True))
     lines = []
     for group in groups:
-        lines += names(group, columns, "  ")
+        lines += names(group, columns)
         lines += names(compress(matrix.residuals, rows[group[0]]), columns, "      seen by ")
     return lines

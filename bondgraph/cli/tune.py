@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.further_residuals import isolating, realised
-from bondgraph.cli.number_arguments import positive
+from bondgraph.cli.options import isolating, positive, realised
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
+from bondgraph.text.whole_file import write_whole
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -56,10 +57,9 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Learn, choose a bandwidth, write the limits, say what follows."""
     from bondgraph.runtime.diagnosis.calibration import tune
-    from bondgraph.runtime.log import LogError
 
     if bool(args.logs) == bool(args.simulate):
-        raise console.Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
+        raise Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
     try:
         compilation, engine, logs = _logs(args)
         wanted = args.bandwidth or [f * engine.bandwidth for f in _FACTORS]
@@ -68,7 +68,7 @@ def run(args: Namespace) -> int:
             for k, bandwidth in enumerate(wanted):
                 found.append(
                     tune(
-                        _filtered(engine, bandwidth),
+                        engine.configured(bandwidth=bandwidth),
                         compilation.diagnosis_model,
                         logs,
                         compilation.program.digest,
@@ -77,29 +77,21 @@ def run(args: Namespace) -> int:
                         _part(progress, k, len(wanted)),
                     )
                 )
-    except (LogError, ValueError) as error:
-        raise console.Trouble(str(error)) from error
+    except ValueError as error:
+        raise Trouble(str(error)) from error
     best = min(found, key=lambda t: (_score(t, found), -t.tuning.bandwidth))
-    console.write_whole(args.output, best.tuning.to_json())
-    if args.json:
-        from bondgraph.text.render import as_json
-
-        result = _result(compilation, best, found)
-        console.print_json({"status": "ok", "message": _message(compilation, best),
-                            "diagnostics": as_json(compilation.report.diagnostics),
-                            "files": [args.output], **result})  # fmt: skip
-        return 0
-    console.show(compilation.report.diagnostics)
-    print("\n".join(_lines(compilation, best, found, args.output)))
-    return 0
+    write_whole(args.output, best.tuning.to_json())
+    return console.told(
+        args.json,
+        compilation.report.diagnostics,
+        _message(compilation, best),
+        lambda: {"files": [args.output], **_result(compilation, best, found)},
+        lambda: _lines(compilation, best, found, args.output),
+    )
 
 
 def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[float], None]:
     return lambda share: progress((k + share) / parts)
-
-
-def _filtered(engine: Engine, bandwidth: float) -> Engine:
-    return engine.configured(bandwidth=bandwidth)
 
 
 def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
@@ -107,8 +99,8 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
     import numpy as np
 
     from bondgraph.runtime.log_file import read_log
-    from bondgraph.runtime.monitoring.clock import clock_of
-    from bondgraph.runtime.monitoring.columns import Columns, read_map
+    from bondgraph.runtime.monitoring.clock import on_grid
+    from bondgraph.runtime.monitoring.columns import read_map
 
     read = []
     if args.simulate:
@@ -117,7 +109,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
         )
         scenario = compilation.scenario(args.simulate)
         if scenario.faults:
-            raise console.Trouble(f"{args.simulate} has a fault: tune on what is healthy")
+            raise Trouble(f"{args.simulate} has a fault: tune on what is healthy")
         if scenario.sampling.rate != compilation.options.rate:
             compilation = compilation.with_options(rate=scenario.sampling.rate)
             scenario = compilation.scenario(args.simulate)
@@ -138,9 +130,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
     mapping = read_map(args.map, engine.signals) if args.map else None
     logs = []
     for name, log in zip(names, read, strict=True):
-        clock = clock_of(engine)
-        samples = Columns(engine.signals, mapping, name)(log)
-        pieces = [*clock.feed(log.time, samples), *clock.finish()]
+        pieces = on_grid(engine, log, mapping, name)
         logs += [p.samples for p in pieces if len(p.samples)]
     return compilation, engine, logs
 

@@ -27,13 +27,17 @@ class Declarations(Expressions):
                 return "\n".join(docs)
             at -= 1
 
+    def _begun(self) -> tuple[int, str]:
+        """Step over a keyword; where it stands, and the text of the `##` comments above it."""
+        at = self.i
+        self.i = at + 1
+        return at, self.doc(at)
+
     def _colon(self, help: str) -> None:
         self.notes.wide_colons.append(self.take(":", "`:`", help))
 
     def _param(self, keyword: str) -> syntax.Param:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
+        at, doc = self._begun()
         name = self.part(f"the name of the {keyword}", NAME_HELP)
         if self.words[self.i] == "=" and not self.fresh[self.i]:
             self.i += 1
@@ -55,17 +59,13 @@ class Declarations(Expressions):
         return syntax.Param(keyword, name, unit, None, None, doc, self.span(at))
 
     def _let(self) -> syntax.Let:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
+        at, doc = self._begun()
         name = self.part("the name of the value", NAME_HELP)
         self.take("=", "`=`", f"Write `let {name.name} = ` and an expression.")
         return syntax.Let(name, self.expression(), doc, self.span(at))
 
     def _port(self) -> syntax.Port:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
+        at, doc = self._begun()
         name = self.name("the name of the port", NAME_HELP)
         form = f"Write `port {name} : in electrical`, or `out` and another domain."
         self._colon(form)
@@ -78,9 +78,7 @@ class Declarations(Expressions):
         return syntax.Port(name, direction, domain, doc, self.span(at))
 
     def _input(self) -> syntax.Input:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
+        at, doc = self._begun()
         name = self.part("the name of the input", NAME_HELP)
         unit = None
         boolean = False
@@ -93,9 +91,7 @@ class Declarations(Expressions):
         return syntax.Input(name, unit, boolean, unknown, doc, self.span(at))
 
     def _sensor(self) -> syntax.Sensor:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
+        at, doc = self._begun()
         name = self.part("the name of the sensor", NAME_HELP)
         form = f"Write `sensor {name.name} : rad = ` and what it measures."
         unit = None
@@ -130,9 +126,7 @@ class Declarations(Expressions):
         )
 
     def _fault(self) -> syntax.Fault:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
+        at, doc = self._begun()
         name = self.part("the name of the fault", NAME_HELP)
         form = f"Write `fault {name.name} : line.R += 100 Ohm`, or `=` or `*=`."
         self._colon(form)

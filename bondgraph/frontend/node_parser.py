@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bondgraph.frontend.cursor import SyntaxProblem
+from bondgraph.frontend.cursor import Cursor, SyntaxProblem
 from bondgraph.frontend.declarations import NAME_HELP, Declarations
 from bondgraph.frontend.words import is_arrow
 from bondgraph.ir import syntax
@@ -35,8 +35,6 @@ class Nodes(Declarations):
         if self.brace_reported:
             return
         self.brace_reported = True
-        from bondgraph.frontend.braces import suspect
-
         likely = suspect(self, opening, end)
         labels = [Label(self.word_span(likely or opening), "opened here")]
         if likely is not None:
@@ -214,3 +212,22 @@ class Nodes(Declarations):
         left = self.expression()
         self.take("=", "`=`", "A law is an equation: `e = R*f`, or `0 = e - R*f`.")
         return syntax.Equation(left, self.expression(), self.span(at))
+
+
+def suspect(cursor: Cursor, opening: int, end: int) -> int | None:
+    """The brace between `opening` and `end` whose `}` stands further left than its line begins.
+
+    The author closed an outer brace there: the inner one was forgotten. None if no brace looks so.
+    """
+    pending: list[int] = []
+    for at in range(opening + 1, end):
+        word = cursor.words[at]
+        if word == "{":
+            pending.append(at)
+        elif word == "}":
+            if not pending:
+                return None
+            opened = pending.pop()
+            if cursor.fresh[at] and cursor.indent(at) < cursor.indent(opened):
+                return opened
+    return None

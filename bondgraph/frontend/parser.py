@@ -157,9 +157,7 @@ class Parser(Statements):
         return syntax.Import(tuple(names), path[1:-1], self.span(at))
 
     def _model(self) -> syntax.Model:
-        at = self.i
-        doc = self.doc(at)
-        self.i = at + 1
+        at, doc = self._begun()
         form = "Write `model Name { ... }`."
         self.same_line("the name of the model", form)
         name = self.name("the name of the model", form)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from decimal import Context, Decimal
 from fractions import Fraction
+from functools import cache
 from importlib import import_module
 from math import lcm
 
@@ -80,9 +81,6 @@ _WORDS = {
 _described: dict[Dimension, str] = {}
 _written = iter(_WRITTEN.split())
 _Entry = tuple[Dimension, Fraction]
-_entries: dict[str, tuple[str, str, bool]] = {}
-_atoms: dict[str, _Entry | None] = {}
-_units: dict[str, Unit | None] = {}
 
 
 class Domain(NamedTuple):
@@ -97,6 +95,7 @@ class Domain(NamedTuple):
     flow_unit: str
 
 
+@cache
 def parse_unit(text: str) -> Unit | None:
     """The unit that `text` spells (`N.m/A`, `m^3/s.Pa^-0.5`), or None where a name is unknown.
 
@@ -109,15 +108,28 @@ def parse_unit(text: str) -> Unit | None:
     >>> parse_unit("uH").factor, parse_unit("furlongs per fortnight")
     (Fraction(1, 1000000), None)
     """
-    if text not in _units:
-        _units[text] = _parse(text)
-    return _units[text]
-
-
-def unit_names() -> tuple[str, ...]:
-    """Every name of the built-in table without prefixes, for completion and suggestions."""
-    _load()
-    return tuple(_entries)
+    dimension: Dimension = NONE
+    powers: list[tuple[Fraction, Fraction]] = []
+    at, sign = 0, 1
+    while True:
+        found = _FACTOR.match(text, at)
+        if found is None:
+            return None
+        atom = _atom(found[1])
+        exponent = sign * Fraction(found[2] or 1)
+        if atom is None or abs(exponent) > _LARGEST_EXPONENT or exponent.denominator > 1000:
+            return None
+        dimension = times(dimension, raised(atom[0], whole(exponent)))
+        powers.append((atom[1], exponent))
+        at = found.end()
+        if at == len(text):
+            factor = _product(powers)
+            dimension = tuple([whole(e) for e in dimension])
+            return None if factor is None else Unit(text, dimension, factor)
+        if text[at] not in "./" or len(powers) > _LARGEST_EXPONENT:
+            return None
+        sign = -1 if text[at] == "/" else 1
+        at += 1
 
 
 def describe(dimension: Dimension) -> str:
@@ -169,20 +181,19 @@ def _opened(found: re.Match[str]) -> str:
 
 
 def _respelt(name: str) -> str | None:
-    _load()
     lower = name.lower()
     if lower in _WORDS:
         return _WORDS[lower]
     if lower.endswith("s") and len(name) > 3:
-        singular = _respelt(name[:-1]) if lower[:-1] not in _entries else lower[:-1]
+        singular = _respelt(name[:-1]) if lower[:-1] not in _entries() else lower[:-1]
         if singular is not None and "." not in singular:
             return singular
-    for known in _entries:
+    for known in _entries():
         if known.lower() == lower:
             return known
     from difflib import get_close_matches  # only for a message
 
-    typo = get_close_matches(name, list(_entries), 1, 0.85)
+    typo = get_close_matches(name, list(_entries()), 1, 0.85)
     if typo:
         return typo[0]
     for length in range(len(name) - 1, 0, -1):  # Nm, As, kgm: two names without the dot
@@ -191,7 +202,7 @@ def _respelt(name: str) -> str | None:
             second = rest if _atom(rest) else _respelt(rest) if len(rest) > 1 else None
             if second:
                 return f"{name[:length]}.{second}"
-    close = get_close_matches(name, list(_entries), 1, 0.75)
+    close = get_close_matches(name, list(_entries()), 1, 0.75)
     return close[0] if close and len(name) > 2 else None
 
 
@@ -222,62 +233,30 @@ def _factor(name: str, exponent: Fraction) -> str:
     return f"{name}^{text if Fraction(text) == exponent else f'({exponent})'}"
 
 
-def _parse(text: str) -> Unit | None:
-    dimension: Dimension = NONE
-    powers: list[tuple[Fraction, Fraction]] = []
-    at, sign = 0, 1
-    while True:
-        found = _FACTOR.match(text, at)
-        if found is None:
-            return None
-        atom = _atom(found[1])
-        exponent = sign * Fraction(found[2] or 1)
-        if atom is None or abs(exponent) > _LARGEST_EXPONENT or exponent.denominator > 1000:
-            return None
-        dimension = times(dimension, raised(atom[0], whole(exponent)))
-        powers.append((atom[1], exponent))
-        at = found.end()
-        if at == len(text):
-            factor = _product(powers)
-            dimension = tuple([whole(e) for e in dimension])
-            return None if factor is None else Unit(text, dimension, factor)
-        if text[at] not in "./" or len(powers) > _LARGEST_EXPONENT:
-            return None
-        sign = -1 if text[at] == "/" else 1
-        at += 1
-
-
+@cache
 def _atom(name: str) -> _Entry | None:
-    if name not in _atoms:
-        _atoms[name] = _look_up(name)
-    return _atoms[name]
-
-
-def _look_up(name: str) -> _Entry | None:
     if name == "1":
         return NONE, Fraction(1)
-    _load()
     name = name.replace("\N{OHM SIGN}", "Ω")
-    if name in _entries:
+    if name in _entries():
         return _entry(name)
     for length in (1, 2):
         prefix, rest = name[:length], name[length:]
-        if prefix in _PREFIXES and rest in _entries and _entries[rest][2]:
+        if prefix in _PREFIXES and rest in _entries() and _entries()[rest][2]:
             dimension, factor = _entry(rest)
             return dimension, factor * Fraction(10) ** _PREFIXES[prefix]
     return _from_pint(name)
 
 
-def _load() -> None:
-    if not _entries:
-        for item in _TABLE.replace("\n", "|").split("|"):
-            if item:
-                name, base, factor = item.split()
-                _entries[name.removesuffix("+")] = (base, factor, name[-1] == "+")
+@cache
+def _entries() -> dict[str, tuple[str, str, bool]]:
+    """By name: a product of base units, the factor to it, and whether prefixes are allowed."""
+    rows = [item.split() for item in _TABLE.replace("\n", "|").split("|") if item]
+    return {n.removesuffix("+"): (base, factor, n[-1] == "+") for n, base, factor in rows}
 
 
 def _entry(name: str) -> _Entry:
-    base, factor, _ = _entries[name]
+    base, factor, _ = _entries()[name]
     dimension = [0] * len(_BASE)
     for part in [] if base == "1" else base.split("."):
         symbol, _, exponent = part.partition("^")

@@ -6,12 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.algebra.interpreter import Interpreter, Number, Points
 from bondgraph.ir.program import NewtonBlock, Program, Ref
 
-Array = npt.NDArray[np.float64]
 _KEPT = 20_000  # roots that are remembered
 
 

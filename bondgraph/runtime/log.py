@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from pathlib import Path
+from collections.abc import Iterable, Mapping
 from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.tuples import NamedTuple
 
 Array: TypeAlias = npt.NDArray[np.float64]
+Mask: TypeAlias = npt.NDArray[np.bool_]
 
 #: What files of this program say that they are, and in which edition.
 MARK, EDITION = "bondgraph log", "1"
@@ -26,7 +25,7 @@ _TIME = re.compile(r"(?:t|time|timestamp)(?:[ _.]*[\[(]?(s|ms|us|µs|ns)[\])]?)?
 _PER_SECOND = {"": 1.0, "s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}
 
 
-class LogError(Exception):
+class LogError(Trouble):
     """A log that cannot be read: file, line (None: the file as a whole), what is wrong, a remedy.
 
     >>> print(LogError("run.csv", 7, "4 cells where the header names 5", "mend or delete the line"))
@@ -75,20 +74,6 @@ def joined(logs: Iterable[Log]) -> Log:
         time=np.concatenate([p.time for p in parts]),
         columns={k: np.concatenate([p.columns[k] for p in parts]) for k in first.columns},
     )
-
-
-@contextmanager
-def whole(path: str) -> Iterator[Path]:
-    """A name to write to; what is there becomes `path` at the end, if all went well."""
-    final = Path(path)
-    temporary = final.with_name(f".{final.name}.{os.getpid()}.tmp")
-    try:
-        yield temporary
-        if final.exists():
-            temporary.chmod(final.stat().st_mode)
-        temporary.replace(final)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def name_of_time(columns: Iterable[str]) -> str:

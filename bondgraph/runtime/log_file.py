@@ -2,14 +2,50 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import os
 import re
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
-from bondgraph.runtime.log import Log, LogError
-from bondgraph.runtime.log_csv import read_csv, write_csv
-from bondgraph.runtime.log_parquet import read_parquet, write_parquet
+import numpy as np
+
+from bondgraph.runtime.log import (
+    EDITION,
+    LEFT_OUT,
+    MARK,
+    TIME_UNIT,
+    Array,
+    Log,
+    LogError,
+    joined,
+    name_of_time,
+    no_time,
+    seconds,
+    time_column,
+    unit_of_time,
+)
+from bondgraph.runtime.log_numbers import (
+    Form,
+    Reader,
+    Refused,
+    Table,
+    cells_of,
+    number,
+    separator_of,
+)
+from bondgraph.text.whole_file import whole
+
+if TYPE_CHECKING:
+    import pyarrow
 
 _KEY = re.compile(r"[A-Za-z_][\w.-]*", re.ASCII)
+_COMMENT = re.compile(r"# (unit )?((?:[^\\:]|\\.)+): (.*)")
+_ESCAPES = {"\\": "\\\\", "\n": "\\n", "\r": "\\r", ":": "\\:"}
+_BLOCK = 1 << 22  # characters read at a time
+_ROWS = 10_000  # rows written at a time
+_TIMESTAMPS = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}
 
 
 def read_log(
@@ -62,3 +98,282 @@ def _check(log: Log) -> None:
     for key in log.meta:
         if not _KEY.fullmatch(key):
             raise ValueError(f"{key!r} cannot be a key: letters, digits, _, - and . are allowed")
+
+
+class CsvReader(Reader):
+    """Makes logs of lines as they come: the comments and the header first, then blocks of rows.
+
+    `path` is for messages; `time` and `rate` as for `read_log`. Raises LogError for lines that
+    are wrong.
+    """
+
+    def __init__(self, path: str, time: str | None = None, rate: float | None = None) -> None:
+        super().__init__(Form(path, time, None, (), rate))
+        self._line = 0  # the last one that was taken
+        self._comment = ""  # the last one of them, which may be the header
+        self._separator = ","
+        self._table: Table | None = None
+        self._meta: dict[str, str] = {}
+
+    def feed(self, lines: list[str]) -> Log | None:
+        """The samples in further lines; None as long as there is no header."""
+        at = 0
+        while self._table is None and at < len(lines):
+            self._line += 1
+            if self._head(lines[at].rstrip("\r\n")):
+                at += 1
+            else:
+                self._line -= 1  # a row, and the header was a comment
+        if self._table is None:
+            return None
+        rows = self._table.rows(lines[at:], self._refuse)
+        self._line += len(lines) - at
+        return self._log_of_table(self._table, rows, self._meta)
+
+    def _refuse(self, at: int, why: Refused) -> None:
+        raise self._wrong(str(why), why.help, self._line + at + 1) from why
+
+    def _wrong(self, message: str, help: str = "", line: int | None = None) -> LogError:
+        return LogError(self.form.name, line or self._line, message, help)
+
+    # ---------------------------------------------------------------- comments and header
+
+    def _head(self, line: str) -> bool:
+        """Take a line before the rows; False if it is one of the rows itself."""
+        if line.startswith("#"):
+            self._comments(line)
+            return True
+        if not line.strip():
+            return True
+        if not self._own:
+            self._separator = separator_of(line)
+        elif found := re.match(r"t_*([;\t])", line):
+            self._separator = found[1]  # ours, and another program has saved it again
+        cells = self._cells(line)
+        numbers = all(number(c) is not None for c in cells)
+        if numbers and any(c.strip() for c in cells):
+            told = self._cells(self._comment.lstrip("# "))
+            if len(told) != len(cells):
+                message = "no header: the first line has numbers only"
+                raise self._wrong(message, "name the columns in a line before")
+            cells = told
+        self._header(cells)
+        return not numbers
+
+    def _comments(self, line: str) -> None:
+        self._comment = line
+        if self._line == 1 and line.startswith(f"# {MARK} "):
+            edition = line.removeprefix(f"# {MARK} ").strip()
+            if edition != EDITION:
+                message = f"a log of edition {edition}, this program reads {EDITION}"
+                raise self._wrong(message, "read it with a newer bondgraph")
+            self._own = True
+        found = _COMMENT.fullmatch(line) if self._own else None
+        if found:
+            into = self._units if found[1] else self._meta
+            into[_plain(found[2])] = _plain(found[3])
+
+    def _cells(self, line: str) -> list[str]:
+        try:
+            return cells_of(line, self._separator, self._own)
+        except csv.Error as error:
+            raise self._wrong(str(error)) from error
+
+    def _header(self, cells: list[str]) -> None:
+        names = cells if self._own else [c.strip() for c in cells]
+        names = names[:-1] if len(names) > 1 and not names[-1] else names
+        for k, name in enumerate(names):
+            if not name:
+                raise self._wrong(f"column {k + 1} has no name", "name every column in the header")
+            if name in names[:k]:
+                raise self._wrong(f"two columns are called `{name}`", "rename one of them")
+        time = time_column(names, self.form.time, self.form.name, self._line)
+        if self._own and self.form.time is None:
+            time = names[0]
+        if time is None and self.form.rate is None:
+            raise no_time(self.form.name, self._line, names)
+        self._table = Table(names, self._separator, time)
+
+
+def read_csv(path: str, time: str | None, rate: float | None) -> Log:
+    """The log in a CSV file; see `read_log`."""
+    reader = CsvReader(path, time, rate)
+    parts: list[Log] = []
+    try:
+        with open(path, encoding="utf-8-sig") as file:
+            while lines := file.readlines(_BLOCK):
+                part = reader.feed(lines)
+                if part is not None and (part.rows or not parts):
+                    parts.append(part)
+    except UnicodeDecodeError as error:
+        raise LogError(path, _not_utf8(path), "not UTF-8", "save the file as UTF-8") from error
+    if not parts:
+        raise LogError(path, None, "no header: the file has nothing but comments or is empty")
+    return joined(parts[1:] if len(parts) > 1 and not parts[0].rows else parts)
+
+
+def _not_utf8(path: str) -> int | None:
+    """The first line that is not UTF-8."""
+    with open(path, "rb") as file:
+        for number, line in enumerate(file, start=1):
+            try:
+                line.decode("utf-8-sig")
+            except UnicodeDecodeError:
+                return number
+    return None
+
+
+# ---------------------------------------------------------------------------------- writing
+
+
+def write_csv(log: Log, path: str) -> None:
+    """Write a log as CSV; see `write_log`."""
+    with whole(path) as temporary, open(temporary, "w", encoding="utf-8", newline="\n") as file:
+        file.writelines(f"{line}\n" for line in _comments(log))
+        names = io.StringIO()
+        header = [name_of_time(log.columns), *log.columns]
+        csv.writer(names, lineterminator="\n").writerow(header)
+        file.write(names.getvalue())
+        file.writelines(_rows([log.time, *log.columns.values()]))
+
+
+def _comments(log: Log) -> Iterator[str]:
+    yield f"# {MARK} {EDITION}"
+    for key, text in log.meta.items():
+        yield f"# {_escaped(key)}: {_escaped(text)}"
+    for name in log.columns:
+        if log.units.get(name):
+            yield f"# unit {_escaped(name)}: {_escaped(log.units[name])}"
+
+
+def _rows(columns: list[Array]) -> Iterator[str]:
+    """The rows as text: digits that give back the same double, nothing for NaN."""
+    counts = [_whole(c) for c in columns]
+    none = "" if len(columns) > 1 else "nan"  # a line without anything is no row
+    for start in range(0, len(columns[0]), _ROWS):
+        parts = [(c[start : start + _ROWS], k) for c, k in zip(columns, counts, strict=True)]
+        texts = [_texts(part, count, none) for part, count in parts]
+        yield "".join([f"{','.join(row)}\n" for row in zip(*texts, strict=True)])
+
+
+def _whole(column: Array) -> bool:
+    """Whether all numbers of a column can be written without a point."""
+    with np.errstate(invalid="ignore"):
+        small = (np.abs(column) < 2.0**53) & (column == np.rint(column))
+    return bool(np.all(small & ~(np.signbit(column) & (column == 0.0))))
+
+
+def _texts(column: Array, count: bool, none: str) -> Iterable[str]:
+    if count:
+        return map(str, column.astype(np.int64).tolist())
+    return [none if x != x else repr(x) for x in column.tolist()]
+
+
+def _escaped(text: str) -> str:
+    return "".join([_ESCAPES.get(letter, letter) for letter in text])
+
+
+def _plain(text: str) -> str:
+    back = {code[1]: letter for letter, code in _ESCAPES.items()}
+    return re.sub(r"\\(.)", lambda found: back.get(found[1], found[1]), text)
+
+
+def _needed(path: str) -> LogError:
+    return LogError(
+        path,
+        None,
+        "Parquet needs the package pyarrow",
+        "install it (pip install 'bondgraph-arr[robot]'), or use .csv",
+    )
+
+
+def read_parquet(path: str, time: str | None, rate: float | None) -> Log:
+    """The log in a Parquet file; see `read_log`."""
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError as error:
+        raise _needed(path) from error
+    try:
+        table = pyarrow.parquet.ParquetFile(path).read()
+    except pyarrow.ArrowException as error:
+        raise LogError(path, None, f"not a Parquet file: {str(error).splitlines()[0]}") from error
+    schema, own, meta = table.schema, False, {}
+    texts = {_text(k): v for k, v in (schema.metadata or {}).items()}
+    if MARK in texts:
+        if _text(texts.pop(MARK)) != EDITION:
+            message = f"a log of another edition, this program reads {EDITION}"
+            raise LogError(path, None, message, "read it with a newer bondgraph")
+        own, meta = True, {k: _text(v) for k, v in texts.items()}
+    names = list(schema.names)
+    twice = next((n for k, n in enumerate(names) if n in names[:k]), None)
+    if twice is not None:
+        raise LogError(path, None, f"two columns are called `{twice}`", "rename one of them")
+    named = time_column(names, time, path, None)
+    if own and time is None:
+        named = names[0]
+    if named is None and rate is None:
+        raise no_time(path, None, names)
+    units = {f.name: _text((f.metadata or {}).get(b"unit", b"")) for f in schema}
+    columns = {n: _numbers(table.column(n), n == named) for n in names}
+    words = [n for n, values in columns.items() if values is None]
+    if words:
+        meta[LEFT_OUT] = ", ".join(f"{n} ({schema.field(n).type})" for n in words)
+    found = {n: values for n, values in columns.items() if values is not None}
+    if named is None:
+        assert rate is not None
+        times = np.arange(table.num_rows) / rate
+    else:
+        if named not in found:
+            raise LogError(path, None, f"the column {named} of time has no numbers")
+        stamped = pyarrow.types.is_timestamp(schema.field(named).type)
+        unit = "" if own or stamped else unit_of_time(named, units)
+        meta |= {TIME_UNIT: unit} if unit else {}
+        times = seconds(found.pop(named), unit, path)
+    return Log(times, found, {n: u for n, u in units.items() if u and n in found}, meta)
+
+
+def _text(data: bytes) -> str:
+    return data.decode("utf-8", "replace")
+
+
+def _numbers(column: pyarrow.ChunkedArray, time: bool) -> Array | None:
+    """The numbers of a column, NaN where there are none; None where it is not of numbers."""
+    import pyarrow
+
+    kind, scale = column.type, 1
+    if time and pyarrow.types.is_timestamp(kind):
+        scale, column = _TIMESTAMPS[kind.unit], column.cast(pyarrow.int64())
+    elif not any(
+        test(kind)
+        for test in (
+            pyarrow.types.is_floating,
+            pyarrow.types.is_integer,
+            pyarrow.types.is_boolean,
+            pyarrow.types.is_decimal,
+            pyarrow.types.is_null,
+        )
+    ):
+        return None
+    values = column.cast(pyarrow.float64(), safe=False).to_numpy(zero_copy_only=False)
+    found: Array = np.array(values, dtype=np.float64)  # one that may be written to
+    return found if scale == 1 else found / scale
+
+
+def write_parquet(log: Log, path: str) -> None:
+    """Write a log as Parquet; see `write_log`."""
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError as error:
+        raise _needed(path) from error
+    arrays = {name_of_time(log.columns): log.time, **log.columns}
+    units = {name_of_time(log.columns): "s", **log.units}
+    fields = [
+        pyarrow.field(n, pyarrow.float64(), metadata={"unit": units[n]} if units.get(n) else None)
+        for n in arrays
+    ]
+    schema = pyarrow.schema(fields, metadata={MARK: EDITION, **log.meta})
+    table = pyarrow.Table.from_arrays([pyarrow.array(a) for a in arrays.values()], schema=schema)
+    with whole(path) as temporary:
+        pyarrow.parquet.write_table(table, temporary)

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.linalg import cholesky, solve_discrete_lyapunov, solve_triangular
 
 from bondgraph.ir.program import Program
-from bondgraph.runtime.batch import Array
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.smallest import (
     Situation,
     faults,

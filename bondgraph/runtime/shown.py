@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from bondgraph.ir.program import Program
-from bondgraph.runtime.batch import Array
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.smallest import Detection, Fault, Situation, faults, noise, told
 

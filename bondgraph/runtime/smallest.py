@@ -10,7 +10,8 @@ import numpy as np
 from scipy.linalg import solve_discrete_lyapunov
 
 from bondgraph.ir.program import Known, Program
-from bondgraph.runtime.batch import Array, Lanes
+from bondgraph.runtime.batch import Lanes
+from bondgraph.runtime.log import Array
 
 _STEP = 1e-4  # relative size of the change that a sensitivity is taken from
 _ROUNDING = 1e-13  # of the largest number in a filter: a smaller change of its output is none

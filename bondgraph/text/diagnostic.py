@@ -65,6 +65,10 @@ class Report:
             raise CompileError(tuple(self.diagnostics))
 
 
+class Trouble(Exception):
+    """Something that is wrong neither with the model nor with the compiler: a full message."""
+
+
 class CompileError(Exception):
     """The model is wrong (`status` error) or cannot be solved (`status` refused)."""
 

@@ -39,20 +39,6 @@ def render(diagnostics: Iterable[Diagnostic], color: bool) -> str:
     return "\n".join([painter.diagnostic(d) for d in diagnostics])
 
 
-def summary(diagnostics: Iterable[Diagnostic]) -> str:
-    """How many of each severity, in words: `2 errors, 1 warning`; empty for none.
-
-    >>> summary([Diagnostic("a", ""), Diagnostic("b", ""), Diagnostic("c", "", severity="info")])
-    '2 errors, 1 note'
-    """
-    numbers = {"error": 0, "warning": 0, "info": 0}
-    for diagnostic in diagnostics:
-        numbers[diagnostic.severity] += 1
-    words = {"error": "error", "warning": "warning", "info": "note"}
-    said = [f"{n} {words[k]}{'s' if n > 1 else ''}" for k, n in numbers.items() if n]
-    return ", ".join(said)
-
-
 def as_json(diagnostics: Iterable[Diagnostic]) -> list[dict[str, object]]:
     """Diagnostics as plain data: {code, severity, message, labels, help}.
 

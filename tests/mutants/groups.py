@@ -19,8 +19,8 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "code generation": tuple(
         f"backends/{name}.py"
         for name in (
-            "blocks c c_code emit forty_digits golden identifiers members procedure_lines python"
-            " roots runnable spelling target vectors walk"
+            "blocks c emit forty_digits golden identifiers members procedure_lines python"
+            " runnable spelling target vectors"
         ).split()
     )
     + ("notation/*.py",),

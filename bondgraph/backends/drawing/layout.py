@@ -7,6 +7,7 @@ from bisect import bisect_right, insort
 from collections.abc import Iterator
 from statistics import median
 
+from bondgraph.ir.groups import Groups
 from bondgraph.text.tuples import NamedTuple
 
 _SWEEPS = 24  # over all columns, to the right and to the left
@@ -35,27 +36,16 @@ def parts(nodes: list[int], edges: list[tuple[int, int, int]]) -> list[Layers]:
 
     Vertices that are not nodes are bends, numbered from -2 downwards.
     """
-    near: dict[int, list[int]] = {n: [] for n in nodes}
-    for i, (tail, head, _) in enumerate(edges):
-        near[tail].append(i)
-        near[head].append(i)
-    seen: set[int] = set()
+    groups = Groups[int]()
+    for tail, head, _ in edges:
+        groups.join(tail, head)
+    own: dict[int, list[tuple[int, int, int]]] = {}
+    for edge in edges:
+        own.setdefault(groups.find(edge[0]), []).append(edge)
     found: list[Layers] = []
-    bends = -1
-    for root in nodes:
-        if root in seen:
-            continue
-        seen.add(root)
-        members = [root]
-        for n in members:
-            for i in near[n]:
-                for other in edges[i][:2]:
-                    if other not in seen:
-                        seen.add(other)
-                        members.append(other)
-        members.sort()
-        inside = sorted({i for n in members for i in near[n]})
-        part = _part(members, [edges[i] for i in inside], bends)
+    bends = -1  # bends have negative numbers, no two of them in all parts the same
+    for members in groups.among(nodes):
+        part = _part(sorted(members), own.get(groups.find(members[0]), []), bends)
         bends = min([bends, *part.column])
         found.append(part)
     return found

@@ -27,9 +27,9 @@ def page(
     """
     if bare:
         return _bare(title, body, size, signs)
-    words = _wrapped(signs, max(size[0], 460.0))
+    words = _lines(signs, SEPARATOR, SMALL, max(size[0], 460.0))
     wide = max([size[0], width(title, 14, True), *[width(w, SMALL) for w in words]])
-    said = [line for note in notes for line in _lines(note, max(wide, 460.0))]
+    said = [line for note in notes for line in _lines(note, " ", NOTE, max(wide, 460.0))]
     wide = max([wide, *[width(line, NOTE) for line in said]])
     foot = size[1] + _HEAD + _FOOT + 10
     below = foot + (17 * len(said) + 6 if said else 0)
@@ -75,23 +75,12 @@ def _bare(title: str, body: list[str], size: Point, signs: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _lines(text: str, limit: float) -> list[str]:
-    """Running text in lines of at most `limit` px."""
+def _lines(text: str, separator: str, size: float, limit: float) -> list[str]:
+    """A text in lines no wider than `limit` px where it has a separator to break at."""
     lines = [""]
-    for word in text.split(" "):
-        longer = f"{lines[-1]} {word}" if lines[-1] else word
-        if lines[-1] and width(longer, NOTE) > limit:
-            lines.append(word)
-        else:
-            lines[-1] = longer
-    return lines
-
-
-def _wrapped(text: str, limit: float) -> list[str]:
-    lines = [""]
-    for part in text.split(SEPARATOR):
-        longer = f"{lines[-1]}{SEPARATOR}{part}" if lines[-1] else part
-        if lines[-1] and width(longer, SMALL) > limit:
+    for part in text.split(separator):
+        longer = f"{lines[-1]}{separator}{part}" if lines[-1] else part
+        if lines[-1] and width(longer, size) > limit:
             lines.append(part)
         else:
             lines[-1] = longer

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
 
 from bondgraph.algebra.present import parts
 from bondgraph.backends.report.content import PathLine, RelationPart
-from bondgraph.backends.report.formulas import operations
+from bondgraph.backends.report.formulas import Typesetter, operations
+from bondgraph.ir.program import Program
 from bondgraph.notation.dump_stages import place, residual_origin
 from bondgraph.passes.relation.path import path
+from bondgraph.pipeline import Compilation
 from bondgraph.text.numerals import plural
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from bondgraph.backends.report.formulas import Typesetter
-    from bondgraph.ir.program import Program
-    from bondgraph.pipeline import Compilation
-    from bondgraph.views import Relation
+from bondgraph.views import Relation
 
 LONGEST = 300  # operations of a formula that is worth its ink
 _STEPS = 80  # of a causal path

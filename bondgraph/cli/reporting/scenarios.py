@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import numpy.typing as npt
@@ -18,17 +18,17 @@ from bondgraph.backends.report.episode import (
     Said,
     Trace,
 )
-from bondgraph.cli import console
 from bondgraph.cli.residual_units import residual_units
-from bondgraph.runtime.monitoring.verdict import listed
+from bondgraph.runtime.monitoring.clock import on_grid
+from bondgraph.runtime.monitoring.verdict import Verdict, described
+from bondgraph.runtime.simulation.dead_reckoning import Desired, Reckoning
+from bondgraph.runtime.simulation.integrate import SimulationError
+from bondgraph.runtime.simulation.parameters import Values
+from bondgraph.runtime.simulation.run import Run
+from bondgraph.runtime.simulation.scenario import Course, Sampling, Scenario
+from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from bondgraph.runtime.monitoring.verdict import Verdict
-    from bondgraph.runtime.simulation.run import Run
-    from bondgraph.runtime.simulation.scenario import Scenario
 
 _TOGETHER = 4  # signals of one unit in one panel
 _PANELS = 8  # of an episode
@@ -52,15 +52,13 @@ def simulated(
 
     Raises `CompileError` where the scenario is wrong, Trouble where it cannot be run.
     """
-    from bondgraph.runtime.simulation.integrate import SimulationError
-
     scenario = compilation.scenario(path)
     try:
         return compilation.simulate(scenario, progress)
     except SimulationError as error:
-        raise console.Trouble(f"{path}: {error}") from error
+        raise Trouble(f"{path}: {error}") from error
     except KeyError as error:
-        raise console.Trouble(f"{path}: `{error.args[0]}` has no value") from error
+        raise Trouble(f"{path}: `{error.args[0]}` has no value") from error
 
 
 def played(compilation: Compilation, run: Run) -> Episode:
@@ -86,17 +84,13 @@ def played(compilation: Compilation, run: Run) -> Episode:
 
 def _watched(compilation: Compilation, run: Run) -> Watched | None:
     """The run through the monitor's clock, engine and decision."""
-    from bondgraph.runtime.monitoring.clock import clock_of
-    from bondgraph.runtime.monitoring.columns import Columns
-
     try:
         engine = compilation.engine()
     except ValueError as error:
-        raise console.Trouble(str(error)) from error
-    clock, decision = clock_of(engine), compilation.diagnosis(engine)
-    pieces = clock.feed(run.log.time, Columns(engine.signals)(run.log)) + clock.finish()
+        raise Trouble(str(error)) from error
+    decision = compilation.diagnosis(engine)
     parts, verdicts = [], []
-    for piece in pieces:
+    for piece in on_grid(engine, run.log):
         if piece.anew:
             engine.reset()
             decision.restart()
@@ -140,9 +134,6 @@ def _panels(compilation: Compilation, run: Run, seen: Watched | None) -> Iterato
 
 def _planes(compilation: Compilation, run: Run) -> Iterator[Plane]:
     """The way of a vehicle in the plane: as it should be, by its signals, and a healthy twin's."""
-    from bondgraph.runtime.simulation.dead_reckoning import Desired, Reckoning
-    from bondgraph.runtime.simulation.parameters import Values
-
     plane = run.scenario.plane
     if plane is None:
         return
@@ -165,8 +156,6 @@ def _planes(compilation: Compilation, run: Run) -> Iterator[Plane]:
 
 def healthy_twin(run: Run) -> Scenario:
     """The nominal machine under the same commands, with nothing wrong and perfect instruments."""
-    from bondgraph.runtime.simulation.scenario import Course, Sampling
-
     scenario = run.scenario
     driven = {}
     for controller in scenario.controllers:
@@ -193,8 +182,6 @@ def _marks(scenario: Scenario) -> Iterator[Mark]:
 
 def _said(seen: Watched) -> Iterator[Said]:
     """A fault is said until something else is said of it, the warm-up from the start."""
-    from bondgraph.runtime.monitoring.verdict import described
-
     about = [v for v in seen.verdicts if v.event in ("fault", "update", "cleared")]
     for verdict in seen.verdicts:
         text = verdict.message or described(verdict)

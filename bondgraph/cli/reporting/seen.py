@@ -1,22 +1,33 @@
-"""The sensitivities of a model for its report, and the smallest changes that show."""
+"""The sensitivities of a model for its report, and the smallest changes that show.
+
+What signals and their noise are taken to be is read from scenarios, told, or assumed.
+"""
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from bondgraph.algebra.present import parts, shared
 from bondgraph.backends.report.content import Effect, Seen
 from bondgraph.backends.report.formulas import operations
 from bondgraph.cli.reporting.relations import LONGEST
-from bondgraph.text.numerals import readable
+from bondgraph.runtime.simulation.parameters import units
+from bondgraph.text.numerals import listed, readable
 from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
+    from argparse import Namespace
+    from collections.abc import Mapping, Sequence
+
     from bondgraph.backends.report.formulas import Typesetter
     from bondgraph.ir.expr import Expr
     from bondgraph.ir.program import Program
     from bondgraph.pipeline import Compilation
-    from bondgraph.runtime.batch import Array
+    from bondgraph.runtime.log import Array
+    from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.smallest import Detection, Situation, Smallest
     from bondgraph.views import Relation
 
@@ -118,8 +129,129 @@ def _noise(found: Detection) -> list[tuple[str, str]]:
 
 
 def _units(compilation: Compilation) -> dict[str, str]:
-    graph = compilation.graph
-    named = [(i.name, i.unit) for i in graph.values]
-    named += [(i.name, i.unit) for i in graph.inputs]
-    named += [(i.name, i.unit) for i in graph.sensors]
-    return {name: unit for name, unit in named if unit and unit != "1"}
+    found = units(compilation.graph)
+    return {name: unit for name, unit in found.items() if unit and unit != "1"}
+
+
+def assumed(args: Namespace, given: Situation, program: Program) -> Assumed:
+    """The situation of the arguments, completed, and all of it in words.
+
+    Without signals each swings by 1 around 1, in its unit; without noise it is that of samples of
+    `--bits` over the range of each signal, a step over the square root of 12. A program that
+    iterates gets constant signals: a second of samples would take it a minute.
+    """
+    words = []
+    signals = [k for k in program.knowns if k.kind != "mode"]
+    if not (args.at or args.swing):
+        ones = {k.path: 1.0 for k in signals}
+        swing = {} if program.roots else ones
+        given = given._replace(at=ones, swing=swing)
+        moves = "be 1" if program.roots else "swing by 1 around 1"
+        rhythm = "" if program.roots else f" at {given.frequency:g} Hz"
+        words.append(
+            f"Nothing was said of what the machine does: every signal is taken to {moves}, in its"
+            f" own unit{rhythm} (`--at`, `--swing`). The sizes below compare faults and residuals;"
+            " they are not those of a real run."
+        )
+    else:
+        told = [f"{n} at {v:g}" for n, v in given.at.items()]
+        told += [f"{n} swings by {v:g}" for n, v in given.swing.items()]
+        words.append(f"Signals, as given: {', '.join(told)}, at {given.frequency:g} Hz; others 0.")
+    ranges = {k.path: _range(given.at.get(k.path, 0.0), given.swing.get(k.path, 0.0))
+              for k in signals}  # fmt: skip
+    return _measured(args, program, given, words, ranges)
+
+
+def observed(
+    args: Namespace,
+    given: Situation,
+    compilation: Compilation,
+    program: Program,
+    runs: Sequence[Run],
+) -> Assumed:
+    """The situation of scenarios: their signals until something goes wrong, and their noise.
+
+    As if there were none where their samples are too few or too far apart.
+    """
+    from bondgraph.runtime.monitoring.clock import on_grid
+
+    engine = compilation.engine()
+    samples, stretches = [], []
+    for run in runs:
+        end = min((f.at for f in run.scenario.faults), default=math.inf)
+        if end < 3.0 * engine.warm_up:  # nothing would be left
+            end = math.inf
+        log = run.log.part(0, int((run.log.time < end).sum()))
+        pieces = on_grid(engine, log)
+        enough = engine.warm_up / engine.sample_time
+        samples += [p.samples for p in pieces if len(p.samples) > enough]
+        until = "" if math.isinf(end) else f" (until its fault at {end:g} s)"
+        stretches.append(f"`{run.scenario.name}`{until}")
+    if not samples:
+        return assumed(args, given, program)
+    every = np.concatenate(samples)
+    at, ranges = {}, {}
+    for k, known in enumerate(engine.signals):
+        column = every[:, k]
+        column = column[np.isfinite(column)]
+        if known.counts is not None and len(column) > 1:
+            turns = np.diff(column) / known.counts
+            column = 2.0 * math.pi * turns / engine.sample_time
+        at[known.path] = float(column.mean()) if len(column) else 0.0
+        ranges[known.path] = float(np.ptp(np.append(column, 0.0))) or 1.0
+    given = given._replace(at=at, swing={})
+    words = [
+        f"Signals are those of the scenario{'s' * (len(runs) > 1)} {listed(stretches, 'and')}."
+    ]
+    found = {
+        name: math.hypot(one.noise, one.step / math.sqrt(12))
+        for run in runs
+        for name, one in run.scenario.instruments.items()
+    }
+    found = {name: size for name, size in found.items() if size}
+    if found and not args.noise:
+        given = given._replace(noise=found)
+        told = [f"{name} {size:.3g}" for name, size in found.items()]
+        words.append(f"Noise, as in there: standard deviation of {', '.join(told)}; white.")
+    rest = _measured(args, program, given, words, ranges)
+    return rest._replace(samples=tuple(samples))
+
+
+def _measured(
+    args: Namespace,
+    program: Program,
+    given: Situation,
+    words: list[str],
+    ranges: Mapping[str, float],
+) -> Assumed:
+    """With noise where nobody has told any, and all of it in words."""
+    signals = [k for k in program.knowns if k.kind != "mode"]
+    bare = [k for k in signals
+            if k.kind == "sensor" and k.counts is None and k.path not in given.noise]  # fmt: skip
+    if args.noise:
+        told = [f"{n} {v:g}" for n, v in given.noise.items()]
+        words.append(f"Noise, as given: standard deviation of {', '.join(told)}; white.")
+    elif bare:
+        size = 2.0**-args.bits / math.sqrt(12)
+        more = {k.path: size * ranges[k.path] for k in bare}
+        what, whose = ("more noise", "every other") if given.noise else ("noise", "every")
+        given = given._replace(noise={**given.noise, **more})
+        words.append(
+            f"Nothing was said of {what} (`--noise`): {whose} sensor has that of"
+            f" {args.bits}-bit samples over its range here, white, a step over the square root of"
+            " 12."
+        )
+    if any(k.counts is not None for k in signals):
+        words.append("An encoder has the noise of its counts, evenly spread over one.")
+    words.append(
+        f"A change counts as seen where it moves the residual past its adaptive threshold and"
+        f" {given.kappa:g} standard deviations of the filtered noise:"
+        f" {program.rate:g} samples a second, a filter of {program.bandwidth:g} rad/s."
+    )
+    return Assumed(given, tuple(words))
+
+
+def _range(at: float, swing: float) -> float:
+    """From the least to the largest that a signal is, zero included; 1 where it is always zero."""
+    least, most = min(0.0, at - abs(swing)), max(0.0, at + abs(swing))
+    return most - least or 1.0

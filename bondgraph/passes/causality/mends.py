@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from bondgraph.ir.graph import BondGraph, End
+from bondgraph.ir.groups import Groups
 from bondgraph.passes.causality.cores import refute
 from bondgraph.passes.causality.explanation import Explanation
 from bondgraph.passes.causality.node_words import name
@@ -120,18 +121,11 @@ def _closes(graph: BondGraph, bond: int) -> bool:
     kind = graph.nodes[start].kind
     if kind not in _JUNCTIONS or graph.nodes[goal].kind != kind:
         return False
-    near: dict[int, list[int]] = {}
+    groups = Groups[int]()
     for b, other in enumerate(graph.bonds):
         if b != bond:
-            near.setdefault(other.tail.node, []).append(other.head.node)
-            near.setdefault(other.head.node, []).append(other.tail.node)
-    queue, seen = [start], {start}
-    for n in queue:
-        for m in near.get(n, []):
-            if m not in seen:
-                seen.add(m)
-                queue.append(m)
-    return goal in seen
+            groups.join(other.tail.node, other.head.node)
+    return groups.find(start) == groups.find(goal)
 
 
 class _Workshop:

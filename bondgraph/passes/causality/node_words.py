@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bondgraph.ir.graph import Node
+from bondgraph.text.numerals import listed
 
 
 def name(node: Node) -> str:
@@ -12,9 +13,7 @@ def name(node: Node) -> str:
 
 def listing(names: list[str], most: int = 6) -> str:
     """Names joined as in a sentence; the many are counted."""
-    if len(names) > most:
-        names = [*names[: most - 1], f"{len(names) - most + 1} more"]
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+    return listed(names, "and", most)
 
 
 def sentence(text: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 
 from bondgraph.ir.syntax import Binary, Call, Expression, Number, Part, Ref, Text, Truth, Unary
@@ -80,26 +81,29 @@ def index(part: Part, scope: Scope, env: Env, report: Report) -> int | None:
     return whole_number(part.first, scope, env, report)
 
 
-def mentions(expr: Expression | None, env: Env) -> bool:
-    """Whether a `for` variable occurs."""
-    if expr is None or not env:
-        return False
+def references(expr: Expression) -> Iterator[Ref]:
+    """The references in an expression, as they stand in it."""
     stack: list[Expression] = [expr]
     while stack:
         item = stack.pop()
         match item:
             case Ref():
-                if len(item.parts) == 1 and item.parts[0].name in env:
-                    return True
+                yield item
             case Unary():
                 stack.append(item.operand)
             case Binary():
-                stack += (item.left, item.right)
+                stack += (item.right, item.left)
             case Call():
-                stack += item.arguments
+                stack += reversed(item.arguments)
             case Number() | Text() | Truth():
                 pass
-    return False
+
+
+def mentions(expr: Expression | None, env: Env) -> bool:
+    """Whether an expression uses one of the `for` variables."""
+    if expr is None or not env:
+        return False
+    return any(len(r.parts) == 1 and r.parts[0].name in env for r in references(expr))
 
 
 def _name(ref: Ref, scope: Scope, env: Env, report: Report) -> Fraction | bool:

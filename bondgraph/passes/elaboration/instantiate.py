@@ -1,10 +1,14 @@
-"""Open every model instance: unroll `for`, decide `if`, declare nodes and values, keep chains."""
+"""Open every model instance: unroll `for`, decide `if`, declare nodes and values, keep chains.
+
+`Arguments` are what the round brackets of a node bind; how large a model may become is counted.
+"""
 
 from __future__ import annotations
 
 from typing import assert_never
 
 from bondgraph.ir.syntax import (
+    Argument,
     Chain,
     Fault,
     For,
@@ -22,10 +26,9 @@ from bondgraph.ir.syntax import (
 )
 from bondgraph.library.elements import JUNCTIONS, KINDS
 from bondgraph.library.units import DOMAINS
-from bondgraph.passes.elaboration.arguments import Arguments
-from bondgraph.passes.elaboration.build_time import index, mentions, truth, whole_number
+from bondgraph.passes.elaboration.build_time import decided, index, mentions, truth, whole_number
 from bondgraph.passes.elaboration.files import Definition, Missing
-from bondgraph.passes.elaboration.problems import Skip, fail, listed, meant
+from bondgraph.passes.elaboration.problems import Abort, Skip, fail, listed, meant, rough
 from bondgraph.passes.elaboration.scope import (
     Array,
     Bound,
@@ -39,23 +42,130 @@ from bondgraph.passes.elaboration.scope import (
     ValueEntry,
     ValueKind,
 )
-from bondgraph.passes.elaboration.size import Size, weight
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 _KEYWORDS: dict[str, ValueKind] = {"param": "param", "const": "const"}
+#: Names and statements of the whole model: a million bonds, as arrays of submodels, are within it.
+MOST = 3_000_000
+#: Names of arrays and statements of loops that one instance unrolls itself: a typing error in a
+#: size must not cost more than a second or two.
+MOST_UNROLLED = 20_000
+#: A statement of so many characters counts once, a longer one more.
+_USUAL = 40
 
 
-class Event:
+class Event(NamedTuple):
     """A `fault` statement of one instance."""
 
-    __slots__ = ("declaration", "env", "local", "scope")
+    declaration: Fault
+    local: str
+    scope: Scope
+    env: Env
 
-    def __init__(self, declaration: Fault, local: str, scope: Scope, env: Env) -> None:
-        self.declaration = declaration
-        self.local = local
-        self.scope = scope
-        self.env = env
+
+class Arguments:
+    """Keeps the arguments of a model and sees that each binds something, once."""
+
+    def __init__(self, report: Report) -> None:
+        self.report = report
+        self.givens: list[tuple[Given, Scope | NodeEntry]] = []
+
+    def structure(self, scope: Scope) -> None:
+        """The structural arguments of an instance."""
+        for generic in scope.model.generics:
+            if generic.name in scope.generics:
+                self.report.error(
+                    "duplicate-name", f"There are two structural arguments `{generic.name}`.",
+                    generic.origin, help="Rename one of them.",
+                )  # fmt: skip
+            bound: Bound | None = None
+            for given in self.matching(scope.givens, generic.name, None):
+                if len(given.parts) == 1:
+                    given.root.used = True
+                    self.once(bound, given)
+                    bound = given.bound
+            if bound is None:
+                if generic.default is None:
+                    where = scope.origin if scope.parent else generic.origin
+                    fail(self.report, "missing-argument", f"`{scope.model.name}` needs a value of "
+                         f"`{generic.name}`.", Label(where, "used here" if scope.parent else ""),
+                         Label(generic.origin, "declared without a default"),
+                         help=f"Give it where the model is used, `({generic.name} = ...)`, or "
+                         f"declare a default: `{generic.name} : {generic.type} = ...`."
+                         )  # fmt: skip
+                bound = Bound(generic.default, scope, {}, generic.origin)
+            value = decided(bound.value, bound.scope, bound.env, self.report)
+            if isinstance(value, bool) != (generic.type == "bool"):
+                fail(self.report, "wrong-type", f"`{generic.name}` is declared {generic.type}.",
+                     Label(bound.origin, "this is not"), Label(generic.origin, "declared here"),
+                     help="Give an int or a bool, as declared.")  # fmt: skip
+            if not isinstance(value, bool):
+                if value.denominator != 1:
+                    fail(self.report, "not-an-integer", f"`{generic.name}` is declared int, but "
+                         f"given {rough(value)}.", bound.origin,
+                         help="Use a whole number.")  # fmt: skip
+                scope.generics[generic.name] = value.numerator
+            else:
+                scope.generics[generic.name] = value
+
+    def arguments(self, node: Node, scope: Scope, env: Env) -> list[Given]:
+        """The arguments in round brackets, each with where its value is to be read."""
+        return [self.argument(a, scope, env) for a in node.arguments]
+
+    def argument(self, argument: Argument, scope: Scope, env: Env) -> Given:
+        """One argument, its target split into names with their indices."""
+        parts = tuple([(p.name, index(p, scope, env, self.report)) for p in argument.target.parts])
+        return Given(parts, Bound(argument.value, scope, env, argument.origin), argument)
+
+    @staticmethod
+    def matching(givens: list[Given], name: str, place: int | None) -> list[Given]:
+        """The arguments whose target begins with `name` (of that index, or of none)."""
+        return [g for g in givens if g.parts[0][0] == name and g.parts[0][1] in (None, place)]
+
+    def once(self, before: Bound | None, given: Given) -> None:
+        """Refuse a second argument for one thing."""
+        if before is not None:
+            fail(self.report, "duplicate-argument",
+                 f"`{given.argument.target.origin.text}` is given twice.",
+                 Label(given.argument.origin, "given again"), Label(before.origin, "given here"),
+                 help="Keep one of them.")  # fmt: skip
+
+    def refuse_givens(self, entry: NodeEntry, givens: list[Given]) -> None:
+        """Only a storage takes arguments (its initial state)."""
+        for given in givens:
+            given.root.used = True
+            self.report.error(
+                "unknown-argument",
+                f"`{entry.type}:{entry.name}` takes no argument "
+                f"`{given.argument.target.origin.text}`.", given.argument.origin,
+                help="Round brackets give the initial state of a C (q0) or an I (p0), or bind the "
+                "params of a submodel; a coefficient is written after `=`.",
+            )  # fmt: skip
+
+    def check_arguments(self) -> None:
+        """Report arguments that bind nothing."""
+        for given, entry in self.givens:
+            if given.used:
+                continue
+            text = given.argument.target.origin.text
+            if isinstance(entry, Scope):
+                names = [n for n, v in entry.values.items() if _bindable(v)]
+                names += entry.generics
+                help = meant(given.parts[0][0], names, f"It takes {listed(names) or 'none'}.")
+                message = f"`{entry.model.name}` takes no argument `{text}`."
+            else:
+                state = entry.element.state if entry.element is not None else None
+                help = f"An element of this kind takes `{state}0`, its initial state."
+                message = f"`{entry.type}:{entry.name}` takes no argument `{text}`."
+            self.report.error("unknown-argument", message, given.argument.origin, help=help)
+
+
+def _bindable(value: Named) -> bool:
+    if isinstance(value, Array):
+        return any(_bindable(v) for v in value.entries.values())
+    return isinstance(value, ValueEntry) and value.kind in ("param", "const", "input")
 
 
 class Opener(Arguments):
@@ -370,3 +480,39 @@ class Opener(Arguments):
              Label(origin, "declared again"), Label(before.origin, "declared here"),
              help="Give one of them another name; to add bonds to a junction write its bare "
              "name.")  # fmt: skip
+
+
+class Size:
+    """Counts the parts of a model and gives up, with an error, when they are too many."""
+
+    def __init__(self, report: Report) -> None:
+        self.report = report
+        self.made = 0
+
+    def count(self, number: int, scope: Scope, origin: Span) -> None:
+        """Keep the size of the model within bounds; the first of an array counts for all."""
+        self.made += number * scope.times
+        if self.made > MOST:
+            self.report.error(
+                "model-too-large", f"The model has more than {MOST:,} parts.", origin,
+                help="Check the sizes of arrays and `for` loops.",
+            )  # fmt: skip
+            raise Abort
+
+    def unroll(self, number: int, scope: Scope, origin: Span) -> None:
+        """Keep within bounds what loops and arrays of names make of one instance."""
+        self.count(number, scope, origin)
+        scope.unrolled += number
+        if scope.unrolled > MOST_UNROLLED:
+            self.report.error(
+                "model-too-large", f"`{scope.model.name}` unrolls into more than "
+                f"{MOST_UNROLLED:,} statements and names.", origin,
+                help="Check the sizes of loops and arrays. Describe a part that repeats so often "
+                "as a model, and use an array of it: `Cell:cell[n]`.",
+            )  # fmt: skip
+            raise Abort
+
+
+def weight(body: tuple[Statement, ...]) -> int:
+    """What a body costs each time it is unrolled: its statements, long ones several times."""
+    return max(1, sum([1 + (s.origin.end - s.origin.start) // _USUAL for s in body]))

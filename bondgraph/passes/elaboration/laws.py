@@ -158,22 +158,22 @@ class Laws:
             other = node.ports[1]
             e2, f2 = self.pair(other)
             what = f"the ratio of `{node.local}` is effort over flow"
-            self.agree(values.quotient(e, f2), term, origin, what)
-            self.agree(values.quotient(e2, f), term, origin, what)
+            self.values.alike(values.quotient(e, f2), term, origin, what)
+            self.values.alike(values.quotient(e2, f), term, origin, what)
             return (
                 Law(pool.sub(port.effort, pool.mul(k, other.flow)), None, origin),
                 Law(pool.sub(other.effort, pool.mul(k, port.flow)), None, origin),
             )
         if element.kind == "R":
-            self.agree(values.quotient(e, f), term, origin,
-                       f"the resistance of `{node.local}` is effort over flow")  # fmt: skip
+            self.values.alike(values.quotient(e, f), term, origin,
+                              f"the resistance of `{node.local}` is effort over flow")  # fmt: skip
             return (Law(pool.sub(port.effort, pool.mul(k, port.flow)), None, origin),)
         assert port.state is not None
         cause, effect = (port.effort, e) if element.kind == "C" else (port.flow, f)
         stored = values.quantities.integrated(f if element.kind == "C" else e)
         what = "q over e" if element.kind == "C" else "p over f"
-        self.agree(values.quotient(stored, effect), term, origin,
-                   f"the {element.coefficient} of `{node.local}` is {what}")  # fmt: skip
+        self.values.alike(values.quotient(stored, effect), term, origin,
+                          f"the {element.coefficient} of `{node.local}` is {what}")  # fmt: skip
         return (Law(pool.sub(port.state, pool.mul(k, cause)), None, origin),)
 
     def source(self, node: NodeEntry, element: ElementKind, value: Expr, term: Term, origin: Span
@@ -182,8 +182,8 @@ class Laws:
         port = node.ports[0]
         e, f = self.pair(port)
         fixed, own = (port.effort, e) if element.kind == "Se" else (port.flow, f)
-        self.agree(own, term, origin, f"source `{node.local}` gives an {element.coefficient}"
-                   if element.kind == "Se" else f"source `{node.local}` gives a flow")  # fmt: skip
+        what = f"an {element.coefficient}" if element.kind == "Se" else "a flow"
+        self.values.alike(own, term, origin, f"source `{node.local}` gives {what}")
         return Law(self.pool.sub(fixed, value), fixed, origin)
 
     def pair(self, port: PortVariables) -> tuple[Term, Term]:
@@ -191,13 +191,6 @@ class Laws:
         if port.slot < 0:
             raise Skip
         return self.values.quantities.pair(port.slot)
-
-    def agree(self, left: Term, right: Term, origin: Span, what: str) -> None:
-        """One dimension on both sides, or an error."""
-        if not self.values.quantities.same(left, right, origin, what):
-            raise Skip
-
-    # ------------------------------------------------------------------ laws in braces
 
     def local(self, node: NodeEntry) -> dict[str, Typed]:
         """The names that the law may use of its own ports."""
@@ -252,8 +245,8 @@ class Laws:
         right, t = values.quantity(equation.right, place)
         zero = _is_zero(equation.left) or _is_zero(equation.right)
         if not zero:
-            self.agree(s, t, equation.origin, f"both sides of the law of `{node.local}` have one "
-                       "unit")  # fmt: skip
+            what = f"both sides of the law of `{node.local}` have one unit"
+            self.values.alike(s, t, equation.origin, what)
         expr = right if left is self.pool.zero else self.pool.sub(left, right)
         own = [v for v, _ in local.values()]
         present = symbols(expr)
@@ -349,7 +342,7 @@ class Laws:
         """The units of the relation that follows: e1*f1 = e2*f2 in power."""
         one, two = (self.pair(p) for p in node.ports)
         values = self.values
-        self.agree(
+        self.values.alike(
             values.product(one[0], one[1]), values.product(two[0], two[1]), law.origin,
             f"`{node.local}` conserves power, effort times flow",
         )  # fmt: skip

@@ -56,15 +56,10 @@ class Lookup:
         parts = ref.parts
         entry = self.entry(parts[0], scope, scope, env)
         at = 1
-        while isinstance(entry, Scope) and at < len(parts) and self.has(parts[at], entry):
+        while isinstance(entry, Scope) and at < len(parts) and parts[at].name in entry.nodes:
             entry = self.entry(parts[at], entry, scope, env)
             at += 1
         return entry, parts[at:]
-
-    @staticmethod
-    def has(part: Part, scope: Scope) -> bool:
-        """Whether the instance has a node of that name."""
-        return part.name in scope.nodes
 
     def entry(self, part: Part, inside: Scope, scope: Scope, env: Env) -> Named:
         """One node of the instance `inside`; its index is read in `scope`."""
@@ -77,7 +72,6 @@ class Lookup:
         """Report that there is no such node."""
         if part.name in inside.wrong or inside.incomplete:
             raise Skip
-        places = [part.origin]
         value = inside.values.get(part.name)
         if value is not None:
             fail(self.report, "not-a-node", f"`{part.name}` is a value, not a node.",
@@ -85,7 +79,7 @@ class Lookup:
                  help="Bonds go between junctions, elements, submodels and ports; declare a node "
                  f"with its type, as in `R:{part.name}`.")  # fmt: skip
         fail(self.report, "unknown-name", f"`{inside.model.name}` has no node `{part.name}`.",
-             *places, help=meant(part.name, inside.nodes, "Declare it with its type, as in "
+             part.origin, help=meant(part.name, inside.nodes, "Declare it with its type, as in "
              f"`1:{part.name}` or `R:{part.name}`."))  # fmt: skip
 
     def indexed(self, part: Part, named: Named, scope: Scope, env: Env) -> Named:

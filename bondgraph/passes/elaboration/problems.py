@@ -7,6 +7,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import NoReturn
 
+from bondgraph.text import numerals
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Span
 
@@ -57,9 +58,4 @@ def rough(value: Fraction) -> str:
 
 def listed(names: Iterable[str], most: int = 8) -> str:
     """Names as a person lists them: `a`, `b` and `c`."""
-    quoted = [f"`{n}`" for n in names]
-    if len(quoted) > most:
-        quoted = [*quoted[: most - 1], f"{len(quoted) - most + 1} more"]
-    if len(quoted) < 2:
-        return "".join(quoted)
-    return ", ".join(quoted[:-1]) + f" and {quoted[-1]}"
+    return numerals.listed([f"`{n}`" for n in names], "and", most)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import TypeVar
 
 from bondgraph.ir.expr import Expr, Kind, Op, symbols
 from bondgraph.ir.graph import Event, Input, Integral, Let, Sensor, Value
@@ -23,6 +24,8 @@ from bondgraph.passes.elaboration.scope import Bound, NodeEntry, Scope, ValueEnt
 from bondgraph.passes.elaboration.values import Values
 from bondgraph.text.diagnostic import Label
 from bondgraph.text.source import Span
+
+Record = TypeVar("Record", Value, Input, Sensor, Let)
 
 #: Longer exact numbers are not worked out.
 _MOST_BITS = 4096
@@ -351,22 +354,20 @@ class Records:
         tuple[Value, ...], tuple[Input, ...], tuple[Sensor, ...], tuple[Let, ...]
     ]:  # fmt: skip
         """The records with dimensions and units; a param among `used` is a fault candidate."""
-        show = self.values.quantities.show
-        values = []
-        for v, term, unit in self.params:
-            fault = v.symbol in used and v.symbol.symbol.kind is Kind.PARAM
-            dimension, unit = show(term, unit)
-            values.append(v._replace(fault=fault, dimension=dimension, unit=unit))
-        inputs = []
-        for i, term, unit in self.inputs:
-            dimension, unit = show(term, unit)
-            inputs.append(i._replace(dimension=dimension, unit=unit))
-        sensors = []
-        for s, term, unit in self.sensors:
-            dimension, unit = show(term, unit)
-            sensors.append(s._replace(dimension=dimension, unit=unit))
-        lets = []
-        for t, term, unit in self.lets:
-            dimension, unit = show(term, unit)
-            lets.append(t._replace(dimension=dimension, unit=unit))
-        return tuple(values), tuple(inputs), tuple(sensors), tuple(lets)
+        values = [
+            v._replace(fault=v.symbol in used and v.symbol.symbol.kind is Kind.PARAM)
+            for v in self._shown(self.params)
+        ]
+        return (
+            tuple(values),
+            self._shown(self.inputs),
+            self._shown(self.sensors),
+            self._shown(self.lets),
+        )
+
+    def _shown(self, items: list[tuple[Record, Term | None, str | None]]) -> tuple[Record, ...]:
+        found = []
+        for record, term, unit in items:
+            dimension, written = self.values.quantities.show(term, unit)
+            found.append(record._replace(dimension=dimension, unit=written))
+        return tuple(found)

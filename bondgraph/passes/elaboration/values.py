@@ -6,9 +6,6 @@ from collections.abc import Iterator
 
 from bondgraph.ir.expr import Expr, Kind, Op, Pool
 from bondgraph.ir.syntax import (
-    Binary,
-    Call,
-    Expression,
     Input,
     Let,
     Node,
@@ -17,12 +14,12 @@ from bondgraph.ir.syntax import (
     Part,
     Ref,
     Sensor,
-    Unary,
 )
 from bondgraph.library.dimensions import Term
 from bondgraph.library.elements import SIGNALS
 from bondgraph.library.units import PI
 from bondgraph.passes.elaboration.bonds import FlatBond, sign
+from bondgraph.passes.elaboration.build_time import references
 from bondgraph.passes.elaboration.calls import Calls
 from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.lookup import Lookup
@@ -256,22 +253,13 @@ class Values(Calls):
 
     def mentioned(self, bound: Bound) -> Iterator[ValueEntry]:
         """The values that occur in an expression, as far as they can be found."""
-        stack: list[Expression] = [bound.value]
-        while stack:
-            item = stack.pop()
-            if isinstance(item, Ref):
-                try:
-                    found = self.peek(item, bound.scope, bound.env)
-                except Skip:
-                    continue
-                if found is not None:
-                    yield found
-            elif isinstance(item, Unary):
-                stack.append(item.operand)
-            elif isinstance(item, Binary):
-                stack += (item.right, item.left)
-            elif isinstance(item, Call):
-                stack += reversed(item.arguments)
+        for ref in references(bound.value):
+            try:
+                found = self.peek(ref, bound.scope, bound.env)
+            except Skip:
+                continue
+            if found is not None:
+                yield found
 
     def peek(self, ref: Ref, scope: Scope, env: Env) -> ValueEntry | None:
         """The value a reference means, without saying what is wrong with it."""

@@ -20,7 +20,7 @@ from bondgraph.runtime.diagnosis.hypotheses import (
 from bondgraph.runtime.diagnosis.isolation import History
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
 _TAIL = 3.29  # standard deviations that one normal sample in a thousand exceeds
@@ -192,9 +192,8 @@ class _Work:
         whole.run(samples[:start])
         for begin in range(start, len(samples) - length + 1, length):
             part = samples[begin : begin + length]
-            copy = engine.configured(bounds=False)
-            copy.follow(engine)
-            slopes = np.abs(Bank(copy, self.all, self.nominal, samples[begin - 1]).run(part))
+            bank = Bank(copied(engine), self.all, self.nominal, samples[begin - 1])
+            slopes = np.abs(bank.run(part))
             batch, _ = whole.run(part)
             yield [self._seen(h, slopes[:, k], batch, top) for k, h in enumerate(self.all)]
 

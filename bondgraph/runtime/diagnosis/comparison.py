@@ -8,10 +8,9 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis
 from bondgraph.runtime.diagnosis.isolation import Explained, History, Rows, explain, inverse
-from bondgraph.runtime.diagnosis.onset import early
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.engine import Engine, copied
 
 #: Time constants of the filter that a residual may show late what has happened.
 _SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0)
@@ -23,6 +22,9 @@ _CLEAR = 2.0  # standard deviations of a change that it is worth a secant
 _LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is taken
 _SAME = 0.01  # share by which changes of two rounds may differ
 _STEEP = 0.8  # of how one change makes the next: steeper, a step is not made longer
+_ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
+_FADES = 0.4  # what is left of that in every row after
+_GROWS = 3  # rows within which a residual has become as large as the fault makes it
 
 
 class Comparison:
@@ -43,8 +45,7 @@ class Comparison:
         hypotheses: Sequence[Hypothesis],
         nominal: Mapping[str, float],
     ) -> None:
-        self._engine = engine.configured(bounds=False)
-        self._engine.follow(engine)
+        self._engine = copied(engine)
         self._healthy, self._own = healthy, own
         self._all, self._nominal = tuple(hypotheses), nominal
         self._changes: dict[int, float] = {}
@@ -90,7 +91,7 @@ class Comparison:
 
     def _table(self) -> Rows:
         rows = Rows(*[np.array(x) for x in zip(*self._rows, strict=True)])
-        return rows._replace(weight=1.0 / (inverse(rows.weight) + early(rows.value)))
+        return rows._replace(weight=1.0 / (inverse(rows.weight) + _early(rows.value)))
 
     def _dated(self, history: History) -> None:
         """Let each fault begin when it makes what was seen most probable."""
@@ -112,8 +113,7 @@ class Comparison:
         banks = []
         for earlier in dict.fromkeys(self._earlier):
             own = [k for k, e in enumerate(self._earlier) if e == earlier]
-            engine = self._engine.configured(bounds=False)
-            engine.follow(self._engine)
+            engine = copied(self._engine)
             count = len(self._healthy) - earlier
             engine.run(self._healthy[:count])
             begin = self._healthy[count - 1] if count else None
@@ -175,3 +175,9 @@ def _alike(left: Mapping[int, float], right: Mapping[int, float]) -> bool:
     return left.keys() == right.keys() and all(
         abs(left[k] - right[k]) <= _SAME * abs(left[k]) for k in left
     )
+
+
+def _early(values: Array) -> Array:
+    """Variances for not knowing the onset to the sample, of residuals (rows, residuals) since."""
+    size = np.abs(values[:_GROWS]).max(axis=0, initial=0.0)
+    return np.asarray((np.outer(_ERROR * _FADES ** np.arange(len(values)), size)) ** 2)

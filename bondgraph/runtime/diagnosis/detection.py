@@ -6,17 +6,14 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.healthy import grown
 from bondgraph.runtime.diagnosis.naming import LONGEST
 from bondgraph.runtime.diagnosis.rows import Part, Row
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
 _BACK = 10  # rows that residuals must be quiet before a fault is over, twice as many each time
-
-Mask = npt.NDArray[np.bool_]
 
 
 class Detection:

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.doubt import Doubt
@@ -18,18 +17,18 @@ from bondgraph.runtime.diagnosis.isolation import History, inverse
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched
-from bondgraph.runtime.diagnosis.onset import odd, samples_before
 from bondgraph.runtime.diagnosis.origins import Origins, starts_in
 from bondgraph.runtime.diagnosis.rows import Part, Row, together, usual, weight
 from bondgraph.runtime.diagnosis.status import WatchStatus
 from bondgraph.runtime.diagnosis.tuning import Tuning, limits
-from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.runtime.monitoring.verdict import Verdict
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset
 _FORGET = 1000.0  # rows after which healthy operation counts a third
+_ODD = 3.0  # standard deviations that a residual has to be away from what is expected
 _HEALTHY = 5  # rows that have to be as usual behind one before it counts as healthy
 
 
@@ -75,7 +74,7 @@ class Diagnosis:
         self._past.clear()
         self._calm: deque[Row] = deque()
         self._piece: list[Array] = []
-        self._before = self._here()
+        self._before = copied(self._bank.engine)
         self._ends = False  # whether the present samples complete a row
         self._status.restart()
         self._detection.restart()
@@ -86,12 +85,6 @@ class Diagnosis:
     def decided(self) -> Batch:
         """See `Decision`."""
         return together(self._last, len(self._engine.residuals))
-
-    def _here(self) -> Engine:
-        """The engine as it is now."""
-        copy = self._bank.engine.configured(bounds=False)
-        copy.follow(self._bank.engine)
-        return copy
 
     # -------------------------------------------------------------------- samples
 
@@ -149,7 +142,7 @@ class Diagnosis:
         whole = np.concatenate(self._piece)
         self._judge.learn(whole)
         row = Row(float(part.time[-1]), whole, self._before, *[x[-1].copy() for x in part[2:]])
-        self._piece, self._before = [], self._here()
+        self._piece, self._before = [], copied(self._bank.engine)
         self._past.append(row)
         if self._origins.looking:
             self._settle()
@@ -167,7 +160,7 @@ class Diagnosis:
             self._calm.clear()
             self._bank, self._tolerated, self._history = found.bank, found.tolerated, found.history
             self._past = deque(found.rows, maxlen=self._past.maxlen)
-            self._before = self._here()
+            self._before = copied(self._bank.engine)
             self._judge.renew()
 
     def _judged(self, row: Row, out: list[Verdict]) -> None:
@@ -207,7 +200,7 @@ class Diagnosis:
     # --------------------------------------------------------------------- alarms
 
     def _fire(
-        self, time: float, fresh: npt.NDArray[np.bool_], piece: list[Array], out: list[Verdict]
+        self, time: float, fresh: Mask, piece: list[Array], out: list[Verdict]
     ) -> None:
         """Latch an alarm; `piece` are the samples since the last row."""
         self._calm.clear()
@@ -299,3 +292,24 @@ class Diagnosis:
         if self._learning is not None:
             self._learning.known(levels)
             self._limits = levels
+
+
+def odd(history: History, value: Array, slopes: Array, noise: Array) -> Mask:
+    """Which residuals are not what the history lets expect; `noise` are their variances."""
+    expected, variance = history.expected(slopes)
+    return np.asarray(np.abs(value - expected) > _ODD * np.sqrt(variance + noise))
+
+
+def samples_before(
+    engine: Engine, samples: Array, history: History, slopes: Array, noise: Array, fired: Mask
+) -> int:
+    """How many of the samples come before the fault; `engine` stands before them.
+
+    `slopes` of the tolerated parameters are those of the last healthy row, (tolerated, residuals).
+    """
+    if not len(samples):
+        return 0
+    found = copied(engine).run(samples)
+    away = odd(history, found.value, slopes, noise) & found.valid & fired
+    usual = np.flatnonzero(~away.any(axis=1))
+    return min(int(usual[-1]) + 1, len(samples) - 1) if len(usual) else 0

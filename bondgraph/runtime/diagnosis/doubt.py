@@ -6,11 +6,10 @@ import math
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import rows_apart
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 
 _FASTER = 2.0  # times the bandwidth, of the filter that an approximation is held against
@@ -55,7 +54,7 @@ class Doubt:
 
     def run(
         self, samples: Array, batch: Batch, number: int, noise: Array
-    ) -> tuple[Array, npt.NDArray[np.bool_]]:
+    ) -> tuple[Array, Mask]:
         """By how much each residual is in doubt, and which have a value; both (n, residuals).
 
         `batch` are the residuals of the samples, of which `number` counts the first one from the
@@ -79,7 +78,7 @@ class Doubt:
         samples: Array,
         batch: Batch,
         doubt: Array,
-        valid: npt.NDArray[np.bool_],
+        valid: Mask,
     ) -> None:
         """What it makes that switches may have turned a sample later."""
         if not len(samples):
@@ -97,7 +96,7 @@ class Doubt:
         fast: Engine,
         samples: Array,
         batch: Batch,
-        valid: npt.NDArray[np.bool_],
+        valid: Mask,
         number: int,
     ) -> Array:
         """What the approximations are off by: the most of this row and the one before."""

@@ -15,7 +15,7 @@ from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
 from bondgraph.runtime.diagnosis.remembered import Memory, memories
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.simulation.parameters import Values
+from bondgraph.runtime.simulation.parameters import Values, units
 from bondgraph.text.tuples import NamedTuple
 
 _COUNT = 1.0  # counts by which the first one of an encoder may be off
@@ -71,13 +71,10 @@ def diagnosis_model(
         if not r.unavailable
     }
     seen = {f for faults in sees.values() for f in faults}
-    units = {v.name: v.unit or "" for v in graph.values}
-    units |= {i.name: i.unit or "" for i in graph.inputs}
-    units |= {s.name: s.unit or "" for s in graph.sensors}
     return DiagnosisModel(
         {f: numbers.get(f) for f in matrix.faults if f in seen},
         {v.name: float(v.tolerance) for v in graph.values if v.tolerance},
-        units,
+        units(graph),
         sees,
         matrix.groups,
         memories(program),

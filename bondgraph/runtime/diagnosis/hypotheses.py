@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
 _STEP = 1e-3  # relative change that a sensitivity is taken from
@@ -214,9 +214,7 @@ def sized(
     gains = [k for k, h in enumerate(known) if h.kind == "gain"]
     if not own or not gains or not len(samples):
         return known
-    copy = engine.configured(bounds=False)
-    copy.follow(engine)
-    bank = Bank(copy, [known[k] for k in (*own, *gains)], nominal)
+    bank = Bank(copied(engine), [known[k] for k in (*own, *gains)], nominal)
     moved = np.abs(bank.run(samples)).max(axis=0)
     largest = moved[len(own) :].max(axis=0)
     found = list(known)

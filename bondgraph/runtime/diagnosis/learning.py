@@ -7,13 +7,12 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.rows import Part, Row
 from bondgraph.runtime.diagnosis.tuning import height, kappa
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
 
 STEPS = 10  # differences of neighbouring rows that the noise of a residual is taken from
@@ -47,7 +46,7 @@ class Learning:
         self,
         engine: Engine,
         known: Sequence[Hypothesis],
-        used: npt.NDArray[np.bool_],
+        used: Mask,
         model: DiagnosisModel,
     ) -> None:
         counted = {h.fault for h in known if h.unit == COUNT}  # exact, however far they have come
@@ -96,7 +95,7 @@ class Learning:
         self._wanted &= ~own
         self._modes = [[] if o else m for m, o in zip(self._modes, own, strict=True)]
 
-    def part(self, part: Part, healthy: bool) -> npt.NDArray[np.bool_]:
+    def part(self, part: Part, healthy: bool) -> Mask:
         """Samples of a row that is not full yet.
 
         Returns the residuals whose noise has to be learned again, for switches as never before.
@@ -114,7 +113,7 @@ class Learning:
             self._met[k] |= now
         return fresh
 
-    def row(self, row: Row, healthy: bool) -> npt.NDArray[np.bool_]:
+    def row(self, row: Row, healthy: bool) -> Mask:
         """One row more, which counts if the machine is `healthy`.
 
         Returns the residuals whose noise is known with it.

@@ -12,7 +12,7 @@ from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis
 from bondgraph.runtime.diagnosis.isolation import History, inverse
 from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.engine import Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
 _SPREAD = 3.0  # standard deviations that a start may be off by
@@ -91,8 +91,7 @@ def replayed(case: Case, start: Array, tolerated: tuple[Hypothesis, ...]) -> tup
     own = list(case.own)
     found, age = [], 0
     for row in case.rows:
-        before = bank.engine.configured(bounds=False)
-        before.follow(bank.engine)
+        before = copied(bank.engine)
         slopes = bank.run(row.samples)[-1].copy()
         batch = bank.batch
         assert batch is not None

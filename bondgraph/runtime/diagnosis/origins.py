@@ -7,16 +7,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from bondgraph.runtime.diagnosis.encoder_readings import Readings
 from bondgraph.runtime.diagnosis.healthy import slack
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis
 from bondgraph.runtime.diagnosis.isolation import History
 from bondgraph.runtime.diagnosis.origin_fit import Case, Fit, fitted, replayed
 from bondgraph.runtime.diagnosis.remembered import Memory
 from bondgraph.runtime.diagnosis.rows import Row, weight
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.text.tuples import NamedTuple
@@ -32,12 +30,13 @@ _NARROW = 10.0  # deviations of a start, within which it stays when all else has
 _SLACK = 3.0  # standard deviations of a start that a threshold leaves room for
 _LATEST = 10  # rows in which slopes before a break are taken
 _ROOM = 1e-9  # s that times may be off by
+_FASTER = 1.5  # times as fast as ever before a machine may have moved in a gap
+_TURN = 2.0**32  # counts after which a counter runs over
 
 
 class Settled(NamedTuple):
     """What changes for a diagnosis once a start is known."""
 
-    names: tuple[str, ...]  # of the residuals
     bank: Bank
     rows: list[Row]
     tolerated: tuple[Hypothesis, ...]
@@ -103,13 +102,9 @@ class Origins:
         self._hold = _HOLD * self._warm if counted else 0
 
     @property
-    def waiting(self) -> npt.NDArray[np.bool_]:
+    def waiting(self) -> Mask:
         """The residuals that are not judged."""
-        found: npt.NDArray[np.bool_] = np.zeros(len(self._engine.residuals), dtype=np.bool_)
-        for group in self._groups:
-            if group.waiting:
-                found[group.residuals] = True
-        return found
+        return self._residuals_of([g for g in self._groups if g.waiting])
 
     @property
     def looking(self) -> bool:
@@ -117,15 +112,17 @@ class Origins:
         return any(group.waiting or group.doubtful for group in self._groups)
 
     @property
-    def lost(self) -> npt.NDArray[np.bool_]:
+    def lost(self) -> Mask:
         """Those of them whose start nobody knows."""
-        found: npt.NDArray[np.bool_] = np.zeros(len(self._engine.residuals), dtype=np.bool_)
-        for group in self._groups:
-            if group.waiting and group.begun and not group.kept:
-                found[group.residuals] = True
+        return self._residuals_of([g for g in self._groups if g.waiting and g.begun and not g.kept])
+
+    def _residuals_of(self, groups: Sequence[_Group]) -> Mask:
+        found: Mask = np.zeros(len(self._engine.residuals), dtype=np.bool_)
+        for group in groups:
+            found[group.residuals] = True
         return found
 
-    def unknown(self, of: npt.NDArray[np.bool_]) -> list[str]:
+    def unknown(self, of: Mask) -> list[str]:
         """The signals whose start these residuals wait for."""
         return [s for g in self._groups if of[g.residuals].any() for s in g.memory.signals]
 
@@ -264,7 +261,7 @@ class Origins:
                 if rows[0].valid.any() and length <= self._warm:
                     continue  # residuals that go on need slopes that have settled
                 bank, again = replayed(case, case.start, tolerated)
-                return self._accepted(group, Settled((), bank, again, tolerated, history))
+                return self._accepted(group, Settled(bank, again, tolerated, history))
             few = length < self._warm * self._slow(group) + _FEW * self._every
             if few or group.count < group.next:
                 continue
@@ -280,9 +277,8 @@ class Origins:
             self._told[group.signals] = found.start[group.signals]
             group.starts, group.spread = found.starts, found.spread
             self._taught(group, found, case)
-            return self._accepted(
-                group, Settled((), found.bank, found.rows, found.tolerated, found.history)
-            )
+            settled = Settled(found.bank, found.rows, found.tolerated, found.history)
+            return self._accepted(group, settled)
         return None
 
     def _behind(self, group: _Group, rows: int) -> int:
@@ -327,7 +323,7 @@ class Origins:
             ]
             at = self.waiting
             row.value[at], row.bound[at], row.valid[at] = 0.0, 0.0, False
-        return settled._replace(names=group.memory.residuals)
+        return settled
 
     def _case(
         self,
@@ -399,3 +395,64 @@ class Origins:
             group.fresh = fresh[k]
             group.restart(waiting=not group.fresh)
             group.resumed = not waiting[k]
+
+
+class Readings:
+    """The newest value of some signals, when it was, and the largest speed, in counts a second."""
+
+    def __init__(self, signals: int, sample_time: float) -> None:
+        self._last = np.full(signals, math.nan)
+        self._when = np.full(signals, math.nan)
+        self._fast = np.zeros(signals)
+        self._sample_time = sample_time
+
+    def last(self, at: int) -> float:
+        """The newest value of a signal, NaN before the first."""
+        return float(self._last[at])
+
+    def note(self, time: Array, samples: Array, signals: Sequence[int], enough: int) -> None:
+        """Further samples; a speed is taken over `enough` of them at least."""
+        for at in signals:
+            there = np.flatnonzero(np.isfinite(samples[:, at]))
+            if not len(there):
+                continue
+            begin, end = there[0], there[-1]
+            self._last[at], self._when[at] = samples[end, at], time[end]
+            if end - begin >= enough:
+                way = abs(float(samples[end, at] - samples[begin, at]))
+                self._fast[at] = max(self._fast[at], way / float(time[end] - time[begin]))
+
+    def go_on(self, time: Array, samples: Array, first: int, counters: Sequence[int]) -> bool:
+        """Whether all counters stand where they can have come to since, and not only by chance.
+
+        `first` is the first sample after a gap. A counter that has begun anew has not come further
+        since than it could either. Signals that are no counters go on anyway.
+        """
+        sure = not counters
+        for at in counters:
+            there = np.flatnonzero(np.isfinite(samples[:first, at]))
+            last, when = self._last[at], self._when[at]
+            if len(there):
+                last, when = samples[there[-1], at], time[there[-1]]
+            gap = float(time[first] - when)
+            room = _FASTER * float(self._fast[at]) * gap + 2.0
+            way = (float(samples[first, at] - last) + _TURN / 2) % _TURN - _TURN / 2
+            if not (gap > 0.0 and abs(way) <= room):
+                return False
+            sure |= gap < 1.5 * self._sample_time or bool(abs(samples[first, at]) > room)
+        return sure
+
+    def state(self) -> dict[str, Any]:
+        """All that `resume` needs, as plain JSON."""
+        return {
+            "last": numbers(self._last),
+            "when": numbers(self._when),
+            "fast": numbers(self._fast),
+        }
+
+    def resume(self, state: dict[str, Any]) -> None:
+        """Go on from a state."""
+        last, when, fast = (array(state[k], self._last.shape) for k in ("last", "when", "fast"))
+        self._last = np.where(np.isfinite(last), last, math.nan)
+        self._when = np.where(np.isfinite(when), when, math.nan)
+        self._fast = fast

@@ -3,23 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TypeAlias, assert_never
+from typing import TypeAlias
 
-from bondgraph.ir.program import (
-    Choice,
-    Compare,
-    Condition,
-    Const,
-    Expression,
-    Function,
-    Logic,
-    Mode,
-    Product,
-    Program,
-    Ref,
-    Sum,
-    flat,
-)
+from bondgraph.ir.program import Expression, Program, Ref, Sum, flat
+from bondgraph.notation.walk import references
 from bondgraph.text.tuples import NamedTuple
 
 _Name: TypeAlias = tuple[str, str]  # of a local or a state: its space and its name
@@ -86,11 +73,11 @@ class _Work:
         lasting: set[_Name] = set()
         for assign in flat(program.first):
             at = (assign.target.space, assign.target.name)
-            self._first.setdefault(at, []).extend(_refs(assign.value))
+            self._first.setdefault(at, []).extend(references(assign.value))
             lasting.add(at)
         for assign in flat(program.step):
             at = (assign.target.space, assign.target.name)
-            self._made.setdefault(at, []).extend(_refs(assign.value))
+            self._made.setdefault(at, []).extend(references(assign.value))
             self._kept.setdefault(at, []).extend(_whole(assign.value))
             lasting.discard(at)
         self._lasting = {at for at in lasting if at[0] == "state"}
@@ -168,34 +155,3 @@ def _whole(value: Expression) -> Iterator[_Name]:
             for sign, term in terms:
                 if sign:
                     yield from _whole(term)
-
-
-def _refs(value: Expression | Condition) -> Iterator[Ref]:
-    """All that an expression reads."""
-    match value:
-        case Const():
-            return
-        case Ref():
-            yield value
-        case Sum(terms):
-            for _, term in terms:
-                yield from _refs(term)
-        case Product(factors, divisors):
-            for factor in (*factors, *divisors):
-                yield from _refs(factor)
-        case Function(_, args):
-            for arg in args:
-                yield from _refs(arg)
-        case Choice(condition, yes, no):
-            for part in (condition, yes, no):
-                yield from _refs(part)
-        case Compare(_, left, right):
-            for part in (left, right):
-                yield from _refs(part)
-        case Logic(_, conditions):
-            for part in conditions:
-                yield from _refs(part)
-        case Mode(name):
-            yield Ref("known", name)
-        case _:
-            assert_never(value)

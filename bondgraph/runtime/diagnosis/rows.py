@@ -6,9 +6,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.text.tuples import NamedTuple
 
@@ -24,7 +23,7 @@ class Part(NamedTuple):
     time: Array
     samples: Array
     value: Array
-    valid: npt.NDArray[np.bool_]
+    valid: Mask
     bound: Array
     doubt: Array
     slopes: Array  # (n, parameters, residuals)
@@ -37,7 +36,7 @@ class Row(NamedTuple):
     samples: Array
     engine: Engine
     value: Array
-    valid: npt.NDArray[np.bool_]
+    valid: Mask
     bound: Array
     doubt: Array  # the part of it that no parameter explains
     slopes: Array  # of the tolerated parameters, wrong for ever

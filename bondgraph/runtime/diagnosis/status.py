@@ -5,41 +5,39 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.hypotheses import rows_apart
 from bondgraph.runtime.diagnosis.learning import STEPS
 from bondgraph.runtime.diagnosis.origins import Origins
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.verdict import Verdict, listed
+from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.text.numerals import listed
 
 _PATIENCE = 5.0  # warm-ups in which a residual should have had a value
-
-_Mask = npt.NDArray[np.bool_]
 
 
 class WatchStatus:
     """Says once what has changed since it was last said."""
 
-    def __init__(self, engine: Engine, used: _Mask) -> None:
+    def __init__(self, engine: Engine, used: Mask) -> None:
         self._engine, self._used = engine, used
-        self._hopeless: _Mask = np.zeros(len(used), dtype=np.bool_)  # that were said to be
+        self._hopeless: Mask = np.zeros(len(used), dtype=np.bool_)  # that were said to be
         self.restart()
 
     def restart(self) -> None:
         """The residuals begin anew."""
         self._warm = False
         self._first: float | None = None  # s, of the first sample
-        self._seen: _Mask = np.zeros(len(self._used), dtype=np.bool_)  # that have had a value
-        self._waits: _Mask = np.zeros(len(self._used), dtype=np.bool_)  # that were said to wait
+        self._seen: Mask = np.zeros(len(self._used), dtype=np.bool_)  # that have had a value
+        self._waits: Mask = np.zeros(len(self._used), dtype=np.bool_)  # that were said to wait
 
-    def names(self, of: _Mask) -> str:
+    def names(self, of: Mask) -> str:
         """Residuals by name."""
         return listed([n for n, own in zip(self._engine.residuals, of, strict=True) if own], "and")
 
     def warm_up(
-        self, time: Array, valid: _Mask, noise: Array, origins: Origins, out: list[Verdict]
+        self, time: Array, valid: Mask, noise: Array, origins: Origins, out: list[Verdict]
     ) -> None:
         """Say so once all have had a value that ever will: the slowest filter has settled.
 
@@ -69,9 +67,9 @@ class WatchStatus:
     def _begin(
         self,
         at: float,
-        watched: _Mask,
-        waiting: _Mask,
-        known: _Mask,
+        watched: Mask,
+        waiting: Mask,
+        known: Mask,
         origins: Origins,
         out: list[Verdict],
     ) -> None:
@@ -101,7 +99,7 @@ class WatchStatus:
             out.append(Verdict("warm-up", time, message=message))
         self._waits = (self._waits & waiting) | lost
 
-    def learned(self, time: float, fresh: _Mask, hopeless: _Mask, out: list[Verdict]) -> None:
+    def learned(self, time: float, fresh: Mask, hopeless: Mask, out: list[Verdict]) -> None:
         """At the end of a row: the noise of `fresh` residuals is known now, or is no noise."""
         if fresh.any():
             out.append(Verdict("warm-up", time, message=self._watched(fresh)))
@@ -113,16 +111,16 @@ class WatchStatus:
             out.append(Verdict("invalid", time, message=message))
         self._hopeless = hopeless.copy()
 
-    def relearning(self, time: float, fresh: _Mask, out: list[Verdict]) -> None:
+    def relearning(self, time: float, fresh: Mask, out: list[Verdict]) -> None:
         """The switches are as never before, and the noise of `fresh` residuals is not known."""
         if fresh.any():
             message = f"switches are as never before: {self._learning(time, fresh)}"
             out.append(Verdict("warm-up", time, message=message))
 
-    def _watched(self, of: _Mask) -> str:
+    def _watched(self, of: Mask) -> str:
         return f"{self.names(of)} {'is' if of.sum() == 1 else 'are'} watched from now on"
 
-    def _learning(self, at: float, of: _Mask) -> str:
+    def _learning(self, at: float, of: Mask) -> str:
         """When enough rows will have been seen, if the machine moves."""
         every = rows_apart(self._engine)
         rows = math.ceil((round(at / self._engine.sample_time) + 1) / every) + STEPS
@@ -130,7 +128,7 @@ class WatchStatus:
         noise = f"the noise of {self.names(of)} is learned until {until:.3f} s at least"
         return f"{noise}, and no alarm given before"
 
-    def _waiting(self, of: _Mask, origins: Origins) -> str:
+    def _waiting(self, of: Mask, origins: Origins) -> str:
         verb = "waits" if of.sum() == 1 else "wait"
         where = f"where {listed(origins.unknown(of), 'and')} began"
         return f"{self.names(of)} {verb} until the machine has shown by its motion {where}"

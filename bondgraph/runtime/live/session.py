@@ -10,11 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from bondgraph.runtime.live.paced import Paced
 from bondgraph.runtime.live.positions import Places
-from bondgraph.runtime.live.setup import Setup, Target, wish
+from bondgraph.runtime.live.samples import Paced
+from bondgraph.runtime.live.setup import Heard, Setup, Target, wish
 from bondgraph.runtime.live.twin import Twin
-from bondgraph.runtime.live.watch import Heard
 from bondgraph.runtime.log import Array, LogError
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.sample_pipeline import Monitor, Parts, Stop
@@ -41,7 +40,7 @@ class Session:
         self._end = Stop()
         self._round = Stop()
         self.twin = Twin(setup.system, setup.integral, setup.scenario)
-        self.places = Places(setup.system, setup.scenario, self.twin.stepper.values)
+        self.places = Places(setup.system, setup.scenario, self.twin.fed.values)
         self._signals = [k.path for k in setup.engine.signals]
         self._turn = {
             k.path: 1.0 if k.counts is None else 2 * math.pi / k.counts

@@ -8,13 +8,13 @@ has done, and the filters start anew.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.program import Known
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Log, Mask
+from bondgraph.runtime.monitoring.columns import Columns, Mapped
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.text.tuples import NamedTuple
 
@@ -26,8 +26,6 @@ _FOREVER = 1e15  # s: beyond it a double does not tell one sample from the next
 _COUNTER, _LARGEST = 2.0**32, 2.0**53
 _BLOCK = 8192  # samples taken at a time
 _WINDOW = 256  # samples in which a break is looked for first
-
-_Mask = npt.NDArray[np.bool_]
 
 
 class Gap(NamedTuple):
@@ -79,7 +77,7 @@ class Clock:
         known = tuple(signals)
         self.sample_time, self.most, self.wraps = sample_time, most, wraps
         self.dropped = 0  # samples that came twice, late, without time or without any value
-        self._modes: _Mask = np.array([k.kind == "mode" for k in known], dtype=np.bool_)
+        self._modes: Mask = np.array([k.kind == "mode" for k in known], dtype=np.bool_)
         self._counts = [at for at, k in enumerate(known) if k.counts is not None]
         self._taken = 0  # samples without time
         self._raw: float | None = None  # the newest time as it came
@@ -163,10 +161,10 @@ class Clock:
         self._gap = Gap(self._top, time, max(0, lost))
         self._begin(time)
 
-    def _stretch(self, times: Array, at: int) -> tuple[int, _Mask]:
+    def _stretch(self, times: Array, at: int) -> tuple[int, Mask]:
         """Up to where the times from `at` on belong together, and which of them are new."""
         assert self._top is not None
-        fresh: list[_Mask] = []
+        fresh: list[Mask] = []
         width, start = _WINDOW, at
         while start < len(times):
             part = times[start : start + width]
@@ -238,7 +236,7 @@ class Clock:
         gap, self._gap = self._gap, None
         return [Piece(grid, found, gap.text if gap else "", gap)]
 
-    def _known(self, there: _Mask) -> float:
+    def _known(self, there: Mask) -> float:
         """Up to where all signals are known, or will not be."""
         last = float(self._times[-1])
         waiting = there.any(axis=0) & ~there[-1] & ~self._modes
@@ -286,3 +284,11 @@ def clock_of(engine: Engine, most: float | None = None, wraps: float | None = No
     """The clock of an engine; `most` is one time constant of its filter unless told otherwise."""
     bridged = 1.0 / engine.bandwidth if most is None else most
     return Clock(engine.signals, engine.sample_time, bridged, wraps)
+
+
+def on_grid(
+    engine: Engine, log: Log, mapping: Mapping[str, Mapped] | None = None, name: str = "log"
+) -> list[Piece]:
+    """The signals of an engine in a whole log, on its grid; see `Columns`."""
+    clock = clock_of(engine)
+    return clock.feed(log.time, Columns(engine.signals, mapping, name)(log)) + clock.finish()

@@ -11,11 +11,10 @@ from types import ModuleType
 from typing import Any, Protocol
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.program import Known
 from bondgraph.ir.runnable_code import Runnable, Together
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.text.tuples import NamedTuple
 
 _LARGEST = 2.0**53  # a double has all whole numbers up to here
@@ -30,7 +29,7 @@ class Batch(NamedTuple):
     """
 
     value: Array
-    valid: npt.NDArray[np.bool_]
+    valid: Mask
     bound: Array
 
 
@@ -200,25 +199,39 @@ def checked(samples: Array, signals: int) -> Array:
     return found
 
 
+def copied(engine: Engine) -> Engine:
+    """An engine that stands where this one does; it computes no thresholds."""
+    copy = engine.configured(bounds=False)
+    copy.follow(engine)
+    return copy
+
+
 def one_by_one(engines: Sequence[Engine], samples: Array) -> Batch:
     """The results of engines run one after the other, with a first axis of engines."""
     return Batch(*map(np.stack, zip(*[e.run(samples) for e in engines], strict=True)))
 
 
-class PythonEngine:
+class OfSetting:
+    """What an engine says of itself, from the setting that it was made with."""
+
+    def __init__(self, setting: Setting) -> None:
+        self._setting = setting
+        self.residuals = tuple(r.name for r in setting.residuals.program.residuals)
+        self.signals, self.readings = setting.signals, setting.readings
+        self.sample_time = 1.0 / setting.residuals.program.rate
+        self.bandwidth, self.warm_up = setting.bandwidth, setting.warm_up
+        self.parameters: Mapping[str, float] = setting.parameters
+
+
+class PythonEngine(OfSetting):
     """An `Engine` that runs the generated Python: some hundred times slower than C, same numbers.
 
     Raises ValueError for values of parameters that the model cannot take.
     """
 
     def __init__(self, setting: Setting, modules: Sequence[ModuleType] = ()) -> None:
-        self._setting = setting
+        super().__init__(setting)
         self._modules = tuple(modules) or tuple(map(_loaded, setting.programs))
-        self.residuals = tuple(r.name for r in setting.residuals.program.residuals)
-        self.signals, self.readings = setting.signals, setting.readings
-        self.sample_time = 1.0 / setting.residuals.program.rate
-        self.bandwidth, self.warm_up = setting.bandwidth, setting.warm_up
-        self.parameters: Mapping[str, float] = setting.parameters
         self._monitors = [
             _Monitor(runnable, module, setting)
             for runnable, module in zip(setting.programs, self._modules, strict=False)
@@ -297,7 +310,7 @@ class _Monitor:
 
     def run(
         self, rows: list[list[float]], shape: tuple[int, int]
-    ) -> tuple[Array, npt.NDArray[np.bool_]]:
+    ) -> tuple[Array, Mask]:
         """Results and their validity; what is not valid may have any number."""
         value, valid = np.zeros(shape), np.zeros(shape, dtype=np.bool_)
         step, taken, number = self._monitor.step, self._samples, self._number

@@ -10,13 +10,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from bondgraph.runtime.monitoring.verdict import Verdict, from_record, to_json
+from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.tuples import NamedTuple
 
 _EDITION = 1
 _OLD = 1 << 20  # bytes of positions that are no longer needed, after which the file is cleaned
 
 
-class JournalError(Exception):
+class JournalError(Trouble):
     """A journal that cannot be used: what is wrong, and a remedy."""
 
 

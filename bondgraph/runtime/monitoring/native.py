@@ -25,6 +25,7 @@ from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import (
     Batch,
     Engine,
+    OfSetting,
     PythonEngine,
     Setting,
     one_by_one,
@@ -120,19 +121,15 @@ class Functions:
         self.run = function("", None, pointer, size, pointer, size, size, pointer, *results)
 
 
-class NativeEngine:
+class NativeEngine(OfSetting):
     """An `Engine` of compiled code.
 
     Raises ValueError for values of parameters that the model cannot take.
     """
 
     def __init__(self, setting: Setting, library: Library) -> None:
-        self._setting, self._library = setting, library
-        self.residuals = tuple(r.name for r in setting.residuals.program.residuals)
-        self.signals, self.readings = setting.signals, setting.readings
-        self.sample_time = 1.0 / setting.residuals.program.rate
-        self.bandwidth, self.warm_up = setting.bandwidth, setting.warm_up
-        self.parameters: Mapping[str, float] = setting.parameters
+        super().__init__(setting)
+        self._library = library
         self._monitors = [
             _Monitor(runnable, library.functions[runnable.stem], setting)
             for runnable in setting.programs

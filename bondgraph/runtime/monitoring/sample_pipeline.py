@@ -6,16 +6,16 @@ import time as clocks
 from collections import deque
 from collections.abc import Callable, Sequence
 from threading import Event
-from typing import Any
+from typing import Any, Protocol
 
 from bondgraph.runtime.log import TIME_UNIT, Array, Log, LogError
 from bondgraph.runtime.monitoring.clock import Clock, Piece
-from bondgraph.runtime.monitoring.decision import Decision
-from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.journal import Journal, JournalError, Past
-from bondgraph.runtime.monitoring.publisher import Publisher
+from bondgraph.runtime.monitoring.mqtt_client import Publisher
 from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Source
-from bondgraph.runtime.monitoring.verdict import Verdict, described, listed, to_json
+from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
+from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
 
 _EVERY = 1.0  # s between two positions in the journal
@@ -32,6 +32,33 @@ class Stop(Event):
         """Wish so."""
         self.reason = reason
         self.set()
+
+
+class Decision(Protocol):
+    """What says verdicts; a monitor owns one."""
+
+    def update(self, time: Array, batch: Batch, samples: Array) -> list[Verdict]:
+        """What there is to say after further samples, in order. Times in s."""
+
+    def look(self, time: Array, batch: Batch, samples: Array) -> None:
+        """Samples that were decided on before a restart, to warm up by."""
+
+    def decided(self) -> Batch:
+        """By what the samples of the last `update` were decided on.
+
+        Values may be others than those that came in, where it knows better, and so may be which of
+        them are valid. The bound is the whole threshold: adaptive, for what nobody knows of the
+        machine, and for noise; NaN while that is learned. Further out for long enough is an alarm.
+        """
+
+    def restart(self) -> None:
+        """The residuals begin anew, after a gap; what was said is still said."""
+
+    def state(self) -> dict[str, Any]:
+        """All that `resume` needs, as plain JSON."""
+
+    def resume(self, state: dict[str, Any]) -> None:
+        """Go on from a state; raises KeyError, TypeError or ValueError for one of another kind."""
 
 
 class Parts(NamedTuple):

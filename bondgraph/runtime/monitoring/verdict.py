@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
 from typing import Any
 
+from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
 
 #: What a verdict can be about, in the order of a watch.
@@ -130,21 +130,6 @@ def described(verdict: Verdict) -> str:
         parts = [f"{n} at {_times(v)} its threshold" for n, v in verdict.residuals.items()]
         text += "; " + listed(parts, "and")
     return text
-
-
-def listed(names: Sequence[str], word: str, most: int = 8) -> str:
-    """`a, b or c`; of more than `most` names the first ones and how many more there are.
-
-    >>> listed(["a", "b", "c"], "or"), listed(["a", "b", "c", "d"], "and", 3)
-    ('a, b or c', 'a, b and 2 more')
-    """
-    shown = list(names)
-    if len(shown) > most:
-        shown = shown[: most - 1] + [f"{len(shown) - most + 1} more"]
-        word = "and"
-    if len(shown) < 2:
-        return "".join(shown)
-    return f"{', '.join(shown[:-1])} {word} {shown[-1]}"
 
 
 def _candidate(candidate: Candidate) -> str:

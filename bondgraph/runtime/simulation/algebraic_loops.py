@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from bondgraph.runtime.log import Array
+
 Places = Sequence[tuple[int, int]]  # row and column of each entry of a matrix
 Look = Callable[..., tuple[list[float], list[list[float]]]]  # unknowns -> zeros, slopes
 

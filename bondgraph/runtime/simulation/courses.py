@@ -6,18 +6,14 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable
 
-import numpy as np
-import numpy.typing as npt
-
 from bondgraph.algebra.derivative import Jets
 from bondgraph.algebra.interpreter import interpolation
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.functions import FUNCTIONS
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.code import Code
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Course
-
-Array = npt.NDArray[np.float64]
 
 TIME = "t"
 _MANY = 200  # points of a recording, rather than of a table that a person wrote

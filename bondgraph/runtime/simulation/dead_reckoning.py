@@ -7,17 +7,15 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.expr import KNOWN_SIGNALS, VARIABLES, ZERO_START, Expr, Kind, Op, topological
 from bondgraph.passes.elimination.chaining import Chain
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation import courses
 from bondgraph.runtime.simulation.code import Code
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Scenario
-
-Array = npt.NDArray[np.float64]
 
 _COUNTER = 2.0**32  # an encoder's counter may run over
 
@@ -35,6 +33,19 @@ class Reckoning:
     `names` are those of the wanted that can be computed, `lacking` says of the others what is
     missing, `signals` are what `feed` reads. Raises KeyError for a `let` that is none, and with the
     name of a parameter without a value.
+
+    >>> import bondgraph, numpy as np
+    >>> from bondgraph.text.source import Source
+    >>> c = bondgraph.Compilation(Source("cart.bg", '''bg 1
+    ... model Cart {
+    ...     input F : N
+    ...     1:v { <- Se:F; -> I:m = 2 kg; -> Df:speed }
+    ...     let x = int(v.f)
+    ... }'''))
+    >>> t = np.linspace(0, 2, 201)
+    >>> x = Reckoning(c.equations, ["x"], Values(c.graph)).feed(t, {"speed": 3 * t})["x"]
+    >>> f"{x[-1]:.2f} m"
+    '6.00 m'
     """
 
     def __init__(
@@ -198,50 +209,6 @@ class Desired:
             self._sum[name] = float(found[name][-1])
         self._time = float(time[-1])
         return found
-
-
-def reckoned(
-    system: EquationSystem,
-    wanted: Iterable[str],
-    values: Values,
-    time: Array,
-    signals: Mapping[str, Array],
-) -> dict[str, Array]:
-    """The `let`s of a whole log, (n,) each, those that cannot be computed left out.
-
-    `signals` by name, (n,), encoders in whole counts, time in s. See `Reckoning`.
-
-    >>> import bondgraph, numpy as np
-    >>> from bondgraph.text.source import Source
-    >>> c = bondgraph.Compilation(Source("cart.bg", '''bg 1
-    ... model Cart {
-    ...     input F : N
-    ...     1:v { <- Se:F; -> I:m = 2 kg; -> Df:speed }
-    ...     let x = int(v.f)
-    ... }'''))
-    >>> t = np.linspace(0, 2, 201)
-    >>> x = reckoned(c.equations, ["x"], Values(c.graph), t, {"speed": 3 * t})["x"]
-    >>> f"{x[-1]:.2f} m"
-    '6.00 m'
-    """
-    reckoning = Reckoning(system, wanted, values)
-    return reckoning.feed(time, signals)
-
-
-def desired(
-    system: EquationSystem, wanted: Iterable[str], scenario: Scenario, values: Values, time: Array
-) -> dict[str, Array]:
-    """The same `let`s as the scenario wants them, (n,) each; empty where it does not say enough."""
-    reckoning = Reckoning(system, wanted, values, counts=False)
-    given = Desired(system, scenario, values).at(time)
-    told = {**scenario.inputs, **scenario.modes}
-    for name in reckoning.signals:
-        if name in told and name not in given:
-            course = courses.function(told[name], system.graph.pool, values)
-            given[name] = np.array([course(t) for t in time.tolist()])
-    if any(name not in given for name in reckoning.signals):
-        return {}
-    return reckoning.feed(time, given)
 
 
 # ------------------------------------------------------------------------------ helpers

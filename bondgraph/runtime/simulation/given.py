@@ -3,34 +3,100 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation import courses
-from bondgraph.runtime.simulation.controllers import Pid
 from bondgraph.runtime.simulation.faults import Wrong, edges
-from bondgraph.runtime.simulation.machine import Machine, Signal
+from bondgraph.runtime.simulation.machine import Machine
 from bondgraph.runtime.simulation.parameters import Values
-from bondgraph.runtime.simulation.scenario import Course, Scenario
+from bondgraph.runtime.simulation.scenario import Controller, Course, Scenario
 
-Array = npt.NDArray[np.float64]
 Inputs = Callable[[float], list[float]]
 
 _EDGE = 2e-12  # of the time: what lies nearer together than half of it is one moment
+_LOOKS = 2000  # times at which a condition is looked at, at least
 
 
-class Given:
-    """All that acts on a machine from outside, by name.
+class Acting(ABC):
+    """All that acts on a machine from outside, by name: commands, and what is wrong.
 
     Within a segment, from one jump of anything to the next, it is smooth: `inside` keeps times
     clear of the jumps at both ends, so that each of them belongs to one side.
     """
 
+    def __init__(self, graph: BondGraph, values: Values) -> None:
+        self.graph, self.values = graph, values
+        self.wrong: dict[str, Wrong] = {}
+        self.modes = tuple(i.name for i in graph.inputs if i.mode)
+        self._sensors = {s.name for s in graph.sensors if s.same_as is None}
+        self._numbers = {v.name: v.symbol for v in graph.values}
+
+    @abstractmethod
+    def told(self, name: str, t: float) -> float:
+        """A command as it is given, not as a faulty amplifier carries it out."""
+
+    @abstractmethod
+    def command(self, name: str, order: int) -> Callable[[float], float] | None:
+        """A command, or its derivative of some order, over time; None for what is no input."""
+
+    @property
+    def disturbed(self) -> tuple[str, ...]:
+        """What is changed by faults, samples that are missing aside."""
+        return tuple(n for n, w in self.wrong.items() if any(f.op != "missing" for f in w.faults))
+
+    def setting(self, t: float) -> tuple[bool, ...]:
+        """The position of the switches at time t, in s."""
+        return tuple(self.told(name, t) != 0 for name in self.modes)
+
+    def inputs(self, machine: Machine) -> Inputs:
+        """What `machine.signals` are, as a function of time."""
+        made = [self._signal(*signal) for signal in machine.signals]
+        return lambda t: [f(t) for f in made]
+
+    def _signal(self, name: str, order: int) -> Callable[[float], float]:
+        found = self.command(name, order)
+        if found is not None:
+            return found
+        what, _, target = name.partition(" of ")
+        if what not in ("gain", "bias") or order > 1:
+            return nothing
+        which = ("gain", "bias").index(what)
+        if order:
+            return lambda t: self.wrong[target].slope(t)[which]
+        return lambda t: self.wrong[target].at(t)[which]
+
+    def before(self, machine: Machine) -> list[float]:
+        """What `machine.signals` were before the start: nothing told, nothing wrong."""
+        return [float(s.name.startswith("gain of ") and s.order == 0) for s in machine.signals]
+
+    def hold(self, t: float, look: Callable[[], Mapping[str, float]]) -> None:
+        """Let faults that stick take hold; `look` tells all that can be seen at this moment."""
+        sticking = [n for n, w in self.wrong.items() if any(f.op == "stuck" for f in w.faults)]
+        now = look() if sticking else {}
+        for name in sticking:
+            self.wrong[name].hold(t, self._healthy(name, now, t))
+
+    def _healthy(self, name: str, now: Mapping[str, float], t: float) -> float:
+        """What a value, input or sensor would be now if nothing were wrong with it."""
+        if name in self._sensors:
+            gain, bias = self.wrong[name].at(t)
+            return (now[name] - bias) / gain if gain else 0.0
+        if name in self._numbers:
+            return self.values.number(self._numbers[name])
+        return self.told(name, t)
+
+
+class Given(Acting):
+    """The commands, controllers and faults of a scenario."""
+
     def __init__(self, graph: BondGraph, scenario: Scenario, values: Values, times: Array) -> None:
-        self.graph, self.scenario, self.values, self.times = graph, scenario, values, times
+        super().__init__(graph, values)
+        self.scenario, self.times = scenario, times
         faults = scenario.faults
         counting = {s.name for s in graph.sensors if s.counts is not None}
         self.wrong = {
@@ -44,7 +110,6 @@ class Given:
         self.courses = {
             i.name: written.get(i.name, zero) for i in graph.inputs if i.name not in self._driven
         }
-        self.modes = tuple(i.name for i in graph.inputs if i.mode)
         for name in self.modes:
             self.courses[name] = self.courses[name]._replace(hold=True)
         self._told = {name: self._function(course) for name, course in self.courses.items()}
@@ -54,37 +119,35 @@ class Given:
         return courses.function(course, self.graph.pool, self.values, order)
 
     def told(self, name: str, t: float) -> float:
-        """A command as it is given, not as a faulty amplifier carries it out."""
+        """See `Acting`."""
         pid = self._driven.get(name)
         return self._told[name](t) if pid is None else pid.output
 
-    def setting(self, t: float) -> tuple[bool, ...]:
-        """The position of the switches."""
-        return tuple(self._told[name](t) != 0 for name in self.modes)
-
-    def inputs(self, machine: Machine) -> Inputs:
-        """What `machine.signals` are, as a function of time."""
-        made = [self._signal(signal) for signal in machine.signals]
-        return lambda t: [f(t) for f in made]
-
-    def _signal(self, signal: Signal) -> Callable[[float], float]:
-        name, order = signal
+    def command(self, name: str, order: int) -> Callable[[float], float] | None:
+        """See `Acting`."""
         if name in self.courses:
             return self._function(self.courses[name], order)
-        if name in self._driven:
-            pid = self._driven[name]
-            return _nothing if order else (lambda _: pid.output)
-        what, _, target = name.partition(" of ")
-        if what not in ("gain", "bias") or order > 1:
-            return _nothing
-        wrong, which = self.wrong[target], ("gain", "bias").index(what)
-        if order:
-            return lambda t: wrong.slope(t)[which]
-        return lambda t: wrong.at(t)[which]
+        pid = self._driven.get(name)
+        if pid is None:
+            return None
+        return nothing if order else lambda _: pid.output
 
-    def before(self, machine: Machine) -> list[float]:
-        """What `machine.signals` were before the start: nothing told, nothing wrong."""
-        return [float(s.name.startswith("gain of ") and s.order == 0) for s in machine.signals]
+    def control(
+        self,
+        t: float,
+        look: Callable[[], Mapping[str, float]],
+        read: Callable[[str, float], float],
+    ) -> None:
+        """Let the controllers decide whose period ends at time t.
+
+        `look` tells all that can be seen then, `read` what a sensor makes of its true value.
+        """
+        due = [p for p in self.pids if _multiple(t, p.controller.period)]
+        now = look() if due else {}
+        for pid in due:
+            name = pid.controller.measures
+            gone = name in self.wrong and self.wrong[name].missing(t)
+            pid.update(t, math.nan if gone else read(name, now[name]))
 
     def stops(self, end: float) -> list[float]:
         """The moments between start and end at which something jumps or bends."""
@@ -99,9 +162,6 @@ class Given:
             ticks = np.arange(1, math.ceil(end / controller.period)) * controller.period
             found.update(ticks.tolist())
         return _apart((t for t in found if 0 < t < end), self.times)
-
-
-_LOOKS = 2000  # times at which a condition is looked at, at least
 
 
 def inside(a: float, b: float) -> Callable[[float], float]:
@@ -126,5 +186,44 @@ def _apart(found: Iterable[float], times: Array) -> list[float]:
     return [t for t in kept if t < times[-1]]
 
 
-def _nothing(_: float) -> float:
+def _multiple(t: float, period: float) -> bool:
+    return abs(t / period - round(t / period)) < 1e-6
+
+
+def nothing(_: float) -> float:
+    """Zero at all times."""
     return 0.0
+
+
+class Pid:
+    """One loop; `setpoint` is its course. Called once a period.
+
+    The integral is kept by the trapezoidal rule and stands still while the output is at a limit
+    and the error would drive it further (clamping).
+    """
+
+    def __init__(self, controller: Controller, setpoint: Callable[[float], float]) -> None:
+        self.controller = controller
+        self.setpoint = setpoint
+        self.output = min(max(0.0, controller.limits[0]), controller.limits[1])
+        self._integral = 0.0
+        self._error: float | None = None
+        self._seen: float | None = None
+
+    def update(self, t: float, seen: float) -> None:
+        """Decide on a reading, in the unit of the sensor; NaN is none, and changes nothing."""
+        c, measured = self.controller, seen
+        if math.isnan(seen):
+            return
+        if c.speed:
+            before, self._seen = self._seen, seen
+            measured = 0.0 if before is None else (seen - before) / c.period
+        error = self.setpoint(t) - measured
+        before_error = error if self._error is None else self._error
+        grown = self._integral + c.ki * c.period * (error + before_error) / 2
+        wanted = c.kp * error + grown + c.kd * (error - before_error) / c.period
+        low, high = c.limits
+        if (wanted <= high or error < 0) and (wanted >= low or error > 0):
+            self._integral = grown
+        self._error = error
+        self.output = min(max(wanted, low), high)

@@ -1,16 +1,21 @@
-"""What instruments make of true values: noise, resolution, counts, their own rate."""
+"""What instruments make of true values: noise, resolution, counts, their own rate.
+
+`Reader` is one sensor, `Readings` are all of a machine that runs without an end.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from bondgraph.runtime.simulation.scenario import Instrument
-
-Array = npt.NDArray[np.float64]
+from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.simulation.faults import Wrong
+from bondgraph.runtime.simulation.parameters import Values
+from bondgraph.runtime.simulation.scenario import Instrument, Scenario
 
 
 class Reader:
@@ -39,6 +44,11 @@ class Reader:
         """From sample `first` to before `last` it shows noise no more: the sensor is stuck."""
         self._noise[first:last] = self._noise[max(first - 1, 0)]
 
+    @property
+    def unit(self) -> float:
+        """How much one of what is read is, in the unit of the sensor: a count in rad, else 1."""
+        return 1.0 if self.counts is None else 2 * math.pi / self.counts
+
     def own_sample(self, k: int) -> int:
         """The sample whose value is shown at sample k: earlier for a slow instrument."""
         return k - k % self._every
@@ -61,3 +71,81 @@ class Reader:
             seen = np.round(seen / self.instrument.step) * self.instrument.step
         k = np.arange(n)
         return np.asarray(seen[k - k % self._every], dtype=float)
+
+
+def readers(
+    graph: BondGraph, scenario: Scenario, values: Values, samples: int
+) -> dict[str, Reader]:
+    """The instruments of a scenario for so many samples, by name of the sensor."""
+    found = {}
+    for k, sensor in enumerate(s for s in graph.sensors if s.same_as is None):
+        counts = None if sensor.counts is None else values.number(sensor.counts)
+        instrument = scenario.instruments.get(sensor.name, Instrument())
+        seed = [scenario.seed, 2, k]
+        found[sensor.name] = Reader(instrument, counts, samples, scenario.sampling.rate, seed)
+    return found
+
+
+class Readings:
+    """The instruments of a scenario, window after window of `size` samples (at least `least`).
+
+    The noise of a window is drawn when it begins (`renew`); the counts of an encoder go on.
+    """
+
+    def __init__(self, graph: BondGraph, scenario: Scenario, values: Values, least: int) -> None:
+        self.sensors = tuple(s for s in graph.sensors if s.same_as is None)
+        self.names = frozenset(s.name for s in self.sensors)
+        rates = [scenario.instruments.get(s.name, Instrument()).rate for s in self.sensors]
+        step = math.lcm(*(max(1, round(scenario.sampling.rate / r)) for r in rates if r))
+        self.size = -(-least // step) * step  # a slow instrument begins with the window
+        self._readers = readers(graph, scenario, values, self.size)
+        self._own: dict[str, float] = {}  # what a slow instrument took last
+        self._shown: dict[str, float] = {}
+        self._fresh = True
+
+    def renew(self) -> None:
+        """The next window begins."""
+        if not self._fresh:
+            for reader in self._readers.values():
+                reader.renew()
+        self._fresh = False
+
+    def unit(self, name: str) -> float:
+        """See `Reader.unit`."""
+        return self._readers[name].unit
+
+    def read(self, name: str, k: int, true: float) -> float:
+        """What one sensor reads at sample k of the window."""
+        reader = self._readers[name]
+        own = reader.own_sample(k)
+        if own < k and name in self._own:
+            true = self._own[name]
+        return reader.read(own, true)
+
+    def all(
+        self,
+        first: int,
+        times: Array,
+        rows: Sequence[Mapping[str, float]],
+        wrong: Mapping[str, Wrong],
+    ) -> dict[str, Array]:
+        """What each sensor reads at samples of the window from `first` on; NaN: no sample.
+
+        `rows` are the true values by name; one that is stuck shows what it showed last.
+        """
+        found: dict[str, Array] = {}
+        for name, reader in self._readers.items():
+            column = np.empty(len(times))
+            faulty = wrong.get(name)
+            for k, (t, row) in enumerate(zip(times.tolist(), rows, strict=True), first):
+                true = row.get(name, math.nan)
+                if reader.own_sample(k) == k:
+                    self._own[name] = true
+                if faulty is not None and faulty.missing(t):
+                    column[k - first] = math.nan
+                    continue
+                if not (faulty is not None and faulty.stuck(t) and name in self._shown):
+                    self._shown[name] = self.read(name, k, true) if true == true else math.nan
+                column[k - first] = self._shown[name]
+            found[name] = column
+        return found

@@ -1,12 +1,15 @@
-"""The numbers of a machine: parameters, constants and initial values, some of them replaced."""
+"""The numbers of a machine: parameters, constants, initial values; some replaced or drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from bondgraph.algebra.nominal import Nominal
 from bondgraph.ir.expr import Expr, Op, topological
 from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.simulation.scenario import Scenario
 
 
 class Values:
@@ -34,3 +37,29 @@ class Values:
     def constant(self, expr: Expr) -> float | None:
         """The value, None where a signal or a parameter without a number is in it."""
         return self._nominal.value(expr)
+
+
+def drawn(graph: BondGraph, scenario: Scenario) -> Values:
+    """The numbers of the machine of a scenario.
+
+    With a `spread` it is one out of many: every parameter with a tolerance is drawn evenly between
+    its limits, from the seed of the scenario; one that the scenario gives is left alone.
+    """
+    values = Values(graph, scenario.parameters)
+    if scenario.spread == "none":
+        return values
+    replaced = dict(scenario.parameters)
+    for k, value in enumerate(graph.values):
+        if value.tolerance is None or value.name in scenario.parameters:
+            continue
+        draw = np.random.default_rng([scenario.seed, 4, k])
+        share = float(value.tolerance) * draw.uniform(-1.0, 1.0)
+        replaced[value.name] = values.number(value.symbol) * (1.0 + float(share))
+    return Values(graph, replaced)
+
+
+def units(graph: BondGraph) -> dict[str, str]:
+    """The unit of every value, input and sensor as the model writes it, "" for none."""
+    found = {v.name: v.unit or "" for v in graph.values}
+    found |= {i.name: i.unit or "" for i in graph.inputs}
+    return found | {s.name: s.unit or "" for s in graph.sensors}

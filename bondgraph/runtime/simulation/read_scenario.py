@@ -13,7 +13,7 @@ from bondgraph.ir.graph import BondGraph, Node
 from bondgraph.ir.unit import Dimension, over, times
 from bondgraph.library.units import DOMAINS
 from bondgraph.passes.elaboration.outside import Outside
-from bondgraph.runtime.simulation.observed import named
+from bondgraph.runtime.simulation.machine import named
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import (
     Change,
@@ -25,8 +25,7 @@ from bondgraph.runtime.simulation.scenario import (
     Sampling,
     Scenario,
 )
-from bondgraph.runtime.simulation.toml_places import places
-from bondgraph.runtime.simulation.toml_table import HERTZ, PURE, SECOND, Document, Table
+from bondgraph.runtime.simulation.toml_table import HERTZ, PURE, SECOND, Document, Table, places
 from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Source, Span
 
@@ -332,21 +331,14 @@ class _Reader:
         return found
 
     def _record(self, top: Table) -> tuple[str, ...]:
-        known = named(self.graph)
-        names = top.names("record")
-        return tuple(
-            n
-            for k, n in enumerate(names)
-            if self._known(top, ("record", k), n, "effort or flow", known)
-        )
+        return self._listed(top, "record", "effort or flow", named(self.graph))
 
     def _static(self, top: Table) -> tuple[str, ...]:
         paths = [n.path for n in self.graph.nodes if n.kind in ("C", "I")]
         inside = {p[:k] for p in paths for k, c in enumerate(p) if c in ".["} | set(paths)
-        names = top.names("quasi_static")
-        shown = sorted(inside)
-        return tuple(
-            n
-            for k, n in enumerate(names)
-            if self._known(top, ("quasi_static", k), n, "storage", shown)
-        )
+        return self._listed(top, "quasi_static", "storage", sorted(inside))
+
+    def _listed(self, top: Table, key: str, what: str, known: Iterable[str]) -> tuple[str, ...]:
+        """The names in a list that are known; the others are told."""
+        names = enumerate(top.names(key))
+        return tuple(n for k, n in names if self._known(top, (key, k), n, what, known))

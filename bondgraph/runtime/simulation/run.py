@@ -1,34 +1,32 @@
-"""Run a scenario: integrate the state equations, sample the instruments, let faults come and go."""
+"""Run a scenario: integrate the state equations, sample the instruments, let faults come and go.
+
+A run ends with its scenario; a `Robot` goes on and on, its samples given while it runs.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator
 
 import numpy as np
-import numpy.typing as npt
 
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.graph import BondGraph
-from bondgraph.passes.elimination.state_equations import Wanted, state_equations
-from bondgraph.runtime.log import Log
-from bondgraph.runtime.simulation.given import Given, Inputs, inside
-from bondgraph.runtime.simulation.handover import handed_over
-from bondgraph.runtime.simulation.instruments import Reader
+from bondgraph.runtime.log import Array, Log
+from bondgraph.runtime.simulation.given import Given, inside
+from bondgraph.runtime.simulation.instruments import Readings, readers
 from bondgraph.runtime.simulation.integrate import Integrator, SimulationError
-from bondgraph.runtime.simulation.machine import Machine
-from bondgraph.runtime.simulation.observed import observed
-from bondgraph.runtime.simulation.parameters import Values
-from bondgraph.runtime.simulation.scenario import Instrument, Scenario
-from bondgraph.runtime.simulation.spread import spread
-from bondgraph.runtime.simulation.start import start
-from bondgraph.text.diagnostic import CompileError, Report
+from bondgraph.runtime.simulation.parameters import drawn, units
+from bondgraph.runtime.simulation.scenario import Scenario
+from bondgraph.runtime.simulation.stepping import Mode, Stepper
+from bondgraph.runtime.simulation.storages import start
 from bondgraph.text.tuples import NamedTuple
 
-Array = npt.NDArray[np.float64]
 _MOST = 10**8  # samples, all of them in memory
 Progress = Callable[[float], None]
+_WINDOW = 2048  # samples, at least, for which is looked ahead
+_FLUSH = 0.02  # s of samples that are given together
 
 
 class Run(NamedTuple):
@@ -62,31 +60,19 @@ def simulate(
     return _Simulation(system, integral, scenario).run(progress)
 
 
-class _Mode(NamedTuple):
-    """The machine in one position of its switches, the names of its outputs, what it is given."""
+class _Simulation(Stepper):
+    """A machine that goes on from jump to jump of anything, sampled until its scenario ends."""
 
-    machine: Machine
-    names: tuple[str, ...]
-    inputs: Inputs
-
-
-def _within(mode: _Mode, when: Callable[[float], float]) -> Inputs:
-    """What the machine is given in a segment, jumps at its ends left out."""
-    return lambda t: mode.inputs(when(t))
-
-
-class _Simulation:
     def __init__(self, system: EquationSystem, integral: CausalGraph, scenario: Scenario) -> None:
-        self.system, self.integral, self.scenario = system, integral, scenario
         self.graph: BondGraph = system.graph
-        drawn = spread(self.graph, scenario)
-        self.values = Values(self.graph, {**scenario.parameters, **drawn})
+        self.scenario = scenario
+        self.values = drawn(self.graph, scenario)
         self.sensors = [s for s in self.graph.sensors if s.same_as is None]
         self.times = self._times()
         self.given = Given(self.graph, scenario, self.values, self.times)
-        self.readers = self._readers()
-        self.modes: dict[tuple[bool, ...], _Mode] = {}
+        super().__init__(system, integral, scenario, self.given, scenario.record)
         samples = len(self.times)
+        self.readers = readers(self.graph, scenario, self.values, samples)
         self.told = {i.name: np.empty(samples) for i in self.graph.inputs}
         self.gone = {s.name: np.zeros(samples, dtype=bool) for s in self.sensors}
 
@@ -103,77 +89,42 @@ class _Simulation:
             times[1:-1] += shift[1:-1]
         return np.asarray(times, dtype=float)
 
-    def _readers(self) -> dict[str, Reader]:
-        found = {}
-        for k, sensor in enumerate(self.sensors):
-            counts = None if sensor.counts is None else self.values.number(sensor.counts)
-            instrument = self.scenario.instruments.get(sensor.name, Instrument())
-            seed = [self.scenario.seed, 2, k]
-            rate = self.scenario.sampling.rate
-            found[sensor.name] = Reader(instrument, counts, len(self.times), rate, seed)
-        return found
-
-    def _mode(self, t: float) -> _Mode:
-        """The virtual machine with its switches as they are at time t."""
-        setting = self.given.setting(t)
-        if setting not in self.modes:
-            report = Report()
-            disturbed = tuple(
-                n for n, w in self.given.wrong.items() if any(f.op != "missing" for f in w.faults)
-            )
-            modes = dict(zip(self.given.modes, setting, strict=True))
-            wanted = Wanted(modes, self.scenario.static, disturbed, self.values.replaced)
-            equations = state_equations(self.system, self.integral, wanted, report)
-            if equations is None:
-                raise CompileError(tuple(report.diagnostics))
-            view = observed(self.system, equations, self.scenario.record)
-            machine = Machine(equations, self.values, view.exprs)
-            self.modes[setting] = _Mode(machine, view.names, self.given.inputs(machine))
-        return self.modes[setting]
-
     # -------------------------------------------------------------------- running
 
     def run(self, progress: Progress) -> Run:
         """Segment by segment, from jump to jump of anything; the last one is a moment."""
-        times, given = self.times, self.given
+        times, given, scenario = self.times, self.given, self.scenario
         end = float(times[-1])
         stops = given.stops(end)
-        first = self._mode(0.0)
+        first = self.mode(0.0)
         table = np.full((len(times), len(first.names)), math.nan)
         before = given.before(first.machine)
-        held = start(first.machine, self.graph, self.scenario, first.inputs(0.0), before)
-        longest = 2 / self.scenario.sampling.rate if given.smooth else math.inf
+        self._held = start(first.machine, self.graph, scenario, first.inputs(0.0), before)
         progress(0.0)
-        integrator = Integrator(
-            self.scenario.method,
-            self.scenario.tolerance,
+        self.integrator = Integrator(
+            scenario.method,
+            scenario.tolerance,
             end,
-            longest,
+            2 / scenario.sampling.rate if given.smooth else math.inf,
             lambda t: progress(min(t / end, 1.0)),
         )
         done = 0
-        for a, b in zip([0.0, *stops, end], [*stops, end, end], strict=True):
-            when = inside(a, b)
-            setting = when((a + b) / 2)  # what turns at the very start has turned
-            mode = self._mode(setting)
+        for b in [*stops, end, end]:
+            a, when = self.time, inside(self.time, b)
             last = len(times) if a == end else int(np.searchsorted(times, b))
-            x = handed_over(mode.machine, a, mode.inputs(when(a)), held)
-            if self._begin(mode, when(a), x, table, (done, last)):
-                x = handed_over(mode.machine, a, mode.inputs(when(a)), held)
-            rows = integrator.run(mode.machine, _within(mode, when), a, b, x, times[done:last])
-            for k, t in enumerate(times[done:last].tolist(), done):
-                now = self._seen(mode, when(t), rows[k - done])
+            self._begin(when(a), b, table, (done, last))
+            wanted = times[done:last]
+            for k, (t, now) in enumerate(
+                zip(wanted.tolist(), self.advance(b, wanted), strict=True), done
+            ):
                 table[k] = [now.get(name, math.nan) for name in first.names]
-                self._note(k, when(t), setting)
-            after = self._seen(mode, when(b), rows[-1])
-            held |= {n: v for n, v in after.items() if n in held and v == v}
-            held |= zip(mode.machine.states, rows[-1].tolist(), strict=True)
+                self._note(k, when(t), when((a + b) / 2))
             done = last
             progress(b / end if end else 1.0)
         return self._result(first, table)
 
-    def _seen(self, mode: _Mode, t: float, x: Array) -> dict[str, float]:
-        """Everything that can be seen, by name."""
+    def _seen(self, mode: Mode, t: float, x: Array) -> dict[str, float]:
+        """Everything that can be seen, by name; only `let`s may have no value."""
         state, u = x.tolist(), mode.inputs(t)
         found = mode.machine.observe(t, state, u)
         if not all(map(math.isfinite, found)):
@@ -183,48 +134,22 @@ class _Simulation:
                 raise SimulationError(f"the run ends at {t:.6g} s: {what}")
         return dict(zip(mode.names, found, strict=True))
 
-    def _begin(
-        self, mode: _Mode, t: float, x: Array, table: Array, samples: tuple[int, int]
-    ) -> bool:
-        """What happens at a jump: faults that stick take hold, controllers read and decide.
-
-        `samples` are the first of this segment and of the next. Whether anything was done.
-        """
-        wrong = self.given.wrong
-        sticking = [n for n, w in wrong.items() if any(f.op == "stuck" for f in w.faults)]
-        due = [p for p in self.given.pids if _multiple(t, p.controller.period)]
-        if not sticking and not due:
-            return False
-        now = self._seen(mode, t, x)
-        for name in sticking:
-            wrong[name].hold(t, self._healthy(name, now, t))
-            if name in self.readers and wrong[name].stuck(t):
-                self.readers[name].freeze(*samples)
-        if sticking:
-            now = self._seen(mode, t, x)
+    def _begin(self, t: float, end: float, table: Array, samples: tuple[int, int]) -> None:
+        """At the start of a segment; `samples` are the first of it and of the next."""
         step = 1 / self.scenario.sampling.rate
         k = min(int(np.searchsorted(self.times, t - 0.25 * step)), len(self.times) - 1)
-        first = next(iter(self.modes.values())).names
-        for pid in due:
-            name = pid.controller.measures
+
+        def read(name: str, now: float) -> float:
             reader = self.readers[name]
             own = reader.own_sample(k)
-            true = now[name] if own >= samples[0] else table[own, first.index(name)]
-            gone = name in wrong and wrong[name].missing(t)
-            seen = math.nan if gone else reader.read(own, true)
-            unit = 1.0 if reader.counts is None else 2 * math.pi / reader.counts
-            pid.update(t, seen, unit)
-        return True
+            true = now if own >= samples[0] else table[own, self.names.index(name)]
+            return reader.read(own, true) * reader.unit
 
-    def _healthy(self, name: str, now: Mapping[str, float], t: float) -> float:
-        """What a value, input or sensor would be at this moment if nothing were wrong with it."""
-        if name in self.readers:
-            gain, bias = self.given.wrong[name].at(t)
-            return (now[name] - bias) / gain if gain else 0.0
-        if name in self.told:
-            return self.given.told(name, t)
-        symbols = {v.name: v.symbol for v in self.graph.values}
-        return self.values.number(symbols[name])
+        self.given.hold(t, lambda: self.look(end))
+        for name, reader in self.readers.items():
+            if name in self.given.wrong and self.given.wrong[name].stuck(t):
+                reader.freeze(*samples)
+        self.given.control(t, lambda: self.look(end), read)
 
     def _note(self, k: int, t: float, setting: float) -> None:
         """Write down what is told at sample k, and what is not read.
@@ -241,12 +166,10 @@ class _Simulation:
 
     # -------------------------------------------------------------------- results
 
-    def _result(self, mode: _Mode, table: Array) -> Run:
+    def _result(self, mode: Mode, table: Array) -> Run:
         scenario, graph = self.scenario, self.graph
         truth = {name: table[:, k].copy() for k, name in enumerate(mode.names)}
-        units = {s.name: s.unit or "" for s in graph.sensors}
-        units |= {i.name: i.unit or "" for i in graph.inputs}
-        units |= {x.name: x.unit or "" for x in graph.lets}
+        written = units(graph) | {x.name: x.unit or "" for x in graph.lets}
         known: dict[str, Array] = {}
         for item in graph.inputs:
             (known if item.known else truth)[item.name] = self.told[item.name]
@@ -261,9 +184,9 @@ class _Simulation:
             kept[0] = True
         counted = {s.name: "count" for s in self.sensors if s.counts is not None}
         meta = {"model": graph.name, "scenario": scenario.name, "seed": str(scenario.seed)}
-        own = {name: {**units, **counted}.get(name, "") for name in known}
+        own = {name: {**written, **counted}.get(name, "") for name in known}
         log = Log(self.times[kept], {n: c[kept] for n, c in known.items()}, own, meta)
-        shown = {name: units.get(name, "") for name in truth}
+        shown = {name: written.get(name, "") for name in truth}
         equations = mode.machine.equations
         numbers = {v.name: self.values.constant(v.symbol) for v in graph.values}
         return Run(
@@ -279,5 +202,86 @@ class _Simulation:
         )
 
 
-def _multiple(t: float, period: float) -> bool:
-    return abs(t / period - round(t / period)) < 1e-6
+class Robot:
+    """A scenario without an end: what happens in it happens, and then it goes on.
+
+    Everything is drawn from the seed of the scenario, as `simulate` does it, but not the same
+    numbers.
+    """
+
+    def __init__(self, system: EquationSystem, integral: CausalGraph, scenario: Scenario) -> None:
+        self.graph, self.scenario = system.graph, scenario
+        values = drawn(self.graph, scenario)
+        self.readings = Readings(self.graph, scenario, values, _WINDOW)
+        self.rate = scenario.sampling.rate
+        self.given = Given(self.graph, scenario, values, self._times(0))
+        self.stepper = Stepper(system, integral, scenario, self.given)
+        known = [i.name for i in self.graph.inputs if i.known]
+        self._known = known
+        self.meta = {"model": self.graph.name, "scenario": scenario.name,
+                     "seed": str(scenario.seed)}  # fmt: skip
+        counted = {s.name: "count" for s in self.readings.sensors if s.counts is not None}
+        told = units(self.graph) | counted
+        self.units = {n: told[n] for n in [*known, *(s.name for s in self.readings.sensors)]}
+
+    def logs(self) -> Iterator[Log]:
+        """The samples, a few at a time, for ever. Raises what `Stepper.advance` raises."""
+        window = 0
+        while True:
+            times = self._times(window)
+            self.given.times = times
+            yield from self._window(window, times)
+            window += 1
+
+    def _times(self, window: int) -> Array:
+        """The instants of one window of samples, and the first one of the next, in s."""
+        size = self.readings.size
+        sampling = self.scenario.sampling
+        k = np.arange(window * size, (window + 1) * size + 1)
+        times = k / sampling.rate
+        if sampling.jitter:
+            draw = np.random.default_rng([self.scenario.seed, 1, window])
+            shift = draw.uniform(-0.5, 0.5, size) * sampling.jitter / sampling.rate
+            shift[0] = 0.0
+            times[:-1] += shift
+        return np.asarray(times, dtype=float)
+
+    def _window(self, window: int, times: Array) -> Iterator[Log]:
+        self.readings.renew()
+        start, end = float(times[0]), float(times[-1])
+        stops = {t for t in self.given.stops(end) if start < t < end}
+        stops |= {float(t) for t in times[:: max(1, round(_FLUSH * self.rate))] if t > start}
+        kept = np.ones(self.readings.size, dtype=bool)
+        if self.scenario.sampling.lost:
+            draw = np.random.default_rng([self.scenario.seed, 3, window])
+            kept = draw.uniform(size=len(kept)) >= self.scenario.sampling.lost
+        done = 0
+        for b in [*sorted(stops), end]:
+            if b <= self.stepper.time:
+                continue
+            last = int(np.searchsorted(times[:-1], b))
+            self._begin(done, b)
+            wanted = times[done:last]
+            rows = self.stepper.advance(b, wanted)
+            log = self._log(done, wanted, rows)
+            here = kept[done:last]
+            done = last
+            if here.any():
+                columns = {n: c[here] for n, c in log.columns.items()}
+                yield log._replace(time=log.time[here], columns=columns)
+
+    def _begin(self, k: int, end: float) -> None:
+        """At a jump, with sample k of the window: faults take hold, controllers read and decide."""
+        t = inside(self.stepper.time, end)(self.stepper.time)
+        self.given.hold(t, lambda: self.stepper.look(end))
+        self.given.control(
+            t,
+            lambda: self.stepper.look(end),
+            lambda name, true: self.readings.read(name, k, true) * self.readings.unit(name),
+        )
+
+    def _log(self, first: int, times: Array, rows: list[dict[str, float]]) -> Log:
+        told = {n: np.array([self.given.told(n, t) for t in times.tolist()]) for n in self._known}
+        wrong = self.given.wrong
+        read = self.readings.all(first, times, rows, wrong)
+        return Log(times, told | read, self.units, self.meta)

@@ -1,10 +1,14 @@
-"""One table of a scenario file: values with their places, wrong and unknown keys told."""
+"""One table of a scenario file: values with their places, wrong and unknown keys told.
+
+Python's reader of TOML tells values but no places: `places` finds these in the same text.
+"""
 
 from __future__ import annotations
 
 import os
+import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from difflib import get_close_matches
 from itertools import pairwise
 from typing import Any
@@ -16,13 +20,21 @@ from bondgraph.runtime.log import LogError
 from bondgraph.runtime.log_file import read_log
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Course
-from bondgraph.runtime.simulation.toml_places import Path
 from bondgraph.text.diagnostic import Label
 from bondgraph.text.source import Source, Span
 
 SECOND: Dimension = (0, 0, 1, 0, 0, 0, 0)
 HERTZ: Dimension = (0, 0, -1, 0, 0, 0, 0)
 PURE: Dimension = (0, 0, 0, 0, 0, 0, 0)
+
+Path = tuple[str | int, ...]
+Place = tuple[int, int]
+_BLANK = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
+_KEY = re.compile(r"""\s*(?:([\w-]+)|"((?:\\.|[^"\\])*)"|'([^']*)')[ \t]*""")
+_TEXT = re.compile(
+    r'''"""(?:\\.|[^\\])*?"""+|\'\'\'.*?\'\'\'+|"(?:\\.|[^"\\])*"|'[^']*\'''', re.DOTALL
+)
+_BARE = re.compile(r"[^,\]}\n#]*")
 
 
 def _named(path: Path) -> str:
@@ -81,46 +93,53 @@ class Table:
         """Report the value of a key."""
         self.document.wrong((*self.path, key), message, help)
 
+    def _taken(self, key: str, fits: Callable[[Any], bool], message: str, help: str) -> Any:
+        """The value of a key; None where there is none, and where it is told to be none."""
+        value = self._take(key)
+        if value is None or fits(value):
+            return value
+        self.wrong(key, f"`{key}` {message}", help)
+        return None
+
     def text(self, key: str, default: str = "", choices: Iterable[str] = ()) -> str:
         """A text; one of the `choices` where there are some."""
-        value = self._take(key)
+        value = self._taken(
+            key, lambda v: isinstance(v, str), "is a text.", f'Write it in quotes: {key} = "...".'
+        )
         if value is None:
-            return default
-        if not isinstance(value, str):
-            self.wrong(key, f"`{key}` is a text.", f'Write it in quotes: {key} = "...".')
             return default
         known = list(choices)
         if known and value not in known:
             self.wrong(key, f"`{key}` cannot be `{value}`.", f"It is one of {', '.join(known)}.")
             return default
-        return value
+        return str(value)
 
     def flag(self, key: str) -> bool:
         """True or false."""
-        value = self._take(key)
-        if value is not None and not isinstance(value, bool):
-            self.wrong(key, f"`{key}` is true or false.", f"Write {key} = true.")
-        return value is True
+        help = f"Write {key} = true."
+        return bool(self._taken(key, lambda v: isinstance(v, bool), "is true or false.", help))
 
     def whole(self, key: str, default: int) -> int:
         """A whole number that is not negative."""
-        value = self._take(key)
-        if value is None:
-            return default
-        if not isinstance(value, int) or isinstance(value, bool) or value < 0:
-            self.wrong(key, f"`{key}` is a whole number.", f"Write for instance {key} = 1.")
-            return default
-        return value
+        value = self._taken(
+            key,
+            lambda v: isinstance(v, int) and not isinstance(v, bool) and v >= 0,
+            "is a whole number.",
+            f"Write for instance {key} = 1.",
+        )
+        return default if value is None else int(value)
 
     def names(self, key: str) -> tuple[str, ...]:
         """A list of texts."""
-        value = self._take(key)
-        if value is None:
-            return ()
-        if not isinstance(value, list) or not all(isinstance(v, str) for v in value):
-            self.wrong(key, f"`{key}` is a list of names.", f'Write {key} = ["a", "b"].')
-            return ()
-        return tuple(value)
+        return tuple(
+            self._taken(
+                key,
+                lambda v: isinstance(v, list) and all(isinstance(n, str) for n in v),
+                "is a list of names.",
+                f'Write {key} = ["a", "b"].',
+            )
+            or ()
+        )
 
     def number(
         self,
@@ -153,12 +172,14 @@ class Table:
 
     def limits(self, key: str, dimension: Dimension | None) -> tuple[float, float]:
         """A list of a lower and an upper quantity; no limits where there is none."""
-        value = self._take(key)
         none = (-float("inf"), float("inf"))
+        value = self._taken(
+            key,
+            lambda v: isinstance(v, list) and len(v) == 2,
+            "is a lower and an upper limit.",
+            f"Write {key} = [-5, 5].",
+        )
         if value is None:
-            return none
-        if not isinstance(value, list) or len(value) != 2:
-            self.wrong(key, f"`{key}` is a lower and an upper limit.", f"Write {key} = [-5, 5].")
             return none
         ends = [self._quantity((*self.path, key, k), v, dimension) for k, v in enumerate(value)]
         if ends[0] is None or ends[1] is None:
@@ -278,21 +299,19 @@ class Table:
 
     def table(self, key: str) -> Table:
         """A table inside; an empty one where there is none."""
-        value = self._take(key)
-        if value is not None and not isinstance(value, Mapping):
-            self.wrong(key, f"`{key}` is a table.", f"Write [{key}] on a line of its own.")
-            value = None
+        help = f"Write [{key}] on a line of its own."
+        value = self._taken(key, lambda v: isinstance(v, Mapping), "is a table.", help)
         return Table(self.document, (*self.path, key), value or {})
 
     def tables(self, key: str) -> Iterator[Table]:
         """The tables of an array of tables."""
-        value = self._take(key)
-        if value is None:
-            return
-        if not isinstance(value, list) or not all(isinstance(v, Mapping) for v in value):
-            self.wrong(key, f"`{key}` is a table, once for each.", f"Write [[{key}]] above it.")
-            return
-        for k, item in enumerate(value):
+        value = self._taken(
+            key,
+            lambda v: isinstance(v, list) and all(isinstance(t, Mapping) for t in v),
+            "is a table, once for each.",
+            f"Write [[{key}]] above it.",
+        )
+        for k, item in enumerate(value or ()):
             yield Table(self.document, (*self.path, key, k), item)
 
     @property
@@ -308,3 +327,115 @@ class Table:
                 known = ", ".join(f"`{k}`" for k in sorted(self._asked))
                 help = f"Did you mean `{close[0]}`?" if close else f"There is {known}."
                 self.document.no_key((*self.path, key), f"`{key}` means nothing here.", help)
+
+
+def places(text: str) -> dict[Path, Place]:
+    """Start and end of each value and of each table's name, by the keys that lead to it.
+
+    Texts are given without their quotes; entries of lists are counted from 0. The text has to be
+    right as TOML.
+
+    >>> where = places('[inputs]\\nU = "5 V"\\n')
+    >>> where["inputs", "U"]
+    (14, 17)
+    """
+    return _Scanner(text).scan()
+
+
+class _Scanner:
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.at = 0
+        self.found: dict[Path, Place] = {}
+        self.counts: dict[Path, int] = {}
+
+    def scan(self) -> dict[Path, Place]:
+        table: Path = ()
+        self.blank()
+        while self.at < len(self.text):
+            before = self.at
+            if self.text[self.at] == "[":
+                table = self.heading()
+            else:
+                self.pair(table)
+            self.blank()
+            if self.at == before:  # nothing of TOML
+                break
+        return self.found
+
+    def heading(self) -> Path:
+        """The path of `[a.b]` or `[[a.b]]`."""
+        brackets = 2 if self.text.startswith("[[", self.at) else 1
+        self.at += brackets
+        start = self.at
+        names = self.keys()
+        place = (start, self.at)
+        self.at += brackets
+        path: Path = ()
+        for k, name in enumerate(names):
+            path = (*path, name)
+            if brackets == 2 and k == len(names) - 1:
+                self.counts[path] = self.counts.get(path, -1) + 1
+            if path in self.counts:
+                path = (*path, self.counts[path])
+        self.found.setdefault(path, place)
+        return path
+
+    def pair(self, table: Path) -> None:
+        """`key = value`."""
+        path = (*table, *self.keys())
+        self.at += 1  # the equals sign
+        self.value(path)
+
+    def keys(self) -> list[str]:
+        """The names of a dotted key."""
+        names: list[str] = []
+        while True:
+            match = _KEY.match(self.text, self.at)
+            if match is None:
+                return names
+            names.append(next(g for g in match.groups() if g is not None))
+            self.at = match.end()
+            if not self.text.startswith(".", self.at):
+                return names
+            self.at += 1
+
+    def value(self, path: Path) -> None:
+        """The place of a value, and those of all that is in it."""
+        self.blank()
+        start = self.at
+        opening = self.text[start : start + 1]
+        if opening in ("[", "{") and opening:
+            self.at += 1
+            count = 0
+            self.blank()
+            while self.at < len(self.text) and self.text[self.at] not in "]}":
+                before = self.at
+                if opening == "[":
+                    self.value((*path, count))
+                    count += 1
+                else:
+                    self.pair(path)
+                self.blank()
+                if self.text.startswith(",", self.at):
+                    self.at += 1
+                    self.blank()
+                if self.at == before:
+                    break
+            self.at += 1
+            self.found[path] = (start, self.at)
+            return
+        match = _TEXT.match(self.text, start)
+        if match is not None:
+            quotes = 3 if match[0][:3] in ('"""', "'''") and len(match[0]) > 5 else 1
+            self.at = match.end()
+            self.found[path] = (start + quotes, self.at - quotes)
+            return
+        match = _BARE.match(self.text, start)
+        self.at = match.end() if match else start
+        self.found[path] = (start, start + len(self.text[start : self.at].rstrip()))
+
+    def blank(self) -> None:
+        """Over blanks, ends of lines and comments."""
+        match = _BLANK.match(self.text, self.at)
+        self.at = match.end() if match else self.at

@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from bondgraph.backends.draw_conflicts import draw_conflicts
+from bondgraph.backends.figure import draw_conflicts
 from bondgraph.passes.causality.conflicts import conflicts
 from tests.unit.passes.causality_graphs import build
 

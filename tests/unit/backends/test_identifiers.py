@@ -8,7 +8,7 @@ import re
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bondgraph.backends.identifiers import identifier, python_identifier, snake, spellings
+from bondgraph.backends.identifiers import identifier, snake, spellings
 
 _NAME = st.sampled_from(["a", "b_", "int", "for", "x_1", "é", "A", "a1", "for_"])
 _INDEX = st.sampled_from(["", "[1]", "[2]", "[12]"])
@@ -18,8 +18,6 @@ _PATH = st.lists(_PART, min_size=1, max_size=4).map(".".join)
 
 def test_the_examples_of_the_language() -> None:
     assert identifier("m[1].wh.ws") == "m__1__wh__ws"
-    assert python_identifier("lambda") == "lambda_"
-    assert python_identifier("m.lambda") == "m__lambda"
 
 
 @given(st.lists(_PATH, unique=True, max_size=20))

@@ -10,8 +10,9 @@ from typing import Any
 import pytest
 
 from bondgraph.backends.report.page import page
-from bondgraph.cli.reporting.assumed import assumed
+from bondgraph.cli.detect import situation_of
 from bondgraph.cli.reporting.collect import collect
+from bondgraph.cli.reporting.seen import assumed
 from bondgraph.pipeline import compile
 from tests.browser import PATH, Tab, browser
 from tests.unit.backends.episodes import episode
@@ -73,7 +74,9 @@ def tab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tab]:
 def robot(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The report of the robot with a run that nobody simulated."""
     args = argparse.Namespace(at=[], swing=[], noise=[], frequency=1.0, kappa=5.0, bits=12)
-    content = collect(compile(ROOT / "models/khepera.bg"), lambda p: assumed(args, p))
+    content = collect(
+        compile(ROOT / "models/khepera.bg"), lambda p: assumed(args, situation_of(args, p), p)
+    )
     path = tmp_path_factory.mktemp("report") / "robot.html"
     text = page(content._replace(episodes=(episode("A run"),)))
     assert len(text) < 1_500_000

@@ -14,8 +14,7 @@ from hypothesis import strategies as st
 
 from bondgraph.runtime import log_numbers
 from bondgraph.runtime.log import Log, LogError, joined
-from bondgraph.runtime.log_csv import CsvReader
-from bondgraph.runtime.log_file import read_log, write_log
+from bondgraph.runtime.log_file import CsvReader, read_log, write_log
 
 _TEXT = st.text(st.characters(exclude_categories=("Cs",)), max_size=12)
 _NAME = st.text(st.characters(exclude_categories=("Cs",), exclude_characters="\r\n"), min_size=1)

@@ -13,7 +13,8 @@ import pytest
 import bondgraph
 from bondgraph.ir.program import Program
 from bondgraph.pipeline import Compilation
-from bondgraph.runtime.batch import Array, Lanes
+from bondgraph.runtime.batch import Lanes
+from bondgraph.runtime.log import Array
 from bondgraph.runtime.separation import Separation, separation
 from bondgraph.runtime.smallest import Situation, noise
 

@@ -13,8 +13,15 @@ from bondgraph.runtime.log import LogError
 from bondgraph.runtime.log_file import read_log
 from bondgraph.runtime.log_numbers import Form
 from bondgraph.runtime.monitoring.sources.lines import Decoder
-from bondgraph.runtime.monitoring.sources.sample_source import IDLE, Chunk, Cutter, News, rate_of
-from bondgraph.runtime.monitoring.sources.stdin import Pipe
+from bondgraph.runtime.monitoring.sources.sample_source import (
+    IDLE,
+    Chunk,
+    Cutter,
+    News,
+    Source,
+    rate_of,
+)
+from bondgraph.runtime.monitoring.sources.streams import Pipe
 
 _BLOCK = 1 << 20  # bytes read at a time
 _ROWS = 20_000  # of a table, given at a time
@@ -22,14 +29,13 @@ _FIRST = 1000  # samples whose rate is taken
 _HEAD = 512  # bytes by which a file is known again
 
 
-class TableFile:
+class TableFile(Source):
     """A file that is read as a whole, such as Parquet; a place is the number of a row."""
 
     replays = True
 
     def __init__(self, path: str, form: Form) -> None:
         self.name = os.path.abspath(path)
-        self.decoder: Decoder | None = None
         self._log = read_log(path, time=form.time, rate=form.rate)
         self._row = 0
         self._until = 0  # before this row all was computed once
@@ -56,11 +62,8 @@ class TableFile:
         """Samples a second, of the first ones."""
         return rate_of(self._log.time[:_FIRST])
 
-    def close(self) -> None:
-        """Nothing to let go of."""
 
-
-class LinesFile:
+class LinesFile(Source):
     """A file of lines; a place is a number of bytes, and what the file began with.
 
     With `follow` its end is waited at, as `tail -F` does: what is added is read, and a file that
@@ -68,11 +71,11 @@ class LinesFile:
     """
 
     replays = True
+    decoder: Decoder
 
     def __init__(self, path: str, form: Form, follow: bool = False) -> None:
         self.name = os.path.abspath(path)
-        self.decoder: Decoder | None = Decoder(form)
-        self._lines = self.decoder
+        self.decoder = Decoder(form)
         self._path, self._follow = path, follow
         self._file = self._open()
         self._cutter = Cutter()
@@ -105,7 +108,7 @@ class LinesFile:
         self._until, self._offset = until, int(back.get("offset", 0))
         if self._offset:
             self._header(self._offset)
-            self._lines.rows = int(back.get("rows", 0))
+            self.decoder.rows = int(back.get("rows", 0))
         self._file.seek(self._offset)
         return ""
 
@@ -113,7 +116,7 @@ class LinesFile:
         """Samples a second, of the first ones."""
         with self._open() as file:
             lines = file.readlines(_BLOCK // 8)
-        logs = Decoder(self._lines.form).feed(b"".join(lines))
+        logs = Decoder(self.decoder.form).feed(b"".join(lines))
         return rate_of(logs[0].time[:_FIRST]) if logs else None
 
     def close(self) -> None:
@@ -123,9 +126,9 @@ class LinesFile:
     def _header(self, end: int) -> None:
         """Read comments and the header at the start of the file, without samples."""
         self._file.seek(0)
-        while self._file.tell() < end and not self._lines.rows:
-            self._lines.feed(self._file.readline(_BLOCK))
-        self._lines.garbage = 0
+        while self._file.tell() < end and not self.decoder.rows:
+            self.decoder.feed(self._file.readline(_BLOCK))
+        self.decoder.garbage = 0
 
     def _open(self) -> IO[bytes]:
         try:
@@ -139,7 +142,7 @@ class LinesFile:
             return
         self._offset += len(block.lines) if added is None else len(block.lines) - 1
         again = self._offset <= self._until
-        logs = self._lines.feed(block.lines, block.whole)
+        logs = self.decoder.feed(block.lines, block.whole)
         for log in logs[:-1]:
             yield Chunk(log, again=again)
         yield Chunk(logs[-1] if logs else None, place=self._place(), again=again)
@@ -169,7 +172,7 @@ class LinesFile:
         yield Chunk(news=(News("gap", f"{self._path} {what}, read from its start"),))
 
     def _place(self) -> dict[str, Any]:
-        place = {"offset": self._offset, "rows": self._lines.rows}
+        place = {"offset": self._offset, "rows": self.decoder.rows}
         return place | {"head": self._head(self._offset)}
 
     def _head(self, offset: int) -> str:
@@ -189,7 +192,7 @@ def _mode(path: str) -> int:
         return 0
 
 
-def file_source(path: str, form: Form, follow: bool = False) -> TableFile | LinesFile | Pipe:
+def file_source(path: str, form: Form, follow: bool = False) -> Source:
     """The samples in a file, by its suffix, or from a named pipe."""
     if stat.S_ISFIFO(_mode(path)):
         return Pipe(form, os.open(path, os.O_RDONLY), path)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Callable, Iterator
 from threading import Condition, Event
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -45,7 +46,7 @@ class Chunk(NamedTuple):
     again: bool = False
 
 
-class Source(Protocol):
+class Source(ABC):
     """Where samples come from.
 
     `name` is told to people and kept in the journal. `replays` says that it can go back, so that
@@ -53,31 +54,30 @@ class Source(Protocol):
     """
 
     name: str
-    replays: bool
-    decoder: Decoder | None
+    replays: bool = False
+    decoder: Decoder | None = None
 
+    @abstractmethod
     def chunks(self, stop: Event) -> Iterator[Chunk]:
         """All there is, until the end or until `stop` is set; an empty chunk if nothing comes.
 
         Raises LogError where no samples can be read at all.
         """
-        ...
 
+    @abstractmethod
     def go(self, position: dict[str, Any]) -> str:
         """Go on where a watch ended: at its `place`, with samples from `back` to warm up.
 
         `position` has also the `time` of the newest sample, in s. "", or why that cannot be; then
         the source begins as if it were new.
         """
-        ...
 
     def rate(self) -> float | None:
         """Samples a second, where that can be known before the first one is taken."""
-        ...
+        return None
 
-    def close(self) -> None:
+    def close(self) -> None:  # noqa: B027 (there may be nothing to let go of)
         """Let go of the line."""
-        ...
 
 
 def rate_of(time: Array) -> float | None:

@@ -20,13 +20,12 @@ from aiohttp.test_utils import TestClient, TestServer
 from bondgraph.cli import live as command
 from bondgraph.cli import usage
 from bondgraph.cli.main import main
-from bondgraph.runtime.live.hub import Hub
-from bondgraph.runtime.live.process import Simulated
-from bondgraph.runtime.live.server import PortTaken, application, listening
+from bondgraph.runtime.live.samples import Simulated
+from bondgraph.runtime.live.server import Hub, PortTaken, application, listening
 from bondgraph.runtime.live.session import Session
 from bondgraph.runtime.live.setup import Setup, Target, wish
 from bondgraph.runtime.log_numbers import Form
-from bondgraph.runtime.monitoring.sources.stdin import Pipe
+from bondgraph.runtime.monitoring.sources.streams import Pipe
 from bondgraph.runtime.simulation.scenario import Scenario
 from tests.unit.runtime.live.rover import rover, written
 

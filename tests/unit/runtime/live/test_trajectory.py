@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bondgraph.runtime.simulation.dead_reckoning import Reckoning, desired, reckoned
+from bondgraph.runtime.simulation.dead_reckoning import Desired, Reckoning
 from bondgraph.runtime.simulation.parameters import Values
 from tests.unit.runtime.live.rover import TRACK, TURN, rover, written
 
@@ -36,7 +36,7 @@ def test_an_arc_is_reckoned_to_the_resolution_of_the_encoders(first: float) -> N
     for name in ("turn[1]", "turn[2]"):  # a counter of 32 bits runs over
         signals[name] = (signals[name] + 2.0**31) % 2.0**32 - 2.0**31
     c = rover()
-    found = reckoned(c.equations, ["x", "y", "heading"], Values(c.graph), T, signals)
+    found = Reckoning(c.equations, ["x", "y", "heading"], Values(c.graph)).feed(T, signals)
     count = 2 * np.pi / TURN * WHEEL  # m of way
     x, y = _arc(T)
     np.testing.assert_allclose(found["heading"], YAW * T, atol=3 * count / TRACK)
@@ -49,7 +49,7 @@ def test_samples_in_any_portions_with_some_missing() -> None:
     c = rover()
     signals = _signals()
     signals["v[1]"] = np.where(np.arange(len(T)) % 7 == 3, np.nan, signals["v[1]"])
-    whole = reckoned(c.equations, ["x", "y"], Values(c.graph), T, signals)
+    whole = Reckoning(c.equations, ["x", "y"], Values(c.graph)).feed(T, signals)
     reckoning = Reckoning(c.equations, ["x", "y"], Values(c.graph))
     parts = [
         reckoning.feed(T[a:b], {n: v[a:b] for n, v in signals.items()})
@@ -77,7 +77,9 @@ def test_the_error_of_the_sum_falls_with_the_square_of_the_step() -> None:
 def test_the_desired_path_of_a_scenario(tmp_path: Path) -> None:
     c = rover()
     scenario = c.scenario(written(tmp_path)[1])
-    found = desired(c.equations, ["x", "y", "heading"], scenario, Values(c.graph), T)
+    values = Values(c.graph)
+    wanted = Reckoning(c.equations, ["x", "y", "heading"], values, counts=False)
+    found = wanted.feed(T, Desired(c.equations, scenario, values).at(T))
     yaw = WHEEL * (5 - 4) / TRACK
     np.testing.assert_allclose(found["heading"], yaw * T, atol=1e-12)
     np.testing.assert_allclose(found["x"], 0.45 / yaw * np.sin(yaw * T), atol=1e-5)

@@ -12,7 +12,7 @@ import pytest
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.live.twin import Twin
 from bondgraph.runtime.log import joined
-from bondgraph.runtime.simulation.robot import Robot
+from bondgraph.runtime.simulation.run import Robot
 from bondgraph.runtime.simulation.scenario import Fault, Instrument, Scenario
 from bondgraph.text.source import Source
 from tests.unit.runtime.live.rover import FRICTION, MASS, TURN, rover, written

@@ -10,9 +10,8 @@ from typing import Any
 
 import pytest
 
-from bondgraph.runtime.monitoring import publisher
-from bondgraph.runtime.monitoring.mqtt_client import Address, Link, address
-from bondgraph.runtime.monitoring.publisher import Publisher
+from bondgraph.runtime.monitoring import mqtt_client
+from bondgraph.runtime.monitoring.mqtt_client import Address, Link, Publisher, address
 
 
 class _Client:
@@ -51,7 +50,7 @@ def made(monkeypatch: pytest.MonkeyPatch) -> tuple[Publisher, _Link]:
         links.append(_Link(*given))
         return links[0]
 
-    monkeypatch.setattr(publisher, "Link", link)
+    monkeypatch.setattr(mqtt_client, "Link", link)
     return Publisher(address("here/robot/verdicts"), "me", taken=4), links[0]
 
 

@@ -24,7 +24,7 @@ from bondgraph.runtime.monitoring.sources.sample_source import (
     decoded,
     rate_of,
 )
-from bondgraph.runtime.monitoring.sources.stdin import Pipe
+from bondgraph.runtime.monitoring.sources.streams import Pipe
 
 
 @pytest.fixture

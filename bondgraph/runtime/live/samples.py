@@ -1,25 +1,30 @@
-"""Samples at the pace of time, in the small portions in which a page is drawn."""
+"""The samples of a monitored machine at the pace of time, and those of one that is simulated."""
 
 from __future__ import annotations
 
+import subprocess
+import tempfile
 import time as clocks
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from threading import Event
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
-from bondgraph.runtime.monitoring.sources.lines import Decoder
-from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Source
+from bondgraph.runtime.log_numbers import Form
+from bondgraph.runtime.monitoring.sources.sample_source import Chunk, News, Source
+from bondgraph.runtime.monitoring.sources.streams import Pipe
 
 _LATE = 0.25  # s on the wall; who is later than that does not catch up, time stretches
 _LOOK = 0.05  # s between two looks at the wishes of people
 _OVER = 2.0  # s on the wall over which the pace is measured
+_AHEAD = 1 << 16  # bytes of samples that it may be ahead of who reads them
+_END = 5.0  # s to end in
 
 
-class Paced:
+class Paced(Source):
     """A source whose samples come `portion` s at a time, at the latest when `between` was called.
 
     With a `speed` (s of samples a second on the wall) samples wait until it is their time, and
@@ -31,7 +36,7 @@ class Paced:
     ) -> None:
         self._inner = inner
         self.name, self.replays = inner.name, inner.replays
-        self.decoder: Decoder | None = inner.decoder
+        self.decoder = inner.decoder
         self._portion, self._speed, self._between = portion, speed, between
         self.paused = False
         self._anchor: tuple[float, float] | None = None  # on the wall, of the samples
@@ -108,3 +113,61 @@ class Paced:
     def close(self) -> None:
         """See `Source`."""
         self._inner.close()
+
+
+class Simulated(Pipe):
+    """The samples that a command prints; the command ends with the source.
+
+    Raises OSError where it cannot be started.
+    """
+
+    def __init__(self, words: Sequence[str], name: str) -> None:
+        self._said: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 (closed with the source)
+        self._process = subprocess.Popen(
+            list(words),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=self._said,
+            start_new_session=True,  # ^C is for us, who then end it
+        )
+        assert self._process.stdout is not None
+        self._out = self._process.stdout
+        super().__init__(Form(name), self._out.fileno(), name, _AHEAD)
+        self._closed = False
+
+    @property
+    def number(self) -> int:
+        """The number of its process."""
+        return self._process.pid
+
+    def chunks(self, stop: Event) -> Iterator[Chunk]:
+        """See `Source`; at the end, why it ended."""
+        yield from super().chunks(stop)
+        if not stop.is_set():
+            yield Chunk(news=(News("gap", f"the {self.name} has ended: {self._why()}"),))
+
+    def _why(self) -> str:
+        try:
+            code = self._process.wait(_END)
+        except subprocess.TimeoutExpired:
+            return "its pipe is closed"
+        self._said.seek(0)
+        lines = self._said.read().decode(errors="replace").strip().splitlines()
+        how = f"status {code}" if code >= 0 else f"signal {-code}"
+        return f"{lines[-1]} ({how})" if lines else how
+
+    def close(self) -> None:
+        """End the process."""
+        if self._closed:
+            return
+        self._closed = True
+        self._process.terminate()
+        try:
+            self._process.wait(_END)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        super().close()
+        self.join(_END)
+        self._out.close()
+        self._said.close()

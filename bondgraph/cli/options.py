@@ -1,0 +1,135 @@
+"""Options that several commands have, and how what they say is read."""
+
+from __future__ import annotations
+
+import math
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable
+from typing import TypeVar
+
+from bondgraph import Compilation, Options, compile
+from bondgraph.cli import console
+
+T = TypeVar("T", float, int)
+
+
+def _number(kind: Callable[[str], T], name: str, good: Callable[[T], bool]) -> Callable[[str], T]:
+    """Reads a number of some kind; argparse calls it by its name where it is another one."""
+
+    def read(text: str) -> T:
+        value = kind(text)
+        if not good(value):
+            raise ValueError
+        return value
+
+    read.__name__ = name
+    return read
+
+
+positive = _number(float, "positive number", lambda value: 0 < value < math.inf)
+pace = _number(float, "positive number", lambda value: value > 0)
+bits = _number(int, "number of bits from 1 to 52", lambda value: 1 <= value <= 52)
+count = _number(int, "number above 0", lambda value: value >= 1)
+
+
+def assigned(text: str) -> tuple[str, float]:
+    """`NAME=VALUE`; raises ValueError for anything else."""
+    name, _, number = text.rpartition("=")
+    value = float(number)
+    if not name or not math.isfinite(value):
+        raise ValueError
+    return name, value
+
+
+assigned.__name__ = "NAME=VALUE"
+
+
+def noise(text: str) -> tuple[str, float]:
+    """`NAME=DEVIATION`, or the deviation of all sensors with an empty name."""
+    name, value = assigned(text) if "=" in text else ("", float(text))
+    if not 0 <= value < math.inf:
+        raise ValueError
+    return name, value
+
+
+noise.__name__ = "[NAME=]DEVIATION"
+
+
+def isolating(parser: ArgumentParser) -> None:
+    """The option `--isolate`."""
+    parser.add_argument(
+        "--isolate",
+        action="store_true",
+        help="add the few residuals that tell faults apart as far as the sensors allow",
+    )
+
+
+def realised(parser: ArgumentParser) -> None:
+    """The option `--form`."""
+    parser.add_argument(
+        "--form",
+        choices=("derivative", "observer"),
+        default="derivative",
+        help="what a step is made of: filtered samples, or states that follow a sensor where a "
+        "residual has such a form (default: derivative)",
+    )
+
+
+def further(parser: ArgumentParser) -> None:
+    """The options `--isolate` and `--decouple`."""
+    isolating(parser)
+    parser.add_argument(
+        "--decouple",
+        metavar="FAULT",
+        action="append",
+        default=[],
+        help="add residuals that are free of this fault; may be repeated",
+    )
+
+
+def sampling(parser: ArgumentParser) -> None:
+    """The arguments that say how the machine is sampled."""
+    rate = Options().rate
+    parser.add_argument("--rate", metavar="HZ", type=positive, default=rate,
+                        help=f"samples a second (default: {rate:g})")  # fmt: skip
+    parser.add_argument("--bandwidth", metavar="RAD/S", type=positive, default=None,
+                        help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
+    parser.add_argument("--bits", metavar="N", type=bits, default=12,
+                        help="resolution of the samples (default: 12)")  # fmt: skip
+
+
+def signals(parser: ArgumentParser) -> None:
+    """The arguments that say what the machine does and how well it is measured."""
+    parser.add_argument("--noise", metavar="[NAME=]DEVIATION", type=noise, action="append",
+                        default=[], help="standard deviation of the samples of a signal, without"
+                        " a name of every sensor; may be repeated")  # fmt: skip
+    parser.add_argument("--at", metavar="NAME=VALUE", type=assigned, action="append", default=[],
+                        help="what a signal is (default: 0; an encoder: its speed); may be"
+                        " repeated")  # fmt: skip
+    parser.add_argument("--swing", metavar="NAME=AMPLITUDE", type=assigned, action="append",
+                        default=[], help="how far a signal swings around that; may be"
+                        " repeated")  # fmt: skip
+    parser.add_argument("--frequency", metavar="HZ", type=positive, default=1.0,
+                        help="of the swing (default: 1)")  # fmt: skip
+    parser.add_argument("--kappa", metavar="K", type=positive, default=5.0,
+                        help="standard deviations of noise below the threshold"
+                        " (default: 5)")  # fmt: skip
+
+
+def opened(args: Namespace, targets: tuple[str, ...] = Options().targets) -> Compilation:
+    """The model of a command with the options of `sampling`, and those that add residuals."""
+    decouple = tuple(dict.fromkeys(getattr(args, "decouple", ())))
+    compilation = compile(
+        args.model,
+        rate=args.rate,
+        bandwidth=args.bandwidth,
+        resolution=2.0**-args.bits,
+        targets=targets,
+        decouple=decouple,
+        isolate=args.isolate,
+        form=args.form,
+    )
+    for fault in decouple:
+        if fault not in compilation.graph.faults:
+            raise console.Unknown(fault, "no fault of the model", compilation.graph.faults)
+    return compilation
