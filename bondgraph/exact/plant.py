@@ -510,7 +510,7 @@ class Plant:
             shown = (*[reads for _, _, reads in told_sensors], *self._inside(part, self._asked))
         setting = Setting(true, numbers, n, shown, still)
         try:
-            plant, equations = written(part, setting, readings, random)
+            plant, equations = written(part, setting, readings, random, solver is solve)
             values = solver(plant, equations, setting, random, order + self._reach)
         except OverDetermined as failure:
             raise Contradictory(self._over(failure.node), failure.node) from None

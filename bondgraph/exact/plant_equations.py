@@ -172,12 +172,17 @@ def has_sides(node: Expr) -> bool:
 
 
 def written(
-    plant: Assembly, setting: Setting, readings: Mapping[str, Series], random: Random
+    plant: Assembly,
+    setting: Setting,
+    readings: Mapping[str, Series],
+    random: Random,
+    moving: bool = True,
 ) -> tuple[Assembly, list[Equation]]:
     """The equations, and the plant that they are about.
 
     An input that a law uses in a product or a function is drawn here and is a constant of the
     setting from then on: a law must not be satisfied by the one value of an input that allows it.
+    It moves unless the plant is in steady operation.
     One behind a function with sides stays open at every second point, so that the function's
     argument can be drawn on any side: a controller whose set point is at random is at its limit.
     """
@@ -185,8 +190,9 @@ def written(
     given = _modulating(equations, plant, sided=random.random() < 0.5)
     if not given:
         return plant, equations
+    size = setting.n if moving else 1
     for symbol in given:
-        setting.values[symbol] = [setting.numbers.any(random) for _ in range(setting.n)]
+        setting.values[symbol] = [setting.numbers.any(random) for _ in range(size)]
     place = {s: at for s, at in plant.place.items() if s not in given}
     plant = plant._replace(place=place)
     return plant, Writer(plant, setting).all(readings)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable
+from collections.abc import Container, Iterable, Mapping
 from itertools import chain
 
 from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols, topological
@@ -241,8 +241,9 @@ def _is_driven(graph: BondGraph, part: list[int]) -> bool:
     pool = Pool()  # what is worked out here leaves no trace in the order of the graph's own
     sources = [node for node in nodes if node.kind in ("Se", "Sf")]
     nothing = {v.symbol for v in graph.values if v.value is graph.pool.zero}
+    reads = {symbol: sensor.reads for symbol, sensor in graph.readings.items()}
     return any(
-        _at_rest(law.zero, pool, nothing) is not pool.zero
+        _at_rest(law.zero, pool, nothing, reads) is not pool.zero
         for node in chain(sources, nodes)  # mostly a source settles it
         for law in node.laws
     )
@@ -254,16 +255,25 @@ _RESTING = frozenset(
 )
 
 
-def _at_rest(expr: Expr, pool: Pool, nothing: Container[Expr]) -> Expr | None:
+def _at_rest(
+    expr: Expr, pool: Pool, nothing: Container[Expr], reads: Mapping[Expr, Expr]
+) -> Expr | None:
     """An expression with zero for all signals but inputs, and for what is declared zero.
 
-    None where it has no value there.
+    `reads` are what readings are made of. None where the expression has no value there.
     """
     new: dict[Expr, Expr] = {}
     try:
         for node in topological([expr]):
             if node.op is Op.SYM:
                 symbol = node.symbol
+                if node in reads:
+                    others = {r: e for r, e in reads.items() if r is not node}
+                    read = _at_rest(reads[node], pool, nothing, others)
+                    if read is None:
+                        return None
+                    new[node] = read
+                    continue
                 rests = symbol.kind in _RESTING or node in nothing
                 new[node] = pool.zero if rests else pool.symbol(symbol.name, symbol.kind)
             elif node.op is Op.NUM:

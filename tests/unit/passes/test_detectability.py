@@ -34,6 +34,14 @@ CASES: dict[str, tuple[str, set[str], set[str]]] = {
         {"v1", "v2", "r", "F"},
         {"C"},
     ),
+    # Q - c y' - k u y = 0: an input that opens a valve is constant too, and dr/dk = -u y is not zero
+    "valve": (
+        """model M { param c=2; param k=3
+        input u
+        0:t { <- Sf:Q; -> C:c; -> R:k { f = k*u*e }; -> De:y } }""",
+        {"k", "Q", "u", "y"},
+        {"c"},
+    ),
     # h' A = Q - q, q = k sqrt(h): the area only while the level moves
     "tank": (
         """model M { param A=2; param k=3

@@ -29,6 +29,9 @@ def codes(body: str, before: str = "") -> list[tuple[str, str]]:
 # ------------------------------------------------------------------------------- parts
 
 SILENT = {
+    "driven by what a sensor says of an input": (
+        "input set; param S = 1; sensor up = set - z; Sf:n = up -> 0:j; j -> R:S; j -> De:z"
+    ),
     "one machine": "",
     "two machines, both driven and measured": "Se:V -> 1:j; j -> R:S; j -> Df:z; param S = 1 Ohm",
     "joined by a signal": "MSe:V = y*R2 -> 1:j; j -> R:S; param S = 1; param R2 = 1 Ohm",
