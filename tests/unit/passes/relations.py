@@ -12,12 +12,16 @@ from bondgraph.views import Relation
 
 t = sp.Symbol("t", real=True)
 
-#: Three sets of motions, as many as a common ratio needs to be no accident.
+#: Three sets of motions, as many as a common ratio needs to be no accident; the first four are for
+#: most relations, the others for those of more signals.
 _MOTIONS = [
-    [2 - 3 * t + t**2 / 2 + t**3, 1 + t / 3 - 2 * t**2, 3 + t**4 / 5 - t, t**3 / 7 + 2 * t - 1],
-    [1 + t**2 - t**4 / 7, 3 - t + t**3 / 4, 1 / sp.Integer(3) + t**2, t - 4 + t**5 / 9],
-    [t - t**3 + 4, t / 2 + t**2 - 1, 5 * t - t**4, 2 + t + t**2 / 3],
-]
+    [2 - 3 * t + t**2 / 2 + t**3, 1 + t / 3 - 2 * t**2, 3 + t**4 / 5 - t, t**3 / 7 + 2 * t - 1,
+     1 + t, 2 - t**2, 3 * t - t**3, 1 - t / 4 + t**2, 2 + t**3 / 3, t - 5],
+    [1 + t**2 - t**4 / 7, 3 - t + t**3 / 4, 1 / sp.Integer(3) + t**2, t - 4 + t**5 / 9,
+     t**2 - 3, 1 + 2 * t, 2 - t / 5, t**3 + 1, 4 - t, 1 + t**2 / 6],
+    [t - t**3 + 4, t / 2 + t**2 - 1, 5 * t - t**4, 2 + t + t**2 / 3,
+     3 - t**2, t + 7, 1 - t**3, 2 * t - 3, t**2 + t, 5 - t / 2],
+]  # fmt: skip
 _AT = sp.Rational(2, 5)
 
 
@@ -30,7 +34,23 @@ def value(expr: sp.Expr, params: dict[str, sp.Expr], signals: dict[str, sp.Expr]
     """A SymPy form of a relation at given parameters and signals."""
     known = {f: signals[f.func.__name__] for f in expr.atoms(sp.core.function.AppliedUndef)}
     named = {s: params[s.name] for s in expr.free_symbols if s.name in params}
-    return sp.N(expr.subs(named).subs(known).doit().subs(t, _AT), 40)
+    given = expr.subs(named).subs(known).replace(_is(sp.Derivative), lambda d: d.doit())
+    return sp.N(given.replace(_is(sp.Integral), integral).doit().subs(t, _AT), 40)
+
+
+def integral(node: sp.Expr) -> sp.Expr:
+    """An integral as it is: of fractions a number at the time of comparison, else in closed form.
+
+    SymPy has closed forms for fractions, with roots of polynomials that take all digits away.
+    """
+    inside = node.function
+    if inside.is_rational_function(t) and not inside.is_polynomial(t):
+        return sp.N(node.subs(t, _AT), 40)
+    return node.doit()
+
+
+def _is(kind: type) -> Callable[[object], bool]:
+    return lambda node: isinstance(node, kind)
 
 
 def is_multiple(
