@@ -140,7 +140,7 @@ STEAM_GENERATOR = Case(
         "r6": "(rho - av*p)**2*(heat - cw*Tf*pump - cw*T*(mass - pump))",
     },
     {"boiling": "r1", "mass": "r2", "heat": "r3", "valve": "r4", "pump": "r5"},
-    "L",
+    "",
     (8, 8, 9, 9),
 )
 
