@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bondgraph.frontend.read import decode
-from bondgraph.passes.elaboration import size as limits
+from bondgraph.passes.elaboration import instantiate as limits
 from bondgraph.pipeline import Compilation, Options
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.render import as_json, render
