@@ -24,6 +24,7 @@ from bondgraph.text.diagnostic import Report
 
 #: States of an observer: its gain is made of determinants that are written out.
 MOST = 5
+_OFF = "value of the relation"  # the name of w
 
 
 def observer(
@@ -66,9 +67,6 @@ def observer(
                 return found
             reason = found
     return reason
-
-
-_OFF = "value of the relation"
 
 
 def _predicting(
