@@ -10,6 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import bondgraph
+from bondgraph import Course, Sampling, Scenario
 from bondgraph.ir.residuals import Observer
 from bondgraph.passes.analysis.verify import follows
 from bondgraph.pipeline import Compilation
@@ -184,6 +185,27 @@ def test_the_step_is_of_second_order() -> None:
         r = run(model(TANKS, rate=rate, bandwidth=0.02), tanks(rate, 1500))
         off.append(np.abs(r[-round(400 * rate) :]).max())
     assert 3 < off[0] / off[1] < 5 and 3 < off[1] / off[2] < 5
+
+
+@pytest.mark.parametrize("path", [
+    "models/two_tanks.bg",
+    "tests/adversary/models/cylinder.bg",
+    "tests/adversary/models/three_tanks_level3.bg",
+])  # fmt: skip
+def test_a_healthy_machine_that_starts_empty(path: str) -> None:
+    """Where slopes are infinite an observer has no value, and begins when the machine has moved."""
+    levels = Course(None, ((0, 1.0), (1, 1.2), (2, 0.8), (3, 1.1), (10, 1.0)))
+    most = {}
+    for form in ("observer", "derivative"):
+        c = bondgraph.compile(ROOT / path, form=form, rate=200.0)
+        inputs = {i.name: levels for i in c.graph.inputs if i.known}
+        log = c.simulate(Scenario("fill", inputs=inputs, sampling=Sampling(rate=200.0))).log
+        engine = c.engine(native=False)
+        batch = engine.run(np.column_stack([log.columns[k.path] for k in engine.signals]))
+        valid, value = np.asarray(batch.valid)[:, 0], np.asarray(batch.value)[:, 0]
+        assert valid.mean() > 0.6
+        most[form] = np.abs(value[valid]).max()
+    assert most["observer"] < most["derivative"] / 50
 
 
 def test_far_too_fast_for_the_samples() -> None:
