@@ -5,9 +5,10 @@
 where f and h are the relation solved for its states (`ir.residuals.Observer`), into which its
 value w enters as x' = f + b w. With A = df/dx, c = dh/dx, n states and a bandwidth wc the gain
 l = (A + v)^n b / (c A^(n-1) b) puts all poles at -v, v^2n = wc^2n + det(A)^2 (Ackermann, 1972):
-at the bandwidth, but not slower than the machine's own poles are in the (geometric) mean, so that
-a fault cannot lead the states far away. Then r = w through 1/(1 + p/v)^n, with k = 1/(c (l c - A)^-1 b). No derivative is
-formed, and nonlinear laws get the states as they are. The gain follows the states.
+at the bandwidth, but no slower than the machine's own poles are in the (geometric) mean, so that a
+fault cannot lead the states far away. Then r = w through 1/(1 + p/v)^n, with
+k = 1/(c (l c - A)^-1 b). No derivative is formed, and nonlinear laws get the states as they are.
+The gain follows the states.
 
 Between two samples the known signals are linear. The step is Rosenbrock's method of second order
 in the form of Verwer, Spee, Blom and Hundsdorfer (1999), which forgets at once what is much faster

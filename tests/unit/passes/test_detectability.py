@@ -34,7 +34,7 @@ CASES: dict[str, tuple[str, set[str], set[str]]] = {
         {"v1", "v2", "r", "F"},
         {"C"},
     ),
-    # Q - c y' - k u y = 0: an input that opens a valve is constant too, and dr/dk = -u y is not zero
+    # Q - c y' - k u y = 0: an input that opens a valve is constant too, and dr/dk = -u y is not 0
     "valve": (
         """model M { param c=2; param k=3
         input u
