@@ -12,7 +12,7 @@ from bondgraph.text.diagnostic import CompileError, Diagnostic
 from bondgraph.text.source import Source
 from tests.random.graphs import Graph
 
-_SECONDS = 20
+_SECONDS = 60
 
 #: Outcomes that are no code of a refusal and not `ok` or `no_arr`.
 PART = "a part, and says what is missing"
