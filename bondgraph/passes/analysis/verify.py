@@ -61,7 +61,6 @@ def follows(
     exprs = [
         pool.sub(pool.der(closed[x]), pool.substitute([rate], closed)[0])
         for x, rate in zip(observer.states, observer.rates, strict=True)
-        if x in closed
     ]
     exprs.append(pool.sub(observer.measured, pool.substitute([observer.output], closed)[0]))
     size = terms_needed(exprs)

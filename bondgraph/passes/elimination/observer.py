@@ -81,6 +81,9 @@ def _predicting(
     """The observer that predicts one sensor, or why there is none."""
     pool = system.graph.pool
     sensor = next(s for s in system.graph.sensors if s.name == reading.name)
+    order = residual.orders.get(sensor.name, 0)  # of y is the number of states
+    if order > MOST:
+        return f"it has {order} states, more than {MOST}"
     counted = {s.symbol for s in system.graph.sensors if s.counts is not None}
     read = pool.symbol(f"{sensor.name} as predicted", Kind.EFFORT)
 
@@ -114,6 +117,9 @@ def _predicting(
         return "it holds no storage that could be integrated"
     if len(solved.states) > MOST:
         return f"it has {len(solved.states)} states, more than {MOST}"
+    known = {step.variable for step in residual.steps}
+    if any(s.symbol not in known for s in solved.states):
+        return "one of its states is none of its variables"
     off = pool.symbol(_OFF, Kind.INPUT)
     entry = [sensitivity(pool, rate, [off])[off] for rate in rates]
     *rates, output = pool.substitute([*rates, predicted], {off: pool.zero})
@@ -162,10 +168,10 @@ def _through_all(pool: Pool, observer: Observer) -> bool:
 
 
 def _at_rest(pool: Pool, residual: Residual, states: Sequence[Expr]) -> list[Expr]:
-    """What elimination says of the states while nothing changes; zero where it cannot."""
+    """What elimination says of the states while nothing changes; zero where that has no value."""
     closed = {step.variable: step.closed for step in residual.steps}
-    still = [closed.get(state, pool.zero) for state in states]
+    found = [closed[state] for state in states]
     try:
-        return rebuilt(pool, still, lambda n, _: pool.zero if n.op in (Op.DER, Op.INT) else None)
+        return rebuilt(pool, found, lambda n, _: pool.zero if n.op in (Op.DER, Op.INT) else None)
     except ZeroDivisionError:
         return [pool.zero] * len(states)

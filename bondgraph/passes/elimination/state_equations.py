@@ -35,7 +35,8 @@ class Wanted(NamedTuple):
     `modes` gives each boolean input its value; storages whose path is one of `static` or lies
     below one are taken as being at rest (quasi-static); values, inputs and sensors named in
     `disturbed` may be wrong; `numbers` are parameters that have another value than the model says.
-    Where sensors are `measured` they are known signals, and no parameter is taken to be nothing.
+    Where sensors are `measured` they are known signals, no parameter is taken to be nothing, and
+    the equations hold no switch.
     """
 
     modes: Mapping[str, bool] = {}
@@ -153,8 +154,8 @@ class _Causaliser:
         """The equations of the mode, with what may be wrong and without what is nothing."""
         pool, system = self.pool, self.system
         replaced, absent = self._disturbed(), self._absent()
-        told = self.wanted.modes
-        truth = {i.symbol: told[i.name] for i in self.graph.inputs if i.name in told}
+        modes = () if self.wanted.measured else [i for i in system.graph.inputs if i.mode]
+        truth = {i.symbol: self.wanted.modes[i.name] for i in modes}
         errors = {d.name: d for d in self.disturbances}
         rows = []
         logged = pool.logged([e.zero for e in system.equations])  # a law gets what a sensor says

@@ -26,7 +26,7 @@ from bondgraph.ir.expr import Expr, Kind, Pool, symbols
 from bondgraph.ir.program import Assign, Assignment, Expression, Ref
 from bondgraph.ir.residuals import Observer
 from bondgraph.passes.lowering.exactly import LARGEST
-from bondgraph.passes.lowering.procedure import Procedure
+from bondgraph.passes.lowering.procedure import ZERO, Procedure
 from bondgraph.passes.lowering.program_names import brief, identifier
 from bondgraph.passes.lowering.stages import Chain
 
@@ -60,8 +60,11 @@ class Luenberger(Chain):
         *parts, output = builder.resolve(parts, tolerance)  # parameters inside derived constants
         rates, entry, starts = (tuple(parts[k : k + n]) for k in (0, n, 2 * n))
         observer = observer._replace(rates=rates, entry=entry, starts=starts, output=output)
-        now = _Later(self, observer)
         inside = set(symbols(*parts, output))
+        if inside.isdisjoint(tolerance):
+            self._both(Assign(Ref("residual", self.name), ZERO, text, self.origin))
+            return ()
+        now = _Later(self, observer)
         further: dict[Expr, tuple[Expr, Expr]] = {}
         amounts: list[tuple[Fraction, Expr]] = []
         for theta in tolerance:
