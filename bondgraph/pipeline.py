@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from functools import cached_property
 from importlib import import_module
-from typing import TYPE_CHECKING, Literal, TypeVar, get_args
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.numerals import plural
@@ -47,8 +47,15 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-#: What a step may be made of, see `Options`.
-Form = Literal["derivative", "observer"]
+#: What a step may be made of, see `Options`: in one form, or observers where they are named.
+Form = Literal["derivative", "observer"] | tuple[str, ...]
+
+#: Options that change numbers of the residual program only, and the stages before it.
+_LATE = frozenset({"rate", "bandwidth", "targets"})
+_EARLY = frozenset(
+    "syntax graph integral derivative equations structure reduced _plant _analysis verification"
+    " observers".split()
+)
 
 
 class Options(NamedTuple):
@@ -60,7 +67,8 @@ class Options(NamedTuple):
     uses, `decouple` the faults that further relations are to be free of. With `isolate` there are
     further relations that tell apart what the sensors allow to be told apart.
     `form` says how a residual has what a derivative is needed for: from filtered samples
-    (`derivative`), or from states that it follows (`observer`), where it has such a form.
+    (`derivative`), or from states that it follows (`observer`), where it has such a form; a
+    sequence of names says which residuals are observers.
     With `open_ports` the model is a part of a machine: its ports may be left without a bond.
     """
 
@@ -142,14 +150,27 @@ class Compilation:
         return f"Compilation({': '.join(filter(None, (about, ', '.join(parts))))})"
 
     def with_options(self, **changes: Unpack[OptionValues]) -> Compilation:
-        """The same model with other options, compiled anew; raises as `compile` does.
+        """The same model with other options; raises as `compile` does.
+
+        Stages that do not depend on what changes are not computed again.
 
         >>> import bondgraph
         >>> c = bondgraph.compile("models/dc_motor.bg", rate=500.0)
         >>> c.with_options(bandwidth=20.0).options[:2]
         (500.0, 20.0)
         """
-        return Compilation(self.source, self.model, self.options._replace(**changes))
+        options = self.options._replace(**changes)
+        if changes.keys() <= _LATE:
+            return self._again(options)
+        return Compilation(self.source, self.model, options)
+
+    def in_form(self, form: Form) -> Compilation:
+        """The same relations as residuals of another form, to be compared.
+
+        They are those of `with_options(form=...)`, at less cost; what they share may have other
+        names in their code.
+        """
+        return self._again(self.options._replace(form=form))
 
     # ------------------------------------------------------------ the stages, in order
 
@@ -413,12 +434,13 @@ class Compilation:
         """The observers that `step` is made of, verified."""
         from bondgraph.passes.analysis.verify import follows
 
-        if self.options.form == "derivative":
+        form, found = self.options.form, {}
+        if form == "derivative":
             return {}
-        found = {}
         for residual in self._analysis[0].residuals:
             observer = self.observers[residual.name]
-            if not isinstance(observer, str):
+            chosen = form == "observer" or residual.name in form
+            if chosen and not isinstance(observer, str):
                 follows(residual, observer, self._plant, self.report, self.options.seed)
                 found[residual.name] = observer
         return self._stage(found)
@@ -593,6 +615,14 @@ class Compilation:
 
     # ------------------------------------------------------------------------- helpers
 
+    def _again(self, options: Options) -> Compilation:
+        """With options that leave the relations what they are, and all that is known of these."""
+        found = Compilation(self.source, self.model, options)
+        if not self.report.failed:
+            vars(found).update({k: v for k, v in vars(self).items() if k in _EARLY})
+            found.report.diagnostics.extend(self.report.diagnostics)
+        return found
+
     @property
     def _lowering(self) -> LowerOptions:
         from bondgraph.passes.lowering.lower import LowerOptions
@@ -679,10 +709,15 @@ def _checked(options: Options) -> Options:
         every = name == "resolution" and value == 0.0  # term is seen
         if value is not None and not every and not 0.0 < value < float("inf"):
             raise ValueError(f"{name} must be a positive number, not {value!r}")
-    if options.form not in get_args(Form):
-        raise ValueError(f"form must be one of {', '.join(get_args(Form))}, not {options.form!r}")
+    form = options.form
+    if isinstance(form, str) and form not in ("derivative", "observer"):
+        raise ValueError(f"form is derivative, observer or names of residuals, not {form!r}")
     for name in ("targets", "decouple"):
         value = getattr(options, name)
         if isinstance(value, str):
             raise TypeError(f"{name} is a sequence of names: [{value!r}]")
-    return options._replace(targets=tuple(options.targets), decouple=tuple(options.decouple))
+    return options._replace(
+        targets=tuple(options.targets),
+        decouple=tuple(options.decouple),
+        form=form if isinstance(form, str) else tuple(form),
+    )

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bondgraph.cli import console
 from bondgraph.cli.options import isolating, opened, realised, sampling, signals
 from bondgraph.cli.terminal_layout import names as listed
 from bondgraph.cli.terminal_layout import width
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterator
 
     from bondgraph.ir.program import Program
-    from bondgraph.pipeline import Compilation
+    from bondgraph.pipeline import Compilation, Form
     from bondgraph.runtime.separation import Separation
-    from bondgraph.runtime.smallest import Detection, Situation, Smallest
+    from bondgraph.runtime.smallest import Answers, Detection, Situation, Smallest
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -29,7 +31,7 @@ def arguments(parser: ArgumentParser) -> None:
     sampling(parser)
     signals(parser)
     isolating(parser)
-    realised(parser)
+    realised(parser, None)
 
 
 def situation_of(args: Namespace, program: Program) -> Situation:
@@ -48,52 +50,138 @@ def situation_of(args: Namespace, program: Program) -> Situation:
     return Situation(dict(args.at), dict(args.swing), deviations, args.frequency, args.kappa)
 
 
+class Row(NamedTuple):
+    """A fault in one form of a residual, the `second` of two or the only one.
+
+    `delay` in s is how long a change of `size` takes to be sure to be seen.
+    """
+
+    form: str
+    found: Smallest
+    second: bool
+    size: float | None = None
+    delay: float | None = None
+
+
 def run(args: Namespace) -> int:
     """Compile, look for the smallest changes, print."""
     from bondgraph.runtime.separation import separation
-    from bondgraph.runtime.smallest import smallest
 
     compilation = opened(args)
     situation = situation_of(args, compilation.program)
     tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
+    forms = {_form(args.form): compilation}
+    if args.form is None and not all(isinstance(o, str) for o in compilation.observers.values()):
+        forms["observer"] = compilation.in_form("observer")
     try:
-        received = compilation.program_with_readings
-        found = smallest(received, compilation.thresholds, tolerances, situation)
-        apart = separation(received, tolerances, situation) if args.pairs else None
+        answers = {form: _answers(c, tolerances, situation) for form, c in forms.items()}
+        apart = None
+        if args.pairs:
+            apart = separation(compilation.program_with_readings, tolerances, situation)
     except ValueError as error:
         raise Trouble(f"{error}, and without it nothing has a size") from error
+    found = {form: one.detection() for form, one in answers.items()}
+    rows = _rows(forms, answers, found)
     return console.told(
         args.json,
         compilation.report.diagnostics,
-        _message(compilation, found),
-        lambda: {**_result(compilation, found), **_told_apart(compilation, apart)},
-        lambda: _lines(compilation, found, situation) + _pairs(compilation, apart, situation),
+        _message(compilation, rows),
+        lambda: {**_result(forms, found, rows), **_told_apart(compilation, apart)},
+        lambda: _lines(forms, found, rows, situation) + _pairs(compilation, apart, situation),
     )
 
 
-def _message(compilation: Compilation, found: Detection) -> str:
-    shown = {s.fault for s in found.smallest if s.change is not None}
-    every = dict.fromkeys(s.fault for s in found.smallest)
+def _form(asked: Form | None) -> str:
+    return asked if isinstance(asked, str) else "observer" if asked else "derivative"
+
+
+def _answers(
+    compilation: Compilation, tolerances: dict[str, float], situation: Situation
+) -> Answers:
+    from bondgraph.runtime.smallest import Answers
+
+    return Answers(compilation.program_with_readings, compilation.thresholds, tolerances, situation)
+
+
+def _rows(
+    forms: dict[str, Compilation], answers: dict[str, Answers], found: dict[str, Detection]
+) -> list[Row]:
+    """Every fault in every residual; where a residual has two forms both, and a size for both.
+
+    That is twice the smallest change, of the form that needs the larger one.
+    """
+    given, *other = forms.items()
+    follows = {i.path for i in given[1].program.residuals if i.follows}
+    second: dict[tuple[str, str], Smallest] = {}
+    for form, compilation in other:
+        observers = {i.path for i in compilation.program.residuals if i.follows}
+        second = {s[:2]: s for s in found[form].smallest if s.residual in observers}
+    rows = []
+    for one in found[given[0]].smallest:
+        own = "observer" if one.residual in follows else "derivative"
+        both = [(own, one)]
+        if one[:2] in second:
+            both.append(("observer", second[one[:2]]))
+        size = max([2 * s.change for _, s in both if s.change is not None], default=None)
+        for at, (form, shown) in enumerate(both):
+            row = Row(form, shown, at == 1)
+            if size is not None and shown.change is not None:
+                made = list(answers.values())[at]
+                row = row._replace(size=size, delay=made.delay(*one[:2], size))
+            rows.append(row)
+    return rows
+
+
+def _message(compilation: Compilation, rows: list[Row]) -> str:
+    shown = {r.found.fault for r in rows if r.found.change is not None}
+    every = dict.fromkeys(r.found.fault for r in rows)
     return f"{len(shown)} of {len(every)} faults show with these signals"
 
 
-def _result(compilation: Compilation, found: Detection) -> dict[str, object]:
-    units, unbounded = _units(compilation), _unbounded(compilation)
+def _result(
+    forms: dict[str, Compilation], found: dict[str, Detection], rows: list[Row]
+) -> dict[str, object]:
+    """What is found of the residuals as they are, and below `observers` of those that could be."""
+    compilation = next(iter(forms.values()))
+    units = _units(compilation)
+
+    def part(second: bool) -> dict[str, object]:
+        return {
+            "noise": [
+                {
+                    "residual": name,
+                    "form": form,
+                    "sigma": sigma,
+                    "no_threshold": unbounded.get(name),
+                    "undefined": name in found[key].undefined,
+                }
+                for key, name, form, sigma, unbounded in _noises(forms, found)
+                if (key != next(iter(forms))) == second
+            ],
+            "faults": [_row(r, units) for r in rows if r.second == second],
+        }
+
+    more = {"observers": part(True)} if len(forms) > 1 else {}
     return {
         "model": compilation.graph.name,
         "rate": compilation.program.rate,
         "bandwidth": compilation.program.bandwidth,
-        "noise": [
-            {
-                "residual": name,
-                "sigma": sigma,
-                "no_threshold": unbounded.get(name),
-                "undefined": name in found.undefined,
-            }
-            for name, sigma in found.sigma.items()
-        ],
-        "faults": [_row(s, units) for s in found.smallest],
+        **part(False),
+        **more,
     }
+
+
+def _noises(
+    forms: dict[str, Compilation], found: dict[str, Detection]
+) -> Iterator[tuple[str, str, str, float | None, dict[str, str]]]:
+    """The key of the form, residual, its form, its noise, and why residuals have no threshold."""
+    for at, (key, compilation) in enumerate(forms.items()):
+        unbounded = _unbounded(compilation)
+        follows = {i.path for i in compilation.program.residuals if i.follows}
+        for name, sigma in found[key].sigma.items():
+            if at == 0 or name in follows:
+                form = "observer" if name in follows else "derivative"
+                yield key, name, form, sigma, unbounded
 
 
 def _told_apart(compilation: Compilation, found: Separation | None) -> dict[str, object]:
@@ -107,9 +195,9 @@ def _told_apart(compilation: Compilation, found: Separation | None) -> dict[str,
                       for a, row in rows]}  # fmt: skip
 
 
-def _row(found: Smallest, units: dict[str, str]) -> dict[str, object]:
-    unit = units.get(found.fault, "")
-    return {**found._asdict(), "unit": unit, "reason": found.reason or None}
+def _row(row: Row, units: dict[str, str]) -> dict[str, object]:
+    own = row.found._asdict() | {"unit": units.get(row.found.fault, ""), "form": row.form}
+    return own | {"reason": row.found.reason or None, "delay": row.delay, "delay_size": row.size}
 
 
 def _unbounded(compilation: Compilation) -> dict[str, str]:
@@ -125,34 +213,77 @@ def _units(compilation: Compilation) -> dict[str, str]:
     return units(compilation.graph)
 
 
-def _lines(compilation: Compilation, found: Detection, situation: Situation) -> list[str]:
-    program = compilation.program
+def _lines(
+    forms: dict[str, Compilation],
+    found: dict[str, Detection],
+    rows: list[Row],
+    situation: Situation,
+) -> list[str]:
+    compilation = next(iter(forms.values()))
+    program, both = compilation.program, len(forms) > 1
     lines = [
-        f"{compilation.graph.name}: {_message(compilation, found)}",
+        f"{compilation.graph.name}: {_message(compilation, rows)}",
         f"{program.rate:g} samples a second, filter of {program.bandwidth:g} rad/s,"
         f" {situation.kappa:g} sigma of noise",
         "",
         "Noise of the filtered residuals",
     ]
-    for name, sigma in found.sigma.items():
+    for key, name, form, sigma, unbounded in _noises(forms, found):
         what = "grows for ever" if sigma is None else f"{sigma:.3g}"
-        if name in found.undefined:
+        if name in found[key].undefined:
             what = "has no value at these signals: give --at what the machine does"
-        lines.append(f"  {name}  {what}")
-    for name, why in _unbounded(compilation).items():
-        lines.append(f"  {name}  has no adaptive threshold, only noise counts: {why}")
-    units = _units(compilation)
-    rows = [("fault", "residual", "smallest change", "")]
-    rows += [(s.fault, s.residual, *_change(s, units.get(s.fault, ""))) for s in found.smallest]
-    sizes = [max(len(row[k]) for row in rows) for k in range(3)]
-    lines.append("")
-    for row in rows:
-        text = "  ".join(cell.ljust(n) for cell, n in zip(row[:3], sizes, strict=True))
-        lines.append(f"{text}  {row[3]}".rstrip()[: max(width(), sum(sizes) + 50)])
+        own = f"{name}  {form}" if both else name
+        lines.append(f"  {own}  {what}")
+        if name in unbounded:
+            why = unbounded[name]
+            lines.append(f"  {own}  has no adaptive threshold, only noise counts: {why}")
+    lines += ["", *_table(compilation, rows, both)]
+    if both:
+        lines += _compared(rows)
     if not any((*situation.at.values(), *situation.swing.values())):
         lines += ["", "All signals are zero: parameters need signals to be seen, give --at or"
                   " --swing."]  # fmt: skip
     return lines
+
+
+def _table(compilation: Compilation, rows: list[Row], both: bool) -> list[str]:
+    """A line a row, with what the last column says."""
+    units = _units(compilation)
+    cells = [("fault", "residual", "form", "smallest change", "share", "seen after")]
+    for r in rows:
+        size, more = _change(r.found, units.get(r.found.fault, ""))
+        after = "" if r.size is None else "never" if r.delay is None else f"{r.delay:.3g} s"
+        cells.append((r.found.fault, r.found.residual, r.form, size, more, after))
+    used = [k for k in range(6) if k != 2 or both]
+    sizes = {k: max(len(row[k]) for row in cells if k != 4 or row[5]) for k in used}
+    lines = []
+    for row in cells:
+        text = "  ".join(row[k].ljust(sizes[k]) for k in used)
+        lines.append(text.rstrip()[: max(width(), sum(sizes.values()) + 50)])
+    if any(r.size is not None for r in rows):
+        which = " (of the larger one of two)" if both else ""
+        lines += ["", f"Seen after: how long a lasting change of twice the size{which} takes to"
+                  " be sure."]  # fmt: skip
+    return lines
+
+
+def _compared(rows: list[Row]) -> list[str]:
+    """Which residuals show faults earlier, and which show smaller ones, as observers."""
+    pairs: dict[str, list[tuple[Row, Row]]] = {}
+    for one, other in zip(rows, rows[1:], strict=False):
+        if one.found[:2] == other.found[:2]:
+            pairs.setdefault(one.found.residual, []).append((one, other))
+    lines = []
+    for name, own in pairs.items():
+        earlier = sum(_before(b.delay, a.delay) for a, b in own)
+        smaller = sum(_before(b.found.change, a.found.change) for a, b in own)
+        lines.append(f"{name} as an observer shows {earlier} of {plural(len(own), 'fault')}"
+                     f" earlier, {smaller} of them smaller: --form observer:{name}")  # fmt: skip
+    return lines
+
+
+def _before(one: float | None, other: float | None) -> bool:
+    return one is not None and (other is None or one < other)
 
 
 def _pairs(

@@ -7,9 +7,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from bondgraph import Options
-from bondgraph import compile as open_model
 from bondgraph.cli import monitor
-from bondgraph.cli.options import isolating, positive, realised
+from bondgraph.cli.options import isolating, positive, realised, realising
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
 from bondgraph.text.diagnostic import Trouble
@@ -95,7 +94,7 @@ def _serve(args: Namespace, made: Any) -> int:
     from bondgraph.runtime.simulation.scenario import Scenario
 
     rate = args.rate
-    compilation = open_model(args.model, isolate=args.isolate, form=args.form)
+    compilation = realising(args)
     scenario = compilation.scenario(args.scenario) if args.scenario else Scenario("live")
     if rate is None:
         rate = scenario.sampling.rate if args.scenario else Options().rate

@@ -8,9 +8,8 @@ from contextlib import closing, contextmanager
 from typing import TYPE_CHECKING
 
 from bondgraph import Options
-from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.options import isolating, positive, realised
+from bondgraph.cli.options import isolating, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 
@@ -120,9 +119,7 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     known = known_rate(args.journal) if args.journal else None
     tuning = read_tuning(args.tuning) if args.tuning else None
     rate = args.rate or known or source.rate() or (tuning.rate if tuning else Options().rate)
-    compilation = open_model(
-        args.model, rate=rate, bandwidth=args.bandwidth, isolate=args.isolate, form=args.form
-    )
+    compilation = realising(args, rate=rate, bandwidth=args.bandwidth)
     engine, decided = watching(compilation, tuning)
     mapping = read_map(args.map, engine.signals) if args.map else None
     journal = _journal(args.journal, compilation, source, engine)

@@ -5,10 +5,15 @@ from __future__ import annotations
 import math
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from bondgraph import Compilation, Options, compile
 from bondgraph.cli import console
+
+if TYPE_CHECKING:
+    from typing import Unpack
+
+    from bondgraph.pipeline import Form, OptionValues
 
 T = TypeVar("T", float, int)
 
@@ -64,14 +69,30 @@ def isolating(parser: ArgumentParser) -> None:
     )
 
 
-def realised(parser: ArgumentParser) -> None:
-    """The option `--form`."""
+def form(text: str) -> Form:
+    """`derivative`, `observer`, or `observer:r1,r3`, which says what residuals are observers."""
+    word, colon, names = text.partition(":")
+    if word == "observer" and colon:
+        return tuple(filter(None, names.split(",")))
+    if text == "observer":
+        return "observer"
+    if text != "derivative":
+        raise ValueError
+    return "derivative"
+
+
+form.__name__ = "form"
+
+
+def realised(parser: ArgumentParser, usual: Form | None = "derivative") -> None:
+    """The option `--form`; `usual` is what it is where it is not given."""
     parser.add_argument(
         "--form",
-        choices=("derivative", "observer"),
-        default="derivative",
+        metavar="derivative|observer[:NAMES]",
+        type=form,
+        default=usual,
         help="what a step is made of: filtered samples, or states that follow a sensor where a "
-        "residual has such a form (default: derivative)",
+        f"residual, or one of those named, has such a form (default: {usual or 'both, compared'})",
     )
 
 
@@ -116,18 +137,29 @@ def signals(parser: ArgumentParser) -> None:
                         " (default: 5)")  # fmt: skip
 
 
+def realising(args: Namespace, **options: Unpack[OptionValues]) -> Compilation:
+    """The model of a command with `--isolate` and `--form`; raises Unknown for no residual."""
+    own: Form = args.form or "derivative"
+    options |= {"isolate": args.isolate, "form": own}
+    compilation = compile(args.model, **options)
+    if not isinstance(own, str):
+        names = [r.name for r in compilation.residuals]
+        for name in own:
+            if name not in names:
+                raise console.Unknown(name, "no residual of the model", names)
+    return compilation
+
+
 def opened(args: Namespace, targets: tuple[str, ...] = Options().targets) -> Compilation:
     """The model of a command with the options of `sampling`, and those that add residuals."""
     decouple = tuple(dict.fromkeys(getattr(args, "decouple", ())))
-    compilation = compile(
-        args.model,
+    compilation = realising(
+        args,
         rate=args.rate,
         bandwidth=args.bandwidth,
         resolution=2.0**-args.bits,
         targets=targets,
         decouple=decouple,
-        isolate=args.isolate,
-        form=args.form,
     )
     for fault in decouple:
         if fault not in compilation.graph.faults:

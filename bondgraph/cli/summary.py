@@ -146,13 +146,13 @@ def _numerics(compilation: Compilation, columns: int) -> list[str]:
     path = {k.name: k.path for k in program.knowns}
     anew = {o.residual: [path[m] for m in o.modes] for o in program.openings if o.modes}
     lines: list[str] = []
-    asked = compilation.options.form == "observer"
+    form = compilation.options.form
     for info in program.residuals:
         notes = []
         if info.follows:
             notes.append([f"  {info.name}  is an observer that follows {info.follows}"])
-        elif asked and isinstance(why := compilation.observers[info.path], str):
-            notes.append([f"  {info.name}  is no observer: {why}"])
+        elif form == "observer" or info.path in form:
+            notes.append([f"  {info.name}  is no observer: {compilation.observers[info.path]}"])
         if info.invisible:
             notes.append(names(info.invisible, columns, f"  {info.name}  cannot see "))
         if info.approximate:

@@ -6,9 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from bondgraph import Options
-from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.options import isolating, positive, realised
+from bondgraph.cli.options import isolating, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 from bondgraph.text.whole_file import write_whole
@@ -104,9 +103,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
 
     read = []
     if args.simulate:
-        compilation = open_model(
-            args.model, rate=args.rate or Options().rate, isolate=args.isolate, form=args.form
-        )
+        compilation = realising(args, rate=args.rate or Options().rate)
         scenario = compilation.scenario(args.simulate)
         if scenario.faults:
             raise Trouble(f"{args.simulate} has a fault: tune on what is healthy")
@@ -125,7 +122,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
         steps = np.diff(read[0].time)
         usual = float(np.median(steps)) if len(steps) else 1.0 / Options().rate
         rate = args.rate or round(1.0 / usual, 6)
-        compilation = open_model(args.model, rate=rate, isolate=args.isolate, form=args.form)
+        compilation = realising(args, rate=rate)
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
     logs = []

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.linalg import solve_discrete_lyapunov
+from scipy.special import gammainc
 
 from bondgraph.ir.program import Known, Program
 from bondgraph.runtime.batch import Lanes
@@ -38,7 +39,8 @@ class Smallest(NamedTuple):
 
     `change` in the unit of the fault, `relative` to its nominal value (None for signals).
     `sensitivity` is the filtered change of the residual for a unit of the fault where it is shown
-    best, `threshold` a(t) there.
+    best, `threshold` a(t) there. `delay` is how long after its onset a lasting change of twice
+    that size is sure to be seen, in s; None where it was not asked for, or that is never sure.
     """
 
     fault: str
@@ -48,6 +50,7 @@ class Smallest(NamedTuple):
     sensitivity: float
     threshold: float
     reason: str
+    delay: float | None = None
 
 
 class Detection(NamedTuple):
@@ -90,16 +93,58 @@ def smallest(
     step, X = A X A' + B B' (discrete Lyapunov equation), linearised at the first sample.
     Raises ValueError if a parameter has no number.
     """
-    need_numbers(program)
-    if not program.residuals:
-        return Detection({}, ())
-    known = faults(program, tolerances, situation)
-    moved = sensitivities(program, known, situation)
-    bound: dict[str, Array] = {}
-    if thresholds is not None:
-        bound = {n: r[:, 0] for n, r in _simulated(thresholds, {}, {}, 1, situation)[0].items()}
-    sigma = noise(program, situation)
-    return told(program, known, moved, bound, sigma, situation.kappa)
+    return Answers(program, thresholds, tolerances, situation).detection()
+
+
+class Answers:
+    """How the residuals of a program answer the onset of each fault in a machine that runs.
+
+    Arguments are those of `smallest`; raises ValueError as it does.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        thresholds: Program | None,
+        tolerances: Mapping[str, float],
+        situation: Situation,
+    ) -> None:
+        need_numbers(program)
+        self._program, self._situation = program, situation
+        self._faults = {f.path: f for f in faults(program, tolerances, situation)}
+        own = list(self._faults.values()) if program.residuals else []
+        self._lasting = sensitivities(program, own, situation)
+        self._course = sensitivities(program, own, situation, onset=True)
+        self._sigma = noise(program, situation) if program.residuals else {}
+        self._bound: dict[str, Array] = {}
+        if thresholds is not None and own:
+            found = _simulated(thresholds, {}, {}, 1, situation, onset=True)[0]
+            self._bound = {name: r[:, 0] for name, r in found.items()}
+
+    def detection(self) -> Detection:
+        """The smallest changes, each at the best moment of a period when all has settled."""
+        own = list(self._faults.values())
+        samples = _period(self._program, self._situation)
+        bound = {name: r[:samples] for name, r in self._bound.items()}
+        found = told(self._program, own, self._lasting, bound, self._sigma, self._situation.kappa)
+        rows = [s._replace(delay=self.delay(s.fault, s.residual, 2.0 * (s.change or 0.0)))
+                for s in found.smallest]  # fmt: skip
+        return found._replace(smallest=tuple(rows))
+
+    def delay(self, fault: str, residual: str, size: float) -> float | None:
+        """Seconds from the onset of a lasting change until it is sure to be seen, None for never.
+
+        Fault and residual by path, `size` in the unit of the fault.
+        """
+        info = next(i for i in self._program.residuals if i.path == residual)
+        sigma = self._sigma.get(info.name)
+        if sigma is None or info.unavailable or not size:
+            return None
+        slope = np.abs(self._course[fault][info.name])
+        kappa, bound = self._situation.kappa, self._bound.get(info.name)
+        need = _needed(self._faults[fault], slope, bound, sigma, kappa)
+        seen = np.flatnonzero((slope > 0) & (slope * size >= need))
+        return float(seen[0]) / self._program.rate if seen.size else None
 
 
 def need_numbers(program: Program) -> None:
@@ -133,8 +178,7 @@ def told(
                 rows.append(Smallest(*base, None, None, 0.0, 0.0, "no value at these signals"))
                 continue
             slope = np.abs(moved[fault.path][info.name])
-            a = bound.get(info.name, np.zeros(len(slope)))
-            rows.append(_row(base, fault, slope, a, sigma[info.name], kappa))
+            rows.append(_row(base, fault, slope, bound.get(info.name), sigma[info.name], kappa))
     own = {i.path: sigma.get(i.name) for i in program.residuals}
     return Detection(own, tuple(rows), tuple(i.path for i in undefined))
 
@@ -143,24 +187,34 @@ def _row(
     base: tuple[str, str],
     fault: Fault,
     slope: Array,
-    a: Array,
+    bound: Array | None,
     sigma: float | None,
     kappa: float,
 ) -> Smallest:
     visible = slope > 0
+    a = np.zeros(len(slope)) if bound is None else bound
     if not visible.any():
         return Smallest(*base, None, None, 0.0, float(a[-1]), "not moved by these signals")
     if sigma is None:
         at = int(np.argmax(slope))
         why = "the residual integrates the noise"
         return Smallest(*base, None, None, float(slope[at]), float(a[at]), why)
-    own = np.minimum(fault.tolerance * abs(fault.nominal or 0.0) * slope, a)
     with np.errstate(divide="ignore"):
-        change = np.where(visible, (2 * a - own + kappa * sigma) / slope, np.inf)
+        change = np.where(visible, _needed(fault, slope, bound, sigma, kappa) / slope, np.inf)
     at = int(np.argmin(change))
     least = float(change[at])
     relative = least / abs(fault.nominal) if fault.nominal else None
     return Smallest(*base, least, relative, float(slope[at]), float(a[at]), "")
+
+
+def _needed(
+    fault: Fault, slope: Array, bound: Array | None, sigma: float, kappa: float
+) -> Array | float:
+    """What a change has to do to a residual to be sure to be seen, see `smallest`."""
+    if bound is None:
+        return kappa * sigma
+    own = np.minimum(fault.tolerance * abs(fault.nominal or 0.0) * slope, bound)
+    return np.asarray(2 * bound - own + kappa * sigma)
 
 
 def faults(program: Program, tolerances: Mapping[str, float], situation: Situation) -> list[Fault]:
@@ -182,9 +236,13 @@ def faults(program: Program, tolerances: Mapping[str, float], situation: Situati
 
 
 def sensitivities(
-    program: Program, faults: list[Fault], situation: Situation
+    program: Program, faults: list[Fault], situation: Situation, onset: bool = False
 ) -> dict[str, dict[str, Array]]:
-    """Per fault and residual the sensitivity at each valid sample, 0 where it is rounding."""
+    """Per fault and residual the sensitivity at each valid sample, 0 where it is rounding.
+
+    Over one period of the signals, of a machine that was never well; with `onset` from the moment
+    when the fault sets in, and over a period after all has settled.
+    """
     runs = 2 * len(faults)
     params: dict[str, Array] = {}
     signals: dict[str, Array] = {}
@@ -196,8 +254,10 @@ def sensitivities(
         shift[2 * k], shift[2 * k + 1] = fault.step, -fault.step
         into = signals if fault.nominal is None and fault.name in known else params
         into[fault.name] = shift if into is signals else shift + float(fault.nominal or 0.0)
-    result, sizes = _simulated(program, params, signals, runs, situation)
+    result, sizes = _simulated(program, params, signals, runs, situation, onset)
     found: dict[str, dict[str, Array]] = {}
+    info = {i.name: i for i in program.residuals}
+    since = np.arange(len(next(iter(result.values()), ()))) / program.rate
     for k, fault in enumerate(faults):
         own = found[fault.path] = {}
         for name, r in result.items():
@@ -205,7 +265,21 @@ def sensitivities(
                 change = r[:, 2 * k] - r[:, 2 * k + 1]
             felt = np.abs(change) > _ROUNDING * max(sizes[name][2 * k : 2 * k + 2])
             own[name] = np.where(felt, change / (2 * fault.step), 0.0)
+            if onset and fault.nominal is not None and info[name].approximate:
+                # Its laws act on filtered signals, which a change of the machine moves no faster.
+                own[name] *= gammainc(info[name].stages, program.bandwidth * since)
     return found
+
+
+def _settled(program: Program) -> int:
+    """The samples after which a residual has forgotten how it began."""
+    return math.ceil(program.warmup / program.bandwidth * program.rate) + 1
+
+
+def _period(program: Program, situation: Situation) -> int:
+    """The samples of one period of the signals."""
+    moving = any(situation.swing.values())
+    return min(math.ceil(program.rate / situation.frequency), _MOST) if moving else 1
 
 
 def _simulated(
@@ -214,45 +288,44 @@ def _simulated(
     errors: Mapping[str, Array],
     runs: int,
     situation: Situation,
+    onset: bool = False,
 ) -> tuple[dict[str, Array], dict[str, Array]]:
     """The residuals, samples by runs, from when they are valid over one period of the signals.
 
-    Besides, by run, the largest number in the filter of each. An error of a signal is there from
-    the start; that of a position too.
+    Besides, by run, the largest number in the filter of each. Parameters are wrong, and signals
+    have their errors, from the start; with `onset` not before the first of the samples that are
+    returned: what the filters remember then is that of a machine that is well, and all settles
+    once more before the period begins.
     """
-    run = Lanes(program, dict(params))
-    settled = math.ceil(program.warmup / program.bandwidth * program.rate) + 1
-    moving = any(situation.swing.values())
-    period = math.ceil(program.rate / situation.frequency) if moving else 1
-    total = settled + min(period, _MOST)
+    well, run = Lanes(program, {}), Lanes(program, dict(params))
+    valid = _settled(program)
+    begin, end = (valid, 2 * valid) if onset else (0, valid)
     rows: dict[str, list[Array]] = {r.name: [] for r in program.residuals}
     sizes = {r.name: np.zeros(runs) for r in program.residuals}
     own = {r.name: [s.name for s in program.states if s.name.startswith(f"{r.name}_")]
            for r in program.residuals}  # fmt: skip
+    modes = {m.name: situation.at.get(m.path, 1.0) != 0 for m in program.knowns if m.kind == "mode"}
     states: dict[str, Any] | None = None
-    before: dict[str, float] = {}
-    for k in range(total):
-        t = k / program.rate
+    before: dict[str, Any] = {}
+    for k in range(end + _period(program, situation)):
         signals: dict[str, Any] = {}
         increments: dict[str, Any] = {}
         totals: dict[str, Any] = {}
         for known in program.knowns:
             if known.kind == "mode":
                 continue
-            value = _signal(known, t, situation)
-            error = errors.get(known.name, 0.0)
+            value = _signal(known, k / program.rate, situation)
+            told = value + (errors.get(known.name, 0.0) if k >= begin else 0.0)
             if known.counts is None:
-                signals[known.name] = value + error
+                signals[known.name] = told
             else:
-                turn = known.counts / (2 * math.pi)
-                start = _signal(known, 0.0, situation)
-                increments[known.name] = (value - before.get(known.name, value)) * turn
-                totals[known.name] = (value - start + error) * turn
-                before[known.name] = value
-        modes = {m.name: situation.at.get(m.path, 1.0) != 0 for m in program.knowns
-                 if m.kind == "mode"}  # fmt: skip
-        residuals, states = run.sample(signals, increments, totals, modes, states)
-        if k >= settled:
+                turn, start = known.counts / (2 * math.pi), _signal(known, 0.0, situation)
+                increments[known.name] = (told - before.get(known.name, told)) * turn
+                totals[known.name] = (told - start) * turn
+                before[known.name] = told
+        now = well if k < begin else run
+        residuals, states = now.sample(signals, increments, totals, modes, states)
+        if k >= valid:
             for name, value in residuals.items():
                 rows[name].append(np.broadcast_to(np.asarray(value, dtype=float), (runs,)))
                 for state in own[name]:

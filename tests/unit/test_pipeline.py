@@ -79,6 +79,17 @@ def test_other_options_are_another_compilation() -> None:
     assert slow.source is c.source
 
 
+@pytest.mark.parametrize("model", ["dc_motor", "two_tanks", "khepera_encoders"])
+def test_another_rate_keeps_what_it_does_not_change(model: str) -> None:
+    c = bondgraph.compile(f"models/{model}.bg")
+    assert c.artifacts
+    other = c.with_options(rate=50.0, bandwidth=3.0)
+    assert other.residuals[0].residual is c.residuals[0].residual
+    alone = bondgraph.compile(f"models/{model}.bg", rate=50.0, bandwidth=3.0)
+    assert other.artifacts == alone.artifacts
+    assert other.report.diagnostics == c.report.diagnostics
+
+
 @pytest.mark.parametrize(
     "options", [{"rate": 0.0}, {"rate": float("nan")}, {"bandwidth": -1.0}, {"resolution": -1.0}]
 )

@@ -13,10 +13,11 @@ _MODEL = str(Path(__file__).resolve().parents[3] / "models" / "dc_motor.bg")
 
 
 def test_the_table_has_every_fault_with_its_unit(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["detect", _MODEL, "--at", "speed=1000", "--at", "current=0.03"]) == 0
+    words = ["--at", "speed=1000", "--at", "current=0.03", "--form", "derivative"]
+    assert main(["detect", _MODEL, *words]) == 0
     lines = [line.split() for line in capsys.readouterr().out.splitlines()]
     # (2 (0.0264 + 0.0702) - 0.0264)/0.03 Ohm of 17.6
-    assert ["R", "r1", "5.56", "Ohm", "31.6", "%"] in lines
+    assert ["R", "r1", "5.56", "Ohm", "31.6", "%"] in [line[:6] for line in lines]
     assert ["J", "r2", "-", "not", "moved", "by", "these", "signals"] in lines
 
 
@@ -55,6 +56,45 @@ def test_pairs_are_a_table_with_a_column_for_each_group(
     assert next(x for x in lines if x[:2] == ["load", "(N.m)"])[2] == f"{told['from']['R']:.3g}"
     assert main(["detect", _MODEL, *words, "--json"]) == 0
     assert "pairs" not in json.loads(capsys.readouterr().out)
+
+
+def test_both_forms_stand_beside_each_other(capsys: pytest.CaptureFixture[str]) -> None:
+    """The observer of r1 follows the current, at R/L far above the filter: earlier, with noise."""
+    words = ["detect", _MODEL, "--at", "speed=1000", "--noise", "current=1e-3"]
+    assert main(words) == 0
+    out = capsys.readouterr().out
+    lines = [line.split() for line in out.splitlines()]
+    assert [line[2] for line in lines if line[:2] == ["U", "r1"]] == ["derivative", "observer"]
+    assert "earlier, 0 of them smaller: --form observer:r1" in out
+    assert main([*words, "--json"]) == 0
+    both = json.loads(capsys.readouterr().out)
+    found = {form: {(r["fault"], r["residual"]): r for r in part["faults"]}
+             for form, part in (("derivative", both), ("observer", both["observers"]))}  # fmt: skip
+    slow, fast = (found[form]["U", "r1"] for form in found)
+    assert slow["form"] == "derivative" and fast["form"] == "observer"
+    assert slow["delay_size"] == fast["delay_size"] == 2 * max(slow["change"], fast["change"])
+    assert fast["delay"] < slow["delay"]
+    # one form alone has the same numbers, and nothing beside it
+    for asked, form in (("derivative", "derivative"), ("observer:r1", "observer")):
+        assert main([*words, "--json", "--form", asked]) == 0
+        alone = json.loads(capsys.readouterr().out)
+        row = next(r for r in alone["faults"] if (r["fault"], r["residual"]) == ("U", "r1"))
+        assert row["change"] == pytest.approx(found[form]["U", "r1"]["change"])
+        assert "observers" not in alone
+        assert row["delay_size"] == 2 * row["change"]
+
+
+@pytest.mark.parametrize("form", ["observer:r9", "observers", "observer:r1,q"])
+def test_a_form_that_nothing_has_is_wrong_usage(
+    form: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    try:
+        status = main(["detect", _MODEL, "--form", form])
+    except SystemExit as left:
+        status = int(left.code or 0)
+    assert status == 2
+    assert ("no residual of the model" in (err := capsys.readouterr().err)) == (":" in form)
+    assert "Traceback" not in err
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import math
 import sys
 from pathlib import Path
 from types import ModuleType
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -254,3 +255,54 @@ def test_a_relation_with_an_iteration_inside(tmp_path: Path) -> None:
     )
     found = _found(bondgraph.compile(path), Situation(noise={"y": 0.01}))
     assert _change(found, "U", "r1") == pytest.approx(2 * _change(found, "y", "r1"), rel=1e-4)
+
+
+_FOLLOWED = """bg 1
+model Charge {
+    param R = 1 Ohm
+    param C = 1 F
+    Se:U -> 1:j -> R:R
+    j -> 0:n -> C:C
+    n -> De:u
+}
+"""
+
+
+@pytest.mark.parametrize("form", ["derivative", "observer"])
+def test_how_long_a_change_takes_to_be_sure(form: Literal["derivative", "observer"]) -> None:
+    """w = U - u - R C u' jumps with U, and half of it is there after ln(2)/v or later.
+
+    It is shown through (1 + p/v)^-n. The derivative form has n = 2 stages at the bandwidth:
+    1 - (1 + x) exp(-x) = 1/2 at x = 1.678. The observer has one pole, v^2 = wc^2 + 1/(R C)^2.
+    """
+    wc = 2.0
+    c = bondgraph.compile(text=_FOLLOWED, rate=200.0, bandwidth=wc, form=form)
+    found = _found(c, Situation(noise={"u": 1e-3}))
+    row = next(s for s in found.smallest if s.fault == "U")
+    expected = 1.67835 / wc if form == "derivative" else math.log(2) / math.hypot(wc, 1.0)
+    assert row.delay == pytest.approx(expected, abs=2 / 200)
+
+
+def test_a_parameter_takes_as_long_as_the_filter_of_its_law() -> None:
+    """At rest r2 = k i - f w - load - J w': a friction that doubles is a step of f w."""
+    c = bondgraph.compile(text="""bg 1
+        model Brake {
+            param f = 1e-3 N.m.s
+            param J = 1e-3 kg.m^2
+            Se:load -> 1:rotor -> I:J
+            rotor -> R:f
+            rotor -> Df:speed
+        }""", bandwidth=10.0)  # fmt: skip
+    situation = Situation(at={"speed": 50.0, "load": 0.05}, noise={"load": 1e-4})
+    row = next(s for s in _found(c, situation).smallest if s.fault == "f")
+    assert row.delay == pytest.approx(1.67835 / 10.0, abs=2e-3)
+
+
+def test_the_forms_of_one_compilation_are_those_of_their_own() -> None:
+    c = bondgraph.compile(text=_FOLLOWED, rate=200.0)
+    situation = Situation(at={"U": 1.0, "u": 1.0}, noise={"u": 1e-3})
+    assert _found(c, situation) != _found(c.in_form("observer"), situation)
+    for form in ("observer", ("r1",)):
+        alone = bondgraph.compile(text=_FOLLOWED, rate=200.0, form=form)
+        assert _found(c.in_form(form), situation) == _found(alone, situation)
+    assert c.in_form(("r2",)).program == c.program
