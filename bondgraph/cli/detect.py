@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from bondgraph.cli import console
@@ -270,7 +271,7 @@ def _table(compilation: Compilation, rows: list[Row], both: bool) -> list[str]:
 def _compared(rows: list[Row]) -> list[str]:
     """Which residuals show faults earlier, and which show smaller ones, as observers."""
     pairs: dict[str, list[tuple[Row, Row]]] = {}
-    for one, other in zip(rows, rows[1:], strict=False):
+    for one, other in pairwise(rows):
         if one.found[:2] == other.found[:2]:
             pairs.setdefault(one.found.residual, []).append((one, other))
     lines = []

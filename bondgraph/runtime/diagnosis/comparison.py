@@ -7,7 +7,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis
-from bondgraph.runtime.diagnosis.isolation import Explained, History, Rows, explain, inverse
+from bondgraph.runtime.diagnosis.isolation import (
+    Explained,
+    ExplainedPair,
+    History,
+    Rows,
+    explain,
+    explain_pairs,
+    inverse,
+)
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine, copied
@@ -88,6 +96,10 @@ class Comparison:
             self._try({k: self._next(k, before.get(k), tried[k]) for k in wanted})
             found, before = explain(self._table(), self._all, history), tried
         return found
+
+    def pairs(self, history: History, singles: Sequence[Explained]) -> list[ExplainedPair]:
+        """How well two of the `singles` at once explain the rows, with onsets and slopes of these."""
+        return explain_pairs(self._table(), self._all, history, singles)
 
     def _table(self) -> Rows:
         rows = Rows(*[np.array(x) for x in zip(*self._rows, strict=True)])

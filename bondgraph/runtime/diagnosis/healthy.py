@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from bondgraph.ir.expr import Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
-from bondgraph.ir.signature_matrix import SignatureMatrix
+from bondgraph.ir.signature_matrix import DoubleFaults, SignatureMatrix
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
 from bondgraph.runtime.diagnosis.remembered import Memory, memories
 from bondgraph.runtime.log import Array
@@ -42,6 +42,7 @@ class DiagnosisModel(NamedTuple):
     `tolerances` relative; `sees` for each residual its faults; `groups` the faults that structure
     does not tell apart; `memories` are what residuals keep of their first sample; `natures` by
     residual; `deliveries` are the faults that are what a controller gives beyond its command.
+    `doubles` tells which two faults at once could look like a third one, when it is asked.
     """
 
     faults: Mapping[str, float | None]
@@ -52,6 +53,7 @@ class DiagnosisModel(NamedTuple):
     memories: tuple[Memory, ...]
     natures: Mapping[str, Nature]
     deliveries: frozenset[str]
+    doubles: Callable[[], DoubleFaults]
 
     @property
     def nominal(self) -> dict[str, float]:
@@ -60,7 +62,11 @@ class DiagnosisModel(NamedTuple):
 
 
 def diagnosis_model(
-    graph: BondGraph, residuals: ResidualSet, matrix: SignatureMatrix, program: Program
+    graph: BondGraph,
+    residuals: ResidualSet,
+    matrix: SignatureMatrix,
+    program: Program,
+    doubles: Callable[[], DoubleFaults],
 ) -> DiagnosisModel:
     """What a diagnosis knows of a model, as far as the code sees its faults at its sample rate."""
     values = Values(graph)
@@ -80,6 +86,7 @@ def diagnosis_model(
         memories(program),
         _natures(graph, residuals, program),
         frozenset(v.name for v in graph.values if v.delivery),
+        doubles,
     )
 
 

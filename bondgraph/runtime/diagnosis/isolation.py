@@ -25,6 +25,7 @@ _SCALES = tuple(10.0 ** (k / 4.0) for k in range(-4, 9))
 _KEEP = 0.95  # correlation of a fault's change between neighbouring chunks
 _CHUNK = 4  # rows in which the change is taken as constant, at least
 _PARTS = 15  # chunks at most
+_LEADS = 8  # faults of which pairs with every other one are looked at
 _SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
 
 
@@ -42,6 +43,15 @@ class Explained(NamedTuple):
     hypothesis: Hypothesis
     change: float
     deviation: float
+
+
+class ExplainedPair(NamedTuple):
+    """How well two faults at once explain what was seen, each in one way; see `Explained`."""
+
+    hypotheses: tuple[Hypothesis, Hypothesis]
+    evidence: float
+    share: float
+    changes: tuple[float, float]
 
 
 class Rows(NamedTuple):
@@ -155,10 +165,7 @@ def explain(rows: Rows, hypotheses: Sequence[Hypothesis], history: History) -> l
 
     Raises numpy.linalg.LinAlgError where a number is none.
     """
-    seen = _seen(rows, history.prior, np.array([h.usual for h in hypotheses]))
-    known = history.known()
-    if not (np.isfinite(seen).all() and np.isfinite(known).all()):
-        raise np.linalg.LinAlgError("a residual, a slope or a weight is not finite")
+    known, seen = _compared_with(rows, hypotheses, history)
     found = []
     for fault in dict.fromkeys(h.fault for h in hypotheses):
         own = [j for j, h in enumerate(hypotheses) if h.fault == fault]
@@ -166,6 +173,40 @@ def explain(rows: Rows, hypotheses: Sequence[Hypothesis], history: History) -> l
         every = _fits(known, seen, own) if len(own) > 1 else []
         found.append(_compared([hypotheses[j] for j in own], alone, every))
     return found
+
+
+def explain_pairs(
+    rows: Rows, hypotheses: Sequence[Hypothesis], history: History, singles: Sequence[Explained]
+) -> list[ExplainedPair]:
+    """How well two faults at once explain the rows, the best pair first.
+
+    Each fault acts in the way in which it explains most alone, and one of both is among those that
+    explain most so: the first step of a search that adds one fault at a time. Two faults have the
+    same scales, and the prior of one; raises as `explain` does.
+    """
+    known, seen = _compared_with(rows, hypotheses, history)
+    leads = sorted(singles, key=lambda e: -e.evidence)
+    place = {e.fault: hypotheses.index(e.hypothesis) for e in leads}
+    found = []
+    for at, one in enumerate(leads[:_LEADS]):
+        for other in leads[at + 1 :]:
+            own = one.hypothesis, other.hypothesis
+            fits = _fits(known, seen, [place[h.fault] for h in own])
+            top = max(fits, key=lambda f: f.evidence)
+            sizes = (top.changes * [h.usual for h in own]).tolist()
+            found.append(ExplainedPair(own, _mean(fits), top.share, (sizes[0], sizes[1])))
+    return sorted(found, key=lambda pair: -pair.evidence)
+
+
+def _compared_with(
+    rows: Rows, hypotheses: Sequence[Hypothesis], history: History
+) -> tuple[Array, Array]:
+    """What is known of the healthy machine, and what was seen; raises as `explain` does."""
+    seen = _seen(rows, history.prior, np.array([h.usual for h in hypotheses]))
+    known = history.known()
+    if not (np.isfinite(seen).all() and np.isfinite(known).all()):
+        raise np.linalg.LinAlgError("a residual, a slope or a weight is not finite")
+    return known, seen
 
 
 def _seen(rows: Rows, prior: Array, usual: Array) -> Array:
@@ -184,12 +225,15 @@ def _seen(rows: Rows, prior: Array, usual: Array) -> Array:
 
 
 class _Fit(NamedTuple):
-    """One hypothesis, or several at once, where changes have about one size."""
+    """One hypothesis, or several at once, where changes have about one size.
+
+    `changes` and `deviations` are those at the end, of the shape (hypotheses,).
+    """
 
     evidence: float
     share: float
-    change: float
-    deviation: float
+    changes: Array
+    deviations: Array
 
 
 def _compared(
@@ -200,11 +244,17 @@ def _compared(
     best = max(range(len(own)), key=lambda j: tops[j].evidence)
     fits = [f for fits in (*alone, every) for f in fits]
     top = max(fits, key=lambda f: f.evidence)
-    weights = sum(math.exp(max(f.evidence - top.evidence, -700.0)) for f in fits)
-    evidence = top.evidence + math.log(weights / len(fits))
     hypothesis, chosen = own[best], tops[best]
-    change, deviation = chosen.change * hypothesis.usual, chosen.deviation * hypothesis.usual
-    return Explained(hypothesis.fault, evidence, top.share, hypothesis, change, deviation)
+    change, deviation = (float(x[0]) * hypothesis.usual
+                         for x in (chosen.changes, chosen.deviations))  # fmt: skip
+    return Explained(hypothesis.fault, _mean(fits), top.share, hypothesis, change, deviation)
+
+
+def _mean(fits: Sequence[_Fit]) -> float:
+    """The evidence of something that fits in one of several ways, all as probable before."""
+    top = max(f.evidence for f in fits)
+    weights = sum(math.exp(max(f.evidence - top, -700.0)) for f in fits)
+    return top + math.log(weights / len(fits))
 
 
 def _fits(known: Array, seen: Array, own: Sequence[int]) -> list[_Fit]:
@@ -222,13 +272,13 @@ def _fits(known: Array, seen: Array, own: Sequence[int]) -> list[_Fit]:
     before = np.insert(known, [rest] * (chunks * size), 0.0, axis=1)
     # The triangle of all, less that of the healthy machine: what only a fault explains.
     left = _triangle(np.vstack([before, table.reshape(-1, table.shape[2])]))[rest:, rest:]
-    return _scaled(left, spread[-1])
+    return _scaled(left, spread[-size:])
 
 
 def _scaled(left: Array, last: Array) -> list[_Fit]:
     """From what is left to explain, by one deviation of each change, for each of the scales.
 
-    `last` makes of the changes the last one.
+    `last` makes of the changes those of each hypothesis at the end: (hypotheses, changes).
     """
     count = left.shape[1] - 1
     scales = np.array(_SCALES)[:, None, None]
@@ -238,16 +288,16 @@ def _scaled(left: Array, last: Array) -> list[_Fit]:
     root = _triangle(table)[:, :count]
     root, part = root[:, :, :-1], root[:, :, -1:]
     changes = np.linalg.solve(root, part)
-    ends = scales * last[:, None]
+    ends = scales * last.T
     spread = np.linalg.solve(root.transpose(0, 2, 1), ends)
     size = np.abs(np.diagonal(root, axis1=1, axis2=2))
     misfit = float(np.square(left[:, -1]).sum())
     rest = np.square(seen - moved @ changes).sum(axis=(1, 2))
     evidence = 0.5 * np.square(part).sum(axis=(1, 2)) - np.log(size).sum(axis=1)
     share = 1.0 - rest / misfit if misfit > 0 else np.zeros(len(_SCALES))
-    change = (ends * changes).sum(axis=(1, 2))
-    deviation = np.sqrt(np.square(spread).sum(axis=(1, 2)))
-    found = zip(*(x.tolist() for x in (evidence, share, change, deviation)), strict=True)
+    change = (ends * changes).sum(axis=1)
+    deviation = np.sqrt(np.square(spread).sum(axis=1))
+    found = zip(evidence.tolist(), share.tolist(), change, deviation, strict=True)
     return [_Fit(*numbers) for numbers in found]
 
 

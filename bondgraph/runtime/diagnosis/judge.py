@@ -10,14 +10,16 @@ import numpy as np
 from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import Sizes, hypotheses, sized
-from bondgraph.runtime.diagnosis.isolation import History
+from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, History
 from bondgraph.runtime.diagnosis.naming import (
     Judgement,
     Latched,
     candidates,
     classes,
+    explains,
     named,
     news,
+    pairs_left,
     update,
 )
 from bondgraph.runtime.diagnosis.rows import Row, weight
@@ -45,6 +47,8 @@ class Judge:
         """The residuals begin anew; the alarm stays."""
         self._compared: Comparison | None = None
         self._after = self._told = 0  # rows since the alarm, and until the last update
+        self._pairs: Sequence[ExplainedPair] = ()
+        self._due = 0  # rows since the alarm when pairs are looked for again
         self._leads: tuple[str, ...] = ()  # the class that the last judgement found best
         self._wanted: Judgement | None = None  # what the last judgement would have said
 
@@ -71,7 +75,8 @@ class Judge:
     ) -> None:
         """Begin to compare faults behind the `healthy` samples, `own` of these of the first row."""
         model = self._model
-        self._after = self._told = 0
+        self._after = self._told = self._due = 0
+        self._pairs = ()
         found = hypotheses(self._engine, model.faults, model.units, self._sizes.found())
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
         found = sized(engine, found, model.deliveries, model.nominal, samples)
@@ -124,11 +129,26 @@ class Judge:
         sure, self._leads = group if leads == self._leads else (), leads
         if group and not sure and self.latched.said is None and self._after == _JUDGE:
             return None  # the next row may confirm it
-        verdict = update(time, self.latched.since, levels, sure, found)
-        wanted = Judgement(sure, verdict.candidates[0].fault if verdict.candidates else None)
+        pairs: Sequence[ExplainedPair] = ()
+        if not explains(found):
+            pairs = self._two_at_once(found, history, levels)
+        doubles = model.doubles() if pairs else None
+        verdict = update(time, self.latched.since, levels, sure, found, pairs, doubles)
+        best = verdict.candidates[0].fault if verdict.candidates and not verdict.pairs else None
+        wanted = Judgement(sure, best, verdict.pairs[0].faults if verdict.pairs else ())
         again, self._wanted = self._wanted == wanted, wanted
         if not news(self.latched, wanted, again, self._after - self._told):
             return None
         self.latched = self.latched._replace(said=wanted, times=self.latched.times + 1)
         self._told = self._after
         return verdict
+
+    def _two_at_once(
+        self, found: Sequence[Explained], history: History, fired: Mapping[str, float]
+    ) -> Sequence[ExplainedPair]:
+        """The pairs that explain what no single fault does, looked for ever more rarely."""
+        if self._compared is not None and self._after >= self._due:
+            self._due = 2 * self._after
+            pairs = self._compared.pairs(history, found)
+            self._pairs = pairs_left(pairs, self._model.faults, self._model.sees, fired)
+        return self._pairs

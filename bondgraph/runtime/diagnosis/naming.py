@@ -6,8 +6,17 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from bondgraph.runtime.diagnosis.isolation import Explained, probabilities
-from bondgraph.runtime.monitoring.verdict import Candidate, Verdict, described
+from bondgraph.ir.signature_matrix import DoubleFaults
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
+from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, probabilities
+from bondgraph.runtime.monitoring.verdict import (
+    Candidate,
+    Pair,
+    Verdict,
+    described,
+    described_pairs,
+)
+from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
 
 _SURE = 0.75  # probability from which on a class is named
@@ -50,10 +59,14 @@ def candidates(
 
 
 class Judgement(NamedTuple):
-    """The class that is named, () if of none, and the most probable candidate."""
+    """The class that is named, () if of none, and the most probable candidate.
+
+    Where no single fault explains what was seen, `pair` are two that do, or classes of such.
+    """
 
     group: tuple[str, ...]
     fault: str | None
+    pair: tuple[str, ...] = ()
 
 
 class Latched(NamedTuple):
@@ -65,7 +78,7 @@ class Latched(NamedTuple):
 
     def state(self) -> dict[str, Any]:
         """All that `resumed` needs, as plain JSON."""
-        said = self.said and [list(self.said.group), self.said.fault, self.times]
+        said = self.said and [list(self.said.group), self.said.fault, self.times, self.said.pair]
         return {"since": self.since, "said": said}
 
     @classmethod
@@ -79,8 +92,8 @@ class Latched(NamedTuple):
         since = float(state["since"])
         if state["said"] is None:
             return cls(since)
-        group, fault, times = state["said"]
-        return cls(since, Judgement(tuple(group), fault), int(times))
+        group, fault, times, *pair = state["said"]
+        return cls(since, Judgement(tuple(group), fault, tuple(*pair)), int(times))
 
 
 def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
@@ -100,7 +113,7 @@ def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
         return True
     if wanted == said or (not wanted.group and wanted.fault in said.group):
         return False  # the same, or only less sure of it
-    if wanted.group and not said.group:
+    if (wanted.group and not said.group) or (wanted.pair and not (said.pair or said.group)):
         return True
     return again and waited >= min(_AGAIN * 2.0 ** min(latched.times, 9), LONGEST)
 
@@ -135,9 +148,36 @@ def named(
     leads = max(classes, key=lambda g: classes[g], default=())
     inside = max((chance.get(f, 0.0) for f in leads), default=0.0)
     outside = max((p for f, p in chance.items() if f not in leads), default=0.0)
-    sure = classes.get(leads, 0.0) >= _SURE and _best(found).share >= _EXPLAINS
+    sure = classes.get(leads, 0.0) >= _SURE and explains(found)
     sure = sure and outside <= _ELSE * inside  # many members make no fault more probable
     return (leads if sure else ()), leads
+
+
+def pairs_left(
+    found: Sequence[ExplainedPair],
+    faults: Mapping[str, float | None],
+    sees: Mapping[str, Sequence[str]],
+    fired: Iterable[str],
+) -> list[ExplainedPair]:
+    """The pairs that explain as much as is asked of a single fault, without what cannot be.
+
+    As `candidates`: what has fired has to be seen by one of both.
+    """
+    seen = [set(sees.get(name, ())) for name in fired]
+    left = []
+    for pair in found:
+        own = {h.fault for h in pair.hypotheses}
+        each = [Explained(h.fault, 0.0, 1.0, h, change, 0.0)
+                for h, change in zip(pair.hypotheses, pair.changes, strict=True)]  # fmt: skip
+        can = all(possible(e, faults.get(e.fault)).evidence == 0.0 for e in each)
+        if can and pair.share >= _EXPLAINS and not any(own.isdisjoint(s) for s in seen):
+            left.append(pair)
+    return left
+
+
+def explains(found: Sequence[Explained]) -> bool:
+    """Whether a single fault explains what was seen."""
+    return bool(found) and _best(found).share >= _EXPLAINS
 
 
 def update(
@@ -146,20 +186,56 @@ def update(
     levels: Mapping[str, float],
     group: tuple[str, ...],
     found: Sequence[Explained],
+    pairs: Sequence[ExplainedPair] = (),
+    doubles: DoubleFaults | None = None,
 ) -> Verdict:
-    """What there is to say: the class that is named, if any, and what else it could be."""
+    """What there is to say: the class that is named, if any, and what else it could be.
+
+    `pairs` are those that explain what no single fault does, the best one first; `doubles` tells
+    which of them nothing tells apart.
+    """
     chance = probabilities(found)
     shown = sorted((e for e in found if chance[e.fault] >= _SHOWN),
                    key=lambda e: (-chance[e.fault], e.fault))  # fmt: skip
     candidates = tuple(_candidate(e, chance[e.fault]) for e in shown)
     verdict = Verdict("update", time, since, dict(levels), group, candidates)
-    if _best(found).share >= _EXPLAINS and candidates:
+    if explains(found) and candidates:
         return verdict._replace(message=described(verdict))
-    message = (
-        "no single fault explains this: several at once, or one that is not modelled;"
-        f" {described(verdict)}"
-    )
+    if not pairs:
+        message = (
+            "no single fault explains this: several at once, or one that is not modelled;"
+            f" {described(verdict)}"
+        )
+        return verdict._replace(message=message)
+    verdict = verdict._replace(pairs=_shown(pairs))
+    alike = [] if doubles is None else _alike(pairs[0], doubles)
+    message = f"no single fault explains this; {described_pairs(verdict)}"
+    if alike:
+        every = doubles is not None and len(alike) == len(doubles.groups)
+        which = "faults" if every else f"of {listed([' or '.join(g) for g in alike], 'and')}"
+        message += f"; any two {which} could look like that"
     return verdict._replace(message=message)
+
+
+def _shown(pairs: Sequence[ExplainedPair]) -> tuple[Pair, ...]:
+    weights = [math.exp(max(pair.evidence - pairs[0].evidence, -700.0)) for pair in pairs]
+    found = []
+    for pair, weight in zip(pairs, weights, strict=True):
+        chance = weight / sum(weights)
+        if chance >= _SHOWN:
+            (a, b), changes = pair.hypotheses, pair.changes
+            (x, p), (y, q) = _size(a, changes[0]), _size(b, changes[1])
+            found.append(Pair((a.fault, b.fault), (x, y), (p, q), round(chance, 4)))
+    return tuple(found)
+
+
+def _alike(pair: ExplainedPair, doubles: DoubleFaults) -> list[tuple[str, ...]]:
+    """The groups of the pair and those that it could look like: any two do the same, if any."""
+    place = {f: k for k, group in enumerate(doubles.groups) for f in group}
+    own = [place[h.fault] for h in pair.hypotheses if h.fault in place]
+    more = [k for k, several in enumerate(doubles.alike)
+            if any(set(own) <= set(one) for one in several)]  # fmt: skip
+    return [doubles.groups[k] for k in (*own, *more)] if more and len(set(own)) == 2 else []
 
 
 def _best(found: Sequence[Explained]) -> Explained:
@@ -168,11 +244,14 @@ def _best(found: Sequence[Explained]) -> Explained:
 
 def _candidate(explained: Explained, chance: float) -> Candidate:
     """A fault with the change that fits best: of the machine where it has changed."""
-    hypothesis, change = explained.hypothesis, explained.change
+    size, unit = _size(explained.hypothesis, explained.change)
+    return Candidate(explained.fault, size, unit, round(chance, 4))
+
+
+def _size(hypothesis: Hypothesis, change: float) -> tuple[float, str]:
+    """The change of the machine, or of the sensor, with its unit."""
     size = -change if hypothesis.turned else change
     if hypothesis.kind == "gain" and not hypothesis.turned:
         left = 1.0 - size  # told is true/left: nothing is left of what is told for no reason
         size = size / left if abs(left) > 1e-3 else math.copysign(1e3, left)
-    if hypothesis.kind == "gain":
-        return Candidate(explained.fault, 100.0 * size, "%", round(chance, 4))
-    return Candidate(explained.fault, size, hypothesis.unit, round(chance, 4))
+    return (100.0 * size, "%") if hypothesis.kind == "gain" else (size, hypothesis.unit)

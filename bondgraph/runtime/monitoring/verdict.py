@@ -26,13 +26,23 @@ class Candidate(NamedTuple):
     probability: float
 
 
+class Pair(NamedTuple):
+    """Two faults that may be there at once, with their sizes; see `Candidate`."""
+
+    faults: tuple[str, str]
+    sizes: tuple[float, float]
+    units: tuple[str, str]
+    probability: float
+
+
 class Verdict(NamedTuple):
     """One thing that a monitor says.
 
     `time` is the time of the stream in s at which it is said, `since` the estimated onset.
     `residuals` tells by how much of its threshold each fired residual is out (|r|/threshold).
     `group` are the faults of the class that is named, which the structure does not tell apart;
-    `candidates` has the most probable one first; `message` is one sentence for people.
+    `candidates` has the most probable one first; `message` is one sentence for people. Where no
+    single fault explains the residuals, `pairs` are those that do, the most probable one first.
     """
 
     event: str
@@ -42,6 +52,7 @@ class Verdict(NamedTuple):
     group: tuple[str, ...] = ()
     candidates: tuple[Candidate, ...] = ()
     message: str = ""
+    pairs: tuple[Pair, ...] = ()
 
 
 def to_json(verdict: Verdict, number: int) -> str:
@@ -51,7 +62,7 @@ def to_json(verdict: Verdict, number: int) -> str:
 
     >>> to_json(Verdict("stop", 12.5, message="stopped"), 7)
     '{"number": 7, "event": "stop", "time": 12.5, "since": null, "residuals": {}, "group": [], \
-"candidates": [], "message": "stopped"}'
+"candidates": [], "message": "stopped", "pairs": []}'
     """
     line = {
         "number": number,
@@ -63,6 +74,7 @@ def to_json(verdict: Verdict, number: int) -> str:
             {**c._asdict(), "size": None if c.size is None else _finite(c.size)}
             for c in verdict.candidates
         ],
+        "pairs": [{**p._asdict(), "sizes": [_finite(x) for x in p.sizes]} for p in verdict.pairs],
     }
     return json.dumps(line, ensure_ascii=False, allow_nan=False)
 
@@ -93,6 +105,11 @@ def from_record(record: dict[str, Any]) -> tuple[int, Verdict]:
             for c in record["candidates"]
         ),
         str(record["message"]),
+        tuple(
+            Pair((a, b), (_number(x), _number(y)), (u, v), float(p["probability"]))
+            for p in record.get("pairs", ())
+            for (a, b), (x, y), (u, v) in [(p["faults"], p["sizes"], p["units"])]
+        ),
     )
     return int(record["number"]), verdict
 
@@ -107,6 +124,10 @@ def to_text(verdict: Verdict) -> str:
     return f"{verdict.time:>12.3f} s  {verdict.event:<7}  {message}"
 
 
+def _number(value: float | None) -> float:
+    return math.nan if value is None else float(value)
+
+
 def described(verdict: Verdict) -> str:
     """One sentence: what is faulty, since when, by what residuals, what else it could be.
 
@@ -118,18 +139,40 @@ def described(verdict: Verdict) -> str:
         text = listed(verdict.group, "or")
     else:
         text = "not clear yet which fault," if verdict.candidates else "an unknown fault"
-    if verdict.since is not None:
-        text += f" since {verdict.since:.3f} s"
+    text += _since(verdict)
     if len({c.probability for c in verdict.candidates}) > 1 or any(
         c.size is not None for c in verdict.candidates
     ):
         text += ": " + listed([_candidate(c) for c in verdict.candidates], "or", 5)
     elif len(verdict.candidates) > 1:
         text += ", equally likely"
-    if verdict.residuals:
-        parts = [f"{n} at {_times(v)} its threshold" for n, v in verdict.residuals.items()]
-        text += "; " + listed(parts, "and")
-    return text
+    return text + _levels(verdict)
+
+
+def described_pairs(verdict: Verdict) -> str:
+    """Which two faults at once explain what no single one does.
+
+    >>> print(described_pairs(Verdict("update", 5.2, 5.03, {"r2": 3.14}, pairs=(
+    ...     Pair(("R", "load"), (2.0, -0.1), ("Ohm", "N.m"), 0.9),))))
+    two at once do since 5.030 s: R with load (90 %, +2 Ohm and -0.1 N.m); r2 at 3.1 times its \
+threshold
+    """
+    parts = []
+    for pair in verdict.pairs:
+        own = zip(pair.sizes, pair.units, strict=True)
+        sizes = " and ".join(f"{x:+.3g} {unit}".rstrip() for x, unit in own)
+        words = f"{100 * pair.probability:.0f} %, {sizes}"
+        parts.append(f"{pair.faults[0]} with {pair.faults[1]} ({words})")
+    return f"two at once do{_since(verdict)}: {listed(parts, 'or', 3)}{_levels(verdict)}"
+
+
+def _since(verdict: Verdict) -> str:
+    return "" if verdict.since is None else f" since {verdict.since:.3f} s"
+
+
+def _levels(verdict: Verdict) -> str:
+    parts = [f"{n} at {_times(v)} its threshold" for n, v in verdict.residuals.items()]
+    return "; " + listed(parts, "and") if parts else ""
 
 
 def _candidate(candidate: Candidate) -> str:

@@ -17,6 +17,7 @@ from bondgraph.runtime.diagnosis.isolation import (
     History,
     Rows,
     explain,
+    explain_pairs,
     probabilities,
 )
 from bondgraph.runtime.diagnosis.naming import named, update
@@ -55,14 +56,18 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
     for k in range(before):
         history.add(value[k], weight[k], rest[k], 1.0)
     rows = Rows(value[before:], weight[before:], rest[before:], slopes)
-    found = {e.fault: e for e in explain(rows, hypotheses, history)}
+    singles = explain(rows, hypotheses, history)
+    found = {e.fault: e for e in singles}
+    (pair,) = explain_pairs(rows, hypotheses, history, singles)
 
     shared = _flat(rest)
     healthy = np.diag(1.0 / weight.ravel()) + shared @ np.diag(spread**2) @ shared.T
     steps = np.arange(after) // max(_CHUNK, math.ceil(after / _PARTS))
     kept = _KEEP ** np.abs(np.subtract.outer(steps, steps))
     same = np.kron(kept, np.ones((residuals, residuals)))
-    for fault, ways in (("a", [[0]]), ("b", [[1], [2], [3], [1, 2, 3]])):
+    both = [hypotheses.index(h) for h in pair.hypotheses]
+    assert sorted(h.fault for h in pair.hypotheses) == ["a", "b"]
+    for fault, ways in (("a", [[0]]), ("b", [[1], [2], [3], [1, 2, 3]]), ("both", [both])):
         one = _flat(slopes)
         densities = []
         for own, scale in product(ways, _SCALES):
@@ -74,7 +79,8 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
             moved[before * residuals :, before * residuals :] = part
             densities.append(_density(value, healthy + moved))
         ratio = np.logaddexp.reduce(densities) - math.log(len(densities)) - _density(value, healthy)
-        assert found[fault].evidence == pytest.approx(ratio, rel=1e-9, abs=1e-9)
+        evidence = pair.evidence if fault == "both" else found[fault].evidence
+        assert evidence == pytest.approx(ratio, rel=1e-9, abs=1e-9)
 
 
 def test_a_fault_that_moves_nothing_that_is_off_explains_nothing() -> None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
+from bondgraph.ir.signature_matrix import DoubleFaults
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.diagnosis.isolation import Explained
-from bondgraph.runtime.diagnosis.naming import candidates
+from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
+from bondgraph.runtime.diagnosis.naming import candidates, pairs_left, update
 
 _SEES = {"r1": ("R", "k"), "r2": ("f", "k")}
 
@@ -37,3 +38,34 @@ def test_no_parameter_becomes_its_opposite() -> None:
     # the machine has 1 - change left of it
     assert _left(["r1"], _explained("R", 90.0, 1.5), _explained("k", 10.0, -1.5)) == ["k"]
     assert _left(["r1"], _explained("R", 90.0, 0.9), _explained("k", 10.0)) == ["R", "k"]
+
+
+def _pair(a: str, b: str, share: float, *changes: float) -> ExplainedPair:
+    ways = [Hypothesis(name, "value", "Ohm", 1.0, True) for name in (a, b)]
+    return ExplainedPair((ways[0], ways[1]), 50.0, share, (changes[0], changes[1]))
+
+
+def test_two_at_once_have_to_cover_what_has_fired_and_keep_their_signs() -> None:
+    known = {"R": 1.0, "f": 1.0, "k": 1.0}
+    good = _pair("R", "f", 0.9, -0.5, -0.2)
+    found = [good, _pair("R", "k", 0.6, 0.1, 0.1), _pair("f", "k", 0.9, 1.5, 0.1)]
+    assert pairs_left(found, known, _SEES, ["r1", "r2"]) == [good]
+    blind = {"r1": ("R", "k"), "r2": ("k",)}
+    assert pairs_left([good], known, blind, ["r1", "r2"]) == []
+
+
+def test_what_looks_like_two_at_once_is_told_by_rank() -> None:
+    single = [_explained("R", 9.0)._replace(share=0.3)]
+    pairs = [_pair("R", "f", 0.9, -0.5, -0.2)]
+    groups = (("R", "U"), ("f",), ("k",), ("c",))
+    doubles = DoubleFaults(groups, ((), (), ((0, 1),), ()), "")
+    verdict = update(5.0, 4.0, {"r1": 2.0}, (), single, pairs, doubles)
+    assert verdict.pairs[0].faults == ("R", "f") and verdict.pairs[0].sizes == (0.5, 0.2)
+    assert "R with f (100 %, +0.5 Ohm and +0.2 Ohm)" in verdict.message
+    assert verdict.message.endswith("any two of R or U, f and k could look like that")
+    alone = doubles._replace(alike=((), (), (), ()))
+    assert "any two" not in update(5.0, 4.0, {}, (), single, pairs, alone).message
+    every = DoubleFaults(groups[:3], (((1, 2),), ((0, 2),), ((0, 1),)), "")
+    assert update(5.0, 4.0, {}, (), single, pairs, every).message.endswith(
+        "any two faults could look like that"
+    )
