@@ -98,7 +98,7 @@ class Comparison:
         return found
 
     def pairs(self, history: History, singles: Sequence[Explained]) -> list[ExplainedPair]:
-        """How well two of the `singles` at once explain the rows, with onsets and slopes of these."""
+        """How well two of the `singles` at once explain the rows, with the onsets of these."""
         return explain_pairs(self._table(), self._all, history, singles)
 
     def _table(self) -> Rows:
