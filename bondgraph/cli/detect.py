@@ -10,7 +10,7 @@ from bondgraph.cli.options import isolating, opened, realised, sampling, signals
 from bondgraph.cli.terminal_layout import names as listed
 from bondgraph.cli.terminal_layout import width
 from bondgraph.text.diagnostic import Trouble
-from bondgraph.text.numerals import plural
+from bondgraph.text.numerals import joined, plural
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from bondgraph.ir.program import Program
     from bondgraph.pipeline import Compilation, Form
     from bondgraph.runtime.separation import Separation
-    from bondgraph.runtime.smallest import Answers, Detection, Situation, Smallest
+    from bondgraph.runtime.smallest import Answers, Detection, Order, Situation, Smallest
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -83,12 +83,22 @@ def run(args: Namespace) -> int:
         raise Trouble(f"{error}, and without it nothing has a size") from error
     found = {form: one.detection() for form, one in answers.items()}
     rows = _rows(forms, answers, found)
+    first = next(iter(answers.values()))
+    order = [o for f in dict.fromkeys(r.found.fault for r in rows) if (o := first.order(f))]
     return console.told(
         args.json,
         compilation.report.diagnostics,
         _message(compilation, rows),
-        lambda: {**_result(forms, found, rows), **_told_apart(compilation, apart)},
-        lambda: _lines(forms, found, rows, situation) + _pairs(compilation, apart, situation),
+        lambda: {
+            **_result(forms, found, rows),
+            "order": [_in_order(o, _units(compilation)) for o in order],
+            **_told_apart(compilation, apart),
+        },
+        lambda: [
+            *_lines(forms, found, rows, situation),
+            *_answers_told(order, _units(compilation)),
+            *_pairs(compilation, apart, situation),
+        ],
     )
 
 
@@ -170,6 +180,27 @@ def _result(
         **part(False),
         **more,
     }
+
+
+def _in_order(order: Order, units: dict[str, str]) -> dict[str, object]:
+    answers = [[{"residual": r, "sign": sign} for r, sign in part] for part in order.answers]
+    unit = units.get(order.fault, "")
+    return {"fault": order.fault, "size": order.size, "unit": unit, "answers": answers}
+
+
+def _answers_told(orders: list[Order], units: dict[str, str]) -> list[str]:
+    """A line a fault that more than one residual answers, or one that surely rises or falls."""
+    words = {1: "rises", -1: "falls", 0: "moves"}
+    sizes = [f"{o.size:.3g} {units.get(o.fault, '')}".rstrip() for o in orders]
+    names = max((len(o.fault) for o in orders), default=0)
+    wide = max(map(len, sizes), default=0)
+    lines = []
+    for order, size in zip(orders, sizes, strict=True):
+        parts = [joined([f"{r} {words[sign]}" for r, sign in part], "and")
+                 for part in order.answers]  # fmt: skip
+        head = f"  {order.fault.ljust(names)}  + {size.ljust(wide)}  "
+        lines += listed([", then ".join(parts)], width(), head)
+    return ["", "Where a fault grows", *lines] if lines else []
 
 
 def _noises(

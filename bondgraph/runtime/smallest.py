@@ -64,6 +64,18 @@ class Detection(NamedTuple):
     undefined: tuple[str, ...] = ()
 
 
+class Order(NamedTuple):
+    """Which residuals answer a fault that grows by `size`, in their order where it is certain.
+
+    Those of one set come in no certain order. The sign is 1 for a residual that rises, -1 for one
+    that falls, 0 where that depends on the moment.
+    """
+
+    fault: str
+    size: float
+    answers: tuple[tuple[tuple[str, int], ...], ...]
+
+
 class Fault(NamedTuple):
     """Something that may be wrong, as the program has it; `step` is what it is moved by."""
 
@@ -72,6 +84,7 @@ class Fault(NamedTuple):
     nominal: float | None  # None for a signal
     step: float
     tolerance: float
+    turned: bool  # a change of the machine is the opposite change of what the program is told
 
 
 def smallest(
@@ -136,15 +149,50 @@ class Answers:
 
         Fault and residual by path, `size` in the unit of the fault.
         """
+        moved = self._moved(fault, residual, size)
+        if moved is None:
+            return None
+        seen = np.flatnonzero(np.abs(moved) >= 1.0)
+        return float(seen[0]) / self._program.rate if seen.size else None
+
+    def order(self, fault: str) -> Order | None:
+        """In what order residuals answer the onset of a fault, and how; None where none does.
+
+        The fault grows by twice what it takes to be seen in each of the residuals that can show
+        it. One comes before another if the other is not halfway when the one is sure to be seen.
+        """
+        rows = [s for s in self.detection().smallest if s.fault == fault and s.change is not None]
+        size = max((2.0 * (s.change or 0.0) for s in rows), default=0.0)
+        course = {s.residual: moved for s in rows
+                  if (moved := self._moved(fault, s.residual, size)) is not None}  # fmt: skip
+        sure = {name: int(np.argmax(np.abs(moved) >= 1.0)) for name, moved in course.items()}
+        half = {name: int(np.argmax(np.abs(moved) >= 0.5)) for name, moved in course.items()}
+        found: list[list[tuple[str, int]]] = []
+        for name in sorted(course, key=lambda r: sure[r]):
+            signs = set(np.sign(course[name][np.abs(course[name]) >= 0.5]).astype(int).tolist())
+            if not found or any(half[name] <= sure[other] for other, _ in found[-1]):
+                found = found or [[]]
+            else:
+                found.append([])
+            found[-1].append((name, signs.pop() if len(signs) == 1 else 0))
+        return Order(fault, size, tuple(map(tuple, found))) if found else None
+
+    def _moved(self, fault: str, residual: str, size: float) -> Array | None:
+        """What a fault that grows by `size` does from its onset on, 1 where it is sure to be seen.
+
+        By paths; None where the residual tells nothing.
+        """
         info = next(i for i in self._program.residuals if i.path == residual)
         sigma = self._sigma.get(info.name)
         if sigma is None or info.unavailable or not size:
             return None
-        slope = np.abs(self._course[fault][info.name])
-        kappa, bound = self._situation.kappa, self._bound.get(info.name)
-        need = _needed(self._faults[fault], slope, bound, sigma, kappa)
-        seen = np.flatnonzero((slope > 0) & (slope * size >= need))
-        return float(seen[0]) / self._program.rate if seen.size else None
+        own = self._faults[fault]
+        slope = self._course[fault][info.name]
+        bound, kappa = self._bound.get(info.name), self._situation.kappa
+        need = _needed(own, np.abs(slope), bound, sigma, kappa)
+        with np.errstate(divide="ignore"):
+            moved = np.where(slope != 0.0, slope * size / need, 0.0)
+        return -moved if own.turned else moved
 
 
 def need_numbers(program: Program) -> None:
@@ -226,12 +274,15 @@ def faults(program: Program, tolerances: Mapping[str, float], situation: Situati
         if path in params:
             value = float(params[path].default or 0.0)
             step = _STEP * (abs(value) or 1.0)
-            found.append(Fault(path, params[path].name, value, step, tolerances.get(path, 0.0)))
+            own = tolerances.get(path, 0.0)
+            found.append(Fault(path, params[path].name, value, step, own, True))
         elif path in knowns:
             size = abs(situation.at.get(path, 0.0)) + abs(situation.swing.get(path, 0.0))
-            found.append(Fault(path, knowns[path].name, None, _STEP * (size or 1.0), 0.0))
+            known = knowns[path]
+            step, turned = _STEP * (size or 1.0), known.kind != "sensor"
+            found.append(Fault(path, known.name, None, step, 0.0, turned))
         else:  # only in what step leaves out
-            found.append(Fault(path, "", None, _STEP, 0.0))
+            found.append(Fault(path, "", None, _STEP, 0.0, True))
     return found
 
 

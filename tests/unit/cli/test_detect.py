@@ -84,6 +84,32 @@ def test_both_forms_stand_beside_each_other(capsys: pytest.CaptureFixture[str]) 
         assert row["delay_size"] == 2 * row["change"]
 
 
+def test_residuals_rise_and_fall_in_an_order(capsys: pytest.CaptureFixture[str]) -> None:
+    """r1 = U - R i - k w - L i', r2 = load + f w + J w' - k i, with what the machine was before.
+
+    With a larger R there is less current than U - k w is good for: R i is too small by so much, and
+    r1 rises. A current that is told too large takes R of that off r1, and k of that off r2. All
+    that r2 shows is late: a change that it is sure of is a hundred times what r1 needs.
+    """
+    words = ["--at", "speed=1000", "--at", "current=0.03", "--noise", "speed=1"]
+    words += ["--noise", "current=1e-3", "--form", "derivative"]
+    assert main(["detect", _MODEL, *words, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    signs = {o["fault"]: [[(a["residual"], a["sign"]) for a in part] for part in o["answers"]]
+             for o in found["order"]}  # fmt: skip
+    assert signs == {
+        "R": [[("r1", 1)]],
+        "k": [[("r1", 1)], [("r2", 1)]],
+        "U": [[("r1", -1)]],
+        "current": [[("r1", -1)], [("r2", -1)]],
+        "speed": [[("r1", -1)], [("r2", 1)]],
+        "f": [[("r2", -1)]],
+        "load": [[("r2", -1)]],
+    }
+    assert main(["detect", _MODEL, *words]) == 0
+    assert "r1 falls, then r2 rises" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("form", ["observer:r9", "observers", "observer:r1,q"])
 def test_a_form_that_nothing_has_is_wrong_usage(
     form: str, capsys: pytest.CaptureFixture[str]
