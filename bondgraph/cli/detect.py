@@ -10,7 +10,7 @@ from bondgraph.cli.options import isolating, opened, realised, sampling, signals
 from bondgraph.cli.terminal_layout import names as listed
 from bondgraph.cli.terminal_layout import width
 from bondgraph.text.diagnostic import Trouble
-from bondgraph.text.numerals import joined, plural
+from bondgraph.text.numerals import plural
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -190,16 +190,13 @@ def _in_order(order: Order, units: dict[str, str]) -> dict[str, object]:
 
 def _answers_told(orders: list[Order], units: dict[str, str]) -> list[str]:
     """A line a fault that more than one residual answers, or one that surely rises or falls."""
-    words = {1: "rises", -1: "falls", 0: "moves"}
     sizes = [f"{o.size:.3g} {units.get(o.fault, '')}".rstrip() for o in orders]
     names = max((len(o.fault) for o in orders), default=0)
     wide = max(map(len, sizes), default=0)
     lines = []
     for order, size in zip(orders, sizes, strict=True):
-        parts = [joined([f"{r} {words[sign]}" for r, sign in part], "and")
-                 for part in order.answers]  # fmt: skip
         head = f"  {order.fault.ljust(names)}  + {size.ljust(wide)}  "
-        lines += listed([", then ".join(parts)], width(), head)
+        lines += listed([order.told()], width(), head)
     return ["", "Where a fault grows", *lines] if lines else []
 
 

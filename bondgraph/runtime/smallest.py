@@ -13,6 +13,7 @@ from scipy.special import gammainc
 from bondgraph.ir.program import Known, Program
 from bondgraph.runtime.batch import Lanes
 from bondgraph.runtime.log import Array
+from bondgraph.text.numerals import joined
 
 _STEP = 1e-4  # relative size of the change that a sensitivity is taken from
 _ROUNDING = 1e-13  # of the largest number in a filter: a smaller change of its output is none
@@ -74,6 +75,16 @@ class Order(NamedTuple):
     fault: str
     size: float
     answers: tuple[tuple[tuple[str, int], ...], ...]
+
+    def told(self) -> str:
+        """The answers in words.
+
+        >>> Order("R", 1.0, ((("r1", -1),), (("r2", 1), ("r3", 0)))).told()
+        'r1 falls, then r2 rises and r3 moves'
+        """
+        words = {1: "rises", -1: "falls", 0: "moves"}
+        parts = [joined([f"{r} {words[sign]}" for r, sign in part], "and") for part in self.answers]
+        return ", then ".join(parts)
 
 
 class Fault(NamedTuple):

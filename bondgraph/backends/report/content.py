@@ -92,13 +92,25 @@ class Effect(NamedTuple):
     why: str  # there is no smallest change
 
 
+class Pairs(NamedTuple):
+    """How large each fault has to be to be told from the others, a column for each group."""
+
+    groups: tuple[tuple[str, ...], ...]
+    rows: tuple[tuple[str, tuple[str, ...]], ...]  # a fault, and a size or "" for each group
+
+
 class Seen(NamedTuple):
-    """The sensitivities, and under which assumptions the smallest changes hold."""
+    """The sensitivities, and under which assumptions the smallest changes hold.
+
+    `answers` says for a fault how residuals answer as it grows.
+    """
 
     effects: tuple[Effect, ...]
     assumed: tuple[str, ...]
     noise: tuple[tuple[str, str], ...]
     missing: str  # why there are no numbers
+    pairs: Pairs | None = None
+    answers: tuple[tuple[str, str], ...] = ()
 
 
 class Quantity(NamedTuple):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bondgraph.algebra.present import parts, shared
-from bondgraph.backends.report.content import Effect, Seen
+from bondgraph.backends.report.content import Effect, Pairs, Seen
 from bondgraph.backends.report.formulas import operations
 from bondgraph.cli.reporting.relations import LONGEST
 from bondgraph.runtime.simulation.parameters import units
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.log import Array
     from bondgraph.runtime.simulation.run import Run
-    from bondgraph.runtime.smallest import Detection, Situation, Smallest
+    from bondgraph.runtime.smallest import Answers, Detection, Situation, Smallest
     from bondgraph.views import Relation
 
 _WIDE = 22.0  # em, of a piece of a formula: they stand in a column
@@ -53,7 +53,7 @@ def seen(
     assumed: Assumed | None,
 ) -> Seen:
     """Every residual with every fault that it sees; no numbers without program or situation."""
-    detection, missing = _detection(compilation, program, assumed)
+    detection, missing, answers = _detection(compilation, program, assumed)
     smallest = {} if detection is None else {(s.fault, s.residual): s for s in detection.smallest}
     units = _units(compilation)
     effects: list[Effect] = []
@@ -72,28 +72,67 @@ def seen(
     effects.sort(key=lambda e: by_fault[e.fault])
     words = assumed.words if detection is not None and assumed is not None else ()
     noise = () if detection is None else tuple(_noise(detection))
-    return Seen(tuple(effects), words, noise, missing)
+    pairs: Pairs | None = None
+    orders: tuple[tuple[str, str], ...] = ()
+    if answers is not None and assumed is not None:
+        pairs = _pairs(compilation, assumed.situation, units)
+        orders = _answers(answers, detection, units)
+    return Seen(tuple(effects), words, noise, missing, pairs, orders)
 
 
 def _detection(
     compilation: Compilation, program: Program | None, assumed: Assumed | None
-) -> tuple[Detection | None, str]:
+) -> tuple[Detection | None, str, Answers | None]:
     from bondgraph.runtime.shown import shown
-    from bondgraph.runtime.smallest import smallest
+    from bondgraph.runtime.smallest import Answers
 
     if program is None or assumed is None:
-        return None, "there is no code for it"
+        return None, "there is no code for it", None
     tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
     try:
         if assumed.samples:
             engine = compilation.engine()
             received = compilation.program_with_readings
-            return shown(received, engine, tolerances, assumed.situation, assumed.samples), ""
-        found = smallest(compilation.program_with_readings, compilation.thresholds, tolerances,
-                         assumed.situation)  # fmt: skip
-        return found, ""
+            own = shown(received, engine, tolerances, assumed.situation, assumed.samples)
+            return own, "", None
+        answers = Answers(compilation.program_with_readings, compilation.thresholds, tolerances,
+                          assumed.situation)  # fmt: skip
+        return answers.detection(), "", answers
     except ValueError as error:
-        return None, str(error)
+        return None, str(error), None
+
+
+def _pairs(
+    compilation: Compilation, situation: Situation, units: Mapping[str, str]
+) -> Pairs | None:
+    """How large a fault has to be to be told from others; None where no two are told apart."""
+    from bondgraph.runtime.separation import separation
+
+    tolerances = {v.name: float(v.tolerance) for v in compilation.graph.values if v.tolerance}
+    found = separation(compilation.program_with_readings, tolerances, situation)
+    if len(found.groups) < 2:
+        return None
+    rows = []
+    for fault, row in zip(found.faults, found.changes, strict=True):
+        sizes = [row[g[0]] for g in found.groups]
+        cells = ["" if x is None else f"{readable(x)} {units.get(fault, '')}".rstrip()
+                 for x in sizes]  # fmt: skip
+        rows.append((fault, tuple(cells)))
+    return Pairs(tuple(tuple(found.faults[k] for k in g) for g in found.groups), tuple(rows))
+
+
+def _answers(
+    answers: Answers, detection: Detection | None, units: Mapping[str, str]
+) -> tuple[tuple[str, str], ...]:
+    """How residuals answer each fault as it grows, in words."""
+    faults = dict.fromkeys(s.fault for s in detection.smallest) if detection else ()
+    found = []
+    for fault in faults:
+        order = answers.order(fault)
+        if order is not None:
+            size = f"{readable(order.size)} {units.get(fault, '')}".rstrip()
+            found.append((fault, f"+{size}: {order.told()}"))
+    return tuple(found)
 
 
 def _formula(
