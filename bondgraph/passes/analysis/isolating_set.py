@@ -9,14 +9,16 @@ and of all of these as few are kept as divide the faults as far (Staroswiecki an
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
+from bondgraph.algebra.in_mode import in_mode
 from bondgraph.algebra.normalise import normalise
 from bondgraph.exact.outline import highest_order
 from bondgraph.exact.plant import Plant
-from bondgraph.ir.expr import Pool, topological
+from bondgraph.exact.switch_modes import MOST
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, symbols, topological
 from bondgraph.ir.graph import BondGraph
-from bondgraph.ir.residuals import Residual, ResidualSet
+from bondgraph.ir.residuals import Closing, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.passes.analysis.signatures import signatures
 from bondgraph.passes.elimination.decouple import free_of
@@ -28,11 +30,12 @@ from bondgraph.text.tuples import NamedTuple
 class _Cost(NamedTuple):
     """What is to be avoided in a further relation, the worst first.
 
-    Its signature may not be confirmed, or its samples not give it exactly; then the highest
-    derivative, and how many operations it takes.
+    Its signature may not be confirmed, it may say something in some modes only, or its samples not
+    give it exactly; then the highest derivative, and how many operations it takes.
     """
 
     unconfirmed: bool
+    idle: bool
     inexact: bool
     order: int
     operations: int
@@ -52,12 +55,11 @@ def isolating_set(
     where the others divide the faults as far without it, the dearest left out first. Reports
     `not-isolated` where a group stays whole that could be divided.
     """
-    closings = [
-        closing
-        for group in matrix.groups
-        for fault in _to_be_divided(group, best)
-        for closing in free_of(fault, _that_see(fault, residuals, matrix), residuals)
-    ]
+    closings: list[Closing] = []
+    for group in matrix.groups:
+        for fault in _to_be_divided(group, best):
+            seen = _that_see(fault, residuals, matrix)
+            closings += [*free_of(fault, seen, residuals), *_in_some_modes(fault, seen, residuals)]
     whole = with_further(residuals, closings, plant, seed)
     further = whole.residuals[len(residuals.residuals) :]
     found = signatures(whole._replace(residuals=further), plant, seed)
@@ -84,6 +86,40 @@ def _to_be_divided(group: Sequence[str], best: Sequence[Sequence[str]]) -> list[
     return list(first.values()) if len(first) > 1 else []
 
 
+def _in_some_modes(
+    fault: str, seen: Sequence[Residual], residuals: ResidualSet
+) -> Iterator[Closing]:
+    """The relations in those modes in which they do without a fault, zero in the others.
+
+    So a source behind a switch is told from what is before it: while it is off.
+    """
+    graph = residuals.system.graph
+    for residual in seen:
+        relation = [residual.expr, residual.raw]
+        modes = [s for s in symbols(residual.expr) if s.symbol.kind is Kind.MODE][:MOST]
+        expr, raw = _without(graph.fault_symbol(fault), relation, modes, graph.pool)
+        if expr is not graph.pool.zero:
+            steps = residual.steps, residual.differentiated
+            yield Closing(residual.closing, expr, *steps, raw, fault)
+
+
+def _without(fault: Expr, relation: list[Expr], modes: list[Expr], pool: Pool) -> list[Expr]:
+    """Two forms of a relation; zero in the modes in which the first one holds the fault."""
+    if fault not in symbols(relation[0]):
+        return relation
+    if not modes:
+        return [pool.zero] * len(relation)
+    first, *rest = modes
+    on, off = (_without(fault, in_mode(pool, relation, {first: x}), rest, pool)
+               for x in (True, False))  # fmt: skip
+    return [pool.choose(first, x, y) for x, y in zip(on, off, strict=True)]
+
+
+def _idle(expr: Expr, pool: Pool) -> bool:
+    """Whether a relation says nothing in some mode."""
+    return expr.op is Op.IF and any(b is pool.zero or _idle(b, pool) for b in expr.args[1:])
+
+
 def _tell(report: Report, graph: BondGraph, together: list[str]) -> None:
     """Say which faults stay in one group that could be told apart."""
     if together:
@@ -106,7 +142,8 @@ def _that_see(fault: str, residuals: ResidualSet, matrix: SignatureMatrix) -> li
 def _cost(pool: Pool, residual: Residual, unconfirmed: bool) -> _Cost:
     inexact = not normalise(pool, residual.expr).exact
     operations = len(topological([residual.expr]))
-    return _Cost(unconfirmed, inexact, highest_order([residual.expr]), operations)
+    order = highest_order([residual.expr])
+    return _Cost(unconfirmed, _idle(residual.expr, pool), inexact, order, operations)
 
 
 def _needed(matrix: SignatureMatrix, further: SignatureMatrix, dearest: list[str]) -> set[str]:

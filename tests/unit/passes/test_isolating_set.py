@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from bondgraph.algebra.in_mode import in_mode
 from bondgraph.cli.main import main
 from bondgraph.pipeline import Compilation, Options
 from bondgraph.text.source import Source
@@ -91,6 +92,38 @@ def test_between_what_there_was_and_what_is_best(seed: int) -> None:
     own = isolating(text.removeprefix("bg 1\n")).signatures
     for finer, coarser in ((best, own.groups), (own.groups, before.groups)):
         assert all(any(set(f) <= set(g) for g in coarser) for f in finer)
+
+
+@pytest.mark.parametrize(
+    ("text", "groups"),
+    [
+        # U - R i - L i' while on, i while off: only the gauge is in the second
+        (
+            """model M { input on : bool; param R = 2; param L = 1
+            1:j when on { <- Se:U; -> R:R; -> I:L; -> Df:i } }""",
+            [{"U", "R", "L"}, {"i"}],
+        ),
+        # C v' + (v - U)/R1 while a + (v - U)/R2 while b; with neither only C and the gauge act,
+        # as one: v' C = 0
+        (
+            """model M { input a : bool; input b : bool; param R1 = 2; param R2 = 3; param C = 0.1
+            0:s { <- Se:U }
+            0:y { -> C:C; -> De:v }
+            1:ja when a { <- s; -> R:R1; -> y }
+            1:jb when b { <- s; -> R:R2; -> y } }""",
+            [{"R1"}, {"R2"}, {"U"}, {"C", "v"}],
+        ),
+    ],
+)
+def test_what_acts_in_some_modes_only_is_told_in_the_others(
+    text: str, groups: list[set[str]]
+) -> None:
+    c = isolating(text)
+    assert sorted(map(set, c.signatures.groups), key=sorted) == sorted(groups, key=sorted)
+    further = [r.residual for r in c.residuals if r.residual.free_of]
+    modes = [i.symbol for i in c.graph.inputs if i.mode]
+    on = dict.fromkeys(modes, True)
+    assert further and in_mode(c.graph.pool, [r.expr for r in further], on)[-1] is c.graph.pool.zero
 
 
 def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
