@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from bondgraph.algebra.powers import undivided
 from bondgraph.algebra.summands import summands
 from bondgraph.ir.expr import Expr, Op, Pool, topological
 from bondgraph.ir.nodes import constant
@@ -47,7 +48,12 @@ def cleared(pool: Pool, expr: Expr, bases: Iterable[Expr], inside: bool = True) 
     work = _Fractions(pool, dict.fromkeys(bases))
     for node in topological([expr], stop=lambda n: not inside and n.op is not Op.ADD):
         work.visit(node)
-    return work.parts[expr][0] if expr in work.parts else expr
+    if expr not in work.parts:
+        return expr
+    found, below = work.parts[expr]
+    for base in below if inside else ():
+        found = undivided(pool, found, base)
+    return found
 
 
 class _Fractions:

@@ -8,12 +8,12 @@ the resultant of the relation and the equation of x, of least degree.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from contextlib import suppress
 from fractions import Fraction
 from typing import NamedTuple
 
 from bondgraph.algebra.cleared import cleared, divisors
+from bondgraph.algebra.powers import powers
 from bondgraph.algebra.zero import is_zero
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, topological
 from bondgraph.ir.nodes import constant, holding
@@ -46,11 +46,11 @@ def two_valued(pool: Pool, zero: Expr, variable: Expr) -> TwoValued | None:
     >>> two_valued(p, p.sub(y, p.power(x, 2)), x).square
     y
     """
-    found = _quadratic(pool, zero, variable)
+    found = powers(pool, zero, variable, 2)
     if found is not None:
-        c, b, a = found
-        if is_zero(a):
+        if len(found) < 3 or is_zero(found[2]):
             return None
+        c, b, a = found
         half = pool.scale(Fraction(-1, 2), pool.div(b, a))
         square = pool.sub(pool.power(half, 2), pool.div(c, a))
         return TwoValued(variable, square, {variable: Element(half, pool.one)})
@@ -58,8 +58,8 @@ def two_valued(pool: Pool, zero: Expr, variable: Expr) -> TwoValued | None:
     for own, other, sign in ((cosine, sine, -1), (sine, cosine, 1)):
         if _besides(zero, own, variable):
             continue
-        terms = _quadratic(pool, zero, own)
-        if terms is None or not is_zero(terms[2]) or is_zero(terms[1]):
+        terms = powers(pool, zero, own, 1)
+        if terms is None or len(terms) < 2 or is_zero(terms[1]):
             continue
         value = pool.neg(pool.div(terms[0], terms[1]))
         square = pool.sub(pool.one, pool.power(value, 2))
@@ -73,47 +73,6 @@ def two_valued(pool: Pool, zero: Expr, variable: Expr) -> TwoValued | None:
 def _besides(expr: Expr, inside: Expr, variable: Expr) -> bool:
     """Whether a variable stands anywhere but inside one node."""
     return variable in topological([expr], stop=lambda n: n is inside)
-
-
-def _quadratic(pool: Pool, zero: Expr, variable: Expr) -> list[Expr] | None:
-    """The coefficients of the powers 0, 1 and 2; None if the expression is no such polynomial."""
-    forms: dict[Expr, list[Expr]] = {variable: [pool.zero, pool.one, pool.zero]}
-
-    def form(node: Expr) -> list[Expr]:
-        return forms.get(node) or [node, pool.zero, pool.zero]
-
-    for node in holding([zero], lambda n: n is variable):
-        if node is variable:
-            continue
-        if node.op is Op.ADD:
-            forms[node] = [
-                pool.add(*[(c, form(a)[k]) for c, a in node.terms]) for k in range(3)
-            ]
-        elif node.op is Op.MUL:
-            product = [pool.one, pool.zero, pool.zero]
-            for base, power in node.factors:
-                if base not in forms:
-                    product = [pool.mul(p, pool.power(base, power)) for p in product]
-                    continue
-                if not 0 < power <= 2:
-                    return None
-                for _ in range(power):
-                    longer = _convolution(pool, product, forms[base])
-                    if any(x is not pool.zero for x in longer[3:]):
-                        return None
-                    product = longer[:3]
-            forms[node] = product
-        else:
-            return None
-    return form(zero)
-
-
-def _convolution(pool: Pool, a: Sequence[Expr], b: Sequence[Expr]) -> list[Expr]:
-    terms: list[list[tuple[int, Expr]]] = [[] for _ in range(len(a) + len(b) - 1)]
-    for i, x in enumerate(a):
-        for j, y in enumerate(b):
-            terms[i + j].append((1, pool.mul(x, y)))
-    return [pool.add(*own) for own in terms]
 
 
 def norm(pool: Pool, expr: Expr, known: TwoValued) -> Expr | None:

@@ -46,12 +46,31 @@ def _freed(pool: Pool, expr: Expr, switches: int) -> Freed | None:
     for order in range(_MOST):
         pushed = _push(pool, expr, order)
         if pushed is None:
+            inner = _known_changes(pool, expr)
+            if inner is not expr and (found := _freed(pool, inner, switches)) is not None:
+                same = found.raw is pool.der(inner, found.order)
+                return found._replace(raw=pool.der(expr, found.order)) if same else found
             each = _in_each_position(pool, expr, switches)
             return each or _one_by_one(pool, _telling(pool, expr))
         if not _holders(pushed):
             return Freed(pushed, raw, order)
         raw = pool.der(raw)
     return None
+
+
+def _known_changes(pool: Pool, expr: Expr) -> Expr:
+    """The expression with the derivatives in it that are free of such integrals if moved inwards.
+
+    So the current of a capacitor is known although its voltage is not, and what it divides.
+    """
+
+    def known(node: Expr, args: tuple[Expr, ...]) -> Expr | None:
+        if node.order <= 0 or not _holders(args[0]):
+            return None
+        pushed = _push(pool, args[0], node.order)
+        return None if pushed is None or _holders(pushed) else pushed
+
+    return rebuilt(pool, [expr], known)[0]
 
 
 def _in_each_position(pool: Pool, expr: Expr, switches: int) -> Freed | None:

@@ -13,6 +13,7 @@ from contextlib import suppress
 from operator import attrgetter
 
 from bondgraph.algebra.affine import affine
+from bondgraph.algebra.cleared import cleared, divisors
 from bondgraph.algebra.conjugates import TwoValued, norm, two_valued
 from bondgraph.algebra.implicit import invert
 from bondgraph.algebra.nominal import Nominal
@@ -239,7 +240,9 @@ class Loops:
             self.solve_algebraic()
             groups, linear = self._tied()
             lacking = [group for group in groups if group.surplus]
-            if not (self._lower(lacking) or self._take_two_valued(lacking)):
+            if not (
+                self._lower(lacking) or self._clear(lacking) or self._take_two_valued(lacking)
+            ):
                 break
         found = [(item.rows, item.expr) for item in self.plain] + self.operators.relations(linear)
         for group in groups:
@@ -257,6 +260,21 @@ class Loops:
         relations = [(rows, expr) for rows, expr in found if not is_zero(expr)]
         self.identities = len(found) - len(relations)
         return relations
+
+    def _clear(self, groups: list[_Tied]) -> bool:
+        """Multiply rows with what torn variables divide in them; False where there is none.
+
+        What is left may be linear in them, or a polynomial.
+        """
+        done = False
+        for at in [at for group in groups for at in group.members]:
+            item = self.pending[at]
+            below = [d for d in divisors(topological([item.expr])) if self._tears(d)]
+            expr = cleared(self.pool, item.expr, below)
+            if expr is not item.expr:
+                self.pending[at] = item._replace(expr=expr)
+                done = True
+        return done
 
     def _take_two_valued(self, groups: list[_Tied]) -> bool:
         """Take a torn variable for known of which a row leaves two values; False without any.

@@ -173,7 +173,8 @@ def test_a_mass_that_is_used_twice() -> None:
     """m in two momenta, (m s)' = a and (m z)' = y, a = F - c s - y; m may change meanwhile.
 
     The first times z less the second times s holds m alone: m (z s' - s z') = z a - s y. With that
-    m the second momentum still has to grow with y.
+    m the second momentum still has to grow with y. Times the square of the bracket all that is a
+    multiple of z, which no relation needs to be.
     """
     _, (relation,) = of(CART, "m")
 
@@ -181,9 +182,36 @@ def test_a_mass_that_is_used_twice() -> None:
         a = F - c * s - y
         below = z * D(s) - s * D(z)
         mass = (z * a - s * y) / below
-        return below**2 * (D(mass * z) - y)
+        return below**2 * (D(mass * z) - y) / z
 
     assert is_multiple(relation, by_hand, {"m": Q(2), "c": Q(3), "K": Q(5)}, ("F", "s", "y", "z"))
+
+
+def test_a_speed_that_divides() -> None:
+    """The plane motion of a car: forces Cf((v + a r)/u - delta) and Cr (v - b r)/u at its axles.
+
+    With the side speed v from ay = v' + u r the balances of force and moment are, times u,
+    (ay - v') A = r ((Cf + Cr) v + E r) and (ay - v') B = r (E v + G r), and give v.
+    """
+    text = """model M { param m=1.2; param Jz=0.9; param a=0.8; param b=1.1; param Cf=2.3; param Cr=2.7
+        input delta; input u
+        1:side { -> I:m; <- Se:turn = -m*u*yaw.f; -> front; -> rear }
+        1:yaw { -> I:Jz; -> TF:fa { f2 = a*f1 } -> front; -> TF:ra { f2 = -b*f1 } -> rear; -> Df:r }
+        0:front { -> R:tf { e = Cf*(f/u - delta) } }
+        0:rear { -> R:tr { e = Cr*f/u } }
+        sensor ay = der(side.f) + u*yaw.f }"""
+    _, (relation,) = of(text, "u")
+    numbers = {"m": Q(2), "Jz": Q(3), "a": Q(5), "b": Q(7), "Cf": Q(11), "Cr": Q(13)}
+
+    def by_hand(m, Jz, a, b, Cf, Cr, delta, r, ay):
+        A, B = Cf * delta - m * ay, a * Cf * delta - Jz * D(r)
+        both, E, G = Cf + Cr, a * Cf - b * Cr, a**2 * Cf + b**2 * Cr
+        below = B * both - A * E
+        v = r * (A * G - B * E) / below
+        # of the factors of known signals those stay that m would need if it moved
+        return (r * below) ** 3 * ((ay - D(v)) * A - r * (both * v + E * r))
+
+    assert is_multiple(relation, by_hand, numbers, ("delta", "r", "ay"))
 
 
 def test_with_a_mode() -> None:

@@ -53,3 +53,18 @@ def test_a_hidden_flux_in_a_product_that_is_differentiated() -> None:
     )
     assert is_zero(pool.sub(found.expr, by_hand))
     assert found.order == 1
+
+
+def test_the_current_of_a_hidden_charge_is_known_where_it_divides() -> None:
+    """(U/((q/C)' + w))' - z with q' = i: the charge is below, and only its change is in it."""
+    pool = Pool()
+    U, w, z, i = (pool.symbol(name, Kind.SENSOR) for name in "Uwzi")
+    C = pool.symbol("C", Kind.PARAM)
+    q = pool.integral(i, pool.symbol("C.q.0", Kind.FREE))
+    below = pool.add((1, pool.der(pool.div(q, C))), (1, w))
+    held = pool.sub(pool.der(pool.div(U, below)), z)
+    found = without_free_integrals(pool, held)
+    assert found is not None
+    by_hand = pool.sub(pool.der(pool.div(U, pool.add((1, pool.div(i, C)), (1, w)))), z)
+    assert is_zero(pool.sub(found.expr, by_hand))
+    assert found.order == 0 and found.raw is held
