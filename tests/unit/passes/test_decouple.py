@@ -193,8 +193,8 @@ def test_a_speed_that_divides() -> None:
     With the side speed v from ay = v' + u r the balances of force and moment are, times u,
     (ay - v') A = r ((Cf + Cr) v + E r) and (ay - v') B = r (E v + G r), and give v.
     """
-    text = """model M { param m=1.2; param Jz=0.9; param a=0.8; param b=1.1; param Cf=2.3; param Cr=2.7
-        input delta; input u
+    text = """model M { param m=1.2; param Jz=0.9; param a=0.8; param b=1.1; param Cf=2.3
+        param Cr=2.7; input delta; input u
         1:side { -> I:m; <- Se:turn = -m*u*yaw.f; -> front; -> rear }
         1:yaw { -> I:Jz; -> TF:fa { f2 = a*f1 } -> front; -> TF:ra { f2 = -b*f1 } -> rear; -> Df:r }
         0:front { -> R:tf { e = Cf*(f/u - delta) } }
