@@ -100,6 +100,7 @@ class Evaluation(Interpreter):
 
     def __init__(self, program: Program) -> None:
         super().__init__(program, _SIZED)
+        self._double = Interpreter(program)  # roots are looked for in doubles first
 
     def run(self, statements: Iterable[Statement]) -> None:
         """Run a procedure with 40 digits."""
@@ -115,8 +116,9 @@ class Evaluation(Interpreter):
         self.values[target] = found
 
     def _root(self, block: NewtonBlock, args: Sequence[Value]) -> Value:
-        find = super()._root
-        return _in_double(lambda *xs: float(find(block, [value(x) for x in xs])), *args)
+        found = _in_double(lambda *xs: float(self._double._root(block, xs)), *args)
+        near = block._replace(guess=float(found.number))
+        return Value(super()._root(near, [value(float(a)) for a in args]).number, found.size)
 
     def _rows(self, tape: PolynomialTape, scales: list[Value]) -> Sequence[Sequence[Value]]:
         if sum(op.length for op in tape.ops) <= _MANY:
