@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from bondgraph import Compilation, compile
 from bondgraph.cli import console
 from bondgraph.cli.options import isolating
+from bondgraph.cli.stuck import positions, shown
 from bondgraph.cli.terminal_layout import formula, names, prose, width
 from bondgraph.notation.dump_stages import bond_name, equation_name, node_name, place, reason
 from bondgraph.notation.line import show
@@ -72,6 +73,7 @@ def _code(code: str) -> int:
 def _all_names(compilation: Compilation) -> list[str]:
     graph = compilation.graph
     found = [n.path for n in graph.nodes] + list(graph.faults)
+    found += [i.name for i in graph.inputs if i.mode]
     found += [b.label for b in graph.bonds if b.label]
     return list(dict.fromkeys([*found, *compilation.signatures.residuals]))
 
@@ -94,6 +96,8 @@ def about(compilation: Compilation, name: str) -> list[str]:
     parts += [_bond(compilation, bond) for bond in _bonds(graph, name)]
     if name in graph.faults:
         parts.append(_fault(compilation, name))
+    if any(i.mode and i.name == name for i in graph.inputs):
+        parts.append(_switch(compilation, name))
     parts += _missing(compilation, name)
     # A residual needs all of the analysis, so it is looked for last; `r1` may name a node as well.
     if not parts or re.fullmatch(r"r\d+", name):
@@ -240,9 +244,36 @@ def _fault(compilation: Compilation, name: str) -> list[str]:
         lines += _combined(compilation, name, others)
     else:
         lines.append("  is told apart from all other faults")
+    lines += _by_mode(compilation, name)
     lines += _double(compilation, name)
     events = [e for e in compilation.graph.events if e.target == name]
     lines += [f"  event {e.name}: {e.doc}".rstrip(": ") for e in events]
+    return lines
+
+
+def _switch(compilation: Compilation, name: str) -> list[str]:
+    """What shows where a switch is not in the position that it is told."""
+    found = compilation.mode_signatures
+    lines = [f"{name}  switch, a mode that is known while running"]
+    if name not in found.names:
+        return [*lines, "  nothing in the model depends on it"]
+    for stuck, there in positions(found):
+        if stuck in (f"{name} stuck off", f"{name} stuck on"):
+            lines.append(f"  {stuck}")
+            for mode, what in there:
+                lines += prose(f"told {mode.name}: {what}", width(), "    ")
+    if len(found.modes) < found.total:
+        lines.append(f"  and {found.total - len(found.modes)} modes more")
+    return lines
+
+
+def _by_mode(compilation: Compilation, name: str) -> list[str]:
+    """The modes of a switched machine in which a fault shows otherwise than in all together."""
+    seen = compilation.signatures.seen_by(name)
+    lines = []
+    for mode in compilation.mode_signatures.modes:
+        if mode.matrix is not None and mode.matrix.seen_by(name) != seen:
+            lines.append(f"  {mode.name}: {shown(mode, name)}")
     return lines
 
 
