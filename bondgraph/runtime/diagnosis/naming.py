@@ -169,6 +169,10 @@ def _best(found: Sequence[Explained]) -> Explained:
 def _candidate(explained: Explained, chance: float) -> Candidate:
     """A fault with the change that fits best: of the machine where it has changed."""
     hypothesis, change = explained.hypothesis, explained.change
+    if hypothesis.held is not None:  # what acts is nothing of what is told, or the other position
+        lost = hypothesis.fault == hypothesis.held.signal
+        size, unit = (-100.0, "%") if lost else (None, "")
+        return Candidate(explained.fault, size, unit, round(chance, 4))
     size = -change if hypothesis.turned else change
     if hypothesis.kind == "gain" and not hypothesis.turned:
         left = 1.0 - size  # told is true/left: nothing is left of what is told for no reason
