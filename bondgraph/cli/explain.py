@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 from bondgraph import Compilation, compile
 from bondgraph.cli import console
 from bondgraph.cli.options import isolating
-from bondgraph.cli.stuck import positions, shown
+from bondgraph.cli.stuck import by_modes, positions, seen
 from bondgraph.cli.terminal_layout import formula, names, prose, width
+from bondgraph.ir.signature_matrix import stuck
 from bondgraph.notation.dump_stages import bond_name, equation_name, node_name, place, reason
 from bondgraph.notation.line import show
 from bondgraph.text.diagnostic import CompileError
@@ -257,24 +258,21 @@ def _switch(compilation: Compilation, name: str) -> list[str]:
     lines = [f"{name}  switch, a mode that is known while running"]
     if name not in found.names:
         return [*lines, "  nothing in the model depends on it"]
-    for stuck, there in positions(found):
-        if stuck in (f"{name} stuck off", f"{name} stuck on"):
-            lines.append(f"  {stuck}")
-            for mode, what in there:
-                lines += prose(f"told {mode.name}: {what}", width(), "    ")
+    for fault, there in positions(found):
+        if fault in (stuck(name, False), stuck(name, True)):
+            lines.append(f"  {fault}")
+            for what in by_modes(there):
+                lines += prose(what, width(), "    ")
     if len(found.modes) < found.total:
         lines.append(f"  and {found.total - len(found.modes)} modes more")
     return lines
 
 
 def _by_mode(compilation: Compilation, name: str) -> list[str]:
-    """The modes of a switched machine in which a fault shows otherwise than in all together."""
-    seen = compilation.signatures.seen_by(name)
-    lines = []
-    for mode in compilation.mode_signatures.modes:
-        if mode.matrix is not None and mode.matrix.seen_by(name) != seen:
-            lines.append(f"  {mode.name}: {shown(mode, name)}")
-    return lines
+    """What a fault does in each mode of a switched machine, where that is not the same in all."""
+    modes = compilation.mode_signatures.modes
+    lines = [*by_modes([(mode, seen(mode, name)) for mode in modes])]
+    return [f"  {line}" for line in lines] if len(lines) > 1 else []
 
 
 def _combined(compilation: Compilation, name: str, others: Sequence[str]) -> list[str]:
