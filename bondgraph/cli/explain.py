@@ -247,9 +247,12 @@ def _fault(compilation: Compilation, name: str) -> list[str]:
         lines.append("  is told apart from all other faults")
     lines += _by_mode(compilation, name)
     lines += _double(compilation, name)
-    events = [e for e in compilation.graph.events if e.target == name]
-    lines += [f"  event {e.name}: {e.doc}".rstrip(": ") for e in events]
-    return lines
+    return lines + _events(compilation.graph, name)
+
+
+def _events(graph: BondGraph, name: str) -> list[str]:
+    found = [e for e in graph.events if e.target == name]
+    return [f"  event {e.name}: {e.doc}".rstrip(": ") for e in found]
 
 
 def _switch(compilation: Compilation, name: str) -> list[str]:
@@ -265,7 +268,7 @@ def _switch(compilation: Compilation, name: str) -> list[str]:
                 lines += prose(what, width(), "    ")
     if len(found.modes) < found.total:
         lines.append(f"  and {found.total - len(found.modes)} modes more")
-    return lines
+    return lines + _events(compilation.graph, name)
 
 
 def _by_mode(compilation: Compilation, name: str) -> list[str]:

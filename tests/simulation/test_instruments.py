@@ -144,11 +144,13 @@ def _charging(t: Array, closed: Callable[[float], bool]) -> Array:
 @pytest.mark.parametrize(
     ("change", "closed"),
     [
-        ("'= false'\nat = 1.3\nuntil = 2.2", lambda t: t % 1 < 0.5 and not 1.3 < t < 2.2),
-        ("'= true'\nat = 1.3", lambda t: t % 1 < 0.5 or t > 1.3),
-        ("'stuck'\nat = 1.3", lambda t: t % 1 < 0.5 or t > 1.3),
-        ("'stuck'\nat = 1.7", lambda t: t % 1 < 0.5 and t < 1.7),
-        ("'= true'\nat = 1.5\nperiod = 0.4\nduty = 0.25",
+        ("of = 'on'\nchange = '= false'\nat = 1.3\nuntil = 2.2",
+         lambda t: t % 1 < 0.5 and not 1.3 < t < 2.2),
+        ("of = 'on'\nchange = '= true'\nat = 1.3", lambda t: t % 1 < 0.5 or t > 1.3),
+        ("event = 'welded'\nat = 1.3", lambda t: t % 1 < 0.5 or t > 1.3),
+        ("of = 'on'\nchange = 'stuck'\nat = 1.3", lambda t: t % 1 < 0.5 or t > 1.3),
+        ("of = 'on'\nchange = 'stuck'\nat = 1.7", lambda t: t % 1 < 0.5 and t < 1.7),
+        ("of = 'on'\nchange = '= true'\nat = 1.5\nperiod = 0.4\nduty = 0.25",
          lambda t: t % 1 < 0.5 or (t > 1.5 and (t - 1.5) % 0.4 < 0.1)),
     ],
 )  # fmt: skip
@@ -158,9 +160,9 @@ def test_a_stuck_switch_is_told_as_if_it_were_not(
     told = " or ".join(f"({k} <= t and t < {k + 0.5})" for k in range(5))
     found = run(
         "param C = 0.1\nparam G = 0.2\ninput on : bool\nSe:U -> 1:a when on { -> R:R = 2; -> Df:i;"
-        " -> 0:o }\no { -> C:C; -> R:load = 1/G; -> De:v }",
+        " -> 0:o }\no { -> C:C; -> R:load = 1/G; -> De:v }\nfault welded : on = true",
         "duration = 4\nsampling.rate = 10\ninputs.U = 12\n"
-        f"inputs.on = '{told}'\n[[fault]]\nof = 'on'\nchange = {change}",
+        f"inputs.on = '{told}'\n[[fault]]\n{change}",
     )
     t = found.log.time
     v = _charging(t, closed)

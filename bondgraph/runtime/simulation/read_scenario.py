@@ -267,13 +267,13 @@ class _Reader:
             if not self._known(table, "of", of, "parameter, input or sensor", targets):
                 return []
             switch = of in self.inputs and self.inputs[of].mode
-            if switch and ramp:
-                table.wrong("ramp", f"`{of}` is a switch: it is in one position or the other.",
-                            "Leave out `ramp`, or write `period` and `duty`.")  # fmt: skip
             changed = self._position(table, of) if switch else self._change(table, of)
             if changed is None:
                 return []
             op, value = changed
+        if ramp and target in self.inputs and self.inputs[target].mode:
+            table.wrong("ramp", f"`{target}` is a switch: it is in one position or the other.",
+                        "Leave out `ramp`, or write `period` and `duty`.")  # fmt: skip
         said = label or event or f"{target} {table.text('change')}"
         table.finish()
         span = self.document.span(table.path)
