@@ -73,7 +73,7 @@ class Comparison:
         if not self._rows:
             row = row._replace(samples=row.samples[self._own :])
         if len(self._past) < _BENT:
-            self._past.append((row, sigma))
+            self._past.append((row, sigma.copy()))
         one, others = self._seen(row, sigma, len(self._rows))
         if len(self._rows) < _MOST:
             self._rows.append(one)

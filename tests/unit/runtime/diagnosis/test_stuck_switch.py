@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Stuck
 from bondgraph.runtime.diagnosis.isolation import History, Rows, explain
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.monitoring.clock import on_grid
-from bondgraph.runtime.monitoring.verdict import Verdict, described, from_json, to_json
+from bondgraph.runtime.monitoring.verdict import (
+    Verdict,
+    described,
+    from_json,
+    to_json,
+    to_text,
+)
 from bondgraph.runtime.simulation.read_scenario import read_scenario
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source
 from tests.switched.plants import COIL, Mode, log
+
+ROOT = Path(__file__).parents[4]
 
 CIRCUIT = """bg 1
 model Circuit {
@@ -182,6 +192,20 @@ def test_on_exact_samples_of_a_coil_that_is_not_cut_off() -> None:
     assert first.since == pytest.approx(14.0, abs=0.15) and set(first.residuals) == {"r2"}
     update = next(v for v in verdicts if v.event == "update")
     assert update.group == ("closed stuck on",) and update.candidates[0].probability > 0.95
+
+
+def test_the_oven_of_the_documentation() -> None:
+    """Its relay stays closed from 1200 s to 1440 s, told off from 1320 s on, open from 1920 s."""
+    c = bondgraph.compile(ROOT / "models" / "oven.bg", rate=10.0)
+    run = c.simulate(ROOT / "models" / "scenarios" / "oven_relay.toml")
+    told = [v for v in watched(c, run.log) if v.event in ("fault", "update", "cleared")]
+    assert [v.event for v in told] == ["fault", "update", "cleared", "fault", "update"]
+    assert told[0].since == pytest.approx(1320.0, abs=15.0)
+    assert told[1].group == ("on stuck on",)
+    assert told[3].since == pytest.approx(1920.0, abs=15.0)
+    assert {c.fault for c in told[4].candidates} == {"on stuck off", "P"}
+    page = (ROOT / "docs" / "monitoring.md").read_text()
+    assert "\n".join(to_text(v) for v in told) in page
 
 
 def test_which_modes_it_shows_in() -> None:
