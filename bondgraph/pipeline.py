@@ -561,8 +561,8 @@ class Compilation:
         """What a diagnosis has to know of the machine beside its residuals."""
         from bondgraph.runtime.diagnosis.healthy import diagnosis_model
 
-        program = self.program_with_readings
-        return diagnosis_model(self.graph, *self._analysis, program, lambda: self.double_faults)
+        own = self.graph, *self._analysis, self.program_with_readings
+        return diagnosis_model(*own, self.mode_signatures, lambda: self.double_faults)
 
     def diagnosis(self, engine: Engine, tuning: Tuning | None = None) -> Diagnosis:
         """What says verdicts about the residuals of an engine of this model.

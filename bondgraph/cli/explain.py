@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING
 from bondgraph import Compilation, compile
 from bondgraph.cli import console
 from bondgraph.cli.options import isolating
+from bondgraph.cli.stuck import by_modes, positions, seen
 from bondgraph.cli.terminal_layout import formula, names, prose, width
+from bondgraph.ir.signature_matrix import stuck
 from bondgraph.notation.dump_stages import bond_name, equation_name, node_name, place, reason
 from bondgraph.notation.line import show
 from bondgraph.text.diagnostic import CompileError
@@ -72,6 +74,7 @@ def _code(code: str) -> int:
 def _all_names(compilation: Compilation) -> list[str]:
     graph = compilation.graph
     found = [n.path for n in graph.nodes] + list(graph.faults)
+    found += [i.name for i in graph.inputs if i.mode]
     found += [b.label for b in graph.bonds if b.label]
     return list(dict.fromkeys([*found, *compilation.signatures.residuals]))
 
@@ -94,6 +97,8 @@ def about(compilation: Compilation, name: str) -> list[str]:
     parts += [_bond(compilation, bond) for bond in _bonds(graph, name)]
     if name in graph.faults:
         parts.append(_fault(compilation, name))
+    if any(i.mode and i.name == name for i in graph.inputs):
+        parts.append(_switch(compilation, name))
     parts += _missing(compilation, name)
     # A residual needs all of the analysis, so it is looked for last; `r1` may name a node as well.
     if not parts or re.fullmatch(r"r\d+", name):
@@ -240,10 +245,37 @@ def _fault(compilation: Compilation, name: str) -> list[str]:
         lines += _combined(compilation, name, others)
     else:
         lines.append("  is told apart from all other faults")
+    lines += _by_mode(compilation, name)
     lines += _double(compilation, name)
-    events = [e for e in compilation.graph.events if e.target == name]
-    lines += [f"  event {e.name}: {e.doc}".rstrip(": ") for e in events]
-    return lines
+    return lines + _events(compilation.graph, name)
+
+
+def _events(graph: BondGraph, name: str) -> list[str]:
+    found = [e for e in graph.events if e.target == name]
+    return [f"  event {e.name}: {e.doc}".rstrip(": ") for e in found]
+
+
+def _switch(compilation: Compilation, name: str) -> list[str]:
+    """What shows where a switch is not in the position that it is told."""
+    found = compilation.mode_signatures
+    lines = [f"{name}  switch, a mode that is known while running"]
+    if name not in found.names:
+        return [*lines, "  nothing in the model depends on it"]
+    for fault, there in positions(found):
+        if fault in (stuck(name, False), stuck(name, True)):
+            lines.append(f"  {fault}")
+            for what in by_modes(there):
+                lines += prose(what, width(), "    ")
+    if len(found.modes) < found.total:
+        lines.append(f"  and {found.total - len(found.modes)} modes more")
+    return lines + _events(compilation.graph, name)
+
+
+def _by_mode(compilation: Compilation, name: str) -> list[str]:
+    """What a fault does in each mode of a switched machine, where that is not the same in all."""
+    modes = compilation.mode_signatures.modes
+    lines = [*by_modes([(mode, seen(mode, name)) for mode in modes])]
+    return [f"  {line}" for line in lines] if len(lines) > 1 else []
 
 
 def _combined(compilation: Compilation, name: str, others: Sequence[str]) -> list[str]:

@@ -76,6 +76,9 @@ def _modes(found: ModeSignatures) -> dict[str, object]:
             item["signatures"] = {r: list(seen) for r, seen in matrix.sees.items()}
             item["undetectable"] = list(matrix.undetectable)
             item["groups"] = [list(group) for group in matrix.groups]
+            item["stuck"] = mode.stuck
+            if mode.impossible:
+                item["impossible"] = dict(mode.impossible)
         listed.append(item)
     return {"modes": listed, "modes_total": found.total}
 

@@ -6,6 +6,7 @@ import os
 from collections.abc import Sequence
 
 from bondgraph.cli.reasons import at_best, message, missing, reasons
+from bondgraph.cli.stuck import overall
 from bondgraph.cli.terminal_layout import formula, names, prose, signature_table, width
 from bondgraph.ir.expr import topological
 from bondgraph.ir.signature_matrix import SignatureMatrix
@@ -121,13 +122,14 @@ def _modes(compilation: Compilation, columns: int) -> list[str]:
         return []
     lines = ["", "While the machine stays in one mode"]
     for mode in found.modes:
-        lead = "  " + ", ".join(f"{n} {'on' if on else 'off'}" for n, on in mode.modes.items())
+        lead = f"  {mode.name}"
         if mode.matrix is None:
             lines.append(f"{lead}: no behaviour, {mode.reason}")
-        elif mode.matrix.rows == matrix.rows:
+        elif mode.like(matrix):
             lines.append(f"{lead}: the same signatures")
         else:
-            lost = [f for f in mode.matrix.undetectable if f not in matrix.undetectable]
+            known = {*matrix.undetectable, *mode.modes}
+            lost = [f for f in mode.matrix.undetectable if f not in known]
             blind = [r for r in matrix.residuals if not mode.matrix.signature(r)]
             lines.append(f"{lead}: {plural(len(mode.matrix.groups), 'group')}")
             if lost:
@@ -136,6 +138,9 @@ def _modes(compilation: Compilation, columns: int) -> list[str]:
                 lines += names(blind, columns, "    sees nothing: ")
     if len(found.modes) < found.total:
         lines.append(f"  and {found.total - len(found.modes)} modes more")
+    lines += ["", "A switch that is not where it is told"]
+    for line in overall(found):
+        lines += prose(line, columns, "  ")
     return lines
 
 

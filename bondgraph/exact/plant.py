@@ -101,8 +101,12 @@ class _Declared:
         raise Mixed("an integral in a constant")
 
 
-def _changed(numbers: Numbers, random: Random, value: Series, n: int, turn: bool) -> Series:
-    """A parameter with a fault of finite size, a function of time."""
+def _changed(
+    symbol: Expr, numbers: Numbers, random: Random, value: Series, n: int, turn: bool
+) -> Series:
+    """A parameter with a fault of finite size, a function of time; a switch turned over."""
+    if symbol.symbol.kind is Kind.MODE:
+        return [1 - value[0]]
     first = numbers.off(random, value[0], turn)
     return [first, *[numbers.any(random) * (first - value[0]) for _ in range(n - 1)]]
 
@@ -143,7 +147,8 @@ class Plant:
         symbols = {v.name: v.symbol for v in graph.sensors}
         symbols |= {v.name: v.symbol for v in graph.inputs}
         symbols |= {v.name: v.symbol for v in graph.values}
-        self._names = {name: symbols[name] for name in graph.faults}
+        stuck = [i.name for i in graph.inputs if i.mode]  # in the position that they are not told
+        self._names = {name: symbols[name] for name in (*graph.faults, *stuck)}
         self._reach = highest_order([s.reads for s in graph.sensors])
         self._inputs = {i.name: i.symbol for i in graph.inputs if i.known and not i.mode}
         self._reads = {s.symbol: s.reads for s in graph.sensors if s.same_as is None}
@@ -364,7 +369,8 @@ class Plant:
         plant, acting = part or self.assembly, [self._names[name] for name in faults]
         if any(self._names[name] in acting for name in self._read):
             raise Mixed("a law that uses a faulty reading")
-        changed = tuple(symbol for symbol in acting if symbol in self._constants)
+        inside = self._constants.union(self.modes)
+        changed = tuple(symbol for symbol in acting if symbol in inside)
         key = (seed, tuple((modes or {}).items()), id(plant), changed)
         if key not in self._exponentials:
             self._exponentials[key] = self._exponential(seed, modes or {}, changed, plant)
@@ -390,7 +396,8 @@ class Plant:
             try:
                 constants = self.draw_constants(seed, attempt, modes, numbers)
                 true = dict(constants)
-                true.update((s, [true[s][0] + numbers.any(random)]) for s in changed)
+                for s in changed:
+                    true[s] = _changed(s, numbers, random, true[s], 1, False)
                 equations = Writer(plant, Setting(true, numbers, 1)).all({})
                 if not linear(equations):
                     raise Mixed("a law that is not linear")
@@ -501,7 +508,7 @@ class Plant:
             symbol = self._names[name]
             if symbol in true:
                 turn = turned and (len(faults) == 1 or random.random() < 0.5)
-                true[symbol] = _changed(numbers, random, true[symbol], n, turn)
+                true[symbol] = _changed(symbol, numbers, random, true[symbol], n, turn)
             elif name in self._read:
                 readings[name] = _error(numbers, random, [], n)
         told_sensors = [s for s in part.shown if read is None or s[1] in read]

@@ -55,6 +55,8 @@ class Reactions:
         self.turns = _turns(laws, dict.fromkeys(plant.modes, 0))
         self.symbols = graph.fault_symbols()
         self.faults = {symbol: name for name, symbol in self.symbols.items()}
+        switches = {symbol: symbol.symbol.name for symbol in modes or ()}
+        self._acting = {**self.faults, **switches}  # all that `moves` may be asked for
         self._faulty_parameters = [s for s in self.faults if s.symbol.kind is Kind.PARAM]
 
     def at_free_signals(self, expr: Expr) -> Sensitivity:
@@ -143,7 +145,7 @@ class Reactions:
 
         A machine at rest, without any input, hides a parameter from the derivative that a change
         of finite size shows; and a parameter may cancel out of a relation only while it is
-        constant.
+        constant. A switch of the given modes is a fault as well: it is in the other position.
         """
         if self._unmoved_nearby(expr, acting):
             return False
@@ -190,7 +192,7 @@ class Reactions:
     ) -> tuple[str, ...]:
         """The names of the faults that can act in a part of the plant."""
         reached = [s for s in self.plant.reached(part) if s in candidates and s not in but]
-        return tuple(self.faults[s] for s in sorted(reached, key=_ID) if s in self.faults)
+        return tuple(self._acting[s] for s in sorted(reached, key=_ID) if s in self._acting)
 
     def _unmoved_nearby(
         self, expr: Expr, candidates: Collection[Expr], but: Collection[Expr] = ()

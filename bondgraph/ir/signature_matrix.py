@@ -36,6 +36,10 @@ class SignatureMatrix(NamedTuple):
     apart: Mapping[tuple[str, str], tuple[str, ...]] = _NONE
     unconfirmed: Mapping[str, str] = _NONE
 
+    def seen_by(self, fault: str) -> tuple[str, ...]:
+        """The residuals that see a fault; raises KeyError for an unknown name."""
+        return tuple(compress(self.residuals, self.row(fault)))
+
     def row(self, fault: str) -> tuple[bool, ...]:
         """The signature of a fault; raises KeyError for an unknown name."""
         try:
@@ -140,12 +144,38 @@ class ModeSignature(NamedTuple):
     """The signatures while the machine stays in one mode.
 
     `modes` gives each boolean input its value; `matrix` is None where the plant has no behaviour
-    in that mode, and `reason` then says why.
+    in that mode, and `reason` then says why. Behind the faults of the model the matrix has a row
+    for each boolean input: the switch is in the other position than the one it is told.
+    `impossible` are those of which the other position has no behaviour, with the reason.
     """
 
     modes: dict[str, bool]
     matrix: SignatureMatrix | None
     reason: str
+    impossible: Mapping[str, str] = _NONE
+
+    @property
+    def name(self) -> str:
+        """The mode in words: `on off, diode on`."""
+        return ", ".join(f"{n} {'on' if on else 'off'}" for n, on in self.modes.items())
+
+    @property
+    def stuck(self) -> dict[str, str]:
+        """What each boolean input is as a fault here: `{"on": "on stuck off"}` where told on."""
+        return {n: stuck(n, not on) for n, on in self.modes.items()}
+
+    def like(self, whole: SignatureMatrix) -> bool:
+        """Whether the faults of the model have the same signatures as in another matrix."""
+        return self.matrix is not None and self.matrix.rows[: len(whole.rows)] == whole.rows
+
+
+def stuck(switch: str, position: bool) -> str:
+    """The name of the fault that a switch is in this position whatever it is told.
+
+    >>> stuck("m[1].on", False)
+    'm[1].on stuck off'
+    """
+    return f"{switch} stuck {'on' if position else 'off'}"
 
 
 class ModeSignatures(NamedTuple):

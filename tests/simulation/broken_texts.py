@@ -85,6 +85,11 @@ change = "missing"
 of = 'Gh'
 change = "= 3 W/K"
 at = 1
+[[fault]]
+of = 'on'
+change = "= true"
+at = 1
+period = 0.5
 """
 
 #: Whole values, most of them wrong in most places.

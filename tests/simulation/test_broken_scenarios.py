@@ -109,12 +109,22 @@ WRONG = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("marked", "code"), WRONG.items())
+SWITCHES = {
+    '[[fault]]\nof = "on"\nchange = "~+= 1~"': "scenario-value",
+    '[[fault]]\nof = "on"\nchange = "~= 1 V~"': "scenario-value",
+    '[[fault]]\nof = "on"\nchange = "~missing~"': "scenario-value",
+    '[[~fault~]]\nof = "on"': "scenario-value",
+    '[[fault]]\nof = "on"\nchange = "stuck"\nramp = ~1~': "scenario-value",
+}
+
+
+@pytest.mark.parametrize(("marked", "code"), [*WRONG.items(), *SWITCHES.items()])
 def test_what_is_wrong_is_told_at_its_place(marked: str, code: str) -> None:
     """The place is between the two `~`."""
     text = marked.replace("~", "")
     report = Report()
-    assert read_scenario(Source("s.toml", text), MACHINES[MOTOR].graph, report) is None
+    machine = MACHINES[OVEN if marked in SWITCHES else MOTOR]
+    assert read_scenario(Source("s.toml", text), machine.graph, report) is None
     found = next(d for d in report.diagnostics if d.code == code)
     if marked.count("~") == 2:
         start = marked.index("~")

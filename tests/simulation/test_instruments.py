@@ -6,6 +6,7 @@ import math
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -126,6 +127,60 @@ def test_a_stuck_input_stays_as_it_was_and_a_stuck_parameter_stops_drifting() ->
     t = found.truth.time
     wanted = (1 + np.minimum(t, 0.8)) / (2 + np.minimum(t, 0.5))
     assert near(found.truth.columns["y"], wanted, 1e-9)
+
+
+def _charging(t: Array, closed: Callable[[float], bool]) -> Array:
+    """v of C = 0.1 F with G = 0.2 S, fed with 12 V through 2 Ohm while the switch is closed.
+
+    0.1 v' = (12 - v)/2 - 0.2 v closed, 0.1 v' = -0.2 v open: an exponential from sample to sample.
+    """
+    v = [0.0]
+    for a, b in zip(t[:-1].tolist(), t[1:].tolist(), strict=True):
+        rate, end = (7.0, 6.0 / 0.7) if closed((a + b) / 2) else (2.0, 0.0)
+        v.append(end + (v[-1] - end) * math.exp(-rate * (b - a)))
+    return np.array(v)
+
+
+@pytest.mark.parametrize(
+    ("change", "closed"),
+    [
+        ("of = 'on'\nchange = '= false'\nat = 1.3\nuntil = 2.2",
+         lambda t: t % 1 < 0.5 and not 1.3 < t < 2.2),
+        ("of = 'on'\nchange = '= true'\nat = 1.3", lambda t: t % 1 < 0.5 or t > 1.3),
+        ("event = 'welded'\nat = 1.3", lambda t: t % 1 < 0.5 or t > 1.3),
+        ("of = 'on'\nchange = 'stuck'\nat = 1.3", lambda t: t % 1 < 0.5 or t > 1.3),
+        ("of = 'on'\nchange = 'stuck'\nat = 1.7", lambda t: t % 1 < 0.5 and t < 1.7),
+        ("of = 'on'\nchange = '= true'\nat = 1.5\nperiod = 0.4\nduty = 0.25",
+         lambda t: t % 1 < 0.5 or (t > 1.5 and (t - 1.5) % 0.4 < 0.1)),
+    ],
+)  # fmt: skip
+def test_a_stuck_switch_is_told_as_if_it_were_not(
+    change: str, closed: Callable[[float], bool]
+) -> None:
+    told = " or ".join(f"({k} <= t and t < {k + 0.5})" for k in range(5))
+    found = run(
+        "param C = 0.1\nparam G = 0.2\ninput on : bool\nSe:U -> 1:a when on { -> R:R = 2; -> Df:i;"
+        " -> 0:o }\no { -> C:C; -> R:load = 1/G; -> De:v }\nfault welded : on = true",
+        "duration = 4\nsampling.rate = 10\ninputs.U = 12\n"
+        f"inputs.on = '{told}'\n[[fault]]\n{change}",
+    )
+    t = found.log.time
+    v = _charging(t, closed)
+    assert near(found.truth.columns["v"], v, 1e-5)
+    true = np.array([closed(moment + 1e-6) for moment in t.tolist()])
+    assert near(found.log.columns["i"], np.where(true, (12 - v) / 2, 0.0), 1e-4)
+    assert found.log.columns["on"].tolist() == [(k % 10) < 5 for k in range(len(t))]
+
+
+def test_a_command_that_does_not_arrive_is_in_the_log_all_the_same() -> None:
+    found = run(
+        "Se:T -> 1:w\nw -> R:R = 2\nw -> Df:y",
+        "duration = 1\nsampling.rate = 10\ninputs.T = '1 + t'\n[[fault]]\nof = 'T'\n"
+        "change = '*= 0'\nat = 0.5",
+    )
+    t = found.log.time
+    assert np.allclose(found.log.columns["T"], 1 + t)
+    assert np.allclose(found.log.columns["y"], np.where(t < 0.5, (1 + t) / 2, 0.0))
 
 
 def test_resolution_bias_noise_and_a_slow_instrument() -> None:

@@ -116,6 +116,34 @@ def test_every_fault_of_a_mode_is_seen_in_that_mode(name: str) -> None:
     assert tried >= len(residuals)
 
 
+@pytest.mark.parametrize("name", [*_PLANTS, "buck"])
+def test_a_stuck_switch_shows_where_its_signature_says_so(name: str) -> None:
+    """The plant moves in one mode throughout, the residuals are told another: seen, or zero."""
+    plant = {**_PLANTS, "buck": BUCK}[name]
+    compilation = Compilation(Source(f"{name}.bg", plant.text))
+    engine = compilation.engine(native=True)
+    order = [k.path for k in engine.signals]
+    tried = 0
+    for told in compilation.mode_signatures.modes:
+        assert told.matrix is not None
+        for switch in told.modes:
+            true = tuple(on is not (mode == switch) for mode, on in told.modes.items())
+            if true not in plant.plan:
+                continue
+            found = log(plant._replace(plan=(true,) * 4), _LASTS, _RATE)
+            wrong = {m: np.full(len(found.modes), float(on)) for m, on in told.modes.items()}
+            signals = {**found.signals, **wrong}
+            engine.reset()
+            batch = engine.run(np.column_stack([signals[path] for path in order]))
+            size = max(s.max() for s in found.sizes.values())
+            for k, residual in enumerate(engine.residuals):
+                most = np.abs(batch.value[:, k])[batch.valid[:, k]].max() / size
+                sees = residual in told.matrix.seen_by(switch)
+                assert (most > _SEEN) if sees else (most < _TOLERATED), (told.modes, residual)
+                tried += 1
+    assert tried >= 4 or len(engine.residuals) == 1
+
+
 @pytest.mark.parametrize("lasts", [_LASTS, 0.5], ids=["between samples", "at a sample"])
 def test_behind_a_coil_only_slopes_jump_and_the_residual_goes_on(lasts: float) -> None:
     """The charge of a buck converter: valid throughout, off by no more than a kink may cost.

@@ -67,6 +67,7 @@ class Mode(NamedTuple):
     lost: tuple[str, ...]
     blind: tuple[str, ...]
     same: bool
+    stuck: tuple[tuple[str, str], ...]  # a switch that is in the other position, and what shows
 
 
 class Signatures(NamedTuple):

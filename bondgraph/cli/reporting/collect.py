@@ -19,6 +19,7 @@ from bondgraph.cli.console import status
 from bondgraph.cli.reasons import message, missing, reasons
 from bondgraph.cli.reporting.relations import relations
 from bondgraph.cli.reporting.seen import Assumed, seen
+from bondgraph.cli.stuck import stuck_switches
 from bondgraph.ir.expr import symbols
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
@@ -241,14 +242,13 @@ def _cells(compilation: Compilation, program: Program | None) -> dict[str, tuple
 
 
 def _mode(mode: ModeSignature, whole: SignatureMatrix) -> Mode:
-    name = ", ".join(f"{n} {'on' if on else 'off'}" for n, on in mode.modes.items())
     if mode.matrix is None:
-        return Mode(name, mode.reason, (), (), (), False)
-    own = mode.matrix
-    groups = []
-    for faults in own.groups:
-        hits = zip(own.residuals, own.row(faults[0]), strict=True)
-        groups.append((tuple(r for r, hit in hits if hit), faults))
-    lost = tuple(f for f in own.undetectable if f not in whole.undetectable)
+        return Mode(mode.name, mode.reason, (), (), (), False, ())
+    own, words = mode.matrix, mode.stuck
+    groups = [
+        (own.seen_by(faults[0]), tuple(words.get(f, f) for f in faults)) for faults in own.groups
+    ]
+    lost = tuple(f for f in own.undetectable if f not in {*whole.undetectable, *words})
     blind = tuple(r for r in own.residuals if not own.signature(r))
-    return Mode(name, "", tuple(groups), lost, blind, own.rows == whole.rows)
+    switches = tuple(stuck_switches(mode))
+    return Mode(mode.name, "", tuple(groups), lost, blind, mode.like(whole), switches)

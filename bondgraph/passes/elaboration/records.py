@@ -8,9 +8,9 @@ from typing import TypeVar
 from bondgraph.ir.expr import Expr, Kind, Op, symbols
 from bondgraph.ir.graph import Event, Input, Integral, Let, Sensor, Value
 from bondgraph.ir.nodes import occurs
+from bondgraph.ir.syntax import Fault, Node, Number, Param, Ref, Tolerance
 from bondgraph.ir.syntax import Input as InputStatement
 from bondgraph.ir.syntax import Let as LetStatement
-from bondgraph.ir.syntax import Node, Number, Param, Ref, Tolerance
 from bondgraph.ir.syntax import Sensor as SensorStatement
 from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration import instantiate
@@ -238,17 +238,10 @@ class Records:
         """A `fault` statement."""
         declaration, scope, env = event.declaration, event.scope, event.env
         try:
-            _, term, target = self.target(declaration.target, scope, event)
+            symbol, term, target = self.target(declaration.target, scope, event)
             place = Place(scope, env, scope.path + event.local)
-            value, own = self.values.quantity(declaration.value, place)
-            if not self.values.constant(value):
-                fail(self.report, "not-constant", "A fault event has a constant size.",
-                     declaration.value.origin, help="Use numbers and params.")  # fmt: skip
-            if declaration.op == "*=":
-                self.values.quantities.pure(own, declaration.value.origin, "a factor has no unit")
-            elif term is not None:
-                self.values.alike(term, own, declaration.origin, "a fault has the unit of its "
-                                  "target")  # fmt: skip
+            switch = symbol.symbol.kind is Kind.MODE
+            value = (self.position if switch else self.size)(declaration, place, term)
         except Skip:
             return
         name = scope.path + event.local
@@ -264,6 +257,28 @@ class Records:
             name, target, declaration.op, value, declaration.doc, declaration.name.origin
         )
 
+    def size(self, declaration: Fault, place: Place, term: Term | None) -> Expr:
+        """What a fault event does to a number; `term` is the unit of its target."""
+        value, own = self.values.quantity(declaration.value, place)
+        if not self.values.constant(value):
+            fail(self.report, "not-constant", "A fault event has a constant size.",
+                 declaration.value.origin, help="Use numbers and params.")  # fmt: skip
+        if declaration.op == "*=":
+            self.values.quantities.pure(own, declaration.value.origin, "a factor has no unit")
+        elif term is not None:
+            self.values.alike(term, own, declaration.origin, "a fault has the unit of its "
+                              "target")  # fmt: skip
+        return value
+
+    def position(self, declaration: Fault, place: Place, _: Term | None) -> Expr:
+        """Where a fault event holds a switch."""
+        value = self.values.condition(declaration.value, place) if declaration.op == "=" else None
+        if value is None or value.op is not Op.NUM:
+            fail(self.report, "wrong-type", f"`{declaration.target.origin.text}` is a switch: it "
+                 "can be held on or off.", declaration.value.origin,
+                 help="Write `= true` or `= false`.")  # fmt: skip
+        return value
+
     def target(self, ref: Ref, scope: Scope, event: instantiate.Event
                ) -> tuple[Expr, Term | None, str]:  # fmt: skip
         """The param, input or sensor that a fault acts on."""
@@ -275,7 +290,7 @@ class Records:
         place = Place(scope, event.env, scope.path + event.local)
         symbol, term = self.values.reference(ref, place)
         symbol = self.values.pool.logged([symbol])[0]
-        faulty = (Kind.PARAM, Kind.INPUT, Kind.SENSOR)
+        faulty = (Kind.PARAM, Kind.INPUT, Kind.SENSOR, Kind.MODE)
         if symbol.op is not Op.SYM or symbol.symbol.kind not in faulty:
             self.no_target(ref, symbol)
         return symbol, term, symbol.symbol.name

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead
 from bondgraph.runtime.diagnosis.isolation import (
     Explained,
     ExplainedPair,
@@ -16,7 +16,7 @@ from bondgraph.runtime.diagnosis.isolation import (
     explain_pairs,
     inverse,
 )
-from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine, copied
 
@@ -42,7 +42,8 @@ class Comparison:
     and what looks like one fault now looks like another that began a little earlier: once there is
     something to go by, each fault gets the onset that suits it best. And laws may be bent: where a
     fault is as large as the samples say, its slope is not that of a small one. So each is tried
-    again then with its own size.
+    again then with its own size. A switch that is stuck has no size: beside the rows as they were
+    told stand those that it would have made of the same samples. What is `tolerated` is so in both.
     """
 
     def __init__(
@@ -52,15 +53,20 @@ class Comparison:
         own: int,
         hypotheses: Sequence[Hypothesis],
         nominal: Mapping[str, float],
+        tolerated: Sequence[Hypothesis] = (),
     ) -> None:
         self._engine = copied(engine)
         self._healthy, self._own = healthy, own
         self._all, self._nominal = tuple(hypotheses), nominal
+        self._sized = [k for k, h in enumerate(self._all) if h.held is None]
+        self._tolerated = tuple(tolerated)
         self._changes: dict[int, float] = {}
         self._earlier = [0] * len(self._all)  # healthy samples that come behind the onset
-        self._banks = self._started({})
-        self._past: list[Row] = []
+        self._banks, self._instead = self._started({})
+        self._past: list[tuple[Row, Array]] = []  # with the noise of each residual
         self._rows: list[Rows] = []
+        self._others: list[dict[int, Rows]] = []  # by the number of what is held
+        self._unsaid = np.zeros((_GROWS, len(engine.residuals)), dtype=bool)
         self._again = 0  # rows with which secants are looked for again
 
     def __len__(self) -> int:
@@ -70,22 +76,24 @@ class Comparison:
         """Whether this row was the last one."""
         return bool(self._rows) and self._rows[-1].value is row.value
 
-    def step(self, row: Row, weight: Array) -> None:
-        """One more row, and one over the variance of its residuals."""
-        samples = row.samples if self._rows else row.samples[self._own :]
-        slopes = self._slopes(samples)
+    def step(self, row: Row, sigma: Array) -> None:
+        """One more row, and the noise (standard deviations) of its residuals."""
+        if not self._rows:
+            row = row._replace(samples=row.samples[self._own :])
         if len(self._past) < _BENT:
-            self._past.append(row._replace(samples=samples))
+            self._past.append((row, sigma.copy()))
+        one, others = self._seen(row, sigma, len(self._rows))
         if len(self._rows) < _MOST:
-            self._rows.append(Rows(row.value, weight, row.slopes, slopes))
+            self._rows.append(one)
+            self._others.append(others)
 
     def explained(self, history: History) -> list[Explained]:
         """How well each fault explains the rows; raises LinAlgError as `explain` does."""
         if not len(self._past) == len(self._rows) >= self._again:
-            return explain(self._table(), self._all, history)
+            return self._found(history)
         if not self._again:
             self._dated(history)
-        found = explain(self._table(), self._all, history)
+        found = self._found(history)
         self._again = 2 * len(self._rows)
         before: dict[int, tuple[float, float]] = {}
         for _ in range(_ROUNDS):
@@ -94,16 +102,29 @@ class Comparison:
                 break
             tried = {k: (self._changes.get(k, 0.0), change) for k, change in wanted.items()}
             self._try({k: self._next(k, before.get(k), tried[k]) for k in wanted})
-            found, before = explain(self._table(), self._all, history), tried
+            found, before = self._found(history), tried
         return found
 
     def pairs(self, history: History, singles: Sequence[Explained]) -> list[ExplainedPair]:
         """How well two of the `singles` at once explain the rows, with the onsets of these."""
-        return explain_pairs(self._table(), self._all, history, singles)
+        return explain_pairs(self._tables()[0], self._all, history, singles)
 
-    def _table(self) -> Rows:
-        rows = Rows(*[np.array(x) for x in zip(*self._rows, strict=True)])
-        return rows._replace(weight=1.0 / (inverse(rows.weight) + _early(rows.value)))
+    def _found(self, history: History) -> list[Explained]:
+        """How well each fault explains the rows as they are known now."""
+        rows, others = self._tables()
+        return explain(rows, self._all, history, others)
+
+    def _tables(self) -> tuple[Rows, dict[int, Rows]]:
+        """The rows as they were told, and as they should have been told, by hypothesis."""
+        rows = _stacked(self._rows)
+        others = {k: _stacked([own[k] for own in self._others]) for k in self._instead}
+        for other in others.values():
+            self._unsaid |= np.isnan(other.weight[:_GROWS])
+        early = _early(rows.value)
+        for one in (rows, *others.values()):  # all are compared by the same rows, at any onset
+            one.weight[:_GROWS][self._unsaid] = 0.0
+            one.weight[:] = 1.0 / (inverse(one.weight) + early)
+        return rows, others
 
     def _dated(self, history: History) -> None:
         """Let each fault begin when it makes what was seen most probable."""
@@ -113,35 +134,63 @@ class Comparison:
             if earlier <= len(self._healthy):
                 self._earlier = [earlier] * len(self._all)
                 self._try({})
-                for one in explain(self._table(), self._all, history):
+                for one in self._found(history):
                     known = best.get(one.fault)
                     if known is None or one.evidence > known[0]:
                         best[one.fault] = one.evidence, earlier
         self._earlier = [best[h.fault][1] for h in self._all]
         self._try({})
 
-    def _started(self, changes: Mapping[int, float]) -> list[tuple[list[int], Bank]]:
-        """Banks at the first row, one for each onset, with the numbers of their hypotheses."""
-        banks = []
+    def _started(
+        self, changes: Mapping[int, float]
+    ) -> tuple[list[tuple[list[int], Bank]], dict[int, Instead]]:
+        """Banks at the first row, one for each onset, with the numbers of their hypotheses.
+
+        And what has no slopes, by its number.
+        """
+        banks: list[tuple[list[int], Bank]] = []
+        instead = {}
         for earlier in dict.fromkeys(self._earlier):
-            own = [k for k, e in enumerate(self._earlier) if e == earlier]
+            own = [k for k in self._sized if self._earlier[k] == earlier]
             engine = copied(self._engine)
             count = len(self._healthy) - earlier
             engine.run(self._healthy[:count])
             begin = self._healthy[count - 1] if count else None
             known = [self._all[k] for k in own]
             bent = {at: changes[k] for at, k in enumerate(own) if k in changes}
+            for k, one in enumerate(self._all):
+                if one.held is not None and self._earlier[k] == earlier:
+                    other = Bank(copied(engine), self._tolerated, self._nominal, begin)
+                    instead[k] = Instead(other, one.held)
+                    instead[k].run(self._healthy[count:])
             bank = Bank(engine, known, self._nominal, begin, bent)
             bank.run(self._healthy[count:])
             banks.append((own, bank))
-        return banks
+        return banks, instead
 
-    def _slopes(self, samples: Array) -> Array:
-        """What each hypothesis does to the residuals, at the end of the samples."""
-        found = np.zeros((len(self._all), len(self._engine.residuals)))
+    def _seen(self, row: Row, sigma: Array, number: int) -> tuple[Rows, dict[int, Rows]]:
+        """A row with what each hypothesis does to it, and what it is instead where one holds.
+
+        Residuals that have no value instead yet, in the first rows, have no weight (NaN) in any.
+        """
+        slopes = np.zeros((len(self._all), len(self._engine.residuals)))
         for own, bank in self._banks:
-            found[own] = bank.run(samples)[-1]
-        return found
+            slopes[own] = bank.run(row.samples)[-1]
+        told = Rows(row.value, weight(row, sigma), row.slopes, slopes)
+        others = {}
+        for k, instead in self._instead.items():
+            value, valid, rest, moved = instead.run(row.samples)
+            other = weight(row._replace(value=value, valid=valid), sigma)
+            other[told.weight == 0] = 0.0
+            other[~valid & (told.weight > 0)] = np.nan
+            new = moved if number < _GROWS else moved & valid
+            others[k] = Rows(
+                np.where(new, value, told.value),
+                np.where(new, other, told.weight),
+                np.where(new, rest, told.rest),
+                slopes[:0],
+            )
+        return told, others
 
     def _bent(self, found: Sequence[Explained]) -> dict[int, float]:
         """Changes that are large and clear enough for a secant, by number of the hypothesis."""
@@ -149,7 +198,7 @@ class Comparison:
         for one in found:
             size = abs(one.change)
             least = max(_SMALL * one.hypothesis.usual, _CLEAR * one.deviation)
-            if least <= size < np.inf:
+            if least <= size < np.inf and one.hypothesis.held is None:
                 k = self._all.index(one.hypothesis)
                 changes[k] = self._within(k, one.change)
         return changes
@@ -175,12 +224,16 @@ class Comparison:
     def _try(self, changes: dict[int, float]) -> None:
         """The rows again, with slopes as far as the changes go."""
         try:
-            banks = self._started(changes)
+            started = self._started(changes)
         except ValueError:  # the model cannot take one of them
-            banks, changes = self._started({}), {}
-        self._banks, self._changes = banks, changes
-        for k, row in enumerate(self._past):
-            self._rows[k] = self._rows[k]._replace(slopes=self._slopes(row.samples))
+            started, changes = self._started({}), {}
+        (self._banks, self._instead), self._changes = started, changes
+        for k, (row, sigma) in enumerate(self._past):
+            self._rows[k], self._others[k] = self._seen(row, sigma, k)
+
+
+def _stacked(rows: Sequence[Rows]) -> Rows:
+    return Rows(*[np.array(x) for x in zip(*rows, strict=True)])
 
 
 def _alike(left: Mapping[int, float], right: Mapping[int, float]) -> bool:

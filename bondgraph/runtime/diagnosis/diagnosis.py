@@ -175,7 +175,7 @@ class Diagnosis:
             self._fire(row.time, fresh, [], out)
         if not self._detection.alarmed:
             self._remember(row)
-        elif self._judge.step(row, self._past, self._limits[:, 0]):
+        elif self._judge.step(row, self._past, self._limits[:, 0], self._tolerated):
             self._explain(row, out)
             self._over(row, out)
 
@@ -223,7 +223,7 @@ class Diagnosis:
         sigma = self._limits[:, 0]
         if not past:
             none = np.empty((0, len(self._engine.signals)))
-            self._judge.compare(self._before, none, 0, [], sigma)
+            self._judge.compare(self._before, none, 0, [], sigma, self._tolerated)
             return time
         engine, piece = (chosen[0].engine, [chosen[0].samples]) if chosen else (self._before, piece)
         last = past[begin]
@@ -232,7 +232,7 @@ class Diagnosis:
         fired = self._detection.fired
         count = samples_before(engine, samples, self._history, last.slopes, noise, fired)
         healthy = np.concatenate([last.samples, samples[:count]])
-        self._judge.compare(last.engine, healthy, count, chosen, sigma)
+        self._judge.compare(last.engine, healthy, count, chosen, sigma, self._tolerated)
         return last.time + count * self._engine.sample_time
 
     def _odd(self, row: Row) -> bool:

@@ -11,8 +11,8 @@ from bondgraph.ir.expr import Op, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.program import Program
 from bondgraph.ir.residuals import ResidualSet
-from bondgraph.ir.signature_matrix import DoubleFaults, SignatureMatrix
-from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis
+from bondgraph.ir.signature_matrix import DoubleFaults, ModeSignatures, SignatureMatrix, stuck
+from bondgraph.runtime.diagnosis.hypotheses import COUNT, Hypothesis, Stuck
 from bondgraph.runtime.diagnosis.remembered import Memory, memories
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.parameters import Values, units
@@ -41,8 +41,9 @@ class DiagnosisModel(NamedTuple):
     `faults` that some residual sees, with the nominal value of a parameter and None for a signal;
     `tolerances` relative; `sees` for each residual its faults; `groups` the faults that structure
     does not tell apart; `memories` are what residuals keep of their first sample; `natures` by
-    residual; `deliveries` are the faults that are what a controller gives beyond its command.
-    `doubles` tells which two faults at once could look like a third one, when it is asked.
+    residual; `deliveries` are the faults that are what a controller gives beyond its command;
+    `switches` that may be stuck, by the name of the fault. `doubles` tells which two faults at once
+    could look like a third one, when it is asked.
     """
 
     faults: Mapping[str, float | None]
@@ -53,6 +54,7 @@ class DiagnosisModel(NamedTuple):
     memories: tuple[Memory, ...]
     natures: Mapping[str, Nature]
     deliveries: frozenset[str]
+    switches: Mapping[str, Stuck]
     doubles: Callable[[], DoubleFaults]
 
     @property
@@ -66,13 +68,18 @@ def diagnosis_model(
     residuals: ResidualSet,
     matrix: SignatureMatrix,
     program: Program,
+    modes: ModeSignatures,
     doubles: Callable[[], DoubleFaults],
 ) -> DiagnosisModel:
     """What a diagnosis knows of a model, as far as the code sees its faults at its sample rate."""
     values = Values(graph)
     numbers = {v.name: values.constant(v.symbol) for v in graph.values}
+    known = switches(modes, program)
     sees = {
-        r.name: tuple(f for f in r.faults if f not in r.invisible)
+        r.name: (
+            *(f for f in r.faults if f not in r.invisible),
+            *(f for f, s in known.items() if r.name in s.ever([r.name])),
+        )
         for r in program.residuals
         if not r.unavailable
     }
@@ -82,12 +89,60 @@ def diagnosis_model(
         {v.name: float(v.tolerance) for v in graph.values if v.tolerance},
         units(graph),
         sees,
-        matrix.groups,
+        grouped(matrix, modes, known),
         memories(program),
         _natures(graph, residuals, program),
         frozenset(v.name for v in graph.values if v.delivery),
+        known,
         doubles,
     )
+
+
+def switches(found: ModeSignatures, program: Program) -> dict[str, Stuck]:
+    """The switches that residuals read, on and off, with what shows of it in each mode.
+
+    A mode that the machine cannot be in is left out: what is told is wrong then. So are all where
+    they are too many to be listed.
+    """
+    read = {k.path for k in program.knowns if k.kind == "mode"}
+    modes = tuple(name for name in found.names if name in read)
+    residuals = {r.path: r.name for r in program.residuals}
+    listed = found.modes if len(found.modes) == found.total else ()
+    out = {}
+    for signal, position in ((m, p) for m in modes for p in (False, True)):
+        moves: dict[tuple[bool, ...], frozenset[str]] = {}
+        for mode, rows in ((m, m.matrix) for m in listed):
+            told = tuple(mode.modes[m] for m in modes)
+            if rows is not None:
+                other = mode.modes[signal] is not position and signal in rows.faults
+                own = rows.seen_by(signal) if other else ()
+                moves[told] = moves.get(told, frozenset()).union(residuals[r] for r in own)
+        if any(moves.values()) or not moves:
+            out[stuck(signal, position)] = Stuck(signal, position, modes, moves)
+    return out
+
+
+def grouped(
+    matrix: SignatureMatrix, found: ModeSignatures, known: Mapping[str, Stuck]
+) -> list[tuple[str, ...]]:
+    """The faults that structure does not tell apart, a switch with one like it in every mode."""
+    listed = [(m, m.matrix) for m in found.modes if m.matrix is not None]
+    none = (False,) * len(matrix.residuals)
+    groups = list(matrix.groups)
+    looks: dict[tuple[tuple[bool, ...], ...], int] = {}
+    for k, group in enumerate(groups):
+        for fault in group:
+            looks.setdefault(tuple(rows.row(fault) for _, rows in listed), k)
+    for name, switch in known.items():
+        own = tuple(
+            rows.row(switch.signal)
+            if name in m.stuck.values() and switch.signal in rows.faults
+            else none
+            for m, rows in listed
+        )
+        at = looks.setdefault(own, len(groups))
+        groups[at:] = [(*groups[at], name), *groups[at + 1 :]] if at < len(groups) else [(name,)]
+    return groups
 
 
 def _natures(graph: BondGraph, residuals: ResidualSet, program: Program) -> dict[str, Nature]:

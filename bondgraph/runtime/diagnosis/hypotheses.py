@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Mapping, Sequence
+from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
 
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
@@ -19,7 +20,38 @@ _SLIP = 1 / 8  # of a turn, by which an encoder usually slips
 _APART = 3.0  # time constants of the filter between two rows
 
 COUNT = "count"  # the unit of an encoder's offset
-Kind = Literal["value", "offset", "gain", "drift", "start"]
+Kind = Literal["value", "offset", "gain", "drift", "start", "stuck"]
+
+
+class Stuck(NamedTuple):
+    """A switch that is in one `position` whatever its `signal` tells, or a command that is lost.
+
+    `moves` has the residuals that this moves, by what the `modes` are told to be; where they are
+    told what is not among it, it may move any.
+    """
+
+    signal: str
+    position: float
+    modes: tuple[str, ...] = ()
+    moves: Mapping[tuple[bool, ...], frozenset[str]] = MappingProxyType({})
+
+    def ever(self, residuals: Sequence[str]) -> frozenset[str]:
+        """Those of some residuals that it moves in any mode."""
+        own = frozenset(residuals)
+        return own & frozenset().union(*self.moves.values()) if self.moves else own
+
+    def moved(self, told: Array, residuals: Sequence[str]) -> Mask:
+        """Which residuals it moves at samples that tell (n, modes); shape (n, residuals).
+
+        >>> moves = {(True,): frozenset({"r1"}), (False,): frozenset()}
+        >>> switch = Stuck("on", False, ("on",), moves)
+        >>> switch.moved(np.array([[0.0], [1.0]]), ["r1", "r2"]).tolist()
+        [[False, False], [True, False]]
+        """
+        settings, which = np.unique(told != 0, axis=0, return_inverse=True)
+        sets = [self.moves.get(tuple(row), residuals) for row in settings.tolist()]
+        found = np.array([[r in own for r in residuals] for own in sets], dtype=bool)
+        return found.reshape(len(settings), len(residuals))[which.reshape(-1)]
 
 
 class Hypothesis(NamedTuple):
@@ -28,7 +60,8 @@ class Hypothesis(NamedTuple):
     `value`: a parameter has another value; `offset`: a signal is wrong by a constant (an encoder
     has slipped); `gain`: a signal is wrong by a share of itself (an encoder misses counts);
     `drift`: an encoder misses so many counts a second (it stands still); `start`: only the first
-    sample of a signal is, so that what is remembered of it is wrong. `unit` is that of the change,
+    sample of a signal is, so that what is remembered of it is wrong; `stuck`: what acts is
+    `held` at a position, whatever is told, which has no size but 1. `unit` is that of the change,
     `usual` the size that is expected of it before anything is seen.
     A wrong sensor is so for who measures with it: a law that uses its reading acted on just this
     number, so that only the measurement is changed.
@@ -41,6 +74,7 @@ class Hypothesis(NamedTuple):
     unit: str
     usual: float
     turned: bool
+    held: Stuck | None = None
 
 
 class Bank:
@@ -163,17 +197,50 @@ class Bank:
         return told
 
 
+class Instead:
+    """The residuals of a machine in which a position is `held`: told that, they should be quiet.
+
+    The programs of the `bank` on the same samples with the position in place of what is told, from
+    the moment at which it begins.
+    """
+
+    def __init__(self, bank: Bank, held: Stuck) -> None:
+        self._bank, self._held = bank, held
+        place = {k.path: at for at, k in enumerate(bank.engine.signals)}
+        self._at, self._modes = place[held.signal], [place[m] for m in held.modes]
+        self._moved = np.zeros(len(bank.engine.residuals), dtype=np.bool_)
+
+    def run(self, samples: Array) -> tuple[Array, Mask, Array, Mask]:
+        """At the end of further samples: residuals, which are valid, and slopes of the bank.
+
+        Last which of them the position can have moved in the modes that were told so far. Others
+        are to be judged as they were told: they should be quiet as well.
+        """
+        told = samples.copy()
+        told[:, self._at] = self._held.position
+        slopes = self._bank.run(told)
+        batch = self._bank.batch
+        assert batch is not None
+        if not len(samples):
+            return batch.value, batch.valid, slopes, self._moved
+        moved = self._held.moved(samples[:, self._modes], self._bank.engine.residuals)
+        self._moved = self._moved | moved.any(axis=0)
+        return batch.value[-1], batch.valid[-1], slopes[-1], self._moved
+
+
 def hypotheses(
     engine: Engine,
     faults: Mapping[str, float | None],
     units: Mapping[str, str],
     sizes: Mapping[str, float],
+    switches: Mapping[str, Stuck] = MappingProxyType({}),
 ) -> tuple[Hypothesis, ...]:
     """All that may be wrong: a value for each parameter, offset and gain for each signal.
 
     `faults` are the paths that some residual sees, with the nominal value of a parameter and None
     for a signal; `sizes` is the usual size of a signal, of an encoder its speed in rad/s. Modes are
-    no faults.
+    wrong as `switches`, by the name of the fault. Where there are any, commands may be lost: that
+    is as certain in what it does, and would have to lose against them otherwise.
     """
     signals = {k.path: k for k in engine.signals}
     found = []
@@ -191,9 +258,12 @@ def hypotheses(
             unit = unit if counts is None else COUNT
             found.append(Hypothesis(path, "offset", unit, usual or _USUAL, turned))
             found.append(Hypothesis(path, "gain", "", _USUAL, turned))
+            if switches and turned:
+                found.append(Hypothesis(path, "stuck", "", 1.0, True, Stuck(path, 0.0)))
             if counts is not None:
                 rate = _USUAL * size * counts / (2 * math.pi)
                 found.append(Hypothesis(path, "drift", "count/s", rate, turned))
+    found += [Hypothesis(f, "stuck", "", 1.0, True, s) for f, s in switches.items()]
     return tuple(found)
 
 

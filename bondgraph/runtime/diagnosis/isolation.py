@@ -11,7 +11,8 @@ that did not speaks against it by as much as it would have moved, and no more.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
@@ -160,18 +161,30 @@ def inverse(weight: Array) -> Array:
     return np.where(weight > 0, 1.0 / np.maximum(weight, 1e-300), math.inf)
 
 
-def explain(rows: Rows, hypotheses: Sequence[Hypothesis], history: History) -> list[Explained]:
+def explain(
+    rows: Rows,
+    hypotheses: Sequence[Hypothesis],
+    history: History,
+    others: Mapping[int, Rows] = MappingProxyType({}),
+) -> list[Explained]:
     """How well each fault explains the rows since the onset, in the order of the hypotheses.
 
-    Raises numpy.linalg.LinAlgError where a number is none.
+    `others` are the rows as they would be if a hypothesis without a size were told to the
+    residuals, by its number. Raises numpy.linalg.LinAlgError where a number is none.
     """
     known, seen = _compared_with(rows, hypotheses, history)
+    told = {k: _seen(other, history.prior, np.zeros(0)) for k, other in others.items()}
+    if not all(np.isfinite(table).all() for table in told.values()):
+        raise np.linalg.LinAlgError("a residual or a weight is not finite")
     found = []
     for fault in dict.fromkeys(h.fault for h in hypotheses):
         own = [j for j, h in enumerate(hypotheses) if h.fault == fault]
-        alone = [_fits(known, seen, [j]) for j in own]
-        every = _fits(known, seen, own) if len(own) > 1 else []
-        found.append(_compared([hypotheses[j] for j in own], alone, every))
+        sized = [j for j in own if j not in told]
+        alone = [_fits(known, seen, [j]) for j in sized]
+        every = _fits(known, seen, sized) if len(sized) > 1 else []
+        ways = [_compared([hypotheses[j] for j in sized], alone, every)] if sized else []
+        ways += [_instead(hypotheses[j], known, seen, told[j]) for j in own if j in told]
+        found.append(_either(ways))
     return found
 
 
@@ -180,12 +193,12 @@ def explain_pairs(
 ) -> list[ExplainedPair]:
     """How well two faults at once explain the rows, the best pair first.
 
-    Each fault acts in the way in which it explains most alone, and one of both is among those that
-    explain most so: the first step of a search that adds one fault at a time. Two faults have the
-    same scales, and the prior of one; raises as `explain` does.
+    Each fault acts in the way in which it explains most alone, if that has a size, and one of both
+    is among those that explain most so: the first step of a search that adds one fault at a time.
+    Two faults have the same scales, and the prior of one; raises as `explain` does.
     """
     known, seen = _compared_with(rows, hypotheses, history)
-    leads = sorted(singles, key=lambda e: -e.evidence)
+    leads = sorted((e for e in singles if e.hypothesis.held is None), key=lambda e: -e.evidence)
     place = {e.fault: hypotheses.index(e.hypothesis) for e in leads}
     found = []
     for at, one in enumerate(leads[:_LEADS]):
@@ -273,6 +286,31 @@ def _fits(known: Array, seen: Array, own: Sequence[int]) -> list[_Fit]:
     # The triangle of all, less that of the healthy machine: what only a fault explains.
     left = _triangle(np.vstack([before, table.reshape(-1, table.shape[2])]))[rest:, rest:]
     return _scaled(left, spread[-size:])
+
+
+def _instead(hypothesis: Hypothesis, known: Array, told: Array, other: Array) -> Explained:
+    """A hypothesis without a size: the machine is well if residuals are told what it says.
+
+    `told` and `other` are what was seen as it was told and as it should have been told, each with
+    the same parameters off within their tolerances.
+    """
+    rest = len(known)
+    before, after = (
+        _triangle(np.vstack([known, table.reshape(-1, rest + 1)]))
+        for table in (told[:, :, [*range(rest), -1]], other)
+    )
+    misfit, left = (float(np.square(root[rest:, rest]).sum()) for root in (before, after))
+    size, others = (np.log(np.abs(np.diagonal(root)[:rest])).sum() for root in (before, after))
+    evidence = 0.5 * (misfit - left) + float(size - others)
+    share = 1.0 - left / misfit if misfit > 0 else 0.0
+    return Explained(hypothesis.fault, evidence, share, hypothesis, 1.0, 0.0)
+
+
+def _either(ways: Sequence[Explained]) -> Explained:
+    """A fault that is wrong by a size or held at a position: one as probable as the other."""
+    top = max(ways, key=lambda one: one.evidence)
+    weights = sum(math.exp(max(one.evidence - top.evidence, -700.0)) for one in ways)
+    return top._replace(evidence=top.evidence + math.log(weights / len(ways)))
 
 
 def _scaled(left: Array, last: Array) -> list[_Fit]:

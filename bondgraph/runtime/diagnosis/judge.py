@@ -9,7 +9,7 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
-from bondgraph.runtime.diagnosis.hypotheses import Sizes, hypotheses, sized
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Sizes, hypotheses, sized
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, History
 from bondgraph.runtime.diagnosis.naming import (
     Judgement,
@@ -34,7 +34,8 @@ _AGAIN = 5  # rows between later judgements
 class Judge:
     """Compares faults while an alarm is `latched`; between alarms it learns how large signals are.
 
-    `sigma` is the noise of each residual, by which rows are weighed.
+    `sigma` is the noise of each residual, by which rows are weighed, `tolerated` what their slopes
+    are about.
     """
 
     def __init__(self, engine: Engine, model: DiagnosisModel) -> None:
@@ -71,31 +72,41 @@ class Judge:
         self._compared, self.latched = None, None
 
     def compare(
-        self, engine: Engine, healthy: Array, own: int, rows: Sequence[Row], sigma: Array
+        self,
+        engine: Engine,
+        healthy: Array,
+        own: int,
+        rows: Sequence[Row],
+        sigma: Array,
+        tolerated: Sequence[Hypothesis],
     ) -> None:
         """Begin to compare faults behind the `healthy` samples, `own` of these of the first row."""
         model = self._model
         self._after = self._told = self._due = 0
-        self._pairs = ()
-        found = hypotheses(self._engine, model.faults, model.units, self._sizes.found())
+        self._pairs, sizes = (), self._sizes.found()
+        found = hypotheses(self._engine, model.faults, model.units, sizes, model.switches)
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
         found = sized(engine, found, model.deliveries, model.nominal, samples)
-        self._compared = Comparison(engine, healthy, own, found, model.nominal)
+        self._compared = Comparison(engine, healthy, own, found, model.nominal, tolerated)
         for row in rows:
-            self._compared.step(row, weight(row, sigma))
+            self._compared.step(row, sigma)
 
-    def step(self, row: Row, past: Sequence[Row], sigma: Array) -> bool:
+    def step(
+        self, row: Row, past: Sequence[Row], sigma: Array, tolerated: Sequence[Hypothesis]
+    ) -> bool:
         """One more row, the last of the `past`; False while there is none to begin with."""
         if self._compared is None:
-            self._begin_again(row, past, sigma)
+            self._begin_again(row, past, sigma, tolerated)
         if self._compared is None:
             return False
         if not self._compared.has(row):
-            self._compared.step(row, weight(row, sigma))
+            self._compared.step(row, sigma)
         self._after += 1
         return True
 
-    def _begin_again(self, row: Row, past: Sequence[Row], sigma: Array) -> None:
+    def _begin_again(
+        self, row: Row, past: Sequence[Row], sigma: Array, tolerated: Sequence[Hypothesis]
+    ) -> None:
         """After a restart: compare faults from the onset on, or from where there are residuals."""
         assert self.latched is not None
         since = self.latched.since
@@ -106,7 +117,7 @@ class Judge:
         first, samples = rows[0], len(rows[0].samples)
         ago = math.ceil((first.time - since) / self._engine.sample_time)
         healthy = 0 if anew or ago >= samples else samples - max(1, ago)
-        self.compare(first.engine, first.samples[:healthy], healthy, rows, sigma)
+        self.compare(first.engine, first.samples[:healthy], healthy, rows, sigma, tolerated)
 
     def verdict(
         self, time: float, levels: Mapping[str, float], noise: Mapping[str, float], history: History

@@ -244,6 +244,11 @@ def _best(found: Sequence[Explained]) -> Explained:
 
 def _candidate(explained: Explained, chance: float) -> Candidate:
     """A fault with the change that fits best: of the machine where it has changed."""
+    held = explained.hypothesis.held
+    if held is not None:  # what acts is nothing of what is told, or the other position
+        lost = explained.fault == held.signal
+        size, unit = (-100.0, "%") if lost else (None, "")
+        return Candidate(explained.fault, size, unit, round(chance, 4))
     size, unit = _size(explained.hypothesis, explained.change)
     return Candidate(explained.fault, size, unit, round(chance, 4))
 

@@ -140,9 +140,9 @@ def described(verdict: Verdict) -> str:
     else:
         text = "not clear yet which fault," if verdict.candidates else "an unknown fault"
     text += _since(verdict)
-    if len({c.probability for c in verdict.candidates}) > 1 or any(
-        c.size is not None for c in verdict.candidates
-    ):
+    sized = any(c.size is not None for c in verdict.candidates)
+    apart = len({c.probability for c in verdict.candidates}) > 1
+    if apart or sized or 0 < len(verdict.candidates) < len(verdict.group):
         text += ": " + listed([_candidate(c) for c in verdict.candidates], "or", 5)
     elif len(verdict.candidates) > 1:
         text += ", equally likely"

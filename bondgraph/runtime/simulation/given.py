@@ -46,12 +46,17 @@ class Acting(ABC):
 
     @property
     def disturbed(self) -> tuple[str, ...]:
-        """What is changed by faults, samples that are missing aside."""
-        return tuple(n for n, w in self.wrong.items() if any(f.op != "missing" for f in w.faults))
+        """What is changed by faults, samples that are missing and switches aside."""
+        changed = (n for n, w in self.wrong.items() if any(f.op != "missing" for f in w.faults))
+        return tuple(n for n in changed if n not in self.modes)
 
     def setting(self, t: float) -> tuple[bool, ...]:
-        """The position of the switches at time t, in s."""
-        return tuple(self.told(name, t) != 0 for name in self.modes)
+        """The true position of the switches at time t, in s."""
+        return tuple(self._position(name, t) for name in self.modes)
+
+    def _position(self, name: str, t: float) -> bool:
+        gain, bias = self.wrong[name].at(t) if name in self.wrong else (1.0, 0.0)
+        return gain * self.told(name, t) + bias != 0
 
     def inputs(self, machine: Machine) -> Inputs:
         """What `machine.signals` are, as a function of time."""

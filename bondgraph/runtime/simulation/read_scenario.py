@@ -263,18 +263,34 @@ class _Reader:
             op = "+=" if found.op == "+=" else "*=" if found.op == "*=" else "="
             value, target = number, found.target
         else:
-            targets = [*self.values, *[n for n, i in self.inputs.items() if not i.mode],
-                       *self.sensors]  # fmt: skip
+            targets = [*self.values, *self.inputs, *self.sensors]
             if not self._known(table, "of", of, "parameter, input or sensor", targets):
                 return []
-            changed = self._change(table, of)
+            switch = of in self.inputs and self.inputs[of].mode
+            changed = self._position(table, of) if switch else self._change(table, of)
             if changed is None:
                 return []
             op, value = changed
+        if ramp and target in self.inputs and self.inputs[target].mode:
+            table.wrong("ramp", f"`{target}` is a switch: it is in one position or the other.",
+                        "Leave out `ramp`, or write `period` and `duty`.")  # fmt: skip
         said = label or event or f"{target} {table.text('change')}"
         table.finish()
         span = self.document.span(table.path)
         return [Fault(target, op, value, at, until, ramp, period, duty, said, span)]
+
+    def _position(self, table: Table, of: str) -> tuple[Change, float] | None:
+        """What a switch does instead of what it is told: `stuck`, `= true`, `= false`."""
+        text = table.text("change")
+        known: dict[str, tuple[Change, float]] = {
+            "stuck": ("stuck", 0.0), "= true": ("=", 1.0), "= false": ("=", 0.0)
+        }  # fmt: skip
+        if text not in known:
+            what = f"`{text}` is nothing that a switch does." if text else "There is no `change`."
+            table.wrong("change", what,
+                        f'`{of}` is told to be on or off. Write "stuck", "= true" or'
+                        ' "= false".')  # fmt: skip
+        return known.get(text)
 
     def _change(self, table: Table, of: str) -> tuple[Change, float] | None:
         """The operator and value of a change: `+= 100 Ohm`, `*= 0.5`, `= 3 V`, stuck, missing."""

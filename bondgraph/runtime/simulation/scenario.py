@@ -78,9 +78,9 @@ Change = Literal["+=", "*=", "=", "stuck", "missing"]
 class Fault(NamedTuple):
     """Something goes wrong: the value of `target` changes by `op` `value`, from `at` on (s).
 
-    `stuck` keeps the value of the moment, `missing` gives no sample. It sets in over `ramp`
-    seconds, ends at `until`, and with a `period` it is there for the share `duty` of each.
-    `label` is what to call it.
+    `stuck` keeps the value of the moment, `missing` gives no sample. A switch is 1 or 0. It sets
+    in over `ramp` seconds, ends at `until`, and with a `period` it is there for the share `duty` of
+    each. `label` is what to call it.
 
     >>> Fault("R", "*=", 1.3, at=3.0, label="worn brush").until
     inf

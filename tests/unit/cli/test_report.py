@@ -57,6 +57,14 @@ def report(model: Path, folder: Path, *more: str, status: int = 0) -> str:
     return out.read_text(encoding="utf-8")
 
 
+def test_what_shows_of_a_stuck_switch(tmp_path: Path) -> None:
+    """The oven: r1 is the balance of its heater, where told on P is missing, told off too much."""
+    text = report(ROOT / "models" / "oven.bg", tmp_path)
+    told_off, told_on = text.split("<h4>on on</h4>")
+    assert "<p>on stuck on: moves r1, like Ch.</p>" in told_off
+    assert "<p>on stuck off: moves r1, like Ch or P.</p>" in told_on
+
+
 @pytest.mark.parametrize("model", MODELS, ids=lambda p: p.stem)
 def test_a_page_is_whole_and_fetches_nothing(model: Path, tmp_path: Path) -> None:
     text = report(model, tmp_path)

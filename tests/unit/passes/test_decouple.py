@@ -220,7 +220,7 @@ def test_with_a_mode() -> None:
     assert set(relation.faults) == {"Ch", "Co", "Ga", "Ta", "Th", "To"}
     for mode in c.mode_signatures.modes:
         assert mode.matrix is not None
-        assert set(mode.matrix.signature(relation.name)) == set(relation.faults)
+        assert set(mode.matrix.signature(relation.name)) == {*relation.faults, *mode.modes}
 
 
 def test_it_helps_to_isolate() -> None:

@@ -287,9 +287,10 @@ def test_in_each_mode_of_the_controller() -> None:
     for mode in c.mode_signatures.modes:
         assert mode.matrix is not None
         found.append((mode.modes, [set(mode.matrix.signature(r)) for r in mode.matrix.residuals]))
+    # told the other of manual and K*(r - y), both are off by the difference of these
     assert found == [
-        ({"auto": False}, [{"manual", "c", "g", "pump", "y"}, {"manual", "u"}]),
-        ({"auto": True}, [{"K", "r", "c", "g", "pump", "y"}, {"K", "r", "u"}]),
+        ({"auto": False}, [{"manual", "c", "g", "pump", "y", "auto"}, {"manual", "u", "auto"}]),
+        ({"auto": True}, [{"K", "r", "c", "g", "pump", "y", "auto"}, {"K", "r", "u", "auto"}]),
     ]
 
 

@@ -1,0 +1,256 @@
+"""Switches that are not where they are told to be, and what must not be taken for one."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bondgraph
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Stuck
+from bondgraph.runtime.diagnosis.isolation import History, Rows, explain
+from bondgraph.runtime.log import Log
+from bondgraph.runtime.monitoring.clock import on_grid
+from bondgraph.runtime.monitoring.verdict import (
+    Verdict,
+    described,
+    from_json,
+    to_json,
+    to_text,
+)
+from bondgraph.runtime.simulation.read_scenario import read_scenario
+from bondgraph.text.diagnostic import Report
+from bondgraph.text.source import Source
+from tests.switched.plants import COIL, Mode, log
+
+ROOT = Path(__file__).parents[4]
+
+CIRCUIT = """bg 1
+model Circuit {
+    param R = 2 Ohm +- 5%
+    param C = 0.1 F +- 5%
+    param G = 0.2 S +- 5%
+    input on : bool
+    input U : V
+    Se:U -> 1:a when on { -> R:R; -> Df:i; -> 0:o }
+    o { -> C:C; -> R:load = 1/G; -> De:v }
+}
+"""
+CHARGED = """
+inputs.U = "12 + 3*sin(0.7*t)"
+inputs.on = "sin(2*pi*t/6) > 0"
+sensors.i.noise = 0.01
+sensors.v.noise = 0.02
+"""
+BUCK = """bg 1
+model Buck {
+    param L = 0.5 H +- 5%
+    param R = 1 Ohm +- 5%
+    param C = 0.05 F +- 5%
+    param G = 0.1 S +- 5%
+    input on : bool
+    input E : V
+    Se:E -> 1:transistor when on { -> 0:node }
+    Se:ground = 0 V -> 1:diode when not on { -> node }
+    node -> 1:coil { -> I:L; -> R:R; -> Df:i; -> 0:out }
+    out { -> C:C; -> R:load = 1/G; -> De:v }
+}
+"""
+CONVERTED = """
+inputs.E = "24 + 4*sin(0.7*t)"
+inputs.on = "sin(2*pi*t/6) > 0"
+sensors.all.noise = 0.05
+"""
+GEARS = """bg 1
+model Gears {
+    param J = 0.2 +- 5%
+    param a = 2 +- 1%
+    param b = 3 +- 1%
+    param f = 0.5 +- 5%
+    input low : bool
+    input T
+    Se:T -> 1:shaft { -> I:J; -> Df:w1 }
+    shaft -> TF:gear { f1 = if(low, a, b)*f2 } -> 1:wheel { -> R:f; -> Df:w2 }
+}
+"""
+DRIVEN = """
+inputs.T = "2 + sin(0.9*t)"
+inputs.low = "sin(2*pi*t/6) > 0"
+sensors.all.noise = 0.01
+"""
+MODELS = {"circuit": (CIRCUIT, CHARGED), "buck": (BUCK, CONVERTED), "gears": (GEARS, DRIVEN)}
+
+
+@cache
+def compiled(name: str) -> Compilation:
+    return Compilation(Source(f"{name}.bg", MODELS[name][0]))
+
+
+def watched(c: Compilation, run: Log) -> list[Verdict]:
+    engine = c.engine()
+    diagnosis, said = c.diagnosis(engine), []
+    for piece in on_grid(engine, run):
+        said += diagnosis.update(piece.time, engine.run(piece.samples), piece.samples)
+    return said
+
+
+@cache
+def said(name: str, of: str, change: str, seed: int = 3) -> list[Verdict]:
+    """Both positions are learned for 18 s, then something is wrong; parameters within tolerance."""
+    c, report = compiled(name), Report()
+    text = f'duration = 29\nseed = {seed}\nspread = "uniform"\n{MODELS[name][1]}'
+    text += f'[[fault]]\nof = "{of}"\nchange = "{change}"\nat = 18.5\n'
+    scenario = read_scenario(Source("s.toml", text), c.graph, report)
+    assert scenario is not None, report.diagnostics
+    return watched(c, c.simulate(scenario).log)
+
+
+def updates(verdicts: list[Verdict]) -> list[Verdict]:
+    assert not [v for v in verdicts if v.event == "fault" and v.time < 18.5]
+    found = [v for v in verdicts if v.event == "update"]
+    assert found
+    return found
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+@pytest.mark.parametrize(
+    ("name", "change", "named"),
+    [
+        ("circuit", "= false", "on stuck off"),
+        ("circuit", "= true", "on stuck on"),
+        ("circuit", "stuck", "on stuck on"),
+        ("buck", "= true", "on stuck on"),
+        ("gears", "= false", "low stuck off"),
+        ("gears", "= true", "low stuck on"),
+    ],
+)
+def test_a_switch_that_does_not_obey_is_named(
+    name: str, change: str, named: str, seed: int
+) -> None:
+    first = updates(said(name, "low" if name == "gears" else "on", change, seed))[0]
+    assert first.candidates[0].fault == named and first.candidates[0].probability > 0.95
+    assert named in first.group
+    assert first.candidates[0].size is None and named in described(first)
+    assert from_json(to_json(first, 1)) == (1, first)
+
+
+@pytest.mark.parametrize(
+    ("name", "of", "change"),
+    [
+        ("circuit", "R", "*= 1.4"),
+        ("circuit", "R", "*= 4"),
+        ("circuit", "G", "*= 2"),
+        ("circuit", "U", "*= 0.1"),
+        ("circuit", "U", "= 3 V"),
+        ("circuit", "U", "stuck"),
+        ("circuit", "i", "*= 0"),
+        ("circuit", "v", "+= 1 V"),
+        ("buck", "R", "*= 3"),
+        ("buck", "E", "*= 0.5"),
+        ("buck", "i", "*= 1.3"),
+        ("gears", "w2", "*= 0.8"),
+        ("gears", "f", "*= 2"),
+    ],
+)
+def test_what_is_no_stuck_switch_is_not_called_one(name: str, of: str, change: str) -> None:
+    for verdict in updates(said(name, of, change)):
+        assert verdict.candidates[0].fault == of
+        assert not any("stuck" in c.fault for c in verdict.candidates), described(verdict)
+
+
+def test_a_command_that_does_not_arrive_has_its_size() -> None:
+    """The supply at 0 V discharges C through R, which an open switch does not."""
+    first = updates(said("circuit", "U", "*= 0"))[0]
+    assert first.candidates[0][:3] == ("U", -100.0, "%") and first.candidates[0].probability > 0.95
+
+
+@pytest.mark.parametrize(("of", "change"), [("E", "*= 0"), ("on", "= false")])
+@pytest.mark.parametrize("seed", [3, 4])
+def test_what_is_the_same_machine_is_not_told_apart(of: str, change: str, seed: int) -> None:
+    """A converter without supply and one whose transistor stays off: 0 V at the node in both."""
+    for verdict in updates(said("buck", of, change, seed)):
+        chance = {c.fault: c.probability for c in verdict.candidates}
+        assert set(chance) == {"E", "on stuck off"} and max(chance.values()) < 0.9
+        assert not verdict.group or {"E", "on stuck off"} <= set(verdict.group)
+
+
+def test_on_exact_samples_of_a_coil_that_is_not_cut_off() -> None:
+    """Told open every other two seconds; from the 13th on it stays closed."""
+    plan: list[Mode] = [(k % 2 == 0,) for k in range(10)]
+    true = [*plan[:6], *[(True,)] * 4]
+    found = log(COIL._replace(plan=true), 2.0, 1000.0)
+    draw = np.random.default_rng(7)
+    columns = {n: x + draw.normal(size=len(x)) * 0.01 for n, x in found.signals.items()}
+    columns["closed"] = np.repeat([float(on) for (on,) in plan], 2000)
+    time = np.arange(len(columns["v"])) / 1000.0
+    c = Compilation(Source("coil.bg", COIL.text))
+    verdicts = watched(c, Log(time, columns, {}, {}))
+    first = next(v for v in verdicts if v.event == "fault")
+    assert first.since == pytest.approx(14.0, abs=0.15) and set(first.residuals) == {"r2"}
+    update = next(v for v in verdicts if v.event == "update")
+    assert update.group == ("closed stuck on",) and update.candidates[0].probability > 0.95
+
+
+def test_the_oven_of_the_documentation() -> None:
+    """Its relay stays closed from 1200 s to 1440 s, told off from 1320 s on, open from 1920 s."""
+    c = bondgraph.compile(ROOT / "models" / "oven.bg", rate=10.0)
+    run = c.simulate(ROOT / "models" / "scenarios" / "oven_relay.toml")
+    told = [v for v in watched(c, run.log) if v.event in ("fault", "update", "cleared")]
+    assert [v.event for v in told] == ["fault", "update", "cleared", "fault", "update"]
+    assert told[0].since == pytest.approx(1320.0, abs=15.0)
+    assert told[1].group == ("on stuck on",)
+    assert told[3].since == pytest.approx(1920.0, abs=15.0)
+    assert {c.fault for c in told[4].candidates} == {"on stuck off", "P"}
+    page = (ROOT / "docs" / "monitoring.md").read_text()
+    assert "\n".join(to_text(v) for v in told) in page
+
+
+def test_which_modes_it_shows_in() -> None:
+    """Current flows if both are on: one alone shows only where the other is told on."""
+    text = """bg 1
+model M { param R=2
+input s1 : bool; input s2 : bool
+Se:U -> 1:a when s1 and s2 { -> R:R; -> Df:i } }"""
+    model = Compilation(Source("m.bg", text)).diagnosis_model
+    seen, not_seen = frozenset({"r1"}), frozenset[str]()
+    settings = [(False, False), (False, True), (True, False), (True, True)]
+    moves = {f: [s.moves[m] for m in settings] for f, s in model.switches.items()}
+    assert moves == {
+        "s1 stuck off": [not_seen, not_seen, not_seen, seen],
+        "s1 stuck on": [not_seen, seen, not_seen, not_seen],
+        "s2 stuck off": [not_seen, not_seen, not_seen, seen],
+        "s2 stuck on": [not_seen, not_seen, seen, not_seen],
+    }
+    # open is open, and so is a broken wire; one relation tells no fault of it from another
+    assert [set(group) for group in model.groups] == [
+        {"R", "U", "i", "s1 stuck off", "s2 stuck off"}, {"s1 stuck on"}, {"s2 stuck on"}
+    ]  # fmt: skip
+    assert set(model.sees["r1"]) == {"R", "U", "i", *model.switches}
+    switch, told = model.switches["s1 stuck on"], np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0]])
+    assert switch.moved(told, ["r1"]).tolist() == [[False], [True], [False]]
+    assert Stuck("U", 0.0).moved(told[:, :0], ["r1"]).all()
+
+
+def test_its_evidence_is_that_of_a_healthy_machine_told_otherwise() -> None:
+    """Against the density of the normal distribution, parameters within tolerance included."""
+    draw = np.random.default_rng(1)
+    n, prior = 6, np.array([0.3, 0.1])
+    told, other = draw.normal(size=(2, n, 1)) + np.array([5.0, 0.0])[:, None, None]
+    rest, rest_other = draw.normal(size=(2, n, 2, 1))
+    weight = draw.uniform(0.5, 2.0, size=(n, 1))
+    lost = Hypothesis("on stuck off", "stuck", "", 1.0, True, Stuck("on", False))
+    rows = Rows(told, weight, rest, np.zeros((n, 1, 1)))
+    others = {0: Rows(other, weight, rest_other, np.zeros((n, 0, 1)))}
+    (found,) = explain(rows, [lost], History(prior), others)
+
+    def density(value: np.ndarray, slopes: np.ndarray) -> float:
+        s = slopes[:, :, 0] * prior
+        spread = s @ s.T + np.diag(1.0 / weight[:, 0])
+        y = value[:, 0]
+        return float(-0.5 * y @ np.linalg.solve(spread, y) - 0.5 * np.linalg.slogdet(spread)[1])
+
+    assert found.evidence == pytest.approx(density(other, rest_other) - density(told, rest))
+    assert (found.change, found.deviation) == (1.0, 0.0)
