@@ -38,7 +38,7 @@ from bondgraph.notation.dialect import CodeSpeller, digits
 from bondgraph.notation.walk import reads
 from bondgraph.text.numerals import joined
 
-_PURE = ("sign", "ssqrt", "ssq", "equal", "min", "max", "power", "table", "root")
+_PURE = "sign ssqrt ssq equal min max power table along map inverse root".split()
 _ARITHMETIC = frozenset({"sign", "ssq", "min", "max"})  # functions that take no library
 
 _SCALED = ";\n * derivative k times time_unit to the power k"
@@ -52,7 +52,9 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
     stem, unset = facts.stem, any(f.default is None for f in program.params)
     has_dot = any(isinstance(s, Dot) for s in program.exact)
     unwritten = any(r.unwritten for r in program.residuals)
-    gaps = any(math.isnan(y) for _, points in program.tables for _, y in points)
+    gaps = "inverse" in facts.laws or any(
+        math.isnan(y) for _, points in program.tables for y in points[0]
+    )
     return {
         **_limits(program, facts, code),
         **_Declarations(program, spelling, stem).all(),
@@ -70,13 +72,13 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         "model": listing.harmless(program.name, target),
         "unset": " (NaN where the model has none)" if unset else "",
         "helpers": _helpers(program, facts, spelling, has_dot, code),
-        "tables": tables(program, spelling, "{{{0}, {1}}}", code.number),
+        "tables": tables(program, spelling, "{{{0}}}", code.number),
         "roots": roots(program, spelling, "real {0}", 8),
         "needs_functions": needs_library(facts),
         "libm": " -lm" if needs_library(facts) else "",
         "needs_math": needs_library(facts) or unset or unwritten or bool(program.roots) or gaps,
         "unwritten": unwritten,
-        "needs_stddef": "table" in facts.laws or has_dot or bool(code.tapes),
+        "needs_stddef": bool(program.tables) or has_dot or bool(code.tapes),
         "beyond_float": ", ".join(f"{n:g}" for n in facts.beyond_float[:8]),
         "exact": code.exact(),
         "blocks": [code.block(k, b) for k, b in enumerate(spelling.blocks)],

@@ -60,6 +60,7 @@ def facts(program: Program) -> Facts:
     numbers += [f.default for f in program.params if f.default is not None]
     beyond = [n for n in numbers if n and not _FLOAT_MIN <= abs(n) <= _FLOAT_MAX]
     laws = functions(run) | (functions(_values(program.configure)) - {"exp"})
+    laws |= {"along"} if laws & {"map", "inverse"} else set()
     stem = snake(program.name)
     headline = f"{program.name}: residuals that are near zero while the machine is well."
     if program.bounds:

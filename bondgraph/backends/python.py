@@ -27,7 +27,7 @@ from bondgraph.notation.dialect import CodeSpeller, digits
 from bondgraph.notation.walk import reads
 from bondgraph.text.numerals import joined
 
-_HELPERS = ("sign", "ssqrt", "ssq", "power", "table", "root")
+_HELPERS = ("sign", "ssqrt", "ssq", "power", "table", "along", "map", "inverse", "root")
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 _TYPES = {"real": "float", "bool": "bool", "count": "int"}
 
@@ -83,7 +83,7 @@ class _Module:
             "helpers": self._helpers(),
             "roots": roots(program, self.spelling, "{0}: float", 12),
             "tables": [
-                *tables(program, self.spelling, "({0}, {1})", _number, ("",)),
+                *tables(program, self.spelling, "({0})", _number, ("",)),
                 *map(self._tape_table, self.tapes),
             ],
             "exact": self._exact(),
@@ -361,7 +361,8 @@ class _Module:
         return [*body, *lines(statements, spelling, speller, 8)]
 
     def _helpers(self) -> list[str]:
-        found = [name for name in _HELPERS if name in self.facts.laws]
+        laws = self.facts.laws | ({"table"} if "along" in self.facts.laws else set())
+        found = [name for name in _HELPERS if name in laws]
         wanted = {"exponential": exponential(self.program), "dot": self.has_dot}
         wanted["tape"] = bool(self.tapes)
         return found + [name for name, needed in wanted.items() if needed]

@@ -9,8 +9,8 @@ from functools import cached_property
 from bondgraph.backends.blocks import Block, blocks
 from bondgraph.backends.identifiers import identifier, snake, spellings
 from bondgraph.backends.target import Target
-from bondgraph.ir.expr import backwards, read_backwards
 from bondgraph.ir.program import Known, Mode, PolynomialTape, Program, Ref, Statement, flat
+from bondgraph.ir.tables import backwards, is_map
 
 #: Suffixes of the further members that exact takes for one signal.
 INTEGRAL, DOUBLE_INTEGRAL, START = "integral", "double_integral", "start"
@@ -43,10 +43,7 @@ class Spelling:
         self.residuals = spellings((r.name for r in program.residuals), words | {"valid"})
         #: the names of the numbers of the residuals: `R1`
         self.numbers = self._numbers(program)
-        called = {
-            name: f"{read_backwards(name)}_inverse" if backwards(name) else name
-            for name, _ in program.tables
-        }
+        called = {name: _wish(name, is_map(rows)) for name, rows in program.tables}
         called |= {f"root:{b.name}": f"root_{b.name}" for b in program.roots}
         free = spellings(called.values(), target.reserved)
         self.tables = {name: free[wish] for name, wish in called.items()}
@@ -183,6 +180,14 @@ def suffixes(known: Known) -> tuple[str, ...]:
     if known.start:
         found.append(START)
     return tuple(found)
+
+
+def _wish(name: str, is_map: bool) -> str:
+    """What a table would like to be called; the readings of a map share its rows where they can."""
+    own = name.rstrip("'")
+    if is_map:
+        return f"{own}_turned" if name == f"{own}''" else own
+    return f"{own}_inverse" if backwards(name) else own
 
 
 def _locals(program: Program) -> Iterable[str]:

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import os
-from fractions import Fraction
-
 from bondgraph.ir.expr import Expr, Kind, Op, Pool
 from bondgraph.ir.functions import FUNCTIONS, Function
 from bondgraph.ir.syntax import Call, Text
@@ -12,21 +9,17 @@ from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration.expressions import Expressions, Place
 from bondgraph.passes.elaboration.problems import Skip, fail, meant
 from bondgraph.passes.elaboration.quantities import PURE, Quantities
+from bondgraph.passes.elaboration.read_table import read_table
 from bondgraph.passes.elaboration.scope import Typed
 from bondgraph.text.diagnostic import Report
-from bondgraph.text.source import Source
 
 _ALIASES = {f.spoken: name for name, f in FUNCTIONS.items() if f.spoken}
 
 #: What is no function of numbers, or is written with others, and how many arguments it takes.
 _OTHERS = {
-    "int": (1, 2), "der": (1, 1), "table": (2, 2), "if": (3, 3), "hypot": (2, 2), "log10": (1, 1),
+    "int": (1, 2), "der": (1, 1), "table": (2, 3), "if": (3, 3), "hypot": (2, 2), "log10": (1, 1),
     "min": (2, 64), "max": (2, 64),
 }  # fmt: skip
-Points = tuple[tuple[Fraction, Fraction], ...]
-
-_HELP = "A table has two columns, x and y, in SI units, with x ascending, and two rows or more."
-_LARGEST = 10**300
 
 
 def names() -> tuple[str, ...]:
@@ -44,7 +37,7 @@ class Calls(Expressions):
         self.integrands: dict[Expr, Expr] = {}
         self.origins: dict[Expr, Call] = {}
         self._names: dict[str, int] = {}
-        self._tables: dict[tuple[str, str], str] = {}
+        self._tables: dict[tuple[str, str, int], str] = {}
 
     def call(self, call: Call, place: Place) -> Typed:
         """A call of any function."""
@@ -187,72 +180,21 @@ class Calls(Expressions):
         return name if number == 1 else f"{name}_{number}"
 
     def table(self, call: Call, place: Place) -> Typed:
-        """`table("file.csv", x)`: piecewise linear; nothing is known of its units."""
-        file = call.arguments[0]
+        """`table("file.csv", x)` or `(..., x, y)`: piecewise linear; its units are not known."""
+        file, *inputs = call.arguments
         if not isinstance(file, Text):
             fail(self.report, "wrong-type", "The first argument of `table` is a file name in "
                  "quotes.", file.origin, help='Write `table("file.csv", x)`.')  # fmt: skip
-        node, _ = self.quantity(call.arguments[1], place)
+        nodes = [self.quantity(argument, place)[0] for argument in inputs]
         source = place.scope.definition.source
-        key = (source.path, file.value)
+        key = (source.path, file.value, len(nodes))
         name = self._tables.get(key)
         if name is None:
-            points = read_table(file, source, self.report)
-            wish = name = file.value.rstrip("'")  # which marks a table read backwards
-            while name in self.pool.tables and self.pool.tables[name] != points:
+            rows = read_table(file, len(nodes), source, self.report)
+            wish = name = file.value.rstrip("'")  # which mark a table read backwards
+            while name in self.pool.tables and self.pool.tables[name] != rows:
                 name = self.unique(wish)
-            self.pool.tables[name] = points
+            self.pool.tables[name] = rows
             self._tables[key] = name
         term = self.quantities.dimensions.fresh(call.origin, f'table("{file.value}")')
-        return self.pool.fn(f"table:{name}", node), term
-
-
-def read_table(file: Text, source: Source, report: Report) -> Points:
-    """The points of a piecewise linear function; raises Skip where the file has none.
-
-    The file is looked for beside the model. A first line without numbers is taken for a heading;
-    empty lines and lines that begin with `#` are left out; commas, semicolons, tabs and blanks
-    separate.
-    """
-    path = os.path.join(os.path.dirname(source.path), file.value)
-    try:
-        with open(path, encoding="utf-8-sig") as stream:
-            lines = stream.read().splitlines()
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is no text"
-        fail(report, "unreadable-table", f'The table "{file.value}" cannot be read: {reason}.',
-             file.origin, help="The path is taken from the folder of the model file."
-             )  # fmt: skip
-    points: list[tuple[Fraction, Fraction]] = []
-    headed = False
-    for number, line in enumerate(lines, 1):
-        cells = line.split("#")[0].replace(",", " ").replace(";", " ").split()
-        if not cells:
-            continue
-        values = [_number(c) for c in cells]
-        if None in values and not points and not headed:
-            headed = True
-            continue
-        x, y = (values[0], values[1]) if len(values) == 2 else (None, None)
-        if x is None or y is None:
-            fail(report, "wrong-table", f'Line {number} of "{file.value}" is no pair of numbers.',
-                 file.origin, help=_HELP)  # fmt: skip
-        if points and x <= points[-1][0]:
-            fail(report, "wrong-table", f'Line {number} of "{file.value}": x does not ascend.',
-                 file.origin, help=_HELP)  # fmt: skip
-        points.append((x, y))
-    if len(points) < 2:
-        fail(report, "wrong-table", f'"{file.value}" has fewer than two points.', file.origin,
-             help=_HELP)  # fmt: skip
-    return tuple(points)
-
-
-def _number(text: str) -> Fraction | None:
-    """An exact number within the range of a double, or None."""
-    try:
-        rough = float(text)
-        if len(text) > 400 or not abs(rough) < _LARGEST:
-            return None
-        return Fraction(text) if rough else Fraction(0)
-    except (ValueError, ZeroDivisionError):
-        return None
+        return self.pool.fn(f"table:{name}", *nodes), term

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from bondgraph.algebra.derivative import TooManyOperations
 from bondgraph.algebra.normalise import LIMIT, normalise
 from bondgraph.algebra.present import closed_form
-from bondgraph.ir.expr import Expr, Op, Symbol, topological
+from bondgraph.ir.expr import Expr, Pool, Symbol, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.program import (
@@ -16,6 +16,7 @@ from bondgraph.ir.program import (
     Assignment,
     Dropped,
     Field,
+    Function,
     Opening,
     PolynomialTape,
     Program,
@@ -28,7 +29,7 @@ from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
 from bondgraph.passes.lowering.luenberger import Luenberger
-from bondgraph.passes.lowering.newton import newton_blocks, roots_in
+from bondgraph.passes.lowering.newton import newton_blocks
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.program_names import brief, identifier, short
 from bondgraph.passes.lowering.prune import pruned
@@ -167,13 +168,13 @@ def lower(
         rate=options.rate,
         bandwidth=options.bandwidth or options.rate / 50,
         warmup=max([_warmup(low.info) for low in lowered], default=0.0),
-        tables=tables(graph, exprs),
+        tables=(),
         roots=newton_blocks(graph.pool, exprs),
         integrals=tuple(builder.integrals.values()),
         time_unit=time_unit,
         openings=tuple(low.opening for low in lowered if low.opening is not None),
     )
-    program = pruned(program)
+    program = with_tables(pruned(program), graph.pool)
     return program._replace(digest=digest(program, graph.source.text))
 
 
@@ -326,15 +327,19 @@ def _text(graph: BondGraph, residual: Residual, starts: Mapping[Symbol, Expr]) -
     return f"{residual.name}: {residual.closing.name} with everything else inserted"
 
 
-def tables(
-    graph: BondGraph, exprs: list[Expr]
-) -> tuple[tuple[str, tuple[tuple[float, float], ...]], ...]:
-    """The tables that expressions look something up in, with their points."""
-    used: dict[str, None] = {}
-    for node in topological([*exprs, *[r.zero for r in roots_in(exprs)]]):
-        if node.op is Op.FN and node.name.startswith("table:"):
-            used[node.name.removeprefix("table:")] = None
-    return tuple((name, graph.pool.rows(name)) for name in used)
+def with_tables(program: Program, pool: Pool) -> Program:
+    """The program with the tables that it looks something up in."""
+    found: dict[str, None] = {}
+    stack: list[object] = [
+        (program.configure, program.exact, program.first, program.step, program.roots)
+    ]
+    while stack:
+        node = stack.pop()
+        if isinstance(node, Function) and node.name.startswith("table:"):
+            found[node.name.removeprefix("table:")] = None
+        if isinstance(node, tuple):
+            stack += reversed(node)
+    return program._replace(tables=tuple((name, pool.rows(name)) for name in found))
 
 
 #: What a program without is the same as it was before there was such a field.
