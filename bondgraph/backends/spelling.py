@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from functools import cached_property
 
-from bondgraph.backends.blocks import Block, blocks
+from bondgraph.backends.blocks import Block, blocks, lines
 from bondgraph.backends.identifiers import identifier, snake, spellings
 from bondgraph.backends.target import Target
 from bondgraph.ir.program import Known, Mode, PolynomialTape, Program, Ref, Statement, flat
@@ -33,12 +33,12 @@ class Spelling:
     def __init__(self, program: Program, target: Target) -> None:
         self.target = target
         self.prefix = f"{snake(program.name).upper()}_"
-        self._known = {k.name: k for k in program.knowns}
+        self._known = {k.name: k for k in program.read}
         self._arrays = {f.name for f in program.coefs if f.size}
         words = target.words
         self.params = spellings((f.name for f in program.params), words)
         self.coefs = spellings((f.name for f in program.coefs), words)
-        self.knowns = spellings((k.name for k in program.knowns), words)
+        self.knowns = spellings((k.name for k in program.read), words)
         self.states = spellings((f.name for f in program.states), words)
         self.residuals = spellings((r.name for r in program.residuals), words | {"valid"})
         #: the names of the numbers of the residuals: `R1`
@@ -50,6 +50,8 @@ class Spelling:
         self.locals = spellings(_locals(program), target.reserved)
         self.inputs = self._inputs(program)
         self.blocks = blocks(program)
+        #: the samples that step remembers, by the signal: how many at most, and for what
+        self.lines = lines(program)
         self._openings = program.openings
         self.encoders = self._encoders()
 
@@ -85,9 +87,9 @@ class Spelling:
         return {key: free[name] for key, name in wanted.items()}
 
     def _inputs(self, program: Program) -> dict[tuple[str, str], str]:
-        wanted: dict[tuple[str, str], str] = {(k.name, ""): k.name for k in program.knowns}
+        wanted: dict[tuple[str, str], str] = {(k.name, ""): k.name for k in program.read}
         wanted |= {("", f.name): f.name for f in program.integrals}
-        for known in program.knowns:
+        for known in program.read:
             for suffix in suffixes(known):
                 wanted[known.name, suffix] = f"{known.name}_{suffix}"
         taken = set(self.target.words) | {"time"}

@@ -304,6 +304,18 @@ class Known(NamedTuple):
     sampled: bool = True
 
 
+class Delayed(NamedTuple):
+    """A past value of a known signal: `known` is what the signal `of` was `seconds` ago.
+
+    `step` remembers samples for it; between two of them it is on a straight line. It has no value
+    before there are samples that old, and what reads it starts when they are there.
+    """
+
+    known: Known
+    of: str
+    seconds: float
+
+
 class Dropped(NamedTuple):
     """A term that `step` leaves out because it cannot be seen at the sample rate."""
 
@@ -382,3 +394,9 @@ class Program(NamedTuple):
     roots: tuple[NewtonBlock, ...] = ()  # each may use those before it
     bounds: str = ""  # the program whose residuals these results are thresholds of
     openings: tuple[Opening, ...] = ()  # of the residuals that start anew where switches turn
+    delayed: tuple[Delayed, ...] = ()  # past values of the known signals
+
+    @property
+    def read(self) -> tuple[Known, ...]:
+        """The known signals and their past values."""
+        return (*self.knowns, *[d.known for d in self.delayed])

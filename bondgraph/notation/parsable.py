@@ -19,7 +19,7 @@ from bondgraph.text.tuples import NamedTuple
 #: Names that mean something in the text and so cannot be names of the model as well.
 FUNCTIONS = frozenset(
     "D Int ssqrt Abs sign sqrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh"
-    " atan2 Min Max Piecewise Eq And Or Not nan".split()
+    " atan2 delay Min Max Piecewise Eq And Or Not nan".split()
 )
 _RENAMED = {"abs": "Abs", "min": "Min", "max": "Max", "and": "And", "or": "Or", "not": "Not"}
 #: Above this many written nodes, parts that occur more than once get a name.

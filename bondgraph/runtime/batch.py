@@ -80,6 +80,9 @@ class Lanes(Interpreter):
         for space, given in spaces.items():
             for name, value in given.items():
                 self.values[Ref(space, name)] = np.asarray(value, float)[()]
+        for past in self.program.delayed:  # what is steady was so before
+            if past.of in signals:
+                self.values[Ref("known", past.known.name)] = self.values[Ref("known", past.of)]
         with np.errstate(all="ignore"):
             self.run(self.program.first if states is None else self.program.step)
         return self._of("residual"), self._of("state")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from bondgraph.ir.expr import Expr, Kind, Op, Pool
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols
 from bondgraph.ir.functions import FUNCTIONS, Function
-from bondgraph.ir.syntax import Call, Text
+from bondgraph.ir.syntax import Call, Expression, Text
 from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration.expressions import Expressions, Place
 from bondgraph.passes.elaboration.problems import Skip, fail, meant
@@ -12,14 +12,24 @@ from bondgraph.passes.elaboration.quantities import PURE, Quantities
 from bondgraph.passes.elaboration.read_table import read_table
 from bondgraph.passes.elaboration.scope import Typed
 from bondgraph.text.diagnostic import Report
+from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 _ALIASES = {f.spoken: name for name, f in FUNCTIONS.items() if f.spoken}
 
 #: What is no function of numbers, or is written with others, and how many arguments it takes.
 _OTHERS = {
-    "int": (1, 2), "der": (1, 1), "table": (2, 3), "if": (3, 3), "hypot": (2, 2), "log10": (1, 1),
-    "min": (2, 64), "max": (2, 64),
+    "int": (1, 2), "der": (1, 1), "delay": (2, 2), "table": (2, 3), "if": (3, 3), "hypot": (2, 2),
+    "log10": (1, 1), "min": (2, 64), "max": (2, 64),
 }  # fmt: skip
+
+
+class Past(NamedTuple):
+    """What a known signal `base` said some time ago: `age` in s."""
+
+    base: Expr
+    age: Expr
+    origin: Span
 
 
 def names() -> tuple[str, ...]:
@@ -38,6 +48,8 @@ class Calls(Expressions):
         self.origins: dict[Expr, Call] = {}
         self._names: dict[str, int] = {}
         self._tables: dict[tuple[str, str, int], str] = {}
+        #: past values of known signals: whose and how old, where they are written
+        self.past: dict[Expr, Past] = {}
 
     def call(self, call: Call, place: Place) -> Typed:
         """A call of any function."""
@@ -61,6 +73,8 @@ class Calls(Expressions):
                 return self.derivative(call, place)
             case "table":
                 return self.table(call, place)
+            case "delay":
+                return self.delay(call, place)
             case "min" | "max":
                 return self.extreme(name, call, place)
             case "atan2" | "hypot" | "pow":
@@ -173,6 +187,38 @@ class Calls(Expressions):
             self.integrands[known[0]] = node
             self.origins[known[0]] = call
         return known[0], result
+
+    def delay(self, call: Call, place: Place) -> Typed:
+        """`delay(x, T)` of known signals: each is another signal, its own past."""
+        node, term = self.quantity(call.arguments[0], place)
+        age = self.age(call.arguments[1], place)
+        mapping: dict[Expr, Expr] = {}
+        for symbol in symbols(node):
+            if symbol.kind in CONSTANTS:
+                continue
+            if symbol.kind not in (Kind.INPUT, Kind.READING):
+                what = symbol.symbol.name.rpartition(".int")[0] or symbol.symbol.name
+                fail(self.report, "delay-inside", f"`{what}` is no known signal: only what is "
+                     "logged has a past that can be looked up.", call.origin,
+                     help="Delay the whole of what a sensor reads, `sensor y = delay(x, T)`, the "
+                     "reading of a sensor, or an input that is a number.")  # fmt: skip
+            before = self.past.get(symbol)
+            base, ages = (symbol, age) if before is None else (
+                before.base, self.pool.add((1, before.age), (1, age)))  # fmt: skip
+            own = self.pool.symbol(f"delay({base.symbol.name}, {ages})", symbol.symbol.kind)
+            mapping[symbol] = own
+            self.past.setdefault(own, Past(base, ages, call.origin))
+        return self.pool.substitute([node], mapping)[0], term
+
+    def age(self, argument: Expression, place: Place) -> Expr:
+        """The second argument of `delay`: a time that no fault changes."""
+        age, term = self.quantity(argument, place)
+        self.alike(term, self.quantities.seconds, argument.origin, "a delay is a time")
+        if any(s.kind is not Kind.CONST for s in symbols(age)):
+            fail(self.report, "delay-time", f"`{argument.origin.text}` may change: a delay is a "
+                 "number.", argument.origin, help="Write a number, or declare it `const`."
+                 )  # fmt: skip
+        return age
 
     def unique(self, name: str) -> str:
         """The name, with a number from its second use on."""

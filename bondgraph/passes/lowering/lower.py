@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from bondgraph.algebra.derivative import TooManyOperations
 from bondgraph.algebra.normalise import LIMIT, normalise
 from bondgraph.algebra.present import closed_form
-from bondgraph.ir.expr import Expr, Pool, Symbol, topological
+from bondgraph.ir.expr import Expr, Kind, Pool, Symbol, symbols, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.program import (
@@ -157,6 +157,7 @@ def lower(
         digest="",
         params=builder.param_fields(wanted),
         knowns=builder.known_fields([*exprs, *switched.read]),
+        delayed=builder.delayed_fields([*exprs, *switched.read]),
         coefs=tuple(builder.fields),
         states=tuple(s for low in lowered for s in low.states),
         residuals=tuple(low.info for low in lowered),
@@ -192,6 +193,8 @@ def _realise(
     name = identifier(residual.name)
     origin = residual.closing.origin
     info = ResidualInfo(name, residual.name, text, 0, 0, faults, (), origin)
+    if any(_whole(builder, s) for s in symbols(residual.expr)):
+        found = "a switch or an encoder in it would have to be remembered"
     if not isinstance(found, str):
         kept = (*found.joined.kept, *found.apart.kept)
         stages = max([order(t) for t in kept], default=0) + options.extra_order
@@ -252,6 +255,14 @@ def _followed(
         follows=observer.sensor,
     )
     return _Lowered(info, chain.first, chain.step, chain.states, [])
+
+
+def _whole(builder: Builder, symbol: Expr) -> bool:
+    """Whether a symbol is a past value of what nothing lies between: a mode, a count."""
+    signal = builder.signals.get(symbol)
+    if signal is None or signal.declared.of is None:
+        return False
+    return symbol.kind is Kind.MODE or signal.scale is not None
 
 
 def _warmup(info: ResidualInfo) -> float:
@@ -343,7 +354,7 @@ def with_tables(program: Program, pool: Pool) -> Program:
 
 
 #: What a program without is the same as it was before there was such a field.
-_ADDED = ("openings", "follows")
+_ADDED = ("openings", "follows", "delayed")
 
 
 def digest(program: Program, text: str) -> str:

@@ -87,6 +87,7 @@ def thresholds(
         " can be from zero if every parameter is within its tolerance.",
         params=builder.param_fields(builder.used),
         knowns=builder.known_fields([*exprs, *switched.read]),
+        delayed=builder.delayed_fields([*exprs, *switched.read]),
         coefs=tuple(builder.fields),
         states=tuple(s for one in found for s in one.states),
         residuals=tuple(one.info for one in found),

@@ -124,7 +124,7 @@ class Setting(NamedTuple):
         program = self.residuals.program
         settle = [r.settle for r in program.residuals if not r.unavailable]
         waits = [math.ceil(s * program.rate / self.bandwidth) for s in (*settle, program.warmup)]
-        return max(waits) / program.rate
+        return max(waits) / program.rate + max([d.seconds for d in program.delayed], default=0.0)
 
     @property
     def has_bound(self) -> list[bool]:
@@ -304,7 +304,7 @@ class _Monitor:
         self._monitor.reset()
 
     def follow(self, other: _Monitor) -> None:
-        for name in ("_x", "_e", "_age"):  # all that the generated class changes in `step`
+        for name in ("_x", "_e", "_age", "_lines"):  # all that the generated `step` changes
             if hasattr(other._monitor, name):
                 setattr(self._monitor, name, deepcopy(getattr(other._monitor, name)))
 
