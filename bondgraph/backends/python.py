@@ -138,7 +138,7 @@ class _Module:
         ]
         names = [m.name for m in samples(self.program, spelling)]
         return {
-            "lines": "".join(f"_Line({line.length}), " for line in spelling.lines.values()),
+            "lines": " ".join(f"_Line({line.length})," for line in spelling.lines.values()),
             "ages": [f"{digits(past.seconds)} / sample_time," for _, past in back],
             "kept": [
                 f"self._lines[{k}].keep(samples.{spelling.knowns[name]})"

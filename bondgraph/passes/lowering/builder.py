@@ -228,9 +228,12 @@ class Builder:
     def known_fields(self, exprs: list[Expr]) -> tuple[Known, ...]:
         """The known signals that occur in the residuals, inputs before sensors."""
         used = {n for n in topological(exprs) if n in self.signals}
-        used |= {self.base(n) for n in used}
-        own = [s for n, s in self.signals.items() if n in used and not s.declared.of]
-        return tuple(map(self._known, own))
+        late = {self.base(n) for n in used if self.signals[n].declared.of}
+        return tuple(
+            self._known(s)._replace(sampled=True) if n in late else self._known(s)
+            for n, s in self.signals.items()
+            if n in used | late and not s.declared.of
+        )
 
     def delayed_fields(self, exprs: list[Expr]) -> tuple[Delayed, ...]:
         """The past values that occur in the residuals."""

@@ -57,6 +57,10 @@ class Engine(Protocol):
         """Seconds from the first sample until all residuals are valid."""
 
     @property
+    def lags(self) -> tuple[float, ...]:
+        """The delays with which residuals read signals, in s, none first."""
+
+    @property
     def parameters(self) -> Mapping[str, float]:
         """The value of every parameter that the code reads, in SI units, by path."""
 
@@ -220,6 +224,8 @@ class OfSetting:
         self.signals, self.readings = setting.signals, setting.readings
         self.sample_time = 1.0 / setting.residuals.program.rate
         self.bandwidth, self.warm_up = setting.bandwidth, setting.warm_up
+        past = setting.residuals.program.delayed
+        self.lags = tuple(sorted({0.0, *[d.seconds for d in past]}))
         self.parameters: Mapping[str, float] = setting.parameters
 
 

@@ -311,6 +311,21 @@ def test_a_law_acts_on_an_old_reading_in_a_run_as_well() -> None:
         assert tuple(moved) == tuple(map(bool, c.signatures.row(fault))), fault
 
 
+@pytest.mark.parametrize("fault", ["U", "level", "R", "C"])
+def test_a_diagnosis_knows_that_a_command_shows_late(fault: str) -> None:
+    # U shows 2.5 s after it has gone wrong: taken for one that began when it shows, it is no match
+    c = _late()
+    scenario = _SCENARIO.format(_WAVE).replace("= 40", "= 90")
+    scenario += "[sensors.level]\nnoise = 0.005\n"
+    scenario += f'[[fault]]\nof = "{fault}"\nchange = "*= 1.3"\nat = 70\n'
+    log = c.simulate(read(c, scenario)).log
+    engine = c.engine(native=True)
+    samples = np.column_stack([log.columns[k.path] for k in engine.signals])
+    found = c.diagnosis(engine).update(log.time, engine.run(samples), samples)
+    (named,) = [v for v in found if v.event == "update"][-1:]
+    assert named.candidates[0].fault == fault, named.message
+
+
 def test_a_machine_without_an_end_is_refused() -> None:
     c = _late()
     with pytest.raises(SimulationError, match="`U` is delayed"):
