@@ -25,7 +25,7 @@ from bondgraph.ir.program import (
 )
 from bondgraph.ir.residuals import Observer, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
-from bondgraph.passes.lowering.builder import Builder
+from bondgraph.passes.lowering.builder import Builder, Signal
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
 from bondgraph.passes.lowering.luenberger import Luenberger
@@ -66,6 +66,7 @@ class LowerOptions(NamedTuple):
 
 
 DEFAULT = LowerOptions()
+_NOT_REMEMBERED = "a switch or an encoder in it would have to be remembered"
 
 
 def fastest(options: LowerOptions) -> float:
@@ -193,8 +194,9 @@ def _realise(
     name = identifier(residual.name)
     origin = residual.closing.origin
     info = ResidualInfo(name, residual.name, text, 0, 0, faults, (), origin)
-    if any(_whole(builder, s) for s in symbols(residual.expr)):
-        found = "a switch or an encoder in it would have to be remembered"
+    inside = [builder.signals[s] for s in symbols(residual.expr) if s in builder.signals]
+    if any(map(_whole, inside)):
+        found = _NOT_REMEMBERED
     if not isinstance(found, str):
         kept = (*found.joined.kept, *found.apart.kept)
         stages = max([order(t) for t in kept], default=0) + options.extra_order
@@ -208,6 +210,8 @@ def _realise(
             chain.run(found.own.kept, text)
         except TooManyOperations:
             found = _TOO_LONG
+        if window is not None and window.opening.modes and any(map(_late, inside)):
+            found = _NOT_REMEMBERED  # it would start anew before the switch shows
     if isinstance(found, str):
         nothing = Assign(Ref("residual", name), ZERO, f"{residual.name}: {found}", origin)
         info = info._replace(invisible=faults, unavailable=found)
@@ -257,12 +261,16 @@ def _followed(
     return _Lowered(info, chain.first, chain.step, chain.states, [])
 
 
-def _whole(builder: Builder, symbol: Expr) -> bool:
-    """Whether a symbol is a past value of what nothing lies between: a mode, a count."""
-    signal = builder.signals.get(symbol)
-    if signal is None or signal.declared.of is None:
-        return False
-    return symbol.kind is Kind.MODE or signal.scale is not None
+def _whole(signal: Signal) -> bool:
+    """Whether a signal is a past value of what nothing lies between: a mode, a count."""
+    whole = signal.symbol.kind is Kind.MODE or signal.scale is not None
+    return signal.declared.of is not None and whole
+
+
+def _late(signal: Signal) -> bool:
+    """Whether a relation with this signal is one of an earlier time: that of a late sensor."""
+    late = signal.symbol.kind is Kind.SENSOR and signal.declared.delay > 0
+    return late and signal.declared.of is None
 
 
 def _warmup(info: ResidualInfo) -> float:

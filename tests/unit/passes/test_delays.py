@@ -241,6 +241,36 @@ def test_a_switch_or_an_encoder_is_not_remembered(more: str) -> None:
         assert not info.unwritten
 
 
+_BRANCH = """bg 1
+model Branch {{
+    param R = 2
+    param C = 3
+    input on : bool
+    0:n {{ <- Sf:Q; -> R:load = 5; -> 1:sw when on {{ -> R:x = 4 }} }}
+    n -> 1:b {{ -> R:R; -> C:C }}
+    sensor e = {}
+    sensor f = {}
+}}
+"""
+
+
+def test_a_residual_would_start_anew_too_early_at_a_switch() -> None:
+    # D(e) - R D(f) - f/C has no mode, but e and f jump where the switch beside the branch turns
+    for delay, opens in (("{}", True), ("delay({}, 1 s)", False)):
+        c = compile(text=_BRANCH.format(delay.format("n.e"), delay.format("b.f")))
+        own = [k for k, r in enumerate(c.residuals) if "D(" in r.text and "on" not in r.text]
+        (info,) = [c.program.residuals[k] for k in own]
+        assert any(o.residual == info.name and o.modes for o in c.program.openings) == opens
+        assert bool(info.unavailable) != opens
+
+
+def test_what_is_known_at_once_is_taken_first() -> None:
+    c = _tank("U", "delay(tank.e, 2 s)", "tank -> De:quick")
+    assert [r.text for r in c.residuals] == [
+        "U - quick/R - C*D(quick)", "level - delay(quick, 2 s)",
+    ]  # fmt: skip
+
+
 # ------------------------------------------------------------------------------ simulation
 
 _SCENARIO = """
