@@ -66,6 +66,7 @@ class LowerOptions(NamedTuple):
 
 
 DEFAULT = LowerOptions()
+_MOST = 1e6  # samples of a signal that are remembered
 _NOT_REMEMBERED = "a switch or an encoder in it would have to be remembered"
 
 
@@ -195,8 +196,11 @@ def _realise(
     origin = residual.closing.origin
     info = ResidualInfo(name, residual.name, text, 0, 0, faults, (), origin)
     inside = [builder.signals[s] for s in symbols(residual.expr) if s in builder.signals]
+    longest = max([float(s.declared.delay) for s in inside if s.declared.of], default=0.0)
     if any(map(_whole, inside)):
         found = _NOT_REMEMBERED
+    elif longest * options.rate > _MOST:
+        found = f"{longest * options.rate:.2g} samples would have to be remembered"
     if not isinstance(found, str):
         kept = (*found.joined.kept, *found.apart.kept)
         stages = max([order(t) for t in kept], default=0) + options.extra_order

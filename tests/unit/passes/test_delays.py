@@ -241,6 +241,12 @@ def test_a_switch_or_an_encoder_is_not_remembered(more: str) -> None:
         assert not info.unwritten
 
 
+def test_a_memory_without_end_is_refused() -> None:
+    info = _tank("delay(U, 86400 s)").program.residuals[0]
+    assert info.unavailable == "8.6e+06 samples would have to be remembered"
+    assert not _tank("delay(U, 9999 s)").program.residuals[0].unavailable
+
+
 _BRANCH = """bg 1
 model Branch {{
     param R = 2
