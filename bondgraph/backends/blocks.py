@@ -79,6 +79,8 @@ def blocks(program: Program) -> tuple[Block, ...]:
 
 def lines(program: Program) -> dict[str, Line]:
     """The signals of which `step` needs past values."""
+    if not program.delayed:
+        return {}
     used = {name for block in blocks(program) for name in block.knowns}
     found: dict[str, Line] = {}
     for past in program.delayed:

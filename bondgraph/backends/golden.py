@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
-from bondgraph.backends.blocks import blocks, lines, recalled
+from bondgraph.backends.blocks import Line, blocks, lines, recalled
 from bondgraph.backends.forty_digits import Evaluation, Value, value
 from bondgraph.backends.spelling import DOUBLE_INTEGRAL, INTEGRAL, START, suffixes
 from bondgraph.ir.program import Known, Program, Ref
@@ -182,9 +182,10 @@ def _step(
     count = {k.name: 2**31 - 40 for k in program.knowns if k.counts is not None}
     total = dict.fromkeys(count, 0)
     found: list[Vector] = []
-    past: dict[str, list[float]] = {name: [] for name in lines(program)}
-    ages = dict.fromkeys(blocks(program), 0)
-    longest = max([line.length for line in lines(program).values()], default=0)
+    kept, parts = lines(program), blocks(program)
+    past: dict[str, list[float]] = {name: [] for name in kept}
+    ages = [0] * len(parts)
+    longest = max([line.length for line in kept.values()], default=0)
     for at in range(max(_SAMPLES, longest + _HELD) if longest < _REMEMBERED else _SAMPLES):
         values: dict[Ref, float] = {}
         for known in program.knowns:
@@ -199,27 +200,31 @@ def _step(
         if not program.openings or at % _HELD == 0:
             run.modes = _modes(program, numbers)
         run.values |= {ref: value(x) for ref, x in values.items()}
-        early = _recall(program, run, past, values)
-        for block in ages:
+        early = _recall(program.rate, kept, run, past, values)
+        for k, block in enumerate(parts):
             for name in block.residuals:
                 run.values[Ref("residual", name)] = value(0.0)
             if early.isdisjoint(block.knowns):
-                run.run(block.step if ages[block] else block.first)
-                ages[block] += 1
+                run.run(block.step if ages[k] else block.first)
+                ages[k] += 1
         results = _results(program, run.values)
         found.append(Vector(values, dict(run.modes), dict(count), results))
     return tuple(found)
 
 
 def _recall(
-    program: Program, run: Evaluation, past: dict[str, list[float]], values: dict[Ref, float]
+    rate: float,
+    kept: dict[str, Line],
+    run: Evaluation,
+    past: dict[str, list[float]],
+    values: dict[Ref, float],
 ) -> set[str]:
     """Give a run the past values that there are by this sample; the names of the others."""
     early = set()
-    for name, line in lines(program).items():
+    for name, line in kept.items():
         past[name].append(values[Ref("known", name)])
         for one in line.past:
-            then = recalled(past[name], one.seconds * program.rate)
+            then = recalled(past[name], one.seconds * rate)
             if math.isnan(then):
                 early.add(one.known.name)
             else:

@@ -15,6 +15,7 @@ from bondgraph.ir.program import (
     Assign,
     Assignment,
     Dropped,
+    Expression,
     Field,
     Function,
     Opening,
@@ -22,9 +23,12 @@ from bondgraph.ir.program import (
     Program,
     Ref,
     ResidualInfo,
+    Statement,
+    flat,
 )
 from bondgraph.ir.residuals import Observer, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
+from bondgraph.notation.walk import nodes
 from bondgraph.passes.lowering.builder import Builder, Signal
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
@@ -352,16 +356,18 @@ def _text(graph: BondGraph, residual: Residual, starts: Mapping[Symbol, Expr]) -
 
 def with_tables(program: Program, pool: Pool) -> Program:
     """The program with the tables that it looks something up in."""
-    found: dict[str, None] = {}
-    stack: list[object] = [
-        (program.configure, program.exact, program.first, program.step, program.roots)
-    ]
-    while stack:
-        node = stack.pop()
-        if isinstance(node, Function) and node.name.startswith("table:"):
-            found[node.name.removeprefix("table:")] = None
-        if isinstance(node, tuple):
-            stack += reversed(node)
+    run: list[Statement] = [*program.configure, *program.exact, *program.first, *program.step]
+    values: list[Expression] = []
+    for block in program.roots:
+        run += [*block.body, *block.further]
+        values += [block.value, block.slope]
+    for statement in flat(run):
+        if isinstance(statement, PolynomialTape):
+            values += statement.scales
+        elif isinstance(statement, Assign):
+            values.append(statement.value)
+    called = [node.name for node in nodes(values) if isinstance(node, Function)]
+    found = dict.fromkeys(n.removeprefix("table:") for n in called if n.startswith("table:"))
     return program._replace(tables=tuple((name, pool.rows(name)) for name in found))
 
 
