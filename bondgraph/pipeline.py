@@ -53,8 +53,8 @@ Form = Literal["derivative", "observer"] | tuple[str, ...]
 #: Options that change numbers of the residual program only, and the stages before it.
 _LATE = frozenset({"rate", "bandwidth", "targets"})
 _EARLY = frozenset(
-    "syntax graph integral derivative equations structure reduced _plant _analysis verification"
-    " observers".split()
+    "syntax graph integral derivative equations structure reduced _plant _analysis _shown"
+    " verification observers".split()
 )
 
 
@@ -307,7 +307,7 @@ class Compilation:
         """
         from bondgraph.views import Relations
 
-        return Relations(*self._analysis)
+        return Relations(*self._shown[1:])
 
     @cached_property
     def signatures(self) -> SignatureMatrix:
@@ -318,7 +318,7 @@ class Compilation:
         >>> matrix.signature("r1"), matrix.to_numpy().shape
         (('L', 'R', 'k', 'U', 'current', 'speed'), (9, 2))
         """
-        return self._analysis[1]
+        return self._shown[2]
 
     @cached_property
     def mode_signatures(self) -> ModeSignatures:
@@ -402,6 +402,17 @@ class Compilation:
         return self._stage((residuals, matrix))
 
     @cached_property
+    def _shown(self) -> tuple[BondGraph, ResidualSet, SignatureMatrix]:
+        """The relations in what a log has by one moment: past values where there are delays."""
+        from bondgraph.passes.relation.log_time import log_time
+
+        residuals, matrix = self._analysis
+        found = log_time(residuals)
+        if found is not residuals:
+            matrix = matrix._replace(orders=tuple(r.orders for r in found.residuals))
+        return found.system.graph, found, matrix
+
+    @cached_property
     def _plant(self) -> Plant:
         """The exact simulation of the model, independent of its elimination."""
         from bondgraph.exact.plant import Plant
@@ -452,7 +463,7 @@ class Compilation:
 
         assert self.verification
         return self._stage(
-            lower(self.graph, *self._analysis, self._lowering, observers=self._followed)
+            lower(*self._shown, self._lowering, observers=self._followed)
         )
 
     @cached_property
@@ -463,12 +474,12 @@ class Compilation:
         """
         from bondgraph.passes.lowering.lower import lower
 
-        relations = [r.expr for r in self._analysis[0].residuals]
+        relations = [r.expr for r in self._shown[1].residuals]
         program = self.program
         if self.graph.pool.logged(relations) == relations:
             return program
         return self._stage(
-            lower(self.graph, *self._analysis, self._lowering, True, observers=self._followed)
+            lower(*self._shown, self._lowering, True, observers=self._followed)
         )
 
     @cached_property
@@ -476,7 +487,7 @@ class Compilation:
         """The program of the adaptive thresholds, None for a model without tolerances."""
         from bondgraph.passes.lowering.thresholds import thresholds
 
-        own = self.graph, self._analysis[0], self.program, self._lowering
+        own = *self._shown[:2], self.program, self._lowering
         return thresholds(*own, observers=self._followed)
 
     @cached_property
@@ -561,7 +572,7 @@ class Compilation:
         """What a diagnosis has to know of the machine beside its residuals."""
         from bondgraph.runtime.diagnosis.healthy import diagnosis_model
 
-        own = self.graph, *self._analysis, self.program_with_readings
+        own = *self._shown, self.program_with_readings
         return diagnosis_model(*own, self.mode_signatures, lambda: self.double_faults)
 
     def diagnosis(self, engine: Engine, tuning: Tuning | None = None) -> Diagnosis:

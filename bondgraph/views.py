@@ -104,10 +104,10 @@ class Relation:
 
         if fault not in self._graph.faults:
             raise KeyError(fault)
-        symbol = self._graph.fault_symbol(fault)
+        wanted = self._graph.past(fault)
         pool, root = self._graph.pool, self.residual.expr
-        slope = sensitivity(pool, root, [symbol], self._starts)[symbol]
-        return pool.logged([slope])[0]
+        slopes = sensitivity(pool, root, wanted, self._starts)
+        return pool.logged([pool.add(*[(1, slopes[symbol]) for symbol in wanted])])[0]
 
     def effect(self, fault: str, signals: Mapping[str, Any], at: float = 0.0) -> float:
         """The relative sensitivity theta dr/dtheta: by how much the relation is off for 100 %.
@@ -132,7 +132,7 @@ class Relation:
         expr = self.sensitivity(fault) * to_sympy(self._graph.fault_symbol(fault))
         for f in expr.atoms(sp.core.function.AppliedUndef):
             if f.func.__name__ in signals:
-                known[f] = signals[f.func.__name__]
+                known[f] = sp.sympify(signals[f.func.__name__]).subs(t, f.args[0])
         for value in self._graph.values:
             number = nominal.value(value.symbol)
             if number is not None:

@@ -17,8 +17,10 @@ from itertools import pairwise
 from math import comb
 from typing import TypeAlias
 
-from bondgraph.ir.expr import CONSTANTS, RATIONAL, Expr, Kind, Op, Pool, backwards, topological
+from bondgraph.algebra.interpolation import interpolation
+from bondgraph.ir.expr import CONSTANTS, RATIONAL, Expr, Kind, Op, Pool, topological
 from bondgraph.ir.functions import FUNCTIONS
+from bondgraph.ir.tables import ROUNDING, backwards, columns, knots
 
 #: A node and the order of its derivative.
 _Key: TypeAlias = tuple[Expr, int]
@@ -194,11 +196,17 @@ class Jets:
 
     def _function(self, node: Expr, order: int) -> _Rule:
         pool, x = self.pool, node.args[0]
-        slope = yield x, 1
-        if len(node.args) == 1 and slope is pool.zero:
-            return pool.zero
-        if len(node.args) == 1:
-            return (yield from self._chain(_slopes(pool, node)[0], x, order))
+        yield x, 1
+        if len(node.args) == 1 or node.name.startswith("table:"):
+            moving = []
+            for at, arg in enumerate(node.args):
+                if (yield arg, 1) is not pool.zero:
+                    moving.append(at)
+            terms = []
+            for at in moving:
+                slope = _slopes(pool, node)[at]
+                terms.append((1, (yield from self._chain(slope, node.args[at], order))))
+            return pool.add(*terms)
         y = node.args[1]
         if node.name in ("min", "max"):
             first = pool.compare("<=" if node.name == "min" else ">=", x, y)
@@ -283,27 +291,60 @@ def root_slope(pool: Pool, node: Expr, place: Expr) -> Expr:
     return pool.substitute([pool.neg(own)], mapping)[0]
 
 
-def _table_slope(pool: Pool, name: str, x: Expr) -> Expr:
-    """The slope of a piecewise linear table as a choice by bisection; 0 outside its range.
+def _table_slopes(pool: Pool, node: Expr) -> list[Expr]:
+    """The slopes of a table by its arguments, each a choice by bisection; 0 outside its range.
 
-    Where the table has no value (`Pool.rows`) its slope is that lack of a value.
+    Where the table has no value (`opened`) its slope is that lack of a value. A map that is read
+    backwards moves with its other input as what it gives has to, to keep the value as it is.
     """
-    table = name.removeprefix("table:")
-    points = pool.tables[table]
-    edges = [p[0] for p in points]
-    inner = [pool.num((b[1] - a[1]) / (b[0] - a[0])) for a, b in pairwise(points)]
-    outside = pool.zero
-    if backwards(name):
-        outside = pool.fn(name, x)
-        edges[0], edges[-1] = (Fraction(pool.rows(table)[k][0]) for k in (0, -1))
-    slopes = [outside, *inner, outside]
+    name, (x, *others) = node.name.removeprefix("table:"), node.args
+    rows = pool.tables[name]
+    if not others:
+        points = [(pool.num(a), pool.num(b)) for a, b in rows]
+        return [_slope_of_curve(pool, points, x, node if backwards(name) else None)]
+    own = name.rstrip("'")
+
+    def value(first: Expr, second: Expr) -> Expr:
+        """What the map itself is; a number at numbers."""
+        if first.op is second.op is Op.NUM:
+            return pool.num(interpolation(rows)(first.number, second.number))
+        exchanged = len(name) - len(own) == 2
+        return pool.fn(f"table:{own}", *((second, first) if exchanged else (first, second)))
+
+    knots_x, knots_y = [list(map(pool.num, numbers)) for numbers in knots(rows)]
+    first = node if backwards(name) else x
+    across = [(y, value(first, y)) for y in knots_y]
+    along = [(a, value(a, others[0])) for a in knots_x]
+    by_other = _slope_of_curve(pool, across, others[0])
+    if not backwards(name):
+        return [_slope_of_curve(pool, along, x), by_other]
+    falls = columns(rows)[0][0] > columns(rows)[0][1]
+    inverse = [(z, a) for a, z in (reversed(along) if falls else along)]
+    by_value = _slope_of_curve(pool, inverse, x, node)
+    return [by_value, pool.neg(pool.mul(by_other, by_value))]
+
+
+def _slope_of_curve(
+    pool: Pool, points: list[tuple[Expr, Expr]], x: Expr, gap: Expr | None = None
+) -> Expr:
+    """The slope of what is straight between points; `gap` from its ends on, or zero."""
+    edges = [a for a, _ in points]
+    pairs = pairwise(points)
+    inner = [pool.div(pool.sub(d, b), pool.sub(c, a)) for (a, b), (c, d) in pairs]
+    slopes = [pool.zero, *inner, pool.zero]
+    if gap is not None:
+        slopes[0] = slopes[-1] = gap
+        low, high = edges[0], edges[-1]
+        edges[0] = pool.add((1 - ROUNDING, low), (ROUNDING, high))
+        edges[-1] = pool.add((ROUNDING, low), (1 - ROUNDING, high))
 
     def pick(low: int, high: int) -> Expr:
         if low == high:
             return slopes[low]
         middle = (low + high) // 2
-        below = pool.compare("<", x, pool.num(edges[middle]))
-        return pool.choose(below, pick(low, middle), pick(middle + 1, high))
+        return pool.choose(
+            pool.compare("<", x, edges[middle]), pick(low, middle), pick(middle + 1, high)
+        )
 
     return pick(0, len(slopes) - 1)
 
@@ -341,7 +382,7 @@ def partials(pool: Pool, node: Expr) -> list[Expr]:
 def _slopes(pool: Pool, node: Expr) -> list[Expr]:
     """The derivatives of a function by its arguments."""
     if node.name.startswith("table:"):
-        return [_table_slope(pool, node.name, node.args[0])]
+        return _table_slopes(pool, node)
     return [slope(pool, node, *node.args) for slope in FUNCTIONS[node.name].slopes]
 
 

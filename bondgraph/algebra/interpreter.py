@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 from functools import partial
 from typing import Any, NamedTuple, assert_never
 
+from bondgraph.algebra.interpolation import Points, interpolation
 from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.ir.program import (
     Assign,
@@ -32,33 +32,12 @@ from bondgraph.ir.program import (
     Sum,
     integer_power,
 )
+from bondgraph.ir.tables import backwards
 
 #: Anything with + - * / and comparisons: float, numpy.float32, Fraction, an array, a ball.
 Real = Any
-Points = Sequence[tuple[float, float]]
 #: A bracket this narrow, next to the widest step, ends the search: at a jump across zero.
 _NARROW = 1e-36
-
-
-def interpolation(points: Points) -> Callable[[Real], Real]:
-    """A table: straight between its points, which ascend in x, and constant beyond its ends.
-
-    >>> table = interpolation(((0.0, 1.0), (2.0, 5.0)))
-    >>> table(0.5), table(9.0)
-    (2.0, 5.0)
-    """
-    xs, ys = zip(*points, strict=True)
-    last = len(xs) - 1
-
-    def table(x: Real) -> Real:
-        if x <= xs[0]:
-            return ys[0]
-        if x >= xs[last]:
-            return ys[last]
-        k = min(bisect_right(xs, x), last)
-        return ys[k - 1] + (ys[k] - ys[k - 1]) * (x - xs[k - 1]) / (xs[k] - xs[k - 1])
-
-    return table
 
 
 def _branch(holds: Any, yes: Callable[[], Real], no: Callable[[], Real]) -> Real:
@@ -75,7 +54,7 @@ class Number(NamedTuple):
     real: Callable[[float], Real] = float
     functions: Mapping[str, Callable[..., Real]] = DOUBLES
     power: Callable[[Real, int], Real] = pow
-    table: Callable[[Points], Callable[[Real], Real]] = interpolation
+    table: Callable[[Points, bool], Callable[..., Real]] = interpolation
     choose: Callable[[Any, Callable[[], Real], Callable[[], Real]], Real] = _branch
 
 
@@ -93,7 +72,7 @@ class Interpreter:
         self.number = number
         self.values: dict[Ref, Real] = {}
         self.modes: Mapping[str, bool] = {}
-        self._tables = {name: number.table(points) for name, points in program.tables}
+        self._tables = {n: number.table(rows, backwards(n)) for n, rows in program.tables}
         self._roots = {block.name: block for block in program.roots}
 
     def configure(
@@ -201,7 +180,7 @@ class Interpreter:
         args = [self._value(a) for a in node.args]
         kind, _, name = node.name.partition(":")
         if kind == "table":
-            return self._tables[name](args[0])
+            return self._tables[name](*args)
         if kind == "root":
             return self._root(self._roots[name], args)
         power = integer_power(node)

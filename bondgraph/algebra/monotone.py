@@ -16,8 +16,9 @@ from bondgraph.algebra.affine import affine
 from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.algebra.zero import is_zero
 from bondgraph.field.evaluation import Evaluated
-from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, backwards, topological
+from bondgraph.ir.expr import CONSTANTS, Expr, Op, Pool, topological
 from bondgraph.ir.functions import ALL, FUNCTIONS, POSITIVE, Function, Interval
+from bondgraph.ir.tables import Rows, backwards, columns, is_map, knots, turned
 
 _INF = math.inf
 
@@ -177,7 +178,8 @@ def _slope_of_function(
     if node.name == "abs" and values[a].low >= 0:
         return slopes[a]
     if node.name.startswith("table:"):
-        return times(_slopes_of_table(pool, node.name), slopes[a])
+        ranges = zip(_slopes_of_table(pool, node.name), node.args, strict=True)
+        return add(*[times(own, slopes[b]) for own, b in ranges if b in slopes])
     own = _record(node).rates
     return None if own is None else times(own, slopes[a])
 
@@ -187,13 +189,30 @@ def _record(node: Expr) -> Function:
     return FUNCTIONS.get(node.name, Function(()))
 
 
-def _slopes_of_table(pool: Pool, name: str) -> Interval:
-    """Between its points; beyond its ends a table is constant, or has no value: see `Pool.rows`."""
+def _slopes_of_table(pool: Pool, name: str) -> list[Interval]:
+    """Between its points; beyond its ends a table is constant, or has no value: see `opened`."""
     name = name.removeprefix("table:")
-    slopes = [float((y1 - y0) / (x1 - x0)) for (x0, y0), (x1, y1) in pairwise(pool.tables[name])]
-    if not backwards(name):
-        slopes.append(0.0)
-    return Interval(min(slopes), max(slopes), False, False)
+    rows, read = pool.tables[name], backwards(name)
+    if not is_map(rows):
+        return [_steps(rows, 0 if read else 1)]
+    other = _steps(turned(rows), 1)
+    if not read:
+        return [_steps(rows, 1), other]
+    own = _steps(rows, -1)
+    return [own, scale(-1.0, times(other, own))]
+
+
+def _steps(rows: Rows, power: int) -> Interval:
+    """The slopes of a table along its first input, or those of what undoes it, to the power -1.
+
+    With the power 1 nothing of them is left beyond its ends.
+    """
+    numbers = knots(rows)[0]
+    found = [0.0] if power == 1 else []
+    for column in columns(rows):
+        steps = zip(pairwise(numbers), pairwise(column), strict=True)
+        found += [float(((d - c) / (b - a)) ** (power or 1)) for (a, b), (c, d) in steps]
+    return Interval(min(found), max(found), False, False)
 
 
 def _slope_of_root(pool: Pool, node: Expr, slopes: Mapping[Expr, Interval]) -> Interval | None:

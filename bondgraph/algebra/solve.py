@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from itertools import pairwise
 
 from bondgraph.algebra.affine import affine
 from bondgraph.algebra.implicit import invert
@@ -22,12 +21,12 @@ from bondgraph.ir.expr import (
     Pool,
     Rational,
     raised,
-    read_backwards,
     topological,
     whole,
 )
 from bondgraph.ir.functions import FUNCTIONS, root
 from bondgraph.ir.nodes import constant, holding
+from bondgraph.ir.tables import read_backwards, reading
 from bondgraph.text.tuples import NamedTuple
 
 #: How hard it is to have a value that iteration has to find.
@@ -180,10 +179,10 @@ def _peel(
             else:
                 target = pool.fn(inverse, target)
         elif node.op is Op.FN and node.name.startswith("table:"):
-            table = _inverse_table(pool, node.name)
-            if table is None:
+            found = _other_reading(pool, node, target, node.args.index(inner))
+            if found is None:
                 return None
-            target = pool.fn(table, target)
+            target = found
         else:
             return None
         node = inner
@@ -202,14 +201,13 @@ def _root(pool: Pool, target: Expr, power: int) -> Expr | None:
     return None if undoing is None else pool.fn(undoing, target)
 
 
-def _inverse_table(pool: Pool, name: str) -> str | None:
-    """The table read the other way, where it is strictly monotone."""
-    points = pool.tables[name.removeprefix("table:")]
-    values = [y for _, y in points]
-    steps = [b - a for a, b in pairwise(values)]
-    if not steps or not (all(s > 0 for s in steps) or all(s < 0 for s in steps)):
+def _other_reading(pool: Pool, node: Expr, value: Expr, at: int) -> Expr | None:
+    """The argument number `at` of a table that has a value, where it is strictly monotone in it."""
+    name, args = reading(node.name.removeprefix("table:"), node.args, value, at)
+    own = name.rstrip("'")
+    rows = read_backwards(pool.tables[own], len(name) - len(own)) if own != name else ()
+    if rows is None:
         return None
-    own = name.removeprefix("table:")
-    inverse = read_backwards(own)
-    pool.tables.setdefault(inverse, tuple(sorted((y, x) for x, y in points)))
-    return "table:" + inverse
+    if rows:
+        pool.tables.setdefault(name, rows)
+    return pool.fn(f"table:{name}", *args)

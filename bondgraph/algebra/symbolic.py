@@ -11,6 +11,7 @@ from sympy.logic.boolalg import Boolean
 
 from bondgraph.field.evaluation import Evaluated
 from bondgraph.ir.expr import KNOWN_SIGNALS, Expr, Op, Pool, Symbol
+from bondgraph.ir.past import past_of
 
 #: Time, on which every known signal depends in the SymPy form of a relation.
 t = sp.Symbol("t", real=True)
@@ -69,6 +70,10 @@ def to_sympy(
 
 
 def _symbol(node: Expr) -> Any:
+    past = past_of(node.symbol.name)
+    if past is not None:
+        of, seconds = past
+        return sp.Function(of, real=True)(t - sp.Rational(seconds.numerator, seconds.denominator))
     if node.symbol.kind in KNOWN_SIGNALS:
         return sp.Function(node.symbol.name, real=True)(t)
     return sp.Symbol(node.symbol.name, real=True)

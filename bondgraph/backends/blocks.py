@@ -5,11 +5,12 @@ A bad sample restarts the filter of the blocks that see its signal, and no other
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 from bondgraph.ir.groups import Groups
-from bondgraph.ir.program import Assignment, Const, Program, Ref, flat
+from bondgraph.ir.program import Assignment, Const, Delayed, Program, Ref, flat
 from bondgraph.notation.walk import references
 from bondgraph.text.tuples import NamedTuple
 
@@ -25,6 +26,17 @@ class Block(NamedTuple):
     step: tuple[Assignment, ...]
     begins: str  # what the filter does on its first sample
 
+
+class Line(NamedTuple):
+    """The last `length` samples of a signal, remembered for its `past` values."""
+
+    length: int
+    past: tuple[Delayed, ...]
+
+
+#: How near to a sample, in samples, a past value is that sample.
+NEAR = 1e-6
+_SLACK = 2e-6  # by which the sample time may be shorter than the code was made for
 
 _Key = tuple[str, str]
 _SIGNALS = frozenset({"known", "increment", "total"})
@@ -56,13 +68,41 @@ def blocks(program: Program) -> tuple[Block, ...]:
         for key, statement in statements:
             if (root := groups.find(key)) in own:
                 own[root][at].append(statement)
-    knowns = {k.name: at for at, k in enumerate(program.knowns)}
+    knowns = {k.name: at for at, k in enumerate(program.read)}
     states = {s.name: at for at, s in enumerate(program.states)}
     return tuple(
         _block(knowns, states, residuals, tuple(own[root][0]), tuple(own[root][1]))
         for root, residuals in members.items()
         if any(own[root])
     )
+
+
+def lines(program: Program) -> dict[str, Line]:
+    """The signals of which `step` needs past values."""
+    if not program.delayed:
+        return {}
+    used = {name for block in blocks(program) for name in block.knowns}
+    found: dict[str, Line] = {}
+    for past in program.delayed:
+        if past.known.name in used:
+            line = found.get(past.of, Line(0, ()))
+            length = int(past.seconds * program.rate * (1 + _SLACK)) + 3
+            found[past.of] = Line(max(line.length, length), (*line.past, past))
+    return found
+
+
+def recalled(past: Sequence[float], back: float) -> float:
+    """The sample so many before the last one, on a straight line between two; NaN if there is none.
+
+    >>> recalled([1.0, 2.0, 4.0], 1.5), recalled([1.0, 2.0, 4.0], 3.0)
+    (1.5, nan)
+    """
+    whole = int(back + NEAR)
+    part = back - whole
+    if len(past) < whole + (2 if part > NEAR else 1):
+        return math.nan
+    value = past[-1 - whole]
+    return value + part * (past[-2 - whole] - value) if part > NEAR else value
 
 
 def _block(

@@ -18,7 +18,7 @@ from bondgraph.backends.facts import (
     exponential,
 )
 from bondgraph.backends.golden import Golden
-from bondgraph.backends.members import Member, derivatives, samples
+from bondgraph.backends.members import Member, derivatives, samples, signals
 from bondgraph.backends.procedure_lines import lines, roots, tables
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
@@ -38,7 +38,7 @@ from bondgraph.notation.dialect import CodeSpeller, digits
 from bondgraph.notation.walk import reads
 from bondgraph.text.numerals import joined
 
-_PURE = ("sign", "ssqrt", "ssq", "equal", "min", "max", "power", "table", "root")
+_PURE = "sign ssqrt ssq equal min max power table along map inverse root".split()
 _ARITHMETIC = frozenset({"sign", "ssq", "min", "max"})  # functions that take no library
 
 _SCALED = ";\n * derivative k times time_unit to the power k"
@@ -52,7 +52,9 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
     stem, unset = facts.stem, any(f.default is None for f in program.params)
     has_dot = any(isinstance(s, Dot) for s in program.exact)
     unwritten = any(r.unwritten for r in program.residuals)
-    gaps = any(math.isnan(y) for _, points in program.tables for _, y in points)
+    gaps = "inverse" in facts.laws or any(
+        math.isnan(y) for _, points in program.tables for y in points[0]
+    )
     return {
         **_limits(program, facts, code),
         **_Declarations(program, spelling, stem).all(),
@@ -70,13 +72,14 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         "model": listing.harmless(program.name, target),
         "unset": " (NaN where the model has none)" if unset else "",
         "helpers": _helpers(program, facts, spelling, has_dot, code),
-        "tables": tables(program, spelling, "{{{0}, {1}}}", code.number),
+        "tables": tables(program, spelling, "{{{0}}}", code.number),
         "roots": roots(program, spelling, "real {0}", 8),
         "needs_functions": needs_library(facts),
         "libm": " -lm" if needs_library(facts) else "",
-        "needs_math": needs_library(facts) or unset or unwritten or bool(program.roots) or gaps,
+        "needs_math": needs_library(facts) or unset or unwritten or bool(program.roots) or gaps
+        or bool(spelling.lines),
         "unwritten": unwritten,
-        "needs_stddef": "table" in facts.laws or has_dot or bool(code.tapes),
+        "needs_stddef": bool(program.tables) or has_dot or bool(code.tapes),
         "beyond_float": ", ".join(f"{n:g}" for n in facts.beyond_float[:8]),
         "exact": code.exact(),
         "blocks": [code.block(k, b) for k, b in enumerate(spelling.blocks)],
@@ -89,7 +92,28 @@ def holes(program: Program, target: Target, facts: Facts, golden: Golden) -> dic
         ),
         "unavailable": code.unavailable(),
         "opens": any(o.modes for o in program.openings),
+        "lines": list(range(len(spelling.lines))),
+        "recall": _recall(program, spelling),
+        "ages": [
+            f"monitor->p.back_{k}_{j} = {code.real(past.seconds)} / sample_time;"
+            for k, line in enumerate(spelling.lines.values())
+            for j, past in enumerate(line.past)
+        ],
     }
+
+
+def _recall(program: Program, spelling: Spelling) -> list[str]:
+    """How step makes its signals from a sample."""
+    found = [f"s->{m.name} = samples->{m.name};" for m in samples(program, spelling)]
+    for k, (name, line) in enumerate(spelling.lines.items()):
+        place = f"p->past_{k}, {line.length}u, {{0}}p->next_{k}"
+        found.append(f"remember({place.format('&')}, s->{spelling.knowns[name]});")
+        found += [
+            f"s->{spelling.knowns[past.known.name]} = "
+            f"recalled({place.format('')}, p->back_{k}_{j});"
+            for j, past in enumerate(line.past)
+        ]
+    return found
 
 
 def about(program: Program, target: Target, facts: Facts) -> list[str]:
@@ -156,6 +180,8 @@ class _Declarations:
             "residual_count": len(program.residuals),
             "parameters": self._members(parameters or [_empty("the code reads no parameters")]),
             "samples": self._struct(samples(program, spelling)),
+            "signals": self._struct(signals(program, spelling)),
+            "taken": "signals" if spelling.lines else "samples",
             "derivatives": self._struct(derivatives(program, spelling)),
             "derivative_scale": "" if program.time_unit == 1.0 else _SCALED,
             "parts": self._parts(),
@@ -171,6 +197,18 @@ class _Declarations:
             (f"{types[m.type]} {m.name}{f'[{m.size}]' if m.size else ''};", m.text) for m in found
         ]
         return self._members(pairs or [_empty("the model has no signals")])
+
+    def _past(self) -> list[tuple[str, str]]:
+        """The memory of each line: its samples, the place of the next, and how far back to go."""
+        found = []
+        for k, (name, line) in enumerate(self.spelling.lines.items()):
+            found.append((f"{self.real} past_{k}[{line.length}];", f"samples of {name}"))
+            found.append((f"uint32_t next_{k};", "the place of the next"))
+            found += [
+                (f"{self.real} back_{k}_{j};", f"samples, {past.seconds:g} s")
+                for j, past in enumerate(line.past)
+            ]
+        return found
 
     def _parts(self) -> list[dict[str, object]]:
         spelling, real = self.spelling, self.real
@@ -188,6 +226,7 @@ class _Declarations:
             ("coefficients", "c", "What configure computes from the parameters.", coefs),
             ("memory", "x", "What the filters remember from sample to sample.", states),
             ("encoders", "e", "The encoders, each with the residuals that read it.", encoders),
+            ("past", "p", "The last samples of signals that are needed late.", self._past()),
         )
         return [
             {"name": name, "member": member, "doc": doc, "lines": self._members(pairs)}
@@ -214,6 +253,7 @@ def _helpers(
         "dot": has_dot,
         "tape": bool(code.tapes),
         "encoder": bool(spelling.encoders),
+        "line": bool(spelling.lines),
     }
     return found + [name for name, needed in wanted.items() if needed]
 

@@ -34,8 +34,9 @@ class Facts(NamedTuple):
     """Numbers and texts about a program, ready to be written.
 
     `fastest` is the largest bandwidth * sample_time; `least_sample_time` is 0.0 where no term was
-    left out, and so any rate will do. `file` is the name of the module, `noun` what it computes,
-    `headline` both in one sentence. `laws` are the functions that the code needs.
+    left out and no sample is remembered, and so any rate will do. `file` is the name of the module,
+    `noun` what it computes, `headline` both in one sentence. `laws` are the functions that the
+    code needs.
     """
 
     stem: str
@@ -60,6 +61,7 @@ def facts(program: Program) -> Facts:
     numbers += [f.default for f in program.params if f.default is not None]
     beyond = [n for n in numbers if n and not _FLOAT_MIN <= abs(n) <= _FLOAT_MAX]
     laws = functions(run) | (functions(_values(program.configure)) - {"exp"})
+    laws |= {"along"} if laws & {"map", "inverse"} else set()
     stem = snake(program.name)
     headline = f"{program.name}: residuals that are near zero while the machine is well."
     if program.bounds:
@@ -70,7 +72,7 @@ def facts(program: Program) -> Facts:
         "thresholds" if program.bounds else "residuals",
         headline,
         max(3.0, 1.01 * default),
-        0.999999 / program.rate if program.dropped else 0.0,
+        0.999999 / program.rate if program.dropped or program.delayed else 0.0,
         frozenset(laws),
         tuple(dict.fromkeys(beyond)),
     )

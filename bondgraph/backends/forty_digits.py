@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterable, Sequence
 from decimal import Context, Decimal, localcontext
 from functools import partial
 
-from bondgraph.algebra.interpreter import Interpreter, Number, interpolation
+from bondgraph.algebra.interpolation import interpolation
+from bondgraph.algebra.interpreter import Interpreter, Number
 from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.ir.program import NewtonBlock, PolynomialTape, Program, Ref, Statement
 
@@ -88,7 +89,7 @@ def _in_double(function: Callable[..., float], *args: Value) -> Value:
 _SIZED = Number(
     value,
     {name: partial(_in_double, function) for name, function in DOUBLES.items()},
-    table=lambda points: partial(_in_double, interpolation(points)),
+    table=lambda rows, backwards: partial(_in_double, interpolation(rows, backwards)),
 )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
+from bondgraph.backends.blocks import Line, blocks, lines, recalled
 from bondgraph.backends.forty_digits import Evaluation, Value, value
 from bondgraph.backends.spelling import DOUBLE_INTEGRAL, INTEGRAL, START, suffixes
 from bondgraph.ir.program import Known, Program, Ref
@@ -14,6 +15,7 @@ from bondgraph.text.tuples import NamedTuple
 _VECTORS = 4
 _SAMPLES = 16
 _HELD = 12  # samples that a mode lasts where its end makes residuals start anew
+_REMEMBERED = 64  # samples: where a signal is remembered for longer, step is not tried so long
 _MANY = 64  # with more derivatives than this one vector does, and they are not scaled
 
 #: Where the values of signals lie: first around zero, then where laws need it.
@@ -97,8 +99,9 @@ def _in_some_region(
 
 def inputs(program: Program) -> Iterator[Ref]:
     """Everything that exact takes, without the modes."""
-    for known in program.knowns:
-        if known.kind != "mode":
+    sources = {d.of for d in program.delayed} - {ref.name for ref in reads(program.exact)}
+    for known in program.read:
+        if known.kind != "mode" and known.name not in sources:
             yield from _orders(known)
     for field in program.integrals:
         yield Ref("integral", field.name)
@@ -153,7 +156,7 @@ def _amplitudes(
     derivatives = [ref for ref in refs if ref.space == "known" and ref.order > 0]
     if not derivatives or len(derivatives) > _MANY:
         return {}
-    modes = {k.name: True for k in program.knowns if k.kind == "mode"}
+    modes = {k.name: True for k in program.read if k.kind == "mode"}
     base = {ref: sum(region) / 2.0 + (region[1] - region[0]) / 8.0 for ref in refs}
     rest = _run_exact(program, coefs, base, modes)
 
@@ -179,7 +182,11 @@ def _step(
     count = {k.name: 2**31 - 40 for k in program.knowns if k.counts is not None}
     total = dict.fromkeys(count, 0)
     found: list[Vector] = []
-    for at in range(_SAMPLES):
+    kept, parts = lines(program), blocks(program)
+    past: dict[str, list[float]] = {name: [] for name in kept}
+    ages = [0] * len(parts)
+    longest = max([line.length for line in kept.values()], default=0)
+    for at in range(max(_SAMPLES, longest + _HELD) if longest < _REMEMBERED else _SAMPLES):
         values: dict[Ref, float] = {}
         for known in program.knowns:
             if known.counts is not None:
@@ -193,11 +200,37 @@ def _step(
         if not program.openings or at % _HELD == 0:
             run.modes = _modes(program, numbers)
         run.values |= {ref: value(x) for ref, x in values.items()}
-        run.run(program.step if at else program.first)
+        early = _recall(program.rate, kept, run, past, values)
+        for k, block in enumerate(parts):
+            for name in block.residuals:
+                run.values[Ref("residual", name)] = value(0.0)
+            if early.isdisjoint(block.knowns):
+                run.run(block.step if ages[k] else block.first)
+                ages[k] += 1
         results = _results(program, run.values)
         found.append(Vector(values, dict(run.modes), dict(count), results))
     return tuple(found)
 
 
+def _recall(
+    rate: float,
+    kept: dict[str, Line],
+    run: Evaluation,
+    past: dict[str, list[float]],
+    values: dict[Ref, float],
+) -> set[str]:
+    """Give a run the past values that there are by this sample; the names of the others."""
+    early = set()
+    for name, line in kept.items():
+        past[name].append(values[Ref("known", name)])
+        for one in line.past:
+            then = recalled(past[name], one.seconds * rate)
+            if math.isnan(then):
+                early.add(one.known.name)
+            else:
+                run.values[Ref("known", one.known.name)] = value(then)
+    return early
+
+
 def _modes(program: Program, numbers: _Numbers) -> dict[str, bool]:
-    return {k.name: numbers.whole(2) == 1 for k in program.knowns if k.kind == "mode"}
+    return {k.name: numbers.whole(2) == 1 for k in program.read if k.kind == "mode"}

@@ -8,6 +8,7 @@ from typing import Literal
 from bondgraph.backends.facts import about_field, about_known, reads_time
 from bondgraph.backends.spelling import DOUBLE_INTEGRAL, INTEGRAL, START, Spelling, suffixes
 from bondgraph.ir.program import Known, Program, Ref
+from bondgraph.notation.walk import reads
 from bondgraph.text.tuples import NamedTuple
 
 _SUFFIXES = {
@@ -47,10 +48,17 @@ def _sample(known: Known, name: str) -> Member:
     return Member(name, "count", 0, f"{what}; {text}", refs)
 
 
+def signals(program: Program, spelling: Spelling) -> list[Member]:
+    """What the blocks of step take: the samples, and the past values that they need."""
+    past = [d.known for line in spelling.lines.values() for d in line.past]
+    return samples(program, spelling) + [_sample(k, spelling.knowns[k.name]) for k in past]
+
+
 def derivatives(program: Program, spelling: Spelling) -> Iterator[Member]:
     """What exact takes: every known signal with the derivatives that the residuals contain."""
     inputs = spelling.inputs
-    for known in program.knowns:
+    sources = {past.of for past in program.delayed} - {ref.name for ref in reads(program.exact)}
+    for known in (k for k in program.read if k.name not in sources):
         name, text = inputs[known.name, ""], about_known(known)
         if known.kind == "mode":
             yield Member(name, "bool", 0, text, (Ref("known", known.name),))

@@ -134,16 +134,18 @@ def tables(
     number: Callable[[float], str],
     end: tuple[str, ...] = (),
 ) -> list[dict[str, object]]:
-    """The tables of a program; a `row` holds two numbers, and `end` stands behind the last one."""
-    found: list[dict[str, object]] = []
+    """The tables of a program; a `row` holds numbers, and `end` stands behind the last one."""
+    found: dict[str, dict[str, object]] = {}
     for name, points in program.tables:
         pairs = points if len(points) > 1 else points * 2  # a single point is a constant
-        rows = [row.format(number(x), number(y)) for x, y in pairs]
-        found.append(
+        rows = [row.format(", ".join(map(number, pair))) for pair in pairs]
+        found.setdefault(
+            spelling.tables[name],
             {
                 "comment": listing.harmless(f"The table {name}.", spelling.target),
                 "name": spelling.tables[name],
+                "columns": len(points[0]),
                 "lines": listing.table([*rows, *end], spelling.target, 4),
-            }
+            },
         )
-    return found
+    return list(found.values())

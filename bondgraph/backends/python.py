@@ -17,7 +17,7 @@ from bondgraph.backends.facts import (
     exponential,
 )
 from bondgraph.backends.golden import Golden
-from bondgraph.backends.members import Member, derivatives, samples
+from bondgraph.backends.members import Member, derivatives, samples, signals
 from bondgraph.backends.procedure_lines import lines, roots, tables
 from bondgraph.backends.spelling import Spelling
 from bondgraph.backends.target import Target
@@ -27,7 +27,7 @@ from bondgraph.notation.dialect import CodeSpeller, digits
 from bondgraph.notation.walk import reads
 from bondgraph.text.numerals import joined
 
-_HELPERS = ("sign", "ssqrt", "ssq", "power", "table", "root")
+_HELPERS = ("sign", "ssqrt", "ssq", "power", "table", "along", "map", "inverse", "root")
 _OPTIONS = ("sample_time", "bandwidth", "time_unit")
 _TYPES = {"real": "float", "bool": "bool", "count": "int"}
 
@@ -69,6 +69,9 @@ class _Module:
             "unset": "; those without a value are yours to set" if self.unset else "",
             "parameters": self._parameters(),
             "samples": self._struct(samples(program, self.spelling), "no signals"),
+            "signals": self._struct(signals(program, self.spelling), "no signals"),
+            "taken": "Signals" if self.spelling.lines else "Samples",
+            **self._lines(),
             "derivatives": self._struct(derivatives(program, self.spelling), "no signals"),
             "derivative_scale": scaled,
             "residuals": self._members(
@@ -83,7 +86,7 @@ class _Module:
             "helpers": self._helpers(),
             "roots": roots(program, self.spelling, "{0}: float", 12),
             "tables": [
-                *tables(program, self.spelling, "({0}, {1})", _number, ("",)),
+                *tables(program, self.spelling, "({0})", _number, ("",)),
                 *map(self._tape_table, self.tapes),
             ],
             "exact": self._exact(),
@@ -126,6 +129,27 @@ class _Module:
                 kind = f"Sequence[{kind}]"
             pairs.append((f"{member.name}: {kind}", member.text))
         return self._members(pairs) if pairs else [f"    # the model has {none}"]
+
+    def _lines(self) -> dict[str, object]:
+        """The memory of past values: how long it is, what is kept in it and what recalled."""
+        spelling = self.spelling
+        back = [
+            (k, past) for k, line in enumerate(spelling.lines.values()) for past in line.past
+        ]
+        names = [m.name for m in samples(self.program, spelling)]
+        return {
+            "lines": " ".join(f"_Line({line.length})," for line in spelling.lines.values()),
+            "ages": [f"{digits(past.seconds)} / sample_time," for _, past in back],
+            "kept": [
+                f"self._lines[{k}].keep(samples.{spelling.knowns[name]})"
+                for k, name in enumerate(spelling.lines)
+            ],
+            "recall": [f"{name}=samples.{name}," for name in names]
+            + [
+                f"{spelling.knowns[past.known.name]}=self._lines[{k}].recalled(self._back[{j}]),"
+                for j, (k, past) in enumerate(back)
+            ],
+        }
 
     def _parts(self) -> list[dict[str, object]]:
         spelling = self.spelling
@@ -361,9 +385,11 @@ class _Module:
         return [*body, *lines(statements, spelling, speller, 8)]
 
     def _helpers(self) -> list[str]:
-        found = [name for name in _HELPERS if name in self.facts.laws]
+        laws = self.facts.laws | ({"table"} if "along" in self.facts.laws else set())
+        found = [name for name in _HELPERS if name in laws]
         wanted = {"exponential": exponential(self.program), "dot": self.has_dot}
         wanted["tape"] = bool(self.tapes)
+        wanted["line"] = bool(self.spelling.lines)
         return found + [name for name, needed in wanted.items() if needed]
 
 

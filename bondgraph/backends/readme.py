@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from bondgraph.backends import listing
+from bondgraph.backends.blocks import lines
 from bondgraph.backends.c import needs_library
 from bondgraph.backends.facts import Facts
 from bondgraph.backends.identifiers import identifier, snake
@@ -174,6 +175,21 @@ def _python_example(stem: str, text: str, facts: Facts) -> dict[str, object]:
     }
 
 
+def _remembered(program: Program) -> list[str]:
+    """What `step` keeps of signals that residuals need late."""
+    kept = [
+        f"{line.length} samples of `{name}` (for {max(p.seconds for p in line.past):g} s)"
+        for name, line in lines(program).items()
+    ]
+    if not kept:
+        return []
+    return [
+        f"- **Delays**: `step` remembers {joined(kept)}, enough for this sample time or a longer "
+        "one; a residual that reads them starts when they are there. Between two samples it takes "
+        "a straight line.",
+    ]
+
+
 _EXAMPLES = {"c": _c_example, "python": _python_example}
 
 
@@ -214,6 +230,7 @@ def _usage(program: Program, facts: Facts, targets: Sequence[str]) -> list[str]:
         "is the residual itself, filtered, without forming a derivative.",
         f"- **Warm-up**: a residual is flagged valid {wait:.2g} s after the first sample "
         f"({settle:g} time constants of the filter). Until then, do not judge it.",
+        *_remembered(program),
         *_switches(program),
         "- **Bad samples**: NaN or infinity in a signal, or a law outside its domain, makes the "
         "residuals that see it 0 and invalid, and starts their filter anew at the next good "

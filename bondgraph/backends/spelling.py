@@ -6,11 +6,11 @@ from collections import Counter
 from collections.abc import Iterable
 from functools import cached_property
 
-from bondgraph.backends.blocks import Block, blocks
+from bondgraph.backends.blocks import Block, blocks, lines
 from bondgraph.backends.identifiers import identifier, snake, spellings
 from bondgraph.backends.target import Target
-from bondgraph.ir.expr import backwards, read_backwards
 from bondgraph.ir.program import Known, Mode, PolynomialTape, Program, Ref, Statement, flat
+from bondgraph.ir.tables import backwards, is_map
 
 #: Suffixes of the further members that exact takes for one signal.
 INTEGRAL, DOUBLE_INTEGRAL, START = "integral", "double_integral", "start"
@@ -33,26 +33,25 @@ class Spelling:
     def __init__(self, program: Program, target: Target) -> None:
         self.target = target
         self.prefix = f"{snake(program.name).upper()}_"
-        self._known = {k.name: k for k in program.knowns}
+        self._known = {k.name: k for k in program.read}
         self._arrays = {f.name for f in program.coefs if f.size}
         words = target.words
         self.params = spellings((f.name for f in program.params), words)
         self.coefs = spellings((f.name for f in program.coefs), words)
-        self.knowns = spellings((k.name for k in program.knowns), words)
+        self.knowns = spellings((k.name for k in program.read), words)
         self.states = spellings((f.name for f in program.states), words)
         self.residuals = spellings((r.name for r in program.residuals), words | {"valid"})
         #: the names of the numbers of the residuals: `R1`
         self.numbers = self._numbers(program)
-        called = {
-            name: f"{read_backwards(name)}_inverse" if backwards(name) else name
-            for name, _ in program.tables
-        }
+        called = {name: _wish(name, is_map(rows)) for name, rows in program.tables}
         called |= {f"root:{b.name}": f"root_{b.name}" for b in program.roots}
         free = spellings(called.values(), target.reserved)
         self.tables = {name: free[wish] for name, wish in called.items()}
         self.locals = spellings(_locals(program), target.reserved)
         self.inputs = self._inputs(program)
         self.blocks = blocks(program)
+        #: the samples that step remembers, by the signal: how many at most, and for what
+        self.lines = lines(program)
         self._openings = program.openings
         self.encoders = self._encoders()
 
@@ -88,9 +87,9 @@ class Spelling:
         return {key: free[name] for key, name in wanted.items()}
 
     def _inputs(self, program: Program) -> dict[tuple[str, str], str]:
-        wanted: dict[tuple[str, str], str] = {(k.name, ""): k.name for k in program.knowns}
+        wanted: dict[tuple[str, str], str] = {(k.name, ""): k.name for k in program.read}
         wanted |= {("", f.name): f.name for f in program.integrals}
-        for known in program.knowns:
+        for known in program.read:
             for suffix in suffixes(known):
                 wanted[known.name, suffix] = f"{known.name}_{suffix}"
         taken = set(self.target.words) | {"time"}
@@ -183,6 +182,14 @@ def suffixes(known: Known) -> tuple[str, ...]:
     if known.start:
         found.append(START)
     return tuple(found)
+
+
+def _wish(name: str, is_map: bool) -> str:
+    """What a table would like to be called; the readings of a map share its rows where they can."""
+    own = name.rstrip("'")
+    if is_map:
+        return f"{own}_turned" if name == f"{own}''" else own
+    return f"{own}_inverse" if backwards(name) else own
 
 
 def _locals(program: Program) -> Iterable[str]:

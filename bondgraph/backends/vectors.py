@@ -32,7 +32,7 @@ class Vectors:
 
     def spoilt(self) -> list[bool]:
         """For each residual, whether a sample that it reads can be other than a number."""
-        known = {k.name: k for k in self.program.knowns}
+        known = {k.name: k for k in self.program.read}
 
         def measured(block: Block) -> bool:
             signals = (known[name] for name in block.knowns)

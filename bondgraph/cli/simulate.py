@@ -123,7 +123,7 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
         parameters[name] = value
     modes = dict(chosen.modes)
     for name, value in args.input:
-        _known(name, "input", [i.name for i in graph.inputs])
+        _known(name, "input", [i.name for i in graph.inputs if not i.of])
         mode = any(i.name == name and i.mode for i in graph.inputs)
         (modes if mode else inputs)[name] = Course.constant(value)
     driven = {c.input for c in chosen.controllers} & {name for name, _ in args.input}

@@ -19,12 +19,16 @@ ORDERS = 16
 
 
 class NotLinear(Mixed):
-    """A form is needed as a number: `form` says which, `of` what for (a function's name)."""
+    """A form is needed as a number: `form` says which, `of` what for (a function's name).
 
-    def __init__(self, form: Form, of: str = "value") -> None:
+    `at` is the number of the argument that it is.
+    """
+
+    def __init__(self, form: Form, of: str = "value", at: int = 0) -> None:
         super().__init__("not linear")
         self.form = form
         self.of = of
+        self.at = at
 
 
 class Forms:
@@ -40,11 +44,11 @@ class Forms:
             return [0]
         return form[CONSTANT] if len(form) == 1 and CONSTANT in form else None
 
-    def known(self, form: Form, of: str) -> Series:
+    def known(self, form: Form, of: str, at: int = 0) -> Series:
         """A form without unknowns as a series; raises `NotLinear` for another."""
         value = self.try_known(form)
         if value is None:
-            raise NotLinear(form, of)
+            raise NotLinear(form, of, at)
         return value
 
     def number(self, x: Number) -> Form:
@@ -89,7 +93,8 @@ class Forms:
 
     def function(self, name: str, args: Sequence[Form], n: int) -> Form:
         """A function of one or two arguments."""
-        return {CONSTANT: self._taylor.function(name, [self.known(a, name) for a in args], n)}
+        known = [self.known(a, name, at) for at, a in enumerate(args)]
+        return {CONSTANT: self._taylor.function(name, known, n)}
 
     def der(self, a: Form) -> Form:
         """The time derivative."""

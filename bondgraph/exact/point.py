@@ -184,8 +184,8 @@ class Point:
 
     def choose(self, block: NotLinear, law: tuple[Expr, ...]) -> None:
         """Give the argument that a law waits for a random value."""
-        scales = self.scales(law)
-        self.fix(self.row(block.form), self.numbers.argument(self.random, block.of, scales))
+        argument = self.numbers.argument(self.random, block.of, block.at, self.scales(law))
+        self.fix(self.row(block.form), argument)
 
     def scales(self, law: tuple[Expr, ...]) -> list[float]:
         """The sizes of the numbers in a law."""

@@ -16,15 +16,13 @@ from random import Random
 
 from flint import arb, ctx, fmpq
 
-from bondgraph.field.numbers import Number, Undefined
-from bondgraph.ir.expr import backwards, read_backwards
+from bondgraph.field.numbers import Number, Patch, Undefined
+from bondgraph.ir.tables import Rows, backwards, columns, knots
 
 #: A ball around zero of at most this radius is zero: 2**-256 is 1e-77.
 NOTHING = arb(2) ** -256
 _LARGEST = 100_000  # an exponential of more has no meaning on a machine
 _MOST_BITS = 1 << 13
-
-Table = tuple[tuple[Fraction, Fraction], ...]
 
 
 class Imprecise(Undefined):
@@ -52,7 +50,7 @@ class Reals:
     real = True
 
     def __init__(
-        self, tables: Mapping[str, Table], precision: Precision | None = None, scale: float = 1.0
+        self, tables: Mapping[str, Rows], precision: Precision | None = None, scale: float = 1.0
     ) -> None:
         self._scale = scale  # of random signals
         self._tables = tables
@@ -143,27 +141,44 @@ class Reals:
         """The x from -pi to pi with these cos x and sin x."""
         return arb.atan2(arb(sine), arb(cosine))
 
-    def table(self, name: str, x: Number) -> tuple[Number, Number]:
-        """Value and slope of a table: straight between its points, constant beyond its ends.
+    def table(self, name: str, args: list[Number]) -> Patch:
+        """A table near some arguments: straight between its knots, constant beyond its ends.
 
         One that is read backwards has no value from its ends on: it could be any.
         """
-        points = self._tables[name.removeprefix("table:")]
-        if backwards(name):
-            ends = (points[0][0], points[-1][0])
-            if [self.sign(x - self.fraction(end)) for end in ends] != [1, -1]:
-                raise Undefined("a table read backwards from its ends on")
-        at = bisect_right(points, 0, key=lambda p: -self.sign(x - self.fraction(p[0])))
-        if at in (0, len(points)):
-            return self.fraction(points[min(at, len(points) - 1)][1]), arb(0)
-        (x0, y0), (x1, y1) = points[at - 1], points[at]
-        slope = self.fraction((y1 - y0) / (x1 - x0))
-        return self.fraction(y0) + slope * (x - self.fraction(x0)), slope
+        name = name.removeprefix("table:")
+        rows = self._tables[name]
+        first, *second = [list(map(self.fraction, numbers)) for numbers in knots(rows)]
+        values = [list(map(self.fraction, line)) for line in zip(*columns(rows), strict=True)]
+        across = self._weights(second[0], args[1]) if second else [(0, 1, 0)]
+        low = [sum(w * z[j] for j, w, _ in across) for z in values]
+        lean = [sum(s * z[j] for j, _, s in across) for z in values]
+        x, ends = args[0], first
+        if backwards(name) and second:
+            order = range(len(first)) if low[0] < low[-1] else range(len(first) - 1, -1, -1)
+            first, low, lean = ([of[i] for i in order] for of in (first, low, lean))
+            ends = low
+        if backwards(name) and [self.sign(x - ends[k]) for k in (0, -1)] != [1, -1]:
+            raise Undefined("a table read backwards from its ends on")
+        along = self._weights(ends, x)
+        heights = first if ends is low else low
+        f, a = (sum(weight[k] * heights[weight[0]] for weight in along) for k in (1, 2))
+        b, c = (sum(weight[k] * lean[weight[0]] for weight in along) for k in (1, 2))
+        if ends is low:  # from z = f + a u + b v + c u v, where a, b, c are those of the map itself
+            return Patch(f, a, -a * b, 0, c)
+        return Patch(f, a, b, c)
+
+    def _weights(self, numbers: list[Number], x: Number) -> list[tuple[int, Number, Number]]:
+        """The knots around x, how much each counts there, and how fast that grows with x."""
+        at = bisect_right(numbers, 0, key=lambda knot: -self.sign(x - knot))
+        if at in (0, len(numbers)):
+            return [(min(at, len(numbers) - 1), 1, 0)]
+        slope = self.inverse(numbers[at] - numbers[at - 1])
+        share = (x - numbers[at - 1]) * slope
+        return [(at - 1, 1 - share, -slope), (at, share, slope)]
 
     def value(self, name: str, x: Number) -> Number:
         """A function of one argument; raises `Undefined` where it has no value."""
-        if name.startswith("table:"):
-            return self.table(name, x)[0]
         return _FUNCTIONS[name](self, arb(x))
 
     def label(self, x: Number) -> object:
@@ -195,15 +210,16 @@ class Reals:
         size = random.choice((-1, 1)) * _decades(random)
         return size * value if random.random() < 0.5 and self.nonzero(value) else size
 
-    def argument(self, random: Random, of: str, scales: list[float]) -> Number:
+    def argument(self, random: Random, of: str, at: int, scales: list[float]) -> Number:
         """An argument at which a function does something, or near the numbers beside it."""
         if of.startswith("table:"):
             name = of.removeprefix("table:")
-            first, last = (float(self._tables[name][k][0]) for k in (0, -1))
+            numbers = knots(self._tables[name])[at]
+            first, last = float(numbers[0]), float(numbers[-1])
             # beyond the ends, too, at times far: what else is there may have its branches there;
             # but not where a relation reads the table backwards, which has no value there
             beyond = random.choice((0.2, 0.2, 0.2, 3.0)) * (last - first)
-            margin = 0.0 if read_backwards(name) in self._tables else beyond
+            margin = 0.0 if name + "'" * (at + 1) in self._tables else beyond
             return arb(random.uniform(first - margin, last + margin))
         size = random.lognormvariate(0, 0.7)
         if of in ("asin", "acos", "atanh"):

@@ -10,11 +10,23 @@ from fractions import Fraction
 from random import Random
 from typing import Any, Protocol, TypeAlias
 
+from bondgraph.text.tuples import NamedTuple
+
 Number: TypeAlias = Any  # an element of the kind of numbers at hand, or a small whole number
 
 
 class Undefined(ArithmeticError):
     """A value does not exist at this random point (1/0, root of a negative): draw another."""
+
+
+class Patch(NamedTuple):
+    """What a table is near a point: f + (a u + b v + c u v)/(1 + d v) at arguments off by u, v."""
+
+    f: Number
+    a: Number
+    b: Number = 0
+    c: Number = 0
+    d: Number = 0
 
 
 class Numbers(Protocol):
@@ -54,7 +66,7 @@ class Numbers(Protocol):
         ...
 
     def value(self, name: str, x: Number) -> Number:
-        """A function of one argument of `bondgraph.ir.functions.FUNCTIONS`, or `table:<id>`."""
+        """A function of one argument of `bondgraph.ir.functions.FUNCTIONS`."""
         ...
 
     def exp(self, x: Number) -> Number:
@@ -77,8 +89,8 @@ class Numbers(Protocol):
         """The x with these cos x and sin x."""
         ...
 
-    def table(self, name: str, x: Number) -> tuple[Number, Number]:
-        """Value and slope of a table at x."""
+    def table(self, name: str, args: list[Number]) -> Patch:
+        """A table near some arguments."""
         ...
 
     def label(self, x: Number) -> object:
@@ -101,8 +113,8 @@ class Numbers(Protocol):
         """What a reading of this value, or of about one, is wrong by: any of some decades."""
         ...
 
-    def argument(self, random: Random, of: str, scales: list[float]) -> Number:
-        """A random argument for a function, of a size at which it matters.
+    def argument(self, random: Random, of: str, at: int, scales: list[float]) -> Number:
+        """A random argument number `at` for a function, of a size at which it matters.
 
         `of` is its name; `scales` are the sizes of numbers that the model has beside it.
         """

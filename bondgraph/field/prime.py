@@ -11,10 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from random import Random
+from typing import Any
 
 from flint import nmod
 
-from bondgraph.field.numbers import Number, Undefined
+from bondgraph.field.numbers import Number, Patch, Undefined
 
 P = (1 << 61) - 2373
 Q = (P - 1) // 2
@@ -88,7 +89,7 @@ class PrimeField:
         self._log: dict[Number, Number] = {ONE: ZERO}
         self._half_tangent: dict[Number, Number] = {ZERO: ZERO}
         self._angle: dict[Number, Number] = {ZERO: ZERO}
-        self._tables: dict[tuple[str, Number], tuple[Number, Number]] = {}
+        self._tables: dict[tuple[Any, ...], Patch] = {}
         self.roots: dict[object, Number] = {}
 
     def draw(self) -> Number:
@@ -125,7 +126,7 @@ class PrimeField:
         """A random number."""
         return self.any(random)
 
-    def argument(self, random: Random, of: str, scales: list[float]) -> Number:
+    def argument(self, random: Random, of: str, at: int, scales: list[float]) -> Number:
         """A random number."""
         return self.any(random)
 
@@ -184,16 +185,16 @@ class PrimeField:
         down = inverse(up)
         return (up + down) * _TWO, (up - down) * _TWO
 
-    def table(self, name: str, x: Number) -> tuple[Number, Number]:
-        """Value and slope of a table at x."""
-        key = (name, ONE * x)
+    def table(self, name: str, args: list[Number]) -> Patch:
+        """A table near some arguments; one of two is a random bilinear one."""
+        key = (name, *[ONE * x for x in args])
         found = self._tables.get(key)
         if found is None:
-            found = self._tables[key] = (self.draw(), self.draw())
+            found = self._tables[key] = Patch(*[self.draw() for _ in range(2 ** len(args))])
         return found
 
     def value(self, name: str, x: Number) -> Number:
-        """A function of one argument of `bondgraph.ir.functions.FUNCTIONS`, or `table:<id>`.
+        """A function of one argument of `bondgraph.ir.functions.FUNCTIONS`.
 
         Raises `Undefined` where the function has no value.
         """
@@ -201,8 +202,6 @@ class PrimeField:
         simple = _SIMPLE.get(name)
         if simple is not None:
             return simple(x)
-        if name.startswith("table:"):
-            return self.table(name, x)[0]
         return self._transcendental(name, x)
 
     def _transcendental(self, name: str, x: Number) -> Number:

@@ -202,8 +202,7 @@ def function(f: Numbers, name: str, a: Series, n: int) -> Series:
             below, above = _circle(f, a, n)
             return mul(above, reciprocal(f, below, n), n)
     if name.startswith("table:"):
-        value, slope = f.table(name, a[0])
-        return [value, *[slope * x for x in a[1:n]]]
+        return table(f, name, [a], n)[0]
     if name == "tanh":
         return _tanh(f, a, n)
     start = f.value(name, a[0])
@@ -255,7 +254,7 @@ def slope_of(f: Numbers, name: str, a: Series, value: Series, n: int) -> Series:
         case "tanh":
             return add([1], scale(-1, mul(value, value, n)))
     if name.startswith("table:"):
-        return [f.table(name, a[0])[1]]
+        return table(f, name, [a], n)[1]
     return _slope_of_inverse(f, name, a, value[0], n)
 
 
@@ -283,11 +282,27 @@ def _slope_of_inverse(f: Numbers, name: str, a: Series, value: Number, n: int) -
     raise KeyError(name)
 
 
+def table(f: Numbers, name: str, args: list[Series], n: int) -> list[Series]:
+    """A table of one or two arguments, and its slopes by them."""
+    p = f.table(name, [a[0] for a in args])
+    u, v = [[0, *a[1:n]] for a in (*args, [0])[:2]]
+    by_u = add([p.a], scale(p.c, v))
+    moved = add(mul(by_u, u, n), scale(p.b, v))
+    by_v = add([p.b], scale(p.c, u))
+    if f.nonzero(p.d):
+        below = reciprocal(f, add([1], scale(p.d, v)), n)
+        by_u, moved = mul(by_u, below, n), mul(moved, below, n)
+        by_v = mul(add(by_v, scale(-p.d, moved)), below, n)
+    return [add([p.f], moved), by_u, by_v][: 1 + len(args)]
+
+
 # ------------------------------------------------------------ functions of two arguments
 
 
 def function_of_two(f: Numbers, name: str, a: Series, b: Series, n: int) -> Series:
-    """`pow`, `min`, `max` or `atan2`; raises `Undefined` where it has no value."""
+    """`pow`, `min`, `max`, `atan2` or a table; raises `Undefined` where it has no value."""
+    if name.startswith("table:"):
+        return table(f, name, [a, b], n)[0]
     match name:
         case "pow":
             exponent = mul(b, function(f, "log", a, n), n)
@@ -314,6 +329,9 @@ def slopes_of_two(
     f: Numbers, name: str, a: Series, b: Series, value: Series, n: int
 ) -> tuple[Series, Series]:
     """The two partial derivatives of a function of two arguments."""
+    if name.startswith("table:"):
+        _, by_a, by_b = table(f, name, [a, b], n)
+        return by_a, by_b
     match name:
         case "pow":
             inner = mul(b, mul(value, reciprocal(f, a, n), n), n)

@@ -15,6 +15,7 @@ from operator import attrgetter
 from typing import ClassVar, TypeAlias
 
 from bondgraph.ir.functions import FUNCTIONS, SIGNED_SQUARE
+from bondgraph.ir.tables import Rows, backwards, is_map, opened
 from bondgraph.text.tuples import NamedTuple
 
 Rational: TypeAlias = int | Fraction
@@ -200,21 +201,6 @@ def raised(base: Rational, exponent: int) -> Rational:
 
 _ID = attrgetter("id")
 _ZERO, _ONE = Fraction(0), Fraction(1)
-_ROUNDING = 1e-9  # of a table's range: far above what doubles lose, far below what a sensor tells
-
-
-def backwards(name: str) -> bool:
-    """Whether a table is another one read from y to x."""
-    return name.endswith("'")
-
-
-def read_backwards(name: str) -> str:
-    """The name of a table read the other way.
-
-    >>> read_backwards("battery.csv"), read_backwards("battery.csv'")
-    ("battery.csv'", 'battery.csv')
-    """
-    return name[:-1] if backwards(name) else name + "'"
 
 
 class Pool:
@@ -229,31 +215,19 @@ class Pool:
         self._table: dict[object, Expr] = {}
         self.zero = self._make(Op.NUM, (), _ZERO)
         self.one = self._make(Op.NUM, (), _ONE)
-        #: piecewise linear tables by id: ((x, y), ...) ascending in x; see `rows`
-        self.tables: dict[str, tuple[tuple[Fraction, Fraction], ...]] = {}
+        #: piecewise linear tables by id, see `bondgraph.ir.tables`
+        self.tables: dict[str, Rows] = {}
         #: what each `Root` of the pool solves, by name
         self.roots: dict[str, Expr] = {}
 
     def __len__(self) -> int:
         return len(self._table)
 
-    def rows(self, name: str) -> tuple[tuple[float, float], ...]:
-        """The points of a table in floating point; the first and the last `y` hold beyond its ends.
-
-        A table that is read backwards has no value there, not a number: where `y = table(x)` stays
-        at its end, `x` can be anything. What rounding takes for the end counts as beyond it.
-        """
-        points = [(float(x), float(y)) for x, y in self.tables[name]]
-        if not backwards(name):
-            return tuple(points)
-        (a, fa), (b, fb) = points[0], points[1]
-        (c, fc), (d, fd) = points[-2], points[-1]
-        low, high = a + _ROUNDING * (d - a), d - _ROUNDING * (d - a)
-        start = (low, fa + (fb - fa) * (low - a) / (b - a))
-        end = (high, fd + (fc - fd) * (d - high) / (d - c))
-        nan = float("nan")
-        inner = [p for p in points if low < p[0] < high]
-        return ((low, nan), start, *inner, end, (high, nan))
+    def rows(self, name: str) -> tuple[tuple[float, ...], ...]:
+        """The rows of a table in floating point; see `opened` for one that is read backwards."""
+        rows = tuple([tuple(map(float, row)) for row in self.tables[name]])
+        open_ended = backwards(name) and not is_map(rows)
+        return opened([(x, z) for x, z in rows]) if open_ended else rows
 
     def _make(self, op: Op, args: tuple[Expr, ...], data: object) -> Expr:
         made = Expr(op, args, data, len(self._table))

@@ -113,7 +113,11 @@ class Value(NamedTuple):
 
 
 class Input(NamedTuple):
-    """A known or unknown input; `mode` marks a boolean known at run time."""
+    """A known or unknown input; `mode` marks a boolean known at run time.
+
+    At time t the plant obeys what it said at t - `delay`, in s. `of` names the input or sensor
+    that this one is a past value of: it is no fault of its own.
+    """
 
     name: str
     symbol: Expr
@@ -123,6 +127,8 @@ class Input(NamedTuple):
     unit: str | None
     doc: str
     origin: Span
+    delay: Fraction = Fraction(0)
+    of: str | None = None
 
 
 class Sensor(NamedTuple):
@@ -130,7 +136,9 @@ class Sensor(NamedTuple):
 
     `kind` is De, Df or signal. `counts` is the number of counts a turn of an encoder; the known
     signal is then in rad and the generated code takes integer counts. `same_as` names the sensor
-    whose physical instrument this one reads (then `symbol` is that sensor's symbol).
+    whose physical instrument this one reads (then `symbol` is that sensor's symbol). At time t it
+    says what was at t - `delay`, in s: the symbol stands for what it will say of now. `of` names
+    the sensor that this one is a past value of.
     """
 
     name: str
@@ -144,6 +152,8 @@ class Sensor(NamedTuple):
     unit: str | None
     doc: str
     origin: Span
+    delay: Fraction = Fraction(0)
+    of: str | None = None
 
 
 class Integral(NamedTuple):
@@ -201,8 +211,23 @@ class BondGraph(NamedTuple):
     def fault_symbols(self) -> dict[str, Expr]:
         """The symbol of each fault candidate, in the order of `faults`."""
         found = {v.name: v.symbol for v in self.values if v.fault}
-        found |= {i.name: i.symbol for i in self.inputs if i.known and not i.mode}
-        return found | {s.name: s.symbol for s in self.sensors if s.same_as is None}
+        found |= {i.name: i.symbol for i in self.inputs if i.known and not i.mode and not i.of}
+        return found | {
+            s.name: s.symbol for s in self.sensors if s.same_as is None and not s.of
+        }
+
+    def lags(self) -> dict[Expr, Fraction]:
+        """How long before the plant's own time a log has each signal that is delayed, in s."""
+        found = {i.symbol: i.delay for i in self.inputs if i.delay}
+        return found | {s.symbol: -s.delay for s in self.sensors if s.delay}
+
+    def past(self, name: str) -> list[Expr]:
+        """A fault candidate as relations have it: its symbol, and those of its past values.
+
+        Raises KeyError for another name.
+        """
+        inputs = [i.symbol for i in self.inputs if i.of == name]
+        return [self.fault_symbol(name), *inputs, *[s.symbol for s in self.sensors if s.of == name]]
 
     @property
     def readings(self) -> dict[Expr, Sensor]:

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Literal, TypeAlias, overload
 
+from bondgraph.ir.tables import backwards
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -121,6 +122,17 @@ def integer_power(value: Function) -> int | None:
         return None
     exponent = value.args[1].value
     return int(exponent) if abs(exponent) < 1000 and exponent == int(exponent) else None
+
+
+def called(value: Function) -> str:
+    """What a language has to spell: a function, `power`, `root:<name>`, or how a table is read.
+
+    That is `table:<id>`, for a table of two inputs `map:<id>` or, read backwards, `inverse:<id>`.
+    """
+    kind, _, which = value.name.partition(":")
+    if kind == "table" and len(value.args) > 1:
+        return f"{'inverse' if backwards(which) else 'map'}:{which}"
+    return value.name if integer_power(value) is None else "power"
 
 
 # ------------------------------------------------------------------ statements
@@ -292,6 +304,18 @@ class Known(NamedTuple):
     sampled: bool = True
 
 
+class Delayed(NamedTuple):
+    """A past value of a known signal: `known` is what the signal `of` was `seconds` ago.
+
+    `step` remembers samples for it; between two of them it is on a straight line. It has no value
+    before there are samples that old, and what reads it starts when they are there.
+    """
+
+    known: Known
+    of: str
+    seconds: float
+
+
 class Dropped(NamedTuple):
     """A term that `step` leaves out because it cannot be seen at the sample rate."""
 
@@ -364,9 +388,15 @@ class Program(NamedTuple):
     rate: float  # samples a second that the code was made for
     bandwidth: float  # rad/s, default of configure
     warmup: float  # time constants to wait before a residual is valid
-    tables: tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
+    tables: tuple[tuple[str, tuple[tuple[float, ...], ...]], ...]  # rows, see `ir.tables`
     integrals: tuple[Field, ...] = ()  # what exact takes besides the known signals
     time_unit: float = 1.0  # s, default of configure
     roots: tuple[NewtonBlock, ...] = ()  # each may use those before it
     bounds: str = ""  # the program whose residuals these results are thresholds of
     openings: tuple[Opening, ...] = ()  # of the residuals that start anew where switches turn
+    delayed: tuple[Delayed, ...] = ()  # past values of the known signals
+
+    @property
+    def read(self) -> tuple[Known, ...]:
+        """The known signals and their past values."""
+        return (*self.knowns, *[d.known for d in self.delayed])

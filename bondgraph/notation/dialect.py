@@ -19,6 +19,7 @@ from bondgraph.ir.program import (
     Product,
     Ref,
     Sum,
+    called,
     integer_power,
 )
 from bondgraph.notation.formula import Formula, Shape
@@ -43,8 +44,8 @@ class Dialect(NamedTuple):
     """How one language writes what languages write differently; holes are `{0}`, `{1}`, ...
 
     `functions` has an entry for every function of `bondgraph.ir.expr.FUNCTIONS`, and for `power`
-    (integer exponent), `table` and `root`; what it has not is called by its own name. `equal` and
-    `unequal` compare two reals, perhaps by a call.
+    (integer exponent), `table`, `map`, `inverse` and `root`; what it has not is called by its own
+    name. `equal` and `unequal` compare two reals, perhaps by a call.
     """
 
     constant: str
@@ -122,7 +123,7 @@ def read(value: Expression | Condition) -> Formula:
             if power is not None:
                 exponent = Formula(Shape.NAME, (), str(power))
                 return Formula(Shape.CALL, (read(value.args[0]), exponent), "power")
-            return Formula(Shape.CALL, tuple(map(read, value.args)), value.name)
+            return Formula(Shape.CALL, tuple(map(read, value.args)), called(value))
         case Choice():
             parts = (read(value.condition), read(value.yes), read(value.no))
             return Formula(Shape.CHOICE, parts)
@@ -204,7 +205,7 @@ class CodeSpeller(Speller):
         if kind not in self.dialect.functions:
             return super()._call(node)
         texts = self._texts(node)
-        if kind == "table":
+        if kind in ("table", "map", "inverse"):
             texts.append(self.tables[which])
         if kind == "root":
             texts = [", ".join(texts), self.tables[node.data]]

@@ -21,6 +21,8 @@ def dump_program(program: Program) -> str:
         "",
         "knowns",
         *table((k.name, k.kind, f"highest D {k.highest}", k.unit) for k in program.knowns),
+        *table((d.known.name, f"{d.of} {d.seconds:g} s ago", f"highest D {d.known.highest}")
+               for d in program.delayed),
         "",
         "residuals",
     ]

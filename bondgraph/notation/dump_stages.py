@@ -8,7 +8,8 @@ from fractions import Fraction
 from bondgraph.ir.causal import CausalGraph, Reason
 from bondgraph.ir.equation_system import Equation, EquationSystem
 from bondgraph.ir.expr import Expr
-from bondgraph.ir.graph import Bond, BondGraph, Input, Node, Value
+from bondgraph.ir.graph import Bond, BondGraph, Input, Node, Sensor, Value
+from bondgraph.ir.past import past_name
 from bondgraph.ir.residuals import Residual, ResidualSet, Step
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.ir.syntax import File
@@ -123,7 +124,7 @@ def _sections(graph: BondGraph) -> list[tuple[str, list[tuple[str, ...]]]]:
             ],
         ),
         ("inputs", [(i.name, _input(i), i.unit or "") for i in graph.inputs]),
-        ("sensors", [(s.name, s.kind, show(s.reads), s.unit or "") for s in graph.sensors]),
+        ("sensors", [(s.name, s.kind, _reads(s), s.unit or "") for s in graph.sensors]),
         (
             "integrals",
             [
@@ -168,7 +169,13 @@ def _about(value: Value) -> str:
 
 
 def _input(item: Input) -> str:
-    return "mode" if item.mode else "known" if item.known else "unknown"
+    kind = "mode" if item.mode else "known" if item.known else "unknown"
+    return f"{kind}, {float(item.delay):g} s late" if item.delay and not item.of else kind
+
+
+def _reads(sensor: Sensor) -> str:
+    reads = show(sensor.reads)
+    return past_name(reads, sensor.delay) if sensor.delay else reads
 
 
 # ---------------------------------------------------------------------- causal

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any, TypeVar
 
 from bondgraph.ir.expr import ZERO_START, Expr, Op, Symbol
+from bondgraph.ir.past import past_of
 
 _Node = TypeVar("_Node")
 _Made = TypeVar("_Made")
@@ -71,6 +72,15 @@ def below(roots: Iterable[_Node], parts: Callable[[_Node], Iterable[_Node]]) -> 
     return list(found)
 
 
+def _name(name: str) -> Formula:
+    """A name; a past value is written as what it is of, and how old."""
+    past = past_of(name)
+    if past is None:
+        return Formula(Shape.NAME, (), name)
+    of, seconds = past
+    return Formula(Shape.CALL, (_name(of), Formula(Shape.NUMBER, (), seconds)), "delay")
+
+
 class Reader:
     """Reads expressions as formulas.
 
@@ -111,7 +121,7 @@ class Reader:
                 size = Formula(Shape.NUMBER, (), abs(node.number))
                 return size if node.number >= 0 else Formula(Shape.SUM, (size,), (-1,))
             case Op.SYM:
-                return parts[0] if parts else Formula(Shape.NAME, (), node.symbol.name)
+                return parts[0] if parts else _name(node.symbol.name)
             case Op.ADD:
                 return self._sum(node)
             case Op.MUL:

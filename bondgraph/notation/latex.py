@@ -62,7 +62,8 @@ class Latex(Typeset):
         "d/dt": r"\frac{{d}}{{dt}}", "dn/dtn": r"\frac{{d^{{{0}}}}}{{dt^{{{0}}}}}",
         "area": r"\int_0^t {}\,dt", "root": r"\underset{{{1} = 0}}{{{0}}}",
         "cases": r"\begin{{cases}} {1} & \text{{if }} {0} \\ {2} & \text{{else}} \end{{cases}}",
-        "call": r"{}\left({}\right)", ",": ", ", "abs": r"\left|{}\right|",
+        "seconds": r"{}\,\mathrm{{s}}", "call": r"{}\left({}\right)", ",": ", ",
+        "abs": r"\left|{}\right|",
         "sqrt": r"\sqrt{{{}}}", "cbrt": r"\sqrt[3]{{{}}}", "<": " < ", "<=": r" \le ",
         "==": " = ", "and": r" \land ", "or": r" \lor ", "not": r"\lnot ",
     })  # fmt: skip

@@ -51,6 +51,7 @@ class MathML(Typeset):
         "cases": '<mrow><mo stretchy="true" form="prefix">{{</mo><mtable columnalign="left left">'
         "<mtr><mtd>{1}</mtd><mtd><mtext>if&#xa0;</mtext>{0}</mtd></mtr>"
         "<mtr><mtd>{2}</mtd><mtd><mtext>else</mtext></mtd></mtr></mtable></mrow>",
+        "seconds": f"<mrow>{{}}{_SPACE}<mi>s</mi></mrow>",
         "call": f"<mrow>{{}}<mo>&#x2061;</mo><mrow>{_OPEN}{{}}{_SHUT}</mrow></mrow>",
         ",": '<mo separator="true">,</mo>',
         "abs": f"<mrow>{_BAR.format('prefix')}{{}}{_BAR.format('postfix')}</mrow>",

@@ -5,12 +5,13 @@ from __future__ import annotations
 import keyword
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from types import MappingProxyType
 
-from bondgraph.ir.expr import Expr, Pool, Symbol, backwards
+from bondgraph.ir.expr import Expr, Pool, Symbol
+from bondgraph.ir.tables import backwards, columns, knots
 from bondgraph.notation.formula import Formula, Reader, Shape, below
 from bondgraph.notation.speller import ATOM, COMPARE, POWER, PRODUCT, Spelled, Speller
 from bondgraph.text.tuples import NamedTuple
@@ -18,7 +19,7 @@ from bondgraph.text.tuples import NamedTuple
 #: Names that mean something in the text and so cannot be names of the model as well.
 FUNCTIONS = frozenset(
     "D Int ssqrt Abs sign sqrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh"
-    " atan2 Min Max Piecewise Eq And Or Not nan".split()
+    " atan2 delay Min Max Piecewise Eq And Or Not nan".split()
 )
 _RENAMED = {"abs": "Abs", "min": "Min", "max": "Max", "and": "And", "or": "Or", "not": "Not"}
 #: Above this many written nodes, parts that occur more than once get a name.
@@ -187,20 +188,42 @@ class _Writer(Speller):
             case "cbrt":  # the real root, also of a negative number
                 return Spelled(f"sign({x})*Abs({x})**(1/3)", PRODUCT)
             case name if name.startswith("table:"):
-                return Spelled(self._table(name[6:], x))
+                return Spelled(self._table(name[6:], x, *others))
             case name:
                 return Spelled(f"{_RENAMED.get(name, name)}({', '.join([x, *others])})")
 
     _logic = _call
 
-    def _table(self, key: str, x: str) -> str:
+    def _table(self, key: str, x: str, *others: str) -> str:
         """A table as straight pieces; beyond its ends it keeps the last value, or has none."""
-        points = self.pool.tables[key]
-        ends, beyond = [str(points[k][1]) for k in (0, -1)], "<"
-        if backwards(key):
-            ends, beyond = ["nan", "nan"], "<="
-        pieces = [f"({ends[0]}, ({x}) {beyond} ({points[0][0]}))"]
-        for (x0, y0), (x1, y1) in pairwise(points):
-            line = f"{y0} + ({(y1 - y0) / (x1 - x0)})*(({x}) - ({x0}))"
-            pieces.append(f"({line}, ({x}) < ({x1}))")
-        return f"Piecewise({', '.join(pieces)}, ({ends[1]}, True))"
+        rows = self.pool.tables[key]
+        if not others:
+            return _pieces([(str(a), str(b)) for a, b in rows], x, backwards(key))
+        first, second = knots(rows)
+        lines = []
+        for a, values in zip(first, zip(*columns(rows), strict=True), strict=True):
+            points = [(str(b), str(z)) for b, z in zip(second, values, strict=True)]
+            lines.append((str(a), _pieces(points, others[0])))
+        if not backwards(key):
+            return _pieces(lines, x)
+        falls = columns(rows)[0][0] > columns(rows)[0][1]
+        return _pieces([(z, a) for a, z in (lines[::-1] if falls else lines)], x, gap=True)
+
+
+def _pieces(points: Sequence[tuple[str, str]], x: str, gap: bool = False) -> str:
+    """What is straight between points; from its ends on it has no value if there is a `gap`."""
+    ends, beyond = [points[k][1] for k in (0, -1)], "<"
+    if gap:
+        ends, beyond = ["nan", "nan"], "<="
+    pieces = [f"({ends[0]}, ({x}) {beyond} ({points[0][0]}))"]
+    for (x0, y0), (x1, y1) in pairwise(points):
+        line = f"{y0} + ({_slope(x0, y0, x1, y1)})*(({x}) - ({x0}))"
+        pieces.append(f"({line}, ({x}) < ({x1}))")
+    return f"Piecewise({', '.join(pieces)}, ({ends[1]}, True))"
+
+
+def _slope(x0: str, y0: str, x1: str, y1: str) -> str:
+    """The slope between two points; a number where they are numbers."""
+    if "(" in x0 + y0:
+        return f"(({y1}) - ({y0}))/(({x1}) - ({x0}))"
+    return str((Fraction(y1) - Fraction(y0)) / (Fraction(x1) - Fraction(x0)))

@@ -144,7 +144,8 @@ class Speller:
 
     def _call(self, node: Formula) -> Spelled:
         """A function of its arguments."""
-        return Spelled(f"{node.data}({', '.join(self._texts(node))})")
+        unit = " s" if node.data == "delay" else ""
+        return Spelled(f"{node.data}({', '.join(self._texts(node))}{unit})")
 
     def _rate(self, node: Formula) -> Spelled:
         """A time derivative."""

@@ -31,7 +31,8 @@ class Typeset(Speller, ABC):
     `words` has the template of every sign: `fraction`, `e` (digits, power of ten), `dash` (the
     minus of an exponent), `times` (between factors), `pow`, `prime` (base, order), `d/dt` and
     `dn/dtn` (order), `area`, `root` (unknown, what vanishes), `cases` (condition, yes, no), `call`
-    (name, arguments), `,`, `abs`, `sqrt`, `cbrt`, and of each comparison and logical operator.
+    (name, arguments), `,`, `seconds`, `abs`, `sqrt`, `cbrt`, and of each comparison and logical
+    operator.
     """
 
     inner = PRODUCT
@@ -102,6 +103,8 @@ class Typeset(Speller, ABC):
             base = self.within(node.parts[0], ATOM)
             text = self.words["pow"].format(base.text, args[1].text)
             return Spelled(text, POWER, base.width + 0.7 * args[1].width)
+        if node.data == "delay":
+            args[1] = args[1]._replace(text=self.words["seconds"].format(args[1].text))
         record = FUNCTIONS.get(node.data)
         if record is not None and record.odd is not None and args[0].width <= _NARROW:
             bars = self._function("abs", args)

@@ -21,8 +21,8 @@ from bondgraph.ir.program import (
     Ref,
     Statement,
     Sum,
+    called,
     flat,
-    integer_power,
 )
 from bondgraph.notation.dialect import is_written_out
 
@@ -91,12 +91,11 @@ def reads(statements: Iterable[Statement]) -> list[Ref]:
 
 
 def functions(values: Iterable[Expression | Condition]) -> set[str]:
-    """The functions that occur; `power` for integer powers, `table` for tables, `equal` for ==."""
+    """The functions that occur, as they are `called`; `equal` for ==."""
     found: set[str] = set()
     for node in nodes(values):
         if isinstance(node, Compare) and node.op == "==":
             found.add("equal")
         elif isinstance(node, Function) and not is_written_out(node):
-            name = "power" if integer_power(node) is not None else node.name
-            found.add(name.partition(":")[0])
+            found.add(called(node).partition(":")[0])
     return found

@@ -7,14 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from bondgraph.algebra.interpreter import Interpreter, Number, Points
+from bondgraph.algebra.interpolation import Points, interpolation
+from bondgraph.algebra.interpreter import Interpreter, Number
 from bondgraph.ir.program import NewtonBlock, Program, Ref
+from bondgraph.ir.tables import is_map
 
 _KEPT = 20_000  # roots that are remembered
 
 
-def _table(points: Points) -> Callable[[Any], Any]:
-    xs, ys = zip(*points, strict=True)
+def _table(rows: Points, backwards: bool) -> Callable[..., Any]:
+    if is_map(rows):
+        return np.vectorize(interpolation(rows, backwards), otypes=[float])
+    xs, ys = zip(*rows, strict=True)
 
     def table(x: Any) -> Any:
         inner = np.interp(x, xs, ys)
@@ -76,6 +80,9 @@ class Lanes(Interpreter):
         for space, given in spaces.items():
             for name, value in given.items():
                 self.values[Ref(space, name)] = np.asarray(value, float)[()]
+        for past in self.program.delayed:  # what is steady was so before
+            if past.of in signals:
+                self.values[Ref("known", past.known.name)] = self.values[Ref("known", past.of)]
         with np.errstate(all="ignore"):
             self.run(self.program.first if states is None else self.program.step)
         return self._of("residual"), self._of("state")

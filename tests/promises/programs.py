@@ -192,7 +192,7 @@ def what_is_read_is_declared(program: Program) -> Iterator[str]:
     names = {
         "param": {f.name for f in program.params},
         "option": {"sample_time", "bandwidth", "time_unit"},
-        "known": {k.name for k in program.knowns},
+        "known": {k.name for k in program.read},
         "state": {f.name for f in program.states},
         "integral": {f.name for f in program.integrals},
     }

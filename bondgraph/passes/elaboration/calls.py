@@ -2,31 +2,34 @@
 
 from __future__ import annotations
 
-import os
-from fractions import Fraction
-
-from bondgraph.ir.expr import Expr, Kind, Op, Pool
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, symbols
 from bondgraph.ir.functions import FUNCTIONS, Function
-from bondgraph.ir.syntax import Call, Text
+from bondgraph.ir.syntax import Call, Expression, Text
 from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration.expressions import Expressions, Place
 from bondgraph.passes.elaboration.problems import Skip, fail, meant
 from bondgraph.passes.elaboration.quantities import PURE, Quantities
+from bondgraph.passes.elaboration.read_table import read_table
 from bondgraph.passes.elaboration.scope import Typed
 from bondgraph.text.diagnostic import Report
-from bondgraph.text.source import Source
+from bondgraph.text.source import Span
+from bondgraph.text.tuples import NamedTuple
 
 _ALIASES = {f.spoken: name for name, f in FUNCTIONS.items() if f.spoken}
 
 #: What is no function of numbers, or is written with others, and how many arguments it takes.
 _OTHERS = {
-    "int": (1, 2), "der": (1, 1), "table": (2, 2), "if": (3, 3), "hypot": (2, 2), "log10": (1, 1),
-    "min": (2, 64), "max": (2, 64),
+    "int": (1, 2), "der": (1, 1), "delay": (2, 2), "table": (2, 3), "if": (3, 3), "hypot": (2, 2),
+    "log10": (1, 1), "min": (2, 64), "max": (2, 64),
 }  # fmt: skip
-Points = tuple[tuple[Fraction, Fraction], ...]
 
-_HELP = "A table has two columns, x and y, in SI units, with x ascending, and two rows or more."
-_LARGEST = 10**300
+
+class Past(NamedTuple):
+    """What a known signal `base` said some time ago: `age` in s."""
+
+    base: Expr
+    age: Expr
+    origin: Span
 
 
 def names() -> tuple[str, ...]:
@@ -44,7 +47,9 @@ class Calls(Expressions):
         self.integrands: dict[Expr, Expr] = {}
         self.origins: dict[Expr, Call] = {}
         self._names: dict[str, int] = {}
-        self._tables: dict[tuple[str, str], str] = {}
+        self._tables: dict[tuple[str, str, int], str] = {}
+        #: past values of known signals: whose and how old, where they are written
+        self.past: dict[Expr, Past] = {}
 
     def call(self, call: Call, place: Place) -> Typed:
         """A call of any function."""
@@ -68,6 +73,8 @@ class Calls(Expressions):
                 return self.derivative(call, place)
             case "table":
                 return self.table(call, place)
+            case "delay":
+                return self.delay(call, place)
             case "min" | "max":
                 return self.extreme(name, call, place)
             case "atan2" | "hypot" | "pow":
@@ -181,78 +188,59 @@ class Calls(Expressions):
             self.origins[known[0]] = call
         return known[0], result
 
+    def delay(self, call: Call, place: Place) -> Typed:
+        """`delay(x, T)` of known signals: each is another signal, its own past."""
+        node, term = self.quantity(call.arguments[0], place)
+        age = self.age(call.arguments[1], place)
+        mapping: dict[Expr, Expr] = {}
+        for symbol in symbols(node):
+            if symbol.kind in CONSTANTS:
+                continue
+            if symbol.kind not in (Kind.INPUT, Kind.READING):
+                what = symbol.symbol.name.rpartition(".int")[0] or symbol.symbol.name
+                fail(self.report, "delay-inside", f"`{what}` is no known signal: only what is "
+                     "logged has a past that can be looked up.", call.origin,
+                     help="Delay the whole of what a sensor reads, `sensor y = delay(x, T)`, the "
+                     "reading of a sensor, or an input that is a number.")  # fmt: skip
+            before = self.past.get(symbol)
+            base, ages = (symbol, age) if before is None else (
+                before.base, self.pool.add((1, before.age), (1, age)))  # fmt: skip
+            own = self.pool.symbol(f"delay({base.symbol.name}, {ages})", symbol.symbol.kind)
+            mapping[symbol] = own
+            self.past.setdefault(own, Past(base, ages, call.origin))
+        return self.pool.substitute([node], mapping)[0], term
+
+    def age(self, argument: Expression, place: Place) -> Expr:
+        """The second argument of `delay`: a time that no fault changes."""
+        age, term = self.quantity(argument, place)
+        self.alike(term, self.quantities.seconds, argument.origin, "a delay is a time")
+        if any(s.kind is not Kind.CONST for s in symbols(age)):
+            fail(self.report, "delay-time", f"`{argument.origin.text}` may change: a delay is a "
+                 "number.", argument.origin, help="Write a number, or declare it `const`."
+                 )  # fmt: skip
+        return age
+
     def unique(self, name: str) -> str:
         """The name, with a number from its second use on."""
         number = self._names[name] = self._names.get(name, 0) + 1
         return name if number == 1 else f"{name}_{number}"
 
     def table(self, call: Call, place: Place) -> Typed:
-        """`table("file.csv", x)`: piecewise linear; nothing is known of its units."""
-        file = call.arguments[0]
+        """`table("file.csv", x)` or `(..., x, y)`: piecewise linear; its units are not known."""
+        file, *inputs = call.arguments
         if not isinstance(file, Text):
             fail(self.report, "wrong-type", "The first argument of `table` is a file name in "
                  "quotes.", file.origin, help='Write `table("file.csv", x)`.')  # fmt: skip
-        node, _ = self.quantity(call.arguments[1], place)
+        nodes = [self.quantity(argument, place)[0] for argument in inputs]
         source = place.scope.definition.source
-        key = (source.path, file.value)
+        key = (source.path, file.value, len(nodes))
         name = self._tables.get(key)
         if name is None:
-            points = read_table(file, source, self.report)
-            wish = name = file.value.rstrip("'")  # which marks a table read backwards
-            while name in self.pool.tables and self.pool.tables[name] != points:
+            rows = read_table(file, len(nodes), source, self.report)
+            wish = name = file.value.rstrip("'")  # which mark a table read backwards
+            while name in self.pool.tables and self.pool.tables[name] != rows:
                 name = self.unique(wish)
-            self.pool.tables[name] = points
+            self.pool.tables[name] = rows
             self._tables[key] = name
         term = self.quantities.dimensions.fresh(call.origin, f'table("{file.value}")')
-        return self.pool.fn(f"table:{name}", node), term
-
-
-def read_table(file: Text, source: Source, report: Report) -> Points:
-    """The points of a piecewise linear function; raises Skip where the file has none.
-
-    The file is looked for beside the model. A first line without numbers is taken for a heading;
-    empty lines and lines that begin with `#` are left out; commas, semicolons, tabs and blanks
-    separate.
-    """
-    path = os.path.join(os.path.dirname(source.path), file.value)
-    try:
-        with open(path, encoding="utf-8-sig") as stream:
-            lines = stream.read().splitlines()
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is no text"
-        fail(report, "unreadable-table", f'The table "{file.value}" cannot be read: {reason}.',
-             file.origin, help="The path is taken from the folder of the model file."
-             )  # fmt: skip
-    points: list[tuple[Fraction, Fraction]] = []
-    headed = False
-    for number, line in enumerate(lines, 1):
-        cells = line.split("#")[0].replace(",", " ").replace(";", " ").split()
-        if not cells:
-            continue
-        values = [_number(c) for c in cells]
-        if None in values and not points and not headed:
-            headed = True
-            continue
-        x, y = (values[0], values[1]) if len(values) == 2 else (None, None)
-        if x is None or y is None:
-            fail(report, "wrong-table", f'Line {number} of "{file.value}" is no pair of numbers.',
-                 file.origin, help=_HELP)  # fmt: skip
-        if points and x <= points[-1][0]:
-            fail(report, "wrong-table", f'Line {number} of "{file.value}": x does not ascend.',
-                 file.origin, help=_HELP)  # fmt: skip
-        points.append((x, y))
-    if len(points) < 2:
-        fail(report, "wrong-table", f'"{file.value}" has fewer than two points.', file.origin,
-             help=_HELP)  # fmt: skip
-    return tuple(points)
-
-
-def _number(text: str) -> Fraction | None:
-    """An exact number within the range of a double, or None."""
-    try:
-        rough = float(text)
-        if len(text) > 400 or not abs(rough) < _LARGEST:
-            return None
-        return Fraction(text) if rough else Fraction(0)
-    except (ValueError, ZeroDivisionError):
-        return None
+        return self.pool.fn(f"table:{name}", *nodes), term

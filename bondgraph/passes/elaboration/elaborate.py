@@ -15,6 +15,7 @@ from bondgraph.passes.elaboration.bonds import (
     sign,
 )
 from bondgraph.passes.elaboration.connect import Wiring
+from bondgraph.passes.elaboration.delayed import delayed
 from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.files import Definition, Files, Load, pick, recursion
 from bondgraph.passes.elaboration.instantiate import Opener
@@ -128,6 +129,8 @@ class _Elaboration:
             values=listed, inputs=inputs, sensors=sensors, integrals=tuple(integrals), lets=lets,
             events=tuple(records.events.values()),
         )  # fmt: skip
+        if values.past or records.ages:
+            graph = delayed(graph, values.past, records.ages, records.number, self.report)
         check_numbers(graph, self.report)
         if not self.report.failed:
             report_parts(graph, self.report)

@@ -154,6 +154,11 @@ class Quantities:
             "the unit of a param, or the expression.",
         )  # fmt: skip
 
+    @property
+    def seconds(self) -> Term:
+        """The dimension of a time."""
+        return _SECONDS
+
     def integrated(self, term: Term) -> Term:
         """The dimension times seconds."""
         return self.dimensions.product(term, _SECONDS)

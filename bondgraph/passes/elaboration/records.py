@@ -8,7 +8,7 @@ from typing import TypeVar
 from bondgraph.ir.expr import Expr, Kind, Op, symbols
 from bondgraph.ir.graph import Event, Input, Integral, Let, Sensor, Value
 from bondgraph.ir.nodes import occurs
-from bondgraph.ir.syntax import Fault, Node, Number, Param, Ref, Tolerance
+from bondgraph.ir.syntax import Call, Fault, Node, Number, Param, Ref, Tolerance
 from bondgraph.ir.syntax import Input as InputStatement
 from bondgraph.ir.syntax import Let as LetStatement
 from bondgraph.ir.syntax import Sensor as SensorStatement
@@ -16,6 +16,7 @@ from bondgraph.library.dimensions import Term
 from bondgraph.passes.elaboration import instantiate
 from bondgraph.passes.elaboration.bonds import FlatEnd
 from bondgraph.passes.elaboration.build_time import index
+from bondgraph.passes.elaboration.calls import Past
 from bondgraph.passes.elaboration.expressions import Place
 from bondgraph.passes.elaboration.laws import Coefficient
 from bondgraph.passes.elaboration.problems import Skip, fail
@@ -45,6 +46,8 @@ class Records:
         self.events: dict[str, Event] = {}
         self.numbers: dict[Expr, Expr | None] = {}
         self.deliveries: dict[str, Delivery] = {}  # of controllers, by path
+        #: how old what a sensor says is, of those that say it late
+        self.ages: dict[Expr, Past] = {}
 
     def entry(self, entry: ValueEntry) -> None:
         """The record of one value; nothing for an alias."""
@@ -180,7 +183,14 @@ class Records:
                term: Term | None) -> None:  # fmt: skip
         """`sensor name = expression`."""
         place = Place(entry.scope, entry.env, entry.path)
-        reads, own = self.values.quantity(declaration.value, place)
+        value = declaration.value
+        if isinstance(value, Call) and value.name == "delay" and len(value.arguments) == 2:
+            if declaration.counts is not None:
+                fail(self.report, "delay-counts", "An encoder tells its counts at once.",
+                     value.origin, help="Leave out the delay, or the counts.")  # fmt: skip
+            value, time = value.arguments
+            self.ages[symbol] = Past(symbol, self.values.age(time, place), time.origin)
+        reads, own = self.values.quantity(value, place)
         assert term is not None
         self.values.alike(term, own, declaration.value.origin, f"sensor `{entry.local}` has the "
                           "unit of what it reads")  # fmt: skip

@@ -102,6 +102,7 @@ class Chain:
         self.heap: list[_Offer] = []
         self.later: list[_Offer] = []
         self.nominal = Nominal(system.graph)
+        self.delayed = {s.name for s in system.graph.sensors if s.delay}
         self.loops = Loops(self.pool, self.nominal, patient=not chosen.starts)
         self.oversized: list[list[Equation]] = []  # linear loops too large to be written out
 
@@ -181,6 +182,8 @@ class Chain:
             late = ITERATION
         derived = equation.kind != "balance" and has([solution.value], Op.DER)
         cost = after(others, late, solution.hard, derived, self.free)
+        if equation.kind == "sensor" and equation.name in self.delayed:
+            cost = cost._replace(depth=cost.depth + 1)  # what is known at once is taken before
         offer = _Offer(
             cost, self.colour[row], self.variable_colour[variable], row,
             self.position[variable], solution, how,

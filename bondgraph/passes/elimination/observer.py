@@ -43,6 +43,8 @@ def observer(
         return "its equations are others in each position of a switch"
     if Kind.READING in kinds:
         return "a law in it acts on what a sensor says"
+    if not system.graph.lags().keys().isdisjoint(symbols(residual.expr)):
+        return "its signals are delayed"
     pool = system.graph.pool
     closed = {step.variable: step.closed for step in residual.steps}
     inserted = pool.substitute([residual.closing.zero], closed)[0]

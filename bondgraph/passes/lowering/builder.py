@@ -17,6 +17,7 @@ from bondgraph.ir.program import (
     Assign,
     Assignment,
     Choice,
+    Delayed,
     Expression,
     Field,
     Known,
@@ -108,9 +109,12 @@ class Builder:
         return tuple(v.name for v in values if v.fault and self.floats.get(v.name) == 0.0)
 
     @cached_property
-    def fault_symbols(self) -> dict[str, Expr]:
-        """The symbol of each fault candidate."""
-        return self.graph.fault_symbols()
+    def fault_symbols(self) -> dict[str, set[Expr]]:
+        """The symbols of each fault candidate: its own, and those of its past values."""
+        found = {name: {symbol} for name, symbol in self.graph.fault_symbols().items()}
+        for signal in self.signals.values():
+            found.get(signal.declared.of or "", set()).add(signal.symbol)
+        return found
 
     @cached_property
     def pace(self) -> Expr:
@@ -223,12 +227,27 @@ class Builder:
 
     def known_fields(self, exprs: list[Expr]) -> tuple[Known, ...]:
         """The known signals that occur in the residuals, inputs before sensors."""
-        used = {n: None for n in topological(exprs) if n in self.signals}
-        fields = []
-        for symbol, signal in self.signals.items():
-            if symbol in used:
-                fields.append(self._known(signal))
-        return tuple(fields)
+        used = {n for n in topological(exprs) if n in self.signals}
+        late = {self.base(n) for n in used if self.signals[n].declared.of}
+        return tuple(
+            self._known(s)._replace(sampled=True) if n in late else self._known(s)
+            for n, s in self.signals.items()
+            if n in used | late and not s.declared.of
+        )
+
+    def delayed_fields(self, exprs: list[Expr]) -> tuple[Delayed, ...]:
+        """The past values that occur in the residuals."""
+        used = {n for n in topological(exprs) if n in self.signals}
+        return tuple(
+            Delayed(self._known(s), self.signals[self.base(n)].name, float(s.declared.delay))
+            for n, s in self.signals.items()
+            if n in used and s.declared.of
+        )
+
+    def base(self, symbol: Expr) -> Expr:
+        """The signal that a past value is one of; any other is its own."""
+        of = self.signals[symbol].declared.of
+        return symbol if of is None else self.pool.symbol(of, symbol.symbol.kind)
 
     def _known(self, signal: Signal) -> Known:
         declared = signal.declared
@@ -293,7 +312,7 @@ def _definitions(graph: BondGraph) -> dict[Expr, Expr]:
 
 def _signals(pool: Pool, graph: BondGraph) -> list[Signal]:
     starts = {i.symbol: i.initial for i in graph.integrals}
-    found = [Signal(identifier(i.name), i.symbol, i, None, None) for i in graph.inputs if i.known]
+    found = [Signal(_called(i), i.symbol, i, None, None) for i in graph.inputs if i.known]
     for s in graph.sensors:
         if s.same_as is not None:
             continue
@@ -301,8 +320,14 @@ def _signals(pool: Pool, graph: BondGraph) -> list[Signal]:
         if s.counts is not None:
             scale = pool.div(pool.num(Fraction(2 * math.pi)), s.counts)
             offset = starts.get(s.reads)
-        found.append(Signal(identifier(s.name), s.symbol, s, scale, offset))
+        found.append(Signal(_called(s), s.symbol, s, scale, offset))
     return [*found, *_received(graph, found)]
+
+
+def _called(item: Input | Sensor) -> str:
+    if item.of is None:
+        return identifier(item.name)
+    return identifier(f"{item.of}_{float(item.delay):g}_s_ago".replace("-", "m"))
 
 
 def _received(graph: BondGraph, signals: list[Signal]) -> list[Signal]:

@@ -8,27 +8,32 @@ from collections.abc import Mapping
 from bondgraph.algebra.derivative import TooManyOperations
 from bondgraph.algebra.normalise import LIMIT, normalise
 from bondgraph.algebra.present import closed_form
-from bondgraph.ir.expr import Expr, Op, Symbol, topological
+from bondgraph.ir.expr import Expr, Kind, Pool, Symbol, symbols, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.program import (
     Assign,
     Assignment,
     Dropped,
+    Expression,
     Field,
+    Function,
     Opening,
     PolynomialTape,
     Program,
     Ref,
     ResidualInfo,
+    Statement,
+    flat,
 )
 from bondgraph.ir.residuals import Observer, Residual, ResidualSet
 from bondgraph.ir.signature_matrix import SignatureMatrix
-from bondgraph.passes.lowering.builder import Builder
+from bondgraph.notation.walk import nodes
+from bondgraph.passes.lowering.builder import Builder, Signal
 from bondgraph.passes.lowering.exactly import LARGEST, Exactly
 from bondgraph.passes.lowering.filter import Filter, settle
 from bondgraph.passes.lowering.luenberger import Luenberger
-from bondgraph.passes.lowering.newton import newton_blocks, roots_in
+from bondgraph.passes.lowering.newton import newton_blocks
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.program_names import brief, identifier, short
 from bondgraph.passes.lowering.prune import pruned
@@ -65,6 +70,8 @@ class LowerOptions(NamedTuple):
 
 
 DEFAULT = LowerOptions()
+_MOST = 1e6  # samples of a signal that are remembered
+_NOT_REMEMBERED = "a switch or an encoder in it would have to be remembered"
 
 
 def fastest(options: LowerOptions) -> float:
@@ -156,6 +163,7 @@ def lower(
         digest="",
         params=builder.param_fields(wanted),
         knowns=builder.known_fields([*exprs, *switched.read]),
+        delayed=builder.delayed_fields([*exprs, *switched.read]),
         coefs=tuple(builder.fields),
         states=tuple(s for low in lowered for s in low.states),
         residuals=tuple(low.info for low in lowered),
@@ -167,13 +175,13 @@ def lower(
         rate=options.rate,
         bandwidth=options.bandwidth or options.rate / 50,
         warmup=max([_warmup(low.info) for low in lowered], default=0.0),
-        tables=tables(graph, exprs),
+        tables=(),
         roots=newton_blocks(graph.pool, exprs),
         integrals=tuple(builder.integrals.values()),
         time_unit=time_unit,
         openings=tuple(low.opening for low in lowered if low.opening is not None),
     )
-    program = pruned(program)
+    program = with_tables(pruned(program), graph.pool)
     return program._replace(digest=digest(program, graph.source.text))
 
 
@@ -191,6 +199,12 @@ def _realise(
     name = identifier(residual.name)
     origin = residual.closing.origin
     info = ResidualInfo(name, residual.name, text, 0, 0, faults, (), origin)
+    inside = [builder.signals[s] for s in symbols(residual.expr) if s in builder.signals]
+    longest = max([float(s.declared.delay) for s in inside if s.declared.of], default=0.0)
+    if any(map(_whole, inside)):
+        found = _NOT_REMEMBERED
+    elif longest * options.rate > _MOST:
+        found = f"{longest * options.rate:.2g} samples would have to be remembered"
     if not isinstance(found, str):
         kept = (*found.joined.kept, *found.apart.kept)
         stages = max([order(t) for t in kept], default=0) + options.extra_order
@@ -204,6 +218,8 @@ def _realise(
             chain.run(found.own.kept, text)
         except TooManyOperations:
             found = _TOO_LONG
+        if window is not None and window.opening.modes and any(map(_late, inside)):
+            found = _NOT_REMEMBERED  # it would start anew before the switch shows
     if isinstance(found, str):
         nothing = Assign(Ref("residual", name), ZERO, f"{residual.name}: {found}", origin)
         info = info._replace(invisible=faults, unavailable=found)
@@ -251,6 +267,18 @@ def _followed(
         follows=observer.sensor,
     )
     return _Lowered(info, chain.first, chain.step, chain.states, [])
+
+
+def _whole(signal: Signal) -> bool:
+    """Whether a signal is a past value of what nothing lies between: a mode, a count."""
+    whole = signal.symbol.kind is Kind.MODE or signal.scale is not None
+    return signal.declared.of is not None and whole
+
+
+def _late(signal: Signal) -> bool:
+    """Whether a relation with this signal is one of an earlier time: that of a late sensor."""
+    late = signal.symbol.kind is Kind.SENSOR and signal.declared.delay > 0
+    return late and signal.declared.of is None
 
 
 def _warmup(info: ResidualInfo) -> float:
@@ -326,19 +354,25 @@ def _text(graph: BondGraph, residual: Residual, starts: Mapping[Symbol, Expr]) -
     return f"{residual.name}: {residual.closing.name} with everything else inserted"
 
 
-def tables(
-    graph: BondGraph, exprs: list[Expr]
-) -> tuple[tuple[str, tuple[tuple[float, float], ...]], ...]:
-    """The tables that expressions look something up in, with their points."""
-    used: dict[str, None] = {}
-    for node in topological([*exprs, *[r.zero for r in roots_in(exprs)]]):
-        if node.op is Op.FN and node.name.startswith("table:"):
-            used[node.name.removeprefix("table:")] = None
-    return tuple((name, graph.pool.rows(name)) for name in used)
+def with_tables(program: Program, pool: Pool) -> Program:
+    """The program with the tables that it looks something up in."""
+    run: list[Statement] = [*program.configure, *program.exact, *program.first, *program.step]
+    values: list[Expression] = []
+    for block in program.roots:
+        run += [*block.body, *block.further]
+        values += [block.value, block.slope]
+    for statement in flat(run):
+        if isinstance(statement, PolynomialTape):
+            values += statement.scales
+        elif isinstance(statement, Assign):
+            values.append(statement.value)
+    called = [node.name for node in nodes(values) if isinstance(node, Function)]
+    found = dict.fromkeys(n.removeprefix("table:") for n in called if n.startswith("table:"))
+    return program._replace(tables=tuple((name, pool.rows(name)) for name in found))
 
 
 #: What a program without is the same as it was before there was such a field.
-_ADDED = ("openings", "follows")
+_ADDED = ("openings", "follows", "delayed")
 
 
 def digest(program: Program, text: str) -> str:

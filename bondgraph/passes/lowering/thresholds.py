@@ -25,7 +25,7 @@ from bondgraph.ir.residuals import Observer, Residual, ResidualSet
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import LARGEST
 from bondgraph.passes.lowering.filter import Filter
-from bondgraph.passes.lowering.lower import LowerOptions, digest, fastest, tables
+from bondgraph.passes.lowering.lower import LowerOptions, digest, fastest, with_tables
 from bondgraph.passes.lowering.luenberger import Luenberger
 from bondgraph.passes.lowering.newton import newton_blocks
 from bondgraph.passes.lowering.procedure import ZERO
@@ -87,6 +87,7 @@ def thresholds(
         " can be from zero if every parameter is within its tolerance.",
         params=builder.param_fields(builder.used),
         knowns=builder.known_fields([*exprs, *switched.read]),
+        delayed=builder.delayed_fields([*exprs, *switched.read]),
         coefs=tuple(builder.fields),
         states=tuple(s for one in found for s in one.states),
         residuals=tuple(one.info for one in found),
@@ -94,7 +95,6 @@ def thresholds(
         exact=(),
         first=tuple(s for one in found for s in one.first),
         step=tuple(s for one in found for s in one.step),
-        tables=tables(graph, exprs),
         roots=newton_blocks(graph.pool, exprs),
         integrals=(),
         time_unit=1.0,
@@ -106,7 +106,7 @@ def thresholds(
         r.unavailable for r in program.residuals
     }:
         return None
-    made = pruned(made)
+    made = with_tables(pruned(made), graph.pool)
     return made._replace(digest=digest(made, graph.source.text))
 
 

@@ -148,7 +148,7 @@ def unseen_faults(
     inside = {s for t in result.kept for s in symbols(*builder.resolve([t.atom]))}
 
     def acts(name: str) -> bool:
-        if builder.fault_symbols[name] in inside:
+        if not inside.isdisjoint(builder.fault_symbols[name]):
             return True
         return any(
             _share(result.effect(t, name), spectra[t.atom], t.order, w) >= resolution

@@ -61,11 +61,13 @@ def tune(
 ) -> Tuned:
     """Limits for an engine, from `logs` of healthy machines: (n, signals) samples each.
 
-    `false_alarms` wanted per hour; a fault is taken to be there for a `window` of seconds. Every
+    `false_alarms` wanted per hour; a fault is taken to be there for a `window` of seconds, and for
+    as long as the longest delay besides. Every
     log may be of another machine, with parameters of its own inside their tolerances. Raises
     ValueError where the logs are too short to be of use.
     """
     work = _Work(engine, model, logs)
+    window += engine.lags[-1]
     total = 2 * len(logs)
     noise: list[_Noise] = []
     for k, log in enumerate(logs):

@@ -20,7 +20,7 @@ from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine, copied
 
-#: Time constants of the filter that a residual may show late what has happened.
+#: Time constants of the filter, beside delays, that a residual may show late what has happened.
 _SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0)
 _MOST = 600  # rows that are compared: by then it is known as well as it will be
 _BENT = 60  # rows with whose samples onsets and sizes are looked for, while there are no more
@@ -130,7 +130,8 @@ class Comparison:
         """Let each fault begin when it makes what was seen most probable."""
         best: dict[str, tuple[float, int]] = {}
         constant = 1.0 / (self._engine.bandwidth * self._engine.sample_time)
-        for earlier in dict.fromkeys(round(constant * shift) for shift in _SHIFTS):
+        lags = [round(lag / self._engine.sample_time) for lag in self._engine.lags]
+        for earlier in dict.fromkeys(round(constant * x) + lag for lag in lags for x in _SHIFTS):
             if earlier <= len(self._healthy):
                 self._earlier = [earlier] * len(self._all)
                 self._try({})

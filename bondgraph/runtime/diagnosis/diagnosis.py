@@ -231,8 +231,14 @@ class Diagnosis:
         samples = np.concatenate([last.samples[:0], *piece])
         fired = self._detection.fired
         count = samples_before(engine, samples, self._history, last.slopes, noise, fired)
-        healthy = np.concatenate([last.samples, samples[:count]])
-        self._judge.compare(last.engine, healthy, count, chosen, sigma, self._tolerated)
+        # what is read late may have gone wrong before it showed
+        late = math.ceil(self._engine.lags[-1] / self._engine.sample_time)
+        first = begin
+        while first > 0 and sum(len(row.samples) for row in past[first:begin]) < late:
+            first -= 1
+        before = [row.samples for row in past[first : begin + 1]]
+        healthy = np.concatenate([*before, samples[:count]])
+        self._judge.compare(past[first].engine, healthy, count, chosen, sigma, self._tolerated)
         return last.time + count * self._engine.sample_time
 
     def _odd(self, row: Row) -> bool:

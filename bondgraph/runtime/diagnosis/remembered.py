@@ -49,8 +49,9 @@ def memories(program: Program) -> tuple[Memory, ...]:
             own, signals, reads = own | old[0], signals | old[1], reads | old[2]
             integral |= old[3]
         found.append((own, signals, reads, integral))
-    paths = {k.name: k.path for k in program.knowns if k.kind != "mode"}
     modes = {k.name: k.path for k in program.knowns}
+    modes |= {d.known.name: modes[d.of] for d in program.delayed}
+    paths = {k.name: modes[k.name] for k in program.read if k.kind != "mode"}
     order = [r.name for r in program.residuals]
     return tuple(
         Memory(

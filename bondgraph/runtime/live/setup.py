@@ -118,6 +118,7 @@ class Wide:
         self.readings = engine.readings
         self.sample_time, self.bandwidth = engine.sample_time, engine.bandwidth
         self.warm_up, self.parameters = engine.warm_up, engine.parameters
+        self.lags = engine.lags
 
     def run(self, samples: Array, received: Array | None = None) -> Batch:
         """See `Engine`."""

@@ -57,6 +57,10 @@ class Engine(Protocol):
         """Seconds from the first sample until all residuals are valid."""
 
     @property
+    def lags(self) -> tuple[float, ...]:
+        """The delays with which residuals read signals, in s, none first."""
+
+    @property
     def parameters(self) -> Mapping[str, float]:
         """The value of every parameter that the code reads, in SI units, by path."""
 
@@ -124,7 +128,7 @@ class Setting(NamedTuple):
         program = self.residuals.program
         settle = [r.settle for r in program.residuals if not r.unavailable]
         waits = [math.ceil(s * program.rate / self.bandwidth) for s in (*settle, program.warmup)]
-        return max(waits) / program.rate
+        return max(waits) / program.rate + max([d.seconds for d in program.delayed], default=0.0)
 
     @property
     def has_bound(self) -> list[bool]:
@@ -220,6 +224,8 @@ class OfSetting:
         self.signals, self.readings = setting.signals, setting.readings
         self.sample_time = 1.0 / setting.residuals.program.rate
         self.bandwidth, self.warm_up = setting.bandwidth, setting.warm_up
+        past = setting.residuals.program.delayed
+        self.lags = tuple(sorted({0.0, *[d.seconds for d in past]}))
         self.parameters: Mapping[str, float] = setting.parameters
 
 
@@ -304,7 +310,7 @@ class _Monitor:
         self._monitor.reset()
 
     def follow(self, other: _Monitor) -> None:
-        for name in ("_x", "_e", "_age"):  # all that the generated class changes in `step`
+        for name in ("_x", "_e", "_age", "_lines"):  # all that the generated `step` changes
             if hasattr(other._monitor, name):
                 setattr(self._monitor, name, deepcopy(getattr(other._monitor, name)))
 

@@ -9,10 +9,11 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from bondgraph.algebra.interpreter import interpolation
+from bondgraph.algebra.interpolation import interpolation
 from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.ir.expr import Expr, Kind, Op, Pool
 from bondgraph.ir.program import Assignment, Branch, Choice, Const, Expression, Mode, Ref
+from bondgraph.ir.tables import backwards
 from bondgraph.notation.dialect import CodeSpeller, Dialect
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure
 from bondgraph.passes.lowering.program_names import Names
@@ -22,7 +23,8 @@ NAMES: dict[str, Any] = {**DOUBLES, "nan": math.nan, "inf": math.inf, "__builtin
 
 _PYTHON = Dialect(
     "{0}", "{1} if {0} else {2}", "and", "or", "not {0}", "{0} == {1}", "{0} != {1}",
-    {"power": "pow({0}, {1})", "table": "{1}({0})"},
+    {"power": "pow({0}, {1})", "table": "{1}({0})",
+     "map": "{2}({0}, {1})", "inverse": "{2}({0}, {1})"},
 )  # fmt: skip
 
 
@@ -89,7 +91,7 @@ class Code:
     def _table(self, name: str) -> None:
         if name not in self._tables:
             self._tables[name] = f"table{len(self._tables)}"
-            self.names[self._tables[name]] = interpolation(self.pool.rows(name))
+            self.names[self._tables[name]] = interpolation(self.pool.rows(name), backwards(name))
 
     def _constant(self, value: Expr) -> Expression:
         number = self.number(value)

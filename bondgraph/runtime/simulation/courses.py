@@ -7,9 +7,10 @@ from bisect import bisect_right
 from collections.abc import Callable
 
 from bondgraph.algebra.derivative import Jets
-from bondgraph.algebra.interpreter import interpolation
+from bondgraph.algebra.interpolation import interpolation
 from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
 from bondgraph.ir.functions import FUNCTIONS
+from bondgraph.ir.tables import knots
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.code import Code
 from bondgraph.runtime.simulation.parameters import Values
@@ -122,9 +123,9 @@ def _margins(expr: Expr, pool: Pool) -> list[Expr]:
         if node.op is Op.CMP or bends:  # where its argument is zero, or its arguments are equal
             found[pool.sub(*node.args) if len(node.args) == 2 else node.args[0]] = None
         elif node.op is Op.FN and node.name.startswith("table:"):
-            points = pool.tables[node.name.removeprefix("table:")]
-            if len(points) <= _MANY:
-                found |= {pool.sub(node.args[0], pool.num(x)): None for x, _ in points}
+            for arg, numbers in zip(node.args, knots(pool.tables[node.name[6:]]), strict=True):
+                if len(numbers) <= _MANY:
+                    found |= {pool.sub(arg, pool.num(x)): None for x in numbers}
     return list(found)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from bisect import bisect_right
 from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
@@ -110,10 +111,17 @@ class Given(Acting):
         }
         self.pids = [Pid(c, self._function(c.setpoint)) for c in scenario.controllers]
         self._driven = {p.controller.input: p for p in self.pids}
+        self._late = {i.name: float(i.delay) for i in graph.inputs if i.delay and not i.of}
+        #: what laws received of sensors some time ago: of which, and how long ago it was so
+        told = {s.name: float(s.delay) for s in graph.sensors}
+        self._received = {i.name: (i.of, float(i.delay) + told[i.of]) for i in graph.inputs if i.of}
+        self.recall: Callable[[str, float], float] = lambda name, t: 0.0
         zero = Course.constant(0.0)
         written = {**scenario.inputs, **scenario.modes}
         self.courses = {
-            i.name: written.get(i.name, zero) for i in graph.inputs if i.name not in self._driven
+            i.name: written.get(i.name, zero)
+            for i in graph.inputs
+            if i.name not in self._driven and not i.of
         }
         for name in self.modes:
             self.courses[name] = self.courses[name]._replace(hold=True)
@@ -130,12 +138,19 @@ class Given(Acting):
 
     def command(self, name: str, order: int) -> Callable[[float], float] | None:
         """See `Acting`."""
+        if name in self._received:
+            of, age = self._received[name]
+            return nothing if order else lambda t: self.recall(of, t - age)
+        late = self._late.get(name, 0.0)
         if name in self.courses:
-            return self._function(self.courses[name], order)
+            told = self._function(self.courses[name], order)
+            if not late:
+                return told
+            return lambda t: told(max(t - late, 0.0)) if t > late or not order else 0.0
         pid = self._driven.get(name)
         if pid is None:
             return None
-        return nothing if order else lambda _: pid.output
+        return nothing if order else lambda t: pid.told(t - late) if late else pid.output
 
     def control(
         self,
@@ -160,12 +175,22 @@ class Given(Acting):
         times = self.times
         if len(times) < _LOOKS:
             times = np.linspace(0.0, end, _LOOKS)
-        for course in self.courses.values():
-            found.update(courses.bends(course, end))
-            found.update(courses.jumps(course, self.graph.pool, self.values, times))
+        told: dict[str, list[float]] = {
+            name: [
+                *courses.bends(course, end),
+                *courses.jumps(course, self.graph.pool, self.values, times),
+            ]
+            for name, course in self.courses.items()
+        }
         for controller in self.scenario.controllers:
             ticks = np.arange(1, math.ceil(end / controller.period)) * controller.period
-            found.update(ticks.tolist())
+            told[controller.input] = ticks.tolist()
+        for name, moments in told.items():
+            found.update(moments)
+            if name in self._late:  # they reach the machine later; its input begins to move then
+                found.update(t + self._late[name] for t in (0.0, *moments))
+        for _, age in self._received.values():  # from moment to moment all that is needed is past
+            found.update((np.arange(1, math.ceil(end / age)) * age).tolist())
         return _apart((t for t in found if 0 < t < end), self.times)
 
 
@@ -211,6 +236,7 @@ class Pid:
         self.controller = controller
         self.setpoint = setpoint
         self.output = min(max(0.0, controller.limits[0]), controller.limits[1])
+        self._history = [(0.0, self.output)]  # what it has said, from when on
         self._integral = 0.0
         self._error: float | None = None
         self._seen: float | None = None
@@ -232,3 +258,9 @@ class Pid:
             self._integral = grown
         self._error = error
         self.output = min(max(wanted, low), high)
+        self._history.append((t, self.output))
+
+    def told(self, t: float) -> float:
+        """What it said at an earlier time; before the start what it says then."""
+        at = bisect_right(self._history, t * (1 + _EDGE), key=lambda entry: entry[0])
+        return self._history[max(at - 1, 0)][1]

@@ -74,7 +74,7 @@ class _Reader:
         self.graph = graph
         self.document = Document(source, places(source.text), Outside(graph, report), Values(graph))
         self.sensors = {s.name: s for s in graph.sensors if s.same_as is None}
-        self.inputs = {i.name: i for i in graph.inputs}
+        self.inputs = {i.name: i for i in graph.inputs if not i.of}
         self.values = {v.name: v for v in graph.values}
         self.lets = {x.name: x for x in graph.lets}
 

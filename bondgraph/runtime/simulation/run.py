@@ -6,7 +6,8 @@ A run ends with its scenario; a `Robot` goes on and on, its samples given while 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from bisect import bisect_right
+from collections.abc import Callable, Iterator, Mapping
 
 import numpy as np
 
@@ -70,10 +71,15 @@ class _Simulation(Stepper):
         self.sensors = [s for s in self.graph.sensors if s.same_as is None]
         self.times = self._times()
         self.given = Given(self.graph, scenario, self.values, self.times)
-        super().__init__(system, integral, scenario, self.given, scenario.record)
+        super().__init__(system, integral, scenario, self.given, scenario.record, remembers=True)
+        self.late = {s.name: float(s.delay) for s in self.sensors if s.delay}
+        self.given.recall = self._recall
+        self._then: list[float] = []  # when what is remembered was
+        received = [i.of for i in self.graph.inputs if i.of]
+        self._past: dict[str, list[float]] = {name: [] for name in (*self.late, *received)}
         samples = len(self.times)
         self.readers = readers(self.graph, scenario, self.values, samples)
-        self.told = {i.name: np.empty(samples) for i in self.graph.inputs}
+        self.told = {i.name: np.empty(samples) for i in self.graph.inputs if not i.of}
         self.gone = {s.name: np.zeros(samples, dtype=bool) for s in self.sensors}
 
     def _times(self) -> Array:
@@ -109,6 +115,8 @@ class _Simulation(Stepper):
             lambda t: progress(min(t / end, 1.0)),
         )
         done = 0
+        if self._past:
+            self._remember(0.0, self.look([*stops, end][0]))
         for b in [*stops, end, end]:
             a, when = self.time, inside(self.time, b)
             last = len(times) if a == end else int(np.searchsorted(times, b))
@@ -119,9 +127,26 @@ class _Simulation(Stepper):
             ):
                 table[k] = [now.get(name, math.nan) for name in first.names]
                 self._note(k, when(t), when((a + b) / 2))
+                self._remember(t, now)
+            self._remember(b, self.last)
             done = last
             progress(b / end if end else 1.0)
         return self._result(first, table)
+
+    def _remember(self, t: float, now: Mapping[str, float]) -> None:
+        """Keep the true values of the sensors whose past is asked for."""
+        if self._past:
+            self._then.append(t)
+            for name, values in self._past.items():
+                values.append(now.get(name, math.nan))
+
+    def _recall(self, name: str, t: float) -> float:
+        """The true value of a sensor at an earlier time, before the start that at the start."""
+        values, k = self._past[name], bisect_right(self._then, t)
+        if not 0 < k < len(values):
+            return values[min(k, len(values)) - 1 if k else 0] if values else 0.0
+        a, b = self._then[k - 1 : k + 1]
+        return values[k - 1] + (values[k] - values[k - 1]) * (t - a) / (b - a)
 
     def _seen(self, mode: Mode, t: float, x: Array) -> dict[str, float]:
         """Everything that can be seen, by name; only `let`s may have no value."""
@@ -142,7 +167,10 @@ class _Simulation(Stepper):
         def read(name: str, now: float) -> float:
             reader = self.readers[name]
             own = reader.own_sample(k)
-            true = now if own >= samples[0] else table[own, self.names.index(name)]
+            if name in self.late:
+                true = self._recall(name, self.times[own] - self.late[name])
+            else:
+                true = now if own >= samples[0] else table[own, self.names.index(name)]
             return reader.read(own, true) * reader.unit
 
         self.given.hold(t, lambda: self.look(end))
@@ -171,11 +199,14 @@ class _Simulation(Stepper):
         truth = {name: table[:, k].copy() for k, name in enumerate(mode.names)}
         written = units(graph) | {x.name: x.unit or "" for x in graph.lets}
         known: dict[str, Array] = {}
-        for item in graph.inputs:
+        for item in (i for i in graph.inputs if not i.of):
             (known if item.known else truth)[item.name] = self.told[item.name]
         blank = np.full(len(self.times), math.nan)
         for sensor in self.sensors:
-            read = self.readers[sensor.name].all(truth.get(sensor.name, blank))
+            true = truth.get(sensor.name, blank)
+            if sensor.name in self.late:  # before the start it was as it was then
+                true = np.interp(self.times - self.late[sensor.name], self.times, true)
+            read = self.readers[sensor.name].all(true)
             known[sensor.name] = np.where(self.gone[sensor.name], math.nan, read)
         kept = np.ones(len(self.times), dtype=bool)
         if scenario.sampling.lost:

@@ -33,7 +33,8 @@ class Stepper:
 
     Another machine is made when a switch turns, and when something new goes wrong: what storages
     hold is handed over. `record` are signals that can be seen beside states, sensors and `let`s.
-    `names` are what can be seen, `time` is where it stands, in s.
+    `names` are what can be seen, `time` is where it stands, in s. Who does not `remember` is
+    refused a machine with delays (`SimulationError`).
     """
 
     def __init__(
@@ -43,7 +44,15 @@ class Stepper:
         scenario: Scenario,
         acting: Acting,
         record: Sequence[str] = (),
+        remembers: bool = False,
     ) -> None:
+        late = [i.of for i in system.graph.inputs if i.of]
+        late += [s.symbol.name for s in system.graph.lags()]
+        if late and not remembers:
+            raise SimulationError(
+                f"`{late[0]}` is delayed, and a machine that runs without an end has no past: "
+                "`simulate` a scenario with an end, and watch its log"
+            )
         self.system, self.integral, self.scenario = system, integral, scenario
         self.acting, self.record = acting, record
         self._modes: dict[tuple[tuple[bool, ...], tuple[str, ...]], Mode] = {}

@@ -373,6 +373,55 @@ def test_events() -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    "corner", ["", ",", "flow\\speed, ", "head in Pa\n\n x/y ", "0;", "flow (l/s) / speed; "]
+)
+def test_a_map_beside_the_model(tmp_path: object, corner: str) -> None:
+    folder = str(tmp_path)
+    with open(f"{folder}/pump.csv", "w") as file:
+        file.write(f"# measured\n{corner}100, 200\n0 10\t40 # stalled\n\n2; 8; 37.5\n")
+    text = 'model M { input w; Se:U -> R:r { e = table("pump.csv", f, w) } }'
+    g, _ = run(text, path=f"{folder}/model.bg")
+    assert g is not None
+    assert g.pool.tables["pump.csv"] == ((0, 100, 200), (0, 10, 40), (2, 8, Fraction(75, 2)))
+    assert laws(g, "r") == ["r.e - table:pump.csv(r.f, w)"]
+
+
+@pytest.mark.parametrize(
+    ("inputs", "text", "says"),
+    [
+        ("f", "0,1\n2\n", "Line 2 of \"t.csv\" is no pair of numbers"),
+        ("f", "0,1\n\n2,x\n", "Line 3 of \"t.csv\" is no pair of numbers"),
+        ("f", ",1,2\n0,1,2\n1,2,3\n", "Line 2 of \"t.csv\" is no pair of numbers"),
+        ("f", "x,y\n0,1\n0,2\n", "Line 3 of \"t.csv\": x does not ascend"),
+        ("f", "x,y\n0,1\n", "\"t.csv\" has fewer than two points"),
+        ("f", "", "\"t.csv\" has fewer than two points"),
+        ("f, w", "", "\"t.csv\" has fewer than two points"),
+        ("f, w", ",1,2\n0,1,2\n", "\"t.csv\" has fewer than two points"),
+        ("f, w", "0,1\n2,3\n4,5\n", "Line 1 of \"t.csv\": the first line has no two numbers"),
+        ("f, w", ",1,2\n0,1,2\n1,2\n", "Line 3 of \"t.csv\" has not 3 numbers"),
+        ("f, w", ",1,2\n0,1,2\n1,2,3,4\n", "Line 3 of \"t.csv\" has not 3 numbers"),
+        ("f, w", ",1,2\n0,1,2\n1,2,nan\n", "Line 3 of \"t.csv\" has not 3 numbers"),
+        ("f, w", ",1,x,3\n0,1,2,5\n1,2,2,5\n", "Line 1 of \"t.csv\" has not 4 numbers"),
+        ("f, w", "1\n0,1,2\n1,2,5\n", "Line 1 of \"t.csv\" has not 3 numbers"),
+        ("f, w", ",1,2\n1,1,2\n0,2,3\n", "Line 3 of \"t.csv\": x does not ascend"),
+        ("f, w", ",2,2\n0,1,2\n1,2,3\n", "Line 1 of \"t.csv\": the first line has no two"),
+    ],
+)
+def test_a_table_that_is_none_is_refused(
+    tmp_path: object, inputs: str, text: str, says: str
+) -> None:
+    folder = str(tmp_path)
+    with open(f"{folder}/t.csv", "w") as file:
+        file.write(text)
+    model = f'model M {{ input w; Se:U -> R:r {{ e = table("t.csv", {inputs}) }} }}'
+    g, diagnostics = run(model, path=f"{folder}/model.bg")
+    assert g is None
+    (told,) = diagnostics
+    assert told.code == "wrong-table" and told.message.startswith(says), told.message
+    assert told.help and told.labels[0].span.text == '"t.csv"'
+
+
 def test_a_table_beside_the_model(tmp_path: object) -> None:
     folder = str(tmp_path)
     with open(f"{folder}/valve.csv", "w") as file:
