@@ -1,4 +1,4 @@
-"""`bondgraph explain`: an error code, or one bond, element, residual or fault of a model."""
+"""`bondgraph explain`: an error code, or one bond, element, residual, fault or switch of a model."""
 
 from __future__ import annotations
 

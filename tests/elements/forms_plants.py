@@ -189,7 +189,7 @@ FORMS = [
             ),
             Relation(
                 "torque of fluxes and currents of the rotor",
-                f"{ROTOR}; Q**2*((M*ib + Lr*y)*x - (M*ia + Lr*x)*y - J*D(w, 1) - f*w - load)",
+                f"{ROTOR}; Q*((M*ib + Lr*y)*x - (M*ia + Lr*x)*y - J*D(w, 1) - f*w - load)",
                 "Rs Rr Ls Lr M J f load ua ub ia ib w",
             ),
         ],
