@@ -1,4 +1,4 @@
-"""`bondgraph explain`: an error code, or one bond, element, residual, fault or switch of a model."""
+"""`bondgraph explain`: an error code, or something in a model: an element, a residual, a fault."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import sys
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, nullcontext
 from typing import TYPE_CHECKING
 
 from bondgraph import Options
@@ -43,6 +43,9 @@ def arguments(parser: ArgumentParser) -> None:
         help="publish the verdicts, at the broker of --mqtt if none is named")  # fmt: skip
     add("--json", dest="lines", action="store_true",
         help="print each verdict as a line of JSON (docs/json.md)")  # fmt: skip
+    add("--states", metavar="FILE",
+        help="a row for each sample: residuals, thresholds, states, class (.csv or"
+        " .parquet)")  # fmt: skip
 
 
 def sampled(add: Callable[..., object]) -> None:
@@ -115,6 +118,7 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     from bondgraph.runtime.monitoring.columns import Columns, read_map
     from bondgraph.runtime.monitoring.journal import known_rate
     from bondgraph.runtime.monitoring.sample_pipeline import Monitor, Parts
+    from bondgraph.runtime.monitoring.states import states_file
 
     known = known_rate(args.journal) if args.journal else None
     tuning = read_tuning(args.tuning) if args.tuning else None
@@ -135,13 +139,14 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     )
     watched = len(compilation.diagnosis_model.sees)
     what = f"{compilation.graph.name}: {plural(watched, 'residual')}"
-    with _stop() as stop:
-        what += f" at {1 / engine.sample_time:g} samples a second"
-        untaken = Monitor(parts, what).run(stop)
+    what += f" at {1 / engine.sample_time:g} samples a second"
+    kept = states_file(args.states, engine.residuals) if args.states else nullcontext()
+    with kept as states, _stop() as stop:
+        untaken = Monitor(parts._replace(states=states), what).run(stop)
     if untaken:
-        kept = "they are sent after the next start" if args.journal else "--journal would keep them"
+        how = "they are sent after the next start" if args.journal else "--journal would keep them"
         what = plural(untaken, "verdict")
-        print(f"note: the broker has not taken {what}; {kept}", file=sys.stderr)
+        print(f"note: the broker has not taken {what}; {how}", file=sys.stderr)
     return 0
 
 

@@ -14,6 +14,7 @@ from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.journal import Journal, JournalError, Past
 from bondgraph.runtime.monitoring.mqtt_client import Publisher
 from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Source
+from bondgraph.runtime.monitoring.states import States
 from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
 from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
@@ -65,7 +66,8 @@ class Parts(NamedTuple):
     """What a monitor is made of.
 
     `columns` picks the signals of the engine out of a log, (n, signals); raises LogError where
-    some are missing. `sinks` hear every verdict with its number.
+    some are missing. `sinks` hear every verdict with its number, `states` gets every sample with
+    what it was decided on.
     """
 
     source: Source
@@ -76,6 +78,7 @@ class Parts(NamedTuple):
     sinks: Sequence[Callable[[int, Verdict], None]] = ()
     publisher: Publisher | None = None
     journal: Journal | None = None
+    states: States | None = None
 
 
 class Monitor:
@@ -280,8 +283,11 @@ class Monitor:
         if piece.anew:
             parts.decision.restart()
             self._gap(piece)
-        for verdict in parts.decision.update(piece.time, batch, piece.samples):
+        said = parts.decision.update(piece.time, batch, piece.samples)
+        for verdict in said:
             self._say(verdict)
+        if parts.states is not None:
+            parts.states.add(piece.time, parts.decision.decided(), said)
         self._time = self._newest
 
     def _gap(self, piece: Piece) -> None:
