@@ -268,15 +268,16 @@ def node_value(
 def chosen(node: Expr, values: dict[Expr, Any], algebra: Values[Any]) -> Expr:
     """The branch that an IF node takes."""
     condition, yes, no = node.args
-    return yes if algebra.numbers.nonzero(algebra.lead(values[condition])) else no
+    (truth,) = algebra.leads(values[condition])
+    return yes if algebra.numbers.nonzero(truth) else no
 
 
 def holds(node: Expr, values: dict[Expr, Any], algebra: Values[Any]) -> bool:
     """Whether a comparison or a logical node is true."""
     if node.op is Op.CMP:
-        left, right = (algebra.lead(values[a]) for a in node.args)
+        left, right = algebra.leads(*[values[a] for a in node.args])
         return compare(algebra.numbers, node.name, left, right)
-    truths = [algebra.numbers.nonzero(algebra.lead(values[a])) for a in node.args]
+    truths = [algebra.numbers.nonzero(x) for x in algebra.leads(*[values[a] for a in node.args])]
     if node.name == "not":
         return not truths[0]
     return all(truths) if node.name == "and" else any(truths)

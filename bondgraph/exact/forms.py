@@ -55,9 +55,9 @@ class Forms:
         """A constant."""
         return {CONSTANT: self._taylor.number(x)}
 
-    def lead(self, a: Form) -> Number:
-        """The value at the point."""
-        return self.known(a, "decision")[0]
+    def leads(self, *values: Form) -> list[Number]:
+        """The values at the point."""
+        return [self.known(a, "decision", at)[0] for at, a in enumerate(values)]
 
     def combine(self, terms: Sequence[tuple[Number, Form]], n: int) -> Form:
         """The sum of number times value."""

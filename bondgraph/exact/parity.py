@@ -83,7 +83,7 @@ class _Rows:
             self.plain({variable: 1})
         for _, terms, when, common in part.balances:
             off = when is not None and not self.truth.algebra.numbers.nonzero(
-                self.truth.algebra.lead(evaluate([when], self.truth)[0])
+                *self.truth.algebra.leads(evaluate([when], self.truth)[0])
             )
             self.plain({common: 1} if off else dict(terms))
         for _, law in part.laws:

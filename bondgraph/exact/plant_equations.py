@@ -118,7 +118,7 @@ class Writer:
     def holds(self, when: Expr) -> bool:
         """Whether a switched junction is on."""
         return self.setting.numbers.nonzero(
-            self.sample.algebra.lead(evaluate([when], self.sample)[0])
+            *self.sample.algebra.leads(evaluate([when], self.sample)[0])
         )
 
     def linear(self, node: int, form: Form) -> Equation:

@@ -7,7 +7,7 @@ size at which the function does something. What stays undetermined in the end is
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
 from math import isfinite
@@ -55,6 +55,25 @@ class _PointForms(Forms):
             return known[:1]
         row = self._point.reduce(self._point.row(form))
         return None if any(c != CONSTANT for c in row) else [row.get(CONSTANT, 0)]
+
+    def leads(self, *values: Form) -> list[Number]:
+        """As of all forms; see `function`."""
+        self._wait("decision", values)
+        return super().leads(*values)
+
+    def function(self, name: str, args: Sequence[Form], n: int) -> Form:
+        """As of all forms; of several open arguments a random one waits for a value.
+
+        A law `0 = min(a, b)` holds on a side where a is zero, and on one where b is.
+        """
+        self._wait(name, args)
+        return super().function(name, args, n)
+
+    def _wait(self, of: str, args: Sequence[Form]) -> None:
+        open_ = [at for at, a in enumerate(args) if self.try_known(a) is None]
+        if len(open_) > 1:
+            at = self._point.random.choice(open_)
+            raise NotLinear(args[at], of, at)
 
 
 class _PointSample(FormSample):

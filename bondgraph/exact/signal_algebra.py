@@ -34,8 +34,8 @@ class Values(Protocol[V]):
         """A constant."""
         ...
 
-    def lead(self, a: V) -> Number:
-        """The value at the point; its sign decides comparisons."""
+    def leads(self, *values: V) -> list[Number]:
+        """The values at the point that a decision rests on."""
         ...
 
     def combine(self, terms: Sequence[tuple[Number, V]], n: int) -> V:
@@ -132,9 +132,9 @@ class Taylor:
         """A constant."""
         return [x]
 
-    def lead(self, a: Series) -> Number:
-        """The value at the point."""
-        return a[0]
+    def leads(self, *values: Series) -> list[Number]:
+        """The values at the point."""
+        return [a[0] for a in values]
 
     def combine(self, terms: Sequence[tuple[Number, Series]], n: int) -> Series:
         """The sum of number times value."""
@@ -267,11 +267,11 @@ class Exponentials:
         """A constant."""
         return Exponential(x, 0)
 
-    def lead(self, a: Exponential) -> Number:
-        """The value at the point."""
-        if a.degree and a.amplitude:
+    def leads(self, *values: Exponential) -> list[Number]:
+        """The values at the point."""
+        if any(a.degree and a.amplitude for a in values):
             raise Mixed("a decision on a signal")
-        return a.amplitude
+        return [a.amplitude for a in values]
 
     def combine(self, terms: Sequence[tuple[Number, Exponential]], n: int) -> Exponential:
         """The sum of number times value."""

@@ -6,8 +6,11 @@ from pathlib import Path
 
 import pytest
 
+import bondgraph
+from bondgraph.exact.evaluate import evaluate
 from bondgraph.exact.from_start import from_start
 from bondgraph.exact.plant import Plant
+from bondgraph.ir.expr import Kind
 from bondgraph.ir.signature_matrix import SignatureMatrix
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
@@ -243,3 +246,35 @@ def test_what_overflows_only_beyond_a_limit_is_not_held_at_its_start(rate: str, 
     )
     assert not from_start(Plant(c.graph), seed).held
     assert "k" in the_one_with(c.signatures, "y")
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        "0 = min(-e, one*f)",
+        "0 = max(e, -one*f)",
+        "0 = if(e > -one*f, e, one*f)",
+        "0 = if(one*f > -e, e, one*f)",
+    ],
+)
+def test_a_diode_conducts_and_blocks(law: str) -> None:
+    """An ideal diode: no drop while it conducts, no current while it blocks, e < 0 then.
+
+    U = R i + u holds while it conducts alone, so that U and R show then; i = 0 otherwise.
+    """
+    c = bondgraph.compile(text=f"""bg 1
+        model Rectifier {{
+            param R = 10; param C = 1; param load = 100; const one = 1
+            1:a {{ <- Se:U; -> R:R; -> R:diode {{ {law} }}; -> 0:n; -> Df:i }}
+            n {{ -> C:C; -> R:load; -> De:u }}
+        }}""")  # fmt: skip
+    seen = {frozenset(r.faults) for r in c.residuals}
+    assert seen == {frozenset({"R", "U", "i", "u"}), frozenset({"C", "load", "i", "u"})}
+    (first,) = [r.residual.expr for r in c.residuals if "R" in r.faults]
+    current = c.graph.pool.symbol("i", Kind.SENSOR)
+    signs = set()
+    for number in range(16):
+        sample = c._plant.sample([first, current], number, 2)
+        value = float(evaluate([current], sample, 2)[0][0])
+        signs.add((value > 1e-9) - (value < -1e-9))
+    assert signs == {0, 1}
