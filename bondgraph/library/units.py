@@ -142,8 +142,8 @@ def scale(theirs: Unit, ours: Unit) -> tuple[Fraction, Fraction]:
 
     Those of a thermometer count from the zero of their scale, unlike differences of temperatures.
 
-    >>> scale(parse_unit("degF"), parse_unit("degC"))[1] * 9, scale(parse_unit("mV"), parse_unit("V"))
-    (Fraction(-160, 1), (Fraction(1, 1000), Fraction(0, 1)))
+    >>> scale(parse_unit("degF"), parse_unit("degC"))  # 32 degF is 0 degC
+    (Fraction(5, 9), Fraction(-160, 9))
     """
     zero = _ZEROS.get(theirs.text, Fraction(0)) - _ZEROS.get(ours.text, Fraction(0))
     return theirs.factor / ours.factor, zero / ours.factor

@@ -71,7 +71,9 @@ def read_log(
 def read_form(path: str, form: Form) -> Log:
     """The same, with what is known of the table before."""
     try:
-        return read_parquet(path, form) if path.lower().endswith(".parquet") else read_csv(path, form)
+        if path.lower().endswith(".parquet"):
+            return read_parquet(path, form)
+        return read_csv(path, form)
     except OSError as error:
         raise LogError(path, None, f"cannot be read: {error.strerror or error}") from error
 

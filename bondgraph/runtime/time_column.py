@@ -21,7 +21,8 @@ _SAME = {"sec": "s", "seconds": "s", "hours": "h", "µs": "us", "μs": "us"}
 _UNITS = ("s", "ms", "us", "ns", "min", "h", "d")
 _EPOCH = {"s": 1.0, "ms": 1e3, "us": 1e6, "ns": 1e9}
 _FROM, _TO = 9.4e8, 4.2e9  # s since 1970: the years 2000 to 2100
-_FEWEST, _MOST = 0.01, 2.0  # steps of the grid in one of the log: thinned, or with samples lost
+_FEWEST, _MOST = 0.01, 10.0  # steps of the grid in one of the log: thinned, or far apart
+_ASKED = 2.0  # at most, of a rate that somebody has asked for
 _STEPS = 16  # after which the rate of a log is known
 
 
@@ -52,7 +53,7 @@ def named_unit(name: str) -> tuple[str, str]:
 
 
 def weak(name: str) -> bool:
-    """Whether a name may as well be that of a temperature, or of anything that is called T or Ts."""
+    """Whether a name may as well be that of a temperature, or of anything called T or Ts."""
     return name.strip() == "T" or _GLUED.fullmatch(name.strip()) is not None
 
 
@@ -143,8 +144,11 @@ def seconds(values: Array, unit: str, path: str) -> Array:
 class Pace:
     """Holds the steps of a log against the rate that it is read at, once enough of them came."""
 
-    def __init__(self, sample_time: float, name: str, said: str = "the rate is") -> None:
-        self._sample_time, self._name, self._said = sample_time, name, said
+    def __init__(self, sample_time: float, name: str, asked: bool = False) -> None:
+        self._sample_time, self._name = sample_time, name
+        self._most, self._said = (
+            (_ASKED, "--rate asks for") if asked else (_MOST, "the residuals are made for")
+        )
         self._times: list[float] | None = []
         self._unit = "s"
 
@@ -161,7 +165,7 @@ class Pace:
         self._times = None
         step = float(np.median(steps))
         share = step / self._sample_time
-        if not _FEWEST <= share * (1 + 1e-9) or share > _MOST:
+        if not _FEWEST * (1 - 1e-9) <= share <= self._most:
             raise self._unlike(step)
 
     def _unlike(self, step: float) -> LogError:

@@ -149,7 +149,8 @@ class Columns:
         own = "count" if known.counts is not None else known.unit
         if unit in ("", own) or not own:
             return 1.0, 0.0
-        own_scale = f'give scale and offset in a map file: "{known.path}" = {{ column = "{column}", ...'
+        example = f'"{known.path}" = {{ column = "{column}", ...'
+        own_scale = f"give scale and offset in a map file: {example}"
         if known.counts is not None:
             if unit in ("counts", "1"):
                 return 1.0, 0.0
@@ -179,7 +180,8 @@ def read_map(path: str | os.PathLike[str], signals: Iterable[Known]) -> dict[str
 
     Lines like `"U0[1]" = "volt_left"`, `"Us" = { column = "supply", unit = "mV" }` or
     `"m[1].me.we" = { column = "rpm", scale = 0.10472, offset = 0.0 }`; signals by path or by their
-    name in C; `time` is for `read_time`. Raises LogError for a file that is wrong or names a signal that is not there.
+    name in C; `time` is for `read_time`. Raises LogError for a file that is wrong or names a
+    signal that is not there.
     """
     name = os.fspath(path)
     known = {k.path: k for k in signals}

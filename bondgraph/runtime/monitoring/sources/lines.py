@@ -146,7 +146,7 @@ class Decoder(Reader):
     def _csv(self, lines: list[str]) -> list[Log]:
         table = self._table
         if table is None:
-            why = "no header names the columns yet (--columns gives one)"
+            why = "no header names the columns yet"
             for k, line in enumerate(lines):
                 self._waste(k, line, why)
             return []
