@@ -42,6 +42,7 @@ _COMMENT = re.compile(r"# (unit )?((?:[^\\:]|\\.)+): (.*)")
 _ESCAPES = {"\\": "\\\\", "\n": "\\n", "\r": "\\r", ":": "\\:"}
 _BLOCK = 1 << 22  # characters read at a time
 _ROWS = 10_000  # rows written at a time
+_OBJECTS = (".jsonl", ".ndjson")
 _TIMESTAMPS = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}
 
 
@@ -53,7 +54,7 @@ def read_log(
     rate: float | None = None,
     columns: tuple[str, ...] = (),
 ) -> Log:
-    """The log in a file, by its suffix: `.parquet`, else CSV.
+    """The log in a file, by its suffix: `.parquet`, `.jsonl` (a JSON object a line), else CSV.
 
     In files of other origin `time` names the column of time; without it, one is taken that is
     called t, time or timestamp, in capitals or not, with a unit behind it or not (`time_ms`,
@@ -73,6 +74,8 @@ def read_form(path: str, form: Form) -> Log:
     try:
         if path.lower().endswith(".parquet"):
             return read_parquet(path, form)
+        if path.lower().endswith(_OBJECTS):
+            return read_objects(path, form)
         return read_csv(path, form)
     except OSError as error:
         raise LogError(path, None, f"cannot be read: {error.strerror or error}") from error
@@ -204,8 +207,6 @@ class CsvReader(Reader):
         for k, name in enumerate(names):
             if not name:
                 raise self._wrong(f"column {k + 1} has no name", "name every column in the header")
-            if name in names[:k]:
-                raise self._wrong(f"two columns are called `{name}`", "rename one of them")
         with self._placed():
             self._table = self._header_of(names, self._separator)
 
@@ -225,6 +226,21 @@ def read_csv(path: str, form: Form) -> Log:
     if not parts:
         raise LogError(path, None, "no header: the file has nothing but comments or is empty")
     return joined(parts[1:] if len(parts) > 1 and not parts[0].rows else parts)
+
+
+def read_objects(path: str, form: Form) -> Log:
+    """The log in a file of JSON lines; see `read_log`."""
+    from bondgraph.runtime.monitoring.sources.lines import Decoder
+
+    decoder = Decoder(form)
+    with open(path, "rb") as file:
+        logs = decoder.feed(file.read() + b"\n")
+    decoder.check()
+    if decoder.garbage:
+        raise LogError(path, None, f"no sample in {decoder.why}", "mend or delete the line")
+    if len(logs) != 1:
+        raise LogError(path, None, "not one JSON object a line", "name a CSV file .csv")
+    return logs[0]
 
 
 def _not_utf8(path: str) -> int | None:

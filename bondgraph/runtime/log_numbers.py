@@ -260,6 +260,10 @@ class Reader:
     ) -> Table:
         """The table under a header; raises LogError where it has no column of time."""
         form = self.form
+        twice = next((n for k, n in enumerate(names) if n in names[:k]), None)
+        if twice is not None:
+            message = f"two columns are called `{twice}`"
+            raise LogError(form.name, None, message, "rename one of them")
         table = Table(names, separator, form.name, form.rate is not None, word, strict)
         if self._own and form.time is None and re.fullmatch("t_*", names[0]):
             return table.take(names[0])

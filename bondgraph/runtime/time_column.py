@@ -34,9 +34,9 @@ def stamp(cell: str) -> float | None:
     """
     try:
         found = datetime.fromisoformat(cell.strip().strip('"'))
-    except ValueError:
+        return (found if found.tzinfo else found.replace(tzinfo=UTC)).timestamp()
+    except (ValueError, OverflowError):
         return None
-    return (found if found.tzinfo else found.replace(tzinfo=UTC)).timestamp()
 
 
 def named_unit(name: str) -> tuple[str, str]:

@@ -280,3 +280,44 @@ def test_a_machine_that_was_never_on(monitored: Monitored) -> None:
     assert status == 0 and [e for e, _ in said] == ["start", "stop"]
     assert f"{_ROWS} samples, {_ROWS} of them while the machine was off" in said[-1][1]
     assert main(["tune", "tank.bg", "log.csv", "--while", "pump_speed > 200"]) == 1
+
+
+@pytest.mark.parametrize("form", ["jsonl", "parquet"])
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("stamp", ["--time", "stamp", "--time-unit", "ms", "--while", "on > 0 and T1 > 20"]),
+        ("t_ms", ["--while", "on"]),
+        ("time [ms]", ["--map", "map.toml", "--while", "on > 0.5"]),
+        ("date", []),
+    ],
+)
+def test_other_files_take_the_same_options(
+    at: Path, capsys: pytest.CaptureFixture[str], form: str, name: str, words: list[str]
+) -> None:
+    import pyarrow
+    import pyarrow.parquet
+
+    time, supply, water = _tank()
+    Path("map.toml").write_text('time = { column = "time", unit = "ms" }\nT1 = "T1"\n')
+    times = _iso(time, "+01:00") if name == "date" else [1e3 * float(t) for t in time]
+    on = (np.arange(_ROWS) < 3000).tolist()
+    columns = {"T": water.tolist(), name: times, "Tin": supply.tolist(), "on": on,
+               "T1 [degC]": (water - 273.15).tolist()}  # fmt: skip
+    path = f"log.{form}"
+    if form == "jsonl":
+        rows = zip(*columns.values(), strict=True)
+        lines = [json.dumps(dict(zip(columns, row, strict=True))) for row in rows]
+        Path(path).write_text("\n".join(lines))
+    else:
+        pyarrow.parquet.write_table(pyarrow.table(columns), path)
+    assert main(["monitor", "tank.bg", path, "--json", *words]) == 0
+    said = capsys.readouterr()
+    assert f"time is the column `{name}`" in said.err
+    verdicts = [json.loads(line) for line in said.out.splitlines()]
+    assert "1 samples a second" in verdicts[0]["message"]
+    assert [v for v in verdicts if v["event"] in ("fault", "gap", "invalid")] == []
+    assert ("1000 of them while" in verdicts[-1]["message"]) == bool(words)
+    assert main(["tune", "tank.bg", path, "--json", "--bandwidth", "0.02", *words]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert f"the column `{name}`" in found["times"][path]

@@ -237,13 +237,14 @@ _PIECES = st.lists(
     st.sampled_from(
         [b"# bondgraph log 1\n", b"# unit a: V\n", b"t,a\n", b"t;a\n", b"0,1\n", b"0;1\n", b"\n",
          b'"', b",", b"\x00", b"\xff", b"\r", b"#", b"a,b\n", b"nan", b"-1e9", b"\xef\xbb\xbf",
+         b"2024-05-01T12:00:00Z", b'{"t": 1}\n', b"0,5;", b"T [degC];t\n",
          b"PAR1"]
     ) | st.binary(max_size=3),
     max_size=12,
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+@pytest.mark.parametrize("suffix", [".csv", ".parquet", ".jsonl"])
 @given(pieces=_PIECES)
 def test_any_bytes_are_a_log_or_told_not_to_be(suffix: str, pieces: list[bytes]) -> None:
     path = Path(f"{_FOLDER}/any{suffix}")

@@ -145,12 +145,14 @@ class Decoder(Reader):
 
     def _csv(self, lines: list[str]) -> list[Log]:
         table = self._table
+        if not lines:
+            return []
         if table is None:
             why = "no header names the columns yet"
             for k, line in enumerate(lines):
                 self._waste(k, line, why)
             return []
-        table.separator = table.separator or separator_of((lines or [""])[0])
+        table.separator = table.separator or separator_of(lines[0])
         try:
             rows = table.rows(lines, lambda k, why: self._waste(k, lines[k], str(why), why.help))
         except LogError as error:
