@@ -74,6 +74,7 @@ class Table:
         self.time: str | None = None
         self.text: dict[str, str] | None = None  # by column; None before the first row
         self.stamped: set[str] = set()  # columns of times in ISO 8601
+        self.units: dict[str, str] = {}  # by column, from a row of them below the header
         self._path, self._timeless = path, timeless
         self._word, self._strict = word, strict
         self._times: list[str] = []
@@ -166,9 +167,20 @@ class Table:
         if not line.strip() or line.startswith("#"):
             return
         try:
-            into.append(self._row(line))
+            if self.text is not None or not self._row_of_units(line):
+                into.append(self._row(line))
         except (Refused, csv.Error) as error:
             refuse(at, error if isinstance(error, Refused) else Refused(str(error)))
+
+    def _row_of_units(self, line: str) -> bool:
+        """Take a line that has nothing but units, one of them below the likeliest time."""
+        cells = [c.strip().strip("[]()") for c in cells_of(line, self.separator)]
+        units = {n: labelled(f"x [{c}]")[1] for n, c in zip(self.names, cells, strict=False)}
+        found = bool(self._times) and units.get(self._times[0], "") != ""
+        if not found or any(c and not u for c, u in zip(cells, units.values(), strict=False)):
+            return False
+        self.units = {name: unit for name, unit in units.items() if unit}
+        return True
 
     def _row(self, line: str) -> list[float]:
         cells = cells_of(line, self.separator)
@@ -282,6 +294,7 @@ class Reader:
 
     def _log_of_table(self, table: Table, rows: Array, meta: dict[str, str]) -> Log:
         text = table.text or {}
+        self._units |= table.units
         columns = {
             name: np.ascontiguousarray(rows[:, k])
             for k, name in enumerate(table.names)

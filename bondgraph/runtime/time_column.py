@@ -181,11 +181,13 @@ class Pace:
             f"the samples are {step:.6g} s apart, {1 / step:.6g} a second, and {self._said}"
             f" {1 / wanted:.6g} a second, {wanted:.6g} s apart"
         )
-        help = f"give the rate of the log (--rate {1 / step:.6g})"
+        help = [f"give the rate of the log (--rate {1 / step:.6g})"]
         if likely:
-            read_as = f"not in {self._unit} (--time-unit {likely[0]})"
-            help = f"the time is probably in {likely[0]}, {read_as}; or {help}"
-        return LogError(self._name, None, message, help)
+            unit = likely[0]
+            at = 0 if self._most == _ASKED else 1  # nobody may have meant the rate
+            other = f"the time is probably in {unit}, not in {self._unit} (--time-unit {unit})"
+            help.insert(at, other)
+        return LogError(self._name, None, message, "; or ".join(help))
 
 
 def no_time(path: str, names: Sequence[str]) -> LogError:

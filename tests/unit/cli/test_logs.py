@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 from bondgraph.cli.main import main
+from bondgraph.runtime.log import Log, LogError
+from bondgraph.runtime.time_column import Pace
 
 MODEL = """bg 1
 model Tank {
@@ -321,3 +323,30 @@ def test_other_files_take_the_same_options(
     assert main(["tune", "tank.bg", path, "--json", "--bandwidth", "0.02", *words]) == 0
     found = json.loads(capsys.readouterr().out)
     assert f"the column `{name}`" in found["times"][path]
+
+
+def test_a_row_of_units_below_the_header(monitored: Monitored) -> None:
+    time, supply, water = _tank(5.0)
+    _, plain, _ = monitored(_csv("time,Tin,T1", (time, supply, water)))
+    columns = (time * 1e3, supply, water - 273.15)
+    for units in ("ms,K,degC", "[ms],,[°C]"):
+        status, said, errors = monitored(_csv(f"time,Tin,T1\n{units}", columns))
+        assert status == 0 and "in ms as its name says" in errors
+        assert [e for e, _ in said] == [e for e, _ in plain] and "fault" in [e for e, _ in said]
+    assert main(["tune", "tank.bg", "log.csv", "--bandwidth", "0.02"]) == 0
+
+
+@pytest.mark.parametrize("code", ["latin-1", "utf-16"])
+def test_another_code_is_told(monitored: Monitored, code: str) -> None:
+    text = _csv("time,Tin,T1 [°C]", _tank())
+    status, _, errors = monitored(text.encode(code))
+    assert status == 1 and "log.csv:1: not UTF-8; save it as UTF-8" in errors
+
+
+@pytest.mark.parametrize(("asked", "first"), [(True, "the time is probably"), (False, "give the")])
+def test_a_rate_that_nobody_gave_is_doubted_first(asked: bool, first: str) -> None:
+    pace = Pace(0.001, "log.csv", asked)
+    pace.look(Log(np.arange(10.0), {}, {}, {}))  # not yet enough steps
+    with pytest.raises(LogError, match="1 s apart, 1 a second") as error:
+        pace.look(Log(np.arange(10.0, 20.0), {}, {}, {}))
+    assert error.value.help.startswith(first)

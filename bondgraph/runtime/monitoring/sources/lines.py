@@ -22,6 +22,7 @@ from bondgraph.runtime.log_numbers import (
 from bondgraph.runtime.time_column import chosen, stamp
 
 _CAUSES = 2  # of lines that are no samples: more than one is noise
+_JSON = re.compile(r"\s*(?:\{|\[\s*[{\]])")  # no row of units, `[s],[V]`
 _UNIT = re.compile(r"# unit ((?:[^\\:]|\\.)+): (.*)")
 
 
@@ -72,7 +73,7 @@ class Decoder(Reader):
             found += self._csv(lines[:count])
             self.lines += count
             lines = lines[count:]
-            count = next((k for k, s in enumerate(lines) if s[:1] not in ("{", "[")), len(lines))
+            count = next((k for k, s in enumerate(lines) if not _JSON.match(s)), len(lines))
             found += self._json(lines[:count])
             self.lines += count
             lines = lines[count:]
@@ -95,7 +96,7 @@ class Decoder(Reader):
     def _special(self, line: str) -> bool:
         """Whether a line is something else than a row of CSV."""
         first = line.lstrip()[:1]
-        if first in ("", "#", "{", "["):
+        if first in ("", "#") or _JSON.match(line):
             return True
         return first not in _NUMERIC and self._header(line) is not None
 
@@ -106,7 +107,8 @@ class Decoder(Reader):
             if first == "#":
                 self._comment(line)
             elif first:
-                table = None if first in "{[" or first in _NUMERIC else self._header(line)
+                row = first in _NUMERIC or _JSON.match(line)
+                table = None if row else self._header(line)
                 if table is None:
                     return k
                 self._table = table
@@ -151,6 +153,9 @@ class Decoder(Reader):
             why = "no header names the columns yet"
             for k, line in enumerate(lines):
                 self._waste(k, line, why)
+            if "\ufffd" in lines[0] and self._refused is None:
+                help = "save it as UTF-8"
+                self._refused = LogError(self.form.name, self.lines + 1, "not UTF-8", help)
             return []
         table.separator = table.separator or separator_of(lines[0])
         try:
