@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from bondgraph import Options
 from bondgraph.cli import monitor
+from bondgraph.cli.log_options import operating_of
 from bondgraph.cli.options import isolating, positive, realised, realising
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
@@ -162,6 +163,7 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
         args.journal = None
         source = partial(monitor.source, args, samples)
     name = "simulation" if simulated else args.serial or args.mqtt or args.log
+    operating_of(args, mapping, name)  # what is wrong with it is told before anybody watches
     replayed = bool(args.log) and args.log != "-" and not args.follow
     return Setup(
         compilation.equations,
@@ -177,6 +179,7 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
         args.speed if simulated or replayed else None,
         f"{plural(len(engine.residuals), 'residual')} at {1 / wide.sample_time:g} samples"
         " a second",
+        lambda: operating_of(args, mapping, name),
     )
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph import Options
 from bondgraph.cli import console
+from bondgraph.cli.log_options import form_of, logged, operating_of
 from bondgraph.cli.options import isolating, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
@@ -55,12 +56,7 @@ def sampled(add: Callable[..., object]) -> None:
     add("--baud", metavar="N", type=int, default=115200,
         help="its speed (default: 115200)")  # fmt: skip
     add("--mqtt", metavar="HOST[:PORT]/TOPIC", help="samples from a topic of an MQTT broker")
-    add("--map", metavar="FILE", help="which column is which signal, and in which unit")
-    add("--columns", metavar="NAMES", default="",
-        help="the header of CSV that comes without one: names, separated by commas")  # fmt: skip
-    add("--time", metavar="NAME", help="the column of time (default: t, time or timestamp)")
-    add("--time-unit", choices=["s", "ms", "us", "ns"],
-        help="its unit (default: as its name says, else s)")  # fmt: skip
+    logged(add)
     add("--rate", metavar="HZ", type=positive,
         help=f"samples a second (default: of a file its own, else {Options().rate:g})")  # fmt: skip
     add("--bandwidth", metavar="RAD/S", type=positive,
@@ -136,6 +132,9 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
         [_printer(args.lines)],
         _publisher(verdicts, args.journal, journal),
         journal,
+        operating_of(args, mapping, source.name),
+        _note,
+        args.rate is not None,
     )
     watched = len(compilation.diagnosis_model.sees)
     what = f"{compilation.graph.name}: {plural(watched, 'residual')}"
@@ -152,15 +151,11 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
 
 def source(args: Namespace, samples: Address | None) -> Source:
     """The source that the arguments name."""
-    from bondgraph.runtime.log_numbers import Form
     from bondgraph.runtime.monitoring.sources.file import file_source
     from bondgraph.runtime.monitoring.sources.streams import Pipe, SerialPort, Topic
 
     name = args.serial or args.mqtt or args.log or "-"
-    names = tuple(n.strip() for n in args.columns.split(",")) if args.columns else ()
-    form = Form(
-        "standard input" if name == "-" else name, args.time, args.time_unit, names, args.rate
-    )
+    form = form_of(args, "standard input" if name == "-" else name)
     if samples is not None:
         return Topic(samples, form, _identity(args.journal, "samples") if args.journal else None)
     if args.serial:
@@ -176,7 +171,7 @@ def watching(
     Raises Trouble where there is nothing to watch, or where the tuning is of something else.
     """
     try:
-        engine = compilation.engine(tell=lambda text: print(f"note: {text}", file=sys.stderr))
+        engine = compilation.engine(tell=_note)
     except ValueError as error:
         raise Trouble(str(error)) from error
     if not compilation.diagnosis_model.sees:
@@ -189,6 +184,10 @@ def watching(
         message = f"the tuning cannot be used: {error}; make it anew with `bondgraph tune`"
         raise Trouble(message) from error
     return engine, lambda own: compilation.diagnosis(own, tuning)
+
+
+def _note(text: str) -> None:
+    print(f"note: {text}", file=sys.stderr)
 
 
 def read_tuning(path: str) -> Tuning:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import sys
 from typing import TYPE_CHECKING
 
 from bondgraph import Options
 from bondgraph.cli import console
+from bondgraph.cli.log_options import form_of, logged, operating_of
 from bondgraph.cli.options import isolating, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
@@ -47,7 +49,7 @@ def arguments(parser: ArgumentParser) -> None:
                         help="seconds in which a fault has to show (default: 2)")  # fmt: skip
     parser.add_argument("--rate", metavar="HZ", type=positive, default=None,
                         help="samples a second (default: that of the first log)")  # fmt: skip
-    parser.add_argument("--map", metavar="FILE.toml", help="which column is which signal")
+    logged(parser.add_argument)
     isolating(parser)
     realised(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object (docs/json.md)")
@@ -60,7 +62,7 @@ def run(args: Namespace) -> int:
     if bool(args.logs) == bool(args.simulate):
         raise Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
     try:
-        compilation, engine, logs = _logs(args)
+        compilation, engine, logs, times = _logs(args)
         wanted = args.bandwidth or [f * engine.bandwidth for f in _FACTORS]
         found = []
         with console.progress_bar("tuning") as progress:
@@ -84,7 +86,7 @@ def run(args: Namespace) -> int:
         args.json,
         compilation.report.diagnostics,
         _message(compilation, best),
-        lambda: {"files": [args.output], **_result(compilation, best, found)},
+        lambda: {"files": [args.output], **_result(compilation, best, found), "times": times},
         lambda: _lines(compilation, best, found, args.output),
     )
 
@@ -93,13 +95,13 @@ def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[fl
     return lambda share: progress((k + share) / parts)
 
 
-def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
-    """The model, an engine of it, and what it reads from each log, on its own grid."""
-    import numpy as np
-
-    from bondgraph.runtime.log_file import read_log
+def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, str]]:
+    """The model, an engine of it, what it reads from each log, on its grid, and by what time."""
+    from bondgraph.runtime.log import TIME
+    from bondgraph.runtime.log_file import read_form
     from bondgraph.runtime.monitoring.clock import on_grid
     from bondgraph.runtime.monitoring.columns import read_map
+    from bondgraph.runtime.monitoring.sources.sample_source import rate_of
 
     read = []
     if args.simulate:
@@ -117,19 +119,23 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
                 progress((k + 1) / args.runs)
         names = [args.simulate] * len(read)
     else:
-        read = [read_log(path) for path in args.logs]
+        read = [read_form(path, form_of(args, path)) for path in args.logs]
         names = list(args.logs)
-        steps = np.diff(read[0].time)
-        usual = float(np.median(steps)) if len(steps) else 1.0 / Options().rate
-        rate = args.rate or round(1.0 / usual, 6)
+        rate = args.rate or rate_of(read[0].time) or Options().rate
         compilation = realising(args, rate=rate)
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
-    logs = []
+    logs, times = [], {}
     for name, log in zip(names, read, strict=True):
-        pieces = on_grid(engine, log, mapping, name)
+        if TIME in log.meta:
+            times[name] = log.meta[TIME]
+            print(f"note: {name}: time is {log.meta[TIME]}", file=sys.stderr)
+        operating = operating_of(args, mapping, name)
+        pieces = on_grid(engine, log, mapping, name, operating, args.rate is not None)
         logs += [p.samples for p in pieces if len(p.samples)]
-    return compilation, engine, logs
+    if not logs and args.operating is not None:
+        raise Trouble(f"`{args.operating}` (--while) holds for no sample of {', '.join(names)}")
+    return compilation, engine, logs, times
 
 
 def _score(tuned: Tuned, found: list[Tuned]) -> float:

@@ -47,6 +47,11 @@ _PREFIXES = {
     "k": 3, "h": 2, "d": -1, "c": -2, "m": -3, "u": -6, "µ": -6, "μ": -6, "n": -9, "p": -12,
     "f": -15, "a": -18, "z": -21, "y": -24, "r": -27, "q": -30,
 }  # fmt: skip
+#: What a scale of temperatures calls zero, in K; that of K itself is 0.
+_ZEROS = {
+    "degC": Fraction("273.15"), "°C": Fraction("273.15"),
+    "degF": Fraction("459.67") * 5 / 9, "°F": Fraction("459.67") * 5 / 9,
+}  # fmt: skip
 _BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
 
 _FACTOR = re.compile(r"(1|%|‰|°[CF]?|[^\W\d_]\w*)(?:\^(-?\d+(?:\.\d+)?))?")
@@ -130,6 +135,18 @@ def parse_unit(text: str) -> Unit | None:
             return None
         sign = -1 if text[at] == "/" else 1
         at += 1
+
+
+def scale(theirs: Unit, ours: Unit) -> tuple[Fraction, Fraction]:
+    """Factor and offset from readings in one unit to readings in another of the same dimension.
+
+    Those of a thermometer count from the zero of their scale, unlike differences of temperatures.
+
+    >>> scale(parse_unit("degF"), parse_unit("degC"))  # 32 degF is 0 degC
+    (Fraction(5, 9), Fraction(-160, 9))
+    """
+    zero = _ZEROS.get(theirs.text, Fraction(0)) - _ZEROS.get(ours.text, Fraction(0))
+    return theirs.factor / ours.factor, zero / ours.factor
 
 
 def describe(dimension: Dimension) -> str:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.library.units import parse_unit
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.tuples import NamedTuple
 
@@ -18,11 +19,12 @@ Mask: TypeAlias = npt.NDArray[np.bool_]
 #: What files of this program say that they are, and in which edition.
 MARK, EDITION = "bondgraph log", "1"
 
-#: Where a reader says which columns hold no numbers, and in which unit time was written.
-LEFT_OUT, TIME_UNIT = "left-out", "time-unit"
+#: Where a reader says which columns hold no numbers, which one is the time and in which unit.
+LEFT_OUT, TIME, TIME_UNIT = "left-out", "time", "time-unit"
 
-_TIME = re.compile(r"(?:t|time|timestamp)(?:[ _.]*[\[(]?(s|ms|us|µs|ns)[\])]?)?", re.IGNORECASE)
-_PER_SECOND = {"": 1.0, "s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}
+_LABELLED = re.compile(r"(.*\S)(\s*)([\[(])\s*([^\[\]()]+?)\s*[\])]")
+_SPELT = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·*", "0123456789-..")
+_PURE = {"-": "1", "count": "count", "counts": "count"}
 
 
 class LogError(Trouble):
@@ -84,39 +86,17 @@ def name_of_time(columns: Iterable[str]) -> str:
     return name
 
 
-def time_column(names: list[str], wanted: str | None, path: str, line: int | None) -> str | None:
-    """The name of the column of time among `names`, None where there is none.
+def labelled(name: str) -> tuple[str, str]:
+    """The name in the header of a column, and the unit in brackets behind it, "" if there is none.
 
-    Raises LogError where the `wanted` one is not there.
+    An index is no unit: a column of a signal may be called `U[1]`.
+
+    >>> labelled("T1 [°C]"), labelled("p(bar)"), labelled("U[1]"), labelled("flow [m³/h]")
+    (('T1', '°C'), ('p', 'bar'), ('U[1]', ''), ('flow', 'm^3/h'))
     """
-    if wanted is not None:
-        if wanted not in names:
-            there = ", ".join(names) or "no column"
-            raise LogError(path, line, f"no column `{wanted}`", f"there is {there}")
-        return wanted
-    return next((name for name in names if _TIME.fullmatch(name.strip())), None)
-
-
-def no_time(path: str, line: int | None, names: list[str]) -> LogError:
-    """What to say of a file without a column of time."""
-    there = ", ".join(names)
-    return LogError(
-        path,
-        line,
-        "no column of time (t, time or timestamp)",
-        f"name the one that holds it, or give the rate of the samples; there is {there}",
-    )
-
-
-def unit_of_time(name: str, units: Mapping[str, str]) -> str:
-    """The unit that the column of time is in: told apart, or behind its name; "" for s."""
-    found = _TIME.fullmatch(name.strip())
-    unit = units.get(name) or (found[1] if found and found[1] else "")
-    return "" if unit == "s" else unit.replace("µ", "u").lower()
-
-
-def seconds(values: Array, unit: str, path: str) -> Array:
-    """Times of a `unit` in s; raises LogError for a unit that is none of time."""
-    if unit not in _PER_SECOND:
-        raise LogError(path, None, f"time in `{unit}`", "s, ms, us or ns are known")
-    return values if _PER_SECOND[unit] == 1.0 else values / _PER_SECOND[unit]
+    found = _LABELLED.fullmatch(name.strip())
+    if found is None or found[4].isdigit():
+        return name, ""
+    unit = re.sub(r"(?<=[^\W\d_])(-?\d)", r"^\1", found[4].translate(_SPELT))
+    unit = _PURE.get(found[4].lower()) or unit
+    return (found[1], unit) if unit == "count" or parse_unit(unit) else (name, "")

@@ -7,6 +7,7 @@ import io
 import os
 import re
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,16 +16,11 @@ from bondgraph.runtime.log import (
     EDITION,
     LEFT_OUT,
     MARK,
-    TIME_UNIT,
     Array,
     Log,
     LogError,
     joined,
     name_of_time,
-    no_time,
-    seconds,
-    time_column,
-    unit_of_time,
 )
 from bondgraph.runtime.log_numbers import (
     Form,
@@ -32,9 +28,10 @@ from bondgraph.runtime.log_numbers import (
     Refused,
     Table,
     cells_of,
-    number,
+    numeric,
     separator_of,
 )
+from bondgraph.runtime.time_column import chosen, stamp
 from bondgraph.text.whole_file import whole
 
 if TYPE_CHECKING:
@@ -45,28 +42,43 @@ _COMMENT = re.compile(r"# (unit )?((?:[^\\:]|\\.)+): (.*)")
 _ESCAPES = {"\\": "\\\\", "\n": "\\n", "\r": "\\r", ":": "\\:"}
 _BLOCK = 1 << 22  # characters read at a time
 _ROWS = 10_000  # rows written at a time
+_OBJECTS = (".jsonl", ".ndjson")
 _TIMESTAMPS = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}
 
 
 def read_log(
-    path: str | os.PathLike[str], *, time: str | None = None, rate: float | None = None
+    path: str | os.PathLike[str],
+    *,
+    time: str | None = None,
+    unit: str | None = None,
+    rate: float | None = None,
+    columns: tuple[str, ...] = (),
 ) -> Log:
-    """The log in a file, by its suffix: `.parquet`, else CSV.
+    """The log in a file, by its suffix: `.parquet`, `.jsonl` (a JSON object a line), else CSV.
 
     In files of other origin `time` names the column of time; without it, one is taken that is
-    called t, time or timestamp, in capitals or not, with a unit behind it or not (`time_ms`). Times
-    are in s unless that unit says otherwise. With `rate` (samples a second) there need not be
-    one. CSV may be separated by commas, semicolons or tabs; a cell that is empty or says nan, na,
-    null or none is NaN; a column that has text in its first row is left out and told in
-    `meta["left-out"]`. Raises LogError for a file that cannot be read.
+    called t, time or timestamp, in capitals or not, with a unit behind it or not (`time_ms`,
+    `Time (s)`), and grows. Times are numbers in a `unit` (None: as the name says, else s), or ISO
+    8601. With `rate` (samples a second) there need not be any. CSV may be separated by commas,
+    semicolons or tabs, and have decimal commas; `columns` name those of a file without a header.
+    A cell that is empty or says nan, na, null or none is NaN; a column that has text in its first
+    row is left out and told in `meta["left-out"]`, and what was taken for the time in
+    `meta["time"]`. Raises LogError for a file that cannot be read.
     """
     name = os.fspath(path)
+    return read_form(name, Form(name, time, unit, columns, rate))
+
+
+def read_form(path: str, form: Form) -> Log:
+    """The same, with what is known of the table before."""
     try:
-        if name.lower().endswith(".parquet"):
-            return read_parquet(name, time, rate)
-        return read_csv(name, time, rate)
+        if path.lower().endswith(".parquet"):
+            return read_parquet(path, form)
+        if path.lower().endswith(_OBJECTS):
+            return read_objects(path, form)
+        return read_csv(path, form)
     except OSError as error:
-        raise LogError(name, None, f"cannot be read: {error.strerror or error}") from error
+        raise LogError(path, None, f"cannot be read: {error.strerror or error}") from error
 
 
 def write_log(log: Log, path: str | os.PathLike[str]) -> None:
@@ -103,12 +115,11 @@ def _check(log: Log) -> None:
 class CsvReader(Reader):
     """Makes logs of lines as they come: the comments and the header first, then blocks of rows.
 
-    `path` is for messages; `time` and `rate` as for `read_log`. Raises LogError for lines that
-    are wrong.
+    Raises LogError for lines that are wrong.
     """
 
-    def __init__(self, path: str, time: str | None = None, rate: float | None = None) -> None:
-        super().__init__(Form(path, time, None, (), rate))
+    def __init__(self, form: Form) -> None:
+        super().__init__(form)
         self._line = 0  # the last one that was taken
         self._comment = ""  # the last one of them, which may be the header
         self._separator = ","
@@ -126,7 +137,8 @@ class CsvReader(Reader):
                 self._line -= 1  # a row, and the header was a comment
         if self._table is None:
             return None
-        rows = self._table.rows(lines[at:], self._refuse)
+        with self._placed():
+            rows = self._table.rows(lines[at:], self._refuse)
         self._line += len(lines) - at
         return self._log_of_table(self._table, rows, self._meta)
 
@@ -135,6 +147,14 @@ class CsvReader(Reader):
 
     def _wrong(self, message: str, help: str = "", line: int | None = None) -> LogError:
         return LogError(self.form.name, line or self._line, message, help)
+
+    @contextmanager
+    def _placed(self) -> Iterator[None]:
+        """What is said of the column of time gets its line."""
+        try:
+            yield
+        except LogError as error:
+            raise self._wrong(error.message, error.help, error.line) from error
 
     # ---------------------------------------------------------------- comments and header
 
@@ -150,8 +170,10 @@ class CsvReader(Reader):
         elif found := re.match(r"t_*([;\t])", line):
             self._separator = found[1]  # ours, and another program has saved it again
         cells = self._cells(line)
-        numbers = all(number(c) is not None for c in cells)
-        if numbers and any(c.strip() for c in cells):
+        numbers = all(map(numeric, cells))
+        if self.form.columns and any(c.strip() and numeric(c) for c in cells):
+            cells, numbers = list(self.form.columns), True
+        elif numbers and any(c.strip() for c in cells):
             told = self._cells(self._comment.lstrip("# "))
             if len(told) != len(cells):
                 message = "no header: the first line has numbers only"
@@ -185,19 +207,13 @@ class CsvReader(Reader):
         for k, name in enumerate(names):
             if not name:
                 raise self._wrong(f"column {k + 1} has no name", "name every column in the header")
-            if name in names[:k]:
-                raise self._wrong(f"two columns are called `{name}`", "rename one of them")
-        time = time_column(names, self.form.time, self.form.name, self._line)
-        if self._own and self.form.time is None:
-            time = names[0]
-        if time is None and self.form.rate is None:
-            raise no_time(self.form.name, self._line, names)
-        self._table = Table(names, self._separator, time)
+        with self._placed():
+            self._table = self._header_of(names, self._separator)
 
 
-def read_csv(path: str, time: str | None, rate: float | None) -> Log:
+def read_csv(path: str, form: Form) -> Log:
     """The log in a CSV file; see `read_log`."""
-    reader = CsvReader(path, time, rate)
+    reader = CsvReader(form)
     parts: list[Log] = []
     try:
         with open(path, encoding="utf-8-sig") as file:
@@ -210,6 +226,21 @@ def read_csv(path: str, time: str | None, rate: float | None) -> Log:
     if not parts:
         raise LogError(path, None, "no header: the file has nothing but comments or is empty")
     return joined(parts[1:] if len(parts) > 1 and not parts[0].rows else parts)
+
+
+def read_objects(path: str, form: Form) -> Log:
+    """The log in a file of JSON lines; see `read_log`."""
+    from bondgraph.runtime.monitoring.sources.lines import Decoder
+
+    decoder = Decoder(form)
+    with open(path, "rb") as file:
+        logs = decoder.feed(file.read() + b"\n")
+    decoder.check()
+    if decoder.garbage:
+        raise LogError(path, None, f"no sample in {decoder.why}", "mend or delete the line")
+    if len(logs) != 1:
+        raise LogError(path, None, "not one JSON object a line", "name a CSV file .csv")
+    return logs[0]
 
 
 def _not_utf8(path: str) -> int | None:
@@ -287,7 +318,7 @@ def _needed(path: str) -> LogError:
     )
 
 
-def read_parquet(path: str, time: str | None, rate: float | None) -> Log:
+def read_parquet(path: str, form: Form) -> Log:
     """The log in a Parquet file; see `read_log`."""
     try:
         import pyarrow
@@ -298,53 +329,69 @@ def read_parquet(path: str, time: str | None, rate: float | None) -> Log:
         table = pyarrow.parquet.ParquetFile(path).read()
     except pyarrow.ArrowException as error:
         raise LogError(path, None, f"not a Parquet file: {str(error).splitlines()[0]}") from error
-    schema, own, meta = table.schema, False, {}
-    texts = {_text(k): v for k, v in (schema.metadata or {}).items()}
-    if MARK in texts:
-        if _text(texts.pop(MARK)) != EDITION:
-            message = f"a log of another edition, this program reads {EDITION}"
-            raise LogError(path, None, message, "read it with a newer bondgraph")
-        own, meta = True, {k: _text(v) for k, v in texts.items()}
-    names = list(schema.names)
-    twice = next((n for k, n in enumerate(names) if n in names[:k]), None)
-    if twice is not None:
-        raise LogError(path, None, f"two columns are called `{twice}`", "rename one of them")
-    named = time_column(names, time, path, None)
-    if own and time is None:
-        named = names[0]
-    if named is None and rate is None:
-        raise no_time(path, None, names)
-    units = {f.name: _text((f.metadata or {}).get(b"unit", b"")) for f in schema}
-    columns = {n: _numbers(table.column(n), n == named) for n in names}
-    words = [n for n, values in columns.items() if values is None]
-    if words:
-        meta[LEFT_OUT] = ", ".join(f"{n} ({schema.field(n).type})" for n in words)
-    found = {n: values for n, values in columns.items() if values is not None}
-    if named is None:
-        assert rate is not None
-        times = np.arange(table.num_rows) / rate
-    else:
-        if named not in found:
-            raise LogError(path, None, f"the column {named} of time has no numbers")
-        stamped = pyarrow.types.is_timestamp(schema.field(named).type)
-        unit = "" if own or stamped else unit_of_time(named, units)
-        meta |= {TIME_UNIT: unit} if unit else {}
-        times = seconds(found.pop(named), unit, path)
-    return Log(times, found, {n: u for n, u in units.items() if u and n in found}, meta)
+    return ParquetReader(form).read(table)
+
+
+class ParquetReader(Reader):
+    """Makes a log of a table of Arrow."""
+
+    def read(self, table: pyarrow.Table) -> Log:
+        """All of it; raises LogError where there is no column of time."""
+        path, schema, meta = self.form.name, table.schema, {}
+        texts = {_text(k): v for k, v in (schema.metadata or {}).items()}
+        if MARK in texts:
+            if _text(texts.pop(MARK)) != EDITION:
+                message = f"a log of another edition, this program reads {EDITION}"
+                raise LogError(path, None, message, "read it with a newer bondgraph")
+            self._own, meta = True, {k: _text(v) for k, v in texts.items()}
+        names = list(schema.names)
+        twice = next((n for k, n in enumerate(names) if n in names[:k]), None)
+        if twice is not None:
+            raise LogError(path, None, f"two columns are called `{twice}`", "rename one of them")
+        self._units = {f.name: _text((f.metadata or {}).get(b"unit", b"")) for f in schema}
+        own = self._own and self.form.time is None
+        times = names[:1] if own else self._times_of(names)
+        stamps = {n: s for n in times if (s := _stamps(table.column(n))) is not None}
+        columns = {n: stamps.get(n, _numbers(table.column(n))) for n in names}
+        words = [n for n, values in columns.items() if values is None]
+        if words:
+            meta[LEFT_OUT] = ", ".join(f"{n} ({schema.field(n).type})" for n in words)
+        found = {n: values for n, values in columns.items() if values is not None}
+        numbers = {n: found[n] for n in times if n in found}
+        if times and not numbers:
+            raise LogError(path, None, f"the column {times[0]} of time has no numbers")
+        timeless = self.form.rate is not None
+        name = times[0] if own else chosen(numbers, path, timeless)
+        if name is None:
+            return self._log(table.num_rows, None, "", found, meta)
+        return self._log(table.num_rows, found.pop(name), name, found, meta, name in stamps)
 
 
 def _text(data: bytes) -> str:
     return data.decode("utf-8", "replace")
 
 
-def _numbers(column: pyarrow.ChunkedArray, time: bool) -> Array | None:
+def _stamps(column: pyarrow.ChunkedArray) -> Array | None:
+    """The times in s in a column of dates and times, or of their texts; None in any other."""
+    import pyarrow
+
+    kind = column.type
+    if pyarrow.types.is_timestamp(kind):
+        values = column.cast(pyarrow.int64()).cast(pyarrow.float64(), safe=False)
+        found: Array = np.array(values.to_numpy(zero_copy_only=False), dtype=np.float64)
+        return found if kind.unit == "s" else found / _TIMESTAMPS[kind.unit]
+    if not (pyarrow.types.is_string(kind) or pyarrow.types.is_large_string(kind)):
+        return None
+    times = [np.nan if text is None else stamp(text) for text in column.to_pylist()]
+    return None if None in times else np.array(times, dtype=np.float64)
+
+
+def _numbers(column: pyarrow.ChunkedArray) -> Array | None:
     """The numbers of a column, NaN where there are none; None where it is not of numbers."""
     import pyarrow
 
-    kind, scale = column.type, 1
-    if time and pyarrow.types.is_timestamp(kind):
-        scale, column = _TIMESTAMPS[kind.unit], column.cast(pyarrow.int64())
-    elif not any(
+    kind = column.type
+    if not any(
         test(kind)
         for test in (
             pyarrow.types.is_floating,
@@ -356,8 +403,7 @@ def _numbers(column: pyarrow.ChunkedArray, time: bool) -> Array | None:
     ):
         return None
     values = column.cast(pyarrow.float64(), safe=False).to_numpy(zero_copy_only=False)
-    found: Array = np.array(values, dtype=np.float64)  # one that may be written to
-    return found if scale == 1 else found / scale
+    return np.array(values, dtype=np.float64)  # one that may be written to
 
 
 def write_parquet(log: Log, path: str) -> None:

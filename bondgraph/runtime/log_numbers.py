@@ -8,7 +8,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from bondgraph.runtime.log import LEFT_OUT, TIME_UNIT, Array, Log, seconds, unit_of_time
+from bondgraph.runtime.log import LEFT_OUT, TIME, TIME_UNIT, Array, Log, LogError, labelled
+from bondgraph.runtime.time_column import ISO, candidates, chosen, no_time, seconds, stamp, unit_of
 from bondgraph.text.tuples import NamedTuple
 
 #: How a cell says that there is no sample, in small letters.
@@ -17,7 +18,9 @@ NO_SAMPLE = ("", "nan", "na", "n/a", "null", "none")
 _WORDS = {**dict.fromkeys(NO_SAMPLE, float("nan")), "true": 1.0, "false": 0.0}
 _SEPARATORS = ("\t", ";", ",")
 _EMPTY = re.compile(r"(?:^|(?<=[,;\t]))[ ]*(?=[,;\t]|\r?\n?$)")
+_COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
 _FEW, _MANY = 4, 100  # lines; fewer are not worth the start of numpy, of pyarrow
+_HEAD = 1000  # lines by which the column of time is known
 
 
 def separator_of(line: str) -> str:
@@ -51,46 +54,112 @@ class Refused(Exception):
 
 
 class Table:
-    """A header that is in force; `time` is its column of time, if there is one.
+    """A header that is in force; `time` is its column of time, None before it is known.
 
-    `word` says whether a cell of the first row that is no number makes its column one of text.
-    Without `timeless` a row is none that says no time.
+    `path` is for messages. `word` says whether a cell of the first row that is no number makes its
+    column one of text. Unless it is `timeless`, one of the columns that it is told to look for has
+    to be a time. Where it is not `strict`, a row is none that says no time.
     """
 
     def __init__(
         self,
         names: Sequence[str],
         separator: str,
-        time: str | None,
+        path: str,
+        timeless: bool = False,
         word: Callable[[str], bool] = lambda _: True,
-        timeless: bool = True,
+        strict: bool = True,
     ) -> None:
-        self.names, self.separator, self.time = list(names), separator, time
+        self.names, self.separator = list(names), separator
+        self.time: str | None = None
         self.text: dict[str, str] | None = None  # by column; None before the first row
-        self._place = 0 if time is None else self.names.index(time)
-        self._word, self._timeless = word, timeless
+        self.stamped: set[str] = set()  # columns of times in ISO 8601
+        self.units: dict[str, str] = {}  # by column, from a row of them below the header
+        self._path, self._timeless = path, timeless
+        self._word, self._strict = word, strict
+        self._times: list[str] = []
+        self._open = False  # which of them it is
+        self._point = ""  # before decimals, once one has come
+
+    def take(self, time: str) -> Table:
+        """This table, with a column of time that nobody asks for."""
+        self.time = time
+        return self
+
+    def look_for(self, times: list[str]) -> Table:
+        """This table, of which the first of these columns that grows in the first rows is time."""
+        self._times, self._open = times, bool(times)
+        return self
+
+    @property
+    def likely(self) -> str:
+        """The likeliest column of time as long as nothing decides; "" where there is none."""
+        return self._times[0] if self._open else ""
 
     def rows(self, lines: list[str], refuse: Callable[[int, Refused], None]) -> Array:
         """The numbers in some lines, a row for each; `refuse` is told where one is no row.
 
-        Blank lines and comments count as none of them.
+        Blank lines and comments count as none of them. Raises LogError while there are rows, and
+        no column of time grows.
         """
+        for part in (lines[:_HEAD], lines):
+            if self._open:
+                self._choose(part)
+        return self._rows(lines, refuse)
+
+    def _choose(self, lines: list[str]) -> None:
+        """See which column is the time; that stays open as long as there are no rows."""
+        try:
+            rows = self._rows(lines, lambda *_: None)
+            if len(rows):
+                found = {n: rows[:, self.names.index(n)] for n in self._times}
+                numbers = {n: v for n, v in found.items() if n not in (self.text or {})}
+                self.time = chosen(numbers, self._path, self._timeless)
+                self._open = False
+        finally:
+            self.text, self.stamped, self._point = None, set(), ""
+
+    def _rows(self, lines: list[str], refuse: Callable[[int, Refused], None]) -> Array:
         found: list[list[float]] = []
         start = 0
         while start < len(lines) and self.text is None:
             self._take(start, lines[start], found, refuse)
             start += 1
         rest = lines[start:] if start else lines
-        values = None if self.text else by_c(rest, self.separator, len(self.names))
+        values = None if self.text else by_c(self._plain(rest), self.separator, len(self.names))
         if values is not None and self._timely(values):
             return values if not found else np.vstack([found, values])
         for k, line in enumerate(rest, start):
             self._take(k, line, found, refuse)
         return np.array(found, dtype=np.float64).reshape(len(found), len(self.names))
 
+    def _plain(self, lines: list[str]) -> list[str]:
+        """Lines without ISO 8601 and decimal commas; as they are where each has to be looked at."""
+        comma = self.separator != "," and any("," in line for line in lines)
+        if not (comma or self.stamped):
+            return lines
+        places = [self.names.index(name) for name in self.stamped]
+        plain = []
+        for line in lines:
+            cells = line.rstrip("\r\n").split(self.separator)
+            times = [stamp(cells[k]) if k < len(cells) else None for k in places]
+            for k, time in zip(places, times, strict=True):
+                if time is None:
+                    return lines
+                cells[k] = ""
+            rest = self.separator.join(cells)
+            if comma and ("." in rest or self._point != ","):
+                return lines
+            cells = rest.replace(",", ".").split(self.separator) if comma else cells
+            for k, time in zip(places, times, strict=True):
+                cells[k] = repr(time)
+            plain.append(self.separator.join(cells) + "\n")
+        return plain
+
     def _timely(self, values: Array) -> bool:
-        timeless = self._timeless or self.time is None
-        return timeless or bool(np.isfinite(values[:, self._place]).all())
+        if self._strict or self.time is None:
+            return True
+        return bool(np.isfinite(values[:, self.names.index(self.time)]).all())
 
     def _take(
         self, at: int, line: str, into: list[list[float]], refuse: Callable[[int, Refused], None]
@@ -98,9 +167,20 @@ class Table:
         if not line.strip() or line.startswith("#"):
             return
         try:
-            into.append(self._row(line))
+            if self.text is not None or not self._row_of_units(line):
+                into.append(self._row(line))
         except (Refused, csv.Error) as error:
             refuse(at, error if isinstance(error, Refused) else Refused(str(error)))
+
+    def _row_of_units(self, line: str) -> bool:
+        """Take a line that has nothing but units, one of them below the likeliest time."""
+        cells = [c.strip().strip("[]()") for c in cells_of(line, self.separator)]
+        units = {n: labelled(f"x [{c}]")[1] for n, c in zip(self.names, cells, strict=False)}
+        found = bool(self._times) and units.get(self._times[0], "") != ""
+        if not found or any(c and not u for c, u in zip(cells, units.values(), strict=False)):
+            return False
+        self.units = {name: unit for name, unit in units.items() if unit}
+        return True
 
     def _row(self, line: str) -> list[float]:
         cells = cells_of(line, self.separator)
@@ -109,26 +189,48 @@ class Table:
         if len(cells) != len(self.names):
             message = f"{len(cells)} cells where the header names {len(self.names)}"
             raise Refused(message, "mend or delete the line")
-        values = list(map(number, cells))
-        if not (self._timeless or self.time is None or finite(values[self._place])):
+        row = dict(zip(self.names, cells, strict=True))
+        first = self.text is None
+        if first:
+            self.stamped = {n for n in self._times if number(row[n]) is None and stamp(row[n])}
+        values = {name: self._number(name, cell) for name, cell in row.items()}
+        if not (self._strict or self.time is None or finite(values[self.time])):
             raise Refused("no time")
-        row = zip(self.names, cells, values, strict=True)
-        if self.text is None:
+        if first:
             self.text = {
-                name: cell.strip()
-                for name, cell, value in row
-                if value is None and name != self.time and self._word(cell.strip())
+                name: row[name].strip()
+                for name, value in values.items()
+                if value is None and [name] != self._times and self._word(row[name].strip())
             }
-            row = zip(self.names, cells, values, strict=True)
-        return [v if v is not None else self._instead(name, cell) for name, cell, v in row]
+        return [v if v is not None else self._instead(n, row[n]) for n, v in values.items()]
+
+    def _number(self, name: str, cell: str) -> float | None:
+        """The number in a cell, None where it is something else."""
+        if name in self.stamped and number(cell) == number(cell):
+            return stamp(cell)
+        value = number(cell)
+        comma = value is None and _COMMA.fullmatch(cell) is not None
+        mark = "," if comma else "." if value is not None and "." in cell else ""
+        if mark and self._point not in ("", mark):
+            message = f"`{cell.strip()}` in the column {name}: decimal commas and points are mixed"
+            raise Refused(message, "write one of both throughout, and nothing between thousands")
+        self._point = mark or self._point
+        return float(cell.replace(",", ".")) if comma else value
 
     def _instead(self, name: str, cell: str) -> float:
         """What stands for a cell that is no number: anything, in a column of text."""
         if self.text and name in self.text:
             return 0.0
-        comma = re.fullmatch(r"\s*[+-]?\d+,\d+\s*", cell)
-        remedy = "write decimal points" if comma else "leave a cell without a sample empty"
-        raise Refused(f"`{cell.strip()}` in the column {name} is not a number", remedy)
+        what = f"not a time of {ISO}" if name in self.stamped else "not a number"
+        remedy = "leave a cell without a sample empty"
+        if [name] == self._times:
+            remedy = f"a time is a number, or {ISO} as in 2024-05-01T12:00:00.5+02:00"
+        raise Refused(f"`{cell.strip()}` in the column {name} is {what}", remedy)
+
+
+def numeric(cell: str) -> bool:
+    """Whether a cell stands in a row rather than in a header: a number or time, or nothing."""
+    return number(cell) is not None or stamp(cell) is not None or bool(_COMMA.fullmatch(cell))
 
 
 def finite(value: float | None) -> bool:
@@ -139,9 +241,9 @@ def finite(value: float | None) -> bool:
 class Form(NamedTuple):
     """What is known of a table before its first line.
 
-    `name` is for messages; `time` the name of the column of time (None: t, time or timestamp) and
-    `unit` its unit (None: as its name says, else s); `columns` the header of a stream of CSV that
-    sends none; `rate`, in samples a second, makes times where no column has them.
+    `name` is for messages; `time` the name of the column of time (None: see `candidates`) and
+    `unit` its unit (None: see `unit_of`); `columns` the header of CSV that has none; `rate`, in
+    samples a second, makes times where no column has them.
     """
 
     name: str
@@ -159,18 +261,52 @@ class Reader:
         self.rows = 0
         self._own = False  # a log of this program, with times in s
         self._units: dict[str, str] = {}
+        self._clocks: dict[str, tuple[str, str]] = {}  # units of time, and how they are known
+
+    def _header_of(
+        self,
+        names: list[str],
+        separator: str,
+        word: Callable[[str], bool] = lambda _: True,
+        strict: bool = True,
+    ) -> Table:
+        """The table under a header; raises LogError where it has no column of time."""
+        form = self.form
+        twice = next((n for k, n in enumerate(names) if n in names[:k]), None)
+        if twice is not None:
+            message = f"two columns are called `{twice}`"
+            raise LogError(form.name, None, message, "rename one of them")
+        table = Table(names, separator, form.name, form.rate is not None, word, strict)
+        if self._own and form.time is None and re.fullmatch("t_*", names[0]):
+            return table.take(names[0])
+        return table.look_for(self._times_of(names))
+
+    def _times_of(self, names: list[str]) -> list[str]:
+        """The columns that may be the time; raises LogError where one is needed."""
+        form = self.form
+        times = candidates(names, form.time)
+        if form.time is not None and not times:
+            there = ", ".join(names) or "no column"
+            raise LogError(form.name, None, f"no column `{form.time}`", f"there is {there}")
+        if not times and form.rate is None:
+            raise no_time(form.name, names)
+        return times
 
     def _log_of_table(self, table: Table, rows: Array, meta: dict[str, str]) -> Log:
         text = table.text or {}
+        self._units |= table.units
         columns = {
             name: np.ascontiguousarray(rows[:, k])
             for k, name in enumerate(table.names)
-            if name != table.time and name not in text
+            if name != (table.time or table.likely) and name not in text
         }
         if text:
             meta = meta | {LEFT_OUT: ", ".join(f"{n} (`{word}`)" for n, word in text.items())}
-        times = None if table.time is None else rows[:, table.names.index(table.time)]
-        return self._log(len(rows), times, table.time or "", columns, meta)
+        if table.time is None:
+            return self._log(len(rows), None, "", columns, meta)
+        times = np.ascontiguousarray(rows[:, table.names.index(table.time)])
+        stamped = table.time in table.stamped
+        return self._log(len(rows), times, table.time, columns, meta, stamped)
 
     def _log(
         self,
@@ -179,19 +315,38 @@ class Reader:
         name: str,
         columns: dict[str, Array],
         meta: dict[str, str],
+        stamped: bool = False,
     ) -> Log:
         """Samples as a log; `times` are as the column `name` has them."""
+        units = {n: u for n in columns if (u := self._units.get(n) or self._labelled(n))}
         if times is None:
-            assert self.form.rate is not None
-            times = (self.rows + np.arange(count)) / self.form.rate
+            rate = self.form.rate or 1.0  # nothing is known of the time before there is a row
+            told = {TIME: f"no column, {rate:g} samples a second as told"}
+            times = (self.rows + np.arange(count)) / rate
+        elif self._own and self.form.unit is None:
+            told = {}
         else:
-            unit = "" if self._own else unit_of_time(name, self._units)
-            if self.form.unit is not None:
-                unit = "" if self.form.unit == "s" else self.form.unit
-            times = seconds(np.ascontiguousarray(times), unit, self.form.name)
-            meta = meta | ({TIME_UNIT: unit} if unit else {})
+            times, told = self._timed(times, name, stamped)
         self.rows += count
-        return Log(times, columns, {n: u for n, u in self._units.items() if n in columns}, meta)
+        return Log(times, columns, units, meta | told)
+
+    def _labelled(self, name: str) -> str:
+        return "" if self._own else labelled(name)[1]
+
+    def _timed(self, times: Array, name: str, stamped: bool) -> tuple[Array, dict[str, str]]:
+        """Times in s, and what is said of them."""
+        form = self.form
+        if stamped:
+            if form.unit not in (None, "s"):
+                message = f"the times in the column `{name}` are {ISO}, not numbers in {form.unit}"
+                raise LogError(form.name, None, message, "leave out --time-unit")
+            return times, {TIME: f"the column `{name}`, as {ISO}"}
+        if name not in self._clocks:
+            written = self._units.get(name, "")
+            self._clocks[name] = unit_of(name, times, form.unit, written)
+        unit, why = self._clocks[name]
+        told = {TIME: f"the column `{name}`, in {unit} {why}"}
+        return seconds(times, unit, form.name), told | ({TIME_UNIT: unit} if unit != "s" else {})
 
 
 def by_c(lines: list[str], separator: str, columns: int) -> Array | None:

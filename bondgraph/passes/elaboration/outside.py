@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from bondgraph.frontend.cursor import SyntaxProblem
 from bondgraph.frontend.expression_parser import Expressions as Words
-from bondgraph.ir.expr import Expr, Kind, Op, topological
-from bondgraph.ir.graph import BondGraph
+from bondgraph.ir.expr import Expr, Kind, Op, Pool, topological
+from bondgraph.ir.graph import Value
 from bondgraph.ir.syntax import Ref
 from bondgraph.ir.unit import Dimension
 from bondgraph.library.units import PI
@@ -29,9 +30,9 @@ TIME = "t"
 class Outside(Calls):
     """Reads quantities and expressions in the parameters of a model, and in time where allowed."""
 
-    def __init__(self, graph: BondGraph, report: Report) -> None:
-        super().__init__(graph.pool, report, Quantities(report))
-        self.values = {v.name: v for v in graph.values}
+    def __init__(self, pool: Pool, values: Iterable[Value], report: Report) -> None:
+        super().__init__(pool, report, Quantities(report))
+        self.values = {v.name: v for v in values}
         self.timely = False
 
     def read(

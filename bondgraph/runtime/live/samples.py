@@ -110,6 +110,10 @@ class Paced(Source):
         """See `Source`."""
         return self._inner.rate()
 
+    def time(self) -> str:
+        """See `Source`."""
+        return self._inner.time()
+
     def close(self) -> None:
         """See `Source`."""
         self._inner.close()

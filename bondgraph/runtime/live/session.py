@@ -117,6 +117,7 @@ class Session:
             setup.engine,
             heard,
             [lambda _, verdict: self._verdict("real", verdict)],
+            operating=setup.operating(),
         )
         if self._end.is_set():
             source.close()

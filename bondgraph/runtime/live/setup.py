@@ -15,6 +15,7 @@ from bondgraph.ir.program import Known
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.monitoring.clock import Clock
 from bondgraph.runtime.monitoring.engine import Batch, Engine
+from bondgraph.runtime.monitoring.operating import Operating
 from bondgraph.runtime.monitoring.sample_pipeline import Decision
 from bondgraph.runtime.monitoring.sources.sample_source import Source
 from bondgraph.runtime.monitoring.verdict import Verdict
@@ -29,7 +30,7 @@ class Setup(NamedTuple):
 
     `engine` has as many signals as `columns` gives; `decision` makes one for the engine it gets,
     `clock` and `columns` are made for each watch, `source` too if it `renews`. With a `speed` the
-    samples wait for their time.
+    samples wait for their time. Samples count while the machine is `operating`.
     """
 
     system: EquationSystem
@@ -44,6 +45,7 @@ class Setup(NamedTuple):
     renews: bool
     speed: float | None
     what: str
+    operating: Callable[[], Operating | None] = lambda: None
 
 
 class Target(NamedTuple):

@@ -9,6 +9,8 @@ has done, and the filters start anew.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,7 +18,11 @@ from bondgraph.ir.program import Known
 from bondgraph.runtime.log import Array, Log, Mask
 from bondgraph.runtime.monitoring.columns import Columns, Mapped
 from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.time_column import Pace
 from bondgraph.text.tuples import NamedTuple
+
+if TYPE_CHECKING:
+    from bondgraph.runtime.monitoring.operating import Operating
 
 #: The period of a clock that counts microseconds in 32 bits, in s.
 WRAP_32 = 2.0**32 / 1e6
@@ -25,6 +31,7 @@ _EXACT = 1e-6  # of the sample time: nearer to a point of the grid a sample is t
 _FOREVER = 1e15  # s: beyond it a double does not tell one sample from the next
 _COUNTER, _LARGEST = 2.0**32, 2.0**53
 _BLOCK = 8192  # samples taken at a time
+_MISSED = 3.0  # steps of the grid that are bridged by the fastest filter: two samples lost
 _WINDOW = 256  # samples in which a break is looked for first
 
 
@@ -32,11 +39,13 @@ class Gap(NamedTuple):
     """Why the filters start anew: `start` and `end` are the times of the samples before and after.
 
     `lost` is how many samples of the grid are missing between them; 0 where the clock went back.
+    They may be missing because the machine was `off`.
     """
 
     start: float
     end: float
     lost: int
+    off: bool = False
 
     @property
     def text(self) -> str:
@@ -44,6 +53,8 @@ class Gap(NamedTuple):
         if self.end < self.start:
             back = self.start - self.end
             return f"the clock went back by {back:.6g} s at {self.start:.6g} s"
+        if self.off:
+            return f"the machine was off from {self.start:.6g} s to {self.end:.6g} s"
         missing = f"{self.lost} sample{'s' if self.lost != 1 else ''}"
         return f"{missing} lost from {self.start:.6g} s to {self.end:.6g} s"
 
@@ -77,6 +88,8 @@ class Clock:
         known = tuple(signals)
         self.sample_time, self.most, self.wraps = sample_time, most, wraps
         self.dropped = 0  # samples that came twice, late, without time or without any value
+        self.left_out = 0  # samples in which the machine was off
+        self._since: float | None = None  # the newest time before it was
         self._modes: Mask = np.array([k.kind == "mode" for k in known], dtype=np.bool_)
         self._counts = [at for at, k in enumerate(known) if k.counts is not None]
         self._taken = 0  # samples without time
@@ -90,17 +103,33 @@ class Clock:
         self._times: Array = np.empty(0)
         self._rows: Array = np.empty((0, len(known)))
 
-    def feed(self, time: Array | None, samples: Array) -> list[Piece]:
+    def feed(
+        self, time: Array | None, samples: Array, on: Mask | None = None
+    ) -> list[Piece]:
         """What further samples make known of the grid; without times they are uniform.
 
         `time` (n,) in s, `samples` (n, signals). Where a signal is missing, the grid waits for its
-        next value, `most` s at the longest.
+        next value, `most` s at the longest. While the machine is not `on` (n,) there is no grid,
+        however short that is.
         """
         rows = np.asarray(samples, dtype=np.float64)
+        turns = [] if on is None else (np.flatnonzero(on[1:] != on[:-1]) + 1).tolist()
         pieces: list[Piece] = []
-        for start in range(0, len(rows), _BLOCK):
-            block = slice(start, start + _BLOCK)
-            pieces += self._feed(None if time is None else time[block], rows[block])
+        for start, end in pairwise([0, *turns, len(rows)]):
+            works = on is None or start == end or bool(on[start])
+            for first in range(start, end, _BLOCK):
+                block = slice(first, min(first + _BLOCK, end))
+                part = None if time is None else time[block]
+                pieces += self._feed(part, rows[block]) if works else self._off(part, rows[block])
+        return pieces
+
+    def _off(self, time: Array | None, samples: Array) -> list[Piece]:
+        """Leave out samples, and end the stretch before them."""
+        self._stamped(time, samples)
+        self.left_out += len(samples)
+        pieces = self.finish()
+        self._since = self._since if self._top is None else self._top
+        self._top = None
         return pieces
 
     def _feed(self, time: Array | None, samples: Array) -> list[Piece]:
@@ -110,6 +139,9 @@ class Clock:
         at = 0
         while at < len(times):
             if self._top is None:
+                if self._since is not None:
+                    self._gap = self._between(self._since, float(times[at]), True)
+                    self._since = None
                 self._begin(float(times[at]))
             end, fresh = self._stretch(times, at)
             self._extend(times[at:end][fresh], rows[at:end][fresh])
@@ -157,9 +189,12 @@ class Clock:
     def _break(self, time: float) -> None:
         """Start a new grid behind a gap."""
         assert self._top is not None
-        lost = round((time - self._top) / self.sample_time) - 1
-        self._gap = Gap(self._top, time, max(0, lost))
+        self._gap = self._between(self._top, time)
         self._begin(time)
+
+    def _between(self, start: float, end: float, off: bool = False) -> Gap:
+        lost = round((end - start) / self.sample_time) - 1
+        return Gap(start, end, max(0, lost), off)
 
     def _stretch(self, times: Array, at: int) -> tuple[int, Mask]:
         """Up to where the times from `at` on belong together, and which of them are new."""
@@ -281,14 +316,29 @@ class Clock:
 
 
 def clock_of(engine: Engine, most: float | None = None, wraps: float | None = None) -> Clock:
-    """The clock of an engine; `most` is one time constant of its filter unless told otherwise."""
-    bridged = 1.0 / engine.bandwidth if most is None else most
+    """The clock of an engine; `most` is one time constant of its filter unless told otherwise.
+
+    Not less than two samples that are missed, as one in twenty is in logs of a sample a second.
+    """
+    bridged = max(1.0 / engine.bandwidth, _MISSED * engine.sample_time) if most is None else most
     return Clock(engine.signals, engine.sample_time, bridged, wraps)
 
 
 def on_grid(
-    engine: Engine, log: Log, mapping: Mapping[str, Mapped] | None = None, name: str = "log"
+    engine: Engine,
+    log: Log,
+    mapping: Mapping[str, Mapped] | None = None,
+    name: str = "log",
+    operating: Operating | None = None,
+    asked: bool = False,
 ) -> list[Piece]:
-    """The signals of an engine in a whole log, on its grid; see `Columns`."""
+    """The signals of an engine in a whole log while it is `operating`, on its grid; see `Columns`.
+
+    Raises LogError where the steps of the log are no steps of this grid, whose rate somebody has
+    `asked` for.
+    """
     clock = clock_of(engine)
-    return clock.feed(log.time, Columns(engine.signals, mapping, name)(log)) + clock.finish()
+    Pace(engine.sample_time, name, asked).look(log)
+    on = None if operating is None else operating(log)
+    samples = Columns(engine.signals, mapping, name)(log)
+    return clock.feed(log.time, samples, on) + clock.finish()

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from bondgraph.ir.program import Known
-from bondgraph.library.units import parse_unit
-from bondgraph.runtime.log import LEFT_OUT, Array, Log, LogError
+from bondgraph.library.units import parse_unit, scale, suggest_unit
+from bondgraph.runtime.log import LEFT_OUT, TIME, Array, Log, LogError, labelled
 from bondgraph.text.tuples import NamedTuple
 
 _KEYS = {"column", "scale", "offset", "unit"}
-_TEMPERATURES = re.compile(r"(deg|°)[CF]")
+_CLOCK = "time"  # in a map file: where the time is
 
 
 class Mapped(NamedTuple):
@@ -44,8 +44,9 @@ class _Taken(NamedTuple):
 class Columns:
     """Picks the samples of `signals` out of logs, in SI units.
 
-    A column belongs to a signal if it has its path (`U0[1]`), else its name in C (`U0__1`), unless
-    the `mapping` says otherwise. `name` is that of the log, for messages.
+    A column belongs to a signal if it has its path (`U0[1]`), else its name in C (`U0__1`), with a
+    unit behind it or not, unless the `mapping` says otherwise. `name` is that of the log, for
+    messages.
 
     >>> import numpy as np
     >>> volts = Known("U0__1", "U0[1]", "V", "", "input", 0, False, None, None)
@@ -105,10 +106,12 @@ class Columns:
     def _source(self, known: Known, log: Log) -> Mapped | None:
         mapped = self._mapping.get(known.path)
         if mapped is not None:
-            return mapped if mapped.column in log.columns else None
+            column = called(mapped.column, log.columns)
+            return None if column is None else mapped._replace(column=column)
         for name in (known.path, known.name, _identifier(known.path)):
-            if name in log.columns:
-                return Mapped(name)
+            column = called(name, log.columns)
+            if column is not None:
+                return Mapped(column)
         return None
 
     def _missing(self, missing: list[Known], log: Log) -> LogError:
@@ -127,6 +130,8 @@ class Columns:
         help += f"; there is {', '.join(names) or 'no column'}"
         if LEFT_OUT in log.meta:
             help += f"; columns without numbers: {log.meta[LEFT_OUT]}"
+        if TIME in log.meta:
+            help += f"; the time is {log.meta[TIME]}"
         return LogError(self._name, None, message, help)
 
     def _taken(self, known: Known, source: Mapped, log: Log) -> _Taken:
@@ -134,33 +139,40 @@ class Columns:
             return _Taken(source.column, 1.0, 0.0, False)
         whole = known.counts is not None
         if source.scale is not None or source.offset is not None:
-            scale = 1.0 if source.scale is None else source.scale
-            return _Taken(source.column, scale, source.offset or 0.0, whole)
+            factor = 1.0 if source.scale is None else source.scale
+            return _Taken(source.column, factor, source.offset or 0.0, whole)
         unit = log.units.get(source.column, "") if source.unit is None else source.unit
-        return _Taken(source.column, self._factor(known, source.column, unit), 0.0, whole)
+        return _Taken(source.column, *self._scale(known, source.column, unit), whole)
 
-    def _factor(self, known: Known, column: str, unit: str) -> float:
-        """What a number in `unit` is multiplied with to be one of the signal."""
+    def _scale(self, known: Known, column: str, unit: str) -> tuple[float, float]:
+        """Factor and offset from a number in `unit` to one of the signal."""
         own = "count" if known.counts is not None else known.unit
         if unit in ("", own) or not own:
-            return 1.0
-        scale = f'give scale and offset in a map file: "{known.path}" = {{ column = "{column}", ...'
+            return 1.0, 0.0
+        example = f'"{known.path}" = {{ column = "{column}", ...'
+        own_scale = f"give scale and offset in a map file: {example}"
         if known.counts is not None:
             if unit in ("counts", "1"):
-                return 1.0
+                return 1.0, 0.0
             message = f"{known.path} is read in counts, its column {column} is in {unit}"
-            raise LogError(self._name, None, message, scale)
+            raise LogError(self._name, None, message, own_scale)
         ours, theirs = parse_unit(own), parse_unit(unit)
         if ours is None or theirs is None:
             message = f"the column {column} of {known.path} is in `{unit}`, an unknown unit"
-            raise LogError(self._name, None, message, scale)
+            meant = suggest_unit(unit)
+            help = f"perhaps {meant}; or {own_scale}" if meant else own_scale
+            raise LogError(self._name, None, message, help)
         if ours.dimension != theirs.dimension:
             message = f"{known.path} is in {own}, its column {column} is in {unit}"
             raise LogError(self._name, None, message, "see that it is the right column")
-        if _TEMPERATURES.fullmatch(unit):
-            message = f"{known.path} is in {own}, {unit} may count from another zero"
-            raise LogError(self._name, None, message, scale)
-        return float(theirs.factor / ours.factor)
+        factor, offset = scale(theirs, ours)
+        return float(factor), float(offset)
+
+
+def called(name: str, columns: Iterable[str]) -> str | None:
+    """The column of this name, with a unit in brackets behind it or without."""
+    names = list(columns)
+    return name if name in names else next((n for n in names if labelled(n)[0] == name), None)
 
 
 def read_map(path: str | os.PathLike[str], signals: Iterable[Known]) -> dict[str, Mapped]:
@@ -168,9 +180,38 @@ def read_map(path: str | os.PathLike[str], signals: Iterable[Known]) -> dict[str
 
     Lines like `"U0[1]" = "volt_left"`, `"Us" = { column = "supply", unit = "mV" }` or
     `"m[1].me.we" = { column = "rpm", scale = 0.10472, offset = 0.0 }`; signals by path or by their
-    name in C. Raises LogError for a file that is wrong or names a signal that is not there.
+    name in C; `time` is for `read_time`. Raises LogError for a file that is wrong or names a
+    signal that is not there.
     """
     name = os.fspath(path)
+    known = {k.path: k for k in signals}
+    paths = {alias: k.path for k in known.values() for alias in (_identifier(k.path), k.name)}
+    paths |= {path: path for path in known}
+    found: dict[str, Mapped] = {}
+    for key, value in _entries(name):
+        if key not in paths and key == _CLOCK:
+            continue
+        if key not in paths:
+            close = _close(key, list(known))
+            help = f"perhaps {' or '.join(close)}" if close else f"there is {', '.join(known)}"
+            raise LogError(name, None, f"the residuals read no signal `{key}`", help)
+        found[paths[key]] = _mapped(name, key, value)
+    return found
+
+
+def read_time(path: str | os.PathLike[str]) -> Mapped | None:
+    """The column of time, and its unit, that a map file says as if it were a signal `time`."""
+    name = os.fspath(path)
+    value = dict(_entries(name)).get(_CLOCK)
+    found = None if value is None else _mapped(name, _CLOCK, value)
+    if found is not None and (found.scale is not None or found.offset is not None):
+        message = "the time has a scale or an offset"
+        raise LogError(name, None, message, 'write time = { column = "stamp", unit = "ms" }')
+    return found
+
+
+def _entries(name: str) -> Iterable[tuple[str, Any]]:
+    """The entries of a map file; raises LogError for a file that is no TOML."""
     try:
         with open(name, "rb") as file:
             data = tomllib.load(file)
@@ -181,17 +222,7 @@ def read_map(path: str | os.PathLike[str], signals: Iterable[Known]) -> dict[str
         line = int(place[1]) if place else None
         help = 'a line is like "U0[1]" = "volt_left"'
         raise LogError(name, line, f"not TOML: {error}", help) from error
-    known = {k.path: k for k in signals}
-    paths = {alias: k.path for k in known.values() for alias in (_identifier(k.path), k.name)}
-    paths |= {path: path for path in known}
-    found: dict[str, Mapped] = {}
-    for key, value in _flat(data):
-        if key not in paths:
-            close = _close(key, list(known))
-            help = f"perhaps {' or '.join(close)}" if close else f"there is {', '.join(known)}"
-            raise LogError(name, None, f"the residuals read no signal `{key}`", help)
-        found[paths[key]] = _mapped(name, key, value)
-    return found
+    return _flat(data)
 
 
 def _flat(data: Mapping[str, Any], before: str = "") -> Iterable[tuple[str, Any]]:

@@ -6,9 +6,9 @@ import time as clocks
 from collections import deque
 from collections.abc import Callable, Sequence
 from threading import Event
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from bondgraph.runtime.log import TIME_UNIT, Array, Log, LogError
+from bondgraph.runtime.log import TIME, TIME_UNIT, Array, Log, LogError
 from bondgraph.runtime.monitoring.clock import Clock, Piece
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.journal import Journal, JournalError, Past
@@ -16,8 +16,12 @@ from bondgraph.runtime.monitoring.mqtt_client import Publisher
 from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Source
 from bondgraph.runtime.monitoring.states import States
 from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
+from bondgraph.runtime.time_column import Pace
 from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
+
+if TYPE_CHECKING:
+    from bondgraph.runtime.monitoring.operating import Operating
 
 _EVERY = 1.0  # s between two positions in the journal
 _DIGITS = 9  # of a time in s
@@ -67,7 +71,8 @@ class Parts(NamedTuple):
 
     `columns` picks the signals of the engine out of a log, (n, signals); raises LogError where
     some are missing. `sinks` hear every verdict with its number, `states` gets every sample with
-    what it was decided on.
+    what it was decided on. Only while the machine is `operating` its samples count. `note` is told
+    which column was taken for the time. The rate may be one that was `asked` for.
     """
 
     source: Source
@@ -78,6 +83,9 @@ class Parts(NamedTuple):
     sinks: Sequence[Callable[[int, Verdict], None]] = ()
     publisher: Publisher | None = None
     journal: Journal | None = None
+    operating: Operating | None = None
+    note: Callable[[str], None] = lambda text: None
+    asked: bool = False
     states: States | None = None
 
 
@@ -101,6 +109,7 @@ class Monitor:
         self._gaps = 0  # one after the other, without residuals between them
         self._anew = float("-inf")  # s, when the filters began
         self._matched = False
+        self._pace = Pace(parts.engine.sample_time, parts.source.name, parts.asked)
         self._written = clocks.monotonic()  # when the position was put down
         self._put_down = 0  # samples until then
 
@@ -128,7 +137,9 @@ class Monitor:
         journal, source = self._parts.journal, self._parts.source
         past = journal.past if journal is not None else None
         if past is None:
-            self._say(Verdict("start", 0.0, message=f"{self._what}, from {source.name}"))
+            time = source.time()
+            what = f"{self._what}, from {source.name}" + (f"; time is {time}" if time else "")
+            self._say(Verdict("start", 0.0, message=what))
         else:
             self._resume(past)
         self._commit()
@@ -208,6 +219,8 @@ class Monitor:
         message = f"{why}, after {self._samples} samples"
         if self._parts.clock.dropped:
             message += f", {self._parts.clock.dropped} of them too late, twice or empty"
+        if self._parts.clock.left_out:
+            message += f", {self._parts.clock.left_out} of them while the machine was off"
         lines = self._parts.decision.decided().bound[-1:]
         blind = [
             n for k, n in enumerate(self._parts.engine.residuals) if (lines != lines)[:, k].any()
@@ -260,12 +273,16 @@ class Monitor:
                 message = f"{self._left_out} samples are left out: {error}"
                 self._say(Verdict("invalid", self._time, message=message))
             return
+        self._pace.look(log)
+        on = None if parts.operating is None else parts.operating(log)
         if not self._matched:
             self._matched = True
             parts.clock.wraps = _wraps(log)
+            if TIME in log.meta and (parts.journal is None or parts.journal.past is None):
+                parts.note(f"{parts.source.name}: time is {log.meta[TIME]}")
         if not again:
             self._samples += log.rows
-        for piece in parts.clock.feed(log.time, samples):
+        for piece in parts.clock.feed(log.time, samples, on):
             self._step(piece, again)
 
     def _step(self, piece: Piece, again: bool) -> None:
@@ -322,7 +339,11 @@ class Monitor:
             "1 line is no sample" if self._garbage == 1 else f"{self._garbage} lines are no samples"
         )
         self._say(
-            Verdict("invalid", self._time, message=f"{lines}, the last is `{decoder.example}`")
+            Verdict(
+                "invalid",
+                self._time,
+                message=f"{lines}, the last is `{decoder.example}` ({decoder.why})",
+            )
         )
 
     def _news(self) -> None:

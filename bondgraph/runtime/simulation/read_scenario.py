@@ -72,7 +72,8 @@ def _state_unit(storage: Node) -> Dimension | None:
 class _Reader:
     def __init__(self, source: Source, graph: BondGraph, report: Report) -> None:
         self.graph = graph
-        self.document = Document(source, places(source.text), Outside(graph, report), Values(graph))
+        terms = Outside(graph.pool, graph.values, report)
+        self.document = Document(source, places(source.text), terms, Values(graph))
         self.sensors = {s.name: s for s in graph.sensors if s.same_as is None}
         self.inputs = {i.name: i for i in graph.inputs if not i.of}
         self.values = {v.name: v for v in graph.values}

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from bondgraph.runtime import log_numbers
 from bondgraph.runtime.log import Log, LogError, joined
 from bondgraph.runtime.log_file import CsvReader, read_log, write_log
+from bondgraph.runtime.log_numbers import Form
 
 _TEXT = st.text(st.characters(exclude_categories=("Cs",)), max_size=12)
 _NAME = st.text(st.characters(exclude_categories=("Cs",), exclude_characters="\r\n"), min_size=1)
@@ -72,7 +73,7 @@ def _read(tmp_path: Path, text: str | bytes, **options: object) -> Log:
         ("t,a\n0,1\n1,2,3\n", 3, "3 cells where the header names 2"),
         ("t,a\n0,1\n\n# note\n1\n", 5, "1 cells where the header names 2"),
         ("t,a\n0,1\n1,x\n", 3, "`x` in the column a is not a number"),
-        ("t;a\n0;1\n1;2,5\n", 3, "decimal points"),
+        ("t;a\n0;1.5\n1;2,5\n", 3, "decimal commas and points are mixed"),
         ("t,a\n0,1\n1,1_000\n", 3, "not a number"),
         ("0,1\n1,2\n", 1, "no header"),
         ("t,a,a\n0,1,2\n", 1, "two columns are called `a`"),
@@ -132,7 +133,7 @@ def test_a_column_of_words_is_left_out_and_told(tmp_path: Path) -> None:
 @given(st.lists(st.integers(1, 9), max_size=6), st.booleans())
 def test_lines_may_come_in_any_pieces(pieces: list[int], named: bool) -> None:
     lines = ["# note\n", "t,a\n" if named else "# t,a\n", *[f"{k},{k * k}\n" for k in range(9)]]
-    reader, parts = CsvReader("x.csv"), []
+    reader, parts = CsvReader(Form("x.csv")), []
     for length in [*pieces, len(lines)]:
         parts.append(reader.feed(lines[:length]))
         del lines[:length]
@@ -153,7 +154,7 @@ def test_parquet_of_other_people(tmp_path: Path) -> None:
     log = read_log(path)
     assert log.time.tolist() == [10.5, 11.0] and log.columns["on"].tolist() == [1.0, 0.0]
     np.testing.assert_array_equal(log.columns["a"], [math.nan, 2.0])
-    assert log.meta == {"left-out": "word (string)"}
+    assert log.meta == {"left-out": "word (string)", "time": "the column `timestamp`, as ISO 8601"}
     path.write_bytes(b"no parquet at all")
     with pytest.raises(LogError, match="not a Parquet file"):
         read_log(path)
@@ -211,8 +212,8 @@ def test_what_c_reads_is_what_python_reads(arrow: bool, rows: list[list[str]]) -
     found = by_arrow(joined_lines, ";", 2) if arrow else by_numpy(lines, ";", 2)
     if found is None:
         return
-    reader = CsvReader("x.csv")
-    slow = reader.feed(["t;a\n", "0;0\n", *lines])
+    reader = CsvReader(Form("x.csv"))
+    slow = reader.feed(["# bondgraph log 1\n", "t;a\n", "0;0\n", *lines])
     assert slow is not None
     assert _bits(slow.time[1:]) == _bits(found[:, 0])
     assert _bits(slow.columns["a"][1:]) == _bits(found[:, 1])
@@ -236,13 +237,14 @@ _PIECES = st.lists(
     st.sampled_from(
         [b"# bondgraph log 1\n", b"# unit a: V\n", b"t,a\n", b"t;a\n", b"0,1\n", b"0;1\n", b"\n",
          b'"', b",", b"\x00", b"\xff", b"\r", b"#", b"a,b\n", b"nan", b"-1e9", b"\xef\xbb\xbf",
+         b"2024-05-01T12:00:00Z", b'{"t": 1}\n', b"0,5;", b"T [degC];t\n",
          b"PAR1"]
     ) | st.binary(max_size=3),
     max_size=12,
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+@pytest.mark.parametrize("suffix", [".csv", ".parquet", ".jsonl"])
 @given(pieces=_PIECES)
 def test_any_bytes_are_a_log_or_told_not_to_be(suffix: str, pieces: list[bytes]) -> None:
     path = Path(f"{_FOLDER}/any{suffix}")

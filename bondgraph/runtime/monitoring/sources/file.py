@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from threading import Event
 from typing import IO, Any
 
-from bondgraph.runtime.log import LogError
-from bondgraph.runtime.log_file import read_log
+from bondgraph.runtime.log import TIME, Log, LogError
+from bondgraph.runtime.log_file import read_form
 from bondgraph.runtime.log_numbers import Form
 from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.sources.sample_source import (
@@ -25,7 +25,7 @@ from bondgraph.runtime.monitoring.sources.streams import Pipe
 
 _BLOCK = 1 << 20  # bytes read at a time
 _ROWS = 20_000  # of a table, given at a time
-_FIRST = 1000  # samples whose rate is taken
+_PATIENCE = 20  # lines that are no samples, all for the same cause, before the first one that is
 _HEAD = 512  # bytes by which a file is known again
 
 
@@ -36,7 +36,7 @@ class TableFile(Source):
 
     def __init__(self, path: str, form: Form) -> None:
         self.name = os.path.abspath(path)
-        self._log = read_log(path, time=form.time, rate=form.rate)
+        self._log = read_form(path, form)
         self._row = 0
         self._until = 0  # before this row all was computed once
 
@@ -60,7 +60,11 @@ class TableFile(Source):
 
     def rate(self) -> float | None:
         """Samples a second, of the first ones."""
-        return rate_of(self._log.time[:_FIRST])
+        return rate_of(self._log.time)
+
+    def time(self) -> str:
+        """See `Source`."""
+        return self._log.meta.get(TIME, "")
 
 
 class LinesFile(Source):
@@ -109,15 +113,25 @@ class LinesFile(Source):
         if self._offset:
             self._header(self._offset)
             self.decoder.rows = int(back.get("rows", 0))
+            self.decoder.lines = int(back.get("lines", 0))
         self._file.seek(self._offset)
         return ""
 
     def rate(self) -> float | None:
         """Samples a second, of the first ones."""
+        first = self._first()
+        return rate_of(first.time) if first else None
+
+    def time(self) -> str:
+        """See `Source`."""
+        first = self._first()
+        return first.meta.get(TIME, "") if first else ""
+
+    def _first(self) -> Log | None:
         with self._open() as file:
             lines = file.readlines(_BLOCK // 8)
         logs = Decoder(self.decoder.form).feed(b"".join(lines))
-        return rate_of(logs[0].time[:_FIRST]) if logs else None
+        return logs[0] if logs else None
 
     def close(self) -> None:
         """Close the file."""
@@ -143,6 +157,7 @@ class LinesFile(Source):
         self._offset += len(block.lines) if added is None else len(block.lines) - 1
         again = self._offset <= self._until
         logs = self.decoder.feed(block.lines, block.whole)
+        self.decoder.check(_PATIENCE)
         for log in logs[:-1]:
             yield Chunk(log, again=again)
         yield Chunk(logs[-1] if logs else None, place=self._place(), again=again)
@@ -172,7 +187,7 @@ class LinesFile(Source):
         yield Chunk(news=(News("gap", f"{self._path} {what}, read from its start"),))
 
     def _place(self) -> dict[str, Any]:
-        place = {"offset": self._offset, "rows": self.decoder.rows}
+        place = {"offset": self._offset, "rows": self.decoder.rows, "lines": self.decoder.lines}
         return place | {"head": self._head(self._offset)}
 
     def _head(self, offset: int) -> str:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import csv
 import json
 import re
+from collections.abc import Iterator
 
 import numpy as np
 
-from bondgraph.runtime.log import MARK, Log, LogError, name_of_time, no_time, time_column
+from bondgraph.runtime.log import MARK, Log, LogError
 from bondgraph.runtime.log_numbers import (
     Form,
     Reader,
@@ -18,7 +19,10 @@ from bondgraph.runtime.log_numbers import (
     number,
     separator_of,
 )
+from bondgraph.runtime.time_column import chosen, stamp
 
+_CAUSES = 2  # of lines that are no samples: more than one is noise
+_JSON = re.compile(r"\s*(?:\{|\[\s*[{\]])")  # no row of units, `[s],[V]`
 _UNIT = re.compile(r"# unit ((?:[^\\:]|\\.)+): (.*)")
 
 
@@ -27,13 +31,16 @@ class Decoder(Reader):
 
     A line is a row of CSV, a header, a comment, a JSON object of numbers by name or an array of
     such objects. A header may come again, as after a restart of the device. `garbage` counts the
-    lines that are none of these, `example` is the last one of them.
+    lines that are none of these; `example` is the last one of them, `why` says what is wrong with
+    it and in which line, of `lines` so far.
     """
 
     def __init__(self, form: Form) -> None:
         super().__init__(form)
-        self.garbage = 0
-        self.example = ""
+        self.garbage = self.lines = 0
+        self.example = self.why = ""
+        self._causes: dict[str, LogError] = {}
+        self._key: str | None = None  # of time in objects, once it is known
         self._refused: LogError | None = None
         self._table: Table | None = None
         self.declare()
@@ -43,43 +50,53 @@ class Decoder(Reader):
         self._table = None
         names = list(self.form.columns)
         if names:
-            self._table = _table(names, "", self._time_of(names))
+            self._table = self._header_of(names, "", _is_name, strict=False)
 
     def feed(self, block: bytes, whole: bool = True) -> list[Log]:
         """The samples in the lines of a block, which ends with a line.
 
         Several logs where a header comes in between. With `whole` false the block may begin
         in the middle of a line; that line counts only if it cannot be a part of another one.
-        Raises LogError where lines are sound, but have no column of time.
+        Raises LogError for times in a unit that is none.
         """
         lines = block.decode("utf-8", errors="replace").replace("\ufeff", "").splitlines()
         found = []
         if not whole and lines and not self._complete(lines[0]):
-            self._waste(lines.pop(0))
+            self._waste(0, lines[0], "the end of a line")
+            self.lines += 1
+            del lines[0]
         while lines:
-            taken = self._head(lines)
-            lines = lines[taken:]
+            count = self._head(lines)
+            self.lines += count
+            lines = lines[count:]
             count = next((k for k, s in enumerate(lines) if self._special(s)), len(lines))
-            if count:
-                found += self._csv(lines[:count])
-                lines = lines[count:]
-            count = next((k for k, s in enumerate(lines) if s[:1] not in ("{", "[")), len(lines))
-            if count:
-                found += self._json(lines[:count])
-                lines = lines[count:]
+            found += self._csv(lines[:count])
+            self.lines += count
+            lines = lines[count:]
+            count = next((k for k, s in enumerate(lines) if not _JSON.match(s)), len(lines))
+            found += self._json(lines[:count])
+            self.lines += count
+            lines = lines[count:]
         return found
 
-    def check(self) -> None:
-        """Raise the LogError that says why no line could be used, if that is so."""
-        if self._refused is not None and not self.rows:
+    def check(self, most: int = 0) -> None:
+        """Raise the LogError that says why no line could be used, if that is so.
+
+        That is known once more than so many are no samples, all for the same cause.
+        """
+        if self.rows or self.garbage < most:
+            return
+        if self._refused is not None:
             raise self._refused
+        if len(self._causes) == 1:
+            raise next(iter(self._causes.values()))
 
     # ------------------------------------------------------------------ comments and headers
 
     def _special(self, line: str) -> bool:
         """Whether a line is something else than a row of CSV."""
         first = line.lstrip()[:1]
-        if first in ("", "#", "{", "["):
+        if first in ("", "#") or _JSON.match(line):
             return True
         return first not in _NUMERIC and self._header(line) is not None
 
@@ -90,7 +107,8 @@ class Decoder(Reader):
             if first == "#":
                 self._comment(line)
             elif first:
-                table = None if first in "{[" or first in _NUMERIC else self._header(line)
+                row = first in _NUMERIC or _JSON.match(line)
+                table = None if row else self._header(line)
                 if table is None:
                     return k
                 self._table = table
@@ -113,20 +131,10 @@ class Decoder(Reader):
         if len(set(names)) < max(len(names), 2) or any(not _is_name(n) for n in names):
             return None
         try:
-            time = self._time_of(names)
+            return self._header_of(names, separator, _is_name, strict=False)
         except LogError as error:
             self._refused = error
             return None
-        return _table(names, separator, time)
-
-    def _time_of(self, names: list[str]) -> str | None:
-        wanted = self.form.time
-        if wanted is None and self._own and names[0] == name_of_time(names[1:]):
-            return names[0]
-        time = time_column(names, wanted, self.form.name, None)
-        if time is None and self.form.rate is None:
-            raise no_time(self.form.name, None, names)
-        return time
 
     def _complete(self, line: str) -> bool:
         """Whether a line cannot be the end of a longer one."""
@@ -139,71 +147,103 @@ class Decoder(Reader):
 
     def _csv(self, lines: list[str]) -> list[Log]:
         table = self._table
+        if not lines:
+            return []
         if table is None:
-            for line in lines:
-                self._waste(line)
+            why = "no header names the columns yet"
+            for k, line in enumerate(lines):
+                self._waste(k, line, why)
+            if "\ufffd" in lines[0] and self._refused is None:
+                help = "save it as UTF-8"
+                self._refused = LogError(self.form.name, self.lines + 1, "not UTF-8", help)
             return []
         table.separator = table.separator or separator_of(lines[0])
-        rows = table.rows(lines, lambda k, _: self._waste(lines[k]))
+        try:
+            rows = table.rows(lines, lambda k, why: self._waste(k, lines[k], str(why), why.help))
+        except LogError as error:
+            for k, line in enumerate(lines):
+                self._waste(k, line, error.message, error.help)
+            return []
         return [self._log_of_table(table, rows, {})] if len(rows) else []
 
     def _json(self, lines: list[str]) -> list[Log]:
-        kept: list[tuple[float | None, str, dict[str, float]]] = []
-        for line in lines:
+        objects = list(self._objects(lines))
+        try:
+            time = self._time_of([row for _, row in objects])
+        except LogError as error:
+            self._refused = error
+            for k, _ in objects:
+                self._waste(k, lines[k], error.message, error.help)
+            return []
+        kept = []
+        stamped = False
+        for k, found in objects:
+            row = {n: x for n, v in found.items() if (x := _json_number(v)) is not None}
+            at = None if time is None else _json_time(found.get(time))
+            row.pop(time or "", None)
+            if time is not None and not finite(at):
+                self._waste(k, lines[k], "no time")
+            elif time is not None or row:
+                kept.append((at, row))
+                stamped |= isinstance(found.get(time or ""), str)
+        if not kept:
+            return []
+        names = dict.fromkeys(name for _, row in kept for name in row)
+        columns = {
+            name: np.array([row.get(name, np.nan) for _, row in kept], dtype=np.float64)
+            for name in names
+        }
+        times = None if time is None else np.array([at for at, _ in kept], np.float64)
+        return [self._log(len(kept), times, time or "", columns, {}, stamped)]
+
+    def _objects(self, lines: list[str]) -> Iterator[tuple[int, dict[str, object]]]:
+        """The objects in lines of JSON, each with the number of its line among these."""
+        for k, line in enumerate(lines):
             try:
                 value = json.loads(line)
             except (ValueError, RecursionError):
-                self._waste(line)
+                self._waste(k, line, "not JSON")
                 continue
             for found in value if isinstance(value, list) else [value]:
-                row = self._object(found)
-                if row is None or (kept and (row[0] is None) != (kept[0][0] is None)):
-                    self._waste(line)
+                if isinstance(found, dict) and found:
+                    yield k, {str(n): x for n, x in found.items()}
                 else:
-                    kept.append(row)
-        names = list(dict.fromkeys(name for _, _, row in kept for name in row))
-        columns = {
-            name: np.array([row.get(name, np.nan) for _, _, row in kept], dtype=np.float64)
-            for name in names
+                    self._waste(k, line, "no object of JSON")
+
+    def _time_of(self, rows: list[dict[str, object]]) -> str | None:
+        """The key of time in some objects; None where the rate has to make one."""
+        names = list(dict.fromkeys(name for row in rows for name in row))
+        if not rows or self._key in names:
+            return self._key
+        numbers = {
+            name: np.array([_json_time(row.get(name)) for row in rows], dtype=np.float64)
+            for name in self._times_of(names)
         }
-        if not kept:
-            return []
-        times = None if kept[0][0] is None else np.array([time for time, _, _ in kept], np.float64)
-        return [self._log(len(kept), times, kept[0][1], columns, {})]
+        self._key = chosen(numbers, self.form.name, self.form.rate is not None)
+        return self._key
 
-    def _object(self, value: object) -> tuple[float | None, str, dict[str, float]] | None:
-        """The time, its name and the other numbers of a JSON object; None if it is no sample."""
-        if not isinstance(value, dict) or not value:
-            return None
-        row = {str(k): x for k, v in value.items() if (x := _json_number(v)) is not None}
-        try:
-            name = time_column(list(row), self.form.time, self.form.name, None)
-            if name is None and self.form.rate is None:
-                raise no_time(self.form.name, None, [str(k) for k in value])
-        except LogError as error:
-            self._refused = error
-            return None
-        if name is None:
-            return (None, "", row) if row else None
-        time = row.pop(name)
-        return (time, name, row) if finite(time) else None
-
-    def _waste(self, line: str) -> None:
+    def _waste(self, at: int, line: str, why: str, help: str = "") -> None:
+        """Count a line that is no sample, so many behind those that were taken."""
+        number = self.lines + at + 1
         self.garbage += 1
-        self.example = line.strip()[:60]
+        self.example, self.why = line.strip()[:60], f"line {number}: {why}"
+        if len(self._causes) < _CAUSES:
+            cause = re.sub(r"`[^`]*`|\d+", "", why)
+            self._causes.setdefault(cause, LogError(self.form.name, number, why, help))
 
 
 _NUMERIC = frozenset("0123456789+-.,;")
-
-
-def _table(names: list[str], separator: str, time: str | None) -> Table:
-    return Table(names, separator, time, _is_name, timeless=False)
 
 
 def _is_name(text: str) -> bool:
     """Whether a cell can be a name or a word: it begins with a letter, and all can be printed."""
     plain = text.isprintable() and "\ufffd" not in text
     return plain and (text[:1].isalpha() or text[:1] == "_") and number(text) is None
+
+
+def _json_time(value: object) -> float | None:
+    """The time that a JSON value is, a number or a text."""
+    return stamp(value) if isinstance(value, str) else _json_number(value)
 
 
 def _json_number(value: object) -> float | None:

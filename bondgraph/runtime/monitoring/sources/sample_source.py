@@ -20,6 +20,7 @@ IDLE = 0.2
 
 _ROUND = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)  # times a power of ten
 _NEAR = 0.02
+_FIRST = 1000  # samples whose rate is taken
 _FEW, _PAUSE = 20, 0.01  # blocks that wait so many s for more
 _LONGEST = 1 << 20  # bytes of a line that may be one
 
@@ -76,17 +77,21 @@ class Source(ABC):
         """Samples a second, where that can be known before the first one is taken."""
         return None
 
+    def time(self) -> str:
+        """What is taken for the time, where that is known before the first sample; else ""."""
+        return ""
+
     def close(self) -> None:  # noqa: B027 (there may be nothing to let go of)
         """Let go of the line."""
 
 
 def rate_of(time: Array) -> float | None:
-    """Samples a second, of times in s; a round number if one is near.
+    """Samples a second, of the first ones, at times in s; a round number if one is near.
 
     >>> rate_of(np.array([0.0, 0.0101, 0.0199, 0.0301, 0.5]))
     100.0
     """
-    steps = np.diff(time)
+    steps = np.diff(time[:_FIRST])
     steps = steps[steps > 0.0]
     if len(steps) < 2:
         return None

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bondgraph.ir.program import Known
-from bondgraph.runtime.monitoring.clock import WRAP_32, Clock, Gap, Piece
+from bondgraph.runtime.monitoring.clock import WRAP_32, Clock, Gap, Piece, clock_of
 
 _DT, _MOST = 0.01, 0.05
 
@@ -255,3 +255,44 @@ def test_huge_numbers_do_no_harm() -> None:
     rows[::2] *= -1
     ((_, samples, _),) = _joined(_clock().feed(np.arange(6) * 1.5 * _DT, rows))
     assert len(samples) == 8 and np.isnan(samples[:, 2]).all()
+
+
+@pytest.mark.parametrize("bandwidth", [0.02, 0.5, 3.0])
+@pytest.mark.parametrize("jitter", [0.0, 0.1])
+def test_missed_samples_and_jitter_never_start_anew(bandwidth: float, jitter: float) -> None:
+    """1 Hz, one step in twenty is 2 s: the straight line between is what the grid has there."""
+
+    class Filter:
+        signals, sample_time = _SIGNALS[:1], 1.0
+
+    engine = Filter()
+    engine.bandwidth = bandwidth  # type: ignore[attr-defined]
+    rng = np.random.default_rng(3)
+    times = np.cumsum(np.where(rng.random(3000) < 0.05, 2.0, 1.0))
+    times += rng.normal(0.0, 1.0, 3000) * jitter
+    clock = clock_of(engine)  # type: ignore[arg-type]
+    pieces = clock.feed(times, 0.25 * times[:, None]) + clock.finish()
+    assert [p.gap for p in pieces if p.gap] == []
+    grid = np.concatenate([p.time for p in pieces])
+    found = np.concatenate([p.samples for p in pieces])
+    np.testing.assert_allclose(np.diff(grid), 1.0)
+    assert abs(len(grid) - (times[-1] - times[0])) <= 2.0
+    np.testing.assert_allclose(found[:, 0], 0.25 * grid, rtol=1e-12)
+
+
+@pytest.mark.parametrize("cuts", [(), (7,), (3, 4, 5, 12, 13)])
+def test_while_a_machine_is_off_there_is_no_grid(cuts: tuple[int, ...]) -> None:
+    """However short it is off: nobody knows what it did, and a line across would be made up."""
+    times, rows = np.arange(20) * _DT, _rows(20)
+    on = np.ones(20, dtype=bool)
+    on[:2] = on[6:8] = on[12] = on[18:] = False
+    clock, pieces = _clock(), []
+    for a, b in pairwise([0, *cuts, 20]):
+        pieces += clock.feed(times[a:b], rows[a:b], on[a:b])
+    found = _joined(pieces + clock.finish())
+    assert [len(t) for t, _, _ in found] == [4, 4, 5]
+    assert [x[0, 0] for _, x, _ in found] == [2.0, 8.0, 13.0]
+    gaps = [gap for _, _, gap in found]
+    assert gaps[0] is None and clock.left_out == 7
+    assert [g and (g.lost, g.off) for g in gaps[1:]] == [(2, True), (1, True)]
+    assert gaps[1] is not None and gaps[1].text == "the machine was off from 0.05 s to 0.08 s"

@@ -77,6 +77,12 @@ def test_a_column_of_words_is_named_among_the_reasons(tmp_path: Path) -> None:
         ("rad/s", "rpm", 60.0, 2 * math.pi),
         ("rad", "deg", 180.0, math.pi),
         ("Pa", "bar", 2.0, 2e5),
+        ("K", "degC", 26.85, 300.0),
+        ("K", "°C", -273.15, 0.0),
+        ("K", "degF", 212.0, 373.15),
+        ("degC", "degF", 212.0, 100.0),
+        ("degC", "K", 300.0, 26.85),
+        ("W/K", "W/degC", 2.0, 2.0),  # a difference of temperatures has no zero
         ("", "mV", 3.0, 3.0),  # nothing fixes the unit of the model
     ],
 )
@@ -84,7 +90,7 @@ def test_units_of_one_dimension_are_converted(
     own: str, unit: str, given: float, expected: float
 ) -> None:
     samples = Columns([_known("x", own)])(_log({"x": unit}, x=given))
-    np.testing.assert_allclose(samples, [[expected]] * 2, rtol=1e-15)
+    np.testing.assert_allclose(samples, [[expected]] * 2, rtol=1e-14, atol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -93,7 +99,7 @@ def test_units_of_one_dimension_are_converted(
         (_known("x", "V"), "A", "x is in V, its column x is in A"),
         (_known("x", "rad/s"), "m/s", "x is in rad/s, its column x is in m/s"),
         (_known("x", "V"), "blip", "unknown unit"),
-        (_known("x", "K"), "degC", "another zero"),
+        (_known("x", "K"), "bar", "x is in K, its column x is in bar"),
         (_known("x", "rad", counts=24.0), "rad", "read in counts"),
     ],
 )

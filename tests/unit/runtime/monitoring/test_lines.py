@@ -167,9 +167,55 @@ def test_noise_never_breaks_a_stream(noise: bytes, whole: bool) -> None:
 
 @given(st.lists(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 2), min_size=1))
 def test_both_forms_give_back_every_double(rows: list[tuple[float, float]]) -> None:
+    rows = sorted({row[0]: row for row in rows}.values())  # a time grows
     csv = "t,a\n" + "".join(f"{t!r},{a!r}\n" for t, a in rows)
     lines = "".join(json.dumps({"t": t, "a": a}) + "\n" for t, a in rows)
     for text in (csv, lines):
-        log = one(text)
+        log = one(text, unit="s")
         found = np.stack([log.time, log.columns["a"]], axis=1)
         assert found.tobytes() == np.array(rows).tobytes()
+
+
+def test_declared_columns_take_their_separator_from_the_first_row() -> None:
+    found = decoder(columns=("t", "a"))
+    assert found.feed(b"# hello\n") == []
+    (log,) = found.feed(b"0,5;1,5\n1,5;2,5\n")
+    assert log.time.tolist() == [0.5, 1.5] and log.columns["a"].tolist() == [1.5, 2.5]
+    with pytest.raises(LogError, match="two columns are called `a`"):
+        decoder(columns=("t", "a", "a"))
+
+
+def test_dates_with_their_zones() -> None:
+    """The hour that comes twice in Berlin, when summer ends, is told apart by its zone."""
+    rows = ["2024-10-27T02:59:59+02:00,1", "2024-10-27T02:00:00+01:00,2", "2024-10-27T01:00:01Z,3"]
+    text = "time,a\n" + "\n".join(rows) + "\n"
+    start = 1729990799.0  # date -u -d 2024-10-27T00:59:59 +%s
+    assert one(text).time.tolist() == [start, start + 1, start + 2]
+    lines = [row.split(",") for row in rows]
+    text = "".join(json.dumps({"time": t, "a": float(a)}) + "\n" for t, a in lines)
+    assert one(text).time.tolist() == [start, start + 1, start + 2]
+    with pytest.raises(LogError, match="are ISO 8601, not numbers in ms"):
+        decoder(unit="ms").feed(text.encode())
+
+
+def test_a_line_that_is_refused_is_known_by_its_number() -> None:
+    found = decoder()
+    found.feed(b"# note\n\nt,a\n0,1\n1,2\n")
+    found.feed(b"2,3\n3\n4,5\n")
+    assert found.garbage == 1 and found.example == "3"
+    assert found.why == "line 7: 1 cells where the header names 2"
+    found.feed(b'{"t": 5, "a": 1}\n{"a": 1}\n')
+    assert found.garbage == 2 and found.why == "line 10: no time"
+    found.feed(b'{"t": 7\n')
+    assert found.garbage == 3 and found.why == "line 11: not JSON"
+
+
+def test_a_column_that_does_not_run_is_looked_at_again() -> None:
+    """A device that waits for its clock: its rows count once the time runs."""
+    found = decoder()
+    assert found.feed(b"t,a\n0,1\n0,2\n0,3\n") == []
+    assert found.garbage == 3 and "does not grow" in found.why
+    with pytest.raises(LogError, match="no time, it does not grow"):
+        found.check()
+    (log,) = found.feed(b"0.1,4\n0.2,5\n")
+    assert log.time.tolist() == [0.1, 0.2]

@@ -248,7 +248,7 @@ def test_what_cannot_be_watched_is_said_with_names(
         ["--follow", "-"],
         ["--mqtt", "localhost"],
         ["-", "--publish", "topic"],
-        ["a.csv", "--time-unit", "h"],
+        ["a.csv", "--time-unit", "V"],
         ["a.csv", "--rate", "0"],
         ["-", "--tuning"],
     ],
@@ -420,7 +420,8 @@ def test_lines_that_are_none_are_counted_at_the_first_and_when_they_have_doubled
     path = tmp_path / "log.jsonl"
     path.write_text("what\n" + "".join(rows), encoding="utf-8")
     said = [v["message"] for v in monitored(capsys, str(path)) if v["event"] == "invalid"]
-    assert said == ["1 line is no sample, the last is `what`"]
+    why = "no header names the columns yet"
+    assert said == [f"1 line is no sample, the last is `what` (line 1: {why})"]
     path.write_text("what\nis\nthis\n" + "".join(rows), encoding="utf-8")
     said = [v["message"] for v in monitored(capsys, str(path)) if v["event"] == "invalid"]
-    assert said == ["3 lines are no samples, the last is `this`"]
+    assert said == [f"3 lines are no samples, the last is `this` (line 3: {why})"]

@@ -1,0 +1,59 @@
+"""Options of the commands that read logs: which column is what, in which unit, what counts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+    from collections.abc import Callable, Mapping
+
+    from bondgraph.runtime.log_numbers import Form
+    from bondgraph.runtime.monitoring.columns import Mapped
+    from bondgraph.runtime.monitoring.operating import Operating
+
+
+def logged(add: Callable[..., object]) -> None:
+    """The arguments that say what the columns of a log are."""
+    add("--map", metavar="FILE.toml", help="which column is which signal, and in which unit")
+    add("--columns", metavar="NAMES", default="",
+        help="the header of CSV that comes without one: names, separated by commas")  # fmt: skip
+    add("--time", metavar="NAME",
+        help="the column of time (default: t, time or timestamp, if it grows)")  # fmt: skip
+    add("--time-unit", metavar="s|ms|us|ns|min|h|d", type=timely,
+        help="its unit (default: as its name says, else s)")  # fmt: skip
+    add("--while", metavar="EXPR", dest="operating",
+        help="only samples for which this holds, over columns: \"pump > 0\"")  # fmt: skip
+
+
+def timely(text: str) -> str:
+    """A unit of time; raises ValueError for any other text."""
+    from bondgraph.runtime.time_column import timely as unit
+
+    if unit(text) is None:
+        raise ValueError
+    return text
+
+
+timely.__name__ = "unit of time"
+
+
+def form_of(args: Namespace, name: str) -> Form:
+    """What the arguments, and the map file, say of a log before it is read."""
+    from bondgraph.runtime.log_numbers import Form
+    from bondgraph.runtime.monitoring.columns import read_time
+
+    mapped = read_time(args.map) if args.map else None
+    time = args.time or (mapped.column if mapped else None)
+    unit = args.time_unit or (mapped.unit if mapped and not args.time else None)
+    names = tuple(n.strip() for n in args.columns.split(",")) if args.columns else ()
+    return Form(name, time, unit, names, args.rate)
+
+
+def operating_of(
+    args: Namespace, mapping: Mapping[str, Mapped] | None, name: str
+) -> Operating | None:
+    """What `--while` says, None where there is no such word; raises CompileError."""
+    from bondgraph.runtime.monitoring.operating import Operating
+
+    return None if args.operating is None else Operating(args.operating, mapping, name)
