@@ -95,10 +95,8 @@ def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[fl
 
 def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
     """The model, an engine of it, and what it reads from each log, on its own grid."""
-    import numpy as np
-
     from bondgraph.runtime.log_file import read_log
-    from bondgraph.runtime.monitoring.clock import on_grid
+    from bondgraph.runtime.monitoring.clock import stretches, usual_rate
     from bondgraph.runtime.monitoring.columns import read_map
 
     read = []
@@ -119,17 +117,12 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array]]:
     else:
         read = [read_log(path) for path in args.logs]
         names = list(args.logs)
-        steps = np.diff(read[0].time)
-        usual = float(np.median(steps)) if len(steps) else 1.0 / Options().rate
-        rate = args.rate or round(1.0 / usual, 6)
+        rate = args.rate or usual_rate(read[0]) or Options().rate
         compilation = realising(args, rate=rate)
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
-    logs = []
-    for name, log in zip(names, read, strict=True):
-        pieces = on_grid(engine, log, mapping, name)
-        logs += [p.samples for p in pieces if len(p.samples)]
-    return compilation, engine, logs
+    found = stretches(engine, zip(names, read, strict=True), mapping)
+    return compilation, engine, [piece.samples for _, piece in found]
 
 
 def _score(tuned: Tuned, found: list[Tuned]) -> float:
@@ -204,9 +197,9 @@ def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: st
             hidden.append(_name(shown))
         else:
             rows.append(row)
-    lines += [*_table(limits), ""]
+    lines += [*console.columns(limits), ""]
     lines += [f"The smallest change that is sure to show within {best.window:g} s, in nine windows"
-              " of ten", *_table(rows)]  # fmt: skip
+              " of ten", *console.columns(rows)]  # fmt: skip
     if hidden:
         lines += ["", "Cannot be seen: " + ", ".join(hidden)]
     return [*lines, "", f"Written to {output}"]
@@ -226,11 +219,3 @@ def _row(compilation: Compilation, shown: Shown) -> tuple[str, ...] | None:
     size = "" if gain else f"{shown.size:.3g} {shown.hypothesis.unit}".rstrip()
     note = "  more than the value itself" if relative is not None and relative > 1 else ""
     return _name(shown), size, share, f"{shown.delay:.2f} s", shown.residual + note
-
-
-def _table(rows: list[tuple[str, ...]]) -> list[str]:
-    sizes = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    return [
-        "  " + "  ".join(c.ljust(n) for c, n in zip(row, sizes, strict=True)).rstrip()
-        for row in rows
-    ]

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from difflib import get_close_matches
 from functools import partial
 
 import numpy as np
@@ -20,6 +21,7 @@ from scipy.optimize import least_squares
 
 from bondgraph.runtime.diagnosis.told_combinations import Combination, combinations, untold
 from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.text.tuples import NamedTuple
 
@@ -60,9 +62,9 @@ class Fitting(NamedTuple):
 
 
 class Span(NamedTuple):
-    """A time of a log (from 0 for the first) in which a residual is `times` what is usual."""
+    """A time of a log, in s, in which a residual is `times` what is usual."""
 
-    log: int
+    log: str
     start: float
     end: float
     times: float
@@ -120,20 +122,20 @@ class Fitted(NamedTuple):
 
 def fit(
     engine: Engine,
-    pieces: Sequence[Array],
+    pieces: Sequence[tuple[str, Piece]],
     free: Sequence[str],
     tolerances: Mapping[str, float],
     units: Mapping[str, str],
     noise: Mapping[str, float],
     progress: Callable[[float], None] = lambda _: None,
 ) -> Fitted:
-    """Fit the `free` parameters of an engine to `pieces` of healthy logs, (n, signals) each.
+    """Fit the `free` parameters of an engine to pieces of healthy logs, by the names of these.
 
     Tolerances (relative) say where parameters are looked for that no log tells, and bound nothing.
     `noise` are standard deviations of signals that are known, in their unit; of other sensors it is
     estimated, inputs are exact. Raises ValueError where the logs are too short.
     """
-    seen = {**estimated_noise(engine, pieces), **noise}
+    seen = {**estimated_noise(engine, [p.samples for _, p in pieces]), **noise}
     runs = _Runs(engine, pieces, [seen[k.path] for k in engine.signals])
     problem = _Problem(runs, free, tolerances)
     at = np.zeros(problem.size)
@@ -151,9 +153,10 @@ def fit(
         problem.pin(null)
         at = problem.solve(at)
     late = at[count:]
+    fitted = problem.value(at)
     own = [
-        Fitting(n, float(problem.nominal[k]), problem.value(at)[n], None, units.get(n, ""), bool(bound[k]))
-        for k, n in enumerate(free)
+        Fitting(n, float(old), fitted[n], None, units.get(n, ""), bool(on))
+        for n, old, on in zip(free, problem.nominal, bound, strict=False)
     ]
     deviation = np.sqrt(np.diag(covariance))
     told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
@@ -173,6 +176,32 @@ def fit(
         for k, d, v in zip(runs.late, late, np.diag(whole)[count:], strict=True)
     )
     return Fitted(parameters, found, left, delays, seen, runs.seconds, correlation)
+
+
+def fittable(
+    engine: Engine,
+    faults: Mapping[str, float | None],
+    tolerances: Mapping[str, float],
+    wanted: Sequence[str] | None = None,
+) -> list[str]:
+    """The parameters to fit: those `wanted`, else those with a tolerance, else all.
+
+    Of those that some residual sees: `faults` with their nominal values. Raises ValueError for
+    another name, and where there is none.
+    """
+    names = [n for n, v in faults.items() if v is not None and n in engine.parameters]
+    for name in wanted or ():
+        if name not in names:
+            close = get_close_matches(name, names, 3, 0.5)
+            hint = f"perhaps {' or '.join(close)}" if close else f"there is {', '.join(names)}"
+            raise ValueError(f"no residual sees a parameter `{name}` with a number; {hint}")
+    free = list(dict.fromkeys(wanted or [n for n in names if n in tolerances] or names))
+    if not free:
+        raise ValueError(
+            "no residual sees a parameter with a number: give one to a parameter of a law that"
+            " sensors see (`bondgraph compile` prints the residuals)"
+        )
+    return free
 
 
 def estimated_noise(engine: Engine, pieces: Sequence[Array]) -> dict[str, float]:
@@ -214,14 +243,17 @@ class _Runs:
     Beside them, what as much noise as the sensors have adds to them: always the same noise.
     """
 
-    def __init__(self, engine: Engine, pieces: Sequence[Array], noise: Sequence[float]) -> None:
+    def __init__(
+        self, engine: Engine, pieces: Sequence[tuple[str, Piece]], noise: Sequence[float]
+    ) -> None:
         self.engine = engine
         time = engine.sample_time
         self.every = max(1, round(_APART / engine.bandwidth / time))
         self.skip = math.ceil(engine.warm_up / time / self.every) + 1
         long = (self.skip + 2 * _LAGS) * self.every
-        self.pieces = [(k, p) for k, p in enumerate(pieces) if len(p) > long]
-        rows = sum(len(p) // self.every - self.skip for _, p in self.pieces)
+        self.begins = [(n, float(p.time[0])) for n, p in pieces if len(p.time) > long]
+        self.pieces = [p.samples for _, p in pieces if len(p.time) > long]
+        rows = sum(len(p) // self.every - self.skip for p in self.pieces)
         if rows < _LEAST:
             need = (_LEAST + self.skip) * self.every * time
             raise ValueError(
@@ -231,10 +263,10 @@ class _Runs:
         self.late = [
             at for at, known in enumerate(engine.signals)
             if known.kind in ("input", "sensor") and known.counts is None
-            and any(_jumps(p[self.skip * self.every :, at]) for _, p in self.pieces)
+            and any(_jumps(p[self.skip * self.every :, at]) for p in self.pieces)
         ]  # fmt: skip
         draw = np.random.default_rng(1)
-        self._shaken = [self._shake(p, noise, draw) for _, p in self.pieces]
+        self._shaken = [self._shake(p, noise, draw) for p in self.pieces]
 
     def _shake(self, samples: Array, noise: Sequence[float], draw: np.random.Generator) -> Array:
         """The samples with noise once more; that of encoders in whole counts."""
@@ -271,7 +303,7 @@ class _Runs:
         self, parameters: Sequence[Mapping[str, float]], late: Mapping[int, float]
     ) -> tuple[Array, Array]:
         clean, added = [], []
-        for (_, samples), shaken in zip(self.pieces, self._shaken, strict=True):
+        for samples, shaken in zip(self.pieces, self._shaken, strict=True):
             one = self._through(parameters, _delayed(samples, late), samples)
             clean.append(one)
             added.append(self._through(parameters, _delayed(shaken, late), samples) - one)
@@ -502,17 +534,17 @@ class _Problem:
         """Where more than twice as much is left as usual, by spans of the logs."""
         runs, found, begin = self._runs, [], 0
         apart = runs.every * runs.engine.sample_time
-        most = max(len(p) for _, p in runs.pieces) // runs.every
+        most = max(map(len, runs.pieces)) // runs.every
         size = max(_LAGS, math.ceil(most / _SPANS))
-        for number, samples in runs.pieces:
+        for (name, first), samples in zip(runs.begins, runs.pieces, strict=True):
             rows = len(range(runs.every - 1, len(samples), runs.every))
             for start in range(0, rows, size):
                 part = white[begin + start : begin + min(start + size, rows)]
                 part = part[np.isfinite(part)]
                 if len(part) >= _LAGS:
-                    end = min(start + size, rows)
+                    end = first + min(start + size, rows) * apart
                     mean = math.sqrt(float(np.mean(part**2)))
-                    found.append(Span(number, start * apart, end * apart, mean))
+                    found.append(Span(name, first + start * apart, end, mean))
             begin += rows + 1
         usual = float(np.median([s.times for s in found])) if found else 0.0
         if not usual:

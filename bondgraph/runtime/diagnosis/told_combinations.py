@@ -68,8 +68,8 @@ def combinations(
             group += more
             rest = [k for k in rest if k not in more]
             members = (null[group] != 0).any(axis=0)
-        own = np.flatnonzero(members)
-        found.append(_named(own, null[np.ix_(group, own)], names, values, scale, cost))
+        own = np.flatnonzero(members).tolist()
+        found.append(_named(own, null[group][:, own], names, values, scale, cost))
     return tuple(found)
 
 
@@ -101,7 +101,7 @@ def _sparse(rows: Array) -> Array:
 
 
 def _named(
-    own: Array,
+    own: list[int],
     null: Array,
     names: Sequence[str],
     values: Sequence[float],
@@ -159,7 +159,7 @@ def _product(names: Sequence[str], exponents: Sequence[int]) -> str:
 
 def _sum(names: Sequence[str], factors: Sequence[int]) -> str:
     """R1 + R2, 2*a - b."""
-    parts = []
+    parts: list[str] = []
     for name, factor in zip(names, factors, strict=True):
         sign = ("- " if factor < 0 else "+ ") if parts else ("-" if factor < 0 else "")
         parts.append(sign + (name if abs(factor) == 1 else f"{abs(factor)}*{name}"))

@@ -286,6 +286,25 @@ def clock_of(engine: Engine, most: float | None = None, wraps: float | None = No
     return Clock(engine.signals, engine.sample_time, bridged, wraps)
 
 
+def usual_rate(log: Log) -> float | None:
+    """How many samples a second a log has, None for one without two of them."""
+    steps = np.diff(log.time)
+    usual = float(np.median(steps)) if len(steps) else 0.0
+    return round(1.0 / usual, 6) if usual > 0 else None
+
+
+def stretches(
+    engine: Engine, logs: Iterable[tuple[str, Log]], mapping: Mapping[str, Mapped] | None = None
+) -> list[tuple[str, Piece]]:
+    """What an engine reads from logs, by their names, in pieces without a gap."""
+    return [
+        (name, piece)
+        for name, log in logs
+        for piece in on_grid(engine, log, mapping, name)
+        if len(piece.samples)
+    ]
+
+
 def on_grid(
     engine: Engine, log: Log, mapping: Mapping[str, Mapped] | None = None, name: str = "log"
 ) -> list[Piece]:
