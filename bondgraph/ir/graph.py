@@ -231,7 +231,7 @@ class BondGraph(NamedTuple):
         return graph
 
     def with_values(self, numbers: Mapping[str, float]) -> BondGraph:
-        """The same model with other numbers of values, in SI; raises KeyError for a name it has not.
+        """The same model with other numbers of values, in SI; raises KeyError for another name.
 
         As if they were written in the file: the shortest decimal of each, exactly.
         """
