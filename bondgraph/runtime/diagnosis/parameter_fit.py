@@ -26,7 +26,7 @@ from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.text.tuples import NamedTuple
 
 _APART = 0.5  # time constants of the filter between two rows
-_LAGS = 8  # rows that a row is predicted from, so that what is left has no memory
+_LAGS = 8  # rows that a row of noise is predicted from, so that what is left has no memory
 _ROUNDS = 4  # of weights from what is left, and parameters from weights
 _STEP = 1e-3  # relative, of central differences
 _WIDE = 10.0  # deviation of a parameter that no log tells, relative to its value
@@ -36,6 +36,8 @@ _JUMP = 10.0  # deviations of its steps that a signal changes by where it jumps
 _PINNED = 1e-3  # how far what is not told may be from its nominal value
 _SMALLEST = 1e-6  # of its nominal value: a parameter keeps its sign
 _SURE = 1.96  # deviations within which 95 % are
+_FAR = 4.0  # deviations beyond which a row is not of this machine
+_MOST = 0.5  # share of what is known of a parameter that may be left out with such rows
 _CHUNK = 5000  # samples at a time
 _LEAST = 50  # rows below which nothing is told
 _SILENT = 1e-6  # of the size of a signal: the least noise that is reckoned with
@@ -397,10 +399,10 @@ class _Problem:
         for row, k in enumerate(zeros, 1):
             effect = float(np.nanmax(_size(clean[row] - clean[0]) / np.maximum(rough, 1e-300)))
             self.scale[k] = 1.0 / effect if effect > 0 else 1.0
-        for at in range(len(rough)):
-            self._filters[:, at] = whitening(added[0, :, at])
-        self._noise_filters = self._filters.copy()
-        self._mask: Mask = np.isfinite(_filtered(clean[0] + added[0], self._filters))
+        self._filters[0] = 1.0  # far from the truth what a filter makes larger may be anything
+        self._noise_filters = np.stack([whitening(x) for x in added[0].T], axis=1)
+        self._mask: Mask = np.isfinite(_filtered(clean[0] + added[0], self._noise_filters))
+        self._all = self._mask
         if not self._mask.any():
             raise ValueError("no residual is valid in the logs: nothing can be fitted")
         # each term of it has a free parameter: all of them zero would leave nothing
@@ -467,15 +469,15 @@ class _Problem:
         self._pins = np.hstack([directions, late]) / _PINNED
 
     def weigh(self, at: Array, first: bool = False) -> None:
-        """Filters and variances from what is left at a point.
+        """Rows and variances from what is left at a point; at `first` all rows, as they are.
 
         What is left beyond the noise of the sensors is the model's error, which no parameter
         changes; where that would make zeros of all parameters, it is a weight alone.
         """
         if not first:
-            clean, _ = self._rows([at])
-            for k in range(clean.shape[2]):
-                self._filters[:, k] = whitening(clean[0, :, k])
+            clean = self._rows([at])[0][0]
+            self._mask = self._usual(at, clean)
+            self._filters = self._noise_filters
         self._extra[:], self._weight[:] = 0.0, 1.0
         if first:
             return
@@ -484,6 +486,21 @@ class _Problem:
         more = np.maximum(times - 1.0, 0.0)
         self._extra = np.where(self._homogeneous, 0.0, more * noise[0])
         self._weight = np.where(self._homogeneous, np.sqrt(1.0 + more), 1.0)
+
+    def _usual(self, at: Array, clean: Array) -> Mask:
+        """The rows without those that are far from what is usual: there it was another machine.
+
+        Unless half of what is known of some parameter is in them: then the model is wrong.
+        """
+        white = np.abs(np.where(self._all, _filtered(clean, self._noise_filters), np.nan))
+        usual = [np.nanmedian(w) / 0.6745 if np.isfinite(w).any() else 0.0 for w in white.T]
+        far = np.zeros_like(self._all)
+        for lag in range(_LAGS + 1):  # and what the filters remember of them
+            far[lag:] |= white[: len(white) - lag] > _FAR * np.array(usual)
+        self._mask = self._all
+        energy = self._slopes(at).by[: len(self._free)] ** 2
+        whole, part = energy.sum(axis=(1, 2)), (energy * far).sum(axis=(1, 2))
+        return self._all if (part > _MOST * whole).any() else self._all & ~far
 
     def covariance(self, at: Array) -> tuple[Array, Mask]:
         """Of the parameters, relative; and which of them are where their sign would change.
@@ -593,7 +610,7 @@ def newey_west(scores: Array) -> Array:
     """The covariance (p, p) of the sum of correlated rows (n, p) (Newey and West 1987)."""
     own = scores - scores.mean(axis=0)
     found = own.T @ own
-    most = math.ceil(4 * (len(own) / 100) ** (2 / 9)) + 1
+    most = math.ceil(math.sqrt(len(own)) / 2) + 1
     for lag in range(1, min(most, len(own))):
         part = own[lag:].T @ own[:-lag]
         found += (1.0 - lag / most) * (part + part.T)
