@@ -201,7 +201,10 @@ class Compilation:
         own = self.syntax, self.source, self.model, self._load, self.report
         found = self._stage(elaborate(*own, self.options.open_ports))
         given = dict(self.options.parameters)
-        return found.with_values(given) if given else found
+        try:
+            return found.with_values(given) if given else found
+        except KeyError as error:
+            raise ValueError(f"the model has no value `{error.args[0]}`") from error
 
     @cached_property
     def integral(self) -> CausalGraph:

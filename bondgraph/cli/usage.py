@@ -13,7 +13,7 @@ COMMANDS = {
     "format": "write models in the one style they are all written in",
     "compile": "make residuals, fault signatures and code from a model",
     "dump": "print what the compiler knows about a model at one of its stages",
-    "explain": "explain an error code, or a bond, element, residual or fault of a model",
+    "explain": "explain an error code, or a bond, element, residual, fault or switch of a model",
     "isolate": "count the testable subsets of a model, and what they could tell apart at best",
     "sensors": "rank the places where one more sensor would help",
     "detect": "tell the smallest change of each fault that the residuals show",
