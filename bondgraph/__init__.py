@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from bondgraph.backends.write import ForeignFiles
     from bondgraph.pipeline import Compilation, Options, compile
     from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
+    from bondgraph.runtime.log import Log
     from bondgraph.runtime.monitoring.native import NativeError
     from bondgraph.runtime.simulation.integrate import SimulationError
     from bondgraph.runtime.simulation.scenario import (
@@ -36,6 +37,7 @@ _FROM = {
     "backends.write": ("ForeignFiles",),
     "pipeline": ("Compilation", "Options", "compile"),
     "runtime.diagnosis.tuning": ("Limit", "Tuning"),
+    "runtime.log": ("Log",),
     "runtime.monitoring.native": ("NativeError",),
     "runtime.simulation.integrate": ("SimulationError",),
     "runtime.simulation.scenario": (
@@ -54,6 +56,7 @@ __all__ = [
     "ForeignFiles",
     "Instrument",
     "Limit",
+    "Log",
     "NativeError",
     "Options",
     "Plane",

@@ -14,7 +14,7 @@ from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
     from typing import TypedDict, Unpack
 
     from bondgraph.exact.plant import Plant
@@ -39,7 +39,10 @@ if TYPE_CHECKING:
     from bondgraph.passes.lowering.lower import LowerOptions
     from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
     from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
+    from bondgraph.runtime.diagnosis.parameter_fit import Fitted
     from bondgraph.runtime.diagnosis.tuning import Tuning
+    from bondgraph.runtime.log import Log
+    from bondgraph.runtime.monitoring.columns import Mapped
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.simulation.run import Run
     from bondgraph.runtime.simulation.scenario import Scenario
@@ -70,6 +73,8 @@ class Options(NamedTuple):
     (`derivative`), or from states that it follows (`observer`), where it has such a form; a
     sequence of names says which residuals are observers.
     With `open_ports` the model is a part of a machine: its ports may be left without a bond.
+    `parameters` are numbers in SI, by name, that take the place of those in the model: a dict, or
+    pairs of names and numbers.
     """
 
     rate: float = 1000.0
@@ -81,6 +86,7 @@ class Options(NamedTuple):
     isolate: bool = False
     form: Form = "derivative"
     open_ports: bool = False
+    parameters: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
 
 
 if TYPE_CHECKING:
@@ -97,6 +103,7 @@ if TYPE_CHECKING:
         isolate: bool
         form: Form
         open_ports: bool
+        parameters: Mapping[str, float] | tuple[tuple[str, float], ...]
 
 
 class Compilation:
@@ -191,16 +198,13 @@ class Compilation:
         """
         from bondgraph.passes.elaboration.elaborate import elaborate
 
-        return self._stage(
-            elaborate(
-                self.syntax,
-                self.source,
-                self.model,
-                self._load,
-                self.report,
-                self.options.open_ports,
-            )
-        )
+        own = self.syntax, self.source, self.model, self._load, self.report
+        found = self._stage(elaborate(*own, self.options.open_ports))
+        given = dict(self.options.parameters)
+        try:
+            return found.with_values(given) if given else found
+        except KeyError as error:
+            raise ValueError(f"the model has no value `{error.args[0]}`") from error
 
     @cached_property
     def integral(self) -> CausalGraph:
@@ -256,6 +260,55 @@ class Compilation:
         report.stop_on_error()
         assert found is not None
         return found
+
+    def numbers(self, source: Source) -> dict[str, float]:
+        """The numbers under [parameters] of a TOML text for this model, in SI.
+
+        Raises `CompileError` if it is wrong.
+        """
+        from bondgraph.runtime.simulation.read_scenario import read_parameters
+
+        report = Report()
+        found = read_parameters(source, self.graph, report)
+        report.stop_on_error()
+        return found
+
+    def fit(
+        self,
+        logs: Mapping[str, Log],
+        free: Sequence[str] | None = None,
+        noise: Mapping[str, float] | None = None,
+        columns: Mapping[str, Mapped] | None = None,
+        progress: Callable[[float], None] = lambda _: None,
+    ) -> Fitted:
+        """Fit parameters to logs of the healthy machine, by the names of these (docs/fit.md).
+
+        `free` are names of parameters; without it those with a tolerance, or else all. `noise` are
+        standard deviations of signals in their unit, where they are known. Raises ValueError for
+        logs that are too short and for what is no parameter of a residual, `LogError` for a log
+        that lacks a signal.
+
+        >>> import bondgraph, numpy
+        >>> c = bondgraph.compile(text="bg 1\\nmodel M { param R = 2 Ohm; Se:U -> 1:i; i -> R:R;"
+        ...                            " i -> Df:y }")
+        >>> t, draw = numpy.arange(5000) / 1000, numpy.random.default_rng(1)
+        >>> columns = {"U": numpy.sin(9 * t), "y": numpy.sin(9 * t) / 3}
+        >>> columns["y"] = columns["y"] + 0.01 * draw.standard_normal(5000)
+        >>> found = c.fit({"run": bondgraph.Log(t, columns, {}, {})})
+        >>> R = found.parameters[0]
+        >>> abs(R.value - 3) < R.interval < 0.05
+        True
+        """
+        from bondgraph.runtime.diagnosis.parameter_fit import fit, fittable
+        from bondgraph.runtime.monitoring.clock import stretches
+        from bondgraph.runtime.simulation.parameters import units
+
+        engine, model = self.engine(), self.diagnosis_model
+        tolerances = model.tolerances
+        chosen = fittable(engine, model.faults, tolerances, free)
+        pieces = stretches(engine, logs.items(), columns)
+        own = units(self.graph)
+        return fit(engine, pieces, chosen, tolerances, own, noise or {}, progress)
 
     def simulate(
         self,
@@ -682,7 +735,8 @@ def compile(
 
     A path may name the model: `robot.bg:Drive`. A text needs no path; one says what it is called
     in messages, and beside which files its imports are. Options are those of `Options`: `rate`,
-    `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `form`, `open_ports`.
+    `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `form`, `open_ports`,
+    `parameters`.
     Nothing is computed before a stage is asked for. Raises `CompileError` if the file cannot be
     read, TypeError for an unknown option, ValueError for a number that is not positive.
 
@@ -728,7 +782,12 @@ def _checked(options: Options) -> Options:
         value = getattr(options, name)
         if isinstance(value, str):
             raise TypeError(f"{name} is a sequence of names: [{value!r}]")
+    numbers = {str(name): float(value) for name, value in dict(options.parameters).items()}
+    for name, value in numbers.items():
+        if not abs(value) < float("inf"):
+            raise ValueError(f"{name} must be a finite number, not {value!r}")
     return options._replace(
+        parameters=tuple(numbers.items()),
         targets=tuple(options.targets),
         decouple=tuple(options.decouple),
         form=form if isinstance(form, str) else tuple(form),

@@ -119,6 +119,15 @@ def stem(path: str) -> str:
     return os.path.splitext(os.path.basename(path))[0]
 
 
+def columns(rows: list[tuple[str, ...]]) -> list[str]:
+    """The lines of a table, each column as wide as it has to be."""
+    sizes = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return [
+        "  " + "  ".join(c.ljust(n) for c, n in zip(row, sizes, strict=True)).rstrip()
+        for row in rows
+    ]
+
+
 def deliver(output: str, text: str, what: str) -> None:
     """Write a text to a file and say what it is, or print it alone where the file is `-`."""
     if output == "-":

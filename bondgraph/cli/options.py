@@ -84,8 +84,55 @@ def form(text: str) -> Form:
 form.__name__ = "form"
 
 
+def setting(text: str) -> tuple[str, str]:
+    """`NAME=VALUE` as a name and what TOML has for the value: a number, or a text with a unit."""
+    name, _, value = (part.strip() for part in text.rpartition("="))
+    if not name or not value:
+        raise ValueError
+    try:
+        return name, repr(float(value))
+    except ValueError:
+        return name, _quoted(value)
+
+
+setting.__name__ = "NAME=VALUE"
+
+
+def _quoted(text: str) -> str:
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def numbered(parser: ArgumentParser) -> None:
+    """The options `--parameters` and `--set`."""
+    parser.add_argument("--parameters", metavar="FILE.toml", help="other values of parameters, as"
+                        " `bondgraph fit` writes them")  # fmt: skip
+    parser.add_argument("--set", metavar="NAME=VALUE", type=setting, action="append", default=[],
+                        help="another value of a parameter, in SI or with a unit (R=1.2 kOhm);"
+                        " may be repeated")  # fmt: skip
+
+
+def model_of(args: Namespace, **options: Unpack[OptionValues]) -> Compilation:
+    """The model of a command with `--parameters` and `--set`, which goes before the file."""
+    from bondgraph.frontend.read import read
+    from bondgraph.text.diagnostic import Report
+    from bondgraph.text.source import Source
+
+    compilation = compile(args.model, **options)
+    sources = []
+    if args.parameters:
+        report = Report()
+        sources.append(read(args.parameters, report))
+        report.stop_on_error()
+    sources += [Source("--set", f"parameters.{_quoted(n)} = {v}") for n, v in args.set]
+    given: dict[str, float] = {}
+    for source in filter(None, sources):
+        given |= compilation.numbers(source)
+    return compilation.with_options(parameters=given) if given else compilation
+
+
 def realised(parser: ArgumentParser, usual: Form | None = "derivative") -> None:
-    """The option `--form`; `usual` is what it is where it is not given."""
+    """The options of `numbered`, and `--form`; `usual` is what it is where it is not given."""
+    numbered(parser)
     parser.add_argument(
         "--form",
         metavar="derivative|observer[:NAMES]",
@@ -141,7 +188,7 @@ def realising(args: Namespace, **options: Unpack[OptionValues]) -> Compilation:
     """The model of a command with `--isolate` and `--form`; raises Unknown for no residual."""
     own: Form = args.form or "derivative"
     options |= {"isolate": args.isolate, "form": own}
-    compilation = compile(args.model, **options)
+    compilation = model_of(args, **options)
     if not isinstance(own, str):
         names = [r.name for r in compilation.residuals]
         for name in own:

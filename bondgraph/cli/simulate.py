@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bondgraph import compile as open_model
 from bondgraph.cli import console
-from bondgraph.cli.options import assigned, pace, positive
+from bondgraph.cli.options import assigned, model_of, numbered, pace, positive
 from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
@@ -31,8 +30,7 @@ def arguments(parser: ArgumentParser) -> None:
                         help="seconds (default: as the scenario says, or 10)")  # fmt: skip
     parser.add_argument("--seed", metavar="N", type=int, default=None,
                         help="seed of all that is drawn at random")  # fmt: skip
-    parser.add_argument("--set", metavar="NAME=VALUE", type=assigned, action="append", default=[],
-                        help="another value of a parameter, in SI; may be repeated")  # fmt: skip
+    numbered(parser)
     parser.add_argument("--input", metavar="NAME=VALUE", type=assigned, action="append",
                         default=[], help="a constant input, in SI; may be repeated")  # fmt: skip
     parser.add_argument("--stream", action="store_true",
@@ -48,7 +46,7 @@ def run(args: Namespace) -> int:
     """Simulate, write the log, say how it ended."""
     from bondgraph.runtime.log_file import write_log
 
-    compilation = open_model(args.model)
+    compilation = model_of(args)
     chosen = _scenario(args, compilation)
     if args.stream:
         return stream(compilation, chosen, args.speed)
@@ -117,10 +115,9 @@ def _scenario(args: Namespace, compilation: Compilation) -> Scenario:
     if args.scenario:
         chosen = compilation.scenario(args.scenario)
     graph = compilation.graph
-    parameters, inputs = dict(chosen.parameters), dict(chosen.inputs)
-    for name, value in args.set:
-        _known(name, "parameter", [v.name for v in graph.values])
-        parameters[name] = value
+    numbers, inputs = dict(compilation.options.parameters), dict(chosen.inputs)
+    named = [name for name, _ in args.set]
+    parameters = {**chosen.parameters, **{name: numbers[name] for name in named}}
     modes = dict(chosen.modes)
     for name, value in args.input:
         _known(name, "input", [i.name for i in graph.inputs if not i.of])

@@ -210,9 +210,9 @@ def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: st
             hidden.append(_name(shown))
         else:
             rows.append(row)
-    lines += [*_table(limits), ""]
+    lines += [*console.columns(limits), ""]
     lines += [f"The smallest change that is sure to show within {best.window:g} s, in nine windows"
-              " of ten", *_table(rows)]  # fmt: skip
+              " of ten", *console.columns(rows)]  # fmt: skip
     if hidden:
         lines += ["", "Cannot be seen: " + ", ".join(hidden)]
     return [*lines, "", f"Written to {output}"]
@@ -232,11 +232,3 @@ def _row(compilation: Compilation, shown: Shown) -> tuple[str, ...] | None:
     size = "" if gain else f"{shown.size:.3g} {shown.hypothesis.unit}".rstrip()
     note = "  more than the value itself" if relative is not None and relative > 1 else ""
     return _name(shown), size, share, f"{shown.delay:.2f} s", shown.residual + note
-
-
-def _table(rows: list[tuple[str, ...]]) -> list[str]:
-    sizes = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    return [
-        "  " + "  ".join(c.ljust(n) for c, n in zip(row, sizes, strict=True)).rstrip()
-        for row in rows
-    ]

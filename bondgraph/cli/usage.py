@@ -19,6 +19,7 @@ COMMANDS = {
     "detect": "tell the smallest change of each fault that the residuals show",
     "simulate": "run a model as a virtual machine, with faults if the scenario has some",
     "monitor": "watch a machine by its samples, and say what is faulty",
+    "fit": "learn the parameters of a machine from logs of it while it was healthy",
     "tune": "learn the limits of the residuals from healthy samples, and what shows with them",
     "live": "show a machine beside its virtual twin on a page, and let faults happen to the twin",
     "draw": "draw a bond graph with half arrows and causal strokes",

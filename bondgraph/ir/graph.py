@@ -8,7 +8,7 @@ is said by the signs in `End`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from itertools import chain
 from typing import TYPE_CHECKING
@@ -254,6 +254,18 @@ class BondGraph(NamedTuple):
                 head_port=head.ports[bond.head.port].name if bond.head.port >= 0 else None,
             )
         return graph
+
+    def with_values(self, numbers: Mapping[str, float]) -> BondGraph:
+        """The same model with other numbers of values, in SI; raises KeyError for another name.
+
+        As if they were written in the file: the shortest decimal of each, exactly.
+        """
+        for name in numbers:
+            if all(v.name != name for v in self.values):
+                raise KeyError(name)
+        written = {n: self.pool.num(Fraction(repr(float(x)))) for n, x in numbers.items()}
+        values = tuple(v._replace(value=written.get(v.name, v.value)) for v in self.values)
+        return self._replace(values=values)
 
     def initial_values(self) -> dict[Symbol, Expr]:
         """The declared value of each symbol that an integral starts from."""

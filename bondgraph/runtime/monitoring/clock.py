@@ -324,6 +324,18 @@ def clock_of(engine: Engine, most: float | None = None, wraps: float | None = No
     return Clock(engine.signals, engine.sample_time, bridged, wraps)
 
 
+def stretches(
+    engine: Engine, logs: Iterable[tuple[str, Log]], mapping: Mapping[str, Mapped] | None = None
+) -> list[tuple[str, Piece]]:
+    """What an engine reads from logs, by their names, in pieces without a gap."""
+    return [
+        (name, piece)
+        for name, log in logs
+        for piece in on_grid(engine, log, mapping, name)
+        if len(piece.samples)
+    ]
+
+
 def on_grid(
     engine: Engine,
     log: Log,

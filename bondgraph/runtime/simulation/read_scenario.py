@@ -39,8 +39,29 @@ def read_scenario(source: Source, graph: BondGraph, report: Report) -> Scenario 
 
     `docs/simulation.md` describes the file.
     """
+    content = _content(source, report)
+    found = None if content is None else _Reader(source, graph, report).read(content)
+    return None if report.failed else found
+
+
+def read_parameters(source: Source, graph: BondGraph, report: Report) -> dict[str, float]:
+    """The [parameters] of a TOML text, in SI; errors in the report, also if there are none.
+
+    What else is in the text is not looked at: it may be what `bondgraph fit` writes, or a scenario.
+    """
+    content = _content(source, report)
+    found = {} if content is None else _Reader(source, graph, report).parameters(content)
+    if not found and not report.failed:
+        report.error("scenario-key", "There are no parameters.", Label(Span(source, 0, 0)),
+                     help="Write them below a line [parameters]: R = 12.5, or R ="
+                     ' "12.5 Ohm".')  # fmt: skip
+    return found
+
+
+def _content(source: Source, report: Report) -> dict[str, object] | None:
+    """The tables of a TOML text; None, and an error in the report, where it is none."""
     try:
-        content = tomllib.loads(source.text)
+        return tomllib.loads(source.text)
     except tomllib.TOMLDecodeError as error:
         message = re.sub(r" \(at .*\)$", "", str(error))
         report.error("scenario-syntax", f"This is no TOML: {message}.",
@@ -48,8 +69,6 @@ def read_scenario(source: Source, graph: BondGraph, report: Report) -> Scenario 
                      help="A scenario is made of lines `name = value` and of [tables]; a text"
                      " stands in quotes.")  # fmt: skip
         return None
-    found = _Reader(source, graph, report).read(content)
-    return None if report.failed else found
 
 
 def _where(source: Source, message: str) -> Span:
@@ -78,6 +97,9 @@ class _Reader:
         self.inputs = {i.name: i for i in graph.inputs if not i.of}
         self.values = {v.name: v for v in graph.values}
         self.lets = {x.name: x for x in graph.lets}
+
+    def parameters(self, content: Mapping[str, object]) -> dict[str, float]:
+        return self._parameters(Table(self.document, (), content).table("parameters"))
 
     def read(self, content: Mapping[str, object]) -> Scenario:
         top = Table(self.document, (), content)

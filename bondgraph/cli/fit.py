@@ -1,0 +1,182 @@
+"""`bondgraph fit`: parameters of a machine from logs of it while it was healthy."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bondgraph import Options
+from bondgraph.cli import console
+from bondgraph.cli.options import isolating, noise, positive, realised, realising
+from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.numerals import plural
+from bondgraph.text.whole_file import write_whole
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from bondgraph.pipeline import Compilation
+    from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting, Left
+
+_LATE = 3.0  # standard errors above which it is told that a signal comes late
+_MEMORY = 0.3  # correlation of what is left, above which it is no noise of sensors
+
+
+def arguments(parser: ArgumentParser) -> None:
+    """The arguments of `fit`."""
+    add = parser.add_argument
+    add("model", metavar="MODEL", help="file.bg or file.bg:Name")
+    add("logs", metavar="LOG", nargs="+",
+        help="logs of one healthy machine, .csv or .parquet")  # fmt: skip
+    add("--free", metavar="NAMES", action="append", default=[],
+        help="parameters to fit, separated by commas; may be repeated (default: those with a"
+        " tolerance, or else all)")  # fmt: skip
+    add("-o", "--output", metavar="FILE.toml", default="parameters.toml",
+        help="where to write them (default: parameters.toml)")  # fmt: skip
+    add("--noise", metavar="[NAME=]DEVIATION", type=noise, action="append", default=[],
+        help="standard deviation of the samples of a signal, without a name of every sensor; may be"
+        " repeated (default: as the logs show it; inputs are exact)")  # fmt: skip
+    add("--rate", metavar="HZ", type=positive, default=None,
+        help="samples a second (default: that of the first log)")  # fmt: skip
+    add("--bandwidth", metavar="RAD/S", type=positive, default=None,
+        help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
+    add("--map", metavar="FILE.toml", help="which column is which signal")
+    isolating(parser)
+    realised(parser)
+    add("--json", action="store_true", help="print one JSON object (docs/json.md)")
+
+
+def run(args: Namespace) -> int:
+    """Read the logs, fit, write the parameters, say how sure they are."""
+    from bondgraph.runtime.log_file import read_log
+    from bondgraph.runtime.monitoring.columns import read_map
+    from bondgraph.runtime.monitoring.sources.sample_source import rate_of
+
+    logs = [read_log(path) for path in args.logs]
+    rate = args.rate or rate_of(logs[0].time) or Options().rate
+    compilation = realising(args, rate=rate, bandwidth=args.bandwidth)
+    engine = compilation.engine()
+    mapping = read_map(args.map, engine.signals) if args.map else None
+    free = [name.strip() for names in args.free for name in names.split(",") if name.strip()]
+    names = [v.name for v in compilation.graph.values]
+    for name in free:
+        if name not in names:
+            raise console.Unknown(name, "no parameter of the model", names)
+    try:
+        with console.progress_bar("fitting") as progress:
+            found = compilation.fit(
+                dict(zip(args.logs, logs, strict=True)),
+                free or None,
+                _noise(args, compilation),
+                mapping,
+                progress,
+            )
+    except ValueError as error:
+        raise Trouble(str(error)) from error
+    write_whole(args.output, _file(compilation, found))
+    return console.told(
+        args.json,
+        compilation.report.diagnostics,
+        _message(compilation, found),
+        lambda: {"files": [args.output], **_result(compilation, found)},
+        lambda: _lines(compilation, found, args),
+    )
+
+
+def _noise(args: Namespace, compilation: Compilation) -> dict[str, float]:
+    signals = [k.path for k in compilation.program.knowns if k.kind != "mode"]
+    sensors = [k.path for k in compilation.program.knowns if k.kind == "sensor"]
+    found: dict[str, float] = {}
+    for name, deviation in args.noise:
+        if name and name not in signals:
+            raise console.Unknown(name, "no signal that the residuals read", signals)
+        found |= dict.fromkeys([name] if name else sensors, deviation)
+    return found
+
+
+def _message(compilation: Compilation, found: Fitted) -> str:
+    told = sum(p.error is not None for p in found.parameters)
+    many = plural(len(found.parameters), "parameter")
+    return (
+        f"{compilation.graph.name}: {told} of {many} told by {found.seconds:.3g} s of"
+        " healthy operation"
+    )
+
+
+def _result(compilation: Compilation, found: Fitted) -> dict[str, object]:
+    return {
+        "model": compilation.graph.name,
+        "seconds": found.seconds,
+        "parameters": [{**p._asdict(), "interval": p.interval} for p in found.parameters],
+        "correlation": found.correlation.tolist(),
+        "combinations": [{**c._asdict(), "text": c.text()} for c in found.combinations],
+        "residuals": [
+            {**x._asdict(), "explained": x.explained, "spans": [s._asdict() for s in x.spans]}
+            for x in found.left
+        ],
+        "delays": [d._asdict() for d in found.delays],
+        "noise": found.noise,
+    }
+
+
+def _file(compilation: Compilation, found: Fitted) -> str:
+    """The parameters as a TOML text that `--parameters` takes, in SI."""
+    lines = [
+        f"# Parameters of {compilation.graph.name}, fitted to {found.seconds:.3g} s of healthy"
+        " operation.",
+        "# Numbers are in SI units. --parameters FILE takes them in place of those of the model.",
+        "",
+        "[parameters]",
+    ]
+    for p in found.parameters:
+        note = "not told by the logs" if p.interval is None else f"+- {p.interval:.2g} (95 %)"
+        lines.append(f'"{p.name}" = {p.value!r}  # {_about(p, note)}')
+    lines += ["", "[standard_errors]"]
+    lines += [f'"{p.name}" = {p.error!r}' for p in found.parameters if p.error is not None]
+    return "\n".join(lines) + "\n"
+
+
+def _about(p: Fitting, note: str) -> str:
+    return f"{p.unit}, {note}" if p.unit else note
+
+
+def _lines(compilation: Compilation, found: Fitted, args: Namespace) -> list[str]:
+    rows: list[tuple[str, ...]] = [("parameter", "nominal", "fitted", "+- (95 %)", "unit")]
+    for p in found.parameters:
+        sure = "not told" if p.interval is None else f"{p.interval:.2g}"
+        sure = "at its bound" if p.bound else sure
+        rows.append((p.name, f"{p.nominal:.6g}", f"{p.value:.6g}", sure, p.unit))
+    lines = [_message(compilation, found), "", *console.columns(rows)]
+    if any(p.bound for p in found.parameters):
+        names = ", ".join(p.name for p in found.parameters if p.bound)
+        lines += ["", f"With another sign {names} would fit better: see to the signs of the"
+                  " signals, and to the model."]  # fmt: skip
+    if found.combinations:
+        lines += ["", "What the logs cannot tell (such parameters stay near their nominal values)"]
+        lines += [f"  {c.text()}" for c in found.combinations]
+    lines += ["", "How well it fits"]
+    for left in found.left:
+        lines += [f"  {text}" for text in _fits(left)]
+    for delay in found.delays:
+        if abs(delay.value) > _LATE * delay.error:
+            lines.append(f"  {delay.signal} comes {1000 * delay.value:.3g} ms late in the log")
+    return [*lines, "", f"Written to {args.output}"]
+
+
+def _fits(left: Left) -> list[str]:
+    """What is left of one residual, in words."""
+    if not left.after and not left.before:
+        return [f"{left.residual}: never valid in these logs"]
+    text = f"{left.residual}: {100 * left.explained:.1f} % of it at the nominal values is explained"
+    times = left.after / left.noise if left.noise else 0.0
+    text += f"; what is left is {times:.2g} times the noise of the sensors"
+    if left.memory > _MEMORY:
+        text += ", and no white noise: the model leaves something out"
+    lines = [text]
+    for span in left.spans[:3]:
+        lines.append(
+            f"  {span.log}: from {span.start:.4g} s to {span.end:.4g} s"
+            f" it is {span.times:.2g} times as large as usual"
+        )
+    if len(left.spans) > 3:
+        lines.append(f"  and so at {plural(len(left.spans) - 3, 'other time')}")
+    return lines

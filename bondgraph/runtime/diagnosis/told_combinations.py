@@ -1,0 +1,166 @@
+"""What logs tell of parameters that they do not tell apart: a ratio, a product, a sum."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from bondgraph.runtime.log import Array
+from bondgraph.text.numerals import joined
+from bondgraph.text.tuples import NamedTuple
+
+_PART = 0.02  # of a direction: a smaller component is none
+_NEAR = 0.05  # an exponent or a factor is that whole number
+_MOVE = 0.2  # relative, by which products and sums are told apart
+
+
+class Combination(NamedTuple):
+    """Parameters that the logs do not tell apart.
+
+    `told` is what they tell of them (`R/L`, `R1 + R2`), "" for nothing that has a short name;
+    `changes` are by how much (relative) some may change together with nothing to be seen.
+    """
+
+    parameters: tuple[str, ...]
+    told: str
+    changes: tuple[dict[str, float], ...]
+
+    def text(self) -> str:
+        """One sentence for people.
+
+        >>> Combination(("R1", "R2"), "R1 + R2", ()).text()
+        'only R1 + R2 is told'
+        >>> Combination(("k",), "", ({"k": 1.0},)).text()
+        'k is not told'
+        >>> Combination(("R", "L", "k"), "", ({"R": 0.1, "L": 0.1, "k": -0.05},)).text()
+        'R, L and k are not told apart: R +10 % with L +10 % and k -5 % changes nothing'
+        """
+        if self.told:
+            return f"only {self.told} is told"
+        if len(self.parameters) == 1:
+            return f"{self.parameters[0]} is not told"
+        moves = []
+        for change in self.changes:
+            parts = [f"{name} {100 * share:+.3g} %" for name, share in change.items()]
+            moves.append(f"{parts[0]} with {joined(parts[1:], 'and')}" if parts[1:] else parts[0])
+        what = f"{joined(self.parameters, 'and')} are not told apart"
+        return f"{what}: {joined(moves, 'and')} changes nothing"
+
+
+def combinations(
+    names: Sequence[str],
+    values: Sequence[float],
+    scale: Array,
+    null: Array,
+    cost: Callable[[Sequence[float]], float],
+) -> tuple[Combination, ...]:
+    """What is told of parameters that may change along the rows of `null` and nothing shows.
+
+    These are changes of (value - nominal) / scale; `cost` is what some values leave.
+    """
+    found = []
+    rest = list(range(len(null)))
+    while rest:
+        group = [rest.pop(0)]
+        members = null[group[0]] != 0
+        while more := [k for k in rest if (members & (null[k] != 0)).any()]:
+            group += more
+            rest = [k for k in rest if k not in more]
+            members = (null[group] != 0).any(axis=0)
+        own = np.flatnonzero(members).tolist()
+        found.append(_named(own, null[group][:, own], names, values, scale, cost))
+    return tuple(found)
+
+
+def untold(covariance: Array, most: float) -> Array:
+    """The directions (n, p) in which a covariance (p, p) is `most` or more, each of few parameters.
+
+    >>> untold(np.array([[50.0, -50.0, 0.0], [-50.0, 50.0, 0.0], [0.0, 0.0, 0.01]]), 1.0).tolist()
+    [[1.0, -1.0, 0.0]]
+    """
+    variance, vectors = np.linalg.eigh(covariance)
+    return _sparse(vectors[:, variance >= most].T)
+
+
+def _sparse(rows: Array) -> Array:
+    """The same space of rows, each with as many zeros as elimination gives."""
+    found = rows.copy()
+    used: list[int] = []
+    for k in range(len(found)):
+        left = np.abs(found[k])
+        left[used] = 0.0
+        at = int(np.argmax(left))
+        found[k] /= found[k, at]
+        for j in range(len(found)):
+            if j != k:
+                found[j] -= found[j, at] * found[k]
+        used.append(at)
+    found[np.abs(found) < _PART * np.abs(found).max(axis=1, initial=1.0, keepdims=True)] = 0.0
+    return found
+
+
+def _named(
+    own: list[int],
+    null: Array,
+    names: Sequence[str],
+    values: Sequence[float],
+    scale: Array,
+    cost: Callable[[Sequence[float]], float],
+) -> Combination:
+    """What is told of the parameters numbered `own`, that change along the rows of `null`."""
+    called = tuple(names[k] for k in own)
+    value = np.array([values[k] for k in own])
+    absolute = null * scale[own]
+    size = np.where(value == 0, scale[own], np.abs(value))
+    changes = tuple(
+        {n: 0.1 * float(x) for n, x in zip(called, row / np.abs(row).max(), strict=True) if x}
+        for row in absolute / size
+    )
+    if len(own) - len(null) != 1:
+        return Combination(called, "", changes)
+    gradient = np.linalg.svd(absolute / size)[2][-1]  # along which alone something changes
+    written = []
+    exponents = _whole(gradient)
+    if exponents is not None and (value != 0).all():
+        step = _MOVE * null[0] * scale[own] / value
+        written.append((value * np.exp(step), _product(called, exponents)))
+    factors = _whole(gradient / size)
+    if factors is not None:
+        written.append((value + _MOVE * absolute[0], _sum(called, factors)))
+
+    def moved(point: Array) -> float:
+        whole = np.array(values, dtype=float)
+        whole[own] = point
+        return cost(whole.tolist())
+
+    told = min(written, key=lambda one: moved(one[0]))[1] if written else ""
+    return Combination(called, told, changes)
+
+
+def _whole(numbers: Array) -> list[int] | None:
+    """The numbers as multiples of the smallest of them, None where they are no whole ones."""
+    found = numbers / np.abs(numbers).min()
+    near = np.rint(found)
+    if np.abs(near).max() > 3 or (np.abs(found - near) > _NEAR * np.abs(near)).any():
+        return None
+    return [int(x) for x in near * np.sign(near[np.argmax(near)])]
+
+
+def _product(names: Sequence[str], exponents: Sequence[int]) -> str:
+    """R/L, k^2/(R*J), 1/(R*C) as R*C."""
+    sign = 1 if max(exponents) > 0 else -1
+    powers = [(n, sign * e) for n, e in zip(names, exponents, strict=True)]
+    over = [n if e == 1 else f"{n}^{e}" for n, e in powers if e > 0]
+    under = [n if e == -1 else f"{n}^{-e}" for n, e in powers if e < 0]
+    below = f"({'*'.join(under)})" if len(under) > 1 else "".join(under)
+    return "*".join(over) + (f"/{below}" if under else "")
+
+
+def _sum(names: Sequence[str], factors: Sequence[int]) -> str:
+    """R1 + R2, 2*a - b."""
+    parts: list[str] = []
+    for name, factor in zip(names, factors, strict=True):
+        sign = ("- " if factor < 0 else "+ ") if parts else ("-" if factor < 0 else "")
+        parts.append(sign + (name if abs(factor) == 1 else f"{abs(factor)}*{name}"))
+    return " ".join(parts)

@@ -1,0 +1,153 @@
+"""`bondgraph fit` from a log to a file that the other commands take."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bondgraph as package
+from bondgraph import Log
+from bondgraph.runtime.log_file import write_log
+from tests.unit.cli.conftest import Command
+
+MODEL = """bg 1
+model Circuit { param R = 2 Ohm +- 5%; param L = 1 mH
+  Se:U -> 1:i; i -> R:R; i -> I:L; i -> Df:y }
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A model, and the log of a circuit with 3 Ohm and 1 mH (by hand: U = R i + L di/dt)."""
+    monkeypatch.chdir(tmp_path)
+    Path("c.bg").write_text(MODEL)
+    t = np.arange(6000) / 1000.0
+    i = np.sin(8.0 * t) + 0.5 * np.sin(21.0 * t)
+    rate = 8.0 * np.cos(8.0 * t) + 10.5 * np.cos(21.0 * t)
+    noise = 0.01 * np.random.default_rng(5).standard_normal(len(t))
+    write_log(Log(t, {"U": 3.0 * i + 1e-3 * rate, "y": i + noise}, {}, {}), "log.csv")
+    return tmp_path
+
+
+def test_the_table_the_file_and_the_json_say_the_same(bondgraph: Command, folder: Path) -> None:
+    done = bondgraph("fit", "c.bg", "log.csv", "-o", "p.toml")
+    assert done.status == 0, done.err
+    row = re.search(r"^  R +2 +(\S+) +(\S+) +Ohm$", done.out, re.MULTILINE)
+    assert row is not None
+    value, interval = map(float, row.groups())
+    assert abs(value - 3.0) <= interval < 0.05
+    assert "is explained" in done.out
+    data = tomllib.loads((folder / "p.toml").read_text())
+    assert f"{data['parameters']['R']:.6g}" == row[1]
+    assert list(data["parameters"]) == ["R"]  # L has no tolerance
+    found = json.loads(bondgraph("fit", "c.bg", "log.csv", "-o", "p.toml", "--json").out)
+    assert found["status"] == "ok"
+    (one,) = found["parameters"]
+    assert one["value"] == data["parameters"]["R"]
+    assert one["error"] == data["standard_errors"]["R"]
+    assert abs(found["noise"]["y"] - 0.01) < 0.001
+
+
+def test_what_is_not_told_has_no_interval(bondgraph: Command, folder: Path) -> None:
+    text = MODEL.replace("param L", "param S = 1 Ohm; param L")
+    text = text.replace("i -> R:R", "i -> R:R; i -> R:S")
+    (folder / "c.bg").write_text(text)
+    done = bondgraph("fit", "c.bg", "log.csv", "--free", "R,S", "-o", "p.toml")
+    assert "only R + S is told" in done.out
+    assert done.out.count("not told") == 2
+    data = tomllib.loads((folder / "p.toml").read_text())
+    assert abs(data["parameters"]["R"] + data["parameters"]["S"] - 3.0) < 0.01
+    assert not data["standard_errors"]
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (["log.csv", "--free", "Q"], 2, "no parameter of the model is called `Q`"),
+        (["none.csv"], 1, "none.csv"),
+        (["short.csv"], 1, "too short to fit parameters: give one of"),
+        (["bare.csv"], 1, "no column for y"),
+        (["log.csv", "--noise", "z=1"], 2, "no signal that the residuals read"),
+        (["log.csv", "--map", "none.toml"], 1, "none.toml"),
+        (["log.csv", "--set", "R=2 V"], 1, "unit"),
+        (["log.csv", "--parameters", "none.toml"], 1, "none.toml"),
+    ],
+)
+def test_what_is_wrong_is_told_and_nothing_is_written(
+    bondgraph: Command, folder: Path, words: list[str], status: int, said: str
+) -> None:
+    lines = (folder / "log.csv").read_text().splitlines(keepends=True)
+    (folder / "short.csv").write_text("".join(lines[:300]))
+    t = np.arange(5000) / 1000.0
+    write_log(Log(t, {"U": t}, {}, {}), "bare.csv")
+    done = bondgraph("fit", "c.bg", *words)
+    assert done.status == status
+    assert said in done.err
+    assert "Traceback" not in done.err
+    assert not (folder / "parameters.toml").exists()
+
+
+def test_a_model_without_a_parameter_to_fit_says_so(bondgraph: Command, folder: Path) -> None:
+    (folder / "c.bg").write_text("bg 1\nmodel Bare { Se:U -> 1:i; i -> R:R = 2 Ohm; i -> Df:y }\n")
+    done = bondgraph("fit", "c.bg", "log.csv")
+    assert done.status == 1
+    assert "give one to a parameter" in done.err
+
+
+def test_numbers_from_file_and_words_stand_in_for_those_of_the_model(
+    bondgraph: Command, folder: Path
+) -> None:
+    (folder / "p.toml").write_text('[parameters]\nR = "0.003 kOhm"\nL = 2e-3\n')
+    words = ["c.bg", "--parameters", "p.toml", "--duration", "0.01", "--json"]
+    found = json.loads(bondgraph("simulate", *words).out)
+    assert found["parameters"] == {"R": 3.0, "L": 2e-3}
+    found = json.loads(bondgraph("simulate", *words, "--set", "R=4 Ohm").out)
+    assert found["parameters"] == {"R": 4.0, "L": 2e-3}
+    (folder / "s.toml").write_text("duration = 0.01\n[parameters]\nR = 5\n")
+    found = json.loads(bondgraph("simulate", "c.bg", "s.toml", *words[1:]).out)
+    assert found["parameters"] == {"R": 5.0, "L": 2e-3}  # the scenario is more particular
+    done = bondgraph("compile", "c.bg", "--set", "R=4", "-o", "out", "--target", "python")
+    assert done.status == 0
+    code = "".join(p.read_text() for p in (folder / "out").rglob("*_residuals.py"))
+    assert re.search(r"R: float = 4\.0", code)
+
+
+@pytest.mark.parametrize("text", ["x = 1\n", "[parameters]\n", "[parameters]\nQ = 1\n", "R ="])
+def test_a_file_of_parameters_without_any_is_wrong(
+    bondgraph: Command, folder: Path, text: str
+) -> None:
+    (folder / "p.toml").write_text(text)
+    done = bondgraph("compile", "c.bg", "--parameters", "p.toml")
+    assert done.status == 1
+    assert "p.toml:" in done.err
+    assert "help" in done.err
+
+
+def test_a_tuning_belongs_to_the_numbers_that_it_was_made_with(
+    bondgraph: Command, folder: Path
+) -> None:
+    assert folder.exists()
+    bondgraph("fit", "c.bg", "log.csv", "-o", "p.toml")
+    own = ["--parameters", "p.toml"]
+    assert bondgraph("tune", "c.bg", "log.csv", *own, "--bandwidth", "20").status == 0
+    tuned = ["monitor", "c.bg", "log.csv", "--tuning", "tuning.json", "--bandwidth", "20"]
+    watched = bondgraph(*tuned, *own)
+    assert watched.status == 0
+    assert "fault" not in watched.out
+    assert bondgraph(*tuned).status == 1
+
+
+def test_options_take_numbers_by_name() -> None:
+    c = package.compile(text=MODEL, parameters={"R": 4.0})
+    assert c.options.parameters == (("R", 4.0),)
+    assert c.engine(native=False).parameters == {"R": 4.0, "L": 1e-3}
+    assert repr(c.residuals["r1"]) == repr(package.compile(text=MODEL).residuals["r1"])
+    with pytest.raises(ValueError, match="finite"):
+        package.compile(text=MODEL, parameters={"R": float("nan")})
+    with pytest.raises(ValueError, match="no value `Q`"):
+        assert package.compile(text=MODEL, parameters={"Q": 1.0}).graph

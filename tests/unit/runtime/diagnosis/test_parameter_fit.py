@@ -1,0 +1,170 @@
+"""Fitted parameters against logs whose truth is known in closed form."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bondgraph
+from bondgraph import Course, Log, Scenario
+from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting, newey_west, whitening
+
+N, RATE = 8000, 1000.0
+TIME = np.arange(N) / RATE
+DRIVE = 5.0 * np.sin(7.0 * TIME) + 3.0 * np.sin(23.0 * TIME)
+SERIES = """bg 1
+model M { param R1 = 2 Ohm; param R2 = %s Ohm; Se:U -> 1:i; i -> R:R1; i -> R:R2; i -> Df:y }"""
+ONE = "bg 1\nmodel M { param R = 2 Ohm; Se:U -> 1:i; i -> R:R; i -> Df:y }"
+
+
+def noise(deviation: float, seed: int = 3) -> np.ndarray:
+    return deviation * np.random.default_rng(seed).standard_normal(N)
+
+
+def fitted(text: str, free: list[str] | None = None, **columns: np.ndarray) -> Fitted:
+    c = bondgraph.compile(text=text, rate=RATE)
+    return c.fit({"run": Log(TIME, columns, {}, {})}, free)
+
+
+def only(found: Fitted) -> Fitting:
+    (one,) = found.parameters
+    return one
+
+
+def holds(one: Fitting, truth: float) -> bool:
+    return one.interval is not None and abs(one.value - truth) <= one.interval
+
+
+def test_noise_of_the_sensor_that_a_parameter_is_multiplied_with_is_no_bias() -> None:
+    """U = R y, y with noise: least squares gives R / (1 + noise/signal) in the filter's band."""
+    low = 0.2 * np.sin(7.0 * TIME)
+    told = [only(fitted(ONE, U=3.0 * low, y=low + noise(0.5, seed))) for seed in range(5)]
+    y = bondgraph.compile(text=ONE, rate=RATE).engine(native=False)
+    small, large = y.configured({"R": 1.0}), y.configured({"R": 2.0})
+    samples = np.stack([3.0 * low, low + noise(0.5, 0)], axis=1)
+    order = [["U", "y"].index(k.path) for k in y.signals]
+    one, two = (e.run(samples[:, order]).value[1000:, 0] for e in (small, large))
+    slope, start = two - one, 2.0 * one - two
+    plain = -float(slope @ start) / float(slope @ slope)
+    assert plain < 2.8
+    assert abs(np.mean([p.value for p in told]) - 3.0) < 0.15
+    assert sum(holds(p, 3.0) for p in told) >= 4
+
+
+@pytest.mark.parametrize("second", ["5", "2"])
+def test_of_two_resistors_in_series_only_the_sum_is_told(second: str) -> None:
+    found = fitted(SERIES % second, U=DRIVE, y=DRIVE / 8.0 + noise(0.01))
+    assert [c.text() for c in found.combinations] == ["only R1 + R2 is told"]
+    assert [p.error for p in found.parameters] == [None, None]
+    assert math.isclose(sum(found.values.values()), 8.0, rel_tol=2e-3)
+
+
+def test_of_a_free_motion_only_the_time_constant_is_told() -> None:
+    text = "bg 1\nmodel M { param m = 2 kg; param b = 3 N.s/m; 1:v; v -> I:m; v -> R:b; v -> Df:y }"
+    found = fitted(text, y=8.0 * np.exp(-TIME / 0.9) + noise(0.05))
+    assert [c.text() for c in found.combinations] == ["only b/m is told"]
+    assert math.isclose(found.values["b"] / found.values["m"], 1 / 0.9, rel_tol=0.01)
+    assert found.values["m"] > 1.0  # and not the other solution, all of them zero
+
+
+def test_of_a_blocked_rotor_the_constant_of_the_motor_is_not_told() -> None:
+    text = Path("models/dc_motor.bg").read_text().replace("load : N.m", "load : N.m unknown")
+    c = bondgraph.compile(text=text, rate=RATE)
+    still = {"U": DRIVE, "current": DRIVE / 15.0 + noise(0.003), "speed": noise(0.01, 4)}
+    found = c.fit({"run": Log(TIME, still, {}, {})}, ["R", "k"])
+    resistance, constant = found.parameters
+    assert [x.text() for x in found.combinations] == ["k is not told"]
+    assert math.isclose(resistance.value, 15.0, rel_tol=2e-3)
+    assert constant.error is None
+    assert math.isclose(constant.value, constant.nominal, rel_tol=0.02)
+
+
+def test_what_is_declared_zero_may_have_either_sign_and_others_keep_theirs() -> None:
+    text = ONE.replace("param R", "param z = 0 V; param R")
+    text = text.replace("i -> R:R", "i -> R:R; i -> Se:o = z")
+    for offset in (0.05, -0.05):
+        found = fitted(text, U=DRIVE, y=DRIVE / 3.0 + offset + noise(0.01))
+        by = {p.name: p for p in found.parameters}
+        assert holds(by["R"], 3.0)
+        assert holds(by["z"], -3.0 * offset)
+    turned = only(fitted(ONE, U=-DRIVE, y=DRIVE / 3.0 + noise(0.01)))
+    assert turned.bound
+    assert turned.error is None
+    assert turned.value > 0
+
+
+def test_logs_without_any_noise_give_the_truth() -> None:
+    assert math.isclose(only(fitted(ONE, U=DRIVE, y=DRIVE / 3.0)).value, 3.0, rel_tol=1e-9)
+
+
+def test_counts_of_an_encoder_are_told_whole_and_are_no_bias() -> None:
+    text = """bg 1
+    model M { param b = 2e-3 N.m.s/rad; input T : N.m; Se:drive = T -> 1:w; w -> I:J = 1e-3 kg.m^2
+              w -> R:b; sensor p : rad = int(w.f) counts 512/turn }"""
+    c = bondgraph.compile(text=text, rate=RATE)
+    torque = tuple(zip(TIME.tolist(), (0.02 + 0.01 * np.sin(5.0 * TIME)).tolist(), strict=True))
+    inside = 0
+    for seed in range(5):
+        run = c.simulate(
+            Scenario("x", duration=7.99, seed=seed, parameters={"b": 2.4e-3},
+                     inputs={"T": Course(None, torque)})
+        )  # fmt: skip
+        inside += holds(only(c.fit({"run": run.log}, ["b"])), 2.4e-3)
+    assert inside >= 4
+
+
+def test_a_time_in_which_the_machine_was_another_is_named() -> None:
+    y = DRIVE / 3.0 + noise(0.01)
+    y[4000:4400] *= 1.5
+    found = fitted(ONE, U=DRIVE, y=y)
+    assert holds(only(found), 3.0)  # it is left out
+    (left,) = found.left
+    assert left.spans
+    assert all(s.start > 3.5 and s.end < 5.0 for s in left.spans)
+    assert {s.log for s in left.spans} == {"run"}
+    (well,) = fitted(ONE, U=DRIVE, y=DRIVE / 3.0 + noise(0.01)).left
+    assert not well.spans
+    assert well.explained > 0.99
+    assert 0.7 < well.after / well.noise < 1.4
+    assert abs(well.memory) < 0.3
+
+
+def test_logs_with_gaps_and_several_logs_count_together() -> None:
+    columns = {"U": DRIVE, "y": DRIVE / 3.0 + noise(0.02)}
+    whole = Log(TIME, columns, {}, {})
+    c = bondgraph.compile(text=ONE, rate=RATE)
+    one = only(c.fit({"a": whole}))
+    other = Log(TIME, columns | {"y": DRIVE / 3.0 + noise(0.02, 9)}, {}, {})
+    two = only(c.fit({"a": whole, "b": other}))
+    assert one.error is not None
+    assert two.error is not None
+    assert 0.5 < two.error / one.error < 0.95  # the root of a half
+    late = TIME + np.where(TIME > 4.0, 5.0, 0.0)
+    assert holds(only(c.fit({"a": Log(late, columns, {}, {})})), 3.0)
+
+
+def test_what_cannot_be_fitted_is_told_with_a_remedy() -> None:
+    c = bondgraph.compile(text=ONE, rate=RATE)
+    short = Log(TIME[:300], {"U": DRIVE[:300], "y": DRIVE[:300]}, {}, {})
+    with pytest.raises(ValueError, match=r"too short .* give one of"):
+        c.fit({"a": short})
+    with pytest.raises(ValueError, match=r"no residual sees a parameter `Q`.*there is R"):
+        c.fit({"a": short}, ["Q"])
+    text = ONE.replace("param R = 2 Ohm;", "").replace("R:R", "R:R = 2 Ohm")
+    bare = bondgraph.compile(text=text)
+    with pytest.raises(ValueError, match="no residual sees a parameter"):
+        bare.fit({"a": short})
+
+
+def test_a_whitening_filter_and_its_sum_are_those_of_theory() -> None:
+    """An AR(1) of coefficient a has a long-run variance of 1/(1 - a)^2 (innovation 1)."""
+    draw, x = np.random.default_rng(1).standard_normal(40_000), np.zeros(40_000)
+    for k in range(1, len(x)):
+        x[k] = 0.5 * x[k - 1] + draw[k]
+    x[100:110] = np.nan
+    assert np.allclose(whitening(x)[:3], [1.0, -0.5, 0.0], atol=0.02)
+    total = newey_west(np.where(np.isfinite(x), x, 0.0)[:, None])[0, 0] / len(x)
+    assert 3.4 < total < 4.1  # of 4; Bartlett's weights take a little off
