@@ -39,6 +39,7 @@ _SURE = 1.96  # deviations within which 95 % are
 _FAR = 4.0  # deviations beyond which a row is not of this machine
 _MOST = 0.5  # share of what is known of a parameter that may be left out with such rows
 _CHUNK = 5000  # samples at a time
+_WRONG = 2.0  # of its noise: with more left of it a residual says that the model is wrong
 _LEAST = 50  # rows below which nothing is told
 _SILENT = 1e-6  # of the size of a signal: the least noise that is reckoned with
 _SPANS = 20  # of the log, each of which is asked whether it fits
@@ -160,21 +161,22 @@ def fit(
         Fitting(n, float(old), fitted[n], None, units.get(n, ""), bool(on))
         for n, old, on in zip(free, problem.nominal, bound, strict=False)
     ]
-    deviation = np.sqrt(np.diag(covariance))
+    deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
+    left = problem.left(at)
     told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
+    told &= problem.told_by_wrong(at)[:count] <= _MOST
     parameters = tuple(
         p._replace(error=float(problem.scale[k] * deviation[k])) if told[k] else p
         for k, p in enumerate(own)
     )
     values = [p.value for p in own]
     found = combinations(free, values, problem.scale, null, partial(problem.cost, late))
-    left = problem.left(at)
     progress(1.0)
     apart = np.where(deviation > 0, deviation, 1.0)
     correlation = covariance / np.outer(apart, apart)
     time = engine.sample_time
     delays = tuple(
-        Delay(engine.signals[k].path, float(d) * time, math.sqrt(v) * time)
+        Delay(engine.signals[k].path, float(d) * time, math.sqrt(max(v, 0.0)) * time)
         for k, d, v in zip(runs.late, late, np.diag(whole)[count:], strict=True)
     )
     return Fitted(parameters, found, left, delays, seen, runs.seconds, correlation)
@@ -501,6 +503,17 @@ class _Problem:
         energy = self._slopes(at).by[: len(self._free)] ** 2
         whole, part = energy.sum(axis=(1, 2)), (energy * far).sum(axis=(1, 2))
         return self._all if (part > _MOST * whole).any() else self._all & ~far
+
+    def told_by_wrong(self, at: Array) -> Array:
+        """The share of what is known of each parameter that residuals tell of a wrong model.
+
+        Of such a residual more than so many times its noise is left in the rows that count.
+        """
+        _, _, whole, noise = self._normal([at])
+        times = np.sqrt(whole[0] / np.maximum(noise[0], 1e-300)) * self._weight
+        energy = (self._slopes(at).by ** 2).sum(axis=1)
+        known = np.maximum(energy.sum(axis=1), 1e-300)
+        return np.asarray(energy[:, times > _WRONG].sum(axis=1) / known)
 
     def covariance(self, at: Array) -> tuple[Array, Mask]:
         """Of the parameters, relative; and which of them are where their sign would change.

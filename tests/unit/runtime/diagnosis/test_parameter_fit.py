@@ -168,3 +168,12 @@ def test_a_whitening_filter_and_its_sum_are_those_of_theory() -> None:
     assert np.allclose(whitening(x)[:3], [1.0, -0.5, 0.0], atol=0.02)
     total = newey_west(np.where(np.isfinite(x), x, 0.0)[:, None])[0, 0] / len(x)
     assert 3.4 < total < 4.1  # of 4; Bartlett's weights take a little off
+
+
+def test_a_law_that_is_another_makes_no_interval() -> None:
+    """U = 3 y + 0.4 y^3: of the residual U - R y far more is left than the noise of the sensor."""
+    y = DRIVE / 3.0
+    bent = only(fitted(ONE, U=3.0 * y + 0.4 * y**3, y=y + noise(0.01)))
+    assert bent.error is None
+    assert 3.0 < bent.value < 3.0 + 0.4 * float(np.max(y**2))
+    assert holds(only(fitted(ONE, U=3.0 * y, y=y + noise(0.01))), 3.0)
