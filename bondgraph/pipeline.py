@@ -53,6 +53,9 @@ T = TypeVar("T")
 #: What a step may be made of, see `Options`: in one form, or observers where they are named.
 Form = Literal["derivative", "observer"] | tuple[str, ...]
 
+#: Bonds of a model whose double faults are found within half a second or so.
+_WATCHED = 200
+
 #: Options that change numbers of the residual program only, and the stages before it.
 _LATE = frozenset({"rate", "bandwidth", "targets"})
 _EARLY = frozenset(
@@ -280,11 +283,14 @@ class Compilation:
         noise: Mapping[str, float] | None = None,
         columns: Mapping[str, Mapped] | None = None,
         progress: Callable[[float], None] = lambda _: None,
+        *,
+        operating: str | None = None,
     ) -> Fitted:
         """Fit parameters to logs of the healthy machine, by the names of these (docs/fit.md).
 
         `free` are names of parameters; without it those with a tolerance, or else all. `noise` are
-        standard deviations of signals in their unit, where they are known. Raises ValueError for
+        standard deviations of signals in their unit, where they are known. Only samples for which
+        `operating` holds count, an expression over columns (docs/logs.md). Raises ValueError for
         logs that are too short and for what is no parameter of a residual, `LogError` for a log
         that lacks a signal.
 
@@ -306,7 +312,7 @@ class Compilation:
         engine, model = self.engine(), self.diagnosis_model
         tolerances = model.tolerances
         chosen = fittable(engine, model.faults, tolerances, free)
-        pieces = stretches(engine, logs.items(), columns)
+        pieces = stretches(engine, logs.items(), columns, operating)
         own = units(self.graph)
         return fit(engine, pieces, chosen, tolerances, own, noise or {}, progress)
 
@@ -625,8 +631,15 @@ class Compilation:
         """What a diagnosis has to know of the machine beside its residuals."""
         from bondgraph.runtime.diagnosis.healthy import diagnosis_model
 
+        def doubles() -> DoubleFaults:
+            """Asked for while a machine is watched, which cannot wait for long."""
+            from bondgraph.ir.signature_matrix import DoubleFaults
+
+            small = len(self.graph.bonds) <= _WATCHED
+            return self.double_faults if small else DoubleFaults((), (), "the model is too large")
+
         own = *self._shown, self.program_with_readings
-        return diagnosis_model(*own, self.mode_signatures, lambda: self.double_faults)
+        return diagnosis_model(*own, self.mode_signatures, doubles)
 
     def diagnosis(self, engine: Engine, tuning: Tuning | None = None) -> Diagnosis:
         """What says verdicts about the residuals of an engine of this model.

@@ -81,7 +81,7 @@ def run(args: Namespace) -> int:
             apart = separation(compilation.program_with_readings, tolerances, situation)
     except ValueError as error:
         raise Trouble(f"{error}, and without it nothing has a size") from error
-    found = {form: one.detection() for form, one in answers.items()}
+    found = {form: one.detection for form, one in answers.items()}
     rows = _rows(forms, answers, found)
     first = next(iter(answers.values()))
     order = [o for f in dict.fromkeys(r.found.fault for r in rows) if (o := first.order(f))]

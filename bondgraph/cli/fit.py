@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from bondgraph import Options
 from bondgraph.cli import console
+from bondgraph.cli.log_options import logged, read_logs, times_of
 from bondgraph.cli.options import isolating, noise, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
@@ -26,7 +27,7 @@ def arguments(parser: ArgumentParser) -> None:
     add = parser.add_argument
     add("model", metavar="MODEL", help="file.bg or file.bg:Name")
     add("logs", metavar="LOG", nargs="+",
-        help="logs of one healthy machine, .csv or .parquet")  # fmt: skip
+        help="logs of one healthy machine, .csv, .parquet or lines of JSON")  # fmt: skip
     add("--free", metavar="NAMES", action="append", default=[],
         help="parameters to fit, separated by commas; may be repeated (default: those with a"
         " tolerance, or else all)")  # fmt: skip
@@ -39,7 +40,7 @@ def arguments(parser: ArgumentParser) -> None:
         help="samples a second (default: that of the first log)")  # fmt: skip
     add("--bandwidth", metavar="RAD/S", type=positive, default=None,
         help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
-    add("--map", metavar="FILE.toml", help="which column is which signal")
+    logged(add)
     isolating(parser)
     realised(parser)
     add("--json", action="store_true", help="print one JSON object (docs/json.md)")
@@ -47,12 +48,11 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Read the logs, fit, write the parameters, say how sure they are."""
-    from bondgraph.runtime.log_file import read_log
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
 
-    logs = [read_log(path) for path in args.logs]
-    rate = args.rate or rate_of(logs[0].time) or Options().rate
+    logs = read_logs(args)
+    rate = args.rate or rate_of(logs[0][1].time) or Options().rate
     compilation = realising(args, rate=rate, bandwidth=args.bandwidth)
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
@@ -61,14 +61,16 @@ def run(args: Namespace) -> int:
     for name in free:
         if name not in names:
             raise console.Unknown(name, "no parameter of the model", names)
+    times = times_of(logs)
     try:
         with console.progress_bar("fitting") as progress:
             found = compilation.fit(
-                dict(zip(args.logs, logs, strict=True)),
+                dict(logs),
                 free or None,
                 _noise(args, compilation),
                 mapping,
                 progress,
+                operating=args.operating,
             )
     except ValueError as error:
         raise Trouble(str(error)) from error
@@ -77,7 +79,7 @@ def run(args: Namespace) -> int:
         args.json,
         compilation.report.diagnostics,
         _message(compilation, found),
-        lambda: {"files": [args.output], **_result(compilation, found)},
+        lambda: {"files": [args.output], **_result(compilation, found), "times": times},
         lambda: _lines(compilation, found, args),
     )
 

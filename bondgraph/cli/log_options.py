@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from argparse import Namespace
     from collections.abc import Callable, Mapping
 
+    from bondgraph.runtime.log import Log
     from bondgraph.runtime.log_numbers import Form
     from bondgraph.runtime.monitoring.columns import Mapped
     from bondgraph.runtime.monitoring.operating import Operating
@@ -57,3 +59,20 @@ def operating_of(
     from bondgraph.runtime.monitoring.operating import Operating
 
     return None if args.operating is None else Operating(args.operating, mapping, name)
+
+
+def read_logs(args: Namespace) -> list[tuple[str, Log]]:
+    """The logs that the arguments name, each with its name."""
+    from bondgraph.runtime.log_file import read_form
+
+    return [(path, read_form(path, form_of(args, path))) for path in args.logs]
+
+
+def times_of(logs: list[tuple[str, Log]]) -> dict[str, str]:
+    """What was taken for the time of each log, which is said on the error stream too."""
+    from bondgraph.runtime.log import TIME
+
+    times = {name: log.meta[TIME] for name, log in logs if TIME in log.meta}
+    for name, time in times.items():
+        print(f"note: {name}: time is {time}", file=sys.stderr)
+    return times

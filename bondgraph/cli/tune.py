@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-import sys
 from typing import TYPE_CHECKING
 
 from bondgraph import Options
 from bondgraph.cli import console
-from bondgraph.cli.log_options import form_of, logged, operating_of
+from bondgraph.cli.log_options import logged, read_logs, times_of
 from bondgraph.cli.options import isolating, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
@@ -97,9 +96,7 @@ def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[fl
 
 def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, str]]:
     """The model, an engine of it, what it reads from each log, on its grid, and by what time."""
-    from bondgraph.runtime.log import TIME
-    from bondgraph.runtime.log_file import read_form
-    from bondgraph.runtime.monitoring.clock import on_grid
+    from bondgraph.runtime.monitoring.clock import stretches
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
 
@@ -115,27 +112,17 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, 
         with console.progress_bar("simulating") as progress:
             for k in range(args.runs):
                 own = scenario._replace(seed=args.seed + k, spread="uniform")
-                read.append(compilation.simulate(own).log)
+                read.append((args.simulate, compilation.simulate(own).log))
                 progress((k + 1) / args.runs)
-        names = [args.simulate] * len(read)
     else:
-        read = [read_form(path, form_of(args, path)) for path in args.logs]
-        names = list(args.logs)
-        rate = args.rate or rate_of(read[0].time) or Options().rate
+        read = read_logs(args)
+        rate = args.rate or rate_of(read[0][1].time) or Options().rate
         compilation = realising(args, rate=rate)
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
-    logs, times = [], {}
-    for name, log in zip(names, read, strict=True):
-        if TIME in log.meta:
-            times[name] = log.meta[TIME]
-            print(f"note: {name}: time is {log.meta[TIME]}", file=sys.stderr)
-        operating = operating_of(args, mapping, name)
-        pieces = on_grid(engine, log, mapping, name, operating, args.rate is not None)
-        logs += [p.samples for p in pieces if len(p.samples)]
-    if not logs and args.operating is not None:
-        raise Trouble(f"`{args.operating}` (--while) holds for no sample of {', '.join(names)}")
-    return compilation, engine, logs, times
+    times = times_of(read)
+    found = stretches(engine, read, mapping, args.operating, args.rate is not None)
+    return compilation, engine, [piece.samples for _, piece in found], times
 
 
 def _score(tuned: Tuned, found: list[Tuned]) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -117,7 +118,7 @@ def smallest(
     step, X = A X A' + B B' (discrete Lyapunov equation), linearised at the first sample.
     Raises ValueError if a parameter has no number.
     """
-    return Answers(program, thresholds, tolerances, situation).detection()
+    return Answers(program, thresholds, tolerances, situation).detection
 
 
 class Answers:
@@ -145,6 +146,7 @@ class Answers:
             found = _simulated(thresholds, {}, {}, 1, situation, onset=True)[0]
             self._bound = {name: r[:, 0] for name, r in found.items()}
 
+    @cached_property
     def detection(self) -> Detection:
         """The smallest changes, each at the best moment of a period when all has settled."""
         own = list(self._faults.values())
@@ -172,7 +174,7 @@ class Answers:
         The fault grows by twice what it takes to be seen in each of the residuals that can show
         it. One comes before another if the other is not halfway when the one is sure to be seen.
         """
-        rows = [s for s in self.detection().smallest if s.fault == fault and s.change is not None]
+        rows = [s for s in self.detection.smallest if s.fault == fault and s.change is not None]
         size = max((2.0 * (s.change or 0.0) for s in rows), default=0.0)
         course = {s.residual: moved for s in rows
                   if (moved := self._moved(fault, s.residual, size)) is not None}  # fmt: skip

@@ -97,7 +97,7 @@ def _detection(
             return own, "", None
         answers = Answers(compilation.program_with_readings, compilation.thresholds, tolerances,
                           assumed.situation)  # fmt: skip
-        return answers.detection(), "", answers
+        return answers.detection, "", answers
     except ValueError as error:
         return None, str(error), None
 

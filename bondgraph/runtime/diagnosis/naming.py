@@ -210,6 +210,7 @@ def update(
     verdict = verdict._replace(pairs=_shown(pairs))
     alike = [] if doubles is None else _alike(pairs[0], doubles)
     message = f"no single fault explains this; {described_pairs(verdict)}"
+    message += "; or something that is not modelled"
     if alike:
         every = doubles is not None and len(alike) == len(doubles.groups)
         which = "faults" if every else f"of {listed([' or '.join(g) for g in alike], 'and')}"

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bondgraph.ir.program import Known
-from bondgraph.runtime.log import Array, Log, Mask
+from bondgraph.runtime.log import Array, Log, LogError, Mask
 from bondgraph.runtime.monitoring.columns import Columns, Mapped
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.time_column import Pace
@@ -325,15 +325,29 @@ def clock_of(engine: Engine, most: float | None = None, wraps: float | None = No
 
 
 def stretches(
-    engine: Engine, logs: Iterable[tuple[str, Log]], mapping: Mapping[str, Mapped] | None = None
+    engine: Engine,
+    logs: Iterable[tuple[str, Log]],
+    mapping: Mapping[str, Mapped] | None = None,
+    operating: str | None = None,
+    asked: bool = False,
 ) -> list[tuple[str, Piece]]:
-    """What an engine reads from logs, by their names, in pieces without a gap."""
-    return [
-        (name, piece)
-        for name, log in logs
-        for piece in on_grid(engine, log, mapping, name)
-        if len(piece.samples)
-    ]
+    """What an engine reads from logs, by their names, in pieces without a gap; see `on_grid`.
+
+    `operating` is an expression that holds while the machine is on. Raises LogError where it holds
+    for no sample, CompileError for a text that is no expression.
+    """
+    from bondgraph.runtime.monitoring.operating import Operating
+
+    named = list(logs)
+    found = []
+    for name, log in named:
+        on = None if operating is None else Operating(operating, mapping, name)
+        pieces = on_grid(engine, log, mapping, name, on, asked)
+        found += [(name, piece) for piece in pieces if len(piece.samples)]
+    if operating is not None and not found:
+        names = ", ".join(name for name, _ in named)
+        raise LogError(names, None, f"`{operating}` (--while) holds for no sample of {names}")
+    return found
 
 
 def on_grid(

@@ -65,6 +65,26 @@ def test_what_is_not_told_has_no_interval(bondgraph: Command, folder: Path) -> N
     assert not data["standard_errors"]
 
 
+def test_a_log_is_read_as_the_other_commands_read_it(bondgraph: Command, folder: Path) -> None:
+    """Time in ms under a name of its own; while the circuit is off another one is measured."""
+    assert bondgraph("fit", "c.bg", "log.csv", "-o", "p.toml").status == 0
+    plain = tomllib.loads((folder / "p.toml").read_text())["parameters"]["R"]
+    rows = [row for row in (folder / "log.csv").read_text().splitlines() if row[0] not in "#t"]
+    lines = ["U;y;clock;on"]
+    for time, volts, current in (map(float, row.split(",")) for row in rows):
+        lines.append(f"{volts};{current};{1000 * time};1")
+    lines += [f"7;1;{6000 + k};0" for k in range(2000)]
+    (folder / "other.csv").write_text("\n".join(lines))
+    words = ["--time", "clock", "--time-unit", "ms", "--while", "on > 0"]
+    done = bondgraph("fit", "c.bg", "other.csv", "-o", "q.toml", *words)
+    assert done.status == 0, done.err
+    assert "note: other.csv: time is" in done.err
+    fitted = tomllib.loads((folder / "q.toml").read_text())["parameters"]["R"]
+    assert fitted == pytest.approx(plain, rel=1e-6)
+    never = bondgraph("fit", "c.bg", "other.csv", *words[:4], "--while", "on > 1")
+    assert never.status == 1 and "holds for no sample" in never.err
+
+
 @pytest.mark.parametrize(
     ("words", "status", "said"),
     [
