@@ -39,7 +39,7 @@ def arguments(parser: ArgumentParser) -> None:
     add("--rate", metavar="HZ", type=positive, default=None,
         help="samples a second (default: that of the first log)")  # fmt: skip
     add("--bandwidth", metavar="RAD/S", type=positive, default=None,
-        help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
+        help="bandwidth of the filter (default: by rate and length of the logs)")  # fmt: skip
     logged(add)
     isolating(parser)
     realised(parser)
@@ -48,12 +48,14 @@ def arguments(parser: ArgumentParser) -> None:
 
 def run(args: Namespace) -> int:
     """Read the logs, fit, write the parameters, say how sure they are."""
+    from bondgraph.runtime.diagnosis.tuning import bandwidth_for
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
 
     logs = read_logs(args)
     rate = args.rate or rate_of(logs[0][1].time) or Options().rate
-    compilation = realising(args, rate=rate, bandwidth=args.bandwidth)
+    bandwidth = args.bandwidth or bandwidth_for(rate, sum(log.rows for _, log in logs))
+    compilation = realising(args, rate=rate, bandwidth=bandwidth)
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
     free = [name.strip() for names in args.free for name in names.split(",") if name.strip()]

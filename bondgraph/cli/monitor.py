@@ -60,7 +60,7 @@ def sampled(add: Callable[..., object]) -> None:
     add("--rate", metavar="HZ", type=positive,
         help=f"samples a second (default: of a file its own, else {Options().rate:g})")  # fmt: skip
     add("--bandwidth", metavar="RAD/S", type=positive,
-        help="bandwidth of the filter (default: chosen from the rate)")  # fmt: skip
+        help="bandwidth of the filter (default: by rate and length of the log)")  # fmt: skip
     add("--tuning", metavar="FILE.json",
         help="limits from `bondgraph tune` (default: learned from the first seconds)")  # fmt: skip
 
@@ -110,6 +110,7 @@ def _publish_to(text: str | None, samples: Address | None) -> Address | None:
 
 
 def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
+    from bondgraph.runtime.diagnosis.tuning import bandwidth_for
     from bondgraph.runtime.monitoring.clock import clock_of
     from bondgraph.runtime.monitoring.columns import Columns, read_map
     from bondgraph.runtime.monitoring.journal import known_rate
@@ -119,7 +120,9 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     known = known_rate(args.journal) if args.journal else None
     tuning = read_tuning(args.tuning) if args.tuning else None
     rate = args.rate or known or source.rate() or (tuning.rate if tuning else Options().rate)
-    compilation = realising(args, rate=rate, bandwidth=args.bandwidth)
+    samples = None if args.journal else source.samples()  # with a journal it may grow
+    bandwidth = args.bandwidth or bandwidth_for(rate, samples)
+    compilation = realising(args, rate=rate, bandwidth=bandwidth)
     engine, decided = watching(compilation, tuning)
     mapping = read_map(args.map, engine.signals) if args.map else None
     journal = _journal(args.journal, compilation, source, engine)

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.engine import Engine
 
 _FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of the default bandwidth, where none is wanted
+_FASTEST = 0.4  # of the rate, rad: no filter has fewer samples to work with
+_LEAST = 30.0  # rows of three time constants, besides the warm-up, to learn from
+_WINDOW = 40.0  # time constants of the default filter in which a fault has to show
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -44,8 +47,9 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--bandwidth", metavar="RAD/S", type=positive, action="append", default=[],
                         help="of the filter; of several the best one is taken (default: five"
                         " are tried)")  # fmt: skip
-    parser.add_argument("--window", metavar="S", type=positive, default=2.0,
-                        help="seconds in which a fault has to show (default: 2)")  # fmt: skip
+    parser.add_argument("--window", metavar="S", type=positive, default=None,
+                        help="seconds in which a fault has to show (default: 40 time constants of"
+                        " the default filter)")  # fmt: skip
     parser.add_argument("--rate", metavar="HZ", type=positive, default=None,
                         help="samples a second (default: that of the first log)")  # fmt: skip
     logged(parser.add_argument)
@@ -62,7 +66,8 @@ def run(args: Namespace) -> int:
         raise Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
     try:
         compilation, engine, logs, times = _logs(args)
-        wanted = args.bandwidth or [f * engine.bandwidth for f in _FACTORS]
+        wanted = args.bandwidth or _wanted(engine, logs)
+        window = args.window or _WINDOW / engine.bandwidth
         found = []
         with console.progress_bar("tuning") as progress:
             for k, bandwidth in enumerate(wanted):
@@ -73,7 +78,7 @@ def run(args: Namespace) -> int:
                         logs,
                         compilation.program.digest,
                         args.false_alarms,
-                        args.window,
+                        window,
                         _part(progress, k, len(wanted)),
                     )
                 )
@@ -90,12 +95,23 @@ def run(args: Namespace) -> int:
     )
 
 
+def _wanted(engine: Engine, logs: list[Array]) -> list[float]:
+    """The bandwidths to try: samples can follow them, and the logs are long enough for them."""
+    longest = max((len(log) for log in logs), default=0) * engine.sample_time
+    tried = [f * engine.bandwidth for f in _FACTORS]
+    fits = [w for w in tried
+            if w * engine.sample_time <= _FASTEST
+            and longest >= engine.configured(bandwidth=w).warm_up + 3.0 * _LEAST / w]  # fmt: skip
+    return fits or [engine.bandwidth]
+
+
 def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[float], None]:
     return lambda share: progress((k + share) / parts)
 
 
 def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, str]]:
     """The model, an engine of it, what it reads from each log, on its grid, and by what time."""
+    from bondgraph.runtime.diagnosis.tuning import bandwidth_for
     from bondgraph.runtime.monitoring.clock import stretches
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
@@ -117,7 +133,8 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, 
     else:
         read = read_logs(args)
         rate = args.rate or rate_of(read[0][1].time) or Options().rate
-        compilation = realising(args, rate=rate)
+        longest = max(log.rows for _, log in read)
+        compilation = realising(args, rate=rate, bandwidth=bandwidth_for(rate, longest))
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
     times = times_of(read)

@@ -67,6 +67,7 @@ class Comparison:
         self._rows: list[Rows] = []
         self._others: list[dict[int, Rows]] = []  # by the number of what is held
         self._unsaid = np.zeros((_GROWS, len(engine.residuals)), dtype=bool)
+        self._slopes = np.zeros((len(self._all), len(engine.residuals)))  # of the last row
         self._again = 0  # rows with which secants are looked for again
 
     def __len__(self) -> int:
@@ -83,9 +84,16 @@ class Comparison:
         if len(self._past) < _BENT:
             self._past.append((row, sigma.copy()))
         one, others = self._seen(row, sigma, len(self._rows))
+        self._slopes = one.slopes
         if len(self._rows) < _MOST:
             self._rows.append(one)
             self._others.append(others)
+
+    def moved(self, by: Explained) -> Array | None:
+        """What a fault of this size does to the last row, (residuals,); None for one held."""
+        if by.hypothesis.held is not None:
+            return None
+        return np.asarray(by.change * self._slopes[self._all.index(by.hypothesis)])
 
     def explained(self, history: History) -> list[Explained]:
         """How well each fault explains the rows; raises LinAlgError as `explain` does."""

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from bondgraph.runtime.diagnosis.healthy import grown
-from bondgraph.runtime.diagnosis.naming import LONGEST
 from bondgraph.runtime.diagnosis.rows import Part, Row
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
-_BACK = 10  # rows that residuals must be quiet before a fault is over, twice as many each time
+_OVER = math.log(100.0)  # how much more probable it has to be that a fault is over
+_PAUSE = 32  # rows: what comes back within them has not been away
+_SHOWS = 1.0  # deviations by which a fault has to move a residual that should tell it is over
 
 
 class Detection:
@@ -21,7 +23,14 @@ class Detection:
 
     `fired` says which have, `most` by how much of its threshold each was out at most, of the last
     samples while none has fired; `alarms` counts them. The sample test fires after `least` samples
-    in a row. `limits` have the columns of `Limit`, (residuals, 4).
+    in a row. `limits` have the columns of `Limit`, (residuals, 6).
+
+    A fault is over once each residual that has fired is a hundred times as probable to be that of a
+    healthy machine as one that goes on as it has been since the alarm, normal with that mean and
+    deviation (Wald, 1945): a row or two for a large fault, some more for a small one. A fault that
+    comes and goes is not told each time: what comes back soon has to be away for twice as long the
+    next time. Nor does a row tell in which the fault that explains all would not show, as where it
+    acts in a part of a motion only; when nothing is out for long, it is over nevertheless.
     """
 
     def __init__(self, residuals: Sequence[str], least: int) -> None:
@@ -29,13 +38,17 @@ class Detection:
         self.fired: Mask = np.zeros(len(residuals), dtype=np.bool_)
         self.most = np.zeros(len(residuals))
         self.alarms = 0
+        self._needed = 1  # rows that have to be quiet
+        self._away = _PAUSE + 1  # rows since a fault was over
         self.restart()
 
     def restart(self) -> None:
         """The residuals begin anew; what has fired still has."""
         self._streak = np.zeros(len(self._names), dtype=int)
         self._sums = np.zeros((2, len(self._names)))
-        self._quiet = 0  # rows
+        self._sum = np.zeros((3, len(self._names)))  # of rows of this alarm: 1, excess, squares
+        self._healthy = np.zeros(len(self._names))  # logarithm of how probable it is to be over
+        self._quiet = 0  # rows that nothing was out in
 
     @property
     def alarmed(self) -> bool:
@@ -68,34 +81,59 @@ class Detection:
 
     def row(self, row: Row, limits: Array) -> Mask:
         """Which fire by the sum of what is too much in rows, to either side (Page, 1954)."""
-        sigma, top = limits[:, 0], limits[:, 3]
-        after = np.minimum(grown(self._sums, row.value, row.bound, sigma), 2.0 * top)
-        self._sums = np.where(row.valid, after, 0.0)
+        top = limits[:, 3]
+        with np.errstate(invalid="ignore"):
+            after = np.minimum(grown(self._sums, row.value, row.bound, _adding(limits)), 2.0 * top)
+        self._sums = np.where(row.valid & np.isfinite(limits[:, 0]), after, 0.0)
         return np.asarray((self._sums.max(axis=0) > top) & ~self.fired)
 
     def latch(self, fresh: Mask) -> bool:
         """These have fired; whether they are the first of an alarm."""
         first = not self.alarmed
+        if first:
+            back = self._away <= _PAUSE
+            self._needed = min(2 * (self._away + self._needed), _PAUSE) if back else 1
         self.fired = self.fired | fresh
+        self._healthy[:] = 0.0
         self._quiet = 0
         self.alarms += first
         return first
 
     def suspects(self, row: Row, limits: Array) -> bool:
         """Whether something is further out than it usually is, though nothing has fired yet."""
-        return bool((self._streak > 0).any() or _loud(row, limits).any())
+        self._away = min(self._away + 1, _PAUSE + 1)
+        loud = np.abs(row.value) - row.bound > 0.5 * limits[:, 2] * limits[:, 0]
+        return bool((self._streak > 0).any() or loud.any())
 
-    def over(self, row: Row, limits: Array) -> bool:
-        """Whether what has fired has been quiet for long enough, with one row more."""
-        quiet = self._quiet + bool(row.valid[self.fired].all())  # who cannot be seen is not quiet
-        self._quiet = 0 if (row.valid & _loud(row, limits) & self.fired).any() else quiet
-        return bool(self._quiet >= min(_BACK * 2 ** min(self.alarms - 1, 9), LONGEST))
+    def over(self, row: Row, limits: Array, shown: Array | None = None) -> bool:
+        """Whether the fault is over, with one row more.
+
+        `shown` is what the fault would move residuals by if it was still there, where that is
+        known: a residual that it would not move is quiet for no reason.
+        """
+        seen = row.valid & self.fired & np.isfinite(limits[:, 0])  # others tell nothing
+        excess = np.sign(row.value) * np.maximum(np.abs(row.value) - row.bound, 0.0)
+        excess = np.where(seen, excess / limits[:, 0], 0.0)
+        if shown is not None:
+            seen &= (np.abs(shown) - row.bound > _SHOWS * limits[:, 0]) | (np.abs(excess) > 1.0)
+        self._sum += np.where(seen, [np.ones_like(excess), excess, excess**2], 0.0)
+        _, mean, square = self._sum / np.maximum(self._sum[0], 1.0)
+        variance = np.maximum(square - mean**2, 1.0)
+        mean = np.where(np.abs(mean) < 1.0, np.copysign(1.0, mean), mean)
+        more = np.log(variance) + (excess - mean) ** 2 / variance - excess**2
+        more = np.where(seen, more / (2.0 * limits[:, 5]), 0.0)
+        self._healthy = np.maximum(self._healthy + more, 0.0)
+        quiet = (row.valid & self.fired)[self.fired].all()
+        self._quiet = 0 if (more < 0.0).any() else self._quiet + bool(quiet)
+        enough = bool((self._healthy[self.fired] > _OVER).all())
+        return (enough and self._quiet >= self._needed) or self._quiet >= _PAUSE
 
     def clear(self) -> None:
         """The fault is over."""
         self.fired = np.zeros_like(self.fired)
         self.most[:] = 0.0
-        self._sums[:] = 0.0
+        self._sums[:] = self._sum[:] = self._healthy[:] = 0.0
+        self._away = 0
 
     def state(self) -> dict[str, Any]:
         """All that `resumed` needs, as plain JSON."""
@@ -104,6 +142,7 @@ class Detection:
             "most": numbers(self.most),
             "sums": numbers(self._sums),
             "alarms": self.alarms,
+            "pause": [self._needed, self._away],
         }
 
     def resumed(self, state: dict[str, Any]) -> Detection:
@@ -113,9 +152,10 @@ class Detection:
         other.most = array(state["most"], self.most.shape)
         other._sums = array(state["sums"], self._sums.shape)
         other.alarms = int(state["alarms"])
+        other._needed, other._away = (int(x) for x in state["pause"])
         return other
 
 
-def _loud(row: Row, limits: Array) -> Mask:
-    """Residuals that are above half of what noise may add to the adaptive threshold."""
-    return np.asarray(np.abs(row.value) - row.bound > 0.5 * limits[:, 2] * limits[:, 0])
+def _adding(limits: Array) -> Array:
+    """The deviation of noise that adds up over rows."""
+    return np.asarray(limits[:, 0] * np.sqrt(limits[:, 5]))

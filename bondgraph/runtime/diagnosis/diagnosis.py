@@ -54,6 +54,7 @@ class Diagnosis:
         self._doubt = Doubt(engine, model, walks=tuning is None)
         self._origins = Origins(engine, model.memories, self._every)
         self._past: deque[Row] = deque(maxlen=int(_MEMORY))
+        self._values = [k for k, h in enumerate(self._tolerated) if h.kind == "value"]
         self._learning: Learning | None = None
         if tuning is None:
             self._learning = Learning(engine, known, used, model)
@@ -111,7 +112,7 @@ class Diagnosis:
         for part in self._parts(time, batch, samples, [], again=True):
             row = self._row(part, [])
             if row is not None and self._learning is not None:
-                self._learning.row(row, healthy=False)
+                self._learn(row, healthy=False)
 
     def _parts(
         self, time: Array, batch: Batch, samples: Array, out: list[Verdict], again: bool = False
@@ -128,6 +129,7 @@ class Diagnosis:
             given = Batch(batch.value[own], batch.valid[own], batch.bound[own])
             doubt, sound = self._doubt.run(samples[own], given, number, self._limits[:, 0])
             value, valid, bound = self._origins.judged(given, self._bank, slopes)
+            value = value - self._limits[:, 4]
             valid = valid & sound
             self._status.warm_up(time[own], valid, self._limits[:, 0], self._origins, out)
             bound = np.where(valid, bound + slack(self._tolerated, slopes) + doubt, 0.0)
@@ -166,8 +168,8 @@ class Diagnosis:
     def _judged(self, row: Row, out: list[Verdict]) -> None:
         """What a row tells."""
         if self._learning is not None:
-            fresh = self._learning.row(row, healthy=not self._detection.alarmed)
-            self._status.learned(row.time, fresh, self._learning.hopeless, out)
+            fresh = self._learn(row, healthy=not self._detection.alarmed)
+            self._status.learned(row.time, fresh, self._learning, out)
             if self._learning.over:
                 self._learning = None
         fresh = self._detection.row(row, self._limits)
@@ -179,6 +181,10 @@ class Diagnosis:
             self._explain(row, out)
             self._over(row, out)
 
+    def _learn(self, row: Row, healthy: bool) -> Mask:
+        assert self._learning is not None
+        return self._learning.row(row, row.slopes[self._values], healthy)
+
     def _remember(self, row: Row) -> None:
         """Learn from a row once the ones behind it are as usual too: before an alarm a fault acts.
 
@@ -188,7 +194,8 @@ class Diagnosis:
             self._calm.clear()
             return
         self._calm.append(row)
-        wait = _HEALTHY if self._learning is None else int(_MEMORY)
+        waits = self._learning is not None and self._learning.first
+        wait = int(_MEMORY) if waits else _HEALTHY
         while len(self._calm) > wait:
             old = self._calm.popleft()
             self._history.add(old.value, self._weight(old), old.slopes, 1.0 - 1.0 / _FORGET)
@@ -205,6 +212,8 @@ class Diagnosis:
         """Latch an alarm; `piece` are the samples since the last row."""
         self._calm.clear()
         if self._detection.latch(fresh):
+            if self._learning is not None:
+                self._learning.alarm()
             since = self._onset(time, piece)
             self._judge.latch(since)
             message = f"{self._status.names(fresh)} above what a healthy machine does since"
@@ -258,7 +267,8 @@ class Diagnosis:
 
     def _over(self, row: Row, out: list[Verdict]) -> None:
         """A fault is over when its residuals have been quiet for long enough."""
-        if not self._detection.over(row, self._limits):
+        over = self._detection.over(row, self._limits, self._judge.shown())
+        if not over or self._judge.waits:
             return
         assert self._judge.latched is not None
         what = "back to what a healthy machine does; what was said stays said"

@@ -36,6 +36,7 @@ class Explained(NamedTuple):
     `evidence` is the logarithm of how much more probable it makes that than a healthy machine
     does, `share` how much of the healthy machine's misfit (in squares) it takes away. `change` is
     that of the one of its hypotheses that explains most by itself, at the end, with its deviation.
+    `left` is what is left of the misfit, for each of the `values` that were compared.
     """
 
     fault: str
@@ -44,6 +45,8 @@ class Explained(NamedTuple):
     hypothesis: Hypothesis
     change: float
     deviation: float
+    left: float = 0.0
+    values: int = 1
 
 
 class ExplainedPair(NamedTuple):
@@ -53,6 +56,8 @@ class ExplainedPair(NamedTuple):
     evidence: float
     share: float
     changes: tuple[float, float]
+    left: float = 0.0
+    values: int = 1
 
 
 class Rows(NamedTuple):
@@ -173,6 +178,7 @@ def explain(
     residuals, by its number. Raises numpy.linalg.LinAlgError where a number is none.
     """
     known, seen = _compared_with(rows, hypotheses, history)
+    values = max(1, int((rows.weight > 0).sum()))
     told = {k: _seen(other, history.prior, np.zeros(0)) for k, other in others.items()}
     if not all(np.isfinite(table).all() for table in told.values()):
         raise np.linalg.LinAlgError("a residual or a weight is not finite")
@@ -184,7 +190,8 @@ def explain(
         every = _fits(known, seen, sized) if len(sized) > 1 else []
         ways = [_compared([hypotheses[j] for j in sized], alone, every)] if sized else []
         ways += [_instead(hypotheses[j], known, seen, told[j]) for j in own if j in told]
-        found.append(_either(ways))
+        one = _either(ways)
+        found.append(one._replace(left=one.left / values, values=values))
     return found
 
 
@@ -200,6 +207,7 @@ def explain_pairs(
     known, seen = _compared_with(rows, hypotheses, history)
     leads = sorted((e for e in singles if e.hypothesis.held is None), key=lambda e: -e.evidence)
     place = {e.fault: hypotheses.index(e.hypothesis) for e in leads}
+    values = max(1, int((rows.weight > 0).sum()))
     found = []
     for at, one in enumerate(leads[:_LEADS]):
         for other in leads[at + 1 :]:
@@ -207,7 +215,9 @@ def explain_pairs(
             fits = _fits(known, seen, [place[h.fault] for h in own])
             top = max(fits, key=lambda f: f.evidence)
             sizes = (top.changes * [h.usual for h in own]).tolist()
-            found.append(ExplainedPair(own, _mean(fits), top.share, (sizes[0], sizes[1])))
+            left = top.left / values
+            both = sizes[0], sizes[1]
+            found.append(ExplainedPair(own, _mean(fits), top.share, both, left, values))
     return sorted(found, key=lambda pair: -pair.evidence)
 
 
@@ -247,6 +257,7 @@ class _Fit(NamedTuple):
     share: float
     changes: Array
     deviations: Array
+    left: float
 
 
 def _compared(
@@ -260,7 +271,9 @@ def _compared(
     hypothesis, chosen = own[best], tops[best]
     change, deviation = (float(x[0]) * hypothesis.usual
                          for x in (chosen.changes, chosen.deviations))  # fmt: skip
-    return Explained(hypothesis.fault, _mean(fits), top.share, hypothesis, change, deviation)
+    return Explained(
+        hypothesis.fault, _mean(fits), top.share, hypothesis, change, deviation, top.left
+    )
 
 
 def _mean(fits: Sequence[_Fit]) -> float:
@@ -303,7 +316,7 @@ def _instead(hypothesis: Hypothesis, known: Array, told: Array, other: Array) ->
     size, others = (np.log(np.abs(np.diagonal(root)[:rest])).sum() for root in (before, after))
     evidence = 0.5 * (misfit - left) + float(size - others)
     share = 1.0 - left / misfit if misfit > 0 else 0.0
-    return Explained(hypothesis.fault, evidence, share, hypothesis, 1.0, 0.0)
+    return Explained(hypothesis.fault, evidence, share, hypothesis, 1.0, 0.0, left)
 
 
 def _either(ways: Sequence[Explained]) -> Explained:
@@ -335,7 +348,7 @@ def _scaled(left: Array, last: Array) -> list[_Fit]:
     share = 1.0 - rest / misfit if misfit > 0 else np.zeros(len(_SCALES))
     change = (ends * changes).sum(axis=1)
     deviation = np.sqrt(np.square(spread).sum(axis=1))
-    found = zip(evidence.tolist(), share.tolist(), change, deviation, strict=True)
+    found = zip(evidence.tolist(), share.tolist(), change, deviation, rest.tolist(), strict=True)
     return [_Fit(*numbers) for numbers in found]
 
 

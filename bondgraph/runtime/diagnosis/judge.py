@@ -29,6 +29,7 @@ from bondgraph.runtime.monitoring.verdict import Verdict
 
 _JUDGE = 5  # rows after an alarm before a fault is named
 _AGAIN = 5  # rows between later judgements
+_UNEXPLAINED = 10  # rows after an alarm before it is said that no single fault explains it
 
 
 class Judge:
@@ -50,8 +51,21 @@ class Judge:
         self._after = self._told = 0  # rows since the alarm, and until the last update
         self._pairs: Sequence[ExplainedPair] = ()
         self._due = 0  # rows since the alarm when pairs are looked for again
+        self._best: Explained | None = None  # the fault that explains all, if any
         self._leads: tuple[str, ...] = ()  # the class that the last judgement found best
         self._wanted: Judgement | None = None  # what the last judgement would have said
+
+    @property
+    def waits(self) -> bool:
+        """Whether a fault may be named that has not been yet, with a few rows more."""
+        said = self.latched is not None and self.latched.said is not None
+        return not said and self._after < _JUDGE + 2
+
+    def shown(self) -> Array | None:
+        """What the fault that explains all moves residuals by in the last row, if there is one."""
+        if self._best is None or not self._compared:
+            return None
+        return self._compared.moved(self._best)
 
     def learn(self, samples: Array) -> None:
         """Further (n, signals) samples, one after the other."""
@@ -83,6 +97,7 @@ class Judge:
         """Begin to compare faults behind the `healthy` samples, `own` of these of the first row."""
         model = self._model
         self._after = self._told = self._due = 0
+        self._best = None
         self._pairs, sizes = (), self._sizes.found()
         found = hypotheses(self._engine, model.faults, model.units, sizes, model.switches)
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
@@ -141,7 +156,11 @@ class Judge:
         if group and not sure and self.latched.said is None and self._after == _JUDGE:
             return None  # the next row may confirm it
         pairs: Sequence[ExplainedPair] = ()
-        if not explains(found):
+        if explains(found):
+            self._best = _larger(self._best, max(found, key=lambda e: e.evidence))
+        else:
+            if self._after < _UNEXPLAINED:
+                return None
             pairs = self._two_at_once(found, history, levels)
         doubles = model.doubles() if pairs else None
         verdict = update(time, self.latched.since, levels, sure, found, pairs, doubles)
@@ -163,3 +182,9 @@ class Judge:
             pairs = self._compared.pairs(history, found)
             self._pairs = pairs_left(pairs, self._model.faults, self._model.sees, fired)
         return self._pairs
+
+
+def _larger(before: Explained | None, now: Explained) -> Explained:
+    """The larger change of one fault: while it goes away, what is left of it becomes small."""
+    same = before is not None and before.hypothesis == now.hypothesis
+    return before if before and same and abs(before.change) > abs(now.change) else now

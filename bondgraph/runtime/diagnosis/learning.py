@@ -1,4 +1,4 @@
-"""The noise of residuals where nobody has tuned, from the first samples of a healthy machine."""
+"""The noise of residuals where nobody has tuned, from the rows of a machine that is well."""
 
 from __future__ import annotations
 
@@ -8,23 +8,28 @@ from typing import TypeAlias
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
+from bondgraph.runtime.diagnosis.noise import noise, within
 from bondgraph.runtime.diagnosis.rows import Part, Row
-from bondgraph.runtime.diagnosis.tuning import height, kappa
+from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.text.tuples import NamedTuple
 
-STEPS = 10  # differences of neighbouring rows that the noise of a residual is taken from
-_CAREFUL = 2.0  # times the deviation that they show: there are few of them
-_NORMAL = 1.4826  # deviation of normal numbers, over the median of their sizes
+FIRST = 10  # rows with which the noise of a residual counts as known
+_MORE = 1.15  # times as many rows before it is estimated again
+_MOST = 512  # rows, after which it stays as it is
+LATE = 5  # rows before an alarm that may have been faulty already
 _ACCURACY = 1e-4  # of the terms of a residual: no sensor and no sampled law is better
 _ABOVE = 1.2  # times the largest excess of what is healthy that a limit stays above
+_CAREFUL = 2.0  # times the deviation that steps show, where they are no noise
 _BIASED = 2.0  # the same, where it is no noise and may become more
 _HOPELESS = 1.2  # times what noise may do: an approximation that is that far off tells nothing
-_MANY = 4 * STEPS  # differences after which switches that are turned all the time are known
-_QUARTER = 1.1503  # size that a quarter of normal numbers exceed, over their deviation
-_ALARMS = 1.0  # false ones wanted per hour
+_NORMAL = 1.4826  # deviation of normal numbers, over the median of their sizes
+_MANY = 4 * FIRST  # rows after which switches that are turned all the time are known
+_OFF = 4.0  # deviations of a mean that is surely not zero
+_ALARMS = 0.1  # false ones wanted per hour: one is promised, and noise is not quite normal
 
 _Settings: TypeAlias = frozenset[tuple[float, ...]]  # positions of the switches of a residual
 
@@ -32,11 +37,16 @@ _Settings: TypeAlias = frozenset[tuple[float, ...]]  # positions of the switches
 class Learning:
     """Learns residual by residual: one that is valid late, or still at rest, is learned later.
 
-    Noise is what neighbouring rows differ by. It is not taken for less than a ten-thousandth of
-    what signals do to the residual: samples without noise, as of a simulation, are no reason to
-    trust their last digits. Of one that drifts or is an approximation, it is also where it has
-    come to: no sample can tell that from a machine that is well, and no sum of it tells anything.
-    Where an approximation is far off it is `hopeless`. A single sample that was far off is noise.
+    With the first rows a residual is watched, and its limits are as wide as few rows ask for; with
+    every further row of a healthy machine more is known (see `Noise`). Noise is what is left of a
+    residual once parameters within their tolerances are taken as they fit best. It is not taken for
+    less than a ten-thousandth of what signals do to the residual: samples without noise, as of a
+    simulation, are no reason to trust their last digits. Nor is it for less than what a single
+    sample of the first rows has shown.
+
+    A residual that drifts or is an approximation has no such noise. What neighbouring rows differ
+    by is, and where it has come to: no sample can tell that from a machine that is well, and no sum
+    of it tells anything. Where an approximation is far off it is `hopeless`.
 
     Noise is learned for each position of the switches that a residual reads: it comes from other
     readings then. Where they never rest for long, it is learned for all of them together.
@@ -52,47 +62,61 @@ class Learning:
         counted = {h.fault for h in known if h.unit == COUNT}  # exact, however far they have come
         self._gains = tuple(h for h in known if h.kind == "gain" and h.fault not in counted)
         self._engine = engine
-        self._steps: list[dict[_Settings, list[float]]] = [{} for _ in used]
-        self._all: list[list[tuple[float, _Settings]]] = [[] for _ in used]
+        self._rows: list[_Healthy] = []
+        self._counts = np.zeros(len(used), dtype=int)  # of healthy rows
         self._scale = np.zeros(len(used))
         natures = [model.natures[n] for n in engine.residuals]
         place = {k.path: at for at, k in enumerate(engine.signals)}
         self._modes = [[place[m] for m in n.modes] for n in natures]
         self._learned: list[_Settings] = [frozenset() for _ in used]
         self._met: list[_Settings] = [frozenset() for _ in used]  # that were told to be new
-        self._sigma = np.zeros(len(used))  # in all settings that were learned
-        self._peak = np.full(len(used), -math.inf)  # of this row, and of all that counted
-        self._highest = np.zeros(len(used))
+        self._peak = np.full((2, len(used)), -math.inf)  # of this row, to either side
+        self._highest = np.full((2, len(used)), -math.inf)  # of all that counted
         self._approximate = np.array([n.approximate for n in natures], dtype=bool)
         self._stays = self._approximate | np.array([n.drifts for n in natures], dtype=bool)
+        remembers = {r for m in model.memories for r in m.residuals}
+        alone = [not n.modes and r not in remembers
+                 for n, r in zip(natures, engine.residuals, strict=True)]  # fmt: skip
+        self._centred = ~self._stays & alone
         self.hopeless = np.zeros(len(used), dtype=bool)  # approximations that are too far off
-        self._wanted = used.copy()
+        self.off = np.zeros(len(used), dtype=bool)  # residuals that are surely not zero in the mean
+        self._used, self._wanted = used.copy(), used.copy()
+        self._sigma: list[dict[_Settings, float]] = [{} for _ in used]
+        self._due = np.full(len(used), FIRST)  # rows with which the noise is estimated again
         alarms = _ALARMS / 3600.0 / (2 * max(1, int(used.sum())))
         crossings = engine.bandwidth / 4.0
         rows = 1.0 / (rows_apart(engine) * engine.sample_time)
-        limit = kappa(crossings, alarms), height(rows, alarms)
-        self.limits = np.tile([math.inf, crossings, *limit], (len(used), 1))
+        limit = Limit(math.inf, crossings, kappa(crossings, alarms), height(rows, alarms))
+        self.limits = np.tile(np.array(limit, dtype=float), (len(used), 1))
         self.limits[self._stays, 3] = math.inf
+        values = [h for h in known if h.kind == "value"]
+        self._prior = tolerated(values, model)[1]
         self.restart()
 
     def restart(self) -> None:
         """The residuals begin anew."""
         self._bank = Bank(self._engine.configured(bounds=False), self._gains, {})
-        self._last = np.full(len(self._wanted), math.nan)
         self._now: list[_Settings] = [frozenset() for _ in self._wanted]  # in this row
         self._before: list[_Settings] = [frozenset() for _ in self._wanted]
         self._peak[:] = -math.inf
 
     @property
+    def first(self) -> bool:
+        """Whether some residual has a noise, or may have with other switches, that nobody knows."""
+        return bool(self._wanted.any()) or any(self._modes)
+
+    @property
     def over(self) -> bool:
         """Whether nothing is left to be learned, however the switches are turned."""
-        return not self._wanted.any() and not any(self._modes)
+        known = (self._due > _MOST) | ~self._used | self.hopeless
+        return bool(known.all()) and not any(self._modes)
 
     def known(self, limits: Array) -> None:
         """Take over limits that were learned before, in whatever positions of the switches."""
         self.limits = limits
         own = np.isfinite(limits[:, 0])
         self._wanted &= ~own
+        self._due[own] = _MOST + 1
         self._modes = [[] if o else m for m, o in zip(self._modes, own, strict=True)]
 
     def part(self, part: Part, healthy: bool) -> Mask:
@@ -100,8 +124,10 @@ class Learning:
 
         Returns the residuals whose noise has to be learned again, for switches as never before.
         """
-        excess = np.where(part.valid, np.abs(part.value) - part.bound, -math.inf)
-        self._peak = np.maximum(self._peak, excess.max(axis=0, initial=-math.inf))
+        mean = self.limits[:, 4]
+        for side, value in enumerate((part.value + mean, -part.value - mean)):
+            excess = np.where(part.valid, value - part.bound, -math.inf)
+            self._peak[side] = np.maximum(self._peak[side], excess.max(axis=0, initial=-math.inf))
         fresh = np.zeros(len(self._wanted), dtype=bool)
         for k in [k for k, m in enumerate(self._modes) if m]:
             now = _settings(part.samples[:, self._modes[k]])
@@ -113,51 +139,115 @@ class Learning:
             self._met[k] |= now
         return fresh
 
-    def row(self, row: Row, healthy: bool) -> Mask:
+    def alarm(self) -> None:
+        """Something is wrong now, and may have been for some rows."""
+        for row in self._rows[-LATE:]:
+            row.value[:] = math.nan
+
+    def row(self, row: Row, slopes: Array, healthy: bool) -> Mask:
         """One row more, which counts if the machine is `healthy`.
 
-        Returns the residuals whose noise is known with it.
+        `slopes` are those of the parameters with a tolerance, (parameters, residuals). Returns the
+        residuals whose noise is known with it.
         """
         valid = row.valid & healthy
+        if (self._counts < _MANY).any():
+            sizes = np.abs(self._bank.run(row.samples)[-1]).max(axis=0, initial=0.0)
+            self._scale = np.maximum(self._scale, np.where(valid, sizes, 0.0))
+        first = np.where(valid & self._wanted, self._peak, -math.inf)
+        self._highest = np.maximum(self._highest, first)
+        settings = [now | before for now, before in zip(self._now, self._before, strict=True)]
+        raw = np.where(valid, row.value + self.limits[:, 4], math.nan)
+        self._rows = [*self._rows, _Healthy(raw, slopes, settings)][-_MOST:]
+        self._counts += valid
         fresh = np.zeros_like(valid)
-        sizes = np.abs(self._bank.run(row.samples)[-1]).max(axis=0, initial=0.0)
-        value = np.where(valid, row.value, math.nan)
-        step, self._last = np.abs(value - self._last) / math.sqrt(2.0), value
-        self._highest = np.maximum(self._highest, np.where(valid, self._peak, 0.0))
-        for k in np.flatnonzero(self._wanted).tolist():
-            both = self._now[k] | self._before[k]
-            if self._learned[k] and both <= self._learned[k]:  # back to what is known
-                self._wanted[k], self.limits[k, 0] = False, self._sigma[k]
-            elif np.isfinite(step[k]) and self._stepped(k, both, float(step[k]), sizes[k]):
-                fresh[k] = True
+        rest: tuple[Array, Array] | None = None
+        for k in np.flatnonzero(valid & self._used & ~self.hopeless).tolist():
+            if self._wanted[k] and self._sigma[k] and settings[k] <= self._learned[k]:
+                self._wanted[k] = False  # back to what is known
+                self.limits[k, 0] = max(self._sigma[k].values())
+            if self._wanted[k] or self._counts[k] >= self._due[k]:
+                rest = rest or self._rest()
+                fresh[k] = self._estimated(k, settings[k], *rest)
         self._peak[:] = -math.inf
         self._now, self._before = [frozenset() for _ in self._now], self._now
         return fresh
 
-    def _stepped(self, k: int, setting: _Settings, step: float, size: float) -> bool:
-        """One step more of a residual; whether its noise is known by that."""
-        self._scale[k] = max(self._scale[k], size)
-        steps = [*self._steps[k].get(setting, []), step][-STEPS:]
-        self._steps[k][setting] = steps
-        self._all[k] = [*self._all[k], (step, setting)][-_MANY:]
-        spread = _NORMAL * float(np.median(steps))
-        if len(steps) < STEPS:
-            if len(self._all[k]) < _MANY:
-                return False
-            spread = float(np.quantile([s for s, _ in self._all[k]], 0.75)) / _QUARTER
-            setting = frozenset().union(*[own for _, own in self._all[k]])
-        above = _BIASED if self._stays[k] else _ABOVE
-        noise = max(_CAREFUL * spread, _ACCURACY * float(self._scale[k]))
-        highest = float(self._highest[k] / self.limits[k, 2])
-        if self._approximate[k] and highest > _HOPELESS * noise:
+    def _rest(self) -> tuple[Array, Array]:
+        """What is left of the rows with parameters as they fit best, (rows, residuals).
+
+        With it the degrees of freedom that this has cost each residual.
+        """
+        value = np.array([one.value for one in self._rows])
+        count = len(self._prior)
+        if not count:
+            return value, np.zeros(value.shape[1])
+        slopes = np.array([one.slopes for one in self._rows]).transpose(0, 2, 1) * self._prior
+        weight = np.where(np.isfinite(value), self._weight(value), 0.0)
+        rest, owed = value, np.zeros(value.shape[1])
+        for _ in range(2):  # the second time without rows that are far out
+            wanted = np.where(weight > 0, value * weight, 0.0).reshape(-1)
+            table = (slopes * weight[:, :, None]).reshape(-1, count)
+            basis, root = np.linalg.qr(np.vstack([table, np.eye(count)]))
+            found = np.linalg.solve(root, basis[:-count].T @ wanted)
+            owed = np.square(basis[:-count]).sum(axis=1).reshape(value.shape).sum(axis=0)
+            rest = value - slopes @ found
+            weight = weight * within(rest)
+        return rest, owed
+
+    def _weight(self, value: Array) -> Array:
+        """One over what residuals may be off by, from what neighbouring rows differ by."""
+        found = np.zeros(value.shape[1])
+        for k, column in enumerate(value.T):
+            size = max(_stepped(column), _ACCURACY * float(self._scale[k]))
+            found[k] = 1.0 / size if size > 0 else 0.0
+        return found
+
+    def _estimated(self, k: int, setting: _Settings, rest: Array, owed: Array) -> bool:
+        """Whether the noise of a residual, that was not known in this setting, is known now."""
+        every = np.array([one.settings[k] == setting for one in self._rows])
+        values = np.where(every, rest[:, k], math.nan)
+        whole = setting
+        if self._wanted[k] and self._counts[k] >= _MANY and np.isfinite(values).sum() < FIRST:
+            values, whole = rest[:, k], frozenset().union(*[one.settings[k] for one in self._rows])
+        if np.isfinite(values).sum() < FIRST:
+            return False
+        found = noise(values, float(owed[k]), bool(self._centred[k]))
+        kappa = float(self.limits[k, 2])
+        spread = _CAREFUL * _stepped(values) if self._stays[k] else found.foreseen(kappa)
+        least = max(spread, _ACCURACY * float(self._scale[k]))
+        top, bottom = self._highest[:, k].tolist()
+        highest = max(top - found.mean, bottom + found.mean, 0.0) / kappa
+        if self._approximate[k] and highest > _HOPELESS * least:
             self.hopeless[k], self._wanted[k] = True, False
             return False
-        sigma = max(noise, above * highest, float(self._sigma[k]))
+        sigma = max(least, (_BIASED if self._stays[k] else _ABOVE) * highest)
         if not 0.0 < sigma < math.inf:
             return False
-        self.limits[k, 0] = self._sigma[k] = sigma
-        self._wanted[k], self._learned[k] = False, self._learned[k] | setting
-        return True
+        self._sigma[k][whole] = sigma
+        self._learned[k] |= whole
+        unknown, self._wanted[k] = bool(self._wanted[k]), False
+        self._due[k] = _MOST + 1 if self._stays[k] else math.ceil(_MORE * self._counts[k])
+        deviation = found.sigma * math.sqrt(found.memory / found.rows)
+        self.off[k] = abs(found.mean) > max(_OFF * deviation, found.sigma)
+        self.limits[k, 0] = max(self._sigma[k].values())
+        self.limits[k, 4:] = found.mean, found.memory
+        return unknown
+
+
+class _Healthy(NamedTuple):
+    """A row: residuals, NaN where they do not count, and slopes by the tolerated parameters."""
+
+    value: Array
+    slopes: Array
+    settings: list[_Settings]
+
+
+def _stepped(values: Array) -> float:
+    """The deviation of white noise whose neighbours differ as these do, in the median."""
+    steps = np.abs(np.diff(values))
+    steps = steps[np.isfinite(steps)]
+    return _NORMAL * float(np.median(steps)) / math.sqrt(2.0) if len(steps) else 0.0
 
 
 def _settings(modes: Array) -> _Settings:

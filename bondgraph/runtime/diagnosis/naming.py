@@ -9,6 +9,7 @@ from typing import Any
 from bondgraph.ir.signature_matrix import DoubleFaults
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, probabilities
+from bondgraph.runtime.diagnosis.rows import CORRELATED
 from bondgraph.runtime.monitoring.verdict import (
     Candidate,
     Pair,
@@ -23,6 +24,8 @@ _SURE = 0.75  # probability from which on a class is named
 _ELSE = 0.5  # of the most probable fault of a class: what none outside may be above
 _SHOWN = 0.02  # probability from which on a candidate is worth telling
 _EXPLAINS = 0.7  # share of the misfit that a single fault has to take away
+_LEVEL = 1e-3  # probability of what noise may leave over
+_LARGER = 2.0  # times the deviation that noise is taken for, that it may have
 _AGAIN = 5  # rows between an update and the next, twice as many each time
 LONGEST = 320  # rows that anything said again has to wait
 
@@ -170,14 +173,27 @@ def pairs_left(
         each = [Explained(h.fault, 0.0, 1.0, h, change, 0.0)
                 for h, change in zip(pair.hypotheses, pair.changes, strict=True)]  # fmt: skip
         can = all(possible(e, faults.get(e.fault)).evidence == 0.0 for e in each)
-        if can and pair.share >= _EXPLAINS and not any(own.isdisjoint(s) for s in seen):
+        if can and fits(pair) and not any(own.isdisjoint(s) for s in seen):
             left.append(pair)
     return left
 
 
 def explains(found: Sequence[Explained]) -> bool:
-    """Whether a single fault explains what was seen."""
-    return bool(found) and _best(found).share >= _EXPLAINS
+    """Whether a single fault explains what was seen, of all residuals."""
+    return bool(found) and fits(_best(found))
+
+
+def fits(one: Explained | ExplainedPair) -> bool:
+    """Whether what is left over may be noise: a test of fit over all residuals (Pearson, 1900).
+
+    Noise may be twice as large as it is taken for, and such that it is exceeded once in a thousand;
+    neighbouring values share some of it. A fault that takes away little explains nothing.
+    """
+    from scipy.special import chdtri
+
+    independent = max(one.values / CORRELATED, 1.0)
+    most = _LARGER**2 / CORRELATED * float(chdtri(independent, _LEVEL)) / independent
+    return one.share >= _EXPLAINS and one.left <= most
 
 
 def update(

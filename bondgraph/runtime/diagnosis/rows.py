@@ -14,7 +14,7 @@ from bondgraph.text.tuples import NamedTuple
 _MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is off by
 _SLOPE_ERROR = 0.05  # of the residual: what its sensitivities are off by
 _DOUBTED = 0.5  # of the doubt: its deviation
-_CORRELATED = 2.0  # variance of the mean of rows, to that of independent ones
+CORRELATED = 2.0  # variance of the mean of rows, to that of independent ones
 
 
 class Part(NamedTuple):
@@ -51,7 +51,7 @@ def together(parts: Sequence[Batch], residuals: int) -> Batch:
 
 def weight(row: Row, sigma: Array) -> Array:
     """One over the variance of its residuals, by what is known of their noise (deviation sigma)."""
-    sigma = math.sqrt(_CORRELATED) * sigma
+    sigma = math.sqrt(CORRELATED) * sigma
     with np.errstate(over="ignore"):  # what is that large has no weight
         variance = sigma**2 + (_MODEL_ERROR * row.bound) ** 2 + (_SLOPE_ERROR * row.value) ** 2
         variance += (_DOUBTED * row.doubt) ** 2

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from bondgraph.runtime.diagnosis.hypotheses import rows_apart
-from bondgraph.runtime.diagnosis.learning import STEPS
+from bondgraph.runtime.diagnosis.learning import FIRST, Learning
 from bondgraph.runtime.diagnosis.origins import Origins
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
@@ -99,10 +99,17 @@ class WatchStatus:
             out.append(Verdict("warm-up", time, message=message))
         self._waits = (self._waits & waiting) | lost
 
-    def learned(self, time: float, fresh: Mask, hopeless: Mask, out: list[Verdict]) -> None:
+    def learned(self, time: float, fresh: Mask, found: Learning, out: list[Verdict]) -> None:
         """At the end of a row: the noise of `fresh` residuals is known now, or is no noise."""
         if fresh.any():
-            out.append(Verdict("warm-up", time, message=self._watched(fresh)))
+            message = self._watched(fresh)
+            off = fresh & found.off
+            if off.any():
+                verb = "does" if off.sum() == 1 else "do"
+                message += f"; {self.names(off)} {verb} not stand at zero: parameters are others"
+                message += " (bondgraph fit), or a fault was there from the start"
+            out.append(Verdict("warm-up", time, message=message))
+        hopeless = found.hopeless
         lost = hopeless & ~self._hopeless
         if lost.any():
             verb = "is" if lost.sum() == 1 else "are"
@@ -123,7 +130,7 @@ class WatchStatus:
     def _learning(self, at: float, of: Mask) -> str:
         """When enough rows will have been seen, if the machine moves."""
         every = rows_apart(self._engine)
-        rows = math.ceil((round(at / self._engine.sample_time) + 1) / every) + STEPS
+        rows = math.ceil((round(at / self._engine.sample_time) + 1) / every) + FIRST - 1
         until = (rows * every - 1) * self._engine.sample_time
         noise = f"the noise of {self.names(of)} is learned until {until:.3f} s at least"
         return f"{noise}, and no alarm given before"

@@ -10,20 +10,25 @@ from typing import Any
 from bondgraph.text.tuples import NamedTuple
 
 EDITION = 1
+_SLOWER = (50, 30, 20, 12, 8, 5, 4)  # times slower than the samples that a filter may be, rad
+_ENOUGH = 75  # rows, of three time constants, that a log should have
 
 
 class Limit(NamedTuple):
-    """Of one residual, in its own unit: noise `sigma`, and how often a second it crosses zero
-    upwards (`crossings`).
+    """Of one residual, in its own unit: noise `sigma` about its `mean`, and how often a second it
+    crosses that upwards (`crossings`).
 
-    It fires where max(0, |r| - a) is above `kappa` sigma, or where the sum of what it is above
-    (CUSUM of rows, in sigma, less a drift of one half) is above `height`.
+    It fires where max(0, |r - mean| - a) is above `kappa` sigma, or where the sum of what it is
+    above (CUSUM of rows, less a drift of one half) is above `height`. Sums count in deviations of
+    noise that adds up: the variance of a sum of n rows is n sigma^2 times their `memory`.
     """
 
     sigma: float
     crossings: float
     kappa: float
     height: float
+    mean: float = 0.0
+    memory: float = 1.0
 
 
 class Tuning(NamedTuple):
@@ -62,7 +67,10 @@ class Tuning(NamedTuple):
             if record["bondgraph tuning"] != EDITION:
                 raise ValueError(f"edition {record['bondgraph tuning']} is not known here")
             limits = {
-                str(name): Limit(*[float(limit[key]) for key in Limit._fields])
+                str(name): Limit(
+                    *[float(limit[key]) for key in Limit._fields[:4]],
+                    *[float(limit.get(key, x)) for key, x in Limit._field_defaults.items()],
+                )
                 for name, limit in record["limits"].items()
             }
             return cls(
@@ -85,6 +93,22 @@ _NEVER = Limit(math.inf, 1.0, 1.0, math.inf)
 def limits(tuning: Tuning, names: Sequence[str]) -> list[Limit]:
     """Those of residuals by name; one that the tuning does not know never fires."""
     return [tuning.limits.get(name, _NEVER) for name in names]
+
+
+def bandwidth_for(rate: float, samples: float | None = None) -> float:
+    """The bandwidth (rad/s) of the filter for a log of so many samples, of an hour if none is told.
+
+    A fiftieth of the rate makes the filter slow beside the samples. Where that would leave too few
+    rows to learn from and to watch by, it is faster: as much as a log of this length needs, and no
+    faster than a few samples can follow.
+
+    >>> bandwidth_for(1000.0), bandwidth_for(1.0)
+    (20.0, 0.08333333333333333)
+    >>> bandwidth_for(1.0, 1200)
+    0.2
+    """
+    rows = 3.6e3 * rate / 3.0 if samples is None else samples / 3.0  # with the rate as bandwidth
+    return rate / next((n for n in _SLOWER if rows / n >= _ENOUGH), _SLOWER[-1])
 
 
 def kappa(crossings: float, alarms: float) -> float:

@@ -77,6 +77,10 @@ class Source(ABC):
         """Samples a second, where that can be known before the first one is taken."""
         return None
 
+    def samples(self) -> float | None:
+        """About how many samples there will be, where that can be known before the first one."""
+        return None
+
     def time(self) -> str:
         """What is taken for the time, where that is known before the first sample; else ""."""
         return ""

@@ -13,7 +13,7 @@ from bondgraph.runtime.diagnosis.rows import Part, Row
 from bondgraph.runtime.log import Array
 
 #: Noise 1, a level of 4 sigma for samples, a sum of 3 for rows; of two residuals.
-_LIMITS = np.array([[1.0, 10.0, 4.0, 3.0]] * 2)
+_LIMITS = np.array([[1.0, 10.0, 4.0, 3.0, 0.0, 1.0]] * 2)
 
 
 def _part(value: Array) -> Part:
@@ -70,20 +70,58 @@ def test_a_little_for_many_rows_fires_to_either_side() -> None:
     assert not any(noise.row(_row(0.5, -0.5), _LIMITS).any() for _ in range(1000))
 
 
-def test_a_fault_is_over_after_twice_as_many_quiet_rows_each_time() -> None:
+def _alarm(detection: Detection, size: float, rows: int = 6) -> None:
+    assert detection.latch(np.array([True, False]))
+    assert not detection.latch(np.array([False, True])), "the same alarm"
+    assert not any(detection.over(_row(size, size), _LIMITS) for _ in range(rows))
+
+
+def _quiet(detection: Detection, value: float = 0.0, shown: Array | None = None) -> int:
+    """Rows after which it is over."""
+    for rows in range(1, 200):
+        if detection.over(_row(value, value), _LIMITS, shown):
+            detection.clear()
+            assert not detection.alarmed and detection.levels() == {}
+            return rows
+    return 200
+
+
+def test_a_large_fault_is_over_with_the_first_quiet_row_and_a_small_one_later() -> None:
+    rows = {}
+    for size in (20.0, 4.0, 1.5):
+        detection = Detection(["r1", "r2"], 3)
+        _alarm(detection, size)
+        assert not any(detection.over(_row(0.0, 0.0, valid=(False, True)), _LIMITS)
+                       for _ in range(30)), "what cannot be seen tells nothing"  # fmt: skip
+        rows[size] = _quiet(detection, 0.3)
+    assert rows[20.0] == 1
+    assert rows[20.0] <= rows[4.0] < rows[1.5] <= 25
+
+
+def test_what_comes_back_soon_has_to_be_away_for_longer_the_next_time() -> None:
     detection = Detection(["r1", "r2"], 3)
-    for alarm in range(3):
-        assert detection.latch(np.array([True, False]))
-        assert not detection.latch(np.array([False, True])), "the same alarm"
-        assert not detection.over(_row(9.0, 0.0), _LIMITS)
-        unseen = _row(0.0, 0.0, valid=(False, True))
-        assert not any(detection.over(unseen, _LIMITS) for _ in range(99)), "cannot be seen"
-        quiet = 1
-        while not detection.over(_row(0.0, 0.0), _LIMITS):
-            quiet += 1
-        assert quiet == 10 * 2**alarm
-        detection.clear()
-        assert not detection.alarmed and detection.levels() == {}
+    needed = []
+    for _ in range(4):
+        _alarm(detection, 20.0)
+        needed.append(_quiet(detection))
+        for _ in range(3):  # away for three rows more
+            detection.suspects(_row(0.0, 0.0), _LIMITS)
+    assert needed[0] == 1 and needed == sorted(needed) and needed[1] >= 8
+    for _ in range(40):
+        detection.suspects(_row(0.0, 0.0), _LIMITS)
+    _alarm(detection, 20.0)
+    assert _quiet(detection) == 1, "away for long: another fault"
+
+
+def test_rows_in_which_the_fault_would_not_show_do_not_tell_that_it_is_over() -> None:
+    detection = Detection(["r1", "r2"], 3)
+    _alarm(detection, 20.0)
+    unmoved, moved = np.array([0.2, 0.2]), np.array([15.0, 15.0])
+    assert not any(detection.over(_row(0.0, 0.0), _LIMITS, unmoved) for _ in range(10))
+    assert detection.over(_row(0.0, 0.0), _LIMITS, moved)
+    other = Detection(["r1", "r2"], 3)
+    _alarm(other, 20.0)
+    assert 20 < _quiet(other, shown=unmoved) < 60, "but it does not last for ever"
 
 
 def test_a_state_goes_through_json_and_another_kind_is_refused() -> None:

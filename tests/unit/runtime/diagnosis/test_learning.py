@@ -9,7 +9,7 @@ import pytest
 
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.diagnosis.learning import STEPS, Learning
+from bondgraph.runtime.diagnosis.learning import FIRST, LATE, Learning
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.text.source import Source
@@ -36,43 +36,82 @@ def row(engine: Engine, value: float, valid: bool = True) -> Row:
     return Row(0.0, samples, engine, *ends)
 
 
-def test_the_noise_is_known_after_ten_steps_and_is_twice_what_they_show() -> None:
+def told(learning: Learning, one: Row, healthy: bool = True) -> bool:
+    """Whether the noise is known with this row, that no parameter moves."""
+    one = one._replace(value=one.value - learning.limits[:, 4])  # as the watch has it
+    return bool(learning.row(one, np.zeros((0, 1)), healthy)[0])
+
+
+def drawn(count: int, sigma: float = 1.0) -> list[float]:
+    return [float(x) for x in sigma * np.random.default_rng(7).standard_normal(count)]
+
+
+def test_the_noise_is_known_after_ten_rows_and_better_with_every_further_one() -> None:
     learning, engine = learner()
-    values = [0.0, 1.0, 3.0, 6.0, 10.0, 15.0, 21.0, 28.0, 36.0, 45.0, 55.0]  # steps of 1 to 10
-    told = [bool(learning.row(row(engine, v), True)[0]) for v in values]
-    assert told == [False] * STEPS + [True]
-    # steps of two independent numbers are sqrt(2) larger; half of normal numbers are below 0.6745
-    median = 5.5 / math.sqrt(2.0)
-    assert learning.limits[0, 0] == pytest.approx(2.0 * median / 0.6745, rel=1e-3)
+    values = drawn(1000)
+    known = [told(learning, row(engine, v)) for v in values[:FIRST]]
+    assert known == [False] * (FIRST - 1) + [True]
+    first = float(learning.limits[0, 0])
+    own = float(np.std(values[:FIRST]))
+    assert 1.5 * own < first < 6.0 * own, "few rows: Student's t for a level of five deviations"
+    for v in values[FIRST:]:
+        assert not told(learning, row(engine, v)), "news only once"
+    # white rows of a filter: deviation 1 and hardly more for the mean and the deviation
+    assert learning.limits[0, 0] == pytest.approx(1.0, rel=0.12)
+    assert abs(float(learning.limits[0, 4])) < 0.2
     assert learning.over
 
 
-def test_rows_that_do_not_count_are_no_neighbours() -> None:
+def test_rows_that_do_not_count_teach_nothing() -> None:
     learning, engine = learner()
-    for value in (0.0, 1.0, 0.0, 1.0, 0.0, 1.0):
-        assert not learning.row(row(engine, value), True)[0]  # five steps
-    assert not learning.row(row(engine, 1e6), False)[0]
-    assert not learning.row(row(engine, 1e6, valid=False), True)[0]
-    for value in (0.0, 1.0, 0.0, 1.0, 0.0):
-        assert not learning.row(row(engine, value), True)[0]  # four more
-    assert learning.row(row(engine, 1.0), True)[0]
-    assert learning.limits[0, 0] == pytest.approx(2.0 / math.sqrt(2.0) / 0.6745, rel=1e-3)
+    values = drawn(FIRST)
+    for value in values[:5]:
+        assert not told(learning, row(engine, value))
+    assert not told(learning, row(engine, 1e6), healthy=False)
+    assert not told(learning, row(engine, 1e6, valid=False))
+    assert [told(learning, row(engine, value)) for value in values[5:]] == [*[False] * 4, True]
+    assert learning.limits[0, 0] < 10.0
+
+
+def test_rows_before_an_alarm_are_forgotten() -> None:
+    wise, engine = learner()
+    hasty, _ = learner()
+    for value in drawn(200):
+        told(wise, row(engine, value))
+        told(hasty, row(engine, value))
+    for learning in (wise, hasty):
+        for _ in range(LATE):
+            told(learning, row(engine, 4.0))
+    wise.alarm()
+    for value in drawn(100):
+        told(wise, row(engine, value))
+        told(hasty, row(engine, value))
+    assert wise.limits[0, 0] < hasty.limits[0, 0]
+    assert wise.limits[0, 0] == pytest.approx(1.0, rel=0.2)
+
+
+def test_a_residual_that_does_not_stand_at_zero_is_told_and_watched_where_it_stands() -> None:
+    learning, engine = learner()
+    for value in drawn(100):
+        told(learning, row(engine, 5.0 + value))
+        assert learning.limits[0, 0] == math.inf or learning.off[0]
+    assert learning.limits[0, 4] == pytest.approx(5.0, abs=0.4)
+    assert learning.limits[0, 0] == pytest.approx(1.0, rel=0.3)
 
 
 def test_a_residual_that_does_not_move_at_all_has_no_noise_yet() -> None:
     learning, engine = learner()
-    for _ in range(2 * STEPS):
-        assert not learning.row(row(engine, 0.0), True)[0]
+    for _ in range(2 * FIRST):
+        assert not told(learning, row(engine, 0.0))
     assert learning.limits[0, 0] == math.inf
-    values = [float(k % 2) for k in range(STEPS + 1)]  # and then it does
-    assert any(learning.row(row(engine, v), True)[0] for v in values)
-    assert 0.0 < learning.limits[0, 0] < 2.0
+    assert any(told(learning, row(engine, v)) for v in drawn(FIRST))  # and then it does
+    assert 0.0 < learning.limits[0, 0] < 10.0
 
 
 def test_no_sensor_is_better_than_a_ten_thousandth_of_what_it_does() -> None:
     learning, engine = learner(Hypothesis("i", "gain", "", 0.3, False))
-    for _ in range(STEPS):
-        learning.row(row(engine, 0.5), True)
-    assert learning.row(row(engine, 0.5), True)[0]
-    # R i is 6 V behind a filter that has long settled after eleven rows of a tenth of a second
+    for _ in range(FIRST - 1):
+        told(learning, row(engine, 0.5))
+    assert told(learning, row(engine, 0.5))
+    # R i is 6 V behind a filter that has long settled after ten rows of a tenth of a second
     assert learning.limits[0, 0] == pytest.approx(6e-4, rel=1e-3)

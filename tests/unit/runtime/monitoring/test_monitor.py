@@ -27,7 +27,8 @@ WARM = ("warm-up", "warm-up")  # filters have settled, noise has been learned
 
 def monitored(capsys: pytest.CaptureFixture[str], *words: str) -> list[dict[str, object]]:
     """What the monitor says in this process."""
-    assert main(["monitor", MOTOR, "--json", *words]) == 0
+    own = () if "--bandwidth" in words else ("--bandwidth", "20")  # as of a stream of an hour
+    assert main(["monitor", MOTOR, "--json", *own, *words]) == 0
     lines = capsys.readouterr().out.splitlines()
     return [from_json(line)[1]._asdict() for line in lines]
 
@@ -62,7 +63,7 @@ def test_a_friction_fault_is_found_and_told_from_electrical_ones(
 
 
 def test_text_is_one_line_for_each_verdict(logs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["monitor", MOTOR, str(logs / "motor.csv")]) == 0
+    assert main(["monitor", MOTOR, str(logs / "motor.csv"), "--bandwidth", "20"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 6
     assert "Motor: 2 residuals" in lines[0]
