@@ -34,14 +34,13 @@ class Explained(NamedTuple):
     """How well one fault explains what was seen.
 
     `evidence` is the logarithm of how much more probable it makes that than a healthy machine
-    does, `share` how much of the healthy machine's misfit (in squares) it takes away. `change` is
-    that of the one of its hypotheses that explains most by itself, at the end, with its deviation.
-    `left` is what is left of the misfit, for each of the `values` that were compared.
+    does. `change` is that of the one of its hypotheses that explains most by itself, at the end,
+    with its deviation. `left` is what is left of the misfit (in squares of the noise), for each of
+    the `values` that were compared.
     """
 
     fault: str
     evidence: float
-    share: float
     hypothesis: Hypothesis
     change: float
     deviation: float
@@ -54,7 +53,6 @@ class ExplainedPair(NamedTuple):
 
     hypotheses: tuple[Hypothesis, Hypothesis]
     evidence: float
-    share: float
     changes: tuple[float, float]
     left: float = 0.0
     values: int = 1
@@ -217,7 +215,7 @@ def explain_pairs(
             sizes = (top.changes * [h.usual for h in own]).tolist()
             left = top.left / values
             both = sizes[0], sizes[1]
-            found.append(ExplainedPair(own, _mean(fits), top.share, both, left, values))
+            found.append(ExplainedPair(own, _mean(fits), both, left, values))
     return sorted(found, key=lambda pair: -pair.evidence)
 
 
@@ -254,7 +252,6 @@ class _Fit(NamedTuple):
     """
 
     evidence: float
-    share: float
     changes: Array
     deviations: Array
     left: float
@@ -271,9 +268,7 @@ def _compared(
     hypothesis, chosen = own[best], tops[best]
     change, deviation = (float(x[0]) * hypothesis.usual
                          for x in (chosen.changes, chosen.deviations))  # fmt: skip
-    return Explained(
-        hypothesis.fault, _mean(fits), top.share, hypothesis, change, deviation, top.left
-    )
+    return Explained(hypothesis.fault, _mean(fits), hypothesis, change, deviation, top.left)
 
 
 def _mean(fits: Sequence[_Fit]) -> float:
@@ -315,8 +310,7 @@ def _instead(hypothesis: Hypothesis, known: Array, told: Array, other: Array) ->
     misfit, left = (float(np.square(root[rest:, rest]).sum()) for root in (before, after))
     size, others = (np.log(np.abs(np.diagonal(root)[:rest])).sum() for root in (before, after))
     evidence = 0.5 * (misfit - left) + float(size - others)
-    share = 1.0 - left / misfit if misfit > 0 else 0.0
-    return Explained(hypothesis.fault, evidence, share, hypothesis, 1.0, 0.0, left)
+    return Explained(hypothesis.fault, evidence, hypothesis, 1.0, 0.0, left)
 
 
 def _either(ways: Sequence[Explained]) -> Explained:
@@ -342,13 +336,11 @@ def _scaled(left: Array, last: Array) -> list[_Fit]:
     ends = scales * last.T
     spread = np.linalg.solve(root.transpose(0, 2, 1), ends)
     size = np.abs(np.diagonal(root, axis1=1, axis2=2))
-    misfit = float(np.square(left[:, -1]).sum())
     rest = np.square(seen - moved @ changes).sum(axis=(1, 2))
     evidence = 0.5 * np.square(part).sum(axis=(1, 2)) - np.log(size).sum(axis=1)
-    share = 1.0 - rest / misfit if misfit > 0 else np.zeros(len(_SCALES))
     change = (ends * changes).sum(axis=1)
     deviation = np.sqrt(np.square(spread).sum(axis=1))
-    found = zip(evidence.tolist(), share.tolist(), change, deviation, rest.tolist(), strict=True)
+    found = zip(evidence.tolist(), change, deviation, rest.tolist(), strict=True)
     return [_Fit(*numbers) for numbers in found]
 
 

@@ -29,7 +29,7 @@ from bondgraph.runtime.monitoring.verdict import Verdict
 
 _JUDGE = 5  # rows after an alarm before a fault is named
 _AGAIN = 5  # rows between later judgements
-_UNEXPLAINED = 10  # rows after an alarm before it is said that no single fault explains it
+_UNEXPLAINED = 20  # rows of an alarm that no single fault explains: the first are not sure
 
 
 class Judge:

@@ -10,8 +10,8 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
-from bondgraph.runtime.diagnosis.noise import noise, within
-from bondgraph.runtime.diagnosis.rows import Part, Row
+from bondgraph.runtime.diagnosis.noise import noise, uncovered, within
+from bondgraph.runtime.diagnosis.rows import Part, Row, variances
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
@@ -158,7 +158,7 @@ class Learning:
         self._highest = np.maximum(self._highest, first)
         settings = [now | before for now, before in zip(self._now, self._before, strict=True)]
         raw = np.where(valid, row.value + self.limits[:, 4], math.nan)
-        self._rows = [*self._rows, _Healthy(raw, slopes, settings)][-_MOST:]
+        self._rows = [*self._rows, _Healthy(raw, row.bound, slopes, settings)][-_MOST:]
         self._counts += valid
         fresh = np.zeros_like(valid)
         rest: tuple[Array, Array] | None = None
@@ -179,11 +179,12 @@ class Learning:
         With it the degrees of freedom that this has cost each residual.
         """
         value = np.array([one.value for one in self._rows])
+        bound = np.array([one.bound for one in self._rows])
         count = len(self._prior)
         if not count:
-            return value, np.zeros(value.shape[1])
+            return uncovered(value, bound), np.zeros(value.shape[1])
         slopes = np.array([one.slopes for one in self._rows]).transpose(0, 2, 1) * self._prior
-        weight = np.where(np.isfinite(value), self._weight(value), 0.0)
+        weight = np.where(np.isfinite(value), self._weight(value, bound), 0.0)
         rest, owed = value, np.zeros(value.shape[1])
         for _ in range(2):  # the second time without rows that are far out
             wanted = np.where(weight > 0, value * weight, 0.0).reshape(-1)
@@ -193,15 +194,14 @@ class Learning:
             owed = np.square(basis[:-count]).sum(axis=1).reshape(value.shape).sum(axis=0)
             rest = value - slopes @ found
             weight = weight * within(rest)
-        return rest, owed
+        return uncovered(rest, bound), owed
 
-    def _weight(self, value: Array) -> Array:
-        """One over what residuals may be off by, from what neighbouring rows differ by."""
-        found = np.zeros(value.shape[1])
-        for k, column in enumerate(value.T):
-            size = max(_stepped(column), _ACCURACY * float(self._scale[k]))
-            found[k] = 1.0 / size if size > 0 else 0.0
-        return found
+    def _weight(self, value: Array, bound: Array) -> Array:
+        """One over what residuals may be off by, noise from what neighbouring rows differ by."""
+        sigma = np.array([_stepped(column) for column in value.T])
+        sigma = np.maximum(sigma, _ACCURACY * self._scale)
+        variance = variances(np.nan_to_num(value), bound, sigma)
+        return np.where(variance > 0, 1.0 / np.sqrt(np.maximum(variance, 1e-300)), 0.0)
 
     def _estimated(self, k: int, setting: _Settings, rest: Array, owed: Array) -> bool:
         """Whether the noise of a residual, that was not known in this setting, is known now."""
@@ -236,9 +236,10 @@ class Learning:
 
 
 class _Healthy(NamedTuple):
-    """A row: residuals, NaN where they do not count, and slopes by the tolerated parameters."""
+    """A row: residuals, NaN where they do not count, thresholds, slopes by what is tolerated."""
 
     value: Array
+    bound: Array
     slopes: Array
     settings: list[_Settings]
 

@@ -23,7 +23,7 @@ from bondgraph.text.tuples import NamedTuple
 _SURE = 0.75  # probability from which on a class is named
 _ELSE = 0.5  # of the most probable fault of a class: what none outside may be above
 _SHOWN = 0.02  # probability from which on a candidate is worth telling
-_EXPLAINS = 0.7  # share of the misfit that a single fault has to take away
+_EXPLAINS = 3.0  # logarithm of how much more probable a fault has to make what was seen
 _LEVEL = 1e-3  # probability of what noise may leave over
 _LARGER = 2.0  # times the deviation that noise is taken for, that it may have
 _AGAIN = 5  # rows between an update and the next, twice as many each time
@@ -170,7 +170,7 @@ def pairs_left(
     left = []
     for pair in found:
         own = {h.fault for h in pair.hypotheses}
-        each = [Explained(h.fault, 0.0, 1.0, h, change, 0.0)
+        each = [Explained(h.fault, 0.0, h, change, 0.0)
                 for h, change in zip(pair.hypotheses, pair.changes, strict=True)]  # fmt: skip
         can = all(possible(e, faults.get(e.fault)).evidence == 0.0 for e in each)
         if can and fits(pair) and not any(own.isdisjoint(s) for s in seen):
@@ -187,13 +187,14 @@ def fits(one: Explained | ExplainedPair) -> bool:
     """Whether what is left over may be noise: a test of fit over all residuals (Pearson, 1900).
 
     Noise may be twice as large as it is taken for, and such that it is exceeded once in a thousand;
-    neighbouring values share some of it. A fault that takes away little explains nothing.
+    neighbouring values share some of it. What is hardly more probable than a healthy machine
+    explains nothing.
     """
     from scipy.special import chdtri
 
     independent = max(one.values / CORRELATED, 1.0)
     most = _LARGER**2 / CORRELATED * float(chdtri(independent, _LEVEL)) / independent
-    return one.share >= _EXPLAINS and one.left <= most
+    return one.evidence >= _EXPLAINS and one.left <= most
 
 
 def update(

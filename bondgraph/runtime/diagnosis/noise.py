@@ -14,8 +14,10 @@ _EACH = 6  # rows that there have to be for each of its numbers
 #: Of white noise behind a filter of third order, three time constants apart (Matern): the sum of
 #: its correlations and that of their squares. No noise of a residual has less of a memory.
 _FILTERED, _SQUARED = 2.0, 1.25
+_SLOW = 5  # rows in the mean of which noise is small
+_COVERED = 0.1  # of the adaptive threshold: what parameters may do that nobody can tell
 _FAR = 6.0 * 1.4826  # times the median distance from the median: six normal deviations
-_LEAST = 2.0  # degrees of freedom, of however few rows
+_LEAST = 5.0  # degrees of freedom, of however few rows
 
 
 class Noise(NamedTuple):
@@ -95,6 +97,23 @@ def within(values: Array) -> Mask:
             most = _FAR * float(np.median(off[found[:, k]]))
             found[:, k] &= off <= most if most > 0.0 else True
     return found
+
+
+def uncovered(rest: Array, bound: Array) -> Array:
+    """Rows (n, residuals) less what is slow in them and small beside what tolerances allow.
+
+    Parameters that drift, and what is not linear in them, move a healthy residual slowly by some
+    share of its adaptive threshold, which has room for that. A residual without one loses nothing.
+    """
+    known = np.isfinite(rest)
+    total, count = (
+        np.lib.stride_tricks.sliding_window_view(
+            np.pad(table, ((_SLOW // 2, _SLOW // 2), (0, 0))), _SLOW, axis=0
+        ).sum(axis=2)
+        for table in (np.where(known, rest, 0.0), known.astype(float))
+    )
+    most = _COVERED * bound
+    return np.asarray(rest - np.clip(total / np.maximum(count, 1.0), -most, most))
 
 
 def _autoregression(rest: Array, known: Mask, variance: float) -> Array:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -51,11 +50,15 @@ def together(parts: Sequence[Batch], residuals: int) -> Batch:
 
 def weight(row: Row, sigma: Array) -> Array:
     """One over the variance of its residuals, by what is known of their noise (deviation sigma)."""
-    sigma = math.sqrt(CORRELATED) * sigma
     with np.errstate(over="ignore"):  # what is that large has no weight
-        variance = sigma**2 + (_MODEL_ERROR * row.bound) ** 2 + (_SLOPE_ERROR * row.value) ** 2
-        variance += (_DOUBTED * row.doubt) ** 2
+        variance = variances(row.value, row.bound, sigma) + (_DOUBTED * row.doubt) ** 2
     return np.where(row.valid & (variance > 0), 1.0 / np.maximum(variance, 1e-300), 0.0)
+
+
+def variances(value: Array, bound: Array, sigma: Array) -> Array:
+    """Of residuals about what linear slopes say of them, with noise of deviation `sigma`."""
+    noise = CORRELATED * sigma**2
+    return np.asarray(noise + (_MODEL_ERROR * bound) ** 2 + (_SLOPE_ERROR * value) ** 2)
 
 
 def usual(rows: Sequence[Row]) -> list[Row]:

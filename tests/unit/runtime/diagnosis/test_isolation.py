@@ -99,7 +99,7 @@ def test_a_fault_that_moves_nothing_that_is_off_explains_nothing() -> None:
         value = draw.normal(size=(count, 1))
         rows = Rows(value, np.ones((count, 1)), rest, slopes)
         (found,) = explain(rows, hypotheses, History(np.ones(1)))
-        assert found.evidence < 0.0 <= found.share <= 1.0
+        assert found.evidence < 0.0 <= found.left <= float(np.mean(value**2))
         if seed == 0:
             ratio = _exact_ratio(_flat(rest), _flat(slopes) * scale, value[:, 0])
             assert found.evidence == pytest.approx(ratio, rel=1e-6)
@@ -149,7 +149,7 @@ def test_what_was_there_is_found_with_its_size() -> None:
     found = explain(rows, hypotheses, History(np.zeros(0)))
     best = max(found, key=lambda e: e.evidence)
     assert best.fault == "b" and best.change == pytest.approx(0.8, abs=0.1)
-    assert best.share > 0.95
+    assert best.left == pytest.approx(1.0, abs=0.35) and best.values == 80
     assert probabilities(found)["b"] > 0.999
 
 
@@ -170,12 +170,12 @@ def test_a_silent_residual_speaks_against_a_fault_by_what_it_should_have_shown()
 
 def test_where_each_fault_is_impossible_none_is_probable() -> None:
     one = Hypothesis("a", "value", "", 1.0, True)
-    found = [Explained(f, -math.inf, 0.0, one._replace(fault=f), 0.0, 0.0) for f in "ab"]
+    found = [Explained(f, -math.inf, one._replace(fault=f), 0.0, 0.0) for f in "ab"]
     assert probabilities(found) == {"a": 0.0, "b": 0.0}
     verdict = update(1.0, 0.5, {"r1": 2.0}, (), found)
     assert verdict.candidates == () and verdict.message.startswith("no single fault")
     assert named(found, [("a",), ("b",)])[0] == ()
-    sure = [found[0]._replace(evidence=30.0, share=0.9), found[1]]
+    sure = [found[0]._replace(evidence=30.0), found[1]]
     assert probabilities(sure) == pytest.approx({"a": 1.0, "b": 0.0})
 
 

@@ -7,14 +7,14 @@ import math
 from bondgraph.ir.signature_matrix import DoubleFaults
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
-from bondgraph.runtime.diagnosis.naming import candidates, pairs_left, update
+from bondgraph.runtime.diagnosis.naming import candidates, fits, pairs_left, update
 
 _SEES = {"r1": ("R", "k"), "r2": ("f", "k")}
 
 
 def _explained(fault: str, evidence: float, change: float = 0.1) -> Explained:
     hypothesis = Hypothesis(fault, "value", "", 1.0, True)
-    return Explained(fault, evidence, 1.0, hypothesis, change, 0.01)
+    return Explained(fault, evidence, hypothesis, change, 0.01, 0.5, 40)
 
 
 def _left(fired: list[str], *found: Explained) -> list[str]:
@@ -40,23 +40,32 @@ def test_no_parameter_becomes_its_opposite() -> None:
     assert _left(["r1"], _explained("R", 90.0, 0.9), _explained("k", 10.0)) == ["R", "k"]
 
 
-def _pair(a: str, b: str, share: float, *changes: float) -> ExplainedPair:
+def test_what_is_left_over_has_to_be_noise() -> None:
+    # forty values of which neighbours share half: twenty times 0.5, or four times that at most
+    # where noise is twice as large; chi-square of 20 exceeds 45.3 once in a thousand (tables)
+    most = 4.0 * 0.5 * 45.31 / 20.0
+    one = _explained("R", 9.0)
+    assert fits(one._replace(left=0.99 * most)) and not fits(one._replace(left=1.01 * most))
+    assert not fits(one._replace(evidence=1.0)), "a healthy machine is about as probable"
+
+
+def _pair(a: str, b: str, left: float, *changes: float) -> ExplainedPair:
     ways = [Hypothesis(name, "value", "Ohm", 1.0, True) for name in (a, b)]
-    return ExplainedPair((ways[0], ways[1]), 50.0, share, (changes[0], changes[1]))
+    return ExplainedPair((ways[0], ways[1]), 50.0, (changes[0], changes[1]), left, 40)
 
 
 def test_two_at_once_have_to_cover_what_has_fired_and_keep_their_signs() -> None:
     known = {"R": 1.0, "f": 1.0, "k": 1.0}
-    good = _pair("R", "f", 0.9, -0.5, -0.2)
-    found = [good, _pair("R", "k", 0.6, 0.1, 0.1), _pair("f", "k", 0.9, 1.5, 0.1)]
+    good = _pair("R", "f", 0.6, -0.5, -0.2)
+    found = [good, _pair("R", "k", 9.0, 0.1, 0.1), _pair("f", "k", 0.6, 1.5, 0.1)]
     assert pairs_left(found, known, _SEES, ["r1", "r2"]) == [good]
     blind = {"r1": ("R", "k"), "r2": ("k",)}
     assert pairs_left([good], known, blind, ["r1", "r2"]) == []
 
 
 def test_what_looks_like_two_at_once_is_told_by_rank() -> None:
-    single = [_explained("R", 9.0)._replace(share=0.3)]
-    pairs = [_pair("R", "f", 0.9, -0.5, -0.2)]
+    single = [_explained("R", 9.0)._replace(left=30.0)]
+    pairs = [_pair("R", "f", 0.6, -0.5, -0.2)]
     groups = (("R", "U"), ("f",), ("k",), ("c",))
     doubles = DoubleFaults(groups, ((), (), ((0, 1),), ()), "")
     verdict = update(5.0, 4.0, {"r1": 2.0}, (), single, pairs, doubles)
