@@ -27,14 +27,17 @@ class Filter:
         self.pace = builder.local("x", product, "bandwidth*sample_time")
         two = pool.num(2)
         slow = pool.fn("max", pool.sub(two, self.pace), pool.zero)
-        self.a = pool.div(slow, pool.add((1, two), (1, self.pace)))
+        a = builder.expression(pool.div(slow, pool.add((1, two), (1, self.pace))))
+        self.a = builder.local("pole", a, "of a stage: what is left of its memory")
         past = pool.sub(pool.one, self.a)
         self.b = pool.scale(Fraction(1, 2), past)
         #: what a stage remembers of a constant 1.
         self.rest = pool.sub(pool.one, self.b)
-        self.turn = pool.div(pool.scale(2, past), pool.add((1, pool.one), (1, self.a)))
+        turn = pool.div(pool.scale(2, past), pool.add((1, pool.one), (1, self.a)))
+        self.turn = builder.local("turn", builder.expression(turn), "w*sample_time, x or 2")
         #: w in rad/s.
-        self.rate = pool.div(self.turn, time)
+        rate = builder.expression(pool.div(self.turn, time))
+        self.rate = builder.local("w", rate, "w of the filter 1/(1 + D/w)")
         #: (w T)**2/12 and T**2/12, what D and the trapezoid rule are off by.
         self.bend = pool.scale(Fraction(1, 12), pool.power(self.turn, 2))
         self.twelfth = pool.scale(Fraction(1, 12), pool.power(time, 2))

@@ -18,7 +18,6 @@ neither a delay nor a memory more (docs/decisions/hold.md).
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from math import comb
 
 from bondgraph.algebra.derivative import TooManyOperations, operations

@@ -7,7 +7,6 @@ from math import inf
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
-from scipy.linalg import expm
 
 import bondgraph
 from bondgraph.ir.program import Const, Expression, Function, Product, Ref, Sum
