@@ -5,9 +5,9 @@ sum_k D**k g_k over (1 + D/w)**n is a polynomial in H whose coefficients are lin
 Horner's rule makes it r = H(v1 + H(v2 + ... + H vn)) + v0. What has the same order is summed first.
 
 A stage is y = s + b u, then s = a y + b u (`Filter`), and its D is the trapezoid rule: D T = 2
-tanh(p T/2). Taken for p that is off by (p T)**2/12, which is what remains of large terms that cancel
-in each other. As p = D (1 + (D T)**2/12) to fourth order, it is another D for each order k that
-all terms pass, one and the same filter F:
+tanh(p T/2). Taken for p it is off by (p T)**2/12, and that is what remains of large terms that
+cancel. But p = D (1 + (D T)**2/12) to fourth order, so that there is one filter F which all terms
+pass, and each comes out as a polynomial in D:
 
     p**k F = D**k (1 - (K-k) (D T)**2/12),  F = 1 - K (D T)**2/12 + ...,
 
@@ -345,7 +345,8 @@ class Chain:
         last = self._state("rate1", f"{comment}: rate a sample before")
         before = self._state("rate2", f"{comment}: rate two samples before")
         three, four = (_number(self, number) for number in (3, 4))
-        slope = Sum(((True, Product((three, rate))), (False, Product((four, last))), (True, before)))
+        now, past = Product((three, rate)), Product((four, last))
+        slope = Sum(((True, now), (False, past), (True, before)))
         target = Ref("local", self.names.new(f"{self.name}_integral"))
         less = Sum(((True, value), (False, Product((weight, slope)))))
         self.step.append(Assign(target, less, comment, self.origin))

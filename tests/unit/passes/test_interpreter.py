@@ -17,14 +17,18 @@ from tests.sampled import Sampled
 from tests.unit.passes.lowering_models import Bench, drive
 
 
-def run(program: Program, samples: dict[str, np.ndarray], **options: object) -> np.ndarray:
-    """The first residual of every sample."""
+def run(
+    program: Program,
+    samples: dict[str, np.ndarray],
+    *modes: str,
+    **options: object,
+) -> np.ndarray:
+    """The first residual of every sample, with all `modes` off."""
     machine = Sampled(program, **options)  # type: ignore[arg-type]
     name = program.residuals[0].name
-    length = len(next(iter(samples.values())))
-    return np.array(
-        [machine.step({n: v[i] for n, v in samples.items()}).residuals[name] for i in range(length)]
-    )
+    rows = (dict(zip(samples, row, strict=True)) for row in zip(*samples.values(), strict=True))
+    off = dict.fromkeys(modes, False)
+    return np.array([machine.step(row, off).residuals[name] for row in rows])
 
 
 def smooth_start(t: np.ndarray) -> np.ndarray:
@@ -74,7 +78,7 @@ def test_smooth_signals_give_the_filtered_residual(bandwidth: float) -> None:
 
 @pytest.mark.parametrize("bandwidth", [5.0, 20.0, 150.0])
 def test_noisy_signals_give_the_sum_of_cascades(bandwidth: float) -> None:
-    """Term by term: D^k (1 - (3-k) (D T)^2/12) / (1 + D/wc)^4, D the bilinear transform of SciPy."""
+    """Term by term: D^k (1 - (3-k) (D T)^2/12) / (1 + D/wc)^4, D the bilinear one of SciPy."""
     bench = Bench()
     program = bench.program(third_order(bench))
     t, samples = third_order_signals(0.1)
@@ -222,6 +226,23 @@ def test_encoder_counts_give_what_the_angle_gives(position: bool, start: int) ->
     assert np.max(np.abs(by_counts - by_angle)) < 1e-10 * np.max(np.abs(by_angle))
 
 
+def test_encoder_counts_in_a_product_give_what_the_angle_gives() -> None:
+    t = np.arange(0, 2, 1e-3)
+    counts = np.round(3 * smooth_start(t / 2) * np.sin(5 * t) * 96 / (2 * np.pi) * 10).astype(int)
+    angle, load = (counts - counts[0]) * 2 * np.pi / 96, 1 + 0.1 * np.sin(3 * t)
+    found = []
+    for coded, th in ((96, counts), (None, angle)):
+        bench = Bench()
+        p = bench.pool
+        turns, x = bench.sensor("th", coded), bench.sensor("x")
+        speed = p.der(turns)
+        terms = [p.mul(x, p.der(speed)), p.mul(x, speed, p.der(x)), p.fn("sin", turns)]
+        program = bench.program(p.add(*[(1, term) for term in terms]))
+        assert program.residuals[0].approximate
+        found.append(run(program, {"th": th, "x": load}))
+    assert np.max(np.abs(found[0] - found[1])) < 1e-10 * np.max(np.abs(found[1]))
+
+
 def test_encoder_far_from_its_start_keeps_single_precision() -> None:
     """A million turns in float32: the speed residual is as good as in double precision."""
     t = np.arange(0, 20, 1e-2)
@@ -313,8 +334,8 @@ def swing(time: np.ndarray, hardens: bool) -> dict[str, np.ndarray]:
     return {n: np.where(time < 1, before[n], after[n]) for n in before}
 
 
-def oscillator(velocity: bool, hardens: bool) -> Program:
-    """Its relation, with the position measured or with the `velocity`."""
+def oscillator(velocity: bool, hardens: bool, brakes: bool = False) -> Program:
+    """Its relation, with the position measured or the `velocity`; what `brakes` is a mode."""
     bench = Bench()
     p = bench.pool
     m, d, k, c = (bench.param(n, str(x)) for n, x in (("m", M), ("d", D), ("k", K), ("c", C)))
@@ -324,12 +345,18 @@ def oscillator(velocity: bool, hardens: bool) -> Program:
     terms = [p.mul(m, p.der(v)), p.mul(d, v), p.mul(k, y)]
     if hardens:
         terms.append(p.mul(c, p.power(y, 3)))
+    if brakes:
+        on, b = bench.input("on", mode=True), bench.param("b", "1")
+        terms.append(p.choose(on, p.mul(b, v), p.zero))
     return bench.program(p.add(*[(1, term) for term in terms], (-1, u)))
 
 
+@pytest.mark.parametrize("brakes", [False, True])
 @pytest.mark.parametrize("hardens", [False, True])
 @pytest.mark.parametrize("velocity", [False, True])
-def test_coarse_samples_of_a_resonance_leave_little(velocity: bool, hardens: bool) -> None:
+def test_coarse_samples_of_a_resonance_leave_little(
+    velocity: bool, hardens: bool, brakes: bool
+) -> None:
     """At nine samples a period, and sixteen times less at eighteen: an error of fourth order.
 
     The trapezoid rule alone is off by (w T)^2/12, 4 % of the inertia and the spring that cancel in
@@ -339,11 +366,12 @@ def test_coarse_samples_of_a_resonance_leave_little(velocity: bool, hardens: boo
     for rate in (620.0, 1240.0):
         time = np.arange(0, 3, 1 / rate)
         samples = swing(time, hardens)
-        program = oscillator(velocity, hardens)
+        program = oscillator(velocity, hardens, brakes)
+        assert bool(program.openings) == brakes  # then it comes from under a window
         options = {"sample_time": 1 / rate, "bandwidth": 400.0}
         own = "v" if velocity else "y"
-        found = run(program, {"u": samples["u"], own: samples[own]}, **options)
-        drive = run(program, {"u": samples["u"], own: np.zeros(len(time))}, **options)
+        found = run(program, {"u": samples["u"], own: samples[own]}, "on", **options)
+        drive = run(program, {"u": samples["u"], own: np.zeros(len(time))}, "on", **options)
         calm, all_ = (r[len(time) // 2 :] for r in (found, drive))
         left.append(np.max(np.abs(calm)) / np.max(np.abs(all_)))
     assert left[0] < 0.01
