@@ -378,6 +378,37 @@ def test_coarse_samples_of_a_resonance_leave_little(
     assert left[1] < left[0] / 12
 
 
+@pytest.mark.parametrize("levels", [1, 2, 3])
+def test_coarse_samples_of_what_is_integrated_leave_little(levels: int) -> None:
+    """A position from its rate, acceleration or jerk: the trapezoid rule is off by 4 % a level."""
+    import sympy
+
+    bench = Bench()
+    p = bench.pool
+    y, u, none = bench.sensor("y"), bench.input("u"), bench.initial("none", p.num(0))
+    told = u
+    for _ in range(levels):
+        told = p.integral(told, none)
+    program = bench.program(p.sub(y, told))
+    t = sympy.Symbol("t")
+    wave = sympy.sin(440 * t)
+    start = wave * t**5 * (126 - 420 * t + 540 * t**2 - 315 * t**3 + 70 * t**4)
+    left = []
+    for rate in (620.0, 1240.0):
+        time = np.arange(0, 2, 1 / rate)
+        found = []
+        for order in (0, levels):
+            both = (sympy.lambdify(t, x.diff(t, order), "numpy")(time) for x in (start, wave))
+            found.append(np.where(time < 1, *both))
+        options = {"sample_time": 1 / rate, "bandwidth": 400.0}
+        residual = run(program, {"y": found[0], "u": found[1]}, **options)
+        size = run(program, {"y": found[0], "u": np.zeros(len(time))}, **options)
+        later = slice(len(time) // 2, None)
+        left.append(np.max(np.abs(residual[later])) / np.max(np.abs(size[later])))
+    assert left[0] < 0.002
+    assert left[1] < left[0] / 12
+
+
 def test_doubles_arrays_and_forty_digits_are_one_program() -> None:
     bench = Bench()
     p = bench.pool
