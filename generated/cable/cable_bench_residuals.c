@@ -21,39 +21,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t cable_bench_abi(void)
@@ -81,6 +52,9 @@ static void compute_coefficients(cable_bench_monitor *monitor, const cable_bench
 
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
+
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
     /* khepera.bg:114: line.L*line.C */
     const real t = p->line__L * p->line__C;
@@ -196,17 +170,8 @@ static void compute_coefficients(cable_bench_monitor *monitor, const cable_bench
             * p->line__C * p->line__C * p->line__C
         + REAL(0.25) * p->line__C * t_23;
 
-    /* exp(-x) */
-    const real t_29 = exponential(-x_);
-
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_30 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_29) / x_;
+    /* 1 - pole */
+    const real t_29 = REAL(1.0) - pole;
 
     /* khepera.bg:114: r1: factor of Us': 1.5*line.R*line.C */
     c->r1_Us_1 = REAL(1.5) * p->line__R * p->line__C;
@@ -250,17 +215,14 @@ static void compute_coefficients(cable_bench_monitor *monitor, const cable_bench
     c->r1_Us_10 = REAL(9.5367431640625e-07) * p->line__L * p->line__L * p->line__L * p->line__L
             * p->line__L * p->line__C * p->line__C * p->line__C * p->line__C * p->line__C;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_29;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_30;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_29;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_29 - t_30;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_30;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t_29;
 }
 
 static bool parameters_are_finite(const cable_bench_parameters *p)
@@ -273,7 +235,7 @@ static bool coefficients_are_finite(const cable_bench_monitor *monitor)
     return finite_number(monitor->c.r1_Us_1 + monitor->c.r1_Us_2 + monitor->c.r1_Us_3
             + monitor->c.r1_Us_4 + monitor->c.r1_Us_5 + monitor->c.r1_Us_6 + monitor->c.r1_Us_7
             + monitor->c.r1_Us_8 + monitor->c.r1_Us_9 + monitor->c.r1_Us_10 + monitor->c.a
-            + monitor->c.b0 + monitor->c.b1 + monitor->c.rest);
+            + monitor->c.b + monitor->c.rest);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -365,10 +327,10 @@ static void next_r1(
     const real r1_u1 = s->Uin - s->Us;
 
     /* khepera.bg:114: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* khepera.bg:114: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* khepera.bg:114: r1: line.cell[1].left with everything else inserted */
     r[CABLE_BENCH_R1] = r1_y1;

@@ -28,7 +28,7 @@ typedef double cable_bench_real;
 /* Version of the structs and functions, and the size of a number. */
 #define CABLE_BENCH_ABI (1u * 256u + (uint32_t)sizeof(cable_bench_real))
 /* Identifies the model and the options that this code was made from. */
-#define CABLE_BENCH_DIGEST "c7b9ceb2672df894"
+#define CABLE_BENCH_DIGEST "592fcebfb38e27a5"
 
 /* What the code was made for: arguments of cable_bench_configure, in s, rad/s and s. */
 #define CABLE_BENCH_SAMPLE_TIME CABLE_BENCH_CONSTANT(0.001)
@@ -95,10 +95,9 @@ typedef struct cable_bench_coefficients {
     /* r1: factor of D(Us, 9): 4.76837158203125e-06*line.R*line.L^4*line.C^5 */
     cable_bench_real r1_Us_9;
     cable_bench_real r1_Us_10;  /* r1: factor of D(Us, 10): 9.5367431640625e-07*line.L^5*line.C^5 */
-    cable_bench_real a;         /* filter: exp(-bandwidth*sample_time) */
-    cable_bench_real b0;        /* filter: weight of the new sample */
-    cable_bench_real b1;        /* filter: weight of the sample before */
-    cable_bench_real rest;      /* filter: 1 - b0, the memory of a constant 1 */
+    cable_bench_real a;         /* filter: what is left of a memory a sample later */
+    cable_bench_real b;         /* filter: weight of a sample, new and a sample later */
+    cable_bench_real rest;      /* filter: 1 - b, the memory of a constant 1 */
 } cable_bench_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "c7b9ceb2672df894"
+DIGEST = "592fcebfb38e27a5"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -76,10 +76,9 @@ class Coefficients:
     r1_Us_8: float
     r1_Us_9: float   # r1: factor of D(Us, 9): 4.76837158203125e-06*line.R*line.L^4*line.C^5
     r1_Us_10: float  # r1: factor of D(Us, 10): 9.5367431640625e-07*line.L^5*line.C^5
-    a: float         # filter: exp(-bandwidth*sample_time)
-    b0: float        # filter: weight of the new sample
-    b1: float        # filter: weight of the sample before
-    rest: float      # filter: 1 - b0, the memory of a constant 1
+    a: float         # filter: what is left of a memory a sample later
+    b: float         # filter: weight of a sample, new and a sample later
+    rest: float      # filter: 1 - b, the memory of a constant 1
 
 
 class Memory:
@@ -119,8 +118,7 @@ class Monitor:
             if not math.isfinite(
                     self._c.r1_Us_1 + self._c.r1_Us_2 + self._c.r1_Us_3 + self._c.r1_Us_4
                     + self._c.r1_Us_5 + self._c.r1_Us_6 + self._c.r1_Us_7 + self._c.r1_Us_8
-                    + self._c.r1_Us_9 + self._c.r1_Us_10 + self._c.a + self._c.b0 + self._c.b1
-                    + self._c.rest
+                    + self._c.r1_Us_9 + self._c.r1_Us_10 + self._c.a + self._c.b + self._c.rest
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -166,6 +164,9 @@ class Monitor:
 
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
+
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
         # khepera.bg:114: line.L*line.C
         t = p.line__L * p.line__C
@@ -287,16 +288,8 @@ class Monitor:
             + 0.25 * p.line__C * t_23
         )
 
-        # exp(-x)
-        t_29 = _exponential(-x_)
-
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_30 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_29) / x_
-        )
+        # 1 - pole
+        t_29 = 1.0 - pole
 
         # khepera.bg:114: r1: factor of Us': 1.5*line.R*line.C
         c.r1_Us_1 = 1.5 * p.line__R * p.line__C
@@ -348,17 +341,14 @@ class Monitor:
                 * p.line__C * p.line__C * p.line__C * p.line__C * p.line__C
         )
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_29
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample
-        c.b0 = t_30
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_29
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_29 - t_30
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_30
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t_29
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -386,10 +376,10 @@ class Monitor:
         r1_u1 = s.Uin - s.Us
 
         # khepera.bg:114: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # khepera.bg:114: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # khepera.bg:114: r1: line.cell[1].left with everything else inserted
         r.r1 = r1_y1
@@ -409,23 +399,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[0] = 0
             r.r1 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -21,39 +21,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t cable_open_abi(void)
@@ -82,17 +53,11 @@ static void compute_coefficients(cable_open_monitor *monitor, const cable_open_p
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* 1 - pole */
+    const real t = REAL(1.0) - pole;
 
     /* khepera.bg:114: r1: factor of Us': line.R*line.C/2 */
     c->r1_Us_1 = REAL(0.5) * p->line__R * p->line__C;
@@ -100,17 +65,14 @@ static void compute_coefficients(cable_open_monitor *monitor, const cable_open_p
     /* khepera.bg:114: r1: factor of Us'': line.L*line.C/2 */
     c->r1_Us_2 = REAL(0.5) * p->line__L * p->line__C;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t;
 }
 
 static bool parameters_are_finite(const cable_open_parameters *p)
@@ -120,8 +82,8 @@ static bool parameters_are_finite(const cable_open_parameters *p)
 
 static bool coefficients_are_finite(const cable_open_monitor *monitor)
 {
-    return finite_number(monitor->c.r1_Us_1 + monitor->c.r1_Us_2 + monitor->c.a + monitor->c.b0
-            + monitor->c.b1 + monitor->c.rest);
+    return finite_number(monitor->c.r1_Us_1 + monitor->c.r1_Us_2 + monitor->c.a + monitor->c.b
+            + monitor->c.rest);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -210,10 +172,10 @@ static void next_r1(
     const real r1_u1 = s->Uin - s->Us;
 
     /* khepera.bg:114: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* khepera.bg:114: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* khepera.bg:114: r1 = Uin - Us - line.R*line.C*D(Us)/2 - line.L*line.C*D(Us, 2)/2 */
     r[CABLE_OPEN_R1] = r1_y1;

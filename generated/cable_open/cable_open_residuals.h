@@ -28,7 +28,7 @@ typedef double cable_open_real;
 /* Version of the structs and functions, and the size of a number. */
 #define CABLE_OPEN_ABI (1u * 256u + (uint32_t)sizeof(cable_open_real))
 /* Identifies the model and the options that this code was made from. */
-#define CABLE_OPEN_DIGEST "d4488e6c0b1dbb48"
+#define CABLE_OPEN_DIGEST "425e0629f4321955"
 
 /* What the code was made for: arguments of cable_open_configure, in s, rad/s and s. */
 #define CABLE_OPEN_SAMPLE_TIME CABLE_OPEN_CONSTANT(0.001)
@@ -78,10 +78,9 @@ typedef struct cable_open_residuals {
 typedef struct cable_open_coefficients {
     cable_open_real r1_Us_1;  /* r1: factor of Us': line.R*line.C/2 */
     cable_open_real r1_Us_2;  /* r1: factor of Us'': line.L*line.C/2 */
-    cable_open_real a;        /* filter: exp(-bandwidth*sample_time) */
-    cable_open_real b0;       /* filter: weight of the new sample */
-    cable_open_real b1;       /* filter: weight of the sample before */
-    cable_open_real rest;     /* filter: 1 - b0, the memory of a constant 1 */
+    cable_open_real a;        /* filter: what is left of a memory a sample later */
+    cable_open_real b;        /* filter: weight of a sample, new and a sample later */
+    cable_open_real rest;     /* filter: 1 - b, the memory of a constant 1 */
 } cable_open_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -21,39 +21,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t chassis_bench_abi(void)
@@ -84,17 +55,17 @@ static void compute_coefficients(chassis_bench_monitor *monitor, const chassis_b
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* 1 - pole */
+    const real t = REAL(1.0) - pole;
 
     /* khepera.bg:93: r1: factor of u: body.fm */
     c->r1_u = p->body__fm;
@@ -102,23 +73,20 @@ static void compute_coefficients(chassis_bench_monitor *monitor, const chassis_b
     /* khepera.bg:93: r1: factor of u': body.m */
     c->r1_u_1 = p->body__m;
 
-    /* khepera.bg:93: r1: factor of u in stage 1 */
-    c->r1_v1_u = p->body__m * bandwidth;
+    /* khepera.bg:93: r1: factor of u' */
+    c->r1_w1_u = p->body__m * w;
 
-    /* khepera.bg:93: r1: factor of u in stage 2 */
-    c->r1_v2_u = p->body__m * bandwidth - p->body__fm;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t;
 
     /* khepera.bg:101: r2: factor of yaw: body.fz */
     c->r2_yaw = p->body__fz;
@@ -129,11 +97,8 @@ static void compute_coefficients(chassis_bench_monitor *monitor, const chassis_b
     /* khepera.bg:101: r2: factor of body.Fx[1]: body.d/2 */
     c->r2_body__Fx__1 = REAL(0.5) * p->body__d;
 
-    /* khepera.bg:101: r2: factor of yaw in stage 1 */
-    c->r2_v1_yaw = p->body__Iz * bandwidth;
-
-    /* khepera.bg:101: r2: factor of yaw in stage 2 */
-    c->r2_v2_yaw = p->body__Iz * bandwidth - p->body__fz;
+    /* khepera.bg:101: r2: factor of yaw' */
+    c->r2_w1_yaw = p->body__Iz * w;
 }
 
 static bool parameters_are_finite(const chassis_bench_parameters *p)
@@ -143,10 +108,9 @@ static bool parameters_are_finite(const chassis_bench_parameters *p)
 
 static bool coefficients_are_finite(const chassis_bench_monitor *monitor)
 {
-    return finite_number(monitor->c.r1_u + monitor->c.r1_u_1 + monitor->c.r1_v1_u
-            + monitor->c.r1_v2_u + monitor->c.a + monitor->c.b0 + monitor->c.b1 + monitor->c.rest
-            + monitor->c.r2_yaw + monitor->c.r2_yaw_1 + monitor->c.r2_body__Fx__1
-            + monitor->c.r2_v1_yaw + monitor->c.r2_v2_yaw);
+    return finite_number(monitor->c.r1_u + monitor->c.r1_u_1 + monitor->c.r1_w1_u + monitor->c.bend1
+            + monitor->c.a + monitor->c.b + monitor->c.rest + monitor->c.r2_yaw
+            + monitor->c.r2_yaw_1 + monitor->c.r2_body__Fx__1 + monitor->c.r2_w1_yaw);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -217,8 +181,17 @@ static void start_r1(
     const chassis_bench_coefficients *c = &monitor->c;
     chassis_bench_memory *x = &monitor->x;
 
+    /* khepera.bg:93: r1: terms of order 0 */
+    const real r1_g0 = s->body__Fx__1 + s->body__Fx__2 - c->r1_u * s->u;
+
+    /* khepera.bg:93: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_u * s->u;
+
+    /* khepera.bg:93: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* khepera.bg:93: r1: input of stage 2 */
-    const real r1_u2 = s->body__Fx__1 + s->body__Fx__2 + c->r1_v2_u * s->u;
+    const real r1_u2 = r1_g0 + r1_d1 - r1_e0;
 
     /* khepera.bg:93: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -227,7 +200,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* khepera.bg:93: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_u * s->u;
+    const real r1_u1 = r1_y2 + REAL(2.0) * r1_e0 - r1_d1;
 
     /* khepera.bg:93: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -236,7 +209,7 @@ static void start_r1(
     x->r1_s1 = c->rest * r1_u1;
 
     /* khepera.bg:93: r1 = body.Fx[1] + body.Fx[2] - body.fm*u - body.m*D(u) */
-    r[CHASSIS_BENCH_R1] = r1_y1;
+    r[CHASSIS_BENCH_R1] = r1_y1 - r1_e0;
 }
 
 /* r1 on every further sample. */
@@ -246,26 +219,35 @@ static void next_r1(
     const chassis_bench_coefficients *c = &monitor->c;
     chassis_bench_memory *x = &monitor->x;
 
+    /* khepera.bg:93: r1: terms of order 0 */
+    const real r1_g0 = s->body__Fx__1 + s->body__Fx__2 - c->r1_u * s->u;
+
+    /* khepera.bg:93: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_u * s->u;
+
+    /* khepera.bg:93: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* khepera.bg:93: r1: input of stage 2 */
-    const real r1_u2 = s->body__Fx__1 + s->body__Fx__2 + c->r1_v2_u * s->u;
+    const real r1_u2 = r1_g0 + r1_d1 - r1_e0;
 
     /* khepera.bg:93: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* khepera.bg:93: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* khepera.bg:93: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_u * s->u;
+    const real r1_u1 = r1_y2 + REAL(2.0) * r1_e0 - r1_d1;
 
     /* khepera.bg:93: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* khepera.bg:93: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* khepera.bg:93: r1 = body.Fx[1] + body.Fx[2] - body.fm*u - body.m*D(u) */
-    r[CHASSIS_BENCH_R1] = r1_y1;
+    r[CHASSIS_BENCH_R1] = r1_y1 - r1_e0;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -298,9 +280,18 @@ static void start_r2(
     const chassis_bench_coefficients *c = &monitor->c;
     chassis_bench_memory *x = &monitor->x;
 
-    /* khepera.bg:101: r2: input of stage 2 */
-    const real r2_u2 = c->r2_v2_yaw * s->yaw + c->r2_body__Fx__1 * s->body__Fx__1
+    /* khepera.bg:101: r2: terms of order 0 */
+    const real r2_g0 = c->r2_body__Fx__1 * s->body__Fx__1 - c->r2_yaw * s->yaw
         - c->r2_body__Fx__1 * s->body__Fx__2;
+
+    /* khepera.bg:101: r2: degree 1 */
+    const real r2_d1 = c->r2_w1_yaw * s->yaw;
+
+    /* khepera.bg:101: r2: error of order 0 */
+    const real r2_e0 = c->bend1 * r2_g0;
+
+    /* khepera.bg:101: r2: input of stage 2 */
+    const real r2_u2 = r2_g0 + r2_d1 - r2_e0;
 
     /* khepera.bg:101: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -309,7 +300,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* khepera.bg:101: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_yaw * s->yaw;
+    const real r2_u1 = r2_y2 + REAL(2.0) * r2_e0 - r2_d1;
 
     /* khepera.bg:101: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -319,7 +310,7 @@ static void start_r2(
 
     /* khepera.bg:101: r2 = body.Fx[1]*body.d/2 - body.fz*yaw - body.Fx[2]*body.d/2 -
      * body.Iz*D(yaw) */
-    r[CHASSIS_BENCH_R2] = r2_y1;
+    r[CHASSIS_BENCH_R2] = r2_y1 - r2_e0;
 }
 
 /* r2 on every further sample. */
@@ -329,28 +320,37 @@ static void next_r2(
     const chassis_bench_coefficients *c = &monitor->c;
     chassis_bench_memory *x = &monitor->x;
 
-    /* khepera.bg:101: r2: input of stage 2 */
-    const real r2_u2 = c->r2_v2_yaw * s->yaw + c->r2_body__Fx__1 * s->body__Fx__1
+    /* khepera.bg:101: r2: terms of order 0 */
+    const real r2_g0 = c->r2_body__Fx__1 * s->body__Fx__1 - c->r2_yaw * s->yaw
         - c->r2_body__Fx__1 * s->body__Fx__2;
 
+    /* khepera.bg:101: r2: degree 1 */
+    const real r2_d1 = c->r2_w1_yaw * s->yaw;
+
+    /* khepera.bg:101: r2: error of order 0 */
+    const real r2_e0 = c->bend1 * r2_g0;
+
+    /* khepera.bg:101: r2: input of stage 2 */
+    const real r2_u2 = r2_g0 + r2_d1 - r2_e0;
+
     /* khepera.bg:101: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* khepera.bg:101: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* khepera.bg:101: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_yaw * s->yaw;
+    const real r2_u1 = r2_y2 + REAL(2.0) * r2_e0 - r2_d1;
 
     /* khepera.bg:101: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* khepera.bg:101: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* khepera.bg:101: r2 = body.Fx[1]*body.d/2 - body.fz*yaw - body.Fx[2]*body.d/2 -
      * body.Iz*D(yaw) */
-    r[CHASSIS_BENCH_R2] = r2_y1;
+    r[CHASSIS_BENCH_R2] = r2_y1 - r2_e0;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */

@@ -29,7 +29,7 @@ typedef double chassis_bench_real;
 /* Version of the structs and functions, and the size of a number. */
 #define CHASSIS_BENCH_ABI (1u * 256u + (uint32_t)sizeof(chassis_bench_real))
 /* Identifies the model and the options that this code was made from. */
-#define CHASSIS_BENCH_DIGEST "3eb30848db07da3a"
+#define CHASSIS_BENCH_DIGEST "d4f1a023dd4e2e81"
 
 /* What the code was made for: arguments of chassis_bench_configure, in s, rad/s and s. */
 #define CHASSIS_BENCH_SAMPLE_TIME CHASSIS_BENCH_CONSTANT(0.001)
@@ -88,17 +88,15 @@ typedef struct chassis_bench_residuals {
 typedef struct chassis_bench_coefficients {
     chassis_bench_real r1_u;            /* r1: factor of u: body.fm */
     chassis_bench_real r1_u_1;          /* r1: factor of u': body.m */
-    chassis_bench_real r1_v1_u;         /* r1: factor of u in stage 1 */
-    chassis_bench_real r1_v2_u;         /* r1: factor of u in stage 2 */
-    chassis_bench_real a;               /* filter: exp(-bandwidth*sample_time) */
-    chassis_bench_real b0;              /* filter: weight of the new sample */
-    chassis_bench_real b1;              /* filter: weight of the sample before */
-    chassis_bench_real rest;            /* filter: 1 - b0, the memory of a constant 1 */
+    chassis_bench_real r1_w1_u;         /* r1: factor of u' */
+    chassis_bench_real bend1;           /* filter: 1 * (w*sample_time)^2/12 */
+    chassis_bench_real a;               /* filter: what is left of a memory a sample later */
+    chassis_bench_real b;               /* filter: weight of a sample, new and a sample later */
+    chassis_bench_real rest;            /* filter: 1 - b, the memory of a constant 1 */
     chassis_bench_real r2_yaw;          /* r2: factor of yaw: body.fz */
     chassis_bench_real r2_yaw_1;        /* r2: factor of yaw': body.Iz */
     chassis_bench_real r2_body__Fx__1;  /* r2: factor of body.Fx[1]: body.d/2 */
-    chassis_bench_real r2_v1_yaw;       /* r2: factor of yaw in stage 1 */
-    chassis_bench_real r2_v2_yaw;       /* r2: factor of yaw in stage 2 */
+    chassis_bench_real r2_w1_yaw;       /* r2: factor of yaw' */
 } chassis_bench_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "3eb30848db07da3a"
+DIGEST = "d4f1a023dd4e2e81"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -69,17 +69,15 @@ class Coefficients:
 
     r1_u: float            # r1: factor of u: body.fm
     r1_u_1: float          # r1: factor of u': body.m
-    r1_v1_u: float         # r1: factor of u in stage 1
-    r1_v2_u: float         # r1: factor of u in stage 2
-    a: float               # filter: exp(-bandwidth*sample_time)
-    b0: float              # filter: weight of the new sample
-    b1: float              # filter: weight of the sample before
-    rest: float            # filter: 1 - b0, the memory of a constant 1
+    r1_w1_u: float         # r1: factor of u'
+    bend1: float           # filter: 1 * (w*sample_time)^2/12
+    a: float               # filter: what is left of a memory a sample later
+    b: float               # filter: weight of a sample, new and a sample later
+    rest: float            # filter: 1 - b, the memory of a constant 1
     r2_yaw: float          # r2: factor of yaw: body.fz
     r2_yaw_1: float        # r2: factor of yaw': body.Iz
     r2_body__Fx__1: float  # r2: factor of body.Fx[1]: body.d/2
-    r2_v1_yaw: float       # r2: factor of yaw in stage 1
-    r2_v2_yaw: float       # r2: factor of yaw in stage 2
+    r2_w1_yaw: float       # r2: factor of yaw'
 
 
 class Memory:
@@ -120,9 +118,9 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_u + self._c.r1_u_1 + self._c.r1_v1_u + self._c.r1_v2_u + self._c.a
-                    + self._c.b0 + self._c.b1 + self._c.rest + self._c.r2_yaw + self._c.r2_yaw_1
-                    + self._c.r2_body__Fx__1 + self._c.r2_v1_yaw + self._c.r2_v2_yaw
+                    self._c.r1_u + self._c.r1_u_1 + self._c.r1_w1_u + self._c.bend1 + self._c.a
+                    + self._c.b + self._c.rest + self._c.r2_yaw + self._c.r2_yaw_1
+                    + self._c.r2_body__Fx__1 + self._c.r2_w1_yaw
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -174,16 +172,17 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
+        # 1 - pole
+        t = 1.0 - pole
 
         # khepera.bg:93: r1: factor of u: body.fm
         c.r1_u = p.body__fm
@@ -191,23 +190,20 @@ class Monitor:
         # khepera.bg:93: r1: factor of u': body.m
         c.r1_u_1 = p.body__m
 
-        # khepera.bg:93: r1: factor of u in stage 1
-        c.r1_v1_u = p.body__m * bandwidth
+        # khepera.bg:93: r1: factor of u'
+        c.r1_w1_u = p.body__m * w
 
-        # khepera.bg:93: r1: factor of u in stage 2
-        c.r1_v2_u = p.body__m * bandwidth - p.body__fm
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = turn * turn / 12.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
         # khepera.bg:101: r2: factor of yaw: body.fz
         c.r2_yaw = p.body__fz
@@ -218,19 +214,25 @@ class Monitor:
         # khepera.bg:101: r2: factor of body.Fx[1]: body.d/2
         c.r2_body__Fx__1 = 0.5 * p.body__d
 
-        # khepera.bg:101: r2: factor of yaw in stage 1
-        c.r2_v1_yaw = p.body__Iz * bandwidth
-
-        # khepera.bg:101: r2: factor of yaw in stage 2
-        c.r2_v2_yaw = p.body__Iz * bandwidth - p.body__fz
+        # khepera.bg:101: r2: factor of yaw'
+        c.r2_w1_yaw = p.body__Iz * w
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
         c = self._c
         x = self._x
 
+        # khepera.bg:93: r1: terms of order 0
+        r1_g0 = s.body__Fx__1 + s.body__Fx__2 - c.r1_u * s.u
+
+        # khepera.bg:93: r1: degree 1
+        r1_d1 = c.r1_w1_u * s.u
+
+        # khepera.bg:93: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # khepera.bg:93: r1: input of stage 2
-        r1_u2 = s.body__Fx__1 + s.body__Fx__2 + c.r1_v2_u * s.u
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # khepera.bg:93: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -239,7 +241,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # khepera.bg:93: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_u * s.u
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # khepera.bg:93: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -248,33 +250,42 @@ class Monitor:
         x.r1_s1 = c.rest * r1_u1
 
         # khepera.bg:93: r1 = body.Fx[1] + body.Fx[2] - body.fm*u - body.m*D(u)
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
         c = self._c
         x = self._x
 
+        # khepera.bg:93: r1: terms of order 0
+        r1_g0 = s.body__Fx__1 + s.body__Fx__2 - c.r1_u * s.u
+
+        # khepera.bg:93: r1: degree 1
+        r1_d1 = c.r1_w1_u * s.u
+
+        # khepera.bg:93: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # khepera.bg:93: r1: input of stage 2
-        r1_u2 = s.body__Fx__1 + s.body__Fx__2 + c.r1_v2_u * s.u
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # khepera.bg:93: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # khepera.bg:93: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # khepera.bg:93: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_u * s.u
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # khepera.bg:93: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # khepera.bg:93: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # khepera.bg:93: r1 = body.Fx[1] + body.Fx[2] - body.fm*u - body.m*D(u)
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -297,11 +308,19 @@ class Monitor:
         c = self._c
         x = self._x
 
-        # khepera.bg:101: r2: input of stage 2
-        r2_u2 = (
-            c.r2_v2_yaw * s.yaw + c.r2_body__Fx__1 * s.body__Fx__1
-            - c.r2_body__Fx__1 * s.body__Fx__2
+        # khepera.bg:101: r2: terms of order 0
+        r2_g0 = (
+            c.r2_body__Fx__1 * s.body__Fx__1 - c.r2_yaw * s.yaw - c.r2_body__Fx__1 * s.body__Fx__2
         )
+
+        # khepera.bg:101: r2: degree 1
+        r2_d1 = c.r2_w1_yaw * s.yaw
+
+        # khepera.bg:101: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
+        # khepera.bg:101: r2: input of stage 2
+        r2_u2 = r2_g0 + r2_d1 - r2_e0
 
         # khepera.bg:101: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -310,7 +329,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # khepera.bg:101: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_yaw * s.yaw
+        r2_u1 = r2_y2 + 2.0 * r2_e0 - r2_d1
 
         # khepera.bg:101: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -320,37 +339,45 @@ class Monitor:
 
         # khepera.bg:101: r2 = body.Fx[1]*body.d/2 - body.fz*yaw - body.Fx[2]*body.d/2 -
         # body.Iz*D(yaw)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
         c = self._c
         x = self._x
 
-        # khepera.bg:101: r2: input of stage 2
-        r2_u2 = (
-            c.r2_v2_yaw * s.yaw + c.r2_body__Fx__1 * s.body__Fx__1
-            - c.r2_body__Fx__1 * s.body__Fx__2
+        # khepera.bg:101: r2: terms of order 0
+        r2_g0 = (
+            c.r2_body__Fx__1 * s.body__Fx__1 - c.r2_yaw * s.yaw - c.r2_body__Fx__1 * s.body__Fx__2
         )
 
+        # khepera.bg:101: r2: degree 1
+        r2_d1 = c.r2_w1_yaw * s.yaw
+
+        # khepera.bg:101: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
+        # khepera.bg:101: r2: input of stage 2
+        r2_u2 = r2_g0 + r2_d1 - r2_e0
+
         # khepera.bg:101: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # khepera.bg:101: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # khepera.bg:101: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_yaw * s.yaw
+        r2_u1 = r2_y2 + 2.0 * r2_e0 - r2_d1
 
         # khepera.bg:101: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # khepera.bg:101: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # khepera.bg:101: r2 = body.Fx[1]*body.d/2 - body.fz*yaw - body.Fx[2]*body.d/2 -
         # body.Iz*D(yaw)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -367,23 +394,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -28,7 +28,7 @@ typedef double motor_real;
 /* Version of the structs and functions, and the size of a number. */
 #define MOTOR_ABI (1u * 256u + (uint32_t)sizeof(motor_real))
 /* Identifies the model and the options that this code was made from. */
-#define MOTOR_DIGEST "7888fd5a1d32470a"
+#define MOTOR_DIGEST "e8e2c5fe7c5b7d16"
 
 /* What the code was made for: arguments of motor_configure, in s, rad/s and s. */
 #define MOTOR_SAMPLE_TIME MOTOR_CONSTANT(0.001)
@@ -88,16 +88,14 @@ typedef struct motor_coefficients {
     motor_real r1_speed;       /* r1: factor of speed: k */
     motor_real r1_current;     /* r1: factor of current: R */
     motor_real r1_current_1;   /* r1: factor of current': L */
-    motor_real r1_v1_current;  /* r1: factor of current in stage 1 */
-    motor_real r1_v2_current;  /* r1: factor of current in stage 2 */
-    motor_real a;              /* filter: exp(-bandwidth*sample_time) */
-    motor_real b0;             /* filter: weight of the new sample */
-    motor_real b1;             /* filter: weight of the sample before */
-    motor_real rest;           /* filter: 1 - b0, the memory of a constant 1 */
+    motor_real r1_w1_current;  /* r1: factor of current' */
+    motor_real bend1;          /* filter: 1 * (w*sample_time)^2/12 */
+    motor_real a;              /* filter: what is left of a memory a sample later */
+    motor_real b;              /* filter: weight of a sample, new and a sample later */
+    motor_real rest;           /* filter: 1 - b, the memory of a constant 1 */
     motor_real r2_speed;       /* r2: factor of speed: f */
     motor_real r2_speed_1;     /* r2: factor of speed': J */
-    motor_real r2_v1_speed;    /* r2: factor of speed in stage 1 */
-    motor_real r2_v2_speed;    /* r2: factor of speed in stage 2 */
+    motor_real r2_w1_speed;    /* r2: factor of speed' */
 } motor_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "7888fd5a1d32470a"
+DIGEST = "e8e2c5fe7c5b7d16"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -70,16 +70,14 @@ class Coefficients:
     r1_speed: float       # r1: factor of speed: k
     r1_current: float     # r1: factor of current: R
     r1_current_1: float   # r1: factor of current': L
-    r1_v1_current: float  # r1: factor of current in stage 1
-    r1_v2_current: float  # r1: factor of current in stage 2
-    a: float              # filter: exp(-bandwidth*sample_time)
-    b0: float             # filter: weight of the new sample
-    b1: float             # filter: weight of the sample before
-    rest: float           # filter: 1 - b0, the memory of a constant 1
+    r1_w1_current: float  # r1: factor of current'
+    bend1: float          # filter: 1 * (w*sample_time)^2/12
+    a: float              # filter: what is left of a memory a sample later
+    b: float              # filter: weight of a sample, new and a sample later
+    rest: float           # filter: 1 - b, the memory of a constant 1
     r2_speed: float       # r2: factor of speed: f
     r2_speed_1: float     # r2: factor of speed': J
-    r2_v1_speed: float    # r2: factor of speed in stage 1
-    r2_v2_speed: float    # r2: factor of speed in stage 2
+    r2_w1_speed: float    # r2: factor of speed'
 
 
 class Memory:
@@ -121,9 +119,8 @@ class Monitor:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
                     self._c.r1_speed + self._c.r1_current + self._c.r1_current_1
-                    + self._c.r1_v1_current + self._c.r1_v2_current + self._c.a + self._c.b0
-                    + self._c.b1 + self._c.rest + self._c.r2_speed + self._c.r2_speed_1
-                    + self._c.r2_v1_speed + self._c.r2_v2_speed
+                    + self._c.r1_w1_current + self._c.bend1 + self._c.a + self._c.b + self._c.rest
+                    + self._c.r2_speed + self._c.r2_speed_1 + self._c.r2_w1_speed
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -176,16 +173,17 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
+        # 1 - pole
+        t = 1.0 - pole
 
         # dc_motor.bg:13: r1: factor of speed: k
         c.r1_speed = p.k
@@ -196,23 +194,20 @@ class Monitor:
         # dc_motor.bg:13: r1: factor of current': L
         c.r1_current_1 = p.L
 
-        # dc_motor.bg:13: r1: factor of current in stage 1
-        c.r1_v1_current = p.L * bandwidth
+        # dc_motor.bg:13: r1: factor of current'
+        c.r1_w1_current = p.L * w
 
-        # dc_motor.bg:13: r1: factor of current in stage 2
-        c.r1_v2_current = p.L * bandwidth - p.R
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = turn * turn / 12.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
         # dc_motor.bg:20: r2: factor of speed: f
         c.r2_speed = p.f
@@ -220,19 +215,25 @@ class Monitor:
         # dc_motor.bg:20: r2: factor of speed': J
         c.r2_speed_1 = p.J
 
-        # dc_motor.bg:20: r2: factor of speed in stage 1
-        c.r2_v1_speed = p.J * bandwidth
-
-        # dc_motor.bg:20: r2: factor of speed in stage 2
-        c.r2_v2_speed = p.f - p.J * bandwidth
+        # dc_motor.bg:20: r2: factor of speed'
+        c.r2_w1_speed = p.J * w
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
         c = self._c
         x = self._x
 
+        # dc_motor.bg:13: r1: terms of order 0
+        r1_g0 = s.U - c.r1_speed * s.speed - c.r1_current * s.current
+
+        # dc_motor.bg:13: r1: degree 1
+        r1_d1 = c.r1_w1_current * s.current
+
+        # dc_motor.bg:13: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # dc_motor.bg:13: r1: input of stage 2
-        r1_u2 = s.U + c.r1_v2_current * s.current - c.r1_speed * s.speed
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # dc_motor.bg:13: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -241,7 +242,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # dc_motor.bg:13: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_current * s.current
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # dc_motor.bg:13: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -250,33 +251,42 @@ class Monitor:
         x.r1_s1 = c.rest * r1_u1
 
         # dc_motor.bg:13: r1 = U - k*speed - R*current - L*D(current)
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
         c = self._c
         x = self._x
 
+        # dc_motor.bg:13: r1: terms of order 0
+        r1_g0 = s.U - c.r1_speed * s.speed - c.r1_current * s.current
+
+        # dc_motor.bg:13: r1: degree 1
+        r1_d1 = c.r1_w1_current * s.current
+
+        # dc_motor.bg:13: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # dc_motor.bg:13: r1: input of stage 2
-        r1_u2 = s.U + c.r1_v2_current * s.current - c.r1_speed * s.speed
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # dc_motor.bg:13: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # dc_motor.bg:13: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # dc_motor.bg:13: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_current * s.current
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # dc_motor.bg:13: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # dc_motor.bg:13: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # dc_motor.bg:13: r1 = U - k*speed - R*current - L*D(current)
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -299,8 +309,17 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # dc_motor.bg:20: r2: terms of order 0
+        r2_g0 = s.load + c.r2_speed * s.speed - c.r1_speed * s.current
+
+        # dc_motor.bg:20: r2: degree 1
+        r2_d1 = c.r2_w1_speed * s.speed
+
+        # dc_motor.bg:20: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
         # dc_motor.bg:20: r2: input of stage 2
-        r2_u2 = s.load + c.r2_v2_speed * s.speed - c.r1_speed * s.current
+        r2_u2 = r2_g0 - r2_d1 - r2_e0
 
         # dc_motor.bg:20: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -309,7 +328,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # dc_motor.bg:20: r2: input of stage 1
-        r2_u1 = r2_y2 + c.r2_v1_speed * s.speed
+        r2_u1 = r2_y2 + r2_d1 + 2.0 * r2_e0
 
         # dc_motor.bg:20: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -318,33 +337,42 @@ class Monitor:
         x.r2_s1 = c.rest * r2_u1
 
         # dc_motor.bg:20: r2 = load + f*speed + J*D(speed) - k*current
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
         c = self._c
         x = self._x
 
+        # dc_motor.bg:20: r2: terms of order 0
+        r2_g0 = s.load + c.r2_speed * s.speed - c.r1_speed * s.current
+
+        # dc_motor.bg:20: r2: degree 1
+        r2_d1 = c.r2_w1_speed * s.speed
+
+        # dc_motor.bg:20: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
         # dc_motor.bg:20: r2: input of stage 2
-        r2_u2 = s.load + c.r2_v2_speed * s.speed - c.r1_speed * s.current
+        r2_u2 = r2_g0 - r2_d1 - r2_e0
 
         # dc_motor.bg:20: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # dc_motor.bg:20: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # dc_motor.bg:20: r2: input of stage 1
-        r2_u1 = r2_y2 + c.r2_v1_speed * s.speed
+        r2_u1 = r2_y2 + r2_d1 + 2.0 * r2_e0
 
         # dc_motor.bg:20: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # dc_motor.bg:20: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # dc_motor.bg:20: r2 = load + f*speed + J*D(speed) - k*current
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -361,23 +389,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t drive_bench_abi(void)
@@ -94,55 +65,38 @@ static void compute_coefficients(drive_bench_monitor *monitor, const drive_bench
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: m.el.L*m.me.fe/m.el.k */
     const real t = p->m__el__L * p->m__me__fe / p->m__el__k;
 
     /* khepera.bg:17: m.el.L*m.wh.fs/(m.ge.N*m.el.k) */
     const real t_2 = p->m__el__L * p->m__wh__fs / p->m__ge__N / p->m__el__k;
 
-    /* khepera.bg:17: m.el.Re*m.me.fe/m.el.k */
-    const real t_3 = p->m__el__Re * p->m__me__fe / p->m__el__k;
-
     /* khepera.bg:17: m.el.Re*m.me.Je/m.el.k */
-    const real t_4 = p->m__el__Re * p->m__me__Je / p->m__el__k;
+    const real t_3 = p->m__el__Re * p->m__me__Je / p->m__el__k;
 
     /* khepera.bg:17: m.el.Re*m.wh.Js/(m.ge.N*m.el.k) */
-    const real t_5 = p->m__el__Re * p->m__wh__Js / p->m__ge__N / p->m__el__k;
+    const real t_4 = p->m__el__Re * p->m__wh__Js / p->m__ge__N / p->m__el__k;
 
-    /* exp(-x) */
-    const real t_6 = exponential(-x_);
+    /* 1 - pole */
+    const real t_5 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_7 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_6) / x_;
-
-    /* khepera.bg:17: (-m.el.L*m.me.fe/m.el.k - m.el.Re*m.me.Je/m.el.k)*bandwidth */
-    const real t_8 = (-t - t_4) * bandwidth;
-
-    /* khepera.bg:17: m.el.L*m.me.Je*bandwidth^2/m.el.k */
-    const real t_9 = p->m__el__L * p->m__me__Je * bandwidth * bandwidth / p->m__el__k;
-
-    /* khepera.bg:17: (-m.el.L*m.wh.fs/(m.ge.N*m.el.k) -
-     * m.el.Re*m.wh.Js/(m.ge.N*m.el.k))*bandwidth */
-    const real t_10 = (-t_2 - t_5) * bandwidth;
-
-    /* khepera.bg:17: m.el.L*m.wh.Js*bandwidth^2/(m.ge.N*m.el.k) */
-    const real t_11 = p->m__el__L * p->m__wh__Js * bandwidth * bandwidth / p->m__ge__N
-            / p->m__el__k;
-
-    /* khepera.bg:41: m.wh.Js*bandwidth^2/(m.ge.N*m.me.K) */
-    const real t_12 = p->m__wh__Js * bandwidth * bandwidth / p->m__ge__N / p->m__me__K;
+    /* turn^2 */
+    const real t_6 = turn * turn;
 
     /* khepera.bg:17: r1: factor of m.me.we: m.el.k + m.el.Re*m.me.fe/m.el.k */
-    c->r1_m__me__we = p->m__el__k + t_3;
+    c->r1_m__me__we = p->m__el__k + p->m__el__Re * p->m__me__fe / p->m__el__k;
 
     /* khepera.bg:17: r1: factor of m.me.we': m.el.L*m.me.fe/m.el.k + m.el.Re*m.me.Je/m.el.k */
-    c->r1_m__me__we_1 = t + t_4;
+    c->r1_m__me__we_1 = t + t_3;
 
     /* khepera.bg:17: r1: factor of m.me.we'': m.el.L*m.me.Je/m.el.k */
     c->r1_m__me__we_2 = p->m__el__L * p->m__me__Je / p->m__el__k;
@@ -152,7 +106,7 @@ static void compute_coefficients(drive_bench_monitor *monitor, const drive_bench
 
     /* khepera.bg:17: r1: factor of m.wh.ws': m.el.L*m.wh.fs/(m.ge.N*m.el.k) +
      * m.el.Re*m.wh.Js/(m.ge.N*m.el.k) */
-    c->r1_m__wh__ws_1 = t_2 + t_5;
+    c->r1_m__wh__ws_1 = t_2 + t_4;
 
     /* khepera.bg:17: r1: factor of m.wh.ws'': m.el.L*m.wh.Js/(m.ge.N*m.el.k) */
     c->r1_m__wh__ws_2 = p->m__el__L * p->m__wh__Js / p->m__ge__N / p->m__el__k;
@@ -163,42 +117,35 @@ static void compute_coefficients(drive_bench_monitor *monitor, const drive_bench
     /* khepera.bg:17: r1: factor of Fx': m.el.L*m.wh.R/(m.ge.N*m.el.k) */
     c->r1_Fx_1 = p->m__el__L * p->m__wh__R / p->m__ge__N / p->m__el__k;
 
-    /* khepera.bg:17: r1: factor of m.me.we in stage 1 */
-    c->r1_v1_m__me__we = t_9;
+    /* khepera.bg:17: r1: factor of m.me.we' */
+    c->r1_w1_m__me__we = (-t - t_3) * w;
 
-    /* khepera.bg:17: r1: factor of m.me.we in stage 2 */
-    c->r1_v2_m__me__we = t_8 + REAL(2.0) * t_9;
+    /* khepera.bg:17: r1: factor of m.me.we'' */
+    c->r1_w2_m__me__we = p->m__el__L * p->m__me__Je * w * w / p->m__el__k;
 
-    /* khepera.bg:17: r1: factor of m.me.we in stage 3 */
-    c->r1_v3_m__me__we = -p->m__el__k - t_3 - t_8 - t_9;
+    /* khepera.bg:17: r1: factor of m.wh.ws' */
+    c->r1_w1_m__wh__ws = (-t_2 - t_4) * w;
 
-    /* khepera.bg:17: r1: factor of m.wh.ws in stage 1 */
-    c->r1_v1_m__wh__ws = t_11;
+    /* khepera.bg:17: r1: factor of m.wh.ws'' */
+    c->r1_w2_m__wh__ws = p->m__el__L * p->m__wh__Js * w * w / p->m__ge__N / p->m__el__k;
 
-    /* khepera.bg:17: r1: factor of m.wh.ws in stage 2 */
-    c->r1_v2_m__wh__ws = t_10 + REAL(2.0) * t_11;
+    /* khepera.bg:17: r1: factor of Fx' */
+    c->r1_w1_Fx = p->m__el__L * p->m__wh__R * w / p->m__ge__N / p->m__el__k;
 
-    /* khepera.bg:17: r1: factor of m.wh.ws in stage 3 */
-    c->r1_v3_m__wh__ws = p->m__el__Re * p->m__wh__fs / p->m__ge__N / p->m__el__k + t_10 + t_11;
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_6 / REAL(6.0);
 
-    /* khepera.bg:17: r1: factor of Fx in stage 2 */
-    c->r1_v2_Fx = p->m__el__L * p->m__wh__R * bandwidth / p->m__ge__N / p->m__el__k;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_6 / REAL(12.0);
 
-    /* khepera.bg:17: r1: factor of Fx in stage 3 */
-    c->r1_v3_Fx = p->m__el__L * p->m__wh__R * bandwidth / p->m__ge__N / p->m__el__k
-        - p->m__el__Re * p->m__wh__R / p->m__ge__N / p->m__el__k;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_6;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_5;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_7;
-
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_6 - t_7;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_7;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t_5;
 
     /* khepera.bg:41: 1/(4*m.tau0) */
     c->g = REAL(0.25) / p->m__tau0;
@@ -225,21 +172,18 @@ static void compute_coefficients(drive_bench_monitor *monitor, const drive_bench
     /* half the sample time */
     c->half_time = REAL(0.5) * sample_time;
 
-    /* khepera.bg:41: r2: factor of m.wh.ws in stage 1 */
-    c->r2_v1_m__wh__ws = t_12;
+    /* sample_time/24 */
+    c->half_twelfth = sample_time / REAL(24.0);
 
-    /* khepera.bg:41: r2: factor of m.wh.ws in stage 2 */
-    c->r2_v2_m__wh__ws = REAL(2.0) * t_12;
+    /* khepera.bg:41: r2: factor of m.wh.ws'' */
+    c->r2_w2_m__wh__ws = p->m__wh__Js * w * w / p->m__ge__N / p->m__me__K;
 
-    /* khepera.bg:41: r2: factor of m.wh.ws in stage 3 */
-    c->r2_v3_m__wh__ws = p->m__ge__N + t_12;
+    /* khepera.bg:41: r2: factor of Fx' */
+    c->r2_w1_Fx = p->m__wh__R * w / p->m__ge__N / p->m__me__K;
 
-    /* khepera.bg:41: r2: factor of Fx in stage 2 */
-    c->r2_v2_Fx = p->m__wh__R * bandwidth / p->m__ge__N / p->m__me__K;
-
-    /* khepera.bg:41: r2: factor of tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ...
-     * in stage 2 */
-    c->r2_v2_tanh = p->m__tau0 * p->m__A * bandwidth;
+    /* khepera.bg:41: r2: factor of D(tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m.
+     * ...) */
+    c->r2_w1_tanh = p->m__tau0 * p->m__A * w;
 }
 
 static bool parameters_are_finite(const drive_bench_parameters *p)
@@ -254,14 +198,13 @@ static bool coefficients_are_finite(const drive_bench_monitor *monitor)
     return finite_number(monitor->c.r1_m__me__we + monitor->c.r1_m__me__we_1
             + monitor->c.r1_m__me__we_2 + monitor->c.r1_m__wh__ws + monitor->c.r1_m__wh__ws_1
             + monitor->c.r1_m__wh__ws_2 + monitor->c.r1_Fx + monitor->c.r1_Fx_1
-            + monitor->c.r1_v1_m__me__we + monitor->c.r1_v2_m__me__we + monitor->c.r1_v3_m__me__we
-            + monitor->c.r1_v1_m__wh__ws + monitor->c.r1_v2_m__wh__ws + monitor->c.r1_v3_m__wh__ws
-            + monitor->c.r1_v2_Fx + monitor->c.r1_v3_Fx + monitor->c.a + monitor->c.b0
-            + monitor->c.b1 + monitor->c.rest + monitor->c.g + monitor->c.g_2
+            + monitor->c.r1_w1_m__me__we + monitor->c.r1_w2_m__me__we + monitor->c.r1_w1_m__wh__ws
+            + monitor->c.r1_w2_m__wh__ws + monitor->c.r1_w1_Fx + monitor->c.bend2 + monitor->c.bend1
+            + monitor->c.a + monitor->c.b + monitor->c.rest + monitor->c.g + monitor->c.g_2
             + monitor->c.r2_m__wh__ws + monitor->c.r2_m__wh__ws_1 + monitor->c.r2_m__wh__ws_2
             + monitor->c.r2_Fx_1 + monitor->c.r2_tanh_1 + monitor->c.half_time
-            + monitor->c.r2_v1_m__wh__ws + monitor->c.r2_v2_m__wh__ws + monitor->c.r2_v3_m__wh__ws
-            + monitor->c.r2_v2_Fx + monitor->c.r2_v2_tanh);
+            + monitor->c.half_twelfth + monitor->c.r2_w2_m__wh__ws + monitor->c.r2_w1_Fx
+            + monitor->c.r2_w1_tanh);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -344,9 +287,26 @@ static void start_r1(
     const drive_bench_coefficients *c = &monitor->c;
     drive_bench_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->U0 - c->r1_m__me__we * s->m__me__we - c->r1_m__wh__ws * s->m__wh__ws
+        - c->r1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = c->r1_w1_m__me__we * s->m__me__we + c->r1_w1_m__wh__ws * s->m__wh__ws
+        - c->r1_w1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend2 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = -c->r1_w2_m__me__we * s->m__me__we - c->r1_w2_m__wh__ws * s->m__wh__ws
+        - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend1 * r1_g1;
+
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = s->U0 + c->r1_v3_m__me__we * s->m__me__we + c->r1_v3_Fx * s->Fx
-        - c->r1_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1;
 
     /* khepera.bg:17: r1: stage 3, at rest */
     const real r1_y3 = r1_u3;
@@ -355,8 +315,7 @@ static void start_r1(
     x->r1_s3 = c->rest * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_m__me__we * s->m__me__we + c->r1_v2_m__wh__ws * s->m__wh__ws
-        - c->r1_v2_Fx * s->Fx;
+    const real r1_u2 = r1_y3 + r1_g1 - REAL(2.0) * r1_d2 - REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -365,8 +324,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_m__me__we * s->m__me__we
-        - c->r1_v1_m__wh__ws * s->m__wh__ws;
+    const real r1_u1 = r1_y2 + r1_d2 + REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -378,7 +336,7 @@ static void start_r1(
      * m.el.L*D(m.el.k.e2)/m.el.k
      * where m.el.k.e2 = m.me.fe*m.me.we + m.me.Je*D(m.me.we) + (m.wh.fs*m.wh.ws + m.wh.R*Fx +
      * m.wh.Js*D(m.wh.ws))/m.ge.N */
-    r[DRIVE_BENCH_R1] = r1_y1;
+    r[DRIVE_BENCH_R1] = r1_y1 - r1_e1;
 }
 
 /* r1 on every further sample. */
@@ -388,41 +346,56 @@ static void next_r1(
     const drive_bench_coefficients *c = &monitor->c;
     drive_bench_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->U0 - c->r1_m__me__we * s->m__me__we - c->r1_m__wh__ws * s->m__wh__ws
+        - c->r1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = c->r1_w1_m__me__we * s->m__me__we + c->r1_w1_m__wh__ws * s->m__wh__ws
+        - c->r1_w1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend2 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = -c->r1_w2_m__me__we * s->m__me__we - c->r1_w2_m__wh__ws * s->m__wh__ws
+        - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend1 * r1_g1;
+
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = s->U0 + c->r1_v3_m__me__we * s->m__me__we + c->r1_v3_Fx * s->Fx
-        - c->r1_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1;
 
     /* khepera.bg:17: r1: stage 3 */
-    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+    const real r1_y3 = x->r1_s3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: stage 3: memory */
-    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+    x->r1_s3 = c->a * r1_y3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_m__me__we * s->m__me__we + c->r1_v2_m__wh__ws * s->m__wh__ws
-        - c->r1_v2_Fx * s->Fx;
+    const real r1_u2 = r1_y3 + r1_g1 - REAL(2.0) * r1_d2 - REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_m__me__we * s->m__me__we
-        - c->r1_v1_m__wh__ws * s->m__wh__ws;
+    const real r1_u1 = r1_y2 + r1_d2 + REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1 = U0 - m.el.k*m.me.we - m.el.Re*m.el.k.e2/m.el.k -
      * m.el.L*D(m.el.k.e2)/m.el.k
      * where m.el.k.e2 = m.me.fe*m.me.we + m.me.Je*D(m.me.we) + (m.wh.fs*m.wh.ws + m.wh.R*Fx +
      * m.wh.Js*D(m.wh.ws))/m.ge.N */
-    r[DRIVE_BENCH_R1] = r1_y1;
+    r[DRIVE_BENCH_R1] = r1_y1 - r1_e1;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -465,12 +438,33 @@ static void start_r2(
     /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): memory */
     x->r2_q = c->half_time * r2_rate;
 
+    /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0) */
+    const real r2_integral = r2_int;
+
+    /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): memory */
+    x->r2_rate2 = r2_rate;
+    x->r2_rate1 = r2_rate;
+
     /* khepera.bg:41: tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ... */
-    const real r2_tanh = MATH(tanh)(r2_int);
+    const real r2_tanh = MATH(tanh)(r2_integral);
+
+    /* khepera.bg:41: r2: terms of order 0 */
+    const real r2_g0 = s->m__me__we - c->r2_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:41: r2: terms of order 1 */
+    const real r2_g1 = c->r2_w1_tanh * r2_tanh - c->r2_w1_Fx * s->Fx;
+
+    /* khepera.bg:41: r2: error of order 0 */
+    const real r2_e0 = c->bend2 * r2_g0;
+
+    /* khepera.bg:41: r2: degree 2 */
+    const real r2_d2 = -c->r2_w2_m__wh__ws * s->m__wh__ws - r2_e0;
+
+    /* khepera.bg:41: r2: error of order 1 */
+    const real r2_e1 = c->bend1 * r2_g1;
 
     /* khepera.bg:41: r2: input of stage 3 */
-    const real r2_u3 = s->m__me__we + c->r2_v2_Fx * s->Fx - c->r2_v3_m__wh__ws * s->m__wh__ws
-        - c->r2_v2_tanh * r2_tanh;
+    const real r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1;
 
     /* khepera.bg:41: r2: stage 3, at rest */
     const real r2_y3 = r2_u3;
@@ -479,8 +473,7 @@ static void start_r2(
     x->r2_s3 = c->rest * r2_u3;
 
     /* khepera.bg:41: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_m__wh__ws * s->m__wh__ws + c->r2_v2_tanh * r2_tanh
-        - c->r2_v2_Fx * s->Fx;
+    const real r2_u2 = r2_y3 + r2_g1 - REAL(2.0) * r2_d2 - REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -489,7 +482,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* khepera.bg:41: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_m__wh__ws * s->m__wh__ws;
+    const real r2_u1 = r2_y2 + r2_d2 + REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -500,7 +493,7 @@ static void start_r2(
     /* khepera.bg:41: r2 = m.me.we - m.ge.N*m.wh.ws - D(m.wh.fs*m.wh.ws + m.wh.R*Fx +
      * m.wh.Js*D(m.wh.ws) - m.tau0*m.A*m.ge.N*m.me.K*tanh((Int(m.me.we) -
      * m.ge.N*Int(m.wh.ws))/(4*m.tau0)))/(m.ge.N*m.me.K) */
-    r[DRIVE_BENCH_R2] = r2_y1;
+    r[DRIVE_BENCH_R2] = r2_y1 - r2_e1;
 }
 
 /* r2 on every further sample. */
@@ -520,42 +513,63 @@ static void next_r2(
     /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): memory */
     x->r2_q = r2_int + c->half_time * r2_rate;
 
+    /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0) */
+    const real r2_integral = r2_int
+        - c->half_twelfth * (REAL(3.0) * r2_rate - REAL(4.0) * x->r2_rate1 + x->r2_rate2);
+
+    /* khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): memory */
+    x->r2_rate2 = x->r2_rate1;
+    x->r2_rate1 = r2_rate;
+
     /* khepera.bg:41: tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ... */
-    const real r2_tanh = MATH(tanh)(r2_int);
+    const real r2_tanh = MATH(tanh)(r2_integral);
+
+    /* khepera.bg:41: r2: terms of order 0 */
+    const real r2_g0 = s->m__me__we - c->r2_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:41: r2: terms of order 1 */
+    const real r2_g1 = c->r2_w1_tanh * r2_tanh - c->r2_w1_Fx * s->Fx;
+
+    /* khepera.bg:41: r2: error of order 0 */
+    const real r2_e0 = c->bend2 * r2_g0;
+
+    /* khepera.bg:41: r2: degree 2 */
+    const real r2_d2 = -c->r2_w2_m__wh__ws * s->m__wh__ws - r2_e0;
+
+    /* khepera.bg:41: r2: error of order 1 */
+    const real r2_e1 = c->bend1 * r2_g1;
 
     /* khepera.bg:41: r2: input of stage 3 */
-    const real r2_u3 = s->m__me__we + c->r2_v2_Fx * s->Fx - c->r2_v3_m__wh__ws * s->m__wh__ws
-        - c->r2_v2_tanh * r2_tanh;
+    const real r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1;
 
     /* khepera.bg:41: r2: stage 3 */
-    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+    const real r2_y3 = x->r2_s3 + c->b * r2_u3;
 
     /* khepera.bg:41: r2: stage 3: memory */
-    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+    x->r2_s3 = c->a * r2_y3 + c->b * r2_u3;
 
     /* khepera.bg:41: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_m__wh__ws * s->m__wh__ws + c->r2_v2_tanh * r2_tanh
-        - c->r2_v2_Fx * s->Fx;
+    const real r2_u2 = r2_y3 + r2_g1 - REAL(2.0) * r2_d2 - REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* khepera.bg:41: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* khepera.bg:41: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_m__wh__ws * s->m__wh__ws;
+    const real r2_u1 = r2_y2 + r2_d2 + REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* khepera.bg:41: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* khepera.bg:41: r2 = m.me.we - m.ge.N*m.wh.ws - D(m.wh.fs*m.wh.ws + m.wh.R*Fx +
      * m.wh.Js*D(m.wh.ws) - m.tau0*m.A*m.ge.N*m.me.K*tanh((Int(m.me.we) -
      * m.ge.N*Int(m.wh.ws))/(4*m.tau0)))/(m.ge.N*m.me.K) */
-    r[DRIVE_BENCH_R2] = r2_y1;
+    r[DRIVE_BENCH_R2] = r2_y1 - r2_e1;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */

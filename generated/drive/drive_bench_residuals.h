@@ -28,7 +28,7 @@ typedef double drive_bench_real;
 /* Version of the structs and functions, and the size of a number. */
 #define DRIVE_BENCH_ABI (1u * 256u + (uint32_t)sizeof(drive_bench_real))
 /* Identifies the model and the options that this code was made from. */
-#define DRIVE_BENCH_DIGEST "b02fb67375eb6491"
+#define DRIVE_BENCH_DIGEST "85461c183f8b86d9"
 
 /* What the code was made for: arguments of drive_bench_configure, in s, rad/s and s. */
 #define DRIVE_BENCH_SAMPLE_TIME DRIVE_BENCH_CONSTANT(0.001)
@@ -111,18 +111,16 @@ typedef struct drive_bench_coefficients {
     drive_bench_real r1_m__wh__ws_2;   /* r1: factor of m.wh.ws'': m.el.L*m.wh.Js/(m.ge.N*m.el.k) */
     drive_bench_real r1_Fx;            /* r1: factor of Fx: m.el.Re*m.wh.R/(m.ge.N*m.el.k) */
     drive_bench_real r1_Fx_1;          /* r1: factor of Fx': m.el.L*m.wh.R/(m.ge.N*m.el.k) */
-    drive_bench_real r1_v1_m__me__we;  /* r1: factor of m.me.we in stage 1 */
-    drive_bench_real r1_v2_m__me__we;  /* r1: factor of m.me.we in stage 2 */
-    drive_bench_real r1_v3_m__me__we;  /* r1: factor of m.me.we in stage 3 */
-    drive_bench_real r1_v1_m__wh__ws;  /* r1: factor of m.wh.ws in stage 1 */
-    drive_bench_real r1_v2_m__wh__ws;  /* r1: factor of m.wh.ws in stage 2 */
-    drive_bench_real r1_v3_m__wh__ws;  /* r1: factor of m.wh.ws in stage 3 */
-    drive_bench_real r1_v2_Fx;         /* r1: factor of Fx in stage 2 */
-    drive_bench_real r1_v3_Fx;         /* r1: factor of Fx in stage 3 */
-    drive_bench_real a;                /* filter: exp(-bandwidth*sample_time) */
-    drive_bench_real b0;               /* filter: weight of the new sample */
-    drive_bench_real b1;               /* filter: weight of the sample before */
-    drive_bench_real rest;             /* filter: 1 - b0, the memory of a constant 1 */
+    drive_bench_real r1_w1_m__me__we;  /* r1: factor of m.me.we' */
+    drive_bench_real r1_w2_m__me__we;  /* r1: factor of m.me.we'' */
+    drive_bench_real r1_w1_m__wh__ws;  /* r1: factor of m.wh.ws' */
+    drive_bench_real r1_w2_m__wh__ws;  /* r1: factor of m.wh.ws'' */
+    drive_bench_real r1_w1_Fx;         /* r1: factor of Fx' */
+    drive_bench_real bend2;            /* filter: 2 * (w*sample_time)^2/12 */
+    drive_bench_real bend1;            /* filter: 1 * (w*sample_time)^2/12 */
+    drive_bench_real a;                /* filter: what is left of a memory a sample later */
+    drive_bench_real b;                /* filter: weight of a sample, new and a sample later */
+    drive_bench_real rest;             /* filter: 1 - b, the memory of a constant 1 */
     drive_bench_real g;                /* 1/(4*m.tau0) */
     drive_bench_real g_2;              /* m.ge.N/(4*m.tau0) */
     drive_bench_real r2_m__wh__ws;     /* r2: factor of m.wh.ws: m.ge.N */
@@ -132,12 +130,11 @@ typedef struct drive_bench_coefficients {
     /* r2: factor of D(tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ...): m.tau0*m.A */
     drive_bench_real r2_tanh_1;
     drive_bench_real half_time;        /* half the sample time */
-    drive_bench_real r2_v1_m__wh__ws;  /* r2: factor of m.wh.ws in stage 1 */
-    drive_bench_real r2_v2_m__wh__ws;  /* r2: factor of m.wh.ws in stage 2 */
-    drive_bench_real r2_v3_m__wh__ws;  /* r2: factor of m.wh.ws in stage 3 */
-    drive_bench_real r2_v2_Fx;         /* r2: factor of Fx in stage 2 */
-    /* r2: factor of tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ... in stage 2 */
-    drive_bench_real r2_v2_tanh;
+    drive_bench_real half_twelfth;     /* sample_time/24 */
+    drive_bench_real r2_w2_m__wh__ws;  /* r2: factor of m.wh.ws'' */
+    drive_bench_real r2_w1_Fx;         /* r2: factor of Fx' */
+    /* r2: factor of D(tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ...) */
+    drive_bench_real r2_w1_tanh;
 } drive_bench_coefficients;
 
 /* What the filters remember from sample to sample. */
@@ -147,6 +144,10 @@ typedef struct drive_bench_memory {
     drive_bench_real r1_s1;  /* memory of r1: stage 1 */
     /* memory of integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0) */
     drive_bench_real r2_q;
+    /* integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): rate a sample before */
+    drive_bench_real r2_rate1;
+    /* integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): rate two samples before */
+    drive_bench_real r2_rate2;
     drive_bench_real r2_s3;  /* memory of r2: stage 3 */
     drive_bench_real r2_s2;  /* memory of r2: stage 2 */
     drive_bench_real r2_s1;  /* memory of r2: stage 1 */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "b02fb67375eb6491"
+DIGEST = "85461c183f8b86d9"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -90,18 +90,16 @@ class Coefficients:
     r1_m__wh__ws_2: float   # r1: factor of m.wh.ws'': m.el.L*m.wh.Js/(m.ge.N*m.el.k)
     r1_Fx: float            # r1: factor of Fx: m.el.Re*m.wh.R/(m.ge.N*m.el.k)
     r1_Fx_1: float          # r1: factor of Fx': m.el.L*m.wh.R/(m.ge.N*m.el.k)
-    r1_v1_m__me__we: float  # r1: factor of m.me.we in stage 1
-    r1_v2_m__me__we: float  # r1: factor of m.me.we in stage 2
-    r1_v3_m__me__we: float  # r1: factor of m.me.we in stage 3
-    r1_v1_m__wh__ws: float  # r1: factor of m.wh.ws in stage 1
-    r1_v2_m__wh__ws: float  # r1: factor of m.wh.ws in stage 2
-    r1_v3_m__wh__ws: float  # r1: factor of m.wh.ws in stage 3
-    r1_v2_Fx: float         # r1: factor of Fx in stage 2
-    r1_v3_Fx: float         # r1: factor of Fx in stage 3
-    a: float                # filter: exp(-bandwidth*sample_time)
-    b0: float               # filter: weight of the new sample
-    b1: float               # filter: weight of the sample before
-    rest: float             # filter: 1 - b0, the memory of a constant 1
+    r1_w1_m__me__we: float  # r1: factor of m.me.we'
+    r1_w2_m__me__we: float  # r1: factor of m.me.we''
+    r1_w1_m__wh__ws: float  # r1: factor of m.wh.ws'
+    r1_w2_m__wh__ws: float  # r1: factor of m.wh.ws''
+    r1_w1_Fx: float         # r1: factor of Fx'
+    bend2: float            # filter: 2 * (w*sample_time)^2/12
+    bend1: float            # filter: 1 * (w*sample_time)^2/12
+    a: float                # filter: what is left of a memory a sample later
+    b: float                # filter: weight of a sample, new and a sample later
+    rest: float             # filter: 1 - b, the memory of a constant 1
     g: float                # 1/(4*m.tau0)
     g_2: float              # m.ge.N/(4*m.tau0)
     r2_m__wh__ws: float     # r2: factor of m.wh.ws: m.ge.N
@@ -111,12 +109,11 @@ class Coefficients:
     # r2: factor of D(tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ...): m.tau0*m.A
     r2_tanh_1: float
     half_time: float        # half the sample time
-    r2_v1_m__wh__ws: float  # r2: factor of m.wh.ws in stage 1
-    r2_v2_m__wh__ws: float  # r2: factor of m.wh.ws in stage 2
-    r2_v3_m__wh__ws: float  # r2: factor of m.wh.ws in stage 3
-    r2_v2_Fx: float         # r2: factor of Fx in stage 2
-    # r2: factor of tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ... in stage 2
-    r2_v2_tanh: float
+    half_twelfth: float     # sample_time/24
+    r2_w2_m__wh__ws: float  # r2: factor of m.wh.ws''
+    r2_w1_Fx: float         # r2: factor of Fx'
+    # r2: factor of D(tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ...)
+    r2_w1_tanh: float
 
 
 class Memory:
@@ -126,6 +123,10 @@ class Memory:
     r1_s2: float  # memory of r1: stage 2
     r1_s1: float  # memory of r1: stage 1
     r2_q: float   # memory of integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0)
+    # integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): rate a sample before
+    r2_rate1: float
+    # integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): rate two samples before
+    r2_rate2: float
     r2_s3: float  # memory of r2: stage 3
     r2_s2: float  # memory of r2: stage 2
     r2_s1: float  # memory of r2: stage 1
@@ -165,14 +166,13 @@ class Monitor:
             if not math.isfinite(
                     self._c.r1_m__me__we + self._c.r1_m__me__we_1 + self._c.r1_m__me__we_2
                     + self._c.r1_m__wh__ws + self._c.r1_m__wh__ws_1 + self._c.r1_m__wh__ws_2
-                    + self._c.r1_Fx + self._c.r1_Fx_1 + self._c.r1_v1_m__me__we
-                    + self._c.r1_v2_m__me__we + self._c.r1_v3_m__me__we + self._c.r1_v1_m__wh__ws
-                    + self._c.r1_v2_m__wh__ws + self._c.r1_v3_m__wh__ws + self._c.r1_v2_Fx
-                    + self._c.r1_v3_Fx + self._c.a + self._c.b0 + self._c.b1 + self._c.rest
-                    + self._c.g + self._c.g_2 + self._c.r2_m__wh__ws + self._c.r2_m__wh__ws_1
-                    + self._c.r2_m__wh__ws_2 + self._c.r2_Fx_1 + self._c.r2_tanh_1
-                    + self._c.half_time + self._c.r2_v1_m__wh__ws + self._c.r2_v2_m__wh__ws
-                    + self._c.r2_v3_m__wh__ws + self._c.r2_v2_Fx + self._c.r2_v2_tanh
+                    + self._c.r1_Fx + self._c.r1_Fx_1 + self._c.r1_w1_m__me__we
+                    + self._c.r1_w2_m__me__we + self._c.r1_w1_m__wh__ws + self._c.r1_w2_m__wh__ws
+                    + self._c.r1_w1_Fx + self._c.bend2 + self._c.bend1 + self._c.a + self._c.b
+                    + self._c.rest + self._c.g + self._c.g_2 + self._c.r2_m__wh__ws
+                    + self._c.r2_m__wh__ws_1 + self._c.r2_m__wh__ws_2 + self._c.r2_Fx_1
+                    + self._c.r2_tanh_1 + self._c.half_time + self._c.half_twelfth
+                    + self._c.r2_w2_m__wh__ws + self._c.r2_w1_Fx + self._c.r2_w1_tanh
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -238,53 +238,38 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: m.el.L*m.me.fe/m.el.k
         t = p.m__el__L * p.m__me__fe / p.m__el__k
 
         # khepera.bg:17: m.el.L*m.wh.fs/(m.ge.N*m.el.k)
         t_2 = p.m__el__L * p.m__wh__fs / p.m__ge__N / p.m__el__k
 
-        # khepera.bg:17: m.el.Re*m.me.fe/m.el.k
-        t_3 = p.m__el__Re * p.m__me__fe / p.m__el__k
-
         # khepera.bg:17: m.el.Re*m.me.Je/m.el.k
-        t_4 = p.m__el__Re * p.m__me__Je / p.m__el__k
+        t_3 = p.m__el__Re * p.m__me__Je / p.m__el__k
 
         # khepera.bg:17: m.el.Re*m.wh.Js/(m.ge.N*m.el.k)
-        t_5 = p.m__el__Re * p.m__wh__Js / p.m__ge__N / p.m__el__k
+        t_4 = p.m__el__Re * p.m__wh__Js / p.m__ge__N / p.m__el__k
 
-        # exp(-x)
-        t_6 = _exponential(-x_)
+        # 1 - pole
+        t_5 = 1.0 - pole
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_7 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_6) / x_
-        )
-
-        # khepera.bg:17: (-m.el.L*m.me.fe/m.el.k - m.el.Re*m.me.Je/m.el.k)*bandwidth
-        t_8 = (-t - t_4) * bandwidth
-
-        # khepera.bg:17: m.el.L*m.me.Je*bandwidth^2/m.el.k
-        t_9 = p.m__el__L * p.m__me__Je * bandwidth * bandwidth / p.m__el__k
-
-        # khepera.bg:17: (-m.el.L*m.wh.fs/(m.ge.N*m.el.k) -
-        # m.el.Re*m.wh.Js/(m.ge.N*m.el.k))*bandwidth
-        t_10 = (-t_2 - t_5) * bandwidth
-
-        # khepera.bg:17: m.el.L*m.wh.Js*bandwidth^2/(m.ge.N*m.el.k)
-        t_11 = p.m__el__L * p.m__wh__Js * bandwidth * bandwidth / p.m__ge__N / p.m__el__k
-
-        # khepera.bg:41: m.wh.Js*bandwidth^2/(m.ge.N*m.me.K)
-        t_12 = p.m__wh__Js * bandwidth * bandwidth / p.m__ge__N / p.m__me__K
+        # turn^2
+        t_6 = turn * turn
 
         # khepera.bg:17: r1: factor of m.me.we: m.el.k + m.el.Re*m.me.fe/m.el.k
-        c.r1_m__me__we = p.m__el__k + t_3
+        c.r1_m__me__we = p.m__el__k + p.m__el__Re * p.m__me__fe / p.m__el__k
 
         # khepera.bg:17: r1: factor of m.me.we': m.el.L*m.me.fe/m.el.k + m.el.Re*m.me.Je/m.el.k
-        c.r1_m__me__we_1 = t + t_4
+        c.r1_m__me__we_1 = t + t_3
 
         # khepera.bg:17: r1: factor of m.me.we'': m.el.L*m.me.Je/m.el.k
         c.r1_m__me__we_2 = p.m__el__L * p.m__me__Je / p.m__el__k
@@ -294,7 +279,7 @@ class Monitor:
 
         # khepera.bg:17: r1: factor of m.wh.ws': m.el.L*m.wh.fs/(m.ge.N*m.el.k) +
         # m.el.Re*m.wh.Js/(m.ge.N*m.el.k)
-        c.r1_m__wh__ws_1 = t_2 + t_5
+        c.r1_m__wh__ws_1 = t_2 + t_4
 
         # khepera.bg:17: r1: factor of m.wh.ws'': m.el.L*m.wh.Js/(m.ge.N*m.el.k)
         c.r1_m__wh__ws_2 = p.m__el__L * p.m__wh__Js / p.m__ge__N / p.m__el__k
@@ -305,44 +290,35 @@ class Monitor:
         # khepera.bg:17: r1: factor of Fx': m.el.L*m.wh.R/(m.ge.N*m.el.k)
         c.r1_Fx_1 = p.m__el__L * p.m__wh__R / p.m__ge__N / p.m__el__k
 
-        # khepera.bg:17: r1: factor of m.me.we in stage 1
-        c.r1_v1_m__me__we = t_9
+        # khepera.bg:17: r1: factor of m.me.we'
+        c.r1_w1_m__me__we = (-t - t_3) * w
 
-        # khepera.bg:17: r1: factor of m.me.we in stage 2
-        c.r1_v2_m__me__we = t_8 + 2.0 * t_9
+        # khepera.bg:17: r1: factor of m.me.we''
+        c.r1_w2_m__me__we = p.m__el__L * p.m__me__Je * w * w / p.m__el__k
 
-        # khepera.bg:17: r1: factor of m.me.we in stage 3
-        c.r1_v3_m__me__we = -p.m__el__k - t_3 - t_8 - t_9
+        # khepera.bg:17: r1: factor of m.wh.ws'
+        c.r1_w1_m__wh__ws = (-t_2 - t_4) * w
 
-        # khepera.bg:17: r1: factor of m.wh.ws in stage 1
-        c.r1_v1_m__wh__ws = t_11
+        # khepera.bg:17: r1: factor of m.wh.ws''
+        c.r1_w2_m__wh__ws = p.m__el__L * p.m__wh__Js * w * w / p.m__ge__N / p.m__el__k
 
-        # khepera.bg:17: r1: factor of m.wh.ws in stage 2
-        c.r1_v2_m__wh__ws = t_10 + 2.0 * t_11
+        # khepera.bg:17: r1: factor of Fx'
+        c.r1_w1_Fx = p.m__el__L * p.m__wh__R * w / p.m__ge__N / p.m__el__k
 
-        # khepera.bg:17: r1: factor of m.wh.ws in stage 3
-        c.r1_v3_m__wh__ws = p.m__el__Re * p.m__wh__fs / p.m__ge__N / p.m__el__k + t_10 + t_11
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_6 / 6.0
 
-        # khepera.bg:17: r1: factor of Fx in stage 2
-        c.r1_v2_Fx = p.m__el__L * p.m__wh__R * bandwidth / p.m__ge__N / p.m__el__k
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_6 / 12.0
 
-        # khepera.bg:17: r1: factor of Fx in stage 3
-        c.r1_v3_Fx = (
-            p.m__el__L * p.m__wh__R * bandwidth / p.m__ge__N / p.m__el__k
-            - p.m__el__Re * p.m__wh__R / p.m__ge__N / p.m__el__k
-        )
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_6
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_5
 
-        # filter: weight of the new sample
-        c.b0 = t_7
-
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_6 - t_7
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_7
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t_5
 
         # khepera.bg:41: 1/(4*m.tau0)
         c.g = 0.25 / p.m__tau0
@@ -369,32 +345,43 @@ class Monitor:
         # half the sample time
         c.half_time = 0.5 * sample_time
 
-        # khepera.bg:41: r2: factor of m.wh.ws in stage 1
-        c.r2_v1_m__wh__ws = t_12
+        # sample_time/24
+        c.half_twelfth = sample_time / 24.0
 
-        # khepera.bg:41: r2: factor of m.wh.ws in stage 2
-        c.r2_v2_m__wh__ws = 2.0 * t_12
+        # khepera.bg:41: r2: factor of m.wh.ws''
+        c.r2_w2_m__wh__ws = p.m__wh__Js * w * w / p.m__ge__N / p.m__me__K
 
-        # khepera.bg:41: r2: factor of m.wh.ws in stage 3
-        c.r2_v3_m__wh__ws = p.m__ge__N + t_12
+        # khepera.bg:41: r2: factor of Fx'
+        c.r2_w1_Fx = p.m__wh__R * w / p.m__ge__N / p.m__me__K
 
-        # khepera.bg:41: r2: factor of Fx in stage 2
-        c.r2_v2_Fx = p.m__wh__R * bandwidth / p.m__ge__N / p.m__me__K
-
-        # khepera.bg:41: r2: factor of tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ...
-        # in stage 2
-        c.r2_v2_tanh = p.m__tau0 * p.m__A * bandwidth
+        # khepera.bg:41: r2: factor of D(tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m.
+        # ...)
+        c.r2_w1_tanh = p.m__tau0 * p.m__A * w
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r1: input of stage 3
-        r1_u3 = (
-            s.U0 + c.r1_v3_m__me__we * s.m__me__we + c.r1_v3_Fx * s.Fx
-            - c.r1_v3_m__wh__ws * s.m__wh__ws
+        # khepera.bg:17: r1: terms of order 0
+        r1_g0 = s.U0 - c.r1_m__me__we * s.m__me__we - c.r1_m__wh__ws * s.m__wh__ws - c.r1_Fx * s.Fx
+
+        # khepera.bg:17: r1: terms of order 1
+        r1_g1 = (
+            c.r1_w1_m__me__we * s.m__me__we + c.r1_w1_m__wh__ws * s.m__wh__ws - c.r1_w1_Fx * s.Fx
         )
+
+        # khepera.bg:17: r1: error of order 0
+        r1_e0 = c.bend2 * r1_g0
+
+        # khepera.bg:17: r1: degree 2
+        r1_d2 = -c.r1_w2_m__me__we * s.m__me__we - c.r1_w2_m__wh__ws * s.m__wh__ws - r1_e0
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1 = c.bend1 * r1_g1
+
+        # khepera.bg:17: r1: input of stage 3
+        r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1
 
         # khepera.bg:17: r1: stage 3, at rest
         r1_y3 = r1_u3
@@ -403,10 +390,7 @@ class Monitor:
         x.r1_s3 = c.rest * r1_u3
 
         # khepera.bg:17: r1: input of stage 2
-        r1_u2 = (
-            r1_y3 + c.r1_v2_m__me__we * s.m__me__we + c.r1_v2_m__wh__ws * s.m__wh__ws
-            - c.r1_v2_Fx * s.Fx
-        )
+        r1_u2 = r1_y3 + r1_g1 - 2.0 * r1_d2 - 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -415,7 +399,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # khepera.bg:17: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_m__me__we * s.m__me__we - c.r1_v1_m__wh__ws * s.m__wh__ws
+        r1_u1 = r1_y2 + r1_d2 + 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -427,51 +411,62 @@ class Monitor:
         # m.el.L*D(m.el.k.e2)/m.el.k
         # where m.el.k.e2 = m.me.fe*m.me.we + m.me.Je*D(m.me.we) + (m.wh.fs*m.wh.ws + m.wh.R*Fx +
         # m.wh.Js*D(m.wh.ws))/m.ge.N
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e1
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r1: input of stage 3
-        r1_u3 = (
-            s.U0 + c.r1_v3_m__me__we * s.m__me__we + c.r1_v3_Fx * s.Fx
-            - c.r1_v3_m__wh__ws * s.m__wh__ws
+        # khepera.bg:17: r1: terms of order 0
+        r1_g0 = s.U0 - c.r1_m__me__we * s.m__me__we - c.r1_m__wh__ws * s.m__wh__ws - c.r1_Fx * s.Fx
+
+        # khepera.bg:17: r1: terms of order 1
+        r1_g1 = (
+            c.r1_w1_m__me__we * s.m__me__we + c.r1_w1_m__wh__ws * s.m__wh__ws - c.r1_w1_Fx * s.Fx
         )
+
+        # khepera.bg:17: r1: error of order 0
+        r1_e0 = c.bend2 * r1_g0
+
+        # khepera.bg:17: r1: degree 2
+        r1_d2 = -c.r1_w2_m__me__we * s.m__me__we - c.r1_w2_m__wh__ws * s.m__wh__ws - r1_e0
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1 = c.bend1 * r1_g1
+
+        # khepera.bg:17: r1: input of stage 3
+        r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1
 
         # khepera.bg:17: r1: stage 3
-        r1_y3 = x.r1_s3 + c.b0 * r1_u3
+        r1_y3 = x.r1_s3 + c.b * r1_u3
 
         # khepera.bg:17: r1: stage 3: memory
-        x.r1_s3 = c.a * r1_y3 + c.b1 * r1_u3
+        x.r1_s3 = c.a * r1_y3 + c.b * r1_u3
 
         # khepera.bg:17: r1: input of stage 2
-        r1_u2 = (
-            r1_y3 + c.r1_v2_m__me__we * s.m__me__we + c.r1_v2_m__wh__ws * s.m__wh__ws
-            - c.r1_v2_Fx * s.Fx
-        )
+        r1_u2 = r1_y3 + r1_g1 - 2.0 * r1_d2 - 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # khepera.bg:17: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # khepera.bg:17: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_m__me__we * s.m__me__we - c.r1_v1_m__wh__ws * s.m__wh__ws
+        r1_u1 = r1_y2 + r1_d2 + 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # khepera.bg:17: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # khepera.bg:17: r1 = U0 - m.el.k*m.me.we - m.el.Re*m.el.k.e2/m.el.k -
         # m.el.L*D(m.el.k.e2)/m.el.k
         # where m.el.k.e2 = m.me.fe*m.me.we + m.me.Je*D(m.me.we) + (m.wh.fs*m.wh.ws + m.wh.R*Fx +
         # m.wh.Js*D(m.wh.ws))/m.ge.N
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e1
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -504,14 +499,33 @@ class Monitor:
         # khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): memory
         x.r2_q = c.half_time * r2_rate
 
+        # khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0)
+        r2_integral = r2_int
+
+        # khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): memory
+        x.r2_rate2 = r2_rate
+        x.r2_rate1 = r2_rate
+
         # khepera.bg:41: tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ...
-        r2_tanh = math.tanh(r2_int)
+        r2_tanh = math.tanh(r2_integral)
+
+        # khepera.bg:41: r2: terms of order 0
+        r2_g0 = s.m__me__we - c.r2_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:41: r2: terms of order 1
+        r2_g1 = c.r2_w1_tanh * r2_tanh - c.r2_w1_Fx * s.Fx
+
+        # khepera.bg:41: r2: error of order 0
+        r2_e0 = c.bend2 * r2_g0
+
+        # khepera.bg:41: r2: degree 2
+        r2_d2 = -c.r2_w2_m__wh__ws * s.m__wh__ws - r2_e0
+
+        # khepera.bg:41: r2: error of order 1
+        r2_e1 = c.bend1 * r2_g1
 
         # khepera.bg:41: r2: input of stage 3
-        r2_u3 = (
-            s.m__me__we + c.r2_v2_Fx * s.Fx - c.r2_v3_m__wh__ws * s.m__wh__ws
-            - c.r2_v2_tanh * r2_tanh
-        )
+        r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1
 
         # khepera.bg:41: r2: stage 3, at rest
         r2_y3 = r2_u3
@@ -520,7 +534,7 @@ class Monitor:
         x.r2_s3 = c.rest * r2_u3
 
         # khepera.bg:41: r2: input of stage 2
-        r2_u2 = r2_y3 + c.r2_v2_m__wh__ws * s.m__wh__ws + c.r2_v2_tanh * r2_tanh - c.r2_v2_Fx * s.Fx
+        r2_u2 = r2_y3 + r2_g1 - 2.0 * r2_d2 - 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -529,7 +543,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # khepera.bg:41: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_m__wh__ws * s.m__wh__ws
+        r2_u1 = r2_y2 + r2_d2 + 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -540,7 +554,7 @@ class Monitor:
         # khepera.bg:41: r2 = m.me.we - m.ge.N*m.wh.ws - D(m.wh.fs*m.wh.ws + m.wh.R*Fx +
         # m.wh.Js*D(m.wh.ws) - m.tau0*m.A*m.ge.N*m.me.K*tanh((Int(m.me.we) -
         # m.ge.N*Int(m.wh.ws))/(4*m.tau0)))/(m.ge.N*m.me.K)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e1
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
@@ -557,43 +571,62 @@ class Monitor:
         # khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): memory
         x.r2_q = r2_int + c.half_time * r2_rate
 
+        # khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0)
+        r2_integral = r2_int - c.half_twelfth * (3.0 * r2_rate - 4.0 * x.r2_rate1 + x.r2_rate2)
+
+        # khepera.bg:41: integral of m.me.we/(4*m.tau0) - m.ge.N*m.wh.ws/(4*m.tau0): memory
+        x.r2_rate2 = x.r2_rate1
+        x.r2_rate1 = r2_rate
+
         # khepera.bg:41: tanh(Int(m.me.we)/(4*m.tau0) - m.ge.N*Int(m.wh.ws)/(4*m. ...
-        r2_tanh = math.tanh(r2_int)
+        r2_tanh = math.tanh(r2_integral)
+
+        # khepera.bg:41: r2: terms of order 0
+        r2_g0 = s.m__me__we - c.r2_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:41: r2: terms of order 1
+        r2_g1 = c.r2_w1_tanh * r2_tanh - c.r2_w1_Fx * s.Fx
+
+        # khepera.bg:41: r2: error of order 0
+        r2_e0 = c.bend2 * r2_g0
+
+        # khepera.bg:41: r2: degree 2
+        r2_d2 = -c.r2_w2_m__wh__ws * s.m__wh__ws - r2_e0
+
+        # khepera.bg:41: r2: error of order 1
+        r2_e1 = c.bend1 * r2_g1
 
         # khepera.bg:41: r2: input of stage 3
-        r2_u3 = (
-            s.m__me__we + c.r2_v2_Fx * s.Fx - c.r2_v3_m__wh__ws * s.m__wh__ws
-            - c.r2_v2_tanh * r2_tanh
-        )
+        r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1
 
         # khepera.bg:41: r2: stage 3
-        r2_y3 = x.r2_s3 + c.b0 * r2_u3
+        r2_y3 = x.r2_s3 + c.b * r2_u3
 
         # khepera.bg:41: r2: stage 3: memory
-        x.r2_s3 = c.a * r2_y3 + c.b1 * r2_u3
+        x.r2_s3 = c.a * r2_y3 + c.b * r2_u3
 
         # khepera.bg:41: r2: input of stage 2
-        r2_u2 = r2_y3 + c.r2_v2_m__wh__ws * s.m__wh__ws + c.r2_v2_tanh * r2_tanh - c.r2_v2_Fx * s.Fx
+        r2_u2 = r2_y3 + r2_g1 - 2.0 * r2_d2 - 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # khepera.bg:41: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # khepera.bg:41: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_m__wh__ws * s.m__wh__ws
+        r2_u1 = r2_y2 + r2_d2 + 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # khepera.bg:41: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # khepera.bg:41: r2 = m.me.we - m.ge.N*m.wh.ws - D(m.wh.fs*m.wh.ws + m.wh.R*Fx +
         # m.wh.Js*D(m.wh.ws) - m.tau0*m.A*m.ge.N*m.me.K*tanh((Int(m.me.we) -
         # m.ge.N*Int(m.wh.ws))/(4*m.tau0)))/(m.ge.N*m.me.K)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e1
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -610,23 +643,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

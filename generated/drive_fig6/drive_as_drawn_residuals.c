@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t drive_as_drawn_abi(void)
@@ -94,53 +65,32 @@ static void compute_coefficients(drive_as_drawn_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: el.L*me.fe/el.k */
     const real t = p->el__L * p->me__fe / p->el__k;
 
     /* khepera.bg:17: el.L*wh.fs/(ge.N*el.k) */
     const real t_2 = p->el__L * p->wh__fs / p->ge__N / p->el__k;
 
-    /* khepera.bg:17: el.Re*me.fe/el.k */
-    const real t_3 = p->el__Re * p->me__fe / p->el__k;
-
-    /* khepera.bg:17: tau0*A*me.K*el.Re/el.k */
-    const real t_4 = p->tau0 * p->A * p->me__K * p->el__Re / p->el__k;
-
     /* khepera.bg:17: el.Re*me.Je/el.k */
-    const real t_5 = p->el__Re * p->me__Je / p->el__k;
+    const real t_3 = p->el__Re * p->me__Je / p->el__k;
 
     /* khepera.bg:17: el.Re*wh.Js/(ge.N*el.k) */
-    const real t_6 = p->el__Re * p->wh__Js / p->ge__N / p->el__k;
+    const real t_4 = p->el__Re * p->wh__Js / p->ge__N / p->el__k;
 
-    /* exp(-x) */
-    const real t_7 = exponential(-x_);
+    /* 1 - pole */
+    const real t_5 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_8 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_7) / x_;
-
-    /* khepera.bg:17: (-el.L*me.fe/el.k - el.Re*me.Je/el.k)*bandwidth */
-    const real t_9 = (-t - t_5) * bandwidth;
-
-    /* khepera.bg:17: el.L*me.Je*bandwidth^2/el.k */
-    const real t_10 = p->el__L * p->me__Je * bandwidth * bandwidth / p->el__k;
-
-    /* khepera.bg:17: tau0*A*me.K*el.L*bandwidth/el.k */
-    const real t_11 = p->tau0 * p->A * p->me__K * p->el__L * bandwidth / p->el__k;
-
-    /* khepera.bg:17: (-el.L*wh.fs/(ge.N*el.k) - el.Re*wh.Js/(ge.N*el.k))*bandwidth */
-    const real t_12 = (-t_2 - t_6) * bandwidth;
-
-    /* khepera.bg:17: el.L*wh.Js*bandwidth^2/(ge.N*el.k) */
-    const real t_13 = p->el__L * p->wh__Js * bandwidth * bandwidth / p->ge__N / p->el__k;
-
-    /* khepera.bg:41: wh.Js*bandwidth^2/(ge.N*me.K) */
-    const real t_14 = p->wh__Js * bandwidth * bandwidth / p->ge__N / p->me__K;
+    /* turn^2 */
+    const real t_6 = turn * turn;
 
     /* khepera.bg:17: 1/(4*tau0) */
     c->g = REAL(0.25) / p->tau0;
@@ -149,17 +99,17 @@ static void compute_coefficients(drive_as_drawn_monitor *monitor,
     c->g_2 = REAL(0.25) * p->ge__N / p->tau0;
 
     /* khepera.bg:17: r1: factor of me.we: el.k + el.Re*me.fe/el.k */
-    c->r1_me__we = p->el__k + t_3;
+    c->r1_me__we = p->el__k + p->el__Re * p->me__fe / p->el__k;
 
     /* khepera.bg:17: r1: factor of me.we': el.L*me.fe/el.k + el.Re*me.Je/el.k */
-    c->r1_me__we_1 = t + t_5;
+    c->r1_me__we_1 = t + t_3;
 
     /* khepera.bg:17: r1: factor of me.we'': el.L*me.Je/el.k */
     c->r1_me__we_2 = p->el__L * p->me__Je / p->el__k;
 
     /* khepera.bg:17: r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)):
      * 2*tau0*A*me.K*el.Re/el.k */
-    c->r1_tanh = REAL(2.0) * t_4;
+    c->r1_tanh = REAL(2.0) * p->tau0 * p->A * p->me__K * p->el__Re / p->el__k;
 
     /* khepera.bg:17: r1: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))):
      * 2*tau0*A*me.K*el.L/el.k */
@@ -169,7 +119,7 @@ static void compute_coefficients(drive_as_drawn_monitor *monitor,
     c->r1_wh__ws = p->el__Re * p->wh__fs / p->ge__N / p->el__k;
 
     /* khepera.bg:17: r1: factor of wh.ws': el.L*wh.fs/(ge.N*el.k) + el.Re*wh.Js/(ge.N*el.k) */
-    c->r1_wh__ws_1 = t_2 + t_6;
+    c->r1_wh__ws_1 = t_2 + t_4;
 
     /* khepera.bg:17: r1: factor of wh.ws'': el.L*wh.Js/(ge.N*el.k) */
     c->r1_wh__ws_2 = p->el__L * p->wh__Js / p->ge__N / p->el__k;
@@ -183,50 +133,41 @@ static void compute_coefficients(drive_as_drawn_monitor *monitor,
     /* half the sample time */
     c->half_time = REAL(0.5) * sample_time;
 
-    /* khepera.bg:17: r1: factor of me.we in stage 1 */
-    c->r1_v1_me__we = t_10;
+    /* sample_time/24 */
+    c->half_twelfth = sample_time / REAL(24.0);
 
-    /* khepera.bg:17: r1: factor of me.we in stage 2 */
-    c->r1_v2_me__we = t_9 + REAL(2.0) * t_10;
+    /* khepera.bg:17: r1: factor of me.we' */
+    c->r1_w1_me__we = (-t - t_3) * w;
 
-    /* khepera.bg:17: r1: factor of me.we in stage 3 */
-    c->r1_v3_me__we = -p->el__k - t_3 - t_9 - t_10;
+    /* khepera.bg:17: r1: factor of me.we'' */
+    c->r1_w2_me__we = p->el__L * p->me__Je * w * w / p->el__k;
 
-    /* khepera.bg:17: r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage
-     * 2 */
-    c->r1_v2_tanh = REAL(2.0) * t_11;
+    /* khepera.bg:17: r1: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
+    c->r1_w1_tanh = REAL(2.0) * p->tau0 * p->A * p->me__K * p->el__L * w / p->el__k;
 
-    /* khepera.bg:17: r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage
-     * 3 */
-    c->r1_v3_tanh = REAL(2.0) * t_4 - REAL(2.0) * t_11;
+    /* khepera.bg:17: r1: factor of wh.ws' */
+    c->r1_w1_wh__ws = (-t_2 - t_4) * w;
 
-    /* khepera.bg:17: r1: factor of wh.ws in stage 1 */
-    c->r1_v1_wh__ws = t_13;
+    /* khepera.bg:17: r1: factor of wh.ws'' */
+    c->r1_w2_wh__ws = p->el__L * p->wh__Js * w * w / p->ge__N / p->el__k;
 
-    /* khepera.bg:17: r1: factor of wh.ws in stage 2 */
-    c->r1_v2_wh__ws = t_12 + REAL(2.0) * t_13;
+    /* khepera.bg:17: r1: factor of Fx' */
+    c->r1_w1_Fx = p->el__L * p->wh__R * w / p->ge__N / p->el__k;
 
-    /* khepera.bg:17: r1: factor of wh.ws in stage 3 */
-    c->r1_v3_wh__ws = p->el__Re * p->wh__fs / p->ge__N / p->el__k + t_12 + t_13;
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_6 / REAL(6.0);
 
-    /* khepera.bg:17: r1: factor of Fx in stage 2 */
-    c->r1_v2_Fx = p->el__L * p->wh__R * bandwidth / p->ge__N / p->el__k;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_6 / REAL(12.0);
 
-    /* khepera.bg:17: r1: factor of Fx in stage 3 */
-    c->r1_v3_Fx = p->el__L * p->wh__R * bandwidth / p->ge__N / p->el__k
-        - p->el__Re * p->wh__R / p->ge__N / p->el__k;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_7;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_5;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_8;
-
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_7 - t_8;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_8;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t_5;
 
     /* khepera.bg:41: r2: factor of wh.ws: ge.N */
     c->r2_wh__ws = p->ge__N;
@@ -244,21 +185,14 @@ static void compute_coefficients(drive_as_drawn_monitor *monitor,
      * tau0*A */
     c->r2_tanh_1 = p->tau0 * p->A;
 
-    /* khepera.bg:41: r2: factor of wh.ws in stage 1 */
-    c->r2_v1_wh__ws = t_14;
+    /* khepera.bg:41: r2: factor of wh.ws'' */
+    c->r2_w2_wh__ws = p->wh__Js * w * w / p->ge__N / p->me__K;
 
-    /* khepera.bg:41: r2: factor of wh.ws in stage 2 */
-    c->r2_v2_wh__ws = REAL(2.0) * t_14;
+    /* khepera.bg:41: r2: factor of Fx' */
+    c->r2_w1_Fx = p->wh__R * w / p->ge__N / p->me__K;
 
-    /* khepera.bg:41: r2: factor of wh.ws in stage 3 */
-    c->r2_v3_wh__ws = p->ge__N + t_14;
-
-    /* khepera.bg:41: r2: factor of Fx in stage 2 */
-    c->r2_v2_Fx = p->wh__R * bandwidth / p->ge__N / p->me__K;
-
-    /* khepera.bg:41: r2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage
-     * 2 */
-    c->r2_v2_tanh = p->tau0 * p->A * bandwidth;
+    /* khepera.bg:41: r2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
+    c->r2_w1_tanh = p->tau0 * p->A * w;
 }
 
 static bool parameters_are_finite(const drive_as_drawn_parameters *p)
@@ -273,14 +207,12 @@ static bool coefficients_are_finite(const drive_as_drawn_monitor *monitor)
             + monitor->c.r1_me__we_1 + monitor->c.r1_me__we_2 + monitor->c.r1_tanh
             + monitor->c.r1_tanh_1 + monitor->c.r1_wh__ws + monitor->c.r1_wh__ws_1
             + monitor->c.r1_wh__ws_2 + monitor->c.r1_Fx + monitor->c.r1_Fx_1 + monitor->c.half_time
-            + monitor->c.r1_v1_me__we + monitor->c.r1_v2_me__we + monitor->c.r1_v3_me__we
-            + monitor->c.r1_v2_tanh + monitor->c.r1_v3_tanh + monitor->c.r1_v1_wh__ws
-            + monitor->c.r1_v2_wh__ws + monitor->c.r1_v3_wh__ws + monitor->c.r1_v2_Fx
-            + monitor->c.r1_v3_Fx + monitor->c.a + monitor->c.b0 + monitor->c.b1 + monitor->c.rest
-            + monitor->c.r2_wh__ws + monitor->c.r2_wh__ws_1 + monitor->c.r2_wh__ws_2
-            + monitor->c.r2_Fx_1 + monitor->c.r2_tanh_1 + monitor->c.r2_v1_wh__ws
-            + monitor->c.r2_v2_wh__ws + monitor->c.r2_v3_wh__ws + monitor->c.r2_v2_Fx
-            + monitor->c.r2_v2_tanh);
+            + monitor->c.half_twelfth + monitor->c.r1_w1_me__we + monitor->c.r1_w2_me__we
+            + monitor->c.r1_w1_tanh + monitor->c.r1_w1_wh__ws + monitor->c.r1_w2_wh__ws
+            + monitor->c.r1_w1_Fx + monitor->c.bend2 + monitor->c.bend1 + monitor->c.a
+            + monitor->c.b + monitor->c.rest + monitor->c.r2_wh__ws + monitor->c.r2_wh__ws_1
+            + monitor->c.r2_wh__ws_2 + monitor->c.r2_Fx_1 + monitor->c.r2_tanh_1
+            + monitor->c.r2_w2_wh__ws + monitor->c.r2_w1_Fx + monitor->c.r2_w1_tanh);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -373,12 +305,35 @@ static void start_r1(
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r1_q = c->half_time * r1_rate;
 
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_integral = r1_int;
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_rate2 = r1_rate;
+    x->r1_rate1 = r1_rate;
+
     /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r1_tanh = MATH(tanh)(r1_int);
+    const real r1_tanh = MATH(tanh)(r1_integral);
+
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->U0 + c->r1_tanh * r1_tanh - c->r1_me__we * s->me__we
+        - c->r1_wh__ws * s->wh__ws - c->r1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = c->r1_w1_me__we * s->me__we + c->r1_w1_tanh * r1_tanh
+        + c->r1_w1_wh__ws * s->wh__ws - c->r1_w1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend2 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = -c->r1_w2_me__we * s->me__we - c->r1_w2_wh__ws * s->wh__ws - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend1 * r1_g1;
 
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = s->U0 + c->r1_v3_me__we * s->me__we + c->r1_v3_tanh * r1_tanh
-        + c->r1_v3_Fx * s->Fx - c->r1_v3_wh__ws * s->wh__ws;
+    const real r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1;
 
     /* khepera.bg:17: r1: stage 3, at rest */
     const real r1_y3 = r1_u3;
@@ -387,8 +342,7 @@ static void start_r1(
     x->r1_s3 = c->rest * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_me__we * s->me__we + c->r1_v2_tanh * r1_tanh
-        + c->r1_v2_wh__ws * s->wh__ws - c->r1_v2_Fx * s->Fx;
+    const real r1_u2 = r1_y3 + r1_g1 - REAL(2.0) * r1_d2 - REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -397,7 +351,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_me__we * s->me__we - c->r1_v1_wh__ws * s->wh__ws;
+    const real r1_u1 = r1_y2 + r1_d2 + REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -409,7 +363,7 @@ static void start_r1(
      * where el.k.e2 = me.fe*me.we + me.Je*D(me.we) + (wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
      * tau0*A*ge.N*me.K*x1)/ge.N - tau0*A*me.K*x1
      * x1 = tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)) */
-    r[DRIVE_AS_DRAWN_R1] = r1_y1;
+    r[DRIVE_AS_DRAWN_R1] = r1_y1 - r1_e1;
 }
 
 /* r1 on every further sample. */
@@ -428,43 +382,66 @@ static void next_r1(
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r1_q = r1_int + c->half_time * r1_rate;
 
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_integral = r1_int
+        - c->half_twelfth * (REAL(3.0) * r1_rate - REAL(4.0) * x->r1_rate1 + x->r1_rate2);
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_rate2 = x->r1_rate1;
+    x->r1_rate1 = r1_rate;
+
     /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r1_tanh = MATH(tanh)(r1_int);
+    const real r1_tanh = MATH(tanh)(r1_integral);
+
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->U0 + c->r1_tanh * r1_tanh - c->r1_me__we * s->me__we
+        - c->r1_wh__ws * s->wh__ws - c->r1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = c->r1_w1_me__we * s->me__we + c->r1_w1_tanh * r1_tanh
+        + c->r1_w1_wh__ws * s->wh__ws - c->r1_w1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend2 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = -c->r1_w2_me__we * s->me__we - c->r1_w2_wh__ws * s->wh__ws - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend1 * r1_g1;
 
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = s->U0 + c->r1_v3_me__we * s->me__we + c->r1_v3_tanh * r1_tanh
-        + c->r1_v3_Fx * s->Fx - c->r1_v3_wh__ws * s->wh__ws;
+    const real r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1;
 
     /* khepera.bg:17: r1: stage 3 */
-    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+    const real r1_y3 = x->r1_s3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: stage 3: memory */
-    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+    x->r1_s3 = c->a * r1_y3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_me__we * s->me__we + c->r1_v2_tanh * r1_tanh
-        + c->r1_v2_wh__ws * s->wh__ws - c->r1_v2_Fx * s->Fx;
+    const real r1_u2 = r1_y3 + r1_g1 - REAL(2.0) * r1_d2 - REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_me__we * s->me__we - c->r1_v1_wh__ws * s->wh__ws;
+    const real r1_u1 = r1_y2 + r1_d2 + REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1 = U0 - el.k*me.we - el.Re*el.k.e2/el.k - el.L*D(el.k.e2)/el.k
      * where el.k.e2 = me.fe*me.we + me.Je*D(me.we) + (wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
      * tau0*A*ge.N*me.K*x1)/ge.N - tau0*A*me.K*x1
      * x1 = tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)) */
-    r[DRIVE_AS_DRAWN_R1] = r1_y1;
+    r[DRIVE_AS_DRAWN_R1] = r1_y1 - r1_e1;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -506,12 +483,33 @@ static void start_r2(
     /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r2_q = c->half_time * r2_rate;
 
+    /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r2_integral = r2_int;
+
+    /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r2_rate2 = r2_rate;
+    x->r2_rate1 = r2_rate;
+
     /* khepera.bg:41: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r2_tanh = MATH(tanh)(r2_int);
+    const real r2_tanh = MATH(tanh)(r2_integral);
+
+    /* khepera.bg:41: r2: terms of order 0 */
+    const real r2_g0 = s->me__we - c->r2_wh__ws * s->wh__ws;
+
+    /* khepera.bg:41: r2: terms of order 1 */
+    const real r2_g1 = c->r2_w1_tanh * r2_tanh - c->r2_w1_Fx * s->Fx;
+
+    /* khepera.bg:41: r2: error of order 0 */
+    const real r2_e0 = c->bend2 * r2_g0;
+
+    /* khepera.bg:41: r2: degree 2 */
+    const real r2_d2 = -c->r2_w2_wh__ws * s->wh__ws - r2_e0;
+
+    /* khepera.bg:41: r2: error of order 1 */
+    const real r2_e1 = c->bend1 * r2_g1;
 
     /* khepera.bg:41: r2: input of stage 3 */
-    const real r2_u3 = s->me__we + c->r2_v2_Fx * s->Fx - c->r2_v3_wh__ws * s->wh__ws
-        - c->r2_v2_tanh * r2_tanh;
+    const real r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1;
 
     /* khepera.bg:41: r2: stage 3, at rest */
     const real r2_y3 = r2_u3;
@@ -520,8 +518,7 @@ static void start_r2(
     x->r2_s3 = c->rest * r2_u3;
 
     /* khepera.bg:41: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_wh__ws * s->wh__ws + c->r2_v2_tanh * r2_tanh
-        - c->r2_v2_Fx * s->Fx;
+    const real r2_u2 = r2_y3 + r2_g1 - REAL(2.0) * r2_d2 - REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -530,7 +527,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* khepera.bg:41: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_wh__ws * s->wh__ws;
+    const real r2_u1 = r2_y2 + r2_d2 + REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -540,7 +537,7 @@ static void start_r2(
 
     /* khepera.bg:41: r2 = me.we - ge.N*wh.ws - D(wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
      * tau0*A*ge.N*me.K*tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)))/(ge.N*me.K) */
-    r[DRIVE_AS_DRAWN_R2] = r2_y1;
+    r[DRIVE_AS_DRAWN_R2] = r2_y1 - r2_e1;
 }
 
 /* r2 on every further sample. */
@@ -559,41 +556,62 @@ static void next_r2(
     /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r2_q = r2_int + c->half_time * r2_rate;
 
+    /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r2_integral = r2_int
+        - c->half_twelfth * (REAL(3.0) * r2_rate - REAL(4.0) * x->r2_rate1 + x->r2_rate2);
+
+    /* khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r2_rate2 = x->r2_rate1;
+    x->r2_rate1 = r2_rate;
+
     /* khepera.bg:41: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r2_tanh = MATH(tanh)(r2_int);
+    const real r2_tanh = MATH(tanh)(r2_integral);
+
+    /* khepera.bg:41: r2: terms of order 0 */
+    const real r2_g0 = s->me__we - c->r2_wh__ws * s->wh__ws;
+
+    /* khepera.bg:41: r2: terms of order 1 */
+    const real r2_g1 = c->r2_w1_tanh * r2_tanh - c->r2_w1_Fx * s->Fx;
+
+    /* khepera.bg:41: r2: error of order 0 */
+    const real r2_e0 = c->bend2 * r2_g0;
+
+    /* khepera.bg:41: r2: degree 2 */
+    const real r2_d2 = -c->r2_w2_wh__ws * s->wh__ws - r2_e0;
+
+    /* khepera.bg:41: r2: error of order 1 */
+    const real r2_e1 = c->bend1 * r2_g1;
 
     /* khepera.bg:41: r2: input of stage 3 */
-    const real r2_u3 = s->me__we + c->r2_v2_Fx * s->Fx - c->r2_v3_wh__ws * s->wh__ws
-        - c->r2_v2_tanh * r2_tanh;
+    const real r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1;
 
     /* khepera.bg:41: r2: stage 3 */
-    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+    const real r2_y3 = x->r2_s3 + c->b * r2_u3;
 
     /* khepera.bg:41: r2: stage 3: memory */
-    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+    x->r2_s3 = c->a * r2_y3 + c->b * r2_u3;
 
     /* khepera.bg:41: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_wh__ws * s->wh__ws + c->r2_v2_tanh * r2_tanh
-        - c->r2_v2_Fx * s->Fx;
+    const real r2_u2 = r2_y3 + r2_g1 - REAL(2.0) * r2_d2 - REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* khepera.bg:41: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* khepera.bg:41: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_wh__ws * s->wh__ws;
+    const real r2_u1 = r2_y2 + r2_d2 + REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* khepera.bg:41: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* khepera.bg:41: r2 = me.we - ge.N*wh.ws - D(wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
      * tau0*A*ge.N*me.K*tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)))/(ge.N*me.K) */
-    r[DRIVE_AS_DRAWN_R2] = r2_y1;
+    r[DRIVE_AS_DRAWN_R2] = r2_y1 - r2_e1;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */

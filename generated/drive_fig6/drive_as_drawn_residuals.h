@@ -29,7 +29,7 @@ typedef double drive_as_drawn_real;
 /* Version of the structs and functions, and the size of a number. */
 #define DRIVE_AS_DRAWN_ABI (1u * 256u + (uint32_t)sizeof(drive_as_drawn_real))
 /* Identifies the model and the options that this code was made from. */
-#define DRIVE_AS_DRAWN_DIGEST "6d68f4e8454e8f73"
+#define DRIVE_AS_DRAWN_DIGEST "0527f11c1cc79a39"
 
 /* What the code was made for: arguments of drive_as_drawn_configure, in s, rad/s and s. */
 #define DRIVE_AS_DRAWN_SAMPLE_TIME DRIVE_AS_DRAWN_CONSTANT(0.001)
@@ -119,43 +119,46 @@ typedef struct drive_as_drawn_coefficients {
     drive_as_drawn_real r1_Fx;         /* r1: factor of Fx: el.Re*wh.R/(ge.N*el.k) */
     drive_as_drawn_real r1_Fx_1;       /* r1: factor of Fx': el.L*wh.R/(ge.N*el.k) */
     drive_as_drawn_real half_time;     /* half the sample time */
-    drive_as_drawn_real r1_v1_me__we;  /* r1: factor of me.we in stage 1 */
-    drive_as_drawn_real r1_v2_me__we;  /* r1: factor of me.we in stage 2 */
-    drive_as_drawn_real r1_v3_me__we;  /* r1: factor of me.we in stage 3 */
-    /* r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 2 */
-    drive_as_drawn_real r1_v2_tanh;
-    /* r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 3 */
-    drive_as_drawn_real r1_v3_tanh;
-    drive_as_drawn_real r1_v1_wh__ws;  /* r1: factor of wh.ws in stage 1 */
-    drive_as_drawn_real r1_v2_wh__ws;  /* r1: factor of wh.ws in stage 2 */
-    drive_as_drawn_real r1_v3_wh__ws;  /* r1: factor of wh.ws in stage 3 */
-    drive_as_drawn_real r1_v2_Fx;      /* r1: factor of Fx in stage 2 */
-    drive_as_drawn_real r1_v3_Fx;      /* r1: factor of Fx in stage 3 */
-    drive_as_drawn_real a;             /* filter: exp(-bandwidth*sample_time) */
-    drive_as_drawn_real b0;            /* filter: weight of the new sample */
-    drive_as_drawn_real b1;            /* filter: weight of the sample before */
-    drive_as_drawn_real rest;          /* filter: 1 - b0, the memory of a constant 1 */
+    drive_as_drawn_real half_twelfth;  /* sample_time/24 */
+    drive_as_drawn_real r1_w1_me__we;  /* r1: factor of me.we' */
+    drive_as_drawn_real r1_w2_me__we;  /* r1: factor of me.we'' */
+    /* r1: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
+    drive_as_drawn_real r1_w1_tanh;
+    drive_as_drawn_real r1_w1_wh__ws;  /* r1: factor of wh.ws' */
+    drive_as_drawn_real r1_w2_wh__ws;  /* r1: factor of wh.ws'' */
+    drive_as_drawn_real r1_w1_Fx;      /* r1: factor of Fx' */
+    drive_as_drawn_real bend2;         /* filter: 2 * (w*sample_time)^2/12 */
+    drive_as_drawn_real bend1;         /* filter: 1 * (w*sample_time)^2/12 */
+    drive_as_drawn_real a;             /* filter: what is left of a memory a sample later */
+    drive_as_drawn_real b;             /* filter: weight of a sample, new and a sample later */
+    drive_as_drawn_real rest;          /* filter: 1 - b, the memory of a constant 1 */
     drive_as_drawn_real r2_wh__ws;     /* r2: factor of wh.ws: ge.N */
     drive_as_drawn_real r2_wh__ws_1;   /* r2: factor of wh.ws': wh.fs/(ge.N*me.K) */
     drive_as_drawn_real r2_wh__ws_2;   /* r2: factor of wh.ws'': wh.Js/(ge.N*me.K) */
     drive_as_drawn_real r2_Fx_1;       /* r2: factor of Fx': wh.R/(ge.N*me.K) */
     /* r2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))): tau0*A */
     drive_as_drawn_real r2_tanh_1;
-    drive_as_drawn_real r2_v1_wh__ws;  /* r2: factor of wh.ws in stage 1 */
-    drive_as_drawn_real r2_v2_wh__ws;  /* r2: factor of wh.ws in stage 2 */
-    drive_as_drawn_real r2_v3_wh__ws;  /* r2: factor of wh.ws in stage 3 */
-    drive_as_drawn_real r2_v2_Fx;      /* r2: factor of Fx in stage 2 */
-    /* r2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 2 */
-    drive_as_drawn_real r2_v2_tanh;
+    drive_as_drawn_real r2_w2_wh__ws;  /* r2: factor of wh.ws'' */
+    drive_as_drawn_real r2_w1_Fx;      /* r2: factor of Fx' */
+    /* r2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
+    drive_as_drawn_real r2_w1_tanh;
 } drive_as_drawn_coefficients;
 
 /* What the filters remember from sample to sample. */
 typedef struct drive_as_drawn_memory {
     drive_as_drawn_real r1_q;   /* memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before */
+    drive_as_drawn_real r1_rate1;
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before */
+    drive_as_drawn_real r1_rate2;
     drive_as_drawn_real r1_s3;  /* memory of r1: stage 3 */
     drive_as_drawn_real r1_s2;  /* memory of r1: stage 2 */
     drive_as_drawn_real r1_s1;  /* memory of r1: stage 1 */
     drive_as_drawn_real r2_q;   /* memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before */
+    drive_as_drawn_real r2_rate1;
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before */
+    drive_as_drawn_real r2_rate2;
     drive_as_drawn_real r2_s3;  /* memory of r2: stage 3 */
     drive_as_drawn_real r2_s2;  /* memory of r2: stage 2 */
     drive_as_drawn_real r2_s1;  /* memory of r2: stage 1 */

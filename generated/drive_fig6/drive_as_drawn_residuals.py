@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "6d68f4e8454e8f73"
+DIGEST = "0527f11c1cc79a39"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -97,47 +97,44 @@ class Coefficients:
     r1_Fx: float         # r1: factor of Fx: el.Re*wh.R/(ge.N*el.k)
     r1_Fx_1: float       # r1: factor of Fx': el.L*wh.R/(ge.N*el.k)
     half_time: float     # half the sample time
-    r1_v1_me__we: float  # r1: factor of me.we in stage 1
-    r1_v2_me__we: float  # r1: factor of me.we in stage 2
-    r1_v3_me__we: float  # r1: factor of me.we in stage 3
-    # r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 2
-    r1_v2_tanh: float
-    # r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 3
-    r1_v3_tanh: float
-    r1_v1_wh__ws: float  # r1: factor of wh.ws in stage 1
-    r1_v2_wh__ws: float  # r1: factor of wh.ws in stage 2
-    r1_v3_wh__ws: float  # r1: factor of wh.ws in stage 3
-    r1_v2_Fx: float      # r1: factor of Fx in stage 2
-    r1_v3_Fx: float      # r1: factor of Fx in stage 3
-    a: float             # filter: exp(-bandwidth*sample_time)
-    b0: float            # filter: weight of the new sample
-    b1: float            # filter: weight of the sample before
-    rest: float          # filter: 1 - b0, the memory of a constant 1
+    half_twelfth: float  # sample_time/24
+    r1_w1_me__we: float  # r1: factor of me.we'
+    r1_w2_me__we: float  # r1: factor of me.we''
+    r1_w1_tanh: float    # r1: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)))
+    r1_w1_wh__ws: float  # r1: factor of wh.ws'
+    r1_w2_wh__ws: float  # r1: factor of wh.ws''
+    r1_w1_Fx: float      # r1: factor of Fx'
+    bend2: float         # filter: 2 * (w*sample_time)^2/12
+    bend1: float         # filter: 1 * (w*sample_time)^2/12
+    a: float             # filter: what is left of a memory a sample later
+    b: float             # filter: weight of a sample, new and a sample later
+    rest: float          # filter: 1 - b, the memory of a constant 1
     r2_wh__ws: float     # r2: factor of wh.ws: ge.N
     r2_wh__ws_1: float   # r2: factor of wh.ws': wh.fs/(ge.N*me.K)
     r2_wh__ws_2: float   # r2: factor of wh.ws'': wh.Js/(ge.N*me.K)
     r2_Fx_1: float       # r2: factor of Fx': wh.R/(ge.N*me.K)
     # r2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))): tau0*A
     r2_tanh_1: float
-    r2_v1_wh__ws: float  # r2: factor of wh.ws in stage 1
-    r2_v2_wh__ws: float  # r2: factor of wh.ws in stage 2
-    r2_v3_wh__ws: float  # r2: factor of wh.ws in stage 3
-    r2_v2_Fx: float      # r2: factor of Fx in stage 2
-    # r2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 2
-    r2_v2_tanh: float
+    r2_w2_wh__ws: float  # r2: factor of wh.ws''
+    r2_w1_Fx: float      # r2: factor of Fx'
+    r2_w1_tanh: float    # r2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)))
 
 
 class Memory:
     """What the filters remember from sample to sample."""
 
-    r1_q: float   # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
-    r1_s3: float  # memory of r1: stage 3
-    r1_s2: float  # memory of r1: stage 2
-    r1_s1: float  # memory of r1: stage 1
-    r2_q: float   # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
-    r2_s3: float  # memory of r2: stage 3
-    r2_s2: float  # memory of r2: stage 2
-    r2_s1: float  # memory of r2: stage 1
+    r1_q: float      # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+    r1_rate1: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before
+    r1_rate2: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before
+    r1_s3: float     # memory of r1: stage 3
+    r1_s2: float     # memory of r1: stage 2
+    r1_s1: float     # memory of r1: stage 1
+    r2_q: float      # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+    r2_rate1: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before
+    r2_rate2: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before
+    r2_s3: float     # memory of r2: stage 3
+    r2_s2: float     # memory of r2: stage 2
+    r2_s1: float     # memory of r2: stage 1
 
 
 class Monitor:
@@ -175,14 +172,12 @@ class Monitor:
                     self._c.g + self._c.g_2 + self._c.r1_me__we + self._c.r1_me__we_1
                     + self._c.r1_me__we_2 + self._c.r1_tanh + self._c.r1_tanh_1 + self._c.r1_wh__ws
                     + self._c.r1_wh__ws_1 + self._c.r1_wh__ws_2 + self._c.r1_Fx + self._c.r1_Fx_1
-                    + self._c.half_time + self._c.r1_v1_me__we + self._c.r1_v2_me__we
-                    + self._c.r1_v3_me__we + self._c.r1_v2_tanh + self._c.r1_v3_tanh
-                    + self._c.r1_v1_wh__ws + self._c.r1_v2_wh__ws + self._c.r1_v3_wh__ws
-                    + self._c.r1_v2_Fx + self._c.r1_v3_Fx + self._c.a + self._c.b0 + self._c.b1
-                    + self._c.rest + self._c.r2_wh__ws + self._c.r2_wh__ws_1 + self._c.r2_wh__ws_2
-                    + self._c.r2_Fx_1 + self._c.r2_tanh_1 + self._c.r2_v1_wh__ws
-                    + self._c.r2_v2_wh__ws + self._c.r2_v3_wh__ws + self._c.r2_v2_Fx
-                    + self._c.r2_v2_tanh
+                    + self._c.half_time + self._c.half_twelfth + self._c.r1_w1_me__we
+                    + self._c.r1_w2_me__we + self._c.r1_w1_tanh + self._c.r1_w1_wh__ws
+                    + self._c.r1_w2_wh__ws + self._c.r1_w1_Fx + self._c.bend2 + self._c.bend1
+                    + self._c.a + self._c.b + self._c.rest + self._c.r2_wh__ws + self._c.r2_wh__ws_1
+                    + self._c.r2_wh__ws_2 + self._c.r2_Fx_1 + self._c.r2_tanh_1
+                    + self._c.r2_w2_wh__ws + self._c.r2_w1_Fx + self._c.r2_w1_tanh
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -247,52 +242,32 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: el.L*me.fe/el.k
         t = p.el__L * p.me__fe / p.el__k
 
         # khepera.bg:17: el.L*wh.fs/(ge.N*el.k)
         t_2 = p.el__L * p.wh__fs / p.ge__N / p.el__k
 
-        # khepera.bg:17: el.Re*me.fe/el.k
-        t_3 = p.el__Re * p.me__fe / p.el__k
-
-        # khepera.bg:17: tau0*A*me.K*el.Re/el.k
-        t_4 = p.tau0 * p.A * p.me__K * p.el__Re / p.el__k
-
         # khepera.bg:17: el.Re*me.Je/el.k
-        t_5 = p.el__Re * p.me__Je / p.el__k
+        t_3 = p.el__Re * p.me__Je / p.el__k
 
         # khepera.bg:17: el.Re*wh.Js/(ge.N*el.k)
-        t_6 = p.el__Re * p.wh__Js / p.ge__N / p.el__k
+        t_4 = p.el__Re * p.wh__Js / p.ge__N / p.el__k
 
-        # exp(-x)
-        t_7 = _exponential(-x_)
+        # 1 - pole
+        t_5 = 1.0 - pole
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_8 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_7) / x_
-        )
-
-        # khepera.bg:17: (-el.L*me.fe/el.k - el.Re*me.Je/el.k)*bandwidth
-        t_9 = (-t - t_5) * bandwidth
-
-        # khepera.bg:17: el.L*me.Je*bandwidth^2/el.k
-        t_10 = p.el__L * p.me__Je * bandwidth * bandwidth / p.el__k
-
-        # khepera.bg:17: tau0*A*me.K*el.L*bandwidth/el.k
-        t_11 = p.tau0 * p.A * p.me__K * p.el__L * bandwidth / p.el__k
-
-        # khepera.bg:17: (-el.L*wh.fs/(ge.N*el.k) - el.Re*wh.Js/(ge.N*el.k))*bandwidth
-        t_12 = (-t_2 - t_6) * bandwidth
-
-        # khepera.bg:17: el.L*wh.Js*bandwidth^2/(ge.N*el.k)
-        t_13 = p.el__L * p.wh__Js * bandwidth * bandwidth / p.ge__N / p.el__k
-
-        # khepera.bg:41: wh.Js*bandwidth^2/(ge.N*me.K)
-        t_14 = p.wh__Js * bandwidth * bandwidth / p.ge__N / p.me__K
+        # turn^2
+        t_6 = turn * turn
 
         # khepera.bg:17: 1/(4*tau0)
         c.g = 0.25 / p.tau0
@@ -301,17 +276,17 @@ class Monitor:
         c.g_2 = 0.25 * p.ge__N / p.tau0
 
         # khepera.bg:17: r1: factor of me.we: el.k + el.Re*me.fe/el.k
-        c.r1_me__we = p.el__k + t_3
+        c.r1_me__we = p.el__k + p.el__Re * p.me__fe / p.el__k
 
         # khepera.bg:17: r1: factor of me.we': el.L*me.fe/el.k + el.Re*me.Je/el.k
-        c.r1_me__we_1 = t + t_5
+        c.r1_me__we_1 = t + t_3
 
         # khepera.bg:17: r1: factor of me.we'': el.L*me.Je/el.k
         c.r1_me__we_2 = p.el__L * p.me__Je / p.el__k
 
         # khepera.bg:17: r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)):
         # 2*tau0*A*me.K*el.Re/el.k
-        c.r1_tanh = 2.0 * t_4
+        c.r1_tanh = 2.0 * p.tau0 * p.A * p.me__K * p.el__Re / p.el__k
 
         # khepera.bg:17: r1: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))):
         # 2*tau0*A*me.K*el.L/el.k
@@ -321,7 +296,7 @@ class Monitor:
         c.r1_wh__ws = p.el__Re * p.wh__fs / p.ge__N / p.el__k
 
         # khepera.bg:17: r1: factor of wh.ws': el.L*wh.fs/(ge.N*el.k) + el.Re*wh.Js/(ge.N*el.k)
-        c.r1_wh__ws_1 = t_2 + t_6
+        c.r1_wh__ws_1 = t_2 + t_4
 
         # khepera.bg:17: r1: factor of wh.ws'': el.L*wh.Js/(ge.N*el.k)
         c.r1_wh__ws_2 = p.el__L * p.wh__Js / p.ge__N / p.el__k
@@ -335,52 +310,41 @@ class Monitor:
         # half the sample time
         c.half_time = 0.5 * sample_time
 
-        # khepera.bg:17: r1: factor of me.we in stage 1
-        c.r1_v1_me__we = t_10
+        # sample_time/24
+        c.half_twelfth = sample_time / 24.0
 
-        # khepera.bg:17: r1: factor of me.we in stage 2
-        c.r1_v2_me__we = t_9 + 2.0 * t_10
+        # khepera.bg:17: r1: factor of me.we'
+        c.r1_w1_me__we = (-t - t_3) * w
 
-        # khepera.bg:17: r1: factor of me.we in stage 3
-        c.r1_v3_me__we = -p.el__k - t_3 - t_9 - t_10
+        # khepera.bg:17: r1: factor of me.we''
+        c.r1_w2_me__we = p.el__L * p.me__Je * w * w / p.el__k
 
-        # khepera.bg:17: r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-        # stage 2
-        c.r1_v2_tanh = 2.0 * t_11
+        # khepera.bg:17: r1: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)))
+        c.r1_w1_tanh = 2.0 * p.tau0 * p.A * p.me__K * p.el__L * w / p.el__k
 
-        # khepera.bg:17: r1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-        # stage 3
-        c.r1_v3_tanh = 2.0 * t_4 - 2.0 * t_11
+        # khepera.bg:17: r1: factor of wh.ws'
+        c.r1_w1_wh__ws = (-t_2 - t_4) * w
 
-        # khepera.bg:17: r1: factor of wh.ws in stage 1
-        c.r1_v1_wh__ws = t_13
+        # khepera.bg:17: r1: factor of wh.ws''
+        c.r1_w2_wh__ws = p.el__L * p.wh__Js * w * w / p.ge__N / p.el__k
 
-        # khepera.bg:17: r1: factor of wh.ws in stage 2
-        c.r1_v2_wh__ws = t_12 + 2.0 * t_13
+        # khepera.bg:17: r1: factor of Fx'
+        c.r1_w1_Fx = p.el__L * p.wh__R * w / p.ge__N / p.el__k
 
-        # khepera.bg:17: r1: factor of wh.ws in stage 3
-        c.r1_v3_wh__ws = p.el__Re * p.wh__fs / p.ge__N / p.el__k + t_12 + t_13
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_6 / 6.0
 
-        # khepera.bg:17: r1: factor of Fx in stage 2
-        c.r1_v2_Fx = p.el__L * p.wh__R * bandwidth / p.ge__N / p.el__k
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_6 / 12.0
 
-        # khepera.bg:17: r1: factor of Fx in stage 3
-        c.r1_v3_Fx = (
-            p.el__L * p.wh__R * bandwidth / p.ge__N / p.el__k
-            - p.el__Re * p.wh__R / p.ge__N / p.el__k
-        )
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_7
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_5
 
-        # filter: weight of the new sample
-        c.b0 = t_8
-
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_7 - t_8
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_8
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t_5
 
         # khepera.bg:41: r2: factor of wh.ws: ge.N
         c.r2_wh__ws = p.ge__N
@@ -398,21 +362,14 @@ class Monitor:
         # tau0*A
         c.r2_tanh_1 = p.tau0 * p.A
 
-        # khepera.bg:41: r2: factor of wh.ws in stage 1
-        c.r2_v1_wh__ws = t_14
+        # khepera.bg:41: r2: factor of wh.ws''
+        c.r2_w2_wh__ws = p.wh__Js * w * w / p.ge__N / p.me__K
 
-        # khepera.bg:41: r2: factor of wh.ws in stage 2
-        c.r2_v2_wh__ws = 2.0 * t_14
+        # khepera.bg:41: r2: factor of Fx'
+        c.r2_w1_Fx = p.wh__R * w / p.ge__N / p.me__K
 
-        # khepera.bg:41: r2: factor of wh.ws in stage 3
-        c.r2_v3_wh__ws = p.ge__N + t_14
-
-        # khepera.bg:41: r2: factor of Fx in stage 2
-        c.r2_v2_Fx = p.wh__R * bandwidth / p.ge__N / p.me__K
-
-        # khepera.bg:41: r2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-        # stage 2
-        c.r2_v2_tanh = p.tau0 * p.A * bandwidth
+        # khepera.bg:41: r2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)))
+        c.r2_w1_tanh = p.tau0 * p.A * w
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -428,14 +385,39 @@ class Monitor:
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r1_q = c.half_time * r1_rate
 
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r1_integral = r1_int
+
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r1_rate2 = r1_rate
+        x.r1_rate1 = r1_rate
+
         # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r1_tanh = math.tanh(r1_int)
+        r1_tanh = math.tanh(r1_integral)
+
+        # khepera.bg:17: r1: terms of order 0
+        r1_g0 = (
+            s.U0 + c.r1_tanh * r1_tanh - c.r1_me__we * s.me__we - c.r1_wh__ws * s.wh__ws
+            - c.r1_Fx * s.Fx
+        )
+
+        # khepera.bg:17: r1: terms of order 1
+        r1_g1 = (
+            c.r1_w1_me__we * s.me__we + c.r1_w1_tanh * r1_tanh + c.r1_w1_wh__ws * s.wh__ws
+            - c.r1_w1_Fx * s.Fx
+        )
+
+        # khepera.bg:17: r1: error of order 0
+        r1_e0 = c.bend2 * r1_g0
+
+        # khepera.bg:17: r1: degree 2
+        r1_d2 = -c.r1_w2_me__we * s.me__we - c.r1_w2_wh__ws * s.wh__ws - r1_e0
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1 = c.bend1 * r1_g1
 
         # khepera.bg:17: r1: input of stage 3
-        r1_u3 = (
-            s.U0 + c.r1_v3_me__we * s.me__we + c.r1_v3_tanh * r1_tanh + c.r1_v3_Fx * s.Fx
-            - c.r1_v3_wh__ws * s.wh__ws
-        )
+        r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1
 
         # khepera.bg:17: r1: stage 3, at rest
         r1_y3 = r1_u3
@@ -444,10 +426,7 @@ class Monitor:
         x.r1_s3 = c.rest * r1_u3
 
         # khepera.bg:17: r1: input of stage 2
-        r1_u2 = (
-            r1_y3 + c.r1_v2_me__we * s.me__we + c.r1_v2_tanh * r1_tanh + c.r1_v2_wh__ws * s.wh__ws
-            - c.r1_v2_Fx * s.Fx
-        )
+        r1_u2 = r1_y3 + r1_g1 - 2.0 * r1_d2 - 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -456,7 +435,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # khepera.bg:17: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_me__we * s.me__we - c.r1_v1_wh__ws * s.wh__ws
+        r1_u1 = r1_y2 + r1_d2 + 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -468,7 +447,7 @@ class Monitor:
         # where el.k.e2 = me.fe*me.we + me.Je*D(me.we) + (wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
         # tau0*A*ge.N*me.K*x1)/ge.N - tau0*A*me.K*x1
         # x1 = tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0))
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e1
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
@@ -484,47 +463,69 @@ class Monitor:
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r1_q = r1_int + c.half_time * r1_rate
 
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r1_integral = r1_int - c.half_twelfth * (3.0 * r1_rate - 4.0 * x.r1_rate1 + x.r1_rate2)
+
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r1_rate2 = x.r1_rate1
+        x.r1_rate1 = r1_rate
+
         # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r1_tanh = math.tanh(r1_int)
+        r1_tanh = math.tanh(r1_integral)
+
+        # khepera.bg:17: r1: terms of order 0
+        r1_g0 = (
+            s.U0 + c.r1_tanh * r1_tanh - c.r1_me__we * s.me__we - c.r1_wh__ws * s.wh__ws
+            - c.r1_Fx * s.Fx
+        )
+
+        # khepera.bg:17: r1: terms of order 1
+        r1_g1 = (
+            c.r1_w1_me__we * s.me__we + c.r1_w1_tanh * r1_tanh + c.r1_w1_wh__ws * s.wh__ws
+            - c.r1_w1_Fx * s.Fx
+        )
+
+        # khepera.bg:17: r1: error of order 0
+        r1_e0 = c.bend2 * r1_g0
+
+        # khepera.bg:17: r1: degree 2
+        r1_d2 = -c.r1_w2_me__we * s.me__we - c.r1_w2_wh__ws * s.wh__ws - r1_e0
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1 = c.bend1 * r1_g1
 
         # khepera.bg:17: r1: input of stage 3
-        r1_u3 = (
-            s.U0 + c.r1_v3_me__we * s.me__we + c.r1_v3_tanh * r1_tanh + c.r1_v3_Fx * s.Fx
-            - c.r1_v3_wh__ws * s.wh__ws
-        )
+        r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1
 
         # khepera.bg:17: r1: stage 3
-        r1_y3 = x.r1_s3 + c.b0 * r1_u3
+        r1_y3 = x.r1_s3 + c.b * r1_u3
 
         # khepera.bg:17: r1: stage 3: memory
-        x.r1_s3 = c.a * r1_y3 + c.b1 * r1_u3
+        x.r1_s3 = c.a * r1_y3 + c.b * r1_u3
 
         # khepera.bg:17: r1: input of stage 2
-        r1_u2 = (
-            r1_y3 + c.r1_v2_me__we * s.me__we + c.r1_v2_tanh * r1_tanh + c.r1_v2_wh__ws * s.wh__ws
-            - c.r1_v2_Fx * s.Fx
-        )
+        r1_u2 = r1_y3 + r1_g1 - 2.0 * r1_d2 - 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # khepera.bg:17: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # khepera.bg:17: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_me__we * s.me__we - c.r1_v1_wh__ws * s.wh__ws
+        r1_u1 = r1_y2 + r1_d2 + 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # khepera.bg:17: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # khepera.bg:17: r1 = U0 - el.k*me.we - el.Re*el.k.e2/el.k - el.L*D(el.k.e2)/el.k
         # where el.k.e2 = me.fe*me.we + me.Je*D(me.we) + (wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
         # tau0*A*ge.N*me.K*x1)/ge.N - tau0*A*me.K*x1
         # x1 = tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0))
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e1
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -556,11 +557,33 @@ class Monitor:
         # khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r2_q = c.half_time * r2_rate
 
+        # khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r2_integral = r2_int
+
+        # khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r2_rate2 = r2_rate
+        x.r2_rate1 = r2_rate
+
         # khepera.bg:41: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r2_tanh = math.tanh(r2_int)
+        r2_tanh = math.tanh(r2_integral)
+
+        # khepera.bg:41: r2: terms of order 0
+        r2_g0 = s.me__we - c.r2_wh__ws * s.wh__ws
+
+        # khepera.bg:41: r2: terms of order 1
+        r2_g1 = c.r2_w1_tanh * r2_tanh - c.r2_w1_Fx * s.Fx
+
+        # khepera.bg:41: r2: error of order 0
+        r2_e0 = c.bend2 * r2_g0
+
+        # khepera.bg:41: r2: degree 2
+        r2_d2 = -c.r2_w2_wh__ws * s.wh__ws - r2_e0
+
+        # khepera.bg:41: r2: error of order 1
+        r2_e1 = c.bend1 * r2_g1
 
         # khepera.bg:41: r2: input of stage 3
-        r2_u3 = s.me__we + c.r2_v2_Fx * s.Fx - c.r2_v3_wh__ws * s.wh__ws - c.r2_v2_tanh * r2_tanh
+        r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1
 
         # khepera.bg:41: r2: stage 3, at rest
         r2_y3 = r2_u3
@@ -569,7 +592,7 @@ class Monitor:
         x.r2_s3 = c.rest * r2_u3
 
         # khepera.bg:41: r2: input of stage 2
-        r2_u2 = r2_y3 + c.r2_v2_wh__ws * s.wh__ws + c.r2_v2_tanh * r2_tanh - c.r2_v2_Fx * s.Fx
+        r2_u2 = r2_y3 + r2_g1 - 2.0 * r2_d2 - 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -578,7 +601,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # khepera.bg:41: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_wh__ws * s.wh__ws
+        r2_u1 = r2_y2 + r2_d2 + 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -588,7 +611,7 @@ class Monitor:
 
         # khepera.bg:41: r2 = me.we - ge.N*wh.ws - D(wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
         # tau0*A*ge.N*me.K*tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)))/(ge.N*me.K)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e1
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
@@ -604,39 +627,61 @@ class Monitor:
         # khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r2_q = r2_int + c.half_time * r2_rate
 
+        # khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r2_integral = r2_int - c.half_twelfth * (3.0 * r2_rate - 4.0 * x.r2_rate1 + x.r2_rate2)
+
+        # khepera.bg:41: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r2_rate2 = x.r2_rate1
+        x.r2_rate1 = r2_rate
+
         # khepera.bg:41: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r2_tanh = math.tanh(r2_int)
+        r2_tanh = math.tanh(r2_integral)
+
+        # khepera.bg:41: r2: terms of order 0
+        r2_g0 = s.me__we - c.r2_wh__ws * s.wh__ws
+
+        # khepera.bg:41: r2: terms of order 1
+        r2_g1 = c.r2_w1_tanh * r2_tanh - c.r2_w1_Fx * s.Fx
+
+        # khepera.bg:41: r2: error of order 0
+        r2_e0 = c.bend2 * r2_g0
+
+        # khepera.bg:41: r2: degree 2
+        r2_d2 = -c.r2_w2_wh__ws * s.wh__ws - r2_e0
+
+        # khepera.bg:41: r2: error of order 1
+        r2_e1 = c.bend1 * r2_g1
 
         # khepera.bg:41: r2: input of stage 3
-        r2_u3 = s.me__we + c.r2_v2_Fx * s.Fx - c.r2_v3_wh__ws * s.wh__ws - c.r2_v2_tanh * r2_tanh
+        r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1
 
         # khepera.bg:41: r2: stage 3
-        r2_y3 = x.r2_s3 + c.b0 * r2_u3
+        r2_y3 = x.r2_s3 + c.b * r2_u3
 
         # khepera.bg:41: r2: stage 3: memory
-        x.r2_s3 = c.a * r2_y3 + c.b1 * r2_u3
+        x.r2_s3 = c.a * r2_y3 + c.b * r2_u3
 
         # khepera.bg:41: r2: input of stage 2
-        r2_u2 = r2_y3 + c.r2_v2_wh__ws * s.wh__ws + c.r2_v2_tanh * r2_tanh - c.r2_v2_Fx * s.Fx
+        r2_u2 = r2_y3 + r2_g1 - 2.0 * r2_d2 - 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # khepera.bg:41: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # khepera.bg:41: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_wh__ws * s.wh__ws
+        r2_u1 = r2_y2 + r2_d2 + 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # khepera.bg:41: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # khepera.bg:41: r2 = me.we - ge.N*wh.ws - D(wh.fs*wh.ws + wh.R*Fx + wh.Js*D(wh.ws) -
         # tau0*A*ge.N*me.K*tanh((Int(me.we) - ge.N*Int(wh.ws))/(4*tau0)))/(ge.N*me.K)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e1
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -653,23 +698,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

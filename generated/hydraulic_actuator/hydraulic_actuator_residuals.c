@@ -30,39 +30,10 @@ static real signed_root(real value)
     return value < REAL(0.0) ? -MATH(sqrt)(-value) : MATH(sqrt)(value);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t hydraulic_actuator_abi(void)
@@ -95,17 +66,17 @@ static void compute_coefficients(hydraulic_actuator_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* 1 - pole */
+    const real t = REAL(1.0) - pole;
 
     /* hydraulic_actuator.bg:18: r1: factor of p: leak */
     c->r1_p = p->leak;
@@ -119,23 +90,20 @@ static void compute_coefficients(hydraulic_actuator_monitor *monitor,
     /* hydraulic_actuator.bg:18: r1: factor of spool*ssqrt(ps - p): kv */
     c->r1_product = p->kv;
 
-    /* hydraulic_actuator.bg:18: r1: factor of p in stage 1 */
-    c->r1_v1_p = p->V * bandwidth / p->B;
+    /* hydraulic_actuator.bg:18: r1: factor of p' */
+    c->r1_w1_p = p->V * w / p->B;
 
-    /* hydraulic_actuator.bg:18: r1: factor of p in stage 2 */
-    c->r1_v2_p = p->V * bandwidth / p->B - p->leak;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t;
 
     /* hydraulic_actuator.bg:18: r2: factor of v: b */
     c->r2_v = p->b;
@@ -143,11 +111,8 @@ static void compute_coefficients(hydraulic_actuator_monitor *monitor,
     /* hydraulic_actuator.bg:18: r2: factor of v': m */
     c->r2_v_1 = p->m;
 
-    /* hydraulic_actuator.bg:18: r2: factor of v in stage 1 */
-    c->r2_v1_v = p->m * bandwidth;
-
-    /* hydraulic_actuator.bg:18: r2: factor of v in stage 2 */
-    c->r2_v2_v = p->b - p->m * bandwidth;
+    /* hydraulic_actuator.bg:18: r2: factor of v' */
+    c->r2_w1_v = p->m * w;
 }
 
 static bool parameters_are_finite(const hydraulic_actuator_parameters *p)
@@ -158,9 +123,9 @@ static bool parameters_are_finite(const hydraulic_actuator_parameters *p)
 static bool coefficients_are_finite(const hydraulic_actuator_monitor *monitor)
 {
     return finite_number(monitor->c.r1_p + monitor->c.r1_p_1 + monitor->c.r1_v
-            + monitor->c.r1_product + monitor->c.r1_v1_p + monitor->c.r1_v2_p + monitor->c.a
-            + monitor->c.b0 + monitor->c.b1 + monitor->c.rest + monitor->c.r2_v + monitor->c.r2_v_1
-            + monitor->c.r2_v1_v + monitor->c.r2_v2_v);
+            + monitor->c.r1_product + monitor->c.r1_w1_p + monitor->c.bend1 + monitor->c.a
+            + monitor->c.b + monitor->c.rest + monitor->c.r2_v + monitor->c.r2_v_1
+            + monitor->c.r2_w1_v);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -236,8 +201,17 @@ static void start_r1(
     /* hydraulic_actuator.bg:18: spool*ssqrt(ps - p) */
     const real r1_product = s->spool * signed_root(s->ps - s->p);
 
+    /* hydraulic_actuator.bg:18: r1: terms of order 0 */
+    const real r1_g0 = c->r1_product * r1_product - c->r1_p * s->p - c->r1_v * s->v;
+
+    /* hydraulic_actuator.bg:18: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_p * s->p;
+
+    /* hydraulic_actuator.bg:18: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* hydraulic_actuator.bg:18: r1: input of stage 2 */
-    const real r1_u2 = c->r1_v2_p * s->p + c->r1_product * r1_product - c->r1_v * s->v;
+    const real r1_u2 = r1_g0 + r1_d1 - r1_e0;
 
     /* hydraulic_actuator.bg:18: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -246,7 +220,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* hydraulic_actuator.bg:18: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_p * s->p;
+    const real r1_u1 = r1_y2 + REAL(2.0) * r1_e0 - r1_d1;
 
     /* hydraulic_actuator.bg:18: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -255,7 +229,7 @@ static void start_r1(
     x->r1_s1 = c->rest * r1_u1;
 
     /* hydraulic_actuator.bg:18: r1 = spool*kv*ssqrt(ps - p) - leak*p - A*v - V*D(p)/B */
-    r[HYDRAULIC_ACTUATOR_R1] = r1_y1;
+    r[HYDRAULIC_ACTUATOR_R1] = r1_y1 - r1_e0;
 }
 
 /* r1 on every further sample. */
@@ -268,26 +242,35 @@ static void next_r1(
     /* hydraulic_actuator.bg:18: spool*ssqrt(ps - p) */
     const real r1_product = s->spool * signed_root(s->ps - s->p);
 
+    /* hydraulic_actuator.bg:18: r1: terms of order 0 */
+    const real r1_g0 = c->r1_product * r1_product - c->r1_p * s->p - c->r1_v * s->v;
+
+    /* hydraulic_actuator.bg:18: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_p * s->p;
+
+    /* hydraulic_actuator.bg:18: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* hydraulic_actuator.bg:18: r1: input of stage 2 */
-    const real r1_u2 = c->r1_v2_p * s->p + c->r1_product * r1_product - c->r1_v * s->v;
+    const real r1_u2 = r1_g0 + r1_d1 - r1_e0;
 
     /* hydraulic_actuator.bg:18: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* hydraulic_actuator.bg:18: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* hydraulic_actuator.bg:18: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_p * s->p;
+    const real r1_u1 = r1_y2 + REAL(2.0) * r1_e0 - r1_d1;
 
     /* hydraulic_actuator.bg:18: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* hydraulic_actuator.bg:18: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* hydraulic_actuator.bg:18: r1 = spool*kv*ssqrt(ps - p) - leak*p - A*v - V*D(p)/B */
-    r[HYDRAULIC_ACTUATOR_R1] = r1_y1;
+    r[HYDRAULIC_ACTUATOR_R1] = r1_y1 - r1_e0;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -320,8 +303,17 @@ static void start_r2(
     const hydraulic_actuator_coefficients *c = &monitor->c;
     hydraulic_actuator_memory *x = &monitor->x;
 
+    /* hydraulic_actuator.bg:18: r2: terms of order 0 */
+    const real r2_g0 = s->load + c->r2_v * s->v - c->r1_v * s->p;
+
+    /* hydraulic_actuator.bg:18: r2: degree 1 */
+    const real r2_d1 = c->r2_w1_v * s->v;
+
+    /* hydraulic_actuator.bg:18: r2: error of order 0 */
+    const real r2_e0 = c->bend1 * r2_g0;
+
     /* hydraulic_actuator.bg:18: r2: input of stage 2 */
-    const real r2_u2 = s->load + c->r2_v2_v * s->v - c->r1_v * s->p;
+    const real r2_u2 = r2_g0 - r2_d1 - r2_e0;
 
     /* hydraulic_actuator.bg:18: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -330,7 +322,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* hydraulic_actuator.bg:18: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 + c->r2_v1_v * s->v;
+    const real r2_u1 = r2_y2 + r2_d1 + REAL(2.0) * r2_e0;
 
     /* hydraulic_actuator.bg:18: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -339,7 +331,7 @@ static void start_r2(
     x->r2_s1 = c->rest * r2_u1;
 
     /* hydraulic_actuator.bg:18: r2 = load + b*v + m*D(v) - A*p */
-    r[HYDRAULIC_ACTUATOR_R2] = r2_y1;
+    r[HYDRAULIC_ACTUATOR_R2] = r2_y1 - r2_e0;
 }
 
 /* r2 on every further sample. */
@@ -349,26 +341,35 @@ static void next_r2(
     const hydraulic_actuator_coefficients *c = &monitor->c;
     hydraulic_actuator_memory *x = &monitor->x;
 
+    /* hydraulic_actuator.bg:18: r2: terms of order 0 */
+    const real r2_g0 = s->load + c->r2_v * s->v - c->r1_v * s->p;
+
+    /* hydraulic_actuator.bg:18: r2: degree 1 */
+    const real r2_d1 = c->r2_w1_v * s->v;
+
+    /* hydraulic_actuator.bg:18: r2: error of order 0 */
+    const real r2_e0 = c->bend1 * r2_g0;
+
     /* hydraulic_actuator.bg:18: r2: input of stage 2 */
-    const real r2_u2 = s->load + c->r2_v2_v * s->v - c->r1_v * s->p;
+    const real r2_u2 = r2_g0 - r2_d1 - r2_e0;
 
     /* hydraulic_actuator.bg:18: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* hydraulic_actuator.bg:18: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* hydraulic_actuator.bg:18: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 + c->r2_v1_v * s->v;
+    const real r2_u1 = r2_y2 + r2_d1 + REAL(2.0) * r2_e0;
 
     /* hydraulic_actuator.bg:18: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* hydraulic_actuator.bg:18: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* hydraulic_actuator.bg:18: r2 = load + b*v + m*D(v) - A*p */
-    r[HYDRAULIC_ACTUATOR_R2] = r2_y1;
+    r[HYDRAULIC_ACTUATOR_R2] = r2_y1 - r2_e0;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */

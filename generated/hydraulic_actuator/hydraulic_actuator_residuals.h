@@ -29,7 +29,7 @@ typedef double hydraulic_actuator_real;
 /* Version of the structs and functions, and the size of a number. */
 #define HYDRAULIC_ACTUATOR_ABI (1u * 256u + (uint32_t)sizeof(hydraulic_actuator_real))
 /* Identifies the model and the options that this code was made from. */
-#define HYDRAULIC_ACTUATOR_DIGEST "2257e80d825b4dfc"
+#define HYDRAULIC_ACTUATOR_DIGEST "ca5d80adb027c533"
 
 /* What the code was made for: arguments of hydraulic_actuator_configure, in s, rad/s and s. */
 #define HYDRAULIC_ACTUATOR_SAMPLE_TIME HYDRAULIC_ACTUATOR_CONSTANT(0.001)
@@ -94,16 +94,14 @@ typedef struct hydraulic_actuator_coefficients {
     hydraulic_actuator_real r1_p_1;      /* r1: factor of p': V/B */
     hydraulic_actuator_real r1_v;        /* r1: factor of v: A */
     hydraulic_actuator_real r1_product;  /* r1: factor of spool*ssqrt(ps - p): kv */
-    hydraulic_actuator_real r1_v1_p;     /* r1: factor of p in stage 1 */
-    hydraulic_actuator_real r1_v2_p;     /* r1: factor of p in stage 2 */
-    hydraulic_actuator_real a;           /* filter: exp(-bandwidth*sample_time) */
-    hydraulic_actuator_real b0;          /* filter: weight of the new sample */
-    hydraulic_actuator_real b1;          /* filter: weight of the sample before */
-    hydraulic_actuator_real rest;        /* filter: 1 - b0, the memory of a constant 1 */
+    hydraulic_actuator_real r1_w1_p;     /* r1: factor of p' */
+    hydraulic_actuator_real bend1;       /* filter: 1 * (w*sample_time)^2/12 */
+    hydraulic_actuator_real a;           /* filter: what is left of a memory a sample later */
+    hydraulic_actuator_real b;           /* filter: weight of a sample, new and a sample later */
+    hydraulic_actuator_real rest;        /* filter: 1 - b, the memory of a constant 1 */
     hydraulic_actuator_real r2_v;        /* r2: factor of v: b */
     hydraulic_actuator_real r2_v_1;      /* r2: factor of v': m */
-    hydraulic_actuator_real r2_v1_v;     /* r2: factor of v in stage 1 */
-    hydraulic_actuator_real r2_v2_v;     /* r2: factor of v in stage 2 */
+    hydraulic_actuator_real r2_w1_v;     /* r2: factor of v' */
 } hydraulic_actuator_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "2257e80d825b4dfc"
+DIGEST = "ca5d80adb027c533"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -75,16 +75,14 @@ class Coefficients:
     r1_p_1: float      # r1: factor of p': V/B
     r1_v: float        # r1: factor of v: A
     r1_product: float  # r1: factor of spool*ssqrt(ps - p): kv
-    r1_v1_p: float     # r1: factor of p in stage 1
-    r1_v2_p: float     # r1: factor of p in stage 2
-    a: float           # filter: exp(-bandwidth*sample_time)
-    b0: float          # filter: weight of the new sample
-    b1: float          # filter: weight of the sample before
-    rest: float        # filter: 1 - b0, the memory of a constant 1
+    r1_w1_p: float     # r1: factor of p'
+    bend1: float       # filter: 1 * (w*sample_time)^2/12
+    a: float           # filter: what is left of a memory a sample later
+    b: float           # filter: weight of a sample, new and a sample later
+    rest: float        # filter: 1 - b, the memory of a constant 1
     r2_v: float        # r2: factor of v: b
     r2_v_1: float      # r2: factor of v': m
-    r2_v1_v: float     # r2: factor of v in stage 1
-    r2_v2_v: float     # r2: factor of v in stage 2
+    r2_w1_v: float     # r2: factor of v'
 
 
 class Memory:
@@ -126,9 +124,8 @@ class Monitor:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
                     self._c.r1_p + self._c.r1_p_1 + self._c.r1_v + self._c.r1_product
-                    + self._c.r1_v1_p + self._c.r1_v2_p + self._c.a + self._c.b0 + self._c.b1
-                    + self._c.rest + self._c.r2_v + self._c.r2_v_1 + self._c.r2_v1_v
-                    + self._c.r2_v2_v
+                    + self._c.r1_w1_p + self._c.bend1 + self._c.a + self._c.b + self._c.rest
+                    + self._c.r2_v + self._c.r2_v_1 + self._c.r2_w1_v
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -179,16 +176,17 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
+        # 1 - pole
+        t = 1.0 - pole
 
         # hydraulic_actuator.bg:18: r1: factor of p: leak
         c.r1_p = p.leak
@@ -202,23 +200,20 @@ class Monitor:
         # hydraulic_actuator.bg:18: r1: factor of spool*ssqrt(ps - p): kv
         c.r1_product = p.kv
 
-        # hydraulic_actuator.bg:18: r1: factor of p in stage 1
-        c.r1_v1_p = p.V * bandwidth / p.B
+        # hydraulic_actuator.bg:18: r1: factor of p'
+        c.r1_w1_p = p.V * w / p.B
 
-        # hydraulic_actuator.bg:18: r1: factor of p in stage 2
-        c.r1_v2_p = p.V * bandwidth / p.B - p.leak
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = turn * turn / 12.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
         # hydraulic_actuator.bg:18: r2: factor of v: b
         c.r2_v = p.b
@@ -226,11 +221,8 @@ class Monitor:
         # hydraulic_actuator.bg:18: r2: factor of v': m
         c.r2_v_1 = p.m
 
-        # hydraulic_actuator.bg:18: r2: factor of v in stage 1
-        c.r2_v1_v = p.m * bandwidth
-
-        # hydraulic_actuator.bg:18: r2: factor of v in stage 2
-        c.r2_v2_v = p.b - p.m * bandwidth
+        # hydraulic_actuator.bg:18: r2: factor of v'
+        c.r2_w1_v = p.m * w
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -240,8 +232,17 @@ class Monitor:
         # hydraulic_actuator.bg:18: spool*ssqrt(ps - p)
         r1_product = s.spool * _signed_root(s.ps - s.p)
 
+        # hydraulic_actuator.bg:18: r1: terms of order 0
+        r1_g0 = c.r1_product * r1_product - c.r1_p * s.p - c.r1_v * s.v
+
+        # hydraulic_actuator.bg:18: r1: degree 1
+        r1_d1 = c.r1_w1_p * s.p
+
+        # hydraulic_actuator.bg:18: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # hydraulic_actuator.bg:18: r1: input of stage 2
-        r1_u2 = c.r1_v2_p * s.p + c.r1_product * r1_product - c.r1_v * s.v
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # hydraulic_actuator.bg:18: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -250,7 +251,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # hydraulic_actuator.bg:18: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_p * s.p
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # hydraulic_actuator.bg:18: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -259,7 +260,7 @@ class Monitor:
         x.r1_s1 = c.rest * r1_u1
 
         # hydraulic_actuator.bg:18: r1 = spool*kv*ssqrt(ps - p) - leak*p - A*v - V*D(p)/B
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
@@ -269,26 +270,35 @@ class Monitor:
         # hydraulic_actuator.bg:18: spool*ssqrt(ps - p)
         r1_product = s.spool * _signed_root(s.ps - s.p)
 
+        # hydraulic_actuator.bg:18: r1: terms of order 0
+        r1_g0 = c.r1_product * r1_product - c.r1_p * s.p - c.r1_v * s.v
+
+        # hydraulic_actuator.bg:18: r1: degree 1
+        r1_d1 = c.r1_w1_p * s.p
+
+        # hydraulic_actuator.bg:18: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # hydraulic_actuator.bg:18: r1: input of stage 2
-        r1_u2 = c.r1_v2_p * s.p + c.r1_product * r1_product - c.r1_v * s.v
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # hydraulic_actuator.bg:18: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # hydraulic_actuator.bg:18: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # hydraulic_actuator.bg:18: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_p * s.p
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # hydraulic_actuator.bg:18: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # hydraulic_actuator.bg:18: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # hydraulic_actuator.bg:18: r1 = spool*kv*ssqrt(ps - p) - leak*p - A*v - V*D(p)/B
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -311,8 +321,17 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # hydraulic_actuator.bg:18: r2: terms of order 0
+        r2_g0 = s.load + c.r2_v * s.v - c.r1_v * s.p
+
+        # hydraulic_actuator.bg:18: r2: degree 1
+        r2_d1 = c.r2_w1_v * s.v
+
+        # hydraulic_actuator.bg:18: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
         # hydraulic_actuator.bg:18: r2: input of stage 2
-        r2_u2 = s.load + c.r2_v2_v * s.v - c.r1_v * s.p
+        r2_u2 = r2_g0 - r2_d1 - r2_e0
 
         # hydraulic_actuator.bg:18: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -321,7 +340,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # hydraulic_actuator.bg:18: r2: input of stage 1
-        r2_u1 = r2_y2 + c.r2_v1_v * s.v
+        r2_u1 = r2_y2 + r2_d1 + 2.0 * r2_e0
 
         # hydraulic_actuator.bg:18: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -330,33 +349,42 @@ class Monitor:
         x.r2_s1 = c.rest * r2_u1
 
         # hydraulic_actuator.bg:18: r2 = load + b*v + m*D(v) - A*p
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
         c = self._c
         x = self._x
 
+        # hydraulic_actuator.bg:18: r2: terms of order 0
+        r2_g0 = s.load + c.r2_v * s.v - c.r1_v * s.p
+
+        # hydraulic_actuator.bg:18: r2: degree 1
+        r2_d1 = c.r2_w1_v * s.v
+
+        # hydraulic_actuator.bg:18: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
         # hydraulic_actuator.bg:18: r2: input of stage 2
-        r2_u2 = s.load + c.r2_v2_v * s.v - c.r1_v * s.p
+        r2_u2 = r2_g0 - r2_d1 - r2_e0
 
         # hydraulic_actuator.bg:18: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # hydraulic_actuator.bg:18: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # hydraulic_actuator.bg:18: r2: input of stage 1
-        r2_u1 = r2_y2 + c.r2_v1_v * s.v
+        r2_u1 = r2_y2 + r2_d1 + 2.0 * r2_e0
 
         # hydraulic_actuator.bg:18: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # hydraulic_actuator.bg:18: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # hydraulic_actuator.bg:18: r2 = load + b*v + m*D(v) - A*p
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -378,23 +406,3 @@ class Monitor:
 def _signed_root(value: float) -> float:
     """sign(value) * sqrt(|value|)"""
     return -math.sqrt(-value) if value < 0.0 else math.sqrt(value)
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t khepera_abi(void)
@@ -109,90 +80,51 @@ static void compute_coefficients(khepera_monitor *monitor, const khepera_paramet
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: m[1].el.L*m[1].me.fe/m[1].el.k */
     const real t = p->m__1__el__L * p->m__1__me__fe / p->m__1__el__k;
 
     /* khepera.bg:17: m[1].el.L*m[1].wh.fs/(m[1].ge.N*m[1].el.k) */
     const real t_2 = p->m__1__el__L * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].el.Re*m[1].me.fe/m[1].el.k */
-    const real t_3 = p->m__1__el__Re * p->m__1__me__fe / p->m__1__el__k;
-
     /* khepera.bg:17: m[1].el.Re*m[1].me.Je/m[1].el.k */
-    const real t_4 = p->m__1__el__Re * p->m__1__me__Je / p->m__1__el__k;
+    const real t_3 = p->m__1__el__Re * p->m__1__me__Je / p->m__1__el__k;
 
     /* khepera.bg:17: m[1].el.Re*m[1].wh.Js/(m[1].ge.N*m[1].el.k) */
-    const real t_5 = p->m__1__el__Re * p->m__1__wh__Js / p->m__1__ge__N / p->m__1__el__k;
+    const real t_4 = p->m__1__el__Re * p->m__1__wh__Js / p->m__1__ge__N / p->m__1__el__k;
 
     /* khepera.bg:17: m[2].el.L*m[2].me.fe/m[2].el.k */
-    const real t_6 = p->m__2__el__L * p->m__2__me__fe / p->m__2__el__k;
+    const real t_5 = p->m__2__el__L * p->m__2__me__fe / p->m__2__el__k;
 
     /* khepera.bg:17: m[2].el.L*m[2].wh.fs/(m[2].ge.N*m[2].el.k) */
-    const real t_7 = p->m__2__el__L * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k;
-
-    /* khepera.bg:17: m[2].el.Re*m[2].me.fe/m[2].el.k */
-    const real t_8 = p->m__2__el__Re * p->m__2__me__fe / p->m__2__el__k;
+    const real t_6 = p->m__2__el__L * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k;
 
     /* khepera.bg:17: m[2].el.Re*m[2].me.Je/m[2].el.k */
-    const real t_9 = p->m__2__el__Re * p->m__2__me__Je / p->m__2__el__k;
+    const real t_7 = p->m__2__el__Re * p->m__2__me__Je / p->m__2__el__k;
 
     /* khepera.bg:17: m[2].el.Re*m[2].wh.Js/(m[2].ge.N*m[2].el.k) */
-    const real t_10 = p->m__2__el__Re * p->m__2__wh__Js / p->m__2__ge__N / p->m__2__el__k;
+    const real t_8 = p->m__2__el__Re * p->m__2__wh__Js / p->m__2__ge__N / p->m__2__el__k;
 
-    /* exp(-x) */
-    const real t_11 = exponential(-x_);
+    /* 1 - pole */
+    const real t_9 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_12 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_11) / x_;
-
-    /* khepera.bg:17: (-m[1].el.L*m[1].me.fe/m[1].el.k -
-     * m[1].el.Re*m[1].me.Je/m[1].el.k)*bandwidth */
-    const real t_13 = (-t - t_4) * bandwidth;
-
-    /* khepera.bg:17: m[1].el.L*m[1].me.Je*bandwidth^2/m[1].el.k */
-    const real t_14 = p->m__1__el__L * p->m__1__me__Je * bandwidth * bandwidth / p->m__1__el__k;
-
-    /* khepera.bg:17: (-m[1].el.L*m[1].wh.fs/(m[1].ge.N*m[1].el.k) -
-     * m[1].el.Re*m[1].wh.Js/(m[1].ge.N*m[1].e ... */
-    const real t_15 = (-t_2 - t_5) * bandwidth;
-
-    /* khepera.bg:17: m[1].el.L*m[1].wh.Js*bandwidth^2/(m[1].ge.N*m[1].el.k) */
-    const real t_16 = p->m__1__el__L * p->m__1__wh__Js * bandwidth * bandwidth / p->m__1__ge__N
-            / p->m__1__el__k;
-
-    /* khepera.bg:41: m[1].wh.Js*bandwidth^2/(m[1].ge.N*m[1].me.K) */
-    const real t_17 = p->m__1__wh__Js * bandwidth * bandwidth / p->m__1__ge__N / p->m__1__me__K;
-
-    /* khepera.bg:17: (-m[2].el.L*m[2].me.fe/m[2].el.k -
-     * m[2].el.Re*m[2].me.Je/m[2].el.k)*bandwidth */
-    const real t_18 = (-t_6 - t_9) * bandwidth;
-
-    /* khepera.bg:17: m[2].el.L*m[2].me.Je*bandwidth^2/m[2].el.k */
-    const real t_19 = p->m__2__el__L * p->m__2__me__Je * bandwidth * bandwidth / p->m__2__el__k;
-
-    /* khepera.bg:17: (-m[2].el.L*m[2].wh.fs/(m[2].ge.N*m[2].el.k) -
-     * m[2].el.Re*m[2].wh.Js/(m[2].ge.N*m[2].e ... */
-    const real t_20 = (-t_7 - t_10) * bandwidth;
-
-    /* khepera.bg:17: m[2].el.L*m[2].wh.Js*bandwidth^2/(m[2].ge.N*m[2].el.k) */
-    const real t_21 = p->m__2__el__L * p->m__2__wh__Js * bandwidth * bandwidth / p->m__2__ge__N
-            / p->m__2__el__k;
-
-    /* khepera.bg:41: m[2].wh.Js*bandwidth^2/(m[2].ge.N*m[2].me.K) */
-    const real t_22 = p->m__2__wh__Js * bandwidth * bandwidth / p->m__2__ge__N / p->m__2__me__K;
+    /* turn^2 */
+    const real t_10 = turn * turn;
 
     /* khepera.bg:17: r1: factor of m[1].me.we: m[1].el.k + m[1].el.Re*m[1].me.fe/m[1].el.k */
-    c->r1_m__1__me__we = p->m__1__el__k + t_3;
+    c->r1_m__1__me__we = p->m__1__el__k + p->m__1__el__Re * p->m__1__me__fe / p->m__1__el__k;
 
     /* khepera.bg:17: r1: factor of m[1].me.we': m[1].el.L*m[1].me.fe/m[1].el.k +
      * m[1].el.Re*m[1].me.Je/m[1].el.k */
-    c->r1_m__1__me__we_1 = t + t_4;
+    c->r1_m__1__me__we_1 = t + t_3;
 
     /* khepera.bg:17: r1: factor of m[1].me.we'': m[1].el.L*m[1].me.Je/m[1].el.k */
     c->r1_m__1__me__we_2 = p->m__1__el__L * p->m__1__me__Je / p->m__1__el__k;
@@ -202,7 +134,7 @@ static void compute_coefficients(khepera_monitor *monitor, const khepera_paramet
 
     /* khepera.bg:17: r1: factor of m[1].wh.ws': m[1].el.L*m[1].wh.fs/(m[1].ge.N*m[1].el.k) +
      * m[1].el.Re*m[1].wh.Js/(m[1].ge.N*m[1].el.k) */
-    c->r1_m__1__wh__ws_1 = t_2 + t_5;
+    c->r1_m__1__wh__ws_1 = t_2 + t_4;
 
     /* khepera.bg:17: r1: factor of m[1].wh.ws'': m[1].el.L*m[1].wh.Js/(m[1].ge.N*m[1].el.k) */
     c->r1_m__1__wh__ws_2 = p->m__1__el__L * p->m__1__wh__Js / p->m__1__ge__N / p->m__1__el__k;
@@ -213,43 +145,36 @@ static void compute_coefficients(khepera_monitor *monitor, const khepera_paramet
     /* khepera.bg:17: r1: factor of Fx[1]': m[1].el.L*m[1].wh.R/(m[1].ge.N*m[1].el.k) */
     c->r1_Fx__1_1 = p->m__1__el__L * p->m__1__wh__R / p->m__1__ge__N / p->m__1__el__k;
 
-    /* khepera.bg:17: r1: factor of m[1].me.we in stage 1 */
-    c->r1_v1_m__1__me__we = t_14;
+    /* khepera.bg:17: r1: factor of m[1].me.we' */
+    c->r1_w1_m__1__me__we = (-t - t_3) * w;
 
-    /* khepera.bg:17: r1: factor of m[1].me.we in stage 2 */
-    c->r1_v2_m__1__me__we = t_13 + REAL(2.0) * t_14;
+    /* khepera.bg:17: r1: factor of m[1].me.we'' */
+    c->r1_w2_m__1__me__we = p->m__1__el__L * p->m__1__me__Je * w * w / p->m__1__el__k;
 
-    /* khepera.bg:17: r1: factor of m[1].me.we in stage 3 */
-    c->r1_v3_m__1__me__we = -p->m__1__el__k - t_3 - t_13 - t_14;
+    /* khepera.bg:17: r1: factor of m[1].wh.ws' */
+    c->r1_w1_m__1__wh__ws = (-t_2 - t_4) * w;
 
-    /* khepera.bg:17: r1: factor of m[1].wh.ws in stage 1 */
-    c->r1_v1_m__1__wh__ws = t_16;
+    /* khepera.bg:17: r1: factor of m[1].wh.ws'' */
+    c->r1_w2_m__1__wh__ws = p->m__1__el__L * p->m__1__wh__Js * w * w / p->m__1__ge__N
+            / p->m__1__el__k;
 
-    /* khepera.bg:17: r1: factor of m[1].wh.ws in stage 2 */
-    c->r1_v2_m__1__wh__ws = t_15 + REAL(2.0) * t_16;
+    /* khepera.bg:17: r1: factor of Fx[1]' */
+    c->r1_w1_Fx__1 = p->m__1__el__L * p->m__1__wh__R * w / p->m__1__ge__N / p->m__1__el__k;
 
-    /* khepera.bg:17: r1: factor of m[1].wh.ws in stage 3 */
-    c->r1_v3_m__1__wh__ws = p->m__1__el__Re * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k
-        + t_15 + t_16;
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_10 / REAL(6.0);
 
-    /* khepera.bg:17: r1: factor of Fx[1] in stage 2 */
-    c->r1_v2_Fx__1 = p->m__1__el__L * p->m__1__wh__R * bandwidth / p->m__1__ge__N / p->m__1__el__k;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_10 / REAL(12.0);
 
-    /* khepera.bg:17: r1: factor of Fx[1] in stage 3 */
-    c->r1_v3_Fx__1 = p->m__1__el__L * p->m__1__wh__R * bandwidth / p->m__1__ge__N / p->m__1__el__k
-        - p->m__1__el__Re * p->m__1__wh__R / p->m__1__ge__N / p->m__1__el__k;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_11;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_9;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_12;
-
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_11 - t_12;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_12;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t_9;
 
     /* khepera.bg:41: 1/(4*m[1].tau0) */
     c->g = REAL(0.25) / p->m__1__tau0;
@@ -276,28 +201,25 @@ static void compute_coefficients(khepera_monitor *monitor, const khepera_paramet
     /* half the sample time */
     c->half_time = REAL(0.5) * sample_time;
 
-    /* khepera.bg:41: r2: factor of m[1].wh.ws in stage 1 */
-    c->r2_v1_m__1__wh__ws = t_17;
+    /* sample_time/24 */
+    c->half_twelfth = sample_time / REAL(24.0);
 
-    /* khepera.bg:41: r2: factor of m[1].wh.ws in stage 2 */
-    c->r2_v2_m__1__wh__ws = REAL(2.0) * t_17;
+    /* khepera.bg:41: r2: factor of m[1].wh.ws'' */
+    c->r2_w2_m__1__wh__ws = p->m__1__wh__Js * w * w / p->m__1__ge__N / p->m__1__me__K;
 
-    /* khepera.bg:41: r2: factor of m[1].wh.ws in stage 3 */
-    c->r2_v3_m__1__wh__ws = p->m__1__ge__N + t_17;
+    /* khepera.bg:41: r2: factor of Fx[1]' */
+    c->r2_w1_Fx__1 = p->m__1__wh__R * w / p->m__1__ge__N / p->m__1__me__K;
 
-    /* khepera.bg:41: r2: factor of Fx[1] in stage 2 */
-    c->r2_v2_Fx__1 = p->m__1__wh__R * bandwidth / p->m__1__ge__N / p->m__1__me__K;
-
-    /* khepera.bg:41: r2: factor of tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1]. ...
-     * in stage 2 */
-    c->r2_v2_tanh = p->m__1__tau0 * p->m__1__A * bandwidth;
+    /* khepera.bg:41: r2: factor of D(tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1].
+     * ...) */
+    c->r2_w1_tanh = p->m__1__tau0 * p->m__1__A * w;
 
     /* khepera.bg:17: r3: factor of m[2].me.we: m[2].el.k + m[2].el.Re*m[2].me.fe/m[2].el.k */
-    c->r3_m__2__me__we = p->m__2__el__k + t_8;
+    c->r3_m__2__me__we = p->m__2__el__k + p->m__2__el__Re * p->m__2__me__fe / p->m__2__el__k;
 
     /* khepera.bg:17: r3: factor of m[2].me.we': m[2].el.L*m[2].me.fe/m[2].el.k +
      * m[2].el.Re*m[2].me.Je/m[2].el.k */
-    c->r3_m__2__me__we_1 = t_6 + t_9;
+    c->r3_m__2__me__we_1 = t_5 + t_7;
 
     /* khepera.bg:17: r3: factor of m[2].me.we'': m[2].el.L*m[2].me.Je/m[2].el.k */
     c->r3_m__2__me__we_2 = p->m__2__el__L * p->m__2__me__Je / p->m__2__el__k;
@@ -307,7 +229,7 @@ static void compute_coefficients(khepera_monitor *monitor, const khepera_paramet
 
     /* khepera.bg:17: r3: factor of m[2].wh.ws': m[2].el.L*m[2].wh.fs/(m[2].ge.N*m[2].el.k) +
      * m[2].el.Re*m[2].wh.Js/(m[2].ge.N*m[2].el.k) */
-    c->r3_m__2__wh__ws_1 = t_7 + t_10;
+    c->r3_m__2__wh__ws_1 = t_6 + t_8;
 
     /* khepera.bg:17: r3: factor of m[2].wh.ws'': m[2].el.L*m[2].wh.Js/(m[2].ge.N*m[2].el.k) */
     c->r3_m__2__wh__ws_2 = p->m__2__el__L * p->m__2__wh__Js / p->m__2__ge__N / p->m__2__el__k;
@@ -318,31 +240,21 @@ static void compute_coefficients(khepera_monitor *monitor, const khepera_paramet
     /* khepera.bg:17: r3: factor of Fx[2]': m[2].el.L*m[2].wh.R/(m[2].ge.N*m[2].el.k) */
     c->r3_Fx__2_1 = p->m__2__el__L * p->m__2__wh__R / p->m__2__ge__N / p->m__2__el__k;
 
-    /* khepera.bg:17: r3: factor of m[2].me.we in stage 1 */
-    c->r3_v1_m__2__me__we = t_19;
+    /* khepera.bg:17: r3: factor of m[2].me.we' */
+    c->r3_w1_m__2__me__we = (-t_5 - t_7) * w;
 
-    /* khepera.bg:17: r3: factor of m[2].me.we in stage 2 */
-    c->r3_v2_m__2__me__we = t_18 + REAL(2.0) * t_19;
+    /* khepera.bg:17: r3: factor of m[2].me.we'' */
+    c->r3_w2_m__2__me__we = p->m__2__el__L * p->m__2__me__Je * w * w / p->m__2__el__k;
 
-    /* khepera.bg:17: r3: factor of m[2].me.we in stage 3 */
-    c->r3_v3_m__2__me__we = -p->m__2__el__k - t_8 - t_18 - t_19;
+    /* khepera.bg:17: r3: factor of m[2].wh.ws' */
+    c->r3_w1_m__2__wh__ws = (-t_6 - t_8) * w;
 
-    /* khepera.bg:17: r3: factor of m[2].wh.ws in stage 1 */
-    c->r3_v1_m__2__wh__ws = t_21;
+    /* khepera.bg:17: r3: factor of m[2].wh.ws'' */
+    c->r3_w2_m__2__wh__ws = p->m__2__el__L * p->m__2__wh__Js * w * w / p->m__2__ge__N
+            / p->m__2__el__k;
 
-    /* khepera.bg:17: r3: factor of m[2].wh.ws in stage 2 */
-    c->r3_v2_m__2__wh__ws = t_20 + REAL(2.0) * t_21;
-
-    /* khepera.bg:17: r3: factor of m[2].wh.ws in stage 3 */
-    c->r3_v3_m__2__wh__ws = p->m__2__el__Re * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k
-        + t_20 + t_21;
-
-    /* khepera.bg:17: r3: factor of Fx[2] in stage 2 */
-    c->r3_v2_Fx__2 = p->m__2__el__L * p->m__2__wh__R * bandwidth / p->m__2__ge__N / p->m__2__el__k;
-
-    /* khepera.bg:17: r3: factor of Fx[2] in stage 3 */
-    c->r3_v3_Fx__2 = p->m__2__el__L * p->m__2__wh__R * bandwidth / p->m__2__ge__N / p->m__2__el__k
-        - p->m__2__el__Re * p->m__2__wh__R / p->m__2__ge__N / p->m__2__el__k;
+    /* khepera.bg:17: r3: factor of Fx[2]' */
+    c->r3_w1_Fx__2 = p->m__2__el__L * p->m__2__wh__R * w / p->m__2__ge__N / p->m__2__el__k;
 
     /* khepera.bg:41: 1/(4*m[2].tau0) */
     c->g_3 = REAL(0.25) / p->m__2__tau0;
@@ -366,21 +278,15 @@ static void compute_coefficients(khepera_monitor *monitor, const khepera_paramet
      * ...): m[2].tau0*m[2].A */
     c->r4_tanh_1 = p->m__2__tau0 * p->m__2__A;
 
-    /* khepera.bg:41: r4: factor of m[2].wh.ws in stage 1 */
-    c->r4_v1_m__2__wh__ws = t_22;
+    /* khepera.bg:41: r4: factor of m[2].wh.ws'' */
+    c->r4_w2_m__2__wh__ws = p->m__2__wh__Js * w * w / p->m__2__ge__N / p->m__2__me__K;
 
-    /* khepera.bg:41: r4: factor of m[2].wh.ws in stage 2 */
-    c->r4_v2_m__2__wh__ws = REAL(2.0) * t_22;
+    /* khepera.bg:41: r4: factor of Fx[2]' */
+    c->r4_w1_Fx__2 = p->m__2__wh__R * w / p->m__2__ge__N / p->m__2__me__K;
 
-    /* khepera.bg:41: r4: factor of m[2].wh.ws in stage 3 */
-    c->r4_v3_m__2__wh__ws = p->m__2__ge__N + t_22;
-
-    /* khepera.bg:41: r4: factor of Fx[2] in stage 2 */
-    c->r4_v2_Fx__2 = p->m__2__wh__R * bandwidth / p->m__2__ge__N / p->m__2__me__K;
-
-    /* khepera.bg:41: r4: factor of tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2]. ...
-     * in stage 2 */
-    c->r4_v2_tanh = p->m__2__tau0 * p->m__2__A * bandwidth;
+    /* khepera.bg:41: r4: factor of D(tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2].
+     * ...) */
+    c->r4_w1_tanh = p->m__2__tau0 * p->m__2__A * w;
 
     /* khepera.bg:114: r5: factor of Us': 1.5*line.R*line.C */
     c->r5_Us_1 = REAL(1.5) * p->line__R * p->line__C;
@@ -411,25 +317,23 @@ static bool coefficients_are_finite(const khepera_monitor *monitor)
     return finite_number(monitor->c.r1_m__1__me__we + monitor->c.r1_m__1__me__we_1
             + monitor->c.r1_m__1__me__we_2 + monitor->c.r1_m__1__wh__ws
             + monitor->c.r1_m__1__wh__ws_1 + monitor->c.r1_m__1__wh__ws_2 + monitor->c.r1_Fx__1
-            + monitor->c.r1_Fx__1_1 + monitor->c.r1_v1_m__1__me__we + monitor->c.r1_v2_m__1__me__we
-            + monitor->c.r1_v3_m__1__me__we + monitor->c.r1_v1_m__1__wh__ws
-            + monitor->c.r1_v2_m__1__wh__ws + monitor->c.r1_v3_m__1__wh__ws + monitor->c.r1_v2_Fx__1
-            + monitor->c.r1_v3_Fx__1 + monitor->c.a + monitor->c.b0 + monitor->c.b1
-            + monitor->c.rest + monitor->c.g + monitor->c.g_2 + monitor->c.r2_m__1__wh__ws
+            + monitor->c.r1_Fx__1_1 + monitor->c.r1_w1_m__1__me__we + monitor->c.r1_w2_m__1__me__we
+            + monitor->c.r1_w1_m__1__wh__ws + monitor->c.r1_w2_m__1__wh__ws + monitor->c.r1_w1_Fx__1
+            + monitor->c.bend2 + monitor->c.bend1 + monitor->c.a + monitor->c.b + monitor->c.rest
+            + monitor->c.g + monitor->c.g_2 + monitor->c.r2_m__1__wh__ws
             + monitor->c.r2_m__1__wh__ws_1 + monitor->c.r2_m__1__wh__ws_2 + monitor->c.r2_Fx__1_1
-            + monitor->c.r2_tanh_1 + monitor->c.half_time + monitor->c.r2_v1_m__1__wh__ws
-            + monitor->c.r2_v2_m__1__wh__ws + monitor->c.r2_v3_m__1__wh__ws + monitor->c.r2_v2_Fx__1
-            + monitor->c.r2_v2_tanh + monitor->c.r3_m__2__me__we + monitor->c.r3_m__2__me__we_1
+            + monitor->c.r2_tanh_1 + monitor->c.half_time + monitor->c.half_twelfth
+            + monitor->c.r2_w2_m__1__wh__ws + monitor->c.r2_w1_Fx__1 + monitor->c.r2_w1_tanh
+            + monitor->c.r3_m__2__me__we + monitor->c.r3_m__2__me__we_1
             + monitor->c.r3_m__2__me__we_2 + monitor->c.r3_m__2__wh__ws
             + monitor->c.r3_m__2__wh__ws_1 + monitor->c.r3_m__2__wh__ws_2 + monitor->c.r3_Fx__2
-            + monitor->c.r3_Fx__2_1 + monitor->c.r3_v1_m__2__me__we + monitor->c.r3_v2_m__2__me__we
-            + monitor->c.r3_v3_m__2__me__we + monitor->c.r3_v1_m__2__wh__ws
-            + monitor->c.r3_v2_m__2__wh__ws + monitor->c.r3_v3_m__2__wh__ws + monitor->c.r3_v2_Fx__2
-            + monitor->c.r3_v3_Fx__2 + monitor->c.g_3 + monitor->c.g_4 + monitor->c.r4_m__2__wh__ws
+            + monitor->c.r3_Fx__2_1 + monitor->c.r3_w1_m__2__me__we + monitor->c.r3_w2_m__2__me__we
+            + monitor->c.r3_w1_m__2__wh__ws + monitor->c.r3_w2_m__2__wh__ws + monitor->c.r3_w1_Fx__2
+            + monitor->c.g_3 + monitor->c.g_4 + monitor->c.r4_m__2__wh__ws
             + monitor->c.r4_m__2__wh__ws_1 + monitor->c.r4_m__2__wh__ws_2 + monitor->c.r4_Fx__2_1
-            + monitor->c.r4_tanh_1 + monitor->c.r4_v1_m__2__wh__ws + monitor->c.r4_v2_m__2__wh__ws
-            + monitor->c.r4_v3_m__2__wh__ws + monitor->c.r4_v2_Fx__2 + monitor->c.r4_v2_tanh
-            + monitor->c.r5_Us_1 + monitor->c.r5_Us_2 + monitor->c.r5_Us_3 + monitor->c.r5_Us_4);
+            + monitor->c.r4_tanh_1 + monitor->c.r4_w2_m__2__wh__ws + monitor->c.r4_w1_Fx__2
+            + monitor->c.r4_w1_tanh + monitor->c.r5_Us_1 + monitor->c.r5_Us_2 + monitor->c.r5_Us_3
+            + monitor->c.r5_Us_4);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -552,9 +456,26 @@ static void start_r1(
     const khepera_coefficients *c = &monitor->c;
     khepera_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->U0__1 - c->r1_m__1__me__we * s->m__1__me__we
+        - c->r1_m__1__wh__ws * s->m__1__wh__ws - c->r1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = c->r1_w1_m__1__me__we * s->m__1__me__we
+        + c->r1_w1_m__1__wh__ws * s->m__1__wh__ws - c->r1_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend2 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = -c->r1_w2_m__1__me__we * s->m__1__me__we
+        - c->r1_w2_m__1__wh__ws * s->m__1__wh__ws - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend1 * r1_g1;
+
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = s->U0__1 + c->r1_v3_m__1__me__we * s->m__1__me__we
-        + c->r1_v3_Fx__1 * s->Fx__1 - c->r1_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1;
 
     /* khepera.bg:17: r1: stage 3, at rest */
     const real r1_y3 = r1_u3;
@@ -563,8 +484,7 @@ static void start_r1(
     x->r1_s3 = c->rest * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_m__1__me__we * s->m__1__me__we
-        + c->r1_v2_m__1__wh__ws * s->m__1__wh__ws - c->r1_v2_Fx__1 * s->Fx__1;
+    const real r1_u2 = r1_y3 + r1_g1 - REAL(2.0) * r1_d2 - REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -573,8 +493,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_m__1__me__we * s->m__1__me__we
-        - c->r1_v1_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_u1 = r1_y2 + r1_d2 + REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -586,7 +505,7 @@ static void start_r1(
      * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
      * where m[1].el.k.e2 = m[1].me.fe*m[1].me.we + m[1].me.Je*D(m[1].me.we) +
      * (m[1].wh.fs*m[1].wh.ws + Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws))/m[1].ge.N */
-    r[KHEPERA_R1] = r1_y1;
+    r[KHEPERA_R1] = r1_y1 - r1_e1;
 }
 
 /* r1 on every further sample. */
@@ -596,41 +515,56 @@ static void next_r1(
     const khepera_coefficients *c = &monitor->c;
     khepera_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->U0__1 - c->r1_m__1__me__we * s->m__1__me__we
+        - c->r1_m__1__wh__ws * s->m__1__wh__ws - c->r1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = c->r1_w1_m__1__me__we * s->m__1__me__we
+        + c->r1_w1_m__1__wh__ws * s->m__1__wh__ws - c->r1_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend2 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = -c->r1_w2_m__1__me__we * s->m__1__me__we
+        - c->r1_w2_m__1__wh__ws * s->m__1__wh__ws - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend1 * r1_g1;
+
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = s->U0__1 + c->r1_v3_m__1__me__we * s->m__1__me__we
-        + c->r1_v3_Fx__1 * s->Fx__1 - c->r1_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1;
 
     /* khepera.bg:17: r1: stage 3 */
-    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+    const real r1_y3 = x->r1_s3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: stage 3: memory */
-    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+    x->r1_s3 = c->a * r1_y3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_m__1__me__we * s->m__1__me__we
-        + c->r1_v2_m__1__wh__ws * s->m__1__wh__ws - c->r1_v2_Fx__1 * s->Fx__1;
+    const real r1_u2 = r1_y3 + r1_g1 - REAL(2.0) * r1_d2 - REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_m__1__me__we * s->m__1__me__we
-        - c->r1_v1_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_u1 = r1_y2 + r1_d2 + REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1 = U0[1] - m[1].el.k*m[1].me.we - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
      * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
      * where m[1].el.k.e2 = m[1].me.fe*m[1].me.we + m[1].me.Je*D(m[1].me.we) +
      * (m[1].wh.fs*m[1].wh.ws + Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws))/m[1].ge.N */
-    r[KHEPERA_R1] = r1_y1;
+    r[KHEPERA_R1] = r1_y1 - r1_e1;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -675,12 +609,34 @@ static void start_r2(
      * memory */
     x->r2_q = c->half_time * r2_rate;
 
+    /* khepera.bg:41: integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ... */
+    const real r2_integral = r2_int;
+
+    /* khepera.bg:41: integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ...:
+     * memory */
+    x->r2_rate2 = r2_rate;
+    x->r2_rate1 = r2_rate;
+
     /* khepera.bg:41: tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1]. ... */
-    const real r2_tanh = MATH(tanh)(r2_int);
+    const real r2_tanh = MATH(tanh)(r2_integral);
+
+    /* khepera.bg:41: r2: terms of order 0 */
+    const real r2_g0 = s->m__1__me__we - c->r2_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:41: r2: terms of order 1 */
+    const real r2_g1 = c->r2_w1_tanh * r2_tanh - c->r2_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:41: r2: error of order 0 */
+    const real r2_e0 = c->bend2 * r2_g0;
+
+    /* khepera.bg:41: r2: degree 2 */
+    const real r2_d2 = -c->r2_w2_m__1__wh__ws * s->m__1__wh__ws - r2_e0;
+
+    /* khepera.bg:41: r2: error of order 1 */
+    const real r2_e1 = c->bend1 * r2_g1;
 
     /* khepera.bg:41: r2: input of stage 3 */
-    const real r2_u3 = s->m__1__me__we + c->r2_v2_Fx__1 * s->Fx__1
-        - c->r2_v3_m__1__wh__ws * s->m__1__wh__ws - c->r2_v2_tanh * r2_tanh;
+    const real r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1;
 
     /* khepera.bg:41: r2: stage 3, at rest */
     const real r2_y3 = r2_u3;
@@ -689,8 +645,7 @@ static void start_r2(
     x->r2_s3 = c->rest * r2_u3;
 
     /* khepera.bg:41: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_m__1__wh__ws * s->m__1__wh__ws + c->r2_v2_tanh * r2_tanh
-        - c->r2_v2_Fx__1 * s->Fx__1;
+    const real r2_u2 = r2_y3 + r2_g1 - REAL(2.0) * r2_d2 - REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -699,7 +654,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* khepera.bg:41: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_m__1__wh__ws * s->m__1__wh__ws;
+    const real r2_u1 = r2_y2 + r2_d2 + REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -711,7 +666,7 @@ static void start_r2(
      * Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws) -
      * m[1].tau0*m[1].A*m[1].ge.N*m[1].me.K*tanh((Int(m[1].me.we) -
      * m[1].ge.N*Int(m[1].wh.ws))/(4*m[1].tau0)))/(m[1].ge.N*m[1].me.K) */
-    r[KHEPERA_R2] = r2_y1;
+    r[KHEPERA_R2] = r2_y1 - r2_e1;
 }
 
 /* r2 on every further sample. */
@@ -732,43 +687,65 @@ static void next_r2(
      * memory */
     x->r2_q = r2_int + c->half_time * r2_rate;
 
+    /* khepera.bg:41: integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ... */
+    const real r2_integral = r2_int
+        - c->half_twelfth * (REAL(3.0) * r2_rate - REAL(4.0) * x->r2_rate1 + x->r2_rate2);
+
+    /* khepera.bg:41: integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ...:
+     * memory */
+    x->r2_rate2 = x->r2_rate1;
+    x->r2_rate1 = r2_rate;
+
     /* khepera.bg:41: tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1]. ... */
-    const real r2_tanh = MATH(tanh)(r2_int);
+    const real r2_tanh = MATH(tanh)(r2_integral);
+
+    /* khepera.bg:41: r2: terms of order 0 */
+    const real r2_g0 = s->m__1__me__we - c->r2_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:41: r2: terms of order 1 */
+    const real r2_g1 = c->r2_w1_tanh * r2_tanh - c->r2_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:41: r2: error of order 0 */
+    const real r2_e0 = c->bend2 * r2_g0;
+
+    /* khepera.bg:41: r2: degree 2 */
+    const real r2_d2 = -c->r2_w2_m__1__wh__ws * s->m__1__wh__ws - r2_e0;
+
+    /* khepera.bg:41: r2: error of order 1 */
+    const real r2_e1 = c->bend1 * r2_g1;
 
     /* khepera.bg:41: r2: input of stage 3 */
-    const real r2_u3 = s->m__1__me__we + c->r2_v2_Fx__1 * s->Fx__1
-        - c->r2_v3_m__1__wh__ws * s->m__1__wh__ws - c->r2_v2_tanh * r2_tanh;
+    const real r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1;
 
     /* khepera.bg:41: r2: stage 3 */
-    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+    const real r2_y3 = x->r2_s3 + c->b * r2_u3;
 
     /* khepera.bg:41: r2: stage 3: memory */
-    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+    x->r2_s3 = c->a * r2_y3 + c->b * r2_u3;
 
     /* khepera.bg:41: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_m__1__wh__ws * s->m__1__wh__ws + c->r2_v2_tanh * r2_tanh
-        - c->r2_v2_Fx__1 * s->Fx__1;
+    const real r2_u2 = r2_y3 + r2_g1 - REAL(2.0) * r2_d2 - REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* khepera.bg:41: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* khepera.bg:41: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_m__1__wh__ws * s->m__1__wh__ws;
+    const real r2_u1 = r2_y2 + r2_d2 + REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* khepera.bg:41: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* khepera.bg:41: r2 = m[1].me.we - m[1].ge.N*m[1].wh.ws - D(m[1].wh.fs*m[1].wh.ws +
      * Fx[1]*m[1].wh.R + m[1].wh.Js*D(m[1].wh.ws) -
      * m[1].tau0*m[1].A*m[1].ge.N*m[1].me.K*tanh((Int(m[1].me.we) -
      * m[1].ge.N*Int(m[1].wh.ws))/(4*m[1].tau0)))/(m[1].ge.N*m[1].me.K) */
-    r[KHEPERA_R2] = r2_y1;
+    r[KHEPERA_R2] = r2_y1 - r2_e1;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */
@@ -801,9 +778,26 @@ static void start_r3(
     const khepera_coefficients *c = &monitor->c;
     khepera_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r3: terms of order 0 */
+    const real r3_g0 = s->U0__2 - c->r3_m__2__me__we * s->m__2__me__we
+        - c->r3_m__2__wh__ws * s->m__2__wh__ws - c->r3_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: terms of order 1 */
+    const real r3_g1 = c->r3_w1_m__2__me__we * s->m__2__me__we
+        + c->r3_w1_m__2__wh__ws * s->m__2__wh__ws - c->r3_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: error of order 0 */
+    const real r3_e0 = c->bend2 * r3_g0;
+
+    /* khepera.bg:17: r3: degree 2 */
+    const real r3_d2 = -c->r3_w2_m__2__me__we * s->m__2__me__we
+        - c->r3_w2_m__2__wh__ws * s->m__2__wh__ws - r3_e0;
+
+    /* khepera.bg:17: r3: error of order 1 */
+    const real r3_e1 = c->bend1 * r3_g1;
+
     /* khepera.bg:17: r3: input of stage 3 */
-    const real r3_u3 = s->U0__2 + c->r3_v3_m__2__me__we * s->m__2__me__we
-        + c->r3_v3_Fx__2 * s->Fx__2 - c->r3_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_u3 = r3_g0 + r3_d2 + r3_e1 - r3_g1;
 
     /* khepera.bg:17: r3: stage 3, at rest */
     const real r3_y3 = r3_u3;
@@ -812,8 +806,7 @@ static void start_r3(
     x->r3_s3 = c->rest * r3_u3;
 
     /* khepera.bg:17: r3: input of stage 2 */
-    const real r3_u2 = r3_y3 + c->r3_v2_m__2__me__we * s->m__2__me__we
-        + c->r3_v2_m__2__wh__ws * s->m__2__wh__ws - c->r3_v2_Fx__2 * s->Fx__2;
+    const real r3_u2 = r3_y3 + r3_g1 - REAL(2.0) * r3_d2 - REAL(3.0) * r3_e1;
 
     /* khepera.bg:17: r3: stage 2, at rest */
     const real r3_y2 = r3_u2;
@@ -822,8 +815,7 @@ static void start_r3(
     x->r3_s2 = c->rest * r3_u2;
 
     /* khepera.bg:17: r3: input of stage 1 */
-    const real r3_u1 = r3_y2 - c->r3_v1_m__2__me__we * s->m__2__me__we
-        - c->r3_v1_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_u1 = r3_y2 + r3_d2 + REAL(3.0) * r3_e1;
 
     /* khepera.bg:17: r3: stage 1, at rest */
     const real r3_y1 = r3_u1;
@@ -835,7 +827,7 @@ static void start_r3(
      * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
      * where m[2].el.k.e2 = m[2].me.fe*m[2].me.we + m[2].me.Je*D(m[2].me.we) +
      * (m[2].wh.fs*m[2].wh.ws + Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws))/m[2].ge.N */
-    r[KHEPERA_R3] = r3_y1;
+    r[KHEPERA_R3] = r3_y1 - r3_e1;
 }
 
 /* r3 on every further sample. */
@@ -845,41 +837,56 @@ static void next_r3(
     const khepera_coefficients *c = &monitor->c;
     khepera_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r3: terms of order 0 */
+    const real r3_g0 = s->U0__2 - c->r3_m__2__me__we * s->m__2__me__we
+        - c->r3_m__2__wh__ws * s->m__2__wh__ws - c->r3_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: terms of order 1 */
+    const real r3_g1 = c->r3_w1_m__2__me__we * s->m__2__me__we
+        + c->r3_w1_m__2__wh__ws * s->m__2__wh__ws - c->r3_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: error of order 0 */
+    const real r3_e0 = c->bend2 * r3_g0;
+
+    /* khepera.bg:17: r3: degree 2 */
+    const real r3_d2 = -c->r3_w2_m__2__me__we * s->m__2__me__we
+        - c->r3_w2_m__2__wh__ws * s->m__2__wh__ws - r3_e0;
+
+    /* khepera.bg:17: r3: error of order 1 */
+    const real r3_e1 = c->bend1 * r3_g1;
+
     /* khepera.bg:17: r3: input of stage 3 */
-    const real r3_u3 = s->U0__2 + c->r3_v3_m__2__me__we * s->m__2__me__we
-        + c->r3_v3_Fx__2 * s->Fx__2 - c->r3_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_u3 = r3_g0 + r3_d2 + r3_e1 - r3_g1;
 
     /* khepera.bg:17: r3: stage 3 */
-    const real r3_y3 = x->r3_s3 + c->b0 * r3_u3;
+    const real r3_y3 = x->r3_s3 + c->b * r3_u3;
 
     /* khepera.bg:17: r3: stage 3: memory */
-    x->r3_s3 = c->a * r3_y3 + c->b1 * r3_u3;
+    x->r3_s3 = c->a * r3_y3 + c->b * r3_u3;
 
     /* khepera.bg:17: r3: input of stage 2 */
-    const real r3_u2 = r3_y3 + c->r3_v2_m__2__me__we * s->m__2__me__we
-        + c->r3_v2_m__2__wh__ws * s->m__2__wh__ws - c->r3_v2_Fx__2 * s->Fx__2;
+    const real r3_u2 = r3_y3 + r3_g1 - REAL(2.0) * r3_d2 - REAL(3.0) * r3_e1;
 
     /* khepera.bg:17: r3: stage 2 */
-    const real r3_y2 = x->r3_s2 + c->b0 * r3_u2;
+    const real r3_y2 = x->r3_s2 + c->b * r3_u2;
 
     /* khepera.bg:17: r3: stage 2: memory */
-    x->r3_s2 = c->a * r3_y2 + c->b1 * r3_u2;
+    x->r3_s2 = c->a * r3_y2 + c->b * r3_u2;
 
     /* khepera.bg:17: r3: input of stage 1 */
-    const real r3_u1 = r3_y2 - c->r3_v1_m__2__me__we * s->m__2__me__we
-        - c->r3_v1_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_u1 = r3_y2 + r3_d2 + REAL(3.0) * r3_e1;
 
     /* khepera.bg:17: r3: stage 1 */
-    const real r3_y1 = x->r3_s1 + c->b0 * r3_u1;
+    const real r3_y1 = x->r3_s1 + c->b * r3_u1;
 
     /* khepera.bg:17: r3: stage 1: memory */
-    x->r3_s1 = c->a * r3_y1 + c->b1 * r3_u1;
+    x->r3_s1 = c->a * r3_y1 + c->b * r3_u1;
 
     /* khepera.bg:17: r3 = U0[2] - m[2].el.k*m[2].me.we - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
      * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
      * where m[2].el.k.e2 = m[2].me.fe*m[2].me.we + m[2].me.Je*D(m[2].me.we) +
      * (m[2].wh.fs*m[2].wh.ws + Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws))/m[2].ge.N */
-    r[KHEPERA_R3] = r3_y1;
+    r[KHEPERA_R3] = r3_y1 - r3_e1;
 }
 
 /* One sample for r3; a number that is not finite makes the next sample the first. */
@@ -924,12 +931,34 @@ static void start_r4(
      * memory */
     x->r4_q = c->half_time * r4_rate;
 
+    /* khepera.bg:41: integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ... */
+    const real r4_integral = r4_int;
+
+    /* khepera.bg:41: integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ...:
+     * memory */
+    x->r4_rate2 = r4_rate;
+    x->r4_rate1 = r4_rate;
+
     /* khepera.bg:41: tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2]. ... */
-    const real r4_tanh = MATH(tanh)(r4_int);
+    const real r4_tanh = MATH(tanh)(r4_integral);
+
+    /* khepera.bg:41: r4: terms of order 0 */
+    const real r4_g0 = s->m__2__me__we - c->r4_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:41: r4: terms of order 1 */
+    const real r4_g1 = c->r4_w1_tanh * r4_tanh - c->r4_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:41: r4: error of order 0 */
+    const real r4_e0 = c->bend2 * r4_g0;
+
+    /* khepera.bg:41: r4: degree 2 */
+    const real r4_d2 = -c->r4_w2_m__2__wh__ws * s->m__2__wh__ws - r4_e0;
+
+    /* khepera.bg:41: r4: error of order 1 */
+    const real r4_e1 = c->bend1 * r4_g1;
 
     /* khepera.bg:41: r4: input of stage 3 */
-    const real r4_u3 = s->m__2__me__we + c->r4_v2_Fx__2 * s->Fx__2
-        - c->r4_v3_m__2__wh__ws * s->m__2__wh__ws - c->r4_v2_tanh * r4_tanh;
+    const real r4_u3 = r4_g0 + r4_d2 + r4_e1 - r4_g1;
 
     /* khepera.bg:41: r4: stage 3, at rest */
     const real r4_y3 = r4_u3;
@@ -938,8 +967,7 @@ static void start_r4(
     x->r4_s3 = c->rest * r4_u3;
 
     /* khepera.bg:41: r4: input of stage 2 */
-    const real r4_u2 = r4_y3 + c->r4_v2_m__2__wh__ws * s->m__2__wh__ws + c->r4_v2_tanh * r4_tanh
-        - c->r4_v2_Fx__2 * s->Fx__2;
+    const real r4_u2 = r4_y3 + r4_g1 - REAL(2.0) * r4_d2 - REAL(3.0) * r4_e1;
 
     /* khepera.bg:41: r4: stage 2, at rest */
     const real r4_y2 = r4_u2;
@@ -948,7 +976,7 @@ static void start_r4(
     x->r4_s2 = c->rest * r4_u2;
 
     /* khepera.bg:41: r4: input of stage 1 */
-    const real r4_u1 = r4_y2 - c->r4_v1_m__2__wh__ws * s->m__2__wh__ws;
+    const real r4_u1 = r4_y2 + r4_d2 + REAL(3.0) * r4_e1;
 
     /* khepera.bg:41: r4: stage 1, at rest */
     const real r4_y1 = r4_u1;
@@ -960,7 +988,7 @@ static void start_r4(
      * Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws) -
      * m[2].tau0*m[2].A*m[2].ge.N*m[2].me.K*tanh((Int(m[2].me.we) -
      * m[2].ge.N*Int(m[2].wh.ws))/(4*m[2].tau0)))/(m[2].ge.N*m[2].me.K) */
-    r[KHEPERA_R4] = r4_y1;
+    r[KHEPERA_R4] = r4_y1 - r4_e1;
 }
 
 /* r4 on every further sample. */
@@ -981,43 +1009,65 @@ static void next_r4(
      * memory */
     x->r4_q = r4_int + c->half_time * r4_rate;
 
+    /* khepera.bg:41: integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ... */
+    const real r4_integral = r4_int
+        - c->half_twelfth * (REAL(3.0) * r4_rate - REAL(4.0) * x->r4_rate1 + x->r4_rate2);
+
+    /* khepera.bg:41: integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ...:
+     * memory */
+    x->r4_rate2 = x->r4_rate1;
+    x->r4_rate1 = r4_rate;
+
     /* khepera.bg:41: tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2]. ... */
-    const real r4_tanh = MATH(tanh)(r4_int);
+    const real r4_tanh = MATH(tanh)(r4_integral);
+
+    /* khepera.bg:41: r4: terms of order 0 */
+    const real r4_g0 = s->m__2__me__we - c->r4_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:41: r4: terms of order 1 */
+    const real r4_g1 = c->r4_w1_tanh * r4_tanh - c->r4_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:41: r4: error of order 0 */
+    const real r4_e0 = c->bend2 * r4_g0;
+
+    /* khepera.bg:41: r4: degree 2 */
+    const real r4_d2 = -c->r4_w2_m__2__wh__ws * s->m__2__wh__ws - r4_e0;
+
+    /* khepera.bg:41: r4: error of order 1 */
+    const real r4_e1 = c->bend1 * r4_g1;
 
     /* khepera.bg:41: r4: input of stage 3 */
-    const real r4_u3 = s->m__2__me__we + c->r4_v2_Fx__2 * s->Fx__2
-        - c->r4_v3_m__2__wh__ws * s->m__2__wh__ws - c->r4_v2_tanh * r4_tanh;
+    const real r4_u3 = r4_g0 + r4_d2 + r4_e1 - r4_g1;
 
     /* khepera.bg:41: r4: stage 3 */
-    const real r4_y3 = x->r4_s3 + c->b0 * r4_u3;
+    const real r4_y3 = x->r4_s3 + c->b * r4_u3;
 
     /* khepera.bg:41: r4: stage 3: memory */
-    x->r4_s3 = c->a * r4_y3 + c->b1 * r4_u3;
+    x->r4_s3 = c->a * r4_y3 + c->b * r4_u3;
 
     /* khepera.bg:41: r4: input of stage 2 */
-    const real r4_u2 = r4_y3 + c->r4_v2_m__2__wh__ws * s->m__2__wh__ws + c->r4_v2_tanh * r4_tanh
-        - c->r4_v2_Fx__2 * s->Fx__2;
+    const real r4_u2 = r4_y3 + r4_g1 - REAL(2.0) * r4_d2 - REAL(3.0) * r4_e1;
 
     /* khepera.bg:41: r4: stage 2 */
-    const real r4_y2 = x->r4_s2 + c->b0 * r4_u2;
+    const real r4_y2 = x->r4_s2 + c->b * r4_u2;
 
     /* khepera.bg:41: r4: stage 2: memory */
-    x->r4_s2 = c->a * r4_y2 + c->b1 * r4_u2;
+    x->r4_s2 = c->a * r4_y2 + c->b * r4_u2;
 
     /* khepera.bg:41: r4: input of stage 1 */
-    const real r4_u1 = r4_y2 - c->r4_v1_m__2__wh__ws * s->m__2__wh__ws;
+    const real r4_u1 = r4_y2 + r4_d2 + REAL(3.0) * r4_e1;
 
     /* khepera.bg:41: r4: stage 1 */
-    const real r4_y1 = x->r4_s1 + c->b0 * r4_u1;
+    const real r4_y1 = x->r4_s1 + c->b * r4_u1;
 
     /* khepera.bg:41: r4: stage 1: memory */
-    x->r4_s1 = c->a * r4_y1 + c->b1 * r4_u1;
+    x->r4_s1 = c->a * r4_y1 + c->b * r4_u1;
 
     /* khepera.bg:41: r4 = m[2].me.we - m[2].ge.N*m[2].wh.ws - D(m[2].wh.fs*m[2].wh.ws +
      * Fx[2]*m[2].wh.R + m[2].wh.Js*D(m[2].wh.ws) -
      * m[2].tau0*m[2].A*m[2].ge.N*m[2].me.K*tanh((Int(m[2].me.we) -
      * m[2].ge.N*Int(m[2].wh.ws))/(4*m[2].tau0)))/(m[2].ge.N*m[2].me.K) */
-    r[KHEPERA_R4] = r4_y1;
+    r[KHEPERA_R4] = r4_y1 - r4_e1;
 }
 
 /* One sample for r4; a number that is not finite makes the next sample the first. */
@@ -1077,10 +1127,10 @@ static void next_r5(
     const real r5_u1 = s->Uin - s->Us;
 
     /* khepera.bg:114: r5: stage 1 */
-    const real r5_y1 = x->r5_s1 + c->b0 * r5_u1;
+    const real r5_y1 = x->r5_s1 + c->b * r5_u1;
 
     /* khepera.bg:114: r5: stage 1: memory */
-    x->r5_s1 = c->a * r5_y1 + c->b1 * r5_u1;
+    x->r5_s1 = c->a * r5_y1 + c->b * r5_u1;
 
     /* khepera.bg:114: r5 = Uin - line.cell[1].mid.e - line.R*line.cell[1].left.f/2 -
      * line.L*D(line.cell[1].left.f)/2

@@ -30,7 +30,7 @@ typedef double khepera_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_ABI (1u * 256u + (uint32_t)sizeof(khepera_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_DIGEST "e7502e03693dafb7"
+#define KHEPERA_DIGEST "acbdb6c7516b9cb9"
 
 /* What the code was made for: arguments of khepera_configure, in s, rad/s and s. */
 #define KHEPERA_SAMPLE_TIME KHEPERA_CONSTANT(0.001)
@@ -177,18 +177,16 @@ typedef struct khepera_coefficients {
     khepera_real r1_Fx__1;
     /* r1: factor of Fx[1]': m[1].el.L*m[1].wh.R/(m[1].ge.N*m[1].el.k) */
     khepera_real r1_Fx__1_1;
-    khepera_real r1_v1_m__1__me__we;  /* r1: factor of m[1].me.we in stage 1 */
-    khepera_real r1_v2_m__1__me__we;  /* r1: factor of m[1].me.we in stage 2 */
-    khepera_real r1_v3_m__1__me__we;  /* r1: factor of m[1].me.we in stage 3 */
-    khepera_real r1_v1_m__1__wh__ws;  /* r1: factor of m[1].wh.ws in stage 1 */
-    khepera_real r1_v2_m__1__wh__ws;  /* r1: factor of m[1].wh.ws in stage 2 */
-    khepera_real r1_v3_m__1__wh__ws;  /* r1: factor of m[1].wh.ws in stage 3 */
-    khepera_real r1_v2_Fx__1;         /* r1: factor of Fx[1] in stage 2 */
-    khepera_real r1_v3_Fx__1;         /* r1: factor of Fx[1] in stage 3 */
-    khepera_real a;                   /* filter: exp(-bandwidth*sample_time) */
-    khepera_real b0;                  /* filter: weight of the new sample */
-    khepera_real b1;                  /* filter: weight of the sample before */
-    khepera_real rest;                /* filter: 1 - b0, the memory of a constant 1 */
+    khepera_real r1_w1_m__1__me__we;  /* r1: factor of m[1].me.we' */
+    khepera_real r1_w2_m__1__me__we;  /* r1: factor of m[1].me.we'' */
+    khepera_real r1_w1_m__1__wh__ws;  /* r1: factor of m[1].wh.ws' */
+    khepera_real r1_w2_m__1__wh__ws;  /* r1: factor of m[1].wh.ws'' */
+    khepera_real r1_w1_Fx__1;         /* r1: factor of Fx[1]' */
+    khepera_real bend2;               /* filter: 2 * (w*sample_time)^2/12 */
+    khepera_real bend1;               /* filter: 1 * (w*sample_time)^2/12 */
+    khepera_real a;                   /* filter: what is left of a memory a sample later */
+    khepera_real b;                   /* filter: weight of a sample, new and a sample later */
+    khepera_real rest;                /* filter: 1 - b, the memory of a constant 1 */
     khepera_real g;                   /* 1/(4*m[1].tau0) */
     khepera_real g_2;                 /* m[1].ge.N/(4*m[1].tau0) */
     khepera_real r2_m__1__wh__ws;     /* r2: factor of m[1].wh.ws: m[1].ge.N */
@@ -201,12 +199,11 @@ typedef struct khepera_coefficients {
      * m[1].tau0*m[1].A */
     khepera_real r2_tanh_1;
     khepera_real half_time;           /* half the sample time */
-    khepera_real r2_v1_m__1__wh__ws;  /* r2: factor of m[1].wh.ws in stage 1 */
-    khepera_real r2_v2_m__1__wh__ws;  /* r2: factor of m[1].wh.ws in stage 2 */
-    khepera_real r2_v3_m__1__wh__ws;  /* r2: factor of m[1].wh.ws in stage 3 */
-    khepera_real r2_v2_Fx__1;         /* r2: factor of Fx[1] in stage 2 */
-    /* r2: factor of tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1]. ... in stage 2 */
-    khepera_real r2_v2_tanh;
+    khepera_real half_twelfth;        /* sample_time/24 */
+    khepera_real r2_w2_m__1__wh__ws;  /* r2: factor of m[1].wh.ws'' */
+    khepera_real r2_w1_Fx__1;         /* r2: factor of Fx[1]' */
+    /* r2: factor of D(tanh(Int(m[1].me.we)/(4*m[1].tau0) - m[1].ge.N*Int(m[1]. ...) */
+    khepera_real r2_w1_tanh;
     /* r3: factor of m[2].me.we: m[2].el.k + m[2].el.Re*m[2].me.fe/m[2].el.k */
     khepera_real r3_m__2__me__we;
     /* r3: factor of m[2].me.we': m[2].el.L*m[2].me.fe/m[2].el.k +
@@ -225,14 +222,11 @@ typedef struct khepera_coefficients {
     khepera_real r3_Fx__2;
     /* r3: factor of Fx[2]': m[2].el.L*m[2].wh.R/(m[2].ge.N*m[2].el.k) */
     khepera_real r3_Fx__2_1;
-    khepera_real r3_v1_m__2__me__we;  /* r3: factor of m[2].me.we in stage 1 */
-    khepera_real r3_v2_m__2__me__we;  /* r3: factor of m[2].me.we in stage 2 */
-    khepera_real r3_v3_m__2__me__we;  /* r3: factor of m[2].me.we in stage 3 */
-    khepera_real r3_v1_m__2__wh__ws;  /* r3: factor of m[2].wh.ws in stage 1 */
-    khepera_real r3_v2_m__2__wh__ws;  /* r3: factor of m[2].wh.ws in stage 2 */
-    khepera_real r3_v3_m__2__wh__ws;  /* r3: factor of m[2].wh.ws in stage 3 */
-    khepera_real r3_v2_Fx__2;         /* r3: factor of Fx[2] in stage 2 */
-    khepera_real r3_v3_Fx__2;         /* r3: factor of Fx[2] in stage 3 */
+    khepera_real r3_w1_m__2__me__we;  /* r3: factor of m[2].me.we' */
+    khepera_real r3_w2_m__2__me__we;  /* r3: factor of m[2].me.we'' */
+    khepera_real r3_w1_m__2__wh__ws;  /* r3: factor of m[2].wh.ws' */
+    khepera_real r3_w2_m__2__wh__ws;  /* r3: factor of m[2].wh.ws'' */
+    khepera_real r3_w1_Fx__2;         /* r3: factor of Fx[2]' */
     khepera_real g_3;                 /* 1/(4*m[2].tau0) */
     khepera_real g_4;                 /* m[2].ge.N/(4*m[2].tau0) */
     khepera_real r4_m__2__wh__ws;     /* r4: factor of m[2].wh.ws: m[2].ge.N */
@@ -244,12 +238,10 @@ typedef struct khepera_coefficients {
     /* r4: factor of D(tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2]. ...):
      * m[2].tau0*m[2].A */
     khepera_real r4_tanh_1;
-    khepera_real r4_v1_m__2__wh__ws;  /* r4: factor of m[2].wh.ws in stage 1 */
-    khepera_real r4_v2_m__2__wh__ws;  /* r4: factor of m[2].wh.ws in stage 2 */
-    khepera_real r4_v3_m__2__wh__ws;  /* r4: factor of m[2].wh.ws in stage 3 */
-    khepera_real r4_v2_Fx__2;         /* r4: factor of Fx[2] in stage 2 */
-    /* r4: factor of tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2]. ... in stage 2 */
-    khepera_real r4_v2_tanh;
+    khepera_real r4_w2_m__2__wh__ws;  /* r4: factor of m[2].wh.ws'' */
+    khepera_real r4_w1_Fx__2;         /* r4: factor of Fx[2]' */
+    /* r4: factor of D(tanh(Int(m[2].me.we)/(4*m[2].tau0) - m[2].ge.N*Int(m[2]. ...) */
+    khepera_real r4_w1_tanh;
     khepera_real r5_Us_1;             /* r5: factor of Us': 1.5*line.R*line.C */
     /* r5: factor of Us'': 1.5*line.L*line.C + line.R^2*line.C^2/4 */
     khepera_real r5_Us_2;
@@ -264,6 +256,12 @@ typedef struct khepera_memory {
     khepera_real r1_s1;  /* memory of r1: stage 1 */
     /* memory of integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ... */
     khepera_real r2_q;
+    /* integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ...: rate a sample
+     * before */
+    khepera_real r2_rate1;
+    /* integral of m[1].me.we/(4*m[1].tau0) - m[1].ge.N*m[1].wh.ws/(4*m[1]. ...: rate two samples
+     * before */
+    khepera_real r2_rate2;
     khepera_real r2_s3;  /* memory of r2: stage 3 */
     khepera_real r2_s2;  /* memory of r2: stage 2 */
     khepera_real r2_s1;  /* memory of r2: stage 1 */
@@ -272,6 +270,12 @@ typedef struct khepera_memory {
     khepera_real r3_s1;  /* memory of r3: stage 1 */
     /* memory of integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ... */
     khepera_real r4_q;
+    /* integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ...: rate a sample
+     * before */
+    khepera_real r4_rate1;
+    /* integral of m[2].me.we/(4*m[2].tau0) - m[2].ge.N*m[2].wh.ws/(4*m[2]. ...: rate two samples
+     * before */
+    khepera_real r4_rate2;
     khepera_real r4_s3;  /* memory of r4: stage 3 */
     khepera_real r4_s2;  /* memory of r4: stage 2 */
     khepera_real r4_s1;  /* memory of r4: stage 1 */

@@ -21,39 +21,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 /* Takes a count; the difference to the one before is right also when the counter runs over. */
@@ -116,6 +87,15 @@ static void compute_coefficients(khepera_built_monitor *monitor, const khepera_b
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: m[1].fe + m[1].fs/m[1].ge.N^2 */
     const real t = p->m__1__fe + p->m__1__fs / p->m__1__ge__N / p->m__1__ge__N;
 
@@ -125,63 +105,37 @@ static void compute_coefficients(khepera_built_monitor *monitor, const khepera_b
     /* khepera.bg:17: m[1].el.L*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k */
     const real t_3 = p->m__1__el__L * t / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].el.Re*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k */
-    const real t_4 = p->m__1__el__Re * t / p->m__1__el__k;
-
     /* khepera.bg:17: m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)/m[1].el.k */
-    const real t_5 = p->m__1__el__Re * t_2 / p->m__1__el__k;
+    const real t_4 = p->m__1__el__Re * t_2 / p->m__1__el__k;
 
     /* khepera.bg:17: m[2].fe + m[2].fs/m[2].ge.N^2 */
-    const real t_6 = p->m__2__fe + p->m__2__fs / p->m__2__ge__N / p->m__2__ge__N;
+    const real t_5 = p->m__2__fe + p->m__2__fs / p->m__2__ge__N / p->m__2__ge__N;
 
     /* khepera.bg:17: m[2].Je + m[2].Js/m[2].ge.N^2 */
-    const real t_7 = p->m__2__Je + p->m__2__Js / p->m__2__ge__N / p->m__2__ge__N;
+    const real t_6 = p->m__2__Je + p->m__2__Js / p->m__2__ge__N / p->m__2__ge__N;
 
     /* khepera.bg:17: m[2].el.L*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k */
-    const real t_8 = p->m__2__el__L * t_6 / p->m__2__el__k;
-
-    /* khepera.bg:17: m[2].el.Re*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k */
-    const real t_9 = p->m__2__el__Re * t_6 / p->m__2__el__k;
+    const real t_7 = p->m__2__el__L * t_5 / p->m__2__el__k;
 
     /* khepera.bg:17: m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)/m[2].el.k */
-    const real t_10 = p->m__2__el__Re * t_7 / p->m__2__el__k;
+    const real t_8 = p->m__2__el__Re * t_6 / p->m__2__el__k;
 
-    /* exp(-x) */
-    const real t_11 = exponential(-x_);
+    /* 1 - pole */
+    const real t_9 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_12 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_11) / x_;
+    /* 1 - (1 - pole)/2 */
+    const real t_10 = REAL(1.0) - REAL(0.5) * t_9;
 
-    /* 1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - ( ... */
-    const real t_13 = REAL(1.0) - t_12;
-
-    /* khepera.bg:17: (-m[1].el.L*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k - m[1].el.Re*(m[1].Je
-     * + m[1].Js/ ... */
-    const real t_14 = (-t_3 - t_5) * bandwidth;
-
-    /* khepera.bg:17: m[1].el.L*(m[1].Je + m[1].Js/m[1].ge.N^2)*bandwidth^2/m[1].el.k */
-    const real t_15 = p->m__1__el__L * t_2 * bandwidth * bandwidth / p->m__1__el__k;
-
-    /* khepera.bg:17: (-m[2].el.L*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k - m[2].el.Re*(m[2].Je
-     * + m[2].Js/ ... */
-    const real t_16 = (-t_8 - t_10) * bandwidth;
-
-    /* khepera.bg:17: m[2].el.L*(m[2].Je + m[2].Js/m[2].ge.N^2)*bandwidth^2/m[2].el.k */
-    const real t_17 = p->m__2__el__L * t_7 * bandwidth * bandwidth / p->m__2__el__k;
+    /* turn^2 */
+    const real t_11 = turn * turn;
 
     /* khepera.bg:17: r1: factor of m[1].motor': m[1].el.k + m[1].el.Re*(m[1].fe +
      * m[1].fs/m[1].ge.N^2)/m[1].el.k */
-    c->r1_m__1__motor_1 = p->m__1__el__k + t_4;
+    c->r1_m__1__motor_1 = p->m__1__el__k + p->m__1__el__Re * t / p->m__1__el__k;
 
     /* khepera.bg:17: r1: factor of m[1].motor'': m[1].el.L*(m[1].fe +
      * m[1].fs/m[1].ge.N^2)/m[1].el.k + m[1].el.Re*(m[1].Je + m[1].Js/m[ ... */
-    c->r1_m__1__motor_2 = t_3 + t_5;
+    c->r1_m__1__motor_2 = t_3 + t_4;
 
     /* khepera.bg:17: r1: factor of m[1].motor''': m[1].el.L*(m[1].Je +
      * m[1].Js/m[1].ge.N^2)/m[1].el.k */
@@ -194,47 +148,46 @@ static void compute_coefficients(khepera_built_monitor *monitor, const khepera_b
     c->r1_Fx__1_1 = p->m__1__R * p->m__1__el__L / p->m__1__el__k / p->m__1__ge__N;
 
     /* speed of m[1].motor for one count */
-    c->m__1__motor_gain = REAL(884279719003555.0) * bandwidth * t_13 / REAL(3377699720527872.0);
+    c->m__1__motor_gain = REAL(884279719003555.0) * t_10 * w / REAL(3377699720527872.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_11;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* khepera.bg:17: r1: factor of m[1].motor in stage 1 */
-    c->r1_v1_m__1__motor = t_15;
+    /* khepera.bg:17: r1: factor of m[1].motor'' */
+    c->r1_w2_m__1__motor = (-t_3 - t_4) * w;
 
-    /* khepera.bg:17: r1: factor of m[1].motor in stage 2 */
-    c->r1_v2_m__1__motor = t_14 + REAL(2.0) * t_15;
+    /* khepera.bg:17: r1: factor of m[1].motor''' */
+    c->r1_w3_m__1__motor = p->m__1__el__L * t_2 * w * w / p->m__1__el__k;
 
-    /* khepera.bg:17: r1: factor of m[1].motor in stage 3 */
-    c->r1_v3_m__1__motor = -p->m__1__el__k - t_4 - t_14 - t_15;
+    /* khepera.bg:17: r1: factor of Fx[1]' */
+    c->r1_w1_Fx__1 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
 
-    /* khepera.bg:17: r1: factor of Fx[1] in stage 3 */
-    c->r1_v3_Fx__1 = p->m__1__R * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N;
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_11 / REAL(6.0);
 
-    /* khepera.bg:17: r1: factor of Fx[1] in stage 4 */
-    c->r1_v4_Fx__1 = p->m__1__R * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N
-        - p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_11 / REAL(12.0);
 
-    /* filter: weight of the new sample */
-    c->b0 = t_12;
+    /* filter: 3 * (w*sample_time)^2/12 */
+    c->bend3 = REAL(0.25) * t_11;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_11 - t_12;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_9;
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = t_13;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = t_10;
 
     /* khepera.bg:17: r2: factor of m[2].motor': m[2].el.k + m[2].el.Re*(m[2].fe +
      * m[2].fs/m[2].ge.N^2)/m[2].el.k */
-    c->r2_m__2__motor_1 = p->m__2__el__k + t_9;
+    c->r2_m__2__motor_1 = p->m__2__el__k + p->m__2__el__Re * t_5 / p->m__2__el__k;
 
     /* khepera.bg:17: r2: factor of m[2].motor'': m[2].el.L*(m[2].fe +
      * m[2].fs/m[2].ge.N^2)/m[2].el.k + m[2].el.Re*(m[2].Je + m[2].Js/m[ ... */
-    c->r2_m__2__motor_2 = t_8 + t_10;
+    c->r2_m__2__motor_2 = t_7 + t_8;
 
     /* khepera.bg:17: r2: factor of m[2].motor''': m[2].el.L*(m[2].Je +
      * m[2].Js/m[2].ge.N^2)/m[2].el.k */
-    c->r2_m__2__motor_3 = p->m__2__el__L * t_7 / p->m__2__el__k;
+    c->r2_m__2__motor_3 = p->m__2__el__L * t_6 / p->m__2__el__k;
 
     /* khepera.bg:17: r2: factor of Fx[2]: m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
     c->r2_Fx__2 = p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
@@ -242,21 +195,14 @@ static void compute_coefficients(khepera_built_monitor *monitor, const khepera_b
     /* khepera.bg:17: r2: factor of Fx[2]': m[2].R*m[2].el.L/(m[2].el.k*m[2].ge.N) */
     c->r2_Fx__2_1 = p->m__2__R * p->m__2__el__L / p->m__2__el__k / p->m__2__ge__N;
 
-    /* khepera.bg:17: r2: factor of m[2].motor in stage 1 */
-    c->r2_v1_m__2__motor = t_17;
+    /* khepera.bg:17: r2: factor of m[2].motor'' */
+    c->r2_w2_m__2__motor = (-t_7 - t_8) * w;
 
-    /* khepera.bg:17: r2: factor of m[2].motor in stage 2 */
-    c->r2_v2_m__2__motor = t_16 + REAL(2.0) * t_17;
+    /* khepera.bg:17: r2: factor of m[2].motor''' */
+    c->r2_w3_m__2__motor = p->m__2__el__L * t_6 * w * w / p->m__2__el__k;
 
-    /* khepera.bg:17: r2: factor of m[2].motor in stage 3 */
-    c->r2_v3_m__2__motor = -p->m__2__el__k - t_9 - t_16 - t_17;
-
-    /* khepera.bg:17: r2: factor of Fx[2] in stage 3 */
-    c->r2_v3_Fx__2 = p->m__2__R * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N;
-
-    /* khepera.bg:17: r2: factor of Fx[2] in stage 4 */
-    c->r2_v4_Fx__2 = p->m__2__R * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N
-        - p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+    /* khepera.bg:17: r2: factor of Fx[2]' */
+    c->r2_w1_Fx__2 = p->m__2__R * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
 
     /* khepera.bg:114: r3: factor of Us': 3.3e-10*R_L */
     c->r3_Us_1 = REAL(33.0) * p->R_L / REAL(100000000000.0);
@@ -280,13 +226,12 @@ static bool coefficients_are_finite(const khepera_built_monitor *monitor)
 {
     return finite_number(monitor->c.r1_m__1__motor_1 + monitor->c.r1_m__1__motor_2
             + monitor->c.r1_m__1__motor_3 + monitor->c.r1_Fx__1 + monitor->c.r1_Fx__1_1
-            + monitor->c.m__1__motor_gain + monitor->c.a + monitor->c.r1_v1_m__1__motor
-            + monitor->c.r1_v2_m__1__motor + monitor->c.r1_v3_m__1__motor + monitor->c.r1_v3_Fx__1
-            + monitor->c.r1_v4_Fx__1 + monitor->c.b0 + monitor->c.b1 + monitor->c.rest
+            + monitor->c.m__1__motor_gain + monitor->c.a + monitor->c.r1_w2_m__1__motor
+            + monitor->c.r1_w3_m__1__motor + monitor->c.r1_w1_Fx__1 + monitor->c.bend2
+            + monitor->c.bend1 + monitor->c.bend3 + monitor->c.b + monitor->c.rest
             + monitor->c.r2_m__2__motor_1 + monitor->c.r2_m__2__motor_2
             + monitor->c.r2_m__2__motor_3 + monitor->c.r2_Fx__2 + monitor->c.r2_Fx__2_1
-            + monitor->c.r2_v1_m__2__motor + monitor->c.r2_v2_m__2__motor
-            + monitor->c.r2_v3_m__2__motor + monitor->c.r2_v3_Fx__2 + monitor->c.r2_v4_Fx__2
+            + monitor->c.r2_w2_m__2__motor + monitor->c.r2_w3_m__2__motor + monitor->c.r2_w1_Fx__2
             + monitor->c.r3_Us_1 + monitor->c.r3_Us_2 + monitor->c.r3_Us_3);
 }
 
@@ -382,8 +327,44 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_m__1__motor_speed = r1_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1: encoders, order 1 */
+    const real r1_n1 = -c->r1_m__1__motor_1 * r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend2 * r1_n1;
+
+    /* khepera.bg:17: r1: encoders, order 2 */
+    const real r1_n2 = c->r1_w2_m__1__motor * r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: error of order 2 */
+    const real r1_e2 = c->bend1 * r1_n2;
+
+    /* khepera.bg:17: r1: encoders, order 3 */
+    const real r1_n3 = -c->r1_w3_m__1__motor * r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->U0__1 - c->r1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = -c->r1_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: degree 1 */
+    const real r1_d1 = r1_g1 + r1_n1 + r1_n2;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend3 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = r1_n2 + r1_n3 - r1_e1 - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1_2 = c->bend2 * r1_g1;
+
+    /* khepera.bg:17: r1: degree 3 */
+    const real r1_d3 = r1_n3 - r1_e1 - r1_e2 - r1_e1_2;
+
     /* khepera.bg:17: r1: input of stage 4 */
-    const real r1_u4 = s->U0__1 + c->r1_v4_Fx__1 * s->Fx__1;
+    const real r1_u4 = r1_g0 + r1_n1 + r1_d2 - r1_d1 - r1_d3 - r1_e2;
 
     /* khepera.bg:17: r1: stage 4, at rest */
     const real r1_y4 = r1_u4;
@@ -392,8 +373,7 @@ static void start_r1(
     x->r1_s4 = c->rest * r1_u4;
 
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = r1_y4 + c->r1_v3_m__1__motor * r1_m__1__motor_speed_2
-        - c->r1_v3_Fx__1 * s->Fx__1;
+    const real r1_u3 = r1_y4 + r1_d1 + REAL(3.0) * r1_d3 + REAL(4.0) * r1_e2 - REAL(2.0) * r1_d2;
 
     /* khepera.bg:17: r1: stage 3, at rest */
     const real r1_y3 = r1_u3;
@@ -402,7 +382,7 @@ static void start_r1(
     x->r1_s3 = c->rest * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_m__1__motor * r1_m__1__motor_speed_2;
+    const real r1_u2 = r1_y3 + r1_d2 - REAL(3.0) * r1_d3 - REAL(6.0) * r1_e2;
 
     /* khepera.bg:17: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -411,7 +391,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_m__1__motor * r1_m__1__motor_speed_2;
+    const real r1_u1 = r1_y2 + r1_d3 + REAL(4.0) * r1_e2;
 
     /* khepera.bg:17: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -423,7 +403,7 @@ static void start_r1(
      * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
      * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
      * m[1].fs*D(m[1].motor)/m[1].ge.N + m[1].Js*D(m[1].motor, 2)/m[1].ge.N)/m[1].ge.N */
-    r[KHEPERA_BUILT_R1] = r1_y1;
+    r[KHEPERA_BUILT_R1] = r1_y1 - r1_e2;
 }
 
 /* r1 on every further sample. */
@@ -441,48 +421,83 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_m__1__motor_speed = r1_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1: encoders, order 1 */
+    const real r1_n1 = -c->r1_m__1__motor_1 * r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend2 * r1_n1;
+
+    /* khepera.bg:17: r1: encoders, order 2 */
+    const real r1_n2 = c->r1_w2_m__1__motor * r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: error of order 2 */
+    const real r1_e2 = c->bend1 * r1_n2;
+
+    /* khepera.bg:17: r1: encoders, order 3 */
+    const real r1_n3 = -c->r1_w3_m__1__motor * r1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->U0__1 - c->r1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = -c->r1_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: degree 1 */
+    const real r1_d1 = r1_g1 + r1_n1 + r1_n2;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend3 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = r1_n2 + r1_n3 - r1_e1 - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1_2 = c->bend2 * r1_g1;
+
+    /* khepera.bg:17: r1: degree 3 */
+    const real r1_d3 = r1_n3 - r1_e1 - r1_e2 - r1_e1_2;
+
     /* khepera.bg:17: r1: input of stage 4 */
-    const real r1_u4 = s->U0__1 + c->r1_v4_Fx__1 * s->Fx__1;
+    const real r1_u4 = r1_g0 + r1_n1 + r1_d2 - r1_d1 - r1_d3 - r1_e2;
 
     /* khepera.bg:17: r1: stage 4 */
-    const real r1_y4 = x->r1_s4 + c->b0 * r1_u4;
+    const real r1_y4 = x->r1_s4 + c->b * r1_u4;
 
     /* khepera.bg:17: r1: stage 4: memory */
-    x->r1_s4 = c->a * r1_y4 + c->b1 * r1_u4;
+    x->r1_s4 = c->a * r1_y4 + c->b * r1_u4;
 
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = r1_y4 + c->r1_v3_m__1__motor * r1_m__1__motor_speed_2
-        - c->r1_v3_Fx__1 * s->Fx__1;
+    const real r1_u3 = r1_y4 + r1_d1 + REAL(3.0) * r1_d3 + REAL(4.0) * r1_e2 - REAL(2.0) * r1_d2;
 
     /* khepera.bg:17: r1: stage 3 */
-    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+    const real r1_y3 = x->r1_s3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: stage 3: memory */
-    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+    x->r1_s3 = c->a * r1_y3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_m__1__motor * r1_m__1__motor_speed_2;
+    const real r1_u2 = r1_y3 + r1_d2 - REAL(3.0) * r1_d3 - REAL(6.0) * r1_e2;
 
     /* khepera.bg:17: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_m__1__motor * r1_m__1__motor_speed_2;
+    const real r1_u1 = r1_y2 + r1_d3 + REAL(4.0) * r1_e2;
 
     /* khepera.bg:17: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
      * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
      * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
      * m[1].fs*D(m[1].motor)/m[1].ge.N + m[1].Js*D(m[1].motor, 2)/m[1].ge.N)/m[1].ge.N */
-    r[KHEPERA_BUILT_R1] = r1_y1;
+    r[KHEPERA_BUILT_R1] = r1_y1 - r1_e2;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -523,8 +538,44 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_m__2__motor_speed = r2_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2: encoders, order 1 */
+    const real r2_n1 = -c->r2_m__2__motor_1 * r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: error of order 1 */
+    const real r2_e1 = c->bend2 * r2_n1;
+
+    /* khepera.bg:17: r2: encoders, order 2 */
+    const real r2_n2 = c->r2_w2_m__2__motor * r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: error of order 2 */
+    const real r2_e2 = c->bend1 * r2_n2;
+
+    /* khepera.bg:17: r2: encoders, order 3 */
+    const real r2_n3 = -c->r2_w3_m__2__motor * r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: terms of order 0 */
+    const real r2_g0 = s->U0__2 - c->r2_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2: terms of order 1 */
+    const real r2_g1 = -c->r2_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2: degree 1 */
+    const real r2_d1 = r2_g1 + r2_n1 + r2_n2;
+
+    /* khepera.bg:17: r2: error of order 0 */
+    const real r2_e0 = c->bend3 * r2_g0;
+
+    /* khepera.bg:17: r2: degree 2 */
+    const real r2_d2 = r2_n2 + r2_n3 - r2_e1 - r2_e0;
+
+    /* khepera.bg:17: r2: error of order 1 */
+    const real r2_e1_2 = c->bend2 * r2_g1;
+
+    /* khepera.bg:17: r2: degree 3 */
+    const real r2_d3 = r2_n3 - r2_e1 - r2_e2 - r2_e1_2;
+
     /* khepera.bg:17: r2: input of stage 4 */
-    const real r2_u4 = s->U0__2 + c->r2_v4_Fx__2 * s->Fx__2;
+    const real r2_u4 = r2_g0 + r2_n1 + r2_d2 - r2_d1 - r2_d3 - r2_e2;
 
     /* khepera.bg:17: r2: stage 4, at rest */
     const real r2_y4 = r2_u4;
@@ -533,8 +584,7 @@ static void start_r2(
     x->r2_s4 = c->rest * r2_u4;
 
     /* khepera.bg:17: r2: input of stage 3 */
-    const real r2_u3 = r2_y4 + c->r2_v3_m__2__motor * r2_m__2__motor_speed_2
-        - c->r2_v3_Fx__2 * s->Fx__2;
+    const real r2_u3 = r2_y4 + r2_d1 + REAL(3.0) * r2_d3 + REAL(4.0) * r2_e2 - REAL(2.0) * r2_d2;
 
     /* khepera.bg:17: r2: stage 3, at rest */
     const real r2_y3 = r2_u3;
@@ -543,7 +593,7 @@ static void start_r2(
     x->r2_s3 = c->rest * r2_u3;
 
     /* khepera.bg:17: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_m__2__motor * r2_m__2__motor_speed_2;
+    const real r2_u2 = r2_y3 + r2_d2 - REAL(3.0) * r2_d3 - REAL(6.0) * r2_e2;
 
     /* khepera.bg:17: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -552,7 +602,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* khepera.bg:17: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_m__2__motor * r2_m__2__motor_speed_2;
+    const real r2_u1 = r2_y2 + r2_d3 + REAL(4.0) * r2_e2;
 
     /* khepera.bg:17: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -564,7 +614,7 @@ static void start_r2(
      * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
      * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
      * m[2].fs*D(m[2].motor)/m[2].ge.N + m[2].Js*D(m[2].motor, 2)/m[2].ge.N)/m[2].ge.N */
-    r[KHEPERA_BUILT_R2] = r2_y1;
+    r[KHEPERA_BUILT_R2] = r2_y1 - r2_e2;
 }
 
 /* r2 on every further sample. */
@@ -582,48 +632,83 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_m__2__motor_speed = r2_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2: encoders, order 1 */
+    const real r2_n1 = -c->r2_m__2__motor_1 * r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: error of order 1 */
+    const real r2_e1 = c->bend2 * r2_n1;
+
+    /* khepera.bg:17: r2: encoders, order 2 */
+    const real r2_n2 = c->r2_w2_m__2__motor * r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: error of order 2 */
+    const real r2_e2 = c->bend1 * r2_n2;
+
+    /* khepera.bg:17: r2: encoders, order 3 */
+    const real r2_n3 = -c->r2_w3_m__2__motor * r2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2: terms of order 0 */
+    const real r2_g0 = s->U0__2 - c->r2_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2: terms of order 1 */
+    const real r2_g1 = -c->r2_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2: degree 1 */
+    const real r2_d1 = r2_g1 + r2_n1 + r2_n2;
+
+    /* khepera.bg:17: r2: error of order 0 */
+    const real r2_e0 = c->bend3 * r2_g0;
+
+    /* khepera.bg:17: r2: degree 2 */
+    const real r2_d2 = r2_n2 + r2_n3 - r2_e1 - r2_e0;
+
+    /* khepera.bg:17: r2: error of order 1 */
+    const real r2_e1_2 = c->bend2 * r2_g1;
+
+    /* khepera.bg:17: r2: degree 3 */
+    const real r2_d3 = r2_n3 - r2_e1 - r2_e2 - r2_e1_2;
+
     /* khepera.bg:17: r2: input of stage 4 */
-    const real r2_u4 = s->U0__2 + c->r2_v4_Fx__2 * s->Fx__2;
+    const real r2_u4 = r2_g0 + r2_n1 + r2_d2 - r2_d1 - r2_d3 - r2_e2;
 
     /* khepera.bg:17: r2: stage 4 */
-    const real r2_y4 = x->r2_s4 + c->b0 * r2_u4;
+    const real r2_y4 = x->r2_s4 + c->b * r2_u4;
 
     /* khepera.bg:17: r2: stage 4: memory */
-    x->r2_s4 = c->a * r2_y4 + c->b1 * r2_u4;
+    x->r2_s4 = c->a * r2_y4 + c->b * r2_u4;
 
     /* khepera.bg:17: r2: input of stage 3 */
-    const real r2_u3 = r2_y4 + c->r2_v3_m__2__motor * r2_m__2__motor_speed_2
-        - c->r2_v3_Fx__2 * s->Fx__2;
+    const real r2_u3 = r2_y4 + r2_d1 + REAL(3.0) * r2_d3 + REAL(4.0) * r2_e2 - REAL(2.0) * r2_d2;
 
     /* khepera.bg:17: r2: stage 3 */
-    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+    const real r2_y3 = x->r2_s3 + c->b * r2_u3;
 
     /* khepera.bg:17: r2: stage 3: memory */
-    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+    x->r2_s3 = c->a * r2_y3 + c->b * r2_u3;
 
     /* khepera.bg:17: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_m__2__motor * r2_m__2__motor_speed_2;
+    const real r2_u2 = r2_y3 + r2_d2 - REAL(3.0) * r2_d3 - REAL(6.0) * r2_e2;
 
     /* khepera.bg:17: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* khepera.bg:17: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* khepera.bg:17: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_m__2__motor * r2_m__2__motor_speed_2;
+    const real r2_u1 = r2_y2 + r2_d3 + REAL(4.0) * r2_e2;
 
     /* khepera.bg:17: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* khepera.bg:17: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* khepera.bg:17: r2 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
      * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
      * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
      * m[2].fs*D(m[2].motor)/m[2].ge.N + m[2].Js*D(m[2].motor, 2)/m[2].ge.N)/m[2].ge.N */
-    r[KHEPERA_BUILT_R2] = r2_y1;
+    r[KHEPERA_BUILT_R2] = r2_y1 - r2_e2;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */
@@ -683,10 +768,10 @@ static void next_r3(
     const real r3_u1 = s->Uin - s->Us;
 
     /* khepera.bg:114: r3: stage 1 */
-    const real r3_y1 = x->r3_s1 + c->b0 * r3_u1;
+    const real r3_y1 = x->r3_s1 + c->b * r3_u1;
 
     /* khepera.bg:114: r3: stage 1: memory */
-    x->r3_s1 = c->a * r3_y1 + c->b1 * r3_u1;
+    x->r3_s1 = c->a * r3_y1 + c->b * r3_u1;
 
     /* khepera.bg:114: r3 = Uin - line.cell[1].mid.e - R_L*line.cell[1].left.f/2 -
      * D(line.cell[1].left.f)/4000000

@@ -29,7 +29,7 @@ typedef double khepera_built_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_BUILT_ABI (1u * 256u + (uint32_t)sizeof(khepera_built_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_BUILT_DIGEST "e11fe89d39a0dec0"
+#define KHEPERA_BUILT_DIGEST "872d2dbbde918374"
 
 /* What the code was made for: arguments of khepera_built_configure, in s, rad/s and s. */
 #define KHEPERA_BUILT_SAMPLE_TIME KHEPERA_BUILT_CONSTANT(0.001)
@@ -149,15 +149,15 @@ typedef struct khepera_built_coefficients {
     /* r1: factor of Fx[1]': m[1].R*m[1].el.L/(m[1].el.k*m[1].ge.N) */
     khepera_built_real r1_Fx__1_1;
     khepera_built_real m__1__motor_gain;   /* speed of m[1].motor for one count */
-    khepera_built_real a;                  /* filter: exp(-bandwidth*sample_time) */
-    khepera_built_real r1_v1_m__1__motor;  /* r1: factor of m[1].motor in stage 1 */
-    khepera_built_real r1_v2_m__1__motor;  /* r1: factor of m[1].motor in stage 2 */
-    khepera_built_real r1_v3_m__1__motor;  /* r1: factor of m[1].motor in stage 3 */
-    khepera_built_real r1_v3_Fx__1;        /* r1: factor of Fx[1] in stage 3 */
-    khepera_built_real r1_v4_Fx__1;        /* r1: factor of Fx[1] in stage 4 */
-    khepera_built_real b0;                 /* filter: weight of the new sample */
-    khepera_built_real b1;                 /* filter: weight of the sample before */
-    khepera_built_real rest;               /* filter: 1 - b0, the memory of a constant 1 */
+    khepera_built_real a;                  /* filter: what is left of a memory a sample later */
+    khepera_built_real r1_w2_m__1__motor;  /* r1: factor of m[1].motor'' */
+    khepera_built_real r1_w3_m__1__motor;  /* r1: factor of m[1].motor''' */
+    khepera_built_real r1_w1_Fx__1;        /* r1: factor of Fx[1]' */
+    khepera_built_real bend2;              /* filter: 2 * (w*sample_time)^2/12 */
+    khepera_built_real bend1;              /* filter: 1 * (w*sample_time)^2/12 */
+    khepera_built_real bend3;              /* filter: 3 * (w*sample_time)^2/12 */
+    khepera_built_real b;                  /* filter: weight of a sample, new and a sample later */
+    khepera_built_real rest;               /* filter: 1 - b, the memory of a constant 1 */
     /* r2: factor of m[2].motor': m[2].el.k + m[2].el.Re*(m[2].fe +
      * m[2].fs/m[2].ge.N^2)/m[2].el.k */
     khepera_built_real r2_m__2__motor_1;
@@ -170,11 +170,9 @@ typedef struct khepera_built_coefficients {
     khepera_built_real r2_Fx__2;
     /* r2: factor of Fx[2]': m[2].R*m[2].el.L/(m[2].el.k*m[2].ge.N) */
     khepera_built_real r2_Fx__2_1;
-    khepera_built_real r2_v1_m__2__motor;  /* r2: factor of m[2].motor in stage 1 */
-    khepera_built_real r2_v2_m__2__motor;  /* r2: factor of m[2].motor in stage 2 */
-    khepera_built_real r2_v3_m__2__motor;  /* r2: factor of m[2].motor in stage 3 */
-    khepera_built_real r2_v3_Fx__2;        /* r2: factor of Fx[2] in stage 3 */
-    khepera_built_real r2_v4_Fx__2;        /* r2: factor of Fx[2] in stage 4 */
+    khepera_built_real r2_w2_m__2__motor;  /* r2: factor of m[2].motor'' */
+    khepera_built_real r2_w3_m__2__motor;  /* r2: factor of m[2].motor''' */
+    khepera_built_real r2_w1_Fx__2;        /* r2: factor of Fx[2]' */
     khepera_built_real r3_Us_1;            /* r3: factor of Us': 3.3e-10*R_L */
     khepera_built_real r3_Us_2;            /* r3: factor of Us'': 1.21e-20*R_L^2 + 1.65e-16 */
     khepera_built_real r3_Us_3;            /* r3: factor of Us''': 1.21e-26*R_L */

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "e11fe89d39a0dec0"
+DIGEST = "872d2dbbde918374"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -143,15 +143,15 @@ class Coefficients:
     r1_Fx__1: float           # r1: factor of Fx[1]: m[1].R*m[1].el.Re/(m[1].el.k*m[1].ge.N)
     r1_Fx__1_1: float         # r1: factor of Fx[1]': m[1].R*m[1].el.L/(m[1].el.k*m[1].ge.N)
     m__1__motor_gain: float   # speed of m[1].motor for one count
-    a: float                  # filter: exp(-bandwidth*sample_time)
-    r1_v1_m__1__motor: float  # r1: factor of m[1].motor in stage 1
-    r1_v2_m__1__motor: float  # r1: factor of m[1].motor in stage 2
-    r1_v3_m__1__motor: float  # r1: factor of m[1].motor in stage 3
-    r1_v3_Fx__1: float        # r1: factor of Fx[1] in stage 3
-    r1_v4_Fx__1: float        # r1: factor of Fx[1] in stage 4
-    b0: float                 # filter: weight of the new sample
-    b1: float                 # filter: weight of the sample before
-    rest: float               # filter: 1 - b0, the memory of a constant 1
+    a: float                  # filter: what is left of a memory a sample later
+    r1_w2_m__1__motor: float  # r1: factor of m[1].motor''
+    r1_w3_m__1__motor: float  # r1: factor of m[1].motor'''
+    r1_w1_Fx__1: float        # r1: factor of Fx[1]'
+    bend2: float              # filter: 2 * (w*sample_time)^2/12
+    bend1: float              # filter: 1 * (w*sample_time)^2/12
+    bend3: float              # filter: 3 * (w*sample_time)^2/12
+    b: float                  # filter: weight of a sample, new and a sample later
+    rest: float               # filter: 1 - b, the memory of a constant 1
     # r2: factor of m[2].motor': m[2].el.k + m[2].el.Re*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k
     r2_m__2__motor_1: float
     # r2: factor of m[2].motor'': m[2].el.L*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k +
@@ -161,11 +161,9 @@ class Coefficients:
     r2_m__2__motor_3: float
     r2_Fx__2: float           # r2: factor of Fx[2]: m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N)
     r2_Fx__2_1: float         # r2: factor of Fx[2]': m[2].R*m[2].el.L/(m[2].el.k*m[2].ge.N)
-    r2_v1_m__2__motor: float  # r2: factor of m[2].motor in stage 1
-    r2_v2_m__2__motor: float  # r2: factor of m[2].motor in stage 2
-    r2_v3_m__2__motor: float  # r2: factor of m[2].motor in stage 3
-    r2_v3_Fx__2: float        # r2: factor of Fx[2] in stage 3
-    r2_v4_Fx__2: float        # r2: factor of Fx[2] in stage 4
+    r2_w2_m__2__motor: float  # r2: factor of m[2].motor''
+    r2_w3_m__2__motor: float  # r2: factor of m[2].motor'''
+    r2_w1_Fx__2: float        # r2: factor of Fx[2]'
     r3_Us_1: float            # r3: factor of Us': 3.3e-10*R_L
     r3_Us_2: float            # r3: factor of Us'': 1.21e-20*R_L^2 + 1.65e-16
     r3_Us_3: float            # r3: factor of Us''': 1.21e-26*R_L
@@ -224,13 +222,12 @@ class Monitor:
             if not math.isfinite(
                     self._c.r1_m__1__motor_1 + self._c.r1_m__1__motor_2 + self._c.r1_m__1__motor_3
                     + self._c.r1_Fx__1 + self._c.r1_Fx__1_1 + self._c.m__1__motor_gain + self._c.a
-                    + self._c.r1_v1_m__1__motor + self._c.r1_v2_m__1__motor
-                    + self._c.r1_v3_m__1__motor + self._c.r1_v3_Fx__1 + self._c.r1_v4_Fx__1
-                    + self._c.b0 + self._c.b1 + self._c.rest + self._c.r2_m__2__motor_1
-                    + self._c.r2_m__2__motor_2 + self._c.r2_m__2__motor_3 + self._c.r2_Fx__2
-                    + self._c.r2_Fx__2_1 + self._c.r2_v1_m__2__motor + self._c.r2_v2_m__2__motor
-                    + self._c.r2_v3_m__2__motor + self._c.r2_v3_Fx__2 + self._c.r2_v4_Fx__2
-                    + self._c.r3_Us_1 + self._c.r3_Us_2 + self._c.r3_Us_3
+                    + self._c.r1_w2_m__1__motor + self._c.r1_w3_m__1__motor + self._c.r1_w1_Fx__1
+                    + self._c.bend2 + self._c.bend1 + self._c.bend3 + self._c.b + self._c.rest
+                    + self._c.r2_m__2__motor_1 + self._c.r2_m__2__motor_2 + self._c.r2_m__2__motor_3
+                    + self._c.r2_Fx__2 + self._c.r2_Fx__2_1 + self._c.r2_w2_m__2__motor
+                    + self._c.r2_w3_m__2__motor + self._c.r2_w1_Fx__2 + self._c.r3_Us_1
+                    + self._c.r3_Us_2 + self._c.r3_Us_3
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -303,6 +300,15 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: m[1].fe + m[1].fs/m[1].ge.N^2
         t = p.m__1__fe + p.m__1__fs / p.m__1__ge__N / p.m__1__ge__N
 
@@ -312,63 +318,37 @@ class Monitor:
         # khepera.bg:17: m[1].el.L*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k
         t_3 = p.m__1__el__L * t / p.m__1__el__k
 
-        # khepera.bg:17: m[1].el.Re*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k
-        t_4 = p.m__1__el__Re * t / p.m__1__el__k
-
         # khepera.bg:17: m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)/m[1].el.k
-        t_5 = p.m__1__el__Re * t_2 / p.m__1__el__k
+        t_4 = p.m__1__el__Re * t_2 / p.m__1__el__k
 
         # khepera.bg:17: m[2].fe + m[2].fs/m[2].ge.N^2
-        t_6 = p.m__2__fe + p.m__2__fs / p.m__2__ge__N / p.m__2__ge__N
+        t_5 = p.m__2__fe + p.m__2__fs / p.m__2__ge__N / p.m__2__ge__N
 
         # khepera.bg:17: m[2].Je + m[2].Js/m[2].ge.N^2
-        t_7 = p.m__2__Je + p.m__2__Js / p.m__2__ge__N / p.m__2__ge__N
+        t_6 = p.m__2__Je + p.m__2__Js / p.m__2__ge__N / p.m__2__ge__N
 
         # khepera.bg:17: m[2].el.L*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k
-        t_8 = p.m__2__el__L * t_6 / p.m__2__el__k
-
-        # khepera.bg:17: m[2].el.Re*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k
-        t_9 = p.m__2__el__Re * t_6 / p.m__2__el__k
+        t_7 = p.m__2__el__L * t_5 / p.m__2__el__k
 
         # khepera.bg:17: m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)/m[2].el.k
-        t_10 = p.m__2__el__Re * t_7 / p.m__2__el__k
+        t_8 = p.m__2__el__Re * t_6 / p.m__2__el__k
 
-        # exp(-x)
-        t_11 = _exponential(-x_)
+        # 1 - pole
+        t_9 = 1.0 - pole
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_12 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_11) / x_
-        )
+        # 1 - (1 - pole)/2
+        t_10 = 1.0 - 0.5 * t_9
 
-        # 1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (
-        # ...
-        t_13 = 1.0 - t_12
-
-        # khepera.bg:17: (-m[1].el.L*(m[1].fe + m[1].fs/m[1].ge.N^2)/m[1].el.k -
-        # m[1].el.Re*(m[1].Je + m[1].Js/ ...
-        t_14 = (-t_3 - t_5) * bandwidth
-
-        # khepera.bg:17: m[1].el.L*(m[1].Je + m[1].Js/m[1].ge.N^2)*bandwidth^2/m[1].el.k
-        t_15 = p.m__1__el__L * t_2 * bandwidth * bandwidth / p.m__1__el__k
-
-        # khepera.bg:17: (-m[2].el.L*(m[2].fe + m[2].fs/m[2].ge.N^2)/m[2].el.k -
-        # m[2].el.Re*(m[2].Je + m[2].Js/ ...
-        t_16 = (-t_8 - t_10) * bandwidth
-
-        # khepera.bg:17: m[2].el.L*(m[2].Je + m[2].Js/m[2].ge.N^2)*bandwidth^2/m[2].el.k
-        t_17 = p.m__2__el__L * t_7 * bandwidth * bandwidth / p.m__2__el__k
+        # turn^2
+        t_11 = turn * turn
 
         # khepera.bg:17: r1: factor of m[1].motor': m[1].el.k + m[1].el.Re*(m[1].fe +
         # m[1].fs/m[1].ge.N^2)/m[1].el.k
-        c.r1_m__1__motor_1 = p.m__1__el__k + t_4
+        c.r1_m__1__motor_1 = p.m__1__el__k + p.m__1__el__Re * t / p.m__1__el__k
 
         # khepera.bg:17: r1: factor of m[1].motor'': m[1].el.L*(m[1].fe +
         # m[1].fs/m[1].ge.N^2)/m[1].el.k + m[1].el.Re*(m[1].Je + m[1].Js/m[ ...
-        c.r1_m__1__motor_2 = t_3 + t_5
+        c.r1_m__1__motor_2 = t_3 + t_4
 
         # khepera.bg:17: r1: factor of m[1].motor''': m[1].el.L*(m[1].Je +
         # m[1].Js/m[1].ge.N^2)/m[1].el.k
@@ -381,49 +361,46 @@ class Monitor:
         c.r1_Fx__1_1 = p.m__1__R * p.m__1__el__L / p.m__1__el__k / p.m__1__ge__N
 
         # speed of m[1].motor for one count
-        c.m__1__motor_gain = 884279719003555.0 * bandwidth * t_13 / 3377699720527872.0
+        c.m__1__motor_gain = 884279719003555.0 * t_10 * w / 3377699720527872.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_11
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # khepera.bg:17: r1: factor of m[1].motor in stage 1
-        c.r1_v1_m__1__motor = t_15
+        # khepera.bg:17: r1: factor of m[1].motor''
+        c.r1_w2_m__1__motor = (-t_3 - t_4) * w
 
-        # khepera.bg:17: r1: factor of m[1].motor in stage 2
-        c.r1_v2_m__1__motor = t_14 + 2.0 * t_15
+        # khepera.bg:17: r1: factor of m[1].motor'''
+        c.r1_w3_m__1__motor = p.m__1__el__L * t_2 * w * w / p.m__1__el__k
 
-        # khepera.bg:17: r1: factor of m[1].motor in stage 3
-        c.r1_v3_m__1__motor = -p.m__1__el__k - t_4 - t_14 - t_15
+        # khepera.bg:17: r1: factor of Fx[1]'
+        c.r1_w1_Fx__1 = p.m__1__R * p.m__1__el__L * w / p.m__1__el__k / p.m__1__ge__N
 
-        # khepera.bg:17: r1: factor of Fx[1] in stage 3
-        c.r1_v3_Fx__1 = p.m__1__R * p.m__1__el__L * bandwidth / p.m__1__el__k / p.m__1__ge__N
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_11 / 6.0
 
-        # khepera.bg:17: r1: factor of Fx[1] in stage 4
-        c.r1_v4_Fx__1 = (
-            p.m__1__R * p.m__1__el__L * bandwidth / p.m__1__el__k / p.m__1__ge__N
-            - p.m__1__R * p.m__1__el__Re / p.m__1__el__k / p.m__1__ge__N
-        )
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_11 / 12.0
 
-        # filter: weight of the new sample
-        c.b0 = t_12
+        # filter: 3 * (w*sample_time)^2/12
+        c.bend3 = 0.25 * t_11
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_11 - t_12
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_9
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = t_13
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = t_10
 
         # khepera.bg:17: r2: factor of m[2].motor': m[2].el.k + m[2].el.Re*(m[2].fe +
         # m[2].fs/m[2].ge.N^2)/m[2].el.k
-        c.r2_m__2__motor_1 = p.m__2__el__k + t_9
+        c.r2_m__2__motor_1 = p.m__2__el__k + p.m__2__el__Re * t_5 / p.m__2__el__k
 
         # khepera.bg:17: r2: factor of m[2].motor'': m[2].el.L*(m[2].fe +
         # m[2].fs/m[2].ge.N^2)/m[2].el.k + m[2].el.Re*(m[2].Je + m[2].Js/m[ ...
-        c.r2_m__2__motor_2 = t_8 + t_10
+        c.r2_m__2__motor_2 = t_7 + t_8
 
         # khepera.bg:17: r2: factor of m[2].motor''': m[2].el.L*(m[2].Je +
         # m[2].Js/m[2].ge.N^2)/m[2].el.k
-        c.r2_m__2__motor_3 = p.m__2__el__L * t_7 / p.m__2__el__k
+        c.r2_m__2__motor_3 = p.m__2__el__L * t_6 / p.m__2__el__k
 
         # khepera.bg:17: r2: factor of Fx[2]: m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N)
         c.r2_Fx__2 = p.m__2__R * p.m__2__el__Re / p.m__2__el__k / p.m__2__ge__N
@@ -431,23 +408,14 @@ class Monitor:
         # khepera.bg:17: r2: factor of Fx[2]': m[2].R*m[2].el.L/(m[2].el.k*m[2].ge.N)
         c.r2_Fx__2_1 = p.m__2__R * p.m__2__el__L / p.m__2__el__k / p.m__2__ge__N
 
-        # khepera.bg:17: r2: factor of m[2].motor in stage 1
-        c.r2_v1_m__2__motor = t_17
+        # khepera.bg:17: r2: factor of m[2].motor''
+        c.r2_w2_m__2__motor = (-t_7 - t_8) * w
 
-        # khepera.bg:17: r2: factor of m[2].motor in stage 2
-        c.r2_v2_m__2__motor = t_16 + 2.0 * t_17
+        # khepera.bg:17: r2: factor of m[2].motor'''
+        c.r2_w3_m__2__motor = p.m__2__el__L * t_6 * w * w / p.m__2__el__k
 
-        # khepera.bg:17: r2: factor of m[2].motor in stage 3
-        c.r2_v3_m__2__motor = -p.m__2__el__k - t_9 - t_16 - t_17
-
-        # khepera.bg:17: r2: factor of Fx[2] in stage 3
-        c.r2_v3_Fx__2 = p.m__2__R * p.m__2__el__L * bandwidth / p.m__2__el__k / p.m__2__ge__N
-
-        # khepera.bg:17: r2: factor of Fx[2] in stage 4
-        c.r2_v4_Fx__2 = (
-            p.m__2__R * p.m__2__el__L * bandwidth / p.m__2__el__k / p.m__2__ge__N
-            - p.m__2__R * p.m__2__el__Re / p.m__2__el__k / p.m__2__ge__N
-        )
+        # khepera.bg:17: r2: factor of Fx[2]'
+        c.r2_w1_Fx__2 = p.m__2__R * p.m__2__el__L * w / p.m__2__el__k / p.m__2__ge__N
 
         # khepera.bg:114: r3: factor of Us': 3.3e-10*R_L
         c.r3_Us_1 = 33.0 * p.R_L / 100000000000.0
@@ -470,8 +438,44 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_m__1__motor_speed = r1_m__1__motor_speed_2
 
+        # khepera.bg:17: r1: encoders, order 1
+        r1_n1 = -c.r1_m__1__motor_1 * r1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1 = c.bend2 * r1_n1
+
+        # khepera.bg:17: r1: encoders, order 2
+        r1_n2 = c.r1_w2_m__1__motor * r1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1: error of order 2
+        r1_e2 = c.bend1 * r1_n2
+
+        # khepera.bg:17: r1: encoders, order 3
+        r1_n3 = -c.r1_w3_m__1__motor * r1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1: terms of order 0
+        r1_g0 = s.U0__1 - c.r1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1: terms of order 1
+        r1_g1 = -c.r1_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1: degree 1
+        r1_d1 = r1_g1 + r1_n1 + r1_n2
+
+        # khepera.bg:17: r1: error of order 0
+        r1_e0 = c.bend3 * r1_g0
+
+        # khepera.bg:17: r1: degree 2
+        r1_d2 = r1_n2 + r1_n3 - r1_e1 - r1_e0
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1_2 = c.bend2 * r1_g1
+
+        # khepera.bg:17: r1: degree 3
+        r1_d3 = r1_n3 - r1_e1 - r1_e2 - r1_e1_2
+
         # khepera.bg:17: r1: input of stage 4
-        r1_u4 = s.U0__1 + c.r1_v4_Fx__1 * s.Fx__1
+        r1_u4 = r1_g0 + r1_n1 + r1_d2 - r1_d1 - r1_d3 - r1_e2
 
         # khepera.bg:17: r1: stage 4, at rest
         r1_y4 = r1_u4
@@ -480,7 +484,7 @@ class Monitor:
         x.r1_s4 = c.rest * r1_u4
 
         # khepera.bg:17: r1: input of stage 3
-        r1_u3 = r1_y4 + c.r1_v3_m__1__motor * r1_m__1__motor_speed_2 - c.r1_v3_Fx__1 * s.Fx__1
+        r1_u3 = r1_y4 + r1_d1 + 3.0 * r1_d3 + 4.0 * r1_e2 - 2.0 * r1_d2
 
         # khepera.bg:17: r1: stage 3, at rest
         r1_y3 = r1_u3
@@ -489,7 +493,7 @@ class Monitor:
         x.r1_s3 = c.rest * r1_u3
 
         # khepera.bg:17: r1: input of stage 2
-        r1_u2 = r1_y3 + c.r1_v2_m__1__motor * r1_m__1__motor_speed_2
+        r1_u2 = r1_y3 + r1_d2 - 3.0 * r1_d3 - 6.0 * r1_e2
 
         # khepera.bg:17: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -498,7 +502,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # khepera.bg:17: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_m__1__motor * r1_m__1__motor_speed_2
+        r1_u1 = r1_y2 + r1_d3 + 4.0 * r1_e2
 
         # khepera.bg:17: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -510,7 +514,7 @@ class Monitor:
         # m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
         # where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
         # m[1].fs*D(m[1].motor)/m[1].ge.N + m[1].Js*D(m[1].motor, 2)/m[1].ge.N)/m[1].ge.N
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e2
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
@@ -525,47 +529,83 @@ class Monitor:
         )
         x.r1_m__1__motor_speed = r1_m__1__motor_speed_2
 
+        # khepera.bg:17: r1: encoders, order 1
+        r1_n1 = -c.r1_m__1__motor_1 * r1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1 = c.bend2 * r1_n1
+
+        # khepera.bg:17: r1: encoders, order 2
+        r1_n2 = c.r1_w2_m__1__motor * r1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1: error of order 2
+        r1_e2 = c.bend1 * r1_n2
+
+        # khepera.bg:17: r1: encoders, order 3
+        r1_n3 = -c.r1_w3_m__1__motor * r1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1: terms of order 0
+        r1_g0 = s.U0__1 - c.r1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1: terms of order 1
+        r1_g1 = -c.r1_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1: degree 1
+        r1_d1 = r1_g1 + r1_n1 + r1_n2
+
+        # khepera.bg:17: r1: error of order 0
+        r1_e0 = c.bend3 * r1_g0
+
+        # khepera.bg:17: r1: degree 2
+        r1_d2 = r1_n2 + r1_n3 - r1_e1 - r1_e0
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1_2 = c.bend2 * r1_g1
+
+        # khepera.bg:17: r1: degree 3
+        r1_d3 = r1_n3 - r1_e1 - r1_e2 - r1_e1_2
+
         # khepera.bg:17: r1: input of stage 4
-        r1_u4 = s.U0__1 + c.r1_v4_Fx__1 * s.Fx__1
+        r1_u4 = r1_g0 + r1_n1 + r1_d2 - r1_d1 - r1_d3 - r1_e2
 
         # khepera.bg:17: r1: stage 4
-        r1_y4 = x.r1_s4 + c.b0 * r1_u4
+        r1_y4 = x.r1_s4 + c.b * r1_u4
 
         # khepera.bg:17: r1: stage 4: memory
-        x.r1_s4 = c.a * r1_y4 + c.b1 * r1_u4
+        x.r1_s4 = c.a * r1_y4 + c.b * r1_u4
 
         # khepera.bg:17: r1: input of stage 3
-        r1_u3 = r1_y4 + c.r1_v3_m__1__motor * r1_m__1__motor_speed_2 - c.r1_v3_Fx__1 * s.Fx__1
+        r1_u3 = r1_y4 + r1_d1 + 3.0 * r1_d3 + 4.0 * r1_e2 - 2.0 * r1_d2
 
         # khepera.bg:17: r1: stage 3
-        r1_y3 = x.r1_s3 + c.b0 * r1_u3
+        r1_y3 = x.r1_s3 + c.b * r1_u3
 
         # khepera.bg:17: r1: stage 3: memory
-        x.r1_s3 = c.a * r1_y3 + c.b1 * r1_u3
+        x.r1_s3 = c.a * r1_y3 + c.b * r1_u3
 
         # khepera.bg:17: r1: input of stage 2
-        r1_u2 = r1_y3 + c.r1_v2_m__1__motor * r1_m__1__motor_speed_2
+        r1_u2 = r1_y3 + r1_d2 - 3.0 * r1_d3 - 6.0 * r1_e2
 
         # khepera.bg:17: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # khepera.bg:17: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # khepera.bg:17: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_m__1__motor * r1_m__1__motor_speed_2
+        r1_u1 = r1_y2 + r1_d3 + 4.0 * r1_e2
 
         # khepera.bg:17: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # khepera.bg:17: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
         # m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
         # where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
         # m[1].fs*D(m[1].motor)/m[1].ge.N + m[1].Js*D(m[1].motor, 2)/m[1].ge.N)/m[1].ge.N
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e2
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -595,8 +635,44 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_m__2__motor_speed = r2_m__2__motor_speed_2
 
+        # khepera.bg:17: r2: encoders, order 1
+        r2_n1 = -c.r2_m__2__motor_1 * r2_m__2__motor_speed_2
+
+        # khepera.bg:17: r2: error of order 1
+        r2_e1 = c.bend2 * r2_n1
+
+        # khepera.bg:17: r2: encoders, order 2
+        r2_n2 = c.r2_w2_m__2__motor * r2_m__2__motor_speed_2
+
+        # khepera.bg:17: r2: error of order 2
+        r2_e2 = c.bend1 * r2_n2
+
+        # khepera.bg:17: r2: encoders, order 3
+        r2_n3 = -c.r2_w3_m__2__motor * r2_m__2__motor_speed_2
+
+        # khepera.bg:17: r2: terms of order 0
+        r2_g0 = s.U0__2 - c.r2_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2: terms of order 1
+        r2_g1 = -c.r2_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2: degree 1
+        r2_d1 = r2_g1 + r2_n1 + r2_n2
+
+        # khepera.bg:17: r2: error of order 0
+        r2_e0 = c.bend3 * r2_g0
+
+        # khepera.bg:17: r2: degree 2
+        r2_d2 = r2_n2 + r2_n3 - r2_e1 - r2_e0
+
+        # khepera.bg:17: r2: error of order 1
+        r2_e1_2 = c.bend2 * r2_g1
+
+        # khepera.bg:17: r2: degree 3
+        r2_d3 = r2_n3 - r2_e1 - r2_e2 - r2_e1_2
+
         # khepera.bg:17: r2: input of stage 4
-        r2_u4 = s.U0__2 + c.r2_v4_Fx__2 * s.Fx__2
+        r2_u4 = r2_g0 + r2_n1 + r2_d2 - r2_d1 - r2_d3 - r2_e2
 
         # khepera.bg:17: r2: stage 4, at rest
         r2_y4 = r2_u4
@@ -605,7 +681,7 @@ class Monitor:
         x.r2_s4 = c.rest * r2_u4
 
         # khepera.bg:17: r2: input of stage 3
-        r2_u3 = r2_y4 + c.r2_v3_m__2__motor * r2_m__2__motor_speed_2 - c.r2_v3_Fx__2 * s.Fx__2
+        r2_u3 = r2_y4 + r2_d1 + 3.0 * r2_d3 + 4.0 * r2_e2 - 2.0 * r2_d2
 
         # khepera.bg:17: r2: stage 3, at rest
         r2_y3 = r2_u3
@@ -614,7 +690,7 @@ class Monitor:
         x.r2_s3 = c.rest * r2_u3
 
         # khepera.bg:17: r2: input of stage 2
-        r2_u2 = r2_y3 + c.r2_v2_m__2__motor * r2_m__2__motor_speed_2
+        r2_u2 = r2_y3 + r2_d2 - 3.0 * r2_d3 - 6.0 * r2_e2
 
         # khepera.bg:17: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -623,7 +699,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # khepera.bg:17: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_m__2__motor * r2_m__2__motor_speed_2
+        r2_u1 = r2_y2 + r2_d3 + 4.0 * r2_e2
 
         # khepera.bg:17: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -635,7 +711,7 @@ class Monitor:
         # m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
         # where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
         # m[2].fs*D(m[2].motor)/m[2].ge.N + m[2].Js*D(m[2].motor, 2)/m[2].ge.N)/m[2].ge.N
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e2
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
@@ -650,47 +726,83 @@ class Monitor:
         )
         x.r2_m__2__motor_speed = r2_m__2__motor_speed_2
 
+        # khepera.bg:17: r2: encoders, order 1
+        r2_n1 = -c.r2_m__2__motor_1 * r2_m__2__motor_speed_2
+
+        # khepera.bg:17: r2: error of order 1
+        r2_e1 = c.bend2 * r2_n1
+
+        # khepera.bg:17: r2: encoders, order 2
+        r2_n2 = c.r2_w2_m__2__motor * r2_m__2__motor_speed_2
+
+        # khepera.bg:17: r2: error of order 2
+        r2_e2 = c.bend1 * r2_n2
+
+        # khepera.bg:17: r2: encoders, order 3
+        r2_n3 = -c.r2_w3_m__2__motor * r2_m__2__motor_speed_2
+
+        # khepera.bg:17: r2: terms of order 0
+        r2_g0 = s.U0__2 - c.r2_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2: terms of order 1
+        r2_g1 = -c.r2_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2: degree 1
+        r2_d1 = r2_g1 + r2_n1 + r2_n2
+
+        # khepera.bg:17: r2: error of order 0
+        r2_e0 = c.bend3 * r2_g0
+
+        # khepera.bg:17: r2: degree 2
+        r2_d2 = r2_n2 + r2_n3 - r2_e1 - r2_e0
+
+        # khepera.bg:17: r2: error of order 1
+        r2_e1_2 = c.bend2 * r2_g1
+
+        # khepera.bg:17: r2: degree 3
+        r2_d3 = r2_n3 - r2_e1 - r2_e2 - r2_e1_2
+
         # khepera.bg:17: r2: input of stage 4
-        r2_u4 = s.U0__2 + c.r2_v4_Fx__2 * s.Fx__2
+        r2_u4 = r2_g0 + r2_n1 + r2_d2 - r2_d1 - r2_d3 - r2_e2
 
         # khepera.bg:17: r2: stage 4
-        r2_y4 = x.r2_s4 + c.b0 * r2_u4
+        r2_y4 = x.r2_s4 + c.b * r2_u4
 
         # khepera.bg:17: r2: stage 4: memory
-        x.r2_s4 = c.a * r2_y4 + c.b1 * r2_u4
+        x.r2_s4 = c.a * r2_y4 + c.b * r2_u4
 
         # khepera.bg:17: r2: input of stage 3
-        r2_u3 = r2_y4 + c.r2_v3_m__2__motor * r2_m__2__motor_speed_2 - c.r2_v3_Fx__2 * s.Fx__2
+        r2_u3 = r2_y4 + r2_d1 + 3.0 * r2_d3 + 4.0 * r2_e2 - 2.0 * r2_d2
 
         # khepera.bg:17: r2: stage 3
-        r2_y3 = x.r2_s3 + c.b0 * r2_u3
+        r2_y3 = x.r2_s3 + c.b * r2_u3
 
         # khepera.bg:17: r2: stage 3: memory
-        x.r2_s3 = c.a * r2_y3 + c.b1 * r2_u3
+        x.r2_s3 = c.a * r2_y3 + c.b * r2_u3
 
         # khepera.bg:17: r2: input of stage 2
-        r2_u2 = r2_y3 + c.r2_v2_m__2__motor * r2_m__2__motor_speed_2
+        r2_u2 = r2_y3 + r2_d2 - 3.0 * r2_d3 - 6.0 * r2_e2
 
         # khepera.bg:17: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # khepera.bg:17: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # khepera.bg:17: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_m__2__motor * r2_m__2__motor_speed_2
+        r2_u1 = r2_y2 + r2_d3 + 4.0 * r2_e2
 
         # khepera.bg:17: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # khepera.bg:17: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # khepera.bg:17: r2 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
         # m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
         # where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
         # m[2].fs*D(m[2].motor)/m[2].ge.N + m[2].Js*D(m[2].motor, 2)/m[2].ge.N)/m[2].ge.N
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e2
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -737,10 +849,10 @@ class Monitor:
         r3_u1 = s.Uin - s.Us
 
         # khepera.bg:114: r3: stage 1
-        r3_y1 = x.r3_s1 + c.b0 * r3_u1
+        r3_y1 = x.r3_s1 + c.b * r3_u1
 
         # khepera.bg:114: r3: stage 1: memory
-        x.r3_s1 = c.a * r3_y1 + c.b1 * r3_u1
+        x.r3_s1 = c.a * r3_y1 + c.b * r3_u1
 
         # khepera.bg:114: r3 = Uin - line.cell[1].mid.e - R_L*line.cell[1].left.f/2 -
         # D(line.cell[1].left.f)/4000000
@@ -763,23 +875,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[2] = 0
             r.r3 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

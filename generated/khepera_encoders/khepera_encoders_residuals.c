@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 /* Takes a count; the difference to the one before is right also when the counter runs over. */
@@ -125,94 +96,60 @@ static void compute_coefficients(khepera_encoders_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: m[1].fe*m[1].el.L/m[1].el.k */
     const real t = p->m__1__fe * p->m__1__el__L / p->m__1__el__k;
 
     /* khepera.bg:17: m[1].fs*m[1].el.L/(m[1].el.k*m[1].ge.N) */
     const real t_2 = p->m__1__fs * p->m__1__el__L / p->m__1__el__k / p->m__1__ge__N;
 
-    /* khepera.bg:17: m[1].fe*m[1].el.Re/m[1].el.k */
-    const real t_3 = p->m__1__fe * p->m__1__el__Re / p->m__1__el__k;
-
     /* khepera.bg:17: m[1].Je*m[1].el.Re/m[1].el.k */
-    const real t_4 = p->m__1__Je * p->m__1__el__Re / p->m__1__el__k;
+    const real t_3 = p->m__1__Je * p->m__1__el__Re / p->m__1__el__k;
 
     /* khepera.bg:17: m[1].Js*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
-    const real t_5 = p->m__1__Js * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+    const real t_4 = p->m__1__Js * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
 
     /* khepera.bg:17: m[2].fe*m[2].el.L/m[2].el.k */
-    const real t_6 = p->m__2__fe * p->m__2__el__L / p->m__2__el__k;
+    const real t_5 = p->m__2__fe * p->m__2__el__L / p->m__2__el__k;
 
     /* khepera.bg:17: m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N) */
-    const real t_7 = p->m__2__fs * p->m__2__el__L / p->m__2__el__k / p->m__2__ge__N;
-
-    /* khepera.bg:17: m[2].fe*m[2].el.Re/m[2].el.k */
-    const real t_8 = p->m__2__fe * p->m__2__el__Re / p->m__2__el__k;
+    const real t_6 = p->m__2__fs * p->m__2__el__L / p->m__2__el__k / p->m__2__ge__N;
 
     /* khepera.bg:17: m[2].Je*m[2].el.Re/m[2].el.k */
-    const real t_9 = p->m__2__Je * p->m__2__el__Re / p->m__2__el__k;
+    const real t_7 = p->m__2__Je * p->m__2__el__Re / p->m__2__el__k;
 
     /* khepera.bg:17: m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
-    const real t_10 = p->m__2__Js * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
+    const real t_8 = p->m__2__Js * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
 
     /* khepera.bg:114: R_L^2 */
-    const real t_11 = p->R_L * p->R_L;
+    const real t_9 = p->R_L * p->R_L;
 
-    /* khepera.bg:114: -5.5e-11*R_L^2 - 5e-07 */
-    const real t_12 = -REAL(11.0) * t_11 / REAL(200000000000.0) - REAL(1.0) / REAL(2000000.0);
+    /* 1 - pole */
+    const real t_10 = REAL(1.0) - pole;
 
-    /* exp(-x) */
-    const real t_13 = exponential(-x_);
+    /* 1 - (1 - pole)/2 */
+    const real t_11 = REAL(1.0) - REAL(0.5) * t_10;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_14 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_13) / x_;
+    /* turn^2 */
+    const real t_12 = turn * turn;
 
-    /* 1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - ( ... */
-    const real t_15 = REAL(1.0) - t_14;
-
-    /* bandwidth*(1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040) ... */
-    const real t_16 = bandwidth * t_15;
-
-    /* khepera.bg:17: (-m[1].fe*m[1].el.L/m[1].el.k - m[1].Je*m[1].el.Re/m[1].el.k)*bandwidth */
-    const real t_17 = (-t - t_4) * bandwidth;
-
-    /* khepera.bg:17: m[1].Je*m[1].el.L*bandwidth^2/m[1].el.k */
-    const real t_18 = p->m__1__Je * p->m__1__el__L * bandwidth * bandwidth / p->m__1__el__k;
-
-    /* khepera.bg:17: (-m[1].fs*m[1].el.L/(m[1].el.k*m[1].ge.N) -
-     * m[1].Js*m[1].el.Re/(m[1].el.k*m[1].ge.N))* ... */
-    const real t_19 = (-t_2 - t_5) * bandwidth;
-
-    /* khepera.bg:17: m[1].Js*m[1].el.L*bandwidth^2/(m[1].el.k*m[1].ge.N) */
-    const real t_20 = p->m__1__Js * p->m__1__el__L * bandwidth * bandwidth / p->m__1__el__k
-            / p->m__1__ge__N;
-
-    /* khepera.bg:17: (-m[2].fe*m[2].el.L/m[2].el.k - m[2].Je*m[2].el.Re/m[2].el.k)*bandwidth */
-    const real t_21 = (-t_6 - t_9) * bandwidth;
-
-    /* khepera.bg:17: m[2].Je*m[2].el.L*bandwidth^2/m[2].el.k */
-    const real t_22 = p->m__2__Je * p->m__2__el__L * bandwidth * bandwidth / p->m__2__el__k;
-
-    /* khepera.bg:17: (-m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N) -
-     * m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N))* ... */
-    const real t_23 = (-t_7 - t_10) * bandwidth;
-
-    /* khepera.bg:17: m[2].Js*m[2].el.L*bandwidth^2/(m[2].el.k*m[2].ge.N) */
-    const real t_24 = p->m__2__Js * p->m__2__el__L * bandwidth * bandwidth / p->m__2__el__k
-            / p->m__2__ge__N;
+    /* (1 - (1 - pole)/2)*w */
+    const real t_13 = t_11 * w;
 
     /* khepera.bg:17: r1: factor of m[1].motor': m[1].el.k + m[1].fe*m[1].el.Re/m[1].el.k */
-    c->r1_m__1__motor_1 = p->m__1__el__k + t_3;
+    c->r1_m__1__motor_1 = p->m__1__el__k + p->m__1__fe * p->m__1__el__Re / p->m__1__el__k;
 
     /* khepera.bg:17: r1: factor of m[1].motor'': m[1].fe*m[1].el.L/m[1].el.k +
      * m[1].Je*m[1].el.Re/m[1].el.k */
-    c->r1_m__1__motor_2 = t + t_4;
+    c->r1_m__1__motor_2 = t + t_3;
 
     /* khepera.bg:17: r1: factor of m[1].motor''': m[1].Je*m[1].el.L/m[1].el.k */
     c->r1_m__1__motor_3 = p->m__1__Je * p->m__1__el__L / p->m__1__el__k;
@@ -228,54 +165,49 @@ static void compute_coefficients(khepera_encoders_monitor *monitor,
 
     /* khepera.bg:17: r1: factor of m[1].wheel'': m[1].fs*m[1].el.L/(m[1].el.k*m[1].ge.N) +
      * m[1].Js*m[1].el.Re/(m[1].el.k*m[1].ge.N) */
-    c->r1_m__1__wheel_2 = t_2 + t_5;
+    c->r1_m__1__wheel_2 = t_2 + t_4;
 
     /* khepera.bg:17: r1: factor of m[1].wheel''': m[1].Js*m[1].el.L/(m[1].el.k*m[1].ge.N) */
     c->r1_m__1__wheel_3 = p->m__1__Js * p->m__1__el__L / p->m__1__el__k / p->m__1__ge__N;
 
     /* speed of m[1].motor for one count */
-    c->m__1__motor_gain = REAL(0.0015339807878856412) * t_16;
+    c->m__1__motor_gain = REAL(0.0015339807878856412) * t_13;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_13;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* khepera.bg:17: r1: factor of m[1].motor in stage 1 */
-    c->r1_v1_m__1__motor = t_18;
+    /* khepera.bg:17: r1: factor of m[1].motor'' */
+    c->r1_w2_m__1__motor = (-t - t_3) * w;
 
-    /* khepera.bg:17: r1: factor of m[1].motor in stage 2 */
-    c->r1_v2_m__1__motor = t_17 + REAL(2.0) * t_18;
+    /* khepera.bg:17: r1: factor of m[1].motor''' */
+    c->r1_w3_m__1__motor = p->m__1__Je * p->m__1__el__L * w * w / p->m__1__el__k;
 
-    /* khepera.bg:17: r1: factor of m[1].motor in stage 3 */
-    c->r1_v3_m__1__motor = -p->m__1__el__k - t_3 - t_17 - t_18;
-
-    /* khepera.bg:17: r1: factor of Fx[1] in stage 3 */
-    c->r1_v3_Fx__1 = p->m__1__R * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N;
-
-    /* khepera.bg:17: r1: factor of Fx[1] in stage 4 */
-    c->r1_v4_Fx__1 = p->m__1__R * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N
-        - p->m__1__R * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N;
+    /* khepera.bg:17: r1: factor of Fx[1]' */
+    c->r1_w1_Fx__1 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
 
     /* speed of m[1].wheel for one count */
-    c->m__1__wheel_gain = REAL(9.587379924285257e-05) * t_16;
+    c->m__1__wheel_gain = REAL(9.587379924285257e-05) * t_13;
 
-    /* khepera.bg:17: r1: factor of m[1].wheel in stage 1 */
-    c->r1_v1_m__1__wheel = t_20;
+    /* khepera.bg:17: r1: factor of m[1].wheel'' */
+    c->r1_w2_m__1__wheel = (-t_2 - t_4) * w;
 
-    /* khepera.bg:17: r1: factor of m[1].wheel in stage 2 */
-    c->r1_v2_m__1__wheel = t_19 + REAL(2.0) * t_20;
+    /* khepera.bg:17: r1: factor of m[1].wheel''' */
+    c->r1_w3_m__1__wheel = p->m__1__Js * p->m__1__el__L * w * w / p->m__1__el__k / p->m__1__ge__N;
 
-    /* khepera.bg:17: r1: factor of m[1].wheel in stage 3 */
-    c->r1_v3_m__1__wheel = p->m__1__fs * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N + t_19
-        + t_20;
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_12 / REAL(6.0);
 
-    /* filter: weight of the new sample */
-    c->b0 = t_14;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_12 / REAL(12.0);
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_13 - t_14;
+    /* filter: 3 * (w*sample_time)^2/12 */
+    c->bend3 = REAL(0.25) * t_12;
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = t_15;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_10;
+
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = t_11;
 
     /* khepera_encoders.bg:31: 1/(4*m[1].tau0) */
     c->g = REAL(0.25) / p->m__1__tau0;
@@ -308,18 +240,15 @@ static void compute_coefficients(khepera_encoders_monitor *monitor,
     /* khepera_encoders.bg:31: m[1].motor.int.x0 */
     c->m__1__motor__int__x0 = REAL(0.0);
 
-    /* khepera_encoders.bg:31: r2: factor of m[1].wheel in stage 1 */
-    c->r2_v1_m__1__wheel = p->m__1__Js * bandwidth / p->m__1__ge__N;
-
-    /* khepera_encoders.bg:31: r2: factor of m[1].wheel in stage 2 */
-    c->r2_v2_m__1__wheel = p->m__1__fs / p->m__1__ge__N - p->m__1__Js * bandwidth / p->m__1__ge__N;
+    /* khepera_encoders.bg:31: r2: factor of m[1].wheel'' */
+    c->r2_w2_m__1__wheel = p->m__1__Js * w / p->m__1__ge__N;
 
     /* khepera.bg:17: r3: factor of m[2].motor': m[2].el.k + m[2].fe*m[2].el.Re/m[2].el.k */
-    c->r3_m__2__motor_1 = p->m__2__el__k + t_8;
+    c->r3_m__2__motor_1 = p->m__2__el__k + p->m__2__fe * p->m__2__el__Re / p->m__2__el__k;
 
     /* khepera.bg:17: r3: factor of m[2].motor'': m[2].fe*m[2].el.L/m[2].el.k +
      * m[2].Je*m[2].el.Re/m[2].el.k */
-    c->r3_m__2__motor_2 = t_6 + t_9;
+    c->r3_m__2__motor_2 = t_5 + t_7;
 
     /* khepera.bg:17: r3: factor of m[2].motor''': m[2].Je*m[2].el.L/m[2].el.k */
     c->r3_m__2__motor_3 = p->m__2__Je * p->m__2__el__L / p->m__2__el__k;
@@ -335,36 +264,25 @@ static void compute_coefficients(khepera_encoders_monitor *monitor,
 
     /* khepera.bg:17: r3: factor of m[2].wheel'': m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N) +
      * m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
-    c->r3_m__2__wheel_2 = t_7 + t_10;
+    c->r3_m__2__wheel_2 = t_6 + t_8;
 
     /* khepera.bg:17: r3: factor of m[2].wheel''': m[2].Js*m[2].el.L/(m[2].el.k*m[2].ge.N) */
     c->r3_m__2__wheel_3 = p->m__2__Js * p->m__2__el__L / p->m__2__el__k / p->m__2__ge__N;
 
-    /* khepera.bg:17: r3: factor of m[2].motor in stage 1 */
-    c->r3_v1_m__2__motor = t_22;
+    /* khepera.bg:17: r3: factor of m[2].motor'' */
+    c->r3_w2_m__2__motor = (-t_5 - t_7) * w;
 
-    /* khepera.bg:17: r3: factor of m[2].motor in stage 2 */
-    c->r3_v2_m__2__motor = t_21 + REAL(2.0) * t_22;
+    /* khepera.bg:17: r3: factor of m[2].motor''' */
+    c->r3_w3_m__2__motor = p->m__2__Je * p->m__2__el__L * w * w / p->m__2__el__k;
 
-    /* khepera.bg:17: r3: factor of m[2].motor in stage 3 */
-    c->r3_v3_m__2__motor = -p->m__2__el__k - t_8 - t_21 - t_22;
+    /* khepera.bg:17: r3: factor of Fx[2]' */
+    c->r3_w1_Fx__2 = p->m__2__R * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
 
-    /* khepera.bg:17: r3: factor of Fx[2] in stage 3 */
-    c->r3_v3_Fx__2 = p->m__2__R * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N;
+    /* khepera.bg:17: r3: factor of m[2].wheel'' */
+    c->r3_w2_m__2__wheel = (-t_6 - t_8) * w;
 
-    /* khepera.bg:17: r3: factor of Fx[2] in stage 4 */
-    c->r3_v4_Fx__2 = p->m__2__R * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N
-        - p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
-
-    /* khepera.bg:17: r3: factor of m[2].wheel in stage 1 */
-    c->r3_v1_m__2__wheel = t_24;
-
-    /* khepera.bg:17: r3: factor of m[2].wheel in stage 2 */
-    c->r3_v2_m__2__wheel = t_23 + REAL(2.0) * t_24;
-
-    /* khepera.bg:17: r3: factor of m[2].wheel in stage 3 */
-    c->r3_v3_m__2__wheel = p->m__2__fs * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N + t_23
-        + t_24;
+    /* khepera.bg:17: r3: factor of m[2].wheel''' */
+    c->r3_w3_m__2__wheel = p->m__2__Js * p->m__2__el__L * w * w / p->m__2__el__k / p->m__2__ge__N;
 
     /* khepera_encoders.bg:31: 1/(4*m[2].tau0) */
     c->g_3 = REAL(0.25) / p->m__2__tau0;
@@ -397,17 +315,14 @@ static void compute_coefficients(khepera_encoders_monitor *monitor,
     /* khepera_encoders.bg:31: m[2].motor.int.x0 */
     c->m__2__motor__int__x0 = REAL(0.0);
 
-    /* khepera_encoders.bg:31: r4: factor of m[2].wheel in stage 1 */
-    c->r4_v1_m__2__wheel = p->m__2__Js * bandwidth / p->m__2__ge__N;
-
-    /* khepera_encoders.bg:31: r4: factor of m[2].wheel in stage 2 */
-    c->r4_v2_m__2__wheel = p->m__2__fs / p->m__2__ge__N - p->m__2__Js * bandwidth / p->m__2__ge__N;
+    /* khepera_encoders.bg:31: r4: factor of m[2].wheel'' */
+    c->r4_w2_m__2__wheel = p->m__2__Js * w / p->m__2__ge__N;
 
     /* khepera.bg:114: r5: factor of Us': 3.3e-10*R_L */
     c->r5_Us_1 = REAL(33.0) * p->R_L / REAL(100000000000.0);
 
     /* khepera.bg:114: r5: factor of Us'': 1.21e-20*R_L^2 + 1.65e-16 */
-    c->r5_Us_2 = REAL(1.21e-20) * t_11 + REAL(1.65e-16);
+    c->r5_Us_2 = REAL(1.21e-20) * t_9 + REAL(1.65e-16);
 
     /* khepera.bg:114: r5: factor of Us''': 1.21e-26*R_L */
     c->r5_Us_3 = REAL(1.21e-26) * p->R_L;
@@ -416,16 +331,13 @@ static void compute_coefficients(khepera_encoders_monitor *monitor,
     c->r5_load = p->R_L;
 
     /* khepera.bg:114: r5: factor of load': 5.5e-11*R_L^2 + 5e-07 */
-    c->r5_load_1 = REAL(11.0) * t_11 / REAL(200000000000.0) + REAL(1.0) / REAL(2000000.0);
+    c->r5_load_1 = REAL(11.0) * t_9 / REAL(200000000000.0) + REAL(1.0) / REAL(2000000.0);
 
     /* khepera.bg:114: r5: factor of load'': 5.5e-17*R_L */
     c->r5_load_2 = REAL(5.5e-17) * p->R_L;
 
-    /* khepera.bg:114: r5: factor of load in stage 1 */
-    c->r5_v1_load = t_12 * bandwidth;
-
-    /* khepera.bg:114: r5: factor of load in stage 2 */
-    c->r5_v2_load = p->R_L + t_12 * bandwidth;
+    /* khepera.bg:114: r5: factor of load' */
+    c->r5_w1_load = (-REAL(11.0) * t_9 / REAL(200000000000.0) - REAL(1.0) / REAL(2000000.0)) * w;
 }
 
 static bool parameters_are_finite(const khepera_encoders_parameters *p)
@@ -443,27 +355,24 @@ static bool coefficients_are_finite(const khepera_encoders_monitor *monitor)
             + monitor->c.r1_m__1__motor_3 + monitor->c.r1_Fx__1 + monitor->c.r1_Fx__1_1
             + monitor->c.r1_m__1__wheel_1 + monitor->c.r1_m__1__wheel_2
             + monitor->c.r1_m__1__wheel_3 + monitor->c.m__1__motor_gain + monitor->c.a
-            + monitor->c.r1_v1_m__1__motor + monitor->c.r1_v2_m__1__motor
-            + monitor->c.r1_v3_m__1__motor + monitor->c.r1_v3_Fx__1 + monitor->c.r1_v4_Fx__1
-            + monitor->c.m__1__wheel_gain + monitor->c.r1_v1_m__1__wheel
-            + monitor->c.r1_v2_m__1__wheel + monitor->c.r1_v3_m__1__wheel + monitor->c.b0
-            + monitor->c.b1 + monitor->c.rest + monitor->c.g + monitor->c.g_2 + monitor->c.r2_Fx__1
+            + monitor->c.r1_w2_m__1__motor + monitor->c.r1_w3_m__1__motor + monitor->c.r1_w1_Fx__1
+            + monitor->c.m__1__wheel_gain + monitor->c.r1_w2_m__1__wheel
+            + monitor->c.r1_w3_m__1__wheel + monitor->c.bend2 + monitor->c.bend1 + monitor->c.bend3
+            + monitor->c.b + monitor->c.rest + monitor->c.g + monitor->c.g_2 + monitor->c.r2_Fx__1
             + monitor->c.r2_m__1__wheel_1 + monitor->c.r2_m__1__wheel_2 + monitor->c.r2_integral
             + monitor->c.r2_integral_2 + monitor->c.r2_tanh + monitor->c.m__1__wheel__int__x0
-            + monitor->c.m__1__motor__int__x0 + monitor->c.r2_v1_m__1__wheel
-            + monitor->c.r2_v2_m__1__wheel + monitor->c.r3_m__2__motor_1
-            + monitor->c.r3_m__2__motor_2 + monitor->c.r3_m__2__motor_3 + monitor->c.r3_Fx__2
-            + monitor->c.r3_Fx__2_1 + monitor->c.r3_m__2__wheel_1 + monitor->c.r3_m__2__wheel_2
-            + monitor->c.r3_m__2__wheel_3 + monitor->c.r3_v1_m__2__motor
-            + monitor->c.r3_v2_m__2__motor + monitor->c.r3_v3_m__2__motor + monitor->c.r3_v3_Fx__2
-            + monitor->c.r3_v4_Fx__2 + monitor->c.r3_v1_m__2__wheel + monitor->c.r3_v2_m__2__wheel
-            + monitor->c.r3_v3_m__2__wheel + monitor->c.g_3 + monitor->c.g_4 + monitor->c.r4_Fx__2
+            + monitor->c.m__1__motor__int__x0 + monitor->c.r2_w2_m__1__wheel
+            + monitor->c.r3_m__2__motor_1 + monitor->c.r3_m__2__motor_2
+            + monitor->c.r3_m__2__motor_3 + monitor->c.r3_Fx__2 + monitor->c.r3_Fx__2_1
+            + monitor->c.r3_m__2__wheel_1 + monitor->c.r3_m__2__wheel_2
+            + monitor->c.r3_m__2__wheel_3 + monitor->c.r3_w2_m__2__motor
+            + monitor->c.r3_w3_m__2__motor + monitor->c.r3_w1_Fx__2 + monitor->c.r3_w2_m__2__wheel
+            + monitor->c.r3_w3_m__2__wheel + monitor->c.g_3 + monitor->c.g_4 + monitor->c.r4_Fx__2
             + monitor->c.r4_m__2__wheel_1 + monitor->c.r4_m__2__wheel_2 + monitor->c.r4_integral
             + monitor->c.r4_integral_2 + monitor->c.r4_tanh + monitor->c.m__2__wheel__int__x0
-            + monitor->c.m__2__motor__int__x0 + monitor->c.r4_v1_m__2__wheel
-            + monitor->c.r4_v2_m__2__wheel + monitor->c.r5_Us_1 + monitor->c.r5_Us_2
-            + monitor->c.r5_Us_3 + monitor->c.r5_load + monitor->c.r5_load_1 + monitor->c.r5_load_2
-            + monitor->c.r5_v1_load + monitor->c.r5_v2_load);
+            + monitor->c.m__2__motor__int__x0 + monitor->c.r4_w2_m__2__wheel + monitor->c.r5_Us_1
+            + monitor->c.r5_Us_2 + monitor->c.r5_Us_3 + monitor->c.r5_load + monitor->c.r5_load_1
+            + monitor->c.r5_load_2 + monitor->c.r5_w1_load);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -599,8 +508,47 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].wheel */
     x->r1_m__1__wheel_speed = r1_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1: encoders, order 1 */
+    const real r1_n1 = -c->r1_m__1__motor_1 * r1_m__1__motor_speed_2
+        - c->r1_m__1__wheel_1 * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend2 * r1_n1;
+
+    /* khepera.bg:17: r1: encoders, order 2 */
+    const real r1_n2 = c->r1_w2_m__1__motor * r1_m__1__motor_speed_2
+        + c->r1_w2_m__1__wheel * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: error of order 2 */
+    const real r1_e2 = c->bend1 * r1_n2;
+
+    /* khepera.bg:17: r1: encoders, order 3 */
+    const real r1_n3 = -c->r1_w3_m__1__motor * r1_m__1__motor_speed_2
+        - c->r1_w3_m__1__wheel * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->U0__1 - c->r1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = -c->r1_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: degree 1 */
+    const real r1_d1 = r1_g1 + r1_n1 + r1_n2;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend3 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = r1_n2 + r1_n3 - r1_e1 - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1_2 = c->bend2 * r1_g1;
+
+    /* khepera.bg:17: r1: degree 3 */
+    const real r1_d3 = r1_n3 - r1_e1 - r1_e2 - r1_e1_2;
+
     /* khepera.bg:17: r1: input of stage 4 */
-    const real r1_u4 = s->U0__1 + c->r1_v4_Fx__1 * s->Fx__1;
+    const real r1_u4 = r1_g0 + r1_n1 + r1_d2 - r1_d1 - r1_d3 - r1_e2;
 
     /* khepera.bg:17: r1: stage 4, at rest */
     const real r1_y4 = r1_u4;
@@ -609,8 +557,7 @@ static void start_r1(
     x->r1_s4 = c->rest * r1_u4;
 
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = r1_y4 + c->r1_v3_m__1__motor * r1_m__1__motor_speed_2
-        - c->r1_v3_Fx__1 * s->Fx__1 - c->r1_v3_m__1__wheel * r1_m__1__wheel_speed_2;
+    const real r1_u3 = r1_y4 + r1_d1 + REAL(3.0) * r1_d3 + REAL(4.0) * r1_e2 - REAL(2.0) * r1_d2;
 
     /* khepera.bg:17: r1: stage 3, at rest */
     const real r1_y3 = r1_u3;
@@ -619,8 +566,7 @@ static void start_r1(
     x->r1_s3 = c->rest * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_m__1__motor * r1_m__1__motor_speed_2
-        + c->r1_v2_m__1__wheel * r1_m__1__wheel_speed_2;
+    const real r1_u2 = r1_y3 + r1_d2 - REAL(3.0) * r1_d3 - REAL(6.0) * r1_e2;
 
     /* khepera.bg:17: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -629,8 +575,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_m__1__motor * r1_m__1__motor_speed_2
-        - c->r1_v1_m__1__wheel * r1_m__1__wheel_speed_2;
+    const real r1_u1 = r1_y2 + r1_d3 + REAL(4.0) * r1_e2;
 
     /* khepera.bg:17: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -642,7 +587,7 @@ static void start_r1(
      * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
      * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
      * m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel, 2))/m[1].ge.N */
-    r[KHEPERA_ENCODERS_R1] = r1_y1;
+    r[KHEPERA_ENCODERS_R1] = r1_y1 - r1_e2;
 }
 
 /* r1 on every further sample. */
@@ -666,50 +611,86 @@ static void next_r1(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_m__1__wheel_speed = r1_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1: encoders, order 1 */
+    const real r1_n1 = -c->r1_m__1__motor_1 * r1_m__1__motor_speed_2
+        - c->r1_m__1__wheel_1 * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend2 * r1_n1;
+
+    /* khepera.bg:17: r1: encoders, order 2 */
+    const real r1_n2 = c->r1_w2_m__1__motor * r1_m__1__motor_speed_2
+        + c->r1_w2_m__1__wheel * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: error of order 2 */
+    const real r1_e2 = c->bend1 * r1_n2;
+
+    /* khepera.bg:17: r1: encoders, order 3 */
+    const real r1_n3 = -c->r1_w3_m__1__motor * r1_m__1__motor_speed_2
+        - c->r1_w3_m__1__wheel * r1_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->U0__1 - c->r1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = -c->r1_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1: degree 1 */
+    const real r1_d1 = r1_g1 + r1_n1 + r1_n2;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend3 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = r1_n2 + r1_n3 - r1_e1 - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1_2 = c->bend2 * r1_g1;
+
+    /* khepera.bg:17: r1: degree 3 */
+    const real r1_d3 = r1_n3 - r1_e1 - r1_e2 - r1_e1_2;
+
     /* khepera.bg:17: r1: input of stage 4 */
-    const real r1_u4 = s->U0__1 + c->r1_v4_Fx__1 * s->Fx__1;
+    const real r1_u4 = r1_g0 + r1_n1 + r1_d2 - r1_d1 - r1_d3 - r1_e2;
 
     /* khepera.bg:17: r1: stage 4 */
-    const real r1_y4 = x->r1_s4 + c->b0 * r1_u4;
+    const real r1_y4 = x->r1_s4 + c->b * r1_u4;
 
     /* khepera.bg:17: r1: stage 4: memory */
-    x->r1_s4 = c->a * r1_y4 + c->b1 * r1_u4;
+    x->r1_s4 = c->a * r1_y4 + c->b * r1_u4;
 
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = r1_y4 + c->r1_v3_m__1__motor * r1_m__1__motor_speed_2
-        - c->r1_v3_Fx__1 * s->Fx__1 - c->r1_v3_m__1__wheel * r1_m__1__wheel_speed_2;
+    const real r1_u3 = r1_y4 + r1_d1 + REAL(3.0) * r1_d3 + REAL(4.0) * r1_e2 - REAL(2.0) * r1_d2;
 
     /* khepera.bg:17: r1: stage 3 */
-    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+    const real r1_y3 = x->r1_s3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: stage 3: memory */
-    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+    x->r1_s3 = c->a * r1_y3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_m__1__motor * r1_m__1__motor_speed_2
-        + c->r1_v2_m__1__wheel * r1_m__1__wheel_speed_2;
+    const real r1_u2 = r1_y3 + r1_d2 - REAL(3.0) * r1_d3 - REAL(6.0) * r1_e2;
 
     /* khepera.bg:17: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_m__1__motor * r1_m__1__motor_speed_2
-        - c->r1_v1_m__1__wheel * r1_m__1__wheel_speed_2;
+    const real r1_u1 = r1_y2 + r1_d3 + REAL(4.0) * r1_e2;
 
     /* khepera.bg:17: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
      * m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
      * where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
      * m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel, 2))/m[1].ge.N */
-    r[KHEPERA_ENCODERS_R1] = r1_y1;
+    r[KHEPERA_ENCODERS_R1] = r1_y1 - r1_e2;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -771,9 +752,30 @@ static void start_r2(
     /* khepera_encoders.bg:31: filtered speed of m[1].wheel */
     x->r2_m__1__wheel_speed = r2_m__1__wheel_speed_2;
 
-    /* khepera_encoders.bg:31: r2: input of stage 3 */
-    const real r2_u3 = c->r2_Fx__1 * s->Fx__1 + c->r2_integral_2 * r2_change
+    /* khepera_encoders.bg:31: r2: encoders, order 1 */
+    const real r2_n1 = c->r2_m__1__wheel_1 * r2_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2: error of order 1 */
+    const real r2_e1 = c->bend1 * r2_n1;
+
+    /* khepera_encoders.bg:31: r2: encoders, order 2 */
+    const real r2_n2 = c->r2_w2_m__1__wheel * r2_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2: terms of order 0 */
+    const real r2_g0 = c->r2_Fx__1 * s->Fx__1 + c->r2_integral_2 * r2_change
         - c->r2_integral * r2_change_2 - c->r2_tanh * r2_tanh;
+
+    /* khepera_encoders.bg:31: r2: degree 1 */
+    const real r2_d1 = r2_n1 + r2_n2;
+
+    /* khepera_encoders.bg:31: r2: error of order 0 */
+    const real r2_e0 = c->bend2 * r2_g0;
+
+    /* khepera_encoders.bg:31: r2: degree 2 */
+    const real r2_d2 = r2_n2 - r2_e1 - r2_e0;
+
+    /* khepera_encoders.bg:31: r2: input of stage 3 */
+    const real r2_u3 = r2_g0 + r2_n1 + r2_d2 + r2_e1 - r2_d1;
 
     /* khepera_encoders.bg:31: r2: stage 3, at rest */
     const real r2_y3 = r2_u3;
@@ -782,7 +784,7 @@ static void start_r2(
     x->r2_s3 = c->rest * r2_u3;
 
     /* khepera_encoders.bg:31: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_m__1__wheel * r2_m__1__wheel_speed_2;
+    const real r2_u2 = r2_y3 + r2_d1 - REAL(2.0) * r2_d2 - REAL(3.0) * r2_e1;
 
     /* khepera_encoders.bg:31: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -791,7 +793,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* khepera_encoders.bg:31: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 + c->r2_v1_m__1__wheel * r2_m__1__wheel_speed_2;
+    const real r2_u1 = r2_y2 + r2_d2 + REAL(3.0) * r2_e1;
 
     /* khepera_encoders.bg:31: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -803,7 +805,7 @@ static void start_r2(
      * 2))/m[1].ge.N - m[1].K*(m[1].spring.q +
      * m[1].tau0*m[1].A*tanh(m[1].spring.q/(4*m[1].tau0)))
      * where m[1].spring.q = Int(D(m[1].motor) - m[1].ge.N*D(m[1].wheel)) */
-    r[KHEPERA_ENCODERS_R2] = r2_y1;
+    r[KHEPERA_ENCODERS_R2] = r2_y1 - r2_e1;
 }
 
 /* r2 on every further sample. */
@@ -839,39 +841,60 @@ static void next_r2(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r2.increment;
     x->r2_m__1__wheel_speed = r2_m__1__wheel_speed_2;
 
-    /* khepera_encoders.bg:31: r2: input of stage 3 */
-    const real r2_u3 = c->r2_Fx__1 * s->Fx__1 + c->r2_integral_2 * r2_change
+    /* khepera_encoders.bg:31: r2: encoders, order 1 */
+    const real r2_n1 = c->r2_m__1__wheel_1 * r2_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2: error of order 1 */
+    const real r2_e1 = c->bend1 * r2_n1;
+
+    /* khepera_encoders.bg:31: r2: encoders, order 2 */
+    const real r2_n2 = c->r2_w2_m__1__wheel * r2_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2: terms of order 0 */
+    const real r2_g0 = c->r2_Fx__1 * s->Fx__1 + c->r2_integral_2 * r2_change
         - c->r2_integral * r2_change_2 - c->r2_tanh * r2_tanh;
 
+    /* khepera_encoders.bg:31: r2: degree 1 */
+    const real r2_d1 = r2_n1 + r2_n2;
+
+    /* khepera_encoders.bg:31: r2: error of order 0 */
+    const real r2_e0 = c->bend2 * r2_g0;
+
+    /* khepera_encoders.bg:31: r2: degree 2 */
+    const real r2_d2 = r2_n2 - r2_e1 - r2_e0;
+
+    /* khepera_encoders.bg:31: r2: input of stage 3 */
+    const real r2_u3 = r2_g0 + r2_n1 + r2_d2 + r2_e1 - r2_d1;
+
     /* khepera_encoders.bg:31: r2: stage 3 */
-    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+    const real r2_y3 = x->r2_s3 + c->b * r2_u3;
 
     /* khepera_encoders.bg:31: r2: stage 3: memory */
-    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+    x->r2_s3 = c->a * r2_y3 + c->b * r2_u3;
 
     /* khepera_encoders.bg:31: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_m__1__wheel * r2_m__1__wheel_speed_2;
+    const real r2_u2 = r2_y3 + r2_d1 - REAL(2.0) * r2_d2 - REAL(3.0) * r2_e1;
 
     /* khepera_encoders.bg:31: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* khepera_encoders.bg:31: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* khepera_encoders.bg:31: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 + c->r2_v1_m__1__wheel * r2_m__1__wheel_speed_2;
+    const real r2_u1 = r2_y2 + r2_d2 + REAL(3.0) * r2_e1;
 
     /* khepera_encoders.bg:31: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* khepera_encoders.bg:31: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* khepera_encoders.bg:31: r2 = (Fx[1]*m[1].R + m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel,
      * 2))/m[1].ge.N - m[1].K*(m[1].spring.q +
      * m[1].tau0*m[1].A*tanh(m[1].spring.q/(4*m[1].tau0)))
      * where m[1].spring.q = Int(D(m[1].motor) - m[1].ge.N*D(m[1].wheel)) */
-    r[KHEPERA_ENCODERS_R2] = r2_y1;
+    r[KHEPERA_ENCODERS_R2] = r2_y1 - r2_e1;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */
@@ -919,8 +942,47 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].wheel */
     x->r3_m__2__wheel_speed = r3_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3: encoders, order 1 */
+    const real r3_n1 = -c->r3_m__2__motor_1 * r3_m__2__motor_speed_2
+        - c->r3_m__2__wheel_1 * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: error of order 1 */
+    const real r3_e1 = c->bend2 * r3_n1;
+
+    /* khepera.bg:17: r3: encoders, order 2 */
+    const real r3_n2 = c->r3_w2_m__2__motor * r3_m__2__motor_speed_2
+        + c->r3_w2_m__2__wheel * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: error of order 2 */
+    const real r3_e2 = c->bend1 * r3_n2;
+
+    /* khepera.bg:17: r3: encoders, order 3 */
+    const real r3_n3 = -c->r3_w3_m__2__motor * r3_m__2__motor_speed_2
+        - c->r3_w3_m__2__wheel * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: terms of order 0 */
+    const real r3_g0 = s->U0__2 - c->r3_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: terms of order 1 */
+    const real r3_g1 = -c->r3_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: degree 1 */
+    const real r3_d1 = r3_g1 + r3_n1 + r3_n2;
+
+    /* khepera.bg:17: r3: error of order 0 */
+    const real r3_e0 = c->bend3 * r3_g0;
+
+    /* khepera.bg:17: r3: degree 2 */
+    const real r3_d2 = r3_n2 + r3_n3 - r3_e1 - r3_e0;
+
+    /* khepera.bg:17: r3: error of order 1 */
+    const real r3_e1_2 = c->bend2 * r3_g1;
+
+    /* khepera.bg:17: r3: degree 3 */
+    const real r3_d3 = r3_n3 - r3_e1 - r3_e2 - r3_e1_2;
+
     /* khepera.bg:17: r3: input of stage 4 */
-    const real r3_u4 = s->U0__2 + c->r3_v4_Fx__2 * s->Fx__2;
+    const real r3_u4 = r3_g0 + r3_n1 + r3_d2 - r3_d1 - r3_d3 - r3_e2;
 
     /* khepera.bg:17: r3: stage 4, at rest */
     const real r3_y4 = r3_u4;
@@ -929,8 +991,7 @@ static void start_r3(
     x->r3_s4 = c->rest * r3_u4;
 
     /* khepera.bg:17: r3: input of stage 3 */
-    const real r3_u3 = r3_y4 + c->r3_v3_m__2__motor * r3_m__2__motor_speed_2
-        - c->r3_v3_Fx__2 * s->Fx__2 - c->r3_v3_m__2__wheel * r3_m__2__wheel_speed_2;
+    const real r3_u3 = r3_y4 + r3_d1 + REAL(3.0) * r3_d3 + REAL(4.0) * r3_e2 - REAL(2.0) * r3_d2;
 
     /* khepera.bg:17: r3: stage 3, at rest */
     const real r3_y3 = r3_u3;
@@ -939,8 +1000,7 @@ static void start_r3(
     x->r3_s3 = c->rest * r3_u3;
 
     /* khepera.bg:17: r3: input of stage 2 */
-    const real r3_u2 = r3_y3 + c->r3_v2_m__2__motor * r3_m__2__motor_speed_2
-        + c->r3_v2_m__2__wheel * r3_m__2__wheel_speed_2;
+    const real r3_u2 = r3_y3 + r3_d2 - REAL(3.0) * r3_d3 - REAL(6.0) * r3_e2;
 
     /* khepera.bg:17: r3: stage 2, at rest */
     const real r3_y2 = r3_u2;
@@ -949,8 +1009,7 @@ static void start_r3(
     x->r3_s2 = c->rest * r3_u2;
 
     /* khepera.bg:17: r3: input of stage 1 */
-    const real r3_u1 = r3_y2 - c->r3_v1_m__2__motor * r3_m__2__motor_speed_2
-        - c->r3_v1_m__2__wheel * r3_m__2__wheel_speed_2;
+    const real r3_u1 = r3_y2 + r3_d3 + REAL(4.0) * r3_e2;
 
     /* khepera.bg:17: r3: stage 1, at rest */
     const real r3_y1 = r3_u1;
@@ -962,7 +1021,7 @@ static void start_r3(
      * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
      * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
      * m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel, 2))/m[2].ge.N */
-    r[KHEPERA_ENCODERS_R3] = r3_y1;
+    r[KHEPERA_ENCODERS_R3] = r3_y1 - r3_e2;
 }
 
 /* r3 on every further sample. */
@@ -986,50 +1045,86 @@ static void next_r3(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_m__2__wheel_speed = r3_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3: encoders, order 1 */
+    const real r3_n1 = -c->r3_m__2__motor_1 * r3_m__2__motor_speed_2
+        - c->r3_m__2__wheel_1 * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: error of order 1 */
+    const real r3_e1 = c->bend2 * r3_n1;
+
+    /* khepera.bg:17: r3: encoders, order 2 */
+    const real r3_n2 = c->r3_w2_m__2__motor * r3_m__2__motor_speed_2
+        + c->r3_w2_m__2__wheel * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: error of order 2 */
+    const real r3_e2 = c->bend1 * r3_n2;
+
+    /* khepera.bg:17: r3: encoders, order 3 */
+    const real r3_n3 = -c->r3_w3_m__2__motor * r3_m__2__motor_speed_2
+        - c->r3_w3_m__2__wheel * r3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3: terms of order 0 */
+    const real r3_g0 = s->U0__2 - c->r3_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: terms of order 1 */
+    const real r3_g1 = -c->r3_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3: degree 1 */
+    const real r3_d1 = r3_g1 + r3_n1 + r3_n2;
+
+    /* khepera.bg:17: r3: error of order 0 */
+    const real r3_e0 = c->bend3 * r3_g0;
+
+    /* khepera.bg:17: r3: degree 2 */
+    const real r3_d2 = r3_n2 + r3_n3 - r3_e1 - r3_e0;
+
+    /* khepera.bg:17: r3: error of order 1 */
+    const real r3_e1_2 = c->bend2 * r3_g1;
+
+    /* khepera.bg:17: r3: degree 3 */
+    const real r3_d3 = r3_n3 - r3_e1 - r3_e2 - r3_e1_2;
+
     /* khepera.bg:17: r3: input of stage 4 */
-    const real r3_u4 = s->U0__2 + c->r3_v4_Fx__2 * s->Fx__2;
+    const real r3_u4 = r3_g0 + r3_n1 + r3_d2 - r3_d1 - r3_d3 - r3_e2;
 
     /* khepera.bg:17: r3: stage 4 */
-    const real r3_y4 = x->r3_s4 + c->b0 * r3_u4;
+    const real r3_y4 = x->r3_s4 + c->b * r3_u4;
 
     /* khepera.bg:17: r3: stage 4: memory */
-    x->r3_s4 = c->a * r3_y4 + c->b1 * r3_u4;
+    x->r3_s4 = c->a * r3_y4 + c->b * r3_u4;
 
     /* khepera.bg:17: r3: input of stage 3 */
-    const real r3_u3 = r3_y4 + c->r3_v3_m__2__motor * r3_m__2__motor_speed_2
-        - c->r3_v3_Fx__2 * s->Fx__2 - c->r3_v3_m__2__wheel * r3_m__2__wheel_speed_2;
+    const real r3_u3 = r3_y4 + r3_d1 + REAL(3.0) * r3_d3 + REAL(4.0) * r3_e2 - REAL(2.0) * r3_d2;
 
     /* khepera.bg:17: r3: stage 3 */
-    const real r3_y3 = x->r3_s3 + c->b0 * r3_u3;
+    const real r3_y3 = x->r3_s3 + c->b * r3_u3;
 
     /* khepera.bg:17: r3: stage 3: memory */
-    x->r3_s3 = c->a * r3_y3 + c->b1 * r3_u3;
+    x->r3_s3 = c->a * r3_y3 + c->b * r3_u3;
 
     /* khepera.bg:17: r3: input of stage 2 */
-    const real r3_u2 = r3_y3 + c->r3_v2_m__2__motor * r3_m__2__motor_speed_2
-        + c->r3_v2_m__2__wheel * r3_m__2__wheel_speed_2;
+    const real r3_u2 = r3_y3 + r3_d2 - REAL(3.0) * r3_d3 - REAL(6.0) * r3_e2;
 
     /* khepera.bg:17: r3: stage 2 */
-    const real r3_y2 = x->r3_s2 + c->b0 * r3_u2;
+    const real r3_y2 = x->r3_s2 + c->b * r3_u2;
 
     /* khepera.bg:17: r3: stage 2: memory */
-    x->r3_s2 = c->a * r3_y2 + c->b1 * r3_u2;
+    x->r3_s2 = c->a * r3_y2 + c->b * r3_u2;
 
     /* khepera.bg:17: r3: input of stage 1 */
-    const real r3_u1 = r3_y2 - c->r3_v1_m__2__motor * r3_m__2__motor_speed_2
-        - c->r3_v1_m__2__wheel * r3_m__2__wheel_speed_2;
+    const real r3_u1 = r3_y2 + r3_d3 + REAL(4.0) * r3_e2;
 
     /* khepera.bg:17: r3: stage 1 */
-    const real r3_y1 = x->r3_s1 + c->b0 * r3_u1;
+    const real r3_y1 = x->r3_s1 + c->b * r3_u1;
 
     /* khepera.bg:17: r3: stage 1: memory */
-    x->r3_s1 = c->a * r3_y1 + c->b1 * r3_u1;
+    x->r3_s1 = c->a * r3_y1 + c->b * r3_u1;
 
     /* khepera.bg:17: r3 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
      * m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
      * where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
      * m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel, 2))/m[2].ge.N */
-    r[KHEPERA_ENCODERS_R3] = r3_y1;
+    r[KHEPERA_ENCODERS_R3] = r3_y1 - r3_e2;
 }
 
 /* One sample for r3; a number that is not finite makes the next sample the first. */
@@ -1091,9 +1186,30 @@ static void start_r4(
     /* khepera_encoders.bg:31: filtered speed of m[2].wheel */
     x->r4_m__2__wheel_speed = r4_m__2__wheel_speed_2;
 
-    /* khepera_encoders.bg:31: r4: input of stage 3 */
-    const real r4_u3 = c->r4_Fx__2 * s->Fx__2 + c->r4_integral_2 * r4_change
+    /* khepera_encoders.bg:31: r4: encoders, order 1 */
+    const real r4_n1 = c->r4_m__2__wheel_1 * r4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4: error of order 1 */
+    const real r4_e1 = c->bend1 * r4_n1;
+
+    /* khepera_encoders.bg:31: r4: encoders, order 2 */
+    const real r4_n2 = c->r4_w2_m__2__wheel * r4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4: terms of order 0 */
+    const real r4_g0 = c->r4_Fx__2 * s->Fx__2 + c->r4_integral_2 * r4_change
         - c->r4_integral * r4_change_2 - c->r4_tanh * r4_tanh;
+
+    /* khepera_encoders.bg:31: r4: degree 1 */
+    const real r4_d1 = r4_n1 + r4_n2;
+
+    /* khepera_encoders.bg:31: r4: error of order 0 */
+    const real r4_e0 = c->bend2 * r4_g0;
+
+    /* khepera_encoders.bg:31: r4: degree 2 */
+    const real r4_d2 = r4_n2 - r4_e1 - r4_e0;
+
+    /* khepera_encoders.bg:31: r4: input of stage 3 */
+    const real r4_u3 = r4_g0 + r4_n1 + r4_d2 + r4_e1 - r4_d1;
 
     /* khepera_encoders.bg:31: r4: stage 3, at rest */
     const real r4_y3 = r4_u3;
@@ -1102,7 +1218,7 @@ static void start_r4(
     x->r4_s3 = c->rest * r4_u3;
 
     /* khepera_encoders.bg:31: r4: input of stage 2 */
-    const real r4_u2 = r4_y3 + c->r4_v2_m__2__wheel * r4_m__2__wheel_speed_2;
+    const real r4_u2 = r4_y3 + r4_d1 - REAL(2.0) * r4_d2 - REAL(3.0) * r4_e1;
 
     /* khepera_encoders.bg:31: r4: stage 2, at rest */
     const real r4_y2 = r4_u2;
@@ -1111,7 +1227,7 @@ static void start_r4(
     x->r4_s2 = c->rest * r4_u2;
 
     /* khepera_encoders.bg:31: r4: input of stage 1 */
-    const real r4_u1 = r4_y2 + c->r4_v1_m__2__wheel * r4_m__2__wheel_speed_2;
+    const real r4_u1 = r4_y2 + r4_d2 + REAL(3.0) * r4_e1;
 
     /* khepera_encoders.bg:31: r4: stage 1, at rest */
     const real r4_y1 = r4_u1;
@@ -1123,7 +1239,7 @@ static void start_r4(
      * 2))/m[2].ge.N - m[2].K*(m[2].spring.q +
      * m[2].tau0*m[2].A*tanh(m[2].spring.q/(4*m[2].tau0)))
      * where m[2].spring.q = Int(D(m[2].motor) - m[2].ge.N*D(m[2].wheel)) */
-    r[KHEPERA_ENCODERS_R4] = r4_y1;
+    r[KHEPERA_ENCODERS_R4] = r4_y1 - r4_e1;
 }
 
 /* r4 on every further sample. */
@@ -1159,39 +1275,60 @@ static void next_r4(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r4.increment;
     x->r4_m__2__wheel_speed = r4_m__2__wheel_speed_2;
 
-    /* khepera_encoders.bg:31: r4: input of stage 3 */
-    const real r4_u3 = c->r4_Fx__2 * s->Fx__2 + c->r4_integral_2 * r4_change
+    /* khepera_encoders.bg:31: r4: encoders, order 1 */
+    const real r4_n1 = c->r4_m__2__wheel_1 * r4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4: error of order 1 */
+    const real r4_e1 = c->bend1 * r4_n1;
+
+    /* khepera_encoders.bg:31: r4: encoders, order 2 */
+    const real r4_n2 = c->r4_w2_m__2__wheel * r4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4: terms of order 0 */
+    const real r4_g0 = c->r4_Fx__2 * s->Fx__2 + c->r4_integral_2 * r4_change
         - c->r4_integral * r4_change_2 - c->r4_tanh * r4_tanh;
 
+    /* khepera_encoders.bg:31: r4: degree 1 */
+    const real r4_d1 = r4_n1 + r4_n2;
+
+    /* khepera_encoders.bg:31: r4: error of order 0 */
+    const real r4_e0 = c->bend2 * r4_g0;
+
+    /* khepera_encoders.bg:31: r4: degree 2 */
+    const real r4_d2 = r4_n2 - r4_e1 - r4_e0;
+
+    /* khepera_encoders.bg:31: r4: input of stage 3 */
+    const real r4_u3 = r4_g0 + r4_n1 + r4_d2 + r4_e1 - r4_d1;
+
     /* khepera_encoders.bg:31: r4: stage 3 */
-    const real r4_y3 = x->r4_s3 + c->b0 * r4_u3;
+    const real r4_y3 = x->r4_s3 + c->b * r4_u3;
 
     /* khepera_encoders.bg:31: r4: stage 3: memory */
-    x->r4_s3 = c->a * r4_y3 + c->b1 * r4_u3;
+    x->r4_s3 = c->a * r4_y3 + c->b * r4_u3;
 
     /* khepera_encoders.bg:31: r4: input of stage 2 */
-    const real r4_u2 = r4_y3 + c->r4_v2_m__2__wheel * r4_m__2__wheel_speed_2;
+    const real r4_u2 = r4_y3 + r4_d1 - REAL(2.0) * r4_d2 - REAL(3.0) * r4_e1;
 
     /* khepera_encoders.bg:31: r4: stage 2 */
-    const real r4_y2 = x->r4_s2 + c->b0 * r4_u2;
+    const real r4_y2 = x->r4_s2 + c->b * r4_u2;
 
     /* khepera_encoders.bg:31: r4: stage 2: memory */
-    x->r4_s2 = c->a * r4_y2 + c->b1 * r4_u2;
+    x->r4_s2 = c->a * r4_y2 + c->b * r4_u2;
 
     /* khepera_encoders.bg:31: r4: input of stage 1 */
-    const real r4_u1 = r4_y2 + c->r4_v1_m__2__wheel * r4_m__2__wheel_speed_2;
+    const real r4_u1 = r4_y2 + r4_d2 + REAL(3.0) * r4_e1;
 
     /* khepera_encoders.bg:31: r4: stage 1 */
-    const real r4_y1 = x->r4_s1 + c->b0 * r4_u1;
+    const real r4_y1 = x->r4_s1 + c->b * r4_u1;
 
     /* khepera_encoders.bg:31: r4: stage 1: memory */
-    x->r4_s1 = c->a * r4_y1 + c->b1 * r4_u1;
+    x->r4_s1 = c->a * r4_y1 + c->b * r4_u1;
 
     /* khepera_encoders.bg:31: r4 = (Fx[2]*m[2].R + m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel,
      * 2))/m[2].ge.N - m[2].K*(m[2].spring.q +
      * m[2].tau0*m[2].A*tanh(m[2].spring.q/(4*m[2].tau0)))
      * where m[2].spring.q = Int(D(m[2].motor) - m[2].ge.N*D(m[2].wheel)) */
-    r[KHEPERA_ENCODERS_R4] = r4_y1;
+    r[KHEPERA_ENCODERS_R4] = r4_y1 - r4_e1;
 }
 
 /* One sample for r4; a number that is not finite makes the next sample the first. */
@@ -1224,8 +1361,17 @@ static void start_r5(
     const khepera_encoders_coefficients *c = &monitor->c;
     khepera_encoders_memory *x = &monitor->x;
 
+    /* khepera.bg:114: r5: terms of order 0 */
+    const real r5_g0 = s->Uin - s->Us - c->r5_load * s->load;
+
+    /* khepera.bg:114: r5: degree 1 */
+    const real r5_d1 = c->r5_w1_load * s->load;
+
+    /* khepera.bg:114: r5: error of order 0 */
+    const real r5_e0 = c->bend1 * r5_g0;
+
     /* khepera.bg:114: r5: input of stage 2 */
-    const real r5_u2 = s->Uin - s->Us - c->r5_v2_load * s->load;
+    const real r5_u2 = r5_g0 - r5_d1 - r5_e0;
 
     /* khepera.bg:114: r5: stage 2, at rest */
     const real r5_y2 = r5_u2;
@@ -1234,7 +1380,7 @@ static void start_r5(
     x->r5_s2 = c->rest * r5_u2;
 
     /* khepera.bg:114: r5: input of stage 1 */
-    const real r5_u1 = r5_y2 + c->r5_v1_load * s->load;
+    const real r5_u1 = r5_y2 + r5_d1 + REAL(2.0) * r5_e0;
 
     /* khepera.bg:114: r5: stage 1, at rest */
     const real r5_y1 = r5_u1;
@@ -1247,7 +1393,7 @@ static void start_r5(
      * where line.cell[1].left.f = line.cell[1].right.f + 2.2e-10*D(line.cell[1].mid.e)
      * line.cell[1].mid.e = Us + R_L*line.cell[1].right.f/2 + D(line.cell[1].right.f)/4000000
      * line.cell[1].right.f = load + 2.2e-10*D(Us) */
-    r[KHEPERA_ENCODERS_R5] = r5_y1;
+    r[KHEPERA_ENCODERS_R5] = r5_y1 - r5_e0;
 }
 
 /* r5 on every further sample. */
@@ -1257,30 +1403,39 @@ static void next_r5(
     const khepera_encoders_coefficients *c = &monitor->c;
     khepera_encoders_memory *x = &monitor->x;
 
+    /* khepera.bg:114: r5: terms of order 0 */
+    const real r5_g0 = s->Uin - s->Us - c->r5_load * s->load;
+
+    /* khepera.bg:114: r5: degree 1 */
+    const real r5_d1 = c->r5_w1_load * s->load;
+
+    /* khepera.bg:114: r5: error of order 0 */
+    const real r5_e0 = c->bend1 * r5_g0;
+
     /* khepera.bg:114: r5: input of stage 2 */
-    const real r5_u2 = s->Uin - s->Us - c->r5_v2_load * s->load;
+    const real r5_u2 = r5_g0 - r5_d1 - r5_e0;
 
     /* khepera.bg:114: r5: stage 2 */
-    const real r5_y2 = x->r5_s2 + c->b0 * r5_u2;
+    const real r5_y2 = x->r5_s2 + c->b * r5_u2;
 
     /* khepera.bg:114: r5: stage 2: memory */
-    x->r5_s2 = c->a * r5_y2 + c->b1 * r5_u2;
+    x->r5_s2 = c->a * r5_y2 + c->b * r5_u2;
 
     /* khepera.bg:114: r5: input of stage 1 */
-    const real r5_u1 = r5_y2 + c->r5_v1_load * s->load;
+    const real r5_u1 = r5_y2 + r5_d1 + REAL(2.0) * r5_e0;
 
     /* khepera.bg:114: r5: stage 1 */
-    const real r5_y1 = x->r5_s1 + c->b0 * r5_u1;
+    const real r5_y1 = x->r5_s1 + c->b * r5_u1;
 
     /* khepera.bg:114: r5: stage 1: memory */
-    x->r5_s1 = c->a * r5_y1 + c->b1 * r5_u1;
+    x->r5_s1 = c->a * r5_y1 + c->b * r5_u1;
 
     /* khepera.bg:114: r5 = Uin - line.cell[1].mid.e - R_L*line.cell[1].left.f/2 -
      * D(line.cell[1].left.f)/4000000
      * where line.cell[1].left.f = line.cell[1].right.f + 2.2e-10*D(line.cell[1].mid.e)
      * line.cell[1].mid.e = Us + R_L*line.cell[1].right.f/2 + D(line.cell[1].right.f)/4000000
      * line.cell[1].right.f = load + 2.2e-10*D(Us) */
-    r[KHEPERA_ENCODERS_R5] = r5_y1;
+    r[KHEPERA_ENCODERS_R5] = r5_y1 - r5_e0;
 }
 
 /* One sample for r5; a number that is not finite makes the next sample the first. */

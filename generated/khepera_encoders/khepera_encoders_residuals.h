@@ -29,7 +29,7 @@ typedef double khepera_encoders_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_ENCODERS_ABI (1u * 256u + (uint32_t)sizeof(khepera_encoders_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_ENCODERS_DIGEST "5f5b40dc5b2cb283"
+#define KHEPERA_ENCODERS_DIGEST "a33c45089ed38933"
 
 /* What the code was made for: arguments of khepera_encoders_configure, in s, rad/s and s. */
 #define KHEPERA_ENCODERS_SAMPLE_TIME KHEPERA_ENCODERS_CONSTANT(0.001)
@@ -189,19 +189,20 @@ typedef struct khepera_encoders_coefficients {
     /* r1: factor of m[1].wheel''': m[1].Js*m[1].el.L/(m[1].el.k*m[1].ge.N) */
     khepera_encoders_real r1_m__1__wheel_3;
     khepera_encoders_real m__1__motor_gain;      /* speed of m[1].motor for one count */
-    khepera_encoders_real a;                     /* filter: exp(-bandwidth*sample_time) */
-    khepera_encoders_real r1_v1_m__1__motor;     /* r1: factor of m[1].motor in stage 1 */
-    khepera_encoders_real r1_v2_m__1__motor;     /* r1: factor of m[1].motor in stage 2 */
-    khepera_encoders_real r1_v3_m__1__motor;     /* r1: factor of m[1].motor in stage 3 */
-    khepera_encoders_real r1_v3_Fx__1;           /* r1: factor of Fx[1] in stage 3 */
-    khepera_encoders_real r1_v4_Fx__1;           /* r1: factor of Fx[1] in stage 4 */
+    /* filter: what is left of a memory a sample later */
+    khepera_encoders_real a;
+    khepera_encoders_real r1_w2_m__1__motor;     /* r1: factor of m[1].motor'' */
+    khepera_encoders_real r1_w3_m__1__motor;     /* r1: factor of m[1].motor''' */
+    khepera_encoders_real r1_w1_Fx__1;           /* r1: factor of Fx[1]' */
     khepera_encoders_real m__1__wheel_gain;      /* speed of m[1].wheel for one count */
-    khepera_encoders_real r1_v1_m__1__wheel;     /* r1: factor of m[1].wheel in stage 1 */
-    khepera_encoders_real r1_v2_m__1__wheel;     /* r1: factor of m[1].wheel in stage 2 */
-    khepera_encoders_real r1_v3_m__1__wheel;     /* r1: factor of m[1].wheel in stage 3 */
-    khepera_encoders_real b0;                    /* filter: weight of the new sample */
-    khepera_encoders_real b1;                    /* filter: weight of the sample before */
-    khepera_encoders_real rest;                  /* filter: 1 - b0, the memory of a constant 1 */
+    khepera_encoders_real r1_w2_m__1__wheel;     /* r1: factor of m[1].wheel'' */
+    khepera_encoders_real r1_w3_m__1__wheel;     /* r1: factor of m[1].wheel''' */
+    khepera_encoders_real bend2;                 /* filter: 2 * (w*sample_time)^2/12 */
+    khepera_encoders_real bend1;                 /* filter: 1 * (w*sample_time)^2/12 */
+    khepera_encoders_real bend3;                 /* filter: 3 * (w*sample_time)^2/12 */
+    /* filter: weight of a sample, new and a sample later */
+    khepera_encoders_real b;
+    khepera_encoders_real rest;                  /* filter: 1 - b, the memory of a constant 1 */
     khepera_encoders_real g;                     /* 1/(4*m[1].tau0) */
     khepera_encoders_real g_2;                   /* m[1].ge.N/(4*m[1].tau0) */
     khepera_encoders_real r2_Fx__1;              /* r2: factor of Fx[1]: m[1].R/m[1].ge.N */
@@ -215,8 +216,7 @@ typedef struct khepera_encoders_coefficients {
     khepera_encoders_real r2_tanh;
     khepera_encoders_real m__1__wheel__int__x0;  /* m[1].wheel.int.x0 */
     khepera_encoders_real m__1__motor__int__x0;  /* m[1].motor.int.x0 */
-    khepera_encoders_real r2_v1_m__1__wheel;     /* r2: factor of m[1].wheel in stage 1 */
-    khepera_encoders_real r2_v2_m__1__wheel;     /* r2: factor of m[1].wheel in stage 2 */
+    khepera_encoders_real r2_w2_m__1__wheel;     /* r2: factor of m[1].wheel'' */
     /* r3: factor of m[2].motor': m[2].el.k + m[2].fe*m[2].el.Re/m[2].el.k */
     khepera_encoders_real r3_m__2__motor_1;
     /* r3: factor of m[2].motor'': m[2].fe*m[2].el.L/m[2].el.k + m[2].Je*m[2].el.Re/m[2].el.k */
@@ -234,14 +234,11 @@ typedef struct khepera_encoders_coefficients {
     khepera_encoders_real r3_m__2__wheel_2;
     /* r3: factor of m[2].wheel''': m[2].Js*m[2].el.L/(m[2].el.k*m[2].ge.N) */
     khepera_encoders_real r3_m__2__wheel_3;
-    khepera_encoders_real r3_v1_m__2__motor;     /* r3: factor of m[2].motor in stage 1 */
-    khepera_encoders_real r3_v2_m__2__motor;     /* r3: factor of m[2].motor in stage 2 */
-    khepera_encoders_real r3_v3_m__2__motor;     /* r3: factor of m[2].motor in stage 3 */
-    khepera_encoders_real r3_v3_Fx__2;           /* r3: factor of Fx[2] in stage 3 */
-    khepera_encoders_real r3_v4_Fx__2;           /* r3: factor of Fx[2] in stage 4 */
-    khepera_encoders_real r3_v1_m__2__wheel;     /* r3: factor of m[2].wheel in stage 1 */
-    khepera_encoders_real r3_v2_m__2__wheel;     /* r3: factor of m[2].wheel in stage 2 */
-    khepera_encoders_real r3_v3_m__2__wheel;     /* r3: factor of m[2].wheel in stage 3 */
+    khepera_encoders_real r3_w2_m__2__motor;     /* r3: factor of m[2].motor'' */
+    khepera_encoders_real r3_w3_m__2__motor;     /* r3: factor of m[2].motor''' */
+    khepera_encoders_real r3_w1_Fx__2;           /* r3: factor of Fx[2]' */
+    khepera_encoders_real r3_w2_m__2__wheel;     /* r3: factor of m[2].wheel'' */
+    khepera_encoders_real r3_w3_m__2__wheel;     /* r3: factor of m[2].wheel''' */
     khepera_encoders_real g_3;                   /* 1/(4*m[2].tau0) */
     khepera_encoders_real g_4;                   /* m[2].ge.N/(4*m[2].tau0) */
     khepera_encoders_real r4_Fx__2;              /* r4: factor of Fx[2]: m[2].R/m[2].ge.N */
@@ -255,16 +252,14 @@ typedef struct khepera_encoders_coefficients {
     khepera_encoders_real r4_tanh;
     khepera_encoders_real m__2__wheel__int__x0;  /* m[2].wheel.int.x0 */
     khepera_encoders_real m__2__motor__int__x0;  /* m[2].motor.int.x0 */
-    khepera_encoders_real r4_v1_m__2__wheel;     /* r4: factor of m[2].wheel in stage 1 */
-    khepera_encoders_real r4_v2_m__2__wheel;     /* r4: factor of m[2].wheel in stage 2 */
+    khepera_encoders_real r4_w2_m__2__wheel;     /* r4: factor of m[2].wheel'' */
     khepera_encoders_real r5_Us_1;               /* r5: factor of Us': 3.3e-10*R_L */
     khepera_encoders_real r5_Us_2;               /* r5: factor of Us'': 1.21e-20*R_L^2 + 1.65e-16 */
     khepera_encoders_real r5_Us_3;               /* r5: factor of Us''': 1.21e-26*R_L */
     khepera_encoders_real r5_load;               /* r5: factor of load: R_L */
     khepera_encoders_real r5_load_1;             /* r5: factor of load': 5.5e-11*R_L^2 + 5e-07 */
     khepera_encoders_real r5_load_2;             /* r5: factor of load'': 5.5e-17*R_L */
-    khepera_encoders_real r5_v1_load;            /* r5: factor of load in stage 1 */
-    khepera_encoders_real r5_v2_load;            /* r5: factor of load in stage 2 */
+    khepera_encoders_real r5_w1_load;            /* r5: factor of load' */
 } khepera_encoders_coefficients;
 
 /* What the filters remember from sample to sample. */

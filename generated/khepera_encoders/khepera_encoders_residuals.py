@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "5f5b40dc5b2cb283"
+DIGEST = "a33c45089ed38933"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -183,19 +183,18 @@ class Coefficients:
     # r1: factor of m[1].wheel''': m[1].Js*m[1].el.L/(m[1].el.k*m[1].ge.N)
     r1_m__1__wheel_3: float
     m__1__motor_gain: float      # speed of m[1].motor for one count
-    a: float                     # filter: exp(-bandwidth*sample_time)
-    r1_v1_m__1__motor: float     # r1: factor of m[1].motor in stage 1
-    r1_v2_m__1__motor: float     # r1: factor of m[1].motor in stage 2
-    r1_v3_m__1__motor: float     # r1: factor of m[1].motor in stage 3
-    r1_v3_Fx__1: float           # r1: factor of Fx[1] in stage 3
-    r1_v4_Fx__1: float           # r1: factor of Fx[1] in stage 4
+    a: float                     # filter: what is left of a memory a sample later
+    r1_w2_m__1__motor: float     # r1: factor of m[1].motor''
+    r1_w3_m__1__motor: float     # r1: factor of m[1].motor'''
+    r1_w1_Fx__1: float           # r1: factor of Fx[1]'
     m__1__wheel_gain: float      # speed of m[1].wheel for one count
-    r1_v1_m__1__wheel: float     # r1: factor of m[1].wheel in stage 1
-    r1_v2_m__1__wheel: float     # r1: factor of m[1].wheel in stage 2
-    r1_v3_m__1__wheel: float     # r1: factor of m[1].wheel in stage 3
-    b0: float                    # filter: weight of the new sample
-    b1: float                    # filter: weight of the sample before
-    rest: float                  # filter: 1 - b0, the memory of a constant 1
+    r1_w2_m__1__wheel: float     # r1: factor of m[1].wheel''
+    r1_w3_m__1__wheel: float     # r1: factor of m[1].wheel'''
+    bend2: float                 # filter: 2 * (w*sample_time)^2/12
+    bend1: float                 # filter: 1 * (w*sample_time)^2/12
+    bend3: float                 # filter: 3 * (w*sample_time)^2/12
+    b: float                     # filter: weight of a sample, new and a sample later
+    rest: float                  # filter: 1 - b, the memory of a constant 1
     g: float                     # 1/(4*m[1].tau0)
     g_2: float                   # m[1].ge.N/(4*m[1].tau0)
     r2_Fx__1: float              # r2: factor of Fx[1]: m[1].R/m[1].ge.N
@@ -208,8 +207,7 @@ class Coefficients:
     r2_tanh: float
     m__1__wheel__int__x0: float  # m[1].wheel.int.x0
     m__1__motor__int__x0: float  # m[1].motor.int.x0
-    r2_v1_m__1__wheel: float     # r2: factor of m[1].wheel in stage 1
-    r2_v2_m__1__wheel: float     # r2: factor of m[1].wheel in stage 2
+    r2_w2_m__1__wheel: float     # r2: factor of m[1].wheel''
     # r3: factor of m[2].motor': m[2].el.k + m[2].fe*m[2].el.Re/m[2].el.k
     r3_m__2__motor_1: float
     # r3: factor of m[2].motor'': m[2].fe*m[2].el.L/m[2].el.k + m[2].Je*m[2].el.Re/m[2].el.k
@@ -224,14 +222,11 @@ class Coefficients:
     r3_m__2__wheel_2: float
     # r3: factor of m[2].wheel''': m[2].Js*m[2].el.L/(m[2].el.k*m[2].ge.N)
     r3_m__2__wheel_3: float
-    r3_v1_m__2__motor: float     # r3: factor of m[2].motor in stage 1
-    r3_v2_m__2__motor: float     # r3: factor of m[2].motor in stage 2
-    r3_v3_m__2__motor: float     # r3: factor of m[2].motor in stage 3
-    r3_v3_Fx__2: float           # r3: factor of Fx[2] in stage 3
-    r3_v4_Fx__2: float           # r3: factor of Fx[2] in stage 4
-    r3_v1_m__2__wheel: float     # r3: factor of m[2].wheel in stage 1
-    r3_v2_m__2__wheel: float     # r3: factor of m[2].wheel in stage 2
-    r3_v3_m__2__wheel: float     # r3: factor of m[2].wheel in stage 3
+    r3_w2_m__2__motor: float     # r3: factor of m[2].motor''
+    r3_w3_m__2__motor: float     # r3: factor of m[2].motor'''
+    r3_w1_Fx__2: float           # r3: factor of Fx[2]'
+    r3_w2_m__2__wheel: float     # r3: factor of m[2].wheel''
+    r3_w3_m__2__wheel: float     # r3: factor of m[2].wheel'''
     g_3: float                   # 1/(4*m[2].tau0)
     g_4: float                   # m[2].ge.N/(4*m[2].tau0)
     r4_Fx__2: float              # r4: factor of Fx[2]: m[2].R/m[2].ge.N
@@ -244,16 +239,14 @@ class Coefficients:
     r4_tanh: float
     m__2__wheel__int__x0: float  # m[2].wheel.int.x0
     m__2__motor__int__x0: float  # m[2].motor.int.x0
-    r4_v1_m__2__wheel: float     # r4: factor of m[2].wheel in stage 1
-    r4_v2_m__2__wheel: float     # r4: factor of m[2].wheel in stage 2
+    r4_w2_m__2__wheel: float     # r4: factor of m[2].wheel''
     r5_Us_1: float               # r5: factor of Us': 3.3e-10*R_L
     r5_Us_2: float               # r5: factor of Us'': 1.21e-20*R_L^2 + 1.65e-16
     r5_Us_3: float               # r5: factor of Us''': 1.21e-26*R_L
     r5_load: float               # r5: factor of load: R_L
     r5_load_1: float             # r5: factor of load': 5.5e-11*R_L^2 + 5e-07
     r5_load_2: float             # r5: factor of load'': 5.5e-17*R_L
-    r5_v1_load: float            # r5: factor of load in stage 1
-    r5_v2_load: float            # r5: factor of load in stage 2
+    r5_w1_load: float            # r5: factor of load'
 
 
 class Memory:
@@ -326,27 +319,24 @@ class Monitor:
                     self._c.r1_m__1__motor_1 + self._c.r1_m__1__motor_2 + self._c.r1_m__1__motor_3
                     + self._c.r1_Fx__1 + self._c.r1_Fx__1_1 + self._c.r1_m__1__wheel_1
                     + self._c.r1_m__1__wheel_2 + self._c.r1_m__1__wheel_3 + self._c.m__1__motor_gain
-                    + self._c.a + self._c.r1_v1_m__1__motor + self._c.r1_v2_m__1__motor
-                    + self._c.r1_v3_m__1__motor + self._c.r1_v3_Fx__1 + self._c.r1_v4_Fx__1
-                    + self._c.m__1__wheel_gain + self._c.r1_v1_m__1__wheel
-                    + self._c.r1_v2_m__1__wheel + self._c.r1_v3_m__1__wheel + self._c.b0
-                    + self._c.b1 + self._c.rest + self._c.g + self._c.g_2 + self._c.r2_Fx__1
+                    + self._c.a + self._c.r1_w2_m__1__motor + self._c.r1_w3_m__1__motor
+                    + self._c.r1_w1_Fx__1 + self._c.m__1__wheel_gain + self._c.r1_w2_m__1__wheel
+                    + self._c.r1_w3_m__1__wheel + self._c.bend2 + self._c.bend1 + self._c.bend3
+                    + self._c.b + self._c.rest + self._c.g + self._c.g_2 + self._c.r2_Fx__1
                     + self._c.r2_m__1__wheel_1 + self._c.r2_m__1__wheel_2 + self._c.r2_integral
                     + self._c.r2_integral_2 + self._c.r2_tanh + self._c.m__1__wheel__int__x0
-                    + self._c.m__1__motor__int__x0 + self._c.r2_v1_m__1__wheel
-                    + self._c.r2_v2_m__1__wheel + self._c.r3_m__2__motor_1
-                    + self._c.r3_m__2__motor_2 + self._c.r3_m__2__motor_3 + self._c.r3_Fx__2
-                    + self._c.r3_Fx__2_1 + self._c.r3_m__2__wheel_1 + self._c.r3_m__2__wheel_2
-                    + self._c.r3_m__2__wheel_3 + self._c.r3_v1_m__2__motor
-                    + self._c.r3_v2_m__2__motor + self._c.r3_v3_m__2__motor + self._c.r3_v3_Fx__2
-                    + self._c.r3_v4_Fx__2 + self._c.r3_v1_m__2__wheel + self._c.r3_v2_m__2__wheel
-                    + self._c.r3_v3_m__2__wheel + self._c.g_3 + self._c.g_4 + self._c.r4_Fx__2
-                    + self._c.r4_m__2__wheel_1 + self._c.r4_m__2__wheel_2 + self._c.r4_integral
-                    + self._c.r4_integral_2 + self._c.r4_tanh + self._c.m__2__wheel__int__x0
-                    + self._c.m__2__motor__int__x0 + self._c.r4_v1_m__2__wheel
-                    + self._c.r4_v2_m__2__wheel + self._c.r5_Us_1 + self._c.r5_Us_2
+                    + self._c.m__1__motor__int__x0 + self._c.r2_w2_m__1__wheel
+                    + self._c.r3_m__2__motor_1 + self._c.r3_m__2__motor_2 + self._c.r3_m__2__motor_3
+                    + self._c.r3_Fx__2 + self._c.r3_Fx__2_1 + self._c.r3_m__2__wheel_1
+                    + self._c.r3_m__2__wheel_2 + self._c.r3_m__2__wheel_3
+                    + self._c.r3_w2_m__2__motor + self._c.r3_w3_m__2__motor + self._c.r3_w1_Fx__2
+                    + self._c.r3_w2_m__2__wheel + self._c.r3_w3_m__2__wheel + self._c.g_3
+                    + self._c.g_4 + self._c.r4_Fx__2 + self._c.r4_m__2__wheel_1
+                    + self._c.r4_m__2__wheel_2 + self._c.r4_integral + self._c.r4_integral_2
+                    + self._c.r4_tanh + self._c.m__2__wheel__int__x0 + self._c.m__2__motor__int__x0
+                    + self._c.r4_w2_m__2__wheel + self._c.r5_Us_1 + self._c.r5_Us_2
                     + self._c.r5_Us_3 + self._c.r5_load + self._c.r5_load_1 + self._c.r5_load_2
-                    + self._c.r5_v1_load + self._c.r5_v2_load
+                    + self._c.r5_w1_load
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -453,93 +443,60 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: m[1].fe*m[1].el.L/m[1].el.k
         t = p.m__1__fe * p.m__1__el__L / p.m__1__el__k
 
         # khepera.bg:17: m[1].fs*m[1].el.L/(m[1].el.k*m[1].ge.N)
         t_2 = p.m__1__fs * p.m__1__el__L / p.m__1__el__k / p.m__1__ge__N
 
-        # khepera.bg:17: m[1].fe*m[1].el.Re/m[1].el.k
-        t_3 = p.m__1__fe * p.m__1__el__Re / p.m__1__el__k
-
         # khepera.bg:17: m[1].Je*m[1].el.Re/m[1].el.k
-        t_4 = p.m__1__Je * p.m__1__el__Re / p.m__1__el__k
+        t_3 = p.m__1__Je * p.m__1__el__Re / p.m__1__el__k
 
         # khepera.bg:17: m[1].Js*m[1].el.Re/(m[1].el.k*m[1].ge.N)
-        t_5 = p.m__1__Js * p.m__1__el__Re / p.m__1__el__k / p.m__1__ge__N
+        t_4 = p.m__1__Js * p.m__1__el__Re / p.m__1__el__k / p.m__1__ge__N
 
         # khepera.bg:17: m[2].fe*m[2].el.L/m[2].el.k
-        t_6 = p.m__2__fe * p.m__2__el__L / p.m__2__el__k
+        t_5 = p.m__2__fe * p.m__2__el__L / p.m__2__el__k
 
         # khepera.bg:17: m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N)
-        t_7 = p.m__2__fs * p.m__2__el__L / p.m__2__el__k / p.m__2__ge__N
-
-        # khepera.bg:17: m[2].fe*m[2].el.Re/m[2].el.k
-        t_8 = p.m__2__fe * p.m__2__el__Re / p.m__2__el__k
+        t_6 = p.m__2__fs * p.m__2__el__L / p.m__2__el__k / p.m__2__ge__N
 
         # khepera.bg:17: m[2].Je*m[2].el.Re/m[2].el.k
-        t_9 = p.m__2__Je * p.m__2__el__Re / p.m__2__el__k
+        t_7 = p.m__2__Je * p.m__2__el__Re / p.m__2__el__k
 
         # khepera.bg:17: m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N)
-        t_10 = p.m__2__Js * p.m__2__el__Re / p.m__2__el__k / p.m__2__ge__N
+        t_8 = p.m__2__Js * p.m__2__el__Re / p.m__2__el__k / p.m__2__ge__N
 
         # khepera.bg:114: R_L^2
-        t_11 = p.R_L * p.R_L
+        t_9 = p.R_L * p.R_L
 
-        # khepera.bg:114: -5.5e-11*R_L^2 - 5e-07
-        t_12 = -11.0 * t_11 / 200000000000.0 - 1.0 / 2000000.0
+        # 1 - pole
+        t_10 = 1.0 - pole
 
-        # exp(-x)
-        t_13 = _exponential(-x_)
+        # 1 - (1 - pole)/2
+        t_11 = 1.0 - 0.5 * t_10
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_14 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_13) / x_
-        )
+        # turn^2
+        t_12 = turn * turn
 
-        # 1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (
-        # ...
-        t_15 = 1.0 - t_14
-
-        # bandwidth*(1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040)
-        # ...
-        t_16 = bandwidth * t_15
-
-        # khepera.bg:17: (-m[1].fe*m[1].el.L/m[1].el.k - m[1].Je*m[1].el.Re/m[1].el.k)*bandwidth
-        t_17 = (-t - t_4) * bandwidth
-
-        # khepera.bg:17: m[1].Je*m[1].el.L*bandwidth^2/m[1].el.k
-        t_18 = p.m__1__Je * p.m__1__el__L * bandwidth * bandwidth / p.m__1__el__k
-
-        # khepera.bg:17: (-m[1].fs*m[1].el.L/(m[1].el.k*m[1].ge.N) -
-        # m[1].Js*m[1].el.Re/(m[1].el.k*m[1].ge.N))* ...
-        t_19 = (-t_2 - t_5) * bandwidth
-
-        # khepera.bg:17: m[1].Js*m[1].el.L*bandwidth^2/(m[1].el.k*m[1].ge.N)
-        t_20 = p.m__1__Js * p.m__1__el__L * bandwidth * bandwidth / p.m__1__el__k / p.m__1__ge__N
-
-        # khepera.bg:17: (-m[2].fe*m[2].el.L/m[2].el.k - m[2].Je*m[2].el.Re/m[2].el.k)*bandwidth
-        t_21 = (-t_6 - t_9) * bandwidth
-
-        # khepera.bg:17: m[2].Je*m[2].el.L*bandwidth^2/m[2].el.k
-        t_22 = p.m__2__Je * p.m__2__el__L * bandwidth * bandwidth / p.m__2__el__k
-
-        # khepera.bg:17: (-m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N) -
-        # m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N))* ...
-        t_23 = (-t_7 - t_10) * bandwidth
-
-        # khepera.bg:17: m[2].Js*m[2].el.L*bandwidth^2/(m[2].el.k*m[2].ge.N)
-        t_24 = p.m__2__Js * p.m__2__el__L * bandwidth * bandwidth / p.m__2__el__k / p.m__2__ge__N
+        # (1 - (1 - pole)/2)*w
+        t_13 = t_11 * w
 
         # khepera.bg:17: r1: factor of m[1].motor': m[1].el.k + m[1].fe*m[1].el.Re/m[1].el.k
-        c.r1_m__1__motor_1 = p.m__1__el__k + t_3
+        c.r1_m__1__motor_1 = p.m__1__el__k + p.m__1__fe * p.m__1__el__Re / p.m__1__el__k
 
         # khepera.bg:17: r1: factor of m[1].motor'': m[1].fe*m[1].el.L/m[1].el.k +
         # m[1].Je*m[1].el.Re/m[1].el.k
-        c.r1_m__1__motor_2 = t + t_4
+        c.r1_m__1__motor_2 = t + t_3
 
         # khepera.bg:17: r1: factor of m[1].motor''': m[1].Je*m[1].el.L/m[1].el.k
         c.r1_m__1__motor_3 = p.m__1__Je * p.m__1__el__L / p.m__1__el__k
@@ -555,57 +512,49 @@ class Monitor:
 
         # khepera.bg:17: r1: factor of m[1].wheel'': m[1].fs*m[1].el.L/(m[1].el.k*m[1].ge.N) +
         # m[1].Js*m[1].el.Re/(m[1].el.k*m[1].ge.N)
-        c.r1_m__1__wheel_2 = t_2 + t_5
+        c.r1_m__1__wheel_2 = t_2 + t_4
 
         # khepera.bg:17: r1: factor of m[1].wheel''': m[1].Js*m[1].el.L/(m[1].el.k*m[1].ge.N)
         c.r1_m__1__wheel_3 = p.m__1__Js * p.m__1__el__L / p.m__1__el__k / p.m__1__ge__N
 
         # speed of m[1].motor for one count
-        c.m__1__motor_gain = 0.0015339807878856412 * t_16
+        c.m__1__motor_gain = 0.0015339807878856412 * t_13
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_13
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # khepera.bg:17: r1: factor of m[1].motor in stage 1
-        c.r1_v1_m__1__motor = t_18
+        # khepera.bg:17: r1: factor of m[1].motor''
+        c.r1_w2_m__1__motor = (-t - t_3) * w
 
-        # khepera.bg:17: r1: factor of m[1].motor in stage 2
-        c.r1_v2_m__1__motor = t_17 + 2.0 * t_18
+        # khepera.bg:17: r1: factor of m[1].motor'''
+        c.r1_w3_m__1__motor = p.m__1__Je * p.m__1__el__L * w * w / p.m__1__el__k
 
-        # khepera.bg:17: r1: factor of m[1].motor in stage 3
-        c.r1_v3_m__1__motor = -p.m__1__el__k - t_3 - t_17 - t_18
-
-        # khepera.bg:17: r1: factor of Fx[1] in stage 3
-        c.r1_v3_Fx__1 = p.m__1__R * p.m__1__el__L * bandwidth / p.m__1__el__k / p.m__1__ge__N
-
-        # khepera.bg:17: r1: factor of Fx[1] in stage 4
-        c.r1_v4_Fx__1 = (
-            p.m__1__R * p.m__1__el__L * bandwidth / p.m__1__el__k / p.m__1__ge__N
-            - p.m__1__R * p.m__1__el__Re / p.m__1__el__k / p.m__1__ge__N
-        )
+        # khepera.bg:17: r1: factor of Fx[1]'
+        c.r1_w1_Fx__1 = p.m__1__R * p.m__1__el__L * w / p.m__1__el__k / p.m__1__ge__N
 
         # speed of m[1].wheel for one count
-        c.m__1__wheel_gain = 9.587379924285257e-05 * t_16
+        c.m__1__wheel_gain = 9.587379924285257e-05 * t_13
 
-        # khepera.bg:17: r1: factor of m[1].wheel in stage 1
-        c.r1_v1_m__1__wheel = t_20
+        # khepera.bg:17: r1: factor of m[1].wheel''
+        c.r1_w2_m__1__wheel = (-t_2 - t_4) * w
 
-        # khepera.bg:17: r1: factor of m[1].wheel in stage 2
-        c.r1_v2_m__1__wheel = t_19 + 2.0 * t_20
+        # khepera.bg:17: r1: factor of m[1].wheel'''
+        c.r1_w3_m__1__wheel = p.m__1__Js * p.m__1__el__L * w * w / p.m__1__el__k / p.m__1__ge__N
 
-        # khepera.bg:17: r1: factor of m[1].wheel in stage 3
-        c.r1_v3_m__1__wheel = (
-            p.m__1__fs * p.m__1__el__Re / p.m__1__el__k / p.m__1__ge__N + t_19 + t_20
-        )
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_12 / 6.0
 
-        # filter: weight of the new sample
-        c.b0 = t_14
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_12 / 12.0
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_13 - t_14
+        # filter: 3 * (w*sample_time)^2/12
+        c.bend3 = 0.25 * t_12
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = t_15
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_10
+
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = t_11
 
         # khepera_encoders.bg:31: 1/(4*m[1].tau0)
         c.g = 0.25 / p.m__1__tau0
@@ -638,18 +587,15 @@ class Monitor:
         # khepera_encoders.bg:31: m[1].motor.int.x0
         c.m__1__motor__int__x0 = 0.0
 
-        # khepera_encoders.bg:31: r2: factor of m[1].wheel in stage 1
-        c.r2_v1_m__1__wheel = p.m__1__Js * bandwidth / p.m__1__ge__N
-
-        # khepera_encoders.bg:31: r2: factor of m[1].wheel in stage 2
-        c.r2_v2_m__1__wheel = p.m__1__fs / p.m__1__ge__N - p.m__1__Js * bandwidth / p.m__1__ge__N
+        # khepera_encoders.bg:31: r2: factor of m[1].wheel''
+        c.r2_w2_m__1__wheel = p.m__1__Js * w / p.m__1__ge__N
 
         # khepera.bg:17: r3: factor of m[2].motor': m[2].el.k + m[2].fe*m[2].el.Re/m[2].el.k
-        c.r3_m__2__motor_1 = p.m__2__el__k + t_8
+        c.r3_m__2__motor_1 = p.m__2__el__k + p.m__2__fe * p.m__2__el__Re / p.m__2__el__k
 
         # khepera.bg:17: r3: factor of m[2].motor'': m[2].fe*m[2].el.L/m[2].el.k +
         # m[2].Je*m[2].el.Re/m[2].el.k
-        c.r3_m__2__motor_2 = t_6 + t_9
+        c.r3_m__2__motor_2 = t_5 + t_7
 
         # khepera.bg:17: r3: factor of m[2].motor''': m[2].Je*m[2].el.L/m[2].el.k
         c.r3_m__2__motor_3 = p.m__2__Je * p.m__2__el__L / p.m__2__el__k
@@ -665,39 +611,25 @@ class Monitor:
 
         # khepera.bg:17: r3: factor of m[2].wheel'': m[2].fs*m[2].el.L/(m[2].el.k*m[2].ge.N) +
         # m[2].Js*m[2].el.Re/(m[2].el.k*m[2].ge.N)
-        c.r3_m__2__wheel_2 = t_7 + t_10
+        c.r3_m__2__wheel_2 = t_6 + t_8
 
         # khepera.bg:17: r3: factor of m[2].wheel''': m[2].Js*m[2].el.L/(m[2].el.k*m[2].ge.N)
         c.r3_m__2__wheel_3 = p.m__2__Js * p.m__2__el__L / p.m__2__el__k / p.m__2__ge__N
 
-        # khepera.bg:17: r3: factor of m[2].motor in stage 1
-        c.r3_v1_m__2__motor = t_22
+        # khepera.bg:17: r3: factor of m[2].motor''
+        c.r3_w2_m__2__motor = (-t_5 - t_7) * w
 
-        # khepera.bg:17: r3: factor of m[2].motor in stage 2
-        c.r3_v2_m__2__motor = t_21 + 2.0 * t_22
+        # khepera.bg:17: r3: factor of m[2].motor'''
+        c.r3_w3_m__2__motor = p.m__2__Je * p.m__2__el__L * w * w / p.m__2__el__k
 
-        # khepera.bg:17: r3: factor of m[2].motor in stage 3
-        c.r3_v3_m__2__motor = -p.m__2__el__k - t_8 - t_21 - t_22
+        # khepera.bg:17: r3: factor of Fx[2]'
+        c.r3_w1_Fx__2 = p.m__2__R * p.m__2__el__L * w / p.m__2__el__k / p.m__2__ge__N
 
-        # khepera.bg:17: r3: factor of Fx[2] in stage 3
-        c.r3_v3_Fx__2 = p.m__2__R * p.m__2__el__L * bandwidth / p.m__2__el__k / p.m__2__ge__N
+        # khepera.bg:17: r3: factor of m[2].wheel''
+        c.r3_w2_m__2__wheel = (-t_6 - t_8) * w
 
-        # khepera.bg:17: r3: factor of Fx[2] in stage 4
-        c.r3_v4_Fx__2 = (
-            p.m__2__R * p.m__2__el__L * bandwidth / p.m__2__el__k / p.m__2__ge__N
-            - p.m__2__R * p.m__2__el__Re / p.m__2__el__k / p.m__2__ge__N
-        )
-
-        # khepera.bg:17: r3: factor of m[2].wheel in stage 1
-        c.r3_v1_m__2__wheel = t_24
-
-        # khepera.bg:17: r3: factor of m[2].wheel in stage 2
-        c.r3_v2_m__2__wheel = t_23 + 2.0 * t_24
-
-        # khepera.bg:17: r3: factor of m[2].wheel in stage 3
-        c.r3_v3_m__2__wheel = (
-            p.m__2__fs * p.m__2__el__Re / p.m__2__el__k / p.m__2__ge__N + t_23 + t_24
-        )
+        # khepera.bg:17: r3: factor of m[2].wheel'''
+        c.r3_w3_m__2__wheel = p.m__2__Js * p.m__2__el__L * w * w / p.m__2__el__k / p.m__2__ge__N
 
         # khepera_encoders.bg:31: 1/(4*m[2].tau0)
         c.g_3 = 0.25 / p.m__2__tau0
@@ -730,17 +662,14 @@ class Monitor:
         # khepera_encoders.bg:31: m[2].motor.int.x0
         c.m__2__motor__int__x0 = 0.0
 
-        # khepera_encoders.bg:31: r4: factor of m[2].wheel in stage 1
-        c.r4_v1_m__2__wheel = p.m__2__Js * bandwidth / p.m__2__ge__N
-
-        # khepera_encoders.bg:31: r4: factor of m[2].wheel in stage 2
-        c.r4_v2_m__2__wheel = p.m__2__fs / p.m__2__ge__N - p.m__2__Js * bandwidth / p.m__2__ge__N
+        # khepera_encoders.bg:31: r4: factor of m[2].wheel''
+        c.r4_w2_m__2__wheel = p.m__2__Js * w / p.m__2__ge__N
 
         # khepera.bg:114: r5: factor of Us': 3.3e-10*R_L
         c.r5_Us_1 = 33.0 * p.R_L / 100000000000.0
 
         # khepera.bg:114: r5: factor of Us'': 1.21e-20*R_L^2 + 1.65e-16
-        c.r5_Us_2 = 1.21e-20 * t_11 + 1.65e-16
+        c.r5_Us_2 = 1.21e-20 * t_9 + 1.65e-16
 
         # khepera.bg:114: r5: factor of Us''': 1.21e-26*R_L
         c.r5_Us_3 = 1.21e-26 * p.R_L
@@ -749,16 +678,13 @@ class Monitor:
         c.r5_load = p.R_L
 
         # khepera.bg:114: r5: factor of load': 5.5e-11*R_L^2 + 5e-07
-        c.r5_load_1 = 11.0 * t_11 / 200000000000.0 + 1.0 / 2000000.0
+        c.r5_load_1 = 11.0 * t_9 / 200000000000.0 + 1.0 / 2000000.0
 
         # khepera.bg:114: r5: factor of load'': 5.5e-17*R_L
         c.r5_load_2 = 5.5e-17 * p.R_L
 
-        # khepera.bg:114: r5: factor of load in stage 1
-        c.r5_v1_load = t_12 * bandwidth
-
-        # khepera.bg:114: r5: factor of load in stage 2
-        c.r5_v2_load = p.R_L + t_12 * bandwidth
+        # khepera.bg:114: r5: factor of load'
+        c.r5_w1_load = (-11.0 * t_9 / 200000000000.0 - 1.0 / 2000000.0) * w
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -779,8 +705,53 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].wheel
         x.r1_m__1__wheel_speed = r1_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1: encoders, order 1
+        r1_n1 = (
+            -c.r1_m__1__motor_1 * r1_m__1__motor_speed_2
+            - c.r1_m__1__wheel_1 * r1_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1 = c.bend2 * r1_n1
+
+        # khepera.bg:17: r1: encoders, order 2
+        r1_n2 = (
+            c.r1_w2_m__1__motor * r1_m__1__motor_speed_2
+            + c.r1_w2_m__1__wheel * r1_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1: error of order 2
+        r1_e2 = c.bend1 * r1_n2
+
+        # khepera.bg:17: r1: encoders, order 3
+        r1_n3 = (
+            -c.r1_w3_m__1__motor * r1_m__1__motor_speed_2
+            - c.r1_w3_m__1__wheel * r1_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1: terms of order 0
+        r1_g0 = s.U0__1 - c.r1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1: terms of order 1
+        r1_g1 = -c.r1_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1: degree 1
+        r1_d1 = r1_g1 + r1_n1 + r1_n2
+
+        # khepera.bg:17: r1: error of order 0
+        r1_e0 = c.bend3 * r1_g0
+
+        # khepera.bg:17: r1: degree 2
+        r1_d2 = r1_n2 + r1_n3 - r1_e1 - r1_e0
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1_2 = c.bend2 * r1_g1
+
+        # khepera.bg:17: r1: degree 3
+        r1_d3 = r1_n3 - r1_e1 - r1_e2 - r1_e1_2
+
         # khepera.bg:17: r1: input of stage 4
-        r1_u4 = s.U0__1 + c.r1_v4_Fx__1 * s.Fx__1
+        r1_u4 = r1_g0 + r1_n1 + r1_d2 - r1_d1 - r1_d3 - r1_e2
 
         # khepera.bg:17: r1: stage 4, at rest
         r1_y4 = r1_u4
@@ -789,10 +760,7 @@ class Monitor:
         x.r1_s4 = c.rest * r1_u4
 
         # khepera.bg:17: r1: input of stage 3
-        r1_u3 = (
-            r1_y4 + c.r1_v3_m__1__motor * r1_m__1__motor_speed_2 - c.r1_v3_Fx__1 * s.Fx__1
-            - c.r1_v3_m__1__wheel * r1_m__1__wheel_speed_2
-        )
+        r1_u3 = r1_y4 + r1_d1 + 3.0 * r1_d3 + 4.0 * r1_e2 - 2.0 * r1_d2
 
         # khepera.bg:17: r1: stage 3, at rest
         r1_y3 = r1_u3
@@ -801,10 +769,7 @@ class Monitor:
         x.r1_s3 = c.rest * r1_u3
 
         # khepera.bg:17: r1: input of stage 2
-        r1_u2 = (
-            r1_y3 + c.r1_v2_m__1__motor * r1_m__1__motor_speed_2
-            + c.r1_v2_m__1__wheel * r1_m__1__wheel_speed_2
-        )
+        r1_u2 = r1_y3 + r1_d2 - 3.0 * r1_d3 - 6.0 * r1_e2
 
         # khepera.bg:17: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -813,10 +778,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # khepera.bg:17: r1: input of stage 1
-        r1_u1 = (
-            r1_y2 - c.r1_v1_m__1__motor * r1_m__1__motor_speed_2
-            - c.r1_v1_m__1__wheel * r1_m__1__wheel_speed_2
-        )
+        r1_u1 = r1_y2 + r1_d3 + 4.0 * r1_e2
 
         # khepera.bg:17: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -828,7 +790,7 @@ class Monitor:
         # m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
         # where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
         # m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel, 2))/m[1].ge.N
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e2
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
@@ -850,56 +812,92 @@ class Monitor:
         )
         x.r1_m__1__wheel_speed = r1_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1: encoders, order 1
+        r1_n1 = (
+            -c.r1_m__1__motor_1 * r1_m__1__motor_speed_2
+            - c.r1_m__1__wheel_1 * r1_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1 = c.bend2 * r1_n1
+
+        # khepera.bg:17: r1: encoders, order 2
+        r1_n2 = (
+            c.r1_w2_m__1__motor * r1_m__1__motor_speed_2
+            + c.r1_w2_m__1__wheel * r1_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1: error of order 2
+        r1_e2 = c.bend1 * r1_n2
+
+        # khepera.bg:17: r1: encoders, order 3
+        r1_n3 = (
+            -c.r1_w3_m__1__motor * r1_m__1__motor_speed_2
+            - c.r1_w3_m__1__wheel * r1_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1: terms of order 0
+        r1_g0 = s.U0__1 - c.r1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1: terms of order 1
+        r1_g1 = -c.r1_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1: degree 1
+        r1_d1 = r1_g1 + r1_n1 + r1_n2
+
+        # khepera.bg:17: r1: error of order 0
+        r1_e0 = c.bend3 * r1_g0
+
+        # khepera.bg:17: r1: degree 2
+        r1_d2 = r1_n2 + r1_n3 - r1_e1 - r1_e0
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1_2 = c.bend2 * r1_g1
+
+        # khepera.bg:17: r1: degree 3
+        r1_d3 = r1_n3 - r1_e1 - r1_e2 - r1_e1_2
+
         # khepera.bg:17: r1: input of stage 4
-        r1_u4 = s.U0__1 + c.r1_v4_Fx__1 * s.Fx__1
+        r1_u4 = r1_g0 + r1_n1 + r1_d2 - r1_d1 - r1_d3 - r1_e2
 
         # khepera.bg:17: r1: stage 4
-        r1_y4 = x.r1_s4 + c.b0 * r1_u4
+        r1_y4 = x.r1_s4 + c.b * r1_u4
 
         # khepera.bg:17: r1: stage 4: memory
-        x.r1_s4 = c.a * r1_y4 + c.b1 * r1_u4
+        x.r1_s4 = c.a * r1_y4 + c.b * r1_u4
 
         # khepera.bg:17: r1: input of stage 3
-        r1_u3 = (
-            r1_y4 + c.r1_v3_m__1__motor * r1_m__1__motor_speed_2 - c.r1_v3_Fx__1 * s.Fx__1
-            - c.r1_v3_m__1__wheel * r1_m__1__wheel_speed_2
-        )
+        r1_u3 = r1_y4 + r1_d1 + 3.0 * r1_d3 + 4.0 * r1_e2 - 2.0 * r1_d2
 
         # khepera.bg:17: r1: stage 3
-        r1_y3 = x.r1_s3 + c.b0 * r1_u3
+        r1_y3 = x.r1_s3 + c.b * r1_u3
 
         # khepera.bg:17: r1: stage 3: memory
-        x.r1_s3 = c.a * r1_y3 + c.b1 * r1_u3
+        x.r1_s3 = c.a * r1_y3 + c.b * r1_u3
 
         # khepera.bg:17: r1: input of stage 2
-        r1_u2 = (
-            r1_y3 + c.r1_v2_m__1__motor * r1_m__1__motor_speed_2
-            + c.r1_v2_m__1__wheel * r1_m__1__wheel_speed_2
-        )
+        r1_u2 = r1_y3 + r1_d2 - 3.0 * r1_d3 - 6.0 * r1_e2
 
         # khepera.bg:17: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # khepera.bg:17: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # khepera.bg:17: r1: input of stage 1
-        r1_u1 = (
-            r1_y2 - c.r1_v1_m__1__motor * r1_m__1__motor_speed_2
-            - c.r1_v1_m__1__wheel * r1_m__1__wheel_speed_2
-        )
+        r1_u1 = r1_y2 + r1_d3 + 4.0 * r1_e2
 
         # khepera.bg:17: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # khepera.bg:17: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # khepera.bg:17: r1 = U0[1] - m[1].el.k*D(m[1].motor) - m[1].el.Re*m[1].el.k.e2/m[1].el.k -
         # m[1].el.L*D(m[1].el.k.e2)/m[1].el.k
         # where m[1].el.k.e2 = m[1].fe*D(m[1].motor) + m[1].Je*D(m[1].motor, 2) + (Fx[1]*m[1].R +
         # m[1].fs*D(m[1].wheel) + m[1].Js*D(m[1].wheel, 2))/m[1].ge.N
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e2
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -948,11 +946,32 @@ class Monitor:
         # khepera_encoders.bg:31: filtered speed of m[1].wheel
         x.r2_m__1__wheel_speed = r2_m__1__wheel_speed_2
 
-        # khepera_encoders.bg:31: r2: input of stage 3
-        r2_u3 = (
+        # khepera_encoders.bg:31: r2: encoders, order 1
+        r2_n1 = c.r2_m__1__wheel_1 * r2_m__1__wheel_speed_2
+
+        # khepera_encoders.bg:31: r2: error of order 1
+        r2_e1 = c.bend1 * r2_n1
+
+        # khepera_encoders.bg:31: r2: encoders, order 2
+        r2_n2 = c.r2_w2_m__1__wheel * r2_m__1__wheel_speed_2
+
+        # khepera_encoders.bg:31: r2: terms of order 0
+        r2_g0 = (
             c.r2_Fx__1 * s.Fx__1 + c.r2_integral_2 * r2_change - c.r2_integral * r2_change_2
             - c.r2_tanh * r2_tanh
         )
+
+        # khepera_encoders.bg:31: r2: degree 1
+        r2_d1 = r2_n1 + r2_n2
+
+        # khepera_encoders.bg:31: r2: error of order 0
+        r2_e0 = c.bend2 * r2_g0
+
+        # khepera_encoders.bg:31: r2: degree 2
+        r2_d2 = r2_n2 - r2_e1 - r2_e0
+
+        # khepera_encoders.bg:31: r2: input of stage 3
+        r2_u3 = r2_g0 + r2_n1 + r2_d2 + r2_e1 - r2_d1
 
         # khepera_encoders.bg:31: r2: stage 3, at rest
         r2_y3 = r2_u3
@@ -961,7 +980,7 @@ class Monitor:
         x.r2_s3 = c.rest * r2_u3
 
         # khepera_encoders.bg:31: r2: input of stage 2
-        r2_u2 = r2_y3 + c.r2_v2_m__1__wheel * r2_m__1__wheel_speed_2
+        r2_u2 = r2_y3 + r2_d1 - 2.0 * r2_d2 - 3.0 * r2_e1
 
         # khepera_encoders.bg:31: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -970,7 +989,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # khepera_encoders.bg:31: r2: input of stage 1
-        r2_u1 = r2_y2 + c.r2_v1_m__1__wheel * r2_m__1__wheel_speed_2
+        r2_u1 = r2_y2 + r2_d2 + 3.0 * r2_e1
 
         # khepera_encoders.bg:31: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -982,7 +1001,7 @@ class Monitor:
         # m[1].Js*D(m[1].wheel, 2))/m[1].ge.N - m[1].K*(m[1].spring.q +
         # m[1].tau0*m[1].A*tanh(m[1].spring.q/(4*m[1].tau0)))
         # where m[1].spring.q = Int(D(m[1].motor) - m[1].ge.N*D(m[1].wheel))
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e1
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
@@ -1013,41 +1032,62 @@ class Monitor:
         )
         x.r2_m__1__wheel_speed = r2_m__1__wheel_speed_2
 
-        # khepera_encoders.bg:31: r2: input of stage 3
-        r2_u3 = (
+        # khepera_encoders.bg:31: r2: encoders, order 1
+        r2_n1 = c.r2_m__1__wheel_1 * r2_m__1__wheel_speed_2
+
+        # khepera_encoders.bg:31: r2: error of order 1
+        r2_e1 = c.bend1 * r2_n1
+
+        # khepera_encoders.bg:31: r2: encoders, order 2
+        r2_n2 = c.r2_w2_m__1__wheel * r2_m__1__wheel_speed_2
+
+        # khepera_encoders.bg:31: r2: terms of order 0
+        r2_g0 = (
             c.r2_Fx__1 * s.Fx__1 + c.r2_integral_2 * r2_change - c.r2_integral * r2_change_2
             - c.r2_tanh * r2_tanh
         )
 
+        # khepera_encoders.bg:31: r2: degree 1
+        r2_d1 = r2_n1 + r2_n2
+
+        # khepera_encoders.bg:31: r2: error of order 0
+        r2_e0 = c.bend2 * r2_g0
+
+        # khepera_encoders.bg:31: r2: degree 2
+        r2_d2 = r2_n2 - r2_e1 - r2_e0
+
+        # khepera_encoders.bg:31: r2: input of stage 3
+        r2_u3 = r2_g0 + r2_n1 + r2_d2 + r2_e1 - r2_d1
+
         # khepera_encoders.bg:31: r2: stage 3
-        r2_y3 = x.r2_s3 + c.b0 * r2_u3
+        r2_y3 = x.r2_s3 + c.b * r2_u3
 
         # khepera_encoders.bg:31: r2: stage 3: memory
-        x.r2_s3 = c.a * r2_y3 + c.b1 * r2_u3
+        x.r2_s3 = c.a * r2_y3 + c.b * r2_u3
 
         # khepera_encoders.bg:31: r2: input of stage 2
-        r2_u2 = r2_y3 + c.r2_v2_m__1__wheel * r2_m__1__wheel_speed_2
+        r2_u2 = r2_y3 + r2_d1 - 2.0 * r2_d2 - 3.0 * r2_e1
 
         # khepera_encoders.bg:31: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # khepera_encoders.bg:31: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # khepera_encoders.bg:31: r2: input of stage 1
-        r2_u1 = r2_y2 + c.r2_v1_m__1__wheel * r2_m__1__wheel_speed_2
+        r2_u1 = r2_y2 + r2_d2 + 3.0 * r2_e1
 
         # khepera_encoders.bg:31: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # khepera_encoders.bg:31: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # khepera_encoders.bg:31: r2 = (Fx[1]*m[1].R + m[1].fs*D(m[1].wheel) +
         # m[1].Js*D(m[1].wheel, 2))/m[1].ge.N - m[1].K*(m[1].spring.q +
         # m[1].tau0*m[1].A*tanh(m[1].spring.q/(4*m[1].tau0)))
         # where m[1].spring.q = Int(D(m[1].motor) - m[1].ge.N*D(m[1].wheel))
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e1
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -1084,8 +1124,53 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].wheel
         x.r3_m__2__wheel_speed = r3_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3: encoders, order 1
+        r3_n1 = (
+            -c.r3_m__2__motor_1 * r3_m__2__motor_speed_2
+            - c.r3_m__2__wheel_1 * r3_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3: error of order 1
+        r3_e1 = c.bend2 * r3_n1
+
+        # khepera.bg:17: r3: encoders, order 2
+        r3_n2 = (
+            c.r3_w2_m__2__motor * r3_m__2__motor_speed_2
+            + c.r3_w2_m__2__wheel * r3_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3: error of order 2
+        r3_e2 = c.bend1 * r3_n2
+
+        # khepera.bg:17: r3: encoders, order 3
+        r3_n3 = (
+            -c.r3_w3_m__2__motor * r3_m__2__motor_speed_2
+            - c.r3_w3_m__2__wheel * r3_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3: terms of order 0
+        r3_g0 = s.U0__2 - c.r3_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3: terms of order 1
+        r3_g1 = -c.r3_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3: degree 1
+        r3_d1 = r3_g1 + r3_n1 + r3_n2
+
+        # khepera.bg:17: r3: error of order 0
+        r3_e0 = c.bend3 * r3_g0
+
+        # khepera.bg:17: r3: degree 2
+        r3_d2 = r3_n2 + r3_n3 - r3_e1 - r3_e0
+
+        # khepera.bg:17: r3: error of order 1
+        r3_e1_2 = c.bend2 * r3_g1
+
+        # khepera.bg:17: r3: degree 3
+        r3_d3 = r3_n3 - r3_e1 - r3_e2 - r3_e1_2
+
         # khepera.bg:17: r3: input of stage 4
-        r3_u4 = s.U0__2 + c.r3_v4_Fx__2 * s.Fx__2
+        r3_u4 = r3_g0 + r3_n1 + r3_d2 - r3_d1 - r3_d3 - r3_e2
 
         # khepera.bg:17: r3: stage 4, at rest
         r3_y4 = r3_u4
@@ -1094,10 +1179,7 @@ class Monitor:
         x.r3_s4 = c.rest * r3_u4
 
         # khepera.bg:17: r3: input of stage 3
-        r3_u3 = (
-            r3_y4 + c.r3_v3_m__2__motor * r3_m__2__motor_speed_2 - c.r3_v3_Fx__2 * s.Fx__2
-            - c.r3_v3_m__2__wheel * r3_m__2__wheel_speed_2
-        )
+        r3_u3 = r3_y4 + r3_d1 + 3.0 * r3_d3 + 4.0 * r3_e2 - 2.0 * r3_d2
 
         # khepera.bg:17: r3: stage 3, at rest
         r3_y3 = r3_u3
@@ -1106,10 +1188,7 @@ class Monitor:
         x.r3_s3 = c.rest * r3_u3
 
         # khepera.bg:17: r3: input of stage 2
-        r3_u2 = (
-            r3_y3 + c.r3_v2_m__2__motor * r3_m__2__motor_speed_2
-            + c.r3_v2_m__2__wheel * r3_m__2__wheel_speed_2
-        )
+        r3_u2 = r3_y3 + r3_d2 - 3.0 * r3_d3 - 6.0 * r3_e2
 
         # khepera.bg:17: r3: stage 2, at rest
         r3_y2 = r3_u2
@@ -1118,10 +1197,7 @@ class Monitor:
         x.r3_s2 = c.rest * r3_u2
 
         # khepera.bg:17: r3: input of stage 1
-        r3_u1 = (
-            r3_y2 - c.r3_v1_m__2__motor * r3_m__2__motor_speed_2
-            - c.r3_v1_m__2__wheel * r3_m__2__wheel_speed_2
-        )
+        r3_u1 = r3_y2 + r3_d3 + 4.0 * r3_e2
 
         # khepera.bg:17: r3: stage 1, at rest
         r3_y1 = r3_u1
@@ -1133,7 +1209,7 @@ class Monitor:
         # m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
         # where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
         # m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel, 2))/m[2].ge.N
-        r.r3 = r3_y1
+        r.r3 = r3_y1 - r3_e2
 
     def _next_r3(self, s: Samples, r: Residuals) -> None:
         """r3 on every further sample."""
@@ -1155,56 +1231,92 @@ class Monitor:
         )
         x.r3_m__2__wheel_speed = r3_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3: encoders, order 1
+        r3_n1 = (
+            -c.r3_m__2__motor_1 * r3_m__2__motor_speed_2
+            - c.r3_m__2__wheel_1 * r3_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3: error of order 1
+        r3_e1 = c.bend2 * r3_n1
+
+        # khepera.bg:17: r3: encoders, order 2
+        r3_n2 = (
+            c.r3_w2_m__2__motor * r3_m__2__motor_speed_2
+            + c.r3_w2_m__2__wheel * r3_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3: error of order 2
+        r3_e2 = c.bend1 * r3_n2
+
+        # khepera.bg:17: r3: encoders, order 3
+        r3_n3 = (
+            -c.r3_w3_m__2__motor * r3_m__2__motor_speed_2
+            - c.r3_w3_m__2__wheel * r3_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3: terms of order 0
+        r3_g0 = s.U0__2 - c.r3_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3: terms of order 1
+        r3_g1 = -c.r3_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3: degree 1
+        r3_d1 = r3_g1 + r3_n1 + r3_n2
+
+        # khepera.bg:17: r3: error of order 0
+        r3_e0 = c.bend3 * r3_g0
+
+        # khepera.bg:17: r3: degree 2
+        r3_d2 = r3_n2 + r3_n3 - r3_e1 - r3_e0
+
+        # khepera.bg:17: r3: error of order 1
+        r3_e1_2 = c.bend2 * r3_g1
+
+        # khepera.bg:17: r3: degree 3
+        r3_d3 = r3_n3 - r3_e1 - r3_e2 - r3_e1_2
+
         # khepera.bg:17: r3: input of stage 4
-        r3_u4 = s.U0__2 + c.r3_v4_Fx__2 * s.Fx__2
+        r3_u4 = r3_g0 + r3_n1 + r3_d2 - r3_d1 - r3_d3 - r3_e2
 
         # khepera.bg:17: r3: stage 4
-        r3_y4 = x.r3_s4 + c.b0 * r3_u4
+        r3_y4 = x.r3_s4 + c.b * r3_u4
 
         # khepera.bg:17: r3: stage 4: memory
-        x.r3_s4 = c.a * r3_y4 + c.b1 * r3_u4
+        x.r3_s4 = c.a * r3_y4 + c.b * r3_u4
 
         # khepera.bg:17: r3: input of stage 3
-        r3_u3 = (
-            r3_y4 + c.r3_v3_m__2__motor * r3_m__2__motor_speed_2 - c.r3_v3_Fx__2 * s.Fx__2
-            - c.r3_v3_m__2__wheel * r3_m__2__wheel_speed_2
-        )
+        r3_u3 = r3_y4 + r3_d1 + 3.0 * r3_d3 + 4.0 * r3_e2 - 2.0 * r3_d2
 
         # khepera.bg:17: r3: stage 3
-        r3_y3 = x.r3_s3 + c.b0 * r3_u3
+        r3_y3 = x.r3_s3 + c.b * r3_u3
 
         # khepera.bg:17: r3: stage 3: memory
-        x.r3_s3 = c.a * r3_y3 + c.b1 * r3_u3
+        x.r3_s3 = c.a * r3_y3 + c.b * r3_u3
 
         # khepera.bg:17: r3: input of stage 2
-        r3_u2 = (
-            r3_y3 + c.r3_v2_m__2__motor * r3_m__2__motor_speed_2
-            + c.r3_v2_m__2__wheel * r3_m__2__wheel_speed_2
-        )
+        r3_u2 = r3_y3 + r3_d2 - 3.0 * r3_d3 - 6.0 * r3_e2
 
         # khepera.bg:17: r3: stage 2
-        r3_y2 = x.r3_s2 + c.b0 * r3_u2
+        r3_y2 = x.r3_s2 + c.b * r3_u2
 
         # khepera.bg:17: r3: stage 2: memory
-        x.r3_s2 = c.a * r3_y2 + c.b1 * r3_u2
+        x.r3_s2 = c.a * r3_y2 + c.b * r3_u2
 
         # khepera.bg:17: r3: input of stage 1
-        r3_u1 = (
-            r3_y2 - c.r3_v1_m__2__motor * r3_m__2__motor_speed_2
-            - c.r3_v1_m__2__wheel * r3_m__2__wheel_speed_2
-        )
+        r3_u1 = r3_y2 + r3_d3 + 4.0 * r3_e2
 
         # khepera.bg:17: r3: stage 1
-        r3_y1 = x.r3_s1 + c.b0 * r3_u1
+        r3_y1 = x.r3_s1 + c.b * r3_u1
 
         # khepera.bg:17: r3: stage 1: memory
-        x.r3_s1 = c.a * r3_y1 + c.b1 * r3_u1
+        x.r3_s1 = c.a * r3_y1 + c.b * r3_u1
 
         # khepera.bg:17: r3 = U0[2] - m[2].el.k*D(m[2].motor) - m[2].el.Re*m[2].el.k.e2/m[2].el.k -
         # m[2].el.L*D(m[2].el.k.e2)/m[2].el.k
         # where m[2].el.k.e2 = m[2].fe*D(m[2].motor) + m[2].Je*D(m[2].motor, 2) + (Fx[2]*m[2].R +
         # m[2].fs*D(m[2].wheel) + m[2].Js*D(m[2].wheel, 2))/m[2].ge.N
-        r.r3 = r3_y1
+        r.r3 = r3_y1 - r3_e2
 
     def _run_r3(self, s: Samples, r: Residuals) -> None:
         """One sample for r3; what is not finite makes the next the first."""
@@ -1253,11 +1365,32 @@ class Monitor:
         # khepera_encoders.bg:31: filtered speed of m[2].wheel
         x.r4_m__2__wheel_speed = r4_m__2__wheel_speed_2
 
-        # khepera_encoders.bg:31: r4: input of stage 3
-        r4_u3 = (
+        # khepera_encoders.bg:31: r4: encoders, order 1
+        r4_n1 = c.r4_m__2__wheel_1 * r4_m__2__wheel_speed_2
+
+        # khepera_encoders.bg:31: r4: error of order 1
+        r4_e1 = c.bend1 * r4_n1
+
+        # khepera_encoders.bg:31: r4: encoders, order 2
+        r4_n2 = c.r4_w2_m__2__wheel * r4_m__2__wheel_speed_2
+
+        # khepera_encoders.bg:31: r4: terms of order 0
+        r4_g0 = (
             c.r4_Fx__2 * s.Fx__2 + c.r4_integral_2 * r4_change - c.r4_integral * r4_change_2
             - c.r4_tanh * r4_tanh
         )
+
+        # khepera_encoders.bg:31: r4: degree 1
+        r4_d1 = r4_n1 + r4_n2
+
+        # khepera_encoders.bg:31: r4: error of order 0
+        r4_e0 = c.bend2 * r4_g0
+
+        # khepera_encoders.bg:31: r4: degree 2
+        r4_d2 = r4_n2 - r4_e1 - r4_e0
+
+        # khepera_encoders.bg:31: r4: input of stage 3
+        r4_u3 = r4_g0 + r4_n1 + r4_d2 + r4_e1 - r4_d1
 
         # khepera_encoders.bg:31: r4: stage 3, at rest
         r4_y3 = r4_u3
@@ -1266,7 +1399,7 @@ class Monitor:
         x.r4_s3 = c.rest * r4_u3
 
         # khepera_encoders.bg:31: r4: input of stage 2
-        r4_u2 = r4_y3 + c.r4_v2_m__2__wheel * r4_m__2__wheel_speed_2
+        r4_u2 = r4_y3 + r4_d1 - 2.0 * r4_d2 - 3.0 * r4_e1
 
         # khepera_encoders.bg:31: r4: stage 2, at rest
         r4_y2 = r4_u2
@@ -1275,7 +1408,7 @@ class Monitor:
         x.r4_s2 = c.rest * r4_u2
 
         # khepera_encoders.bg:31: r4: input of stage 1
-        r4_u1 = r4_y2 + c.r4_v1_m__2__wheel * r4_m__2__wheel_speed_2
+        r4_u1 = r4_y2 + r4_d2 + 3.0 * r4_e1
 
         # khepera_encoders.bg:31: r4: stage 1, at rest
         r4_y1 = r4_u1
@@ -1287,7 +1420,7 @@ class Monitor:
         # m[2].Js*D(m[2].wheel, 2))/m[2].ge.N - m[2].K*(m[2].spring.q +
         # m[2].tau0*m[2].A*tanh(m[2].spring.q/(4*m[2].tau0)))
         # where m[2].spring.q = Int(D(m[2].motor) - m[2].ge.N*D(m[2].wheel))
-        r.r4 = r4_y1
+        r.r4 = r4_y1 - r4_e1
 
     def _next_r4(self, s: Samples, r: Residuals) -> None:
         """r4 on every further sample."""
@@ -1318,41 +1451,62 @@ class Monitor:
         )
         x.r4_m__2__wheel_speed = r4_m__2__wheel_speed_2
 
-        # khepera_encoders.bg:31: r4: input of stage 3
-        r4_u3 = (
+        # khepera_encoders.bg:31: r4: encoders, order 1
+        r4_n1 = c.r4_m__2__wheel_1 * r4_m__2__wheel_speed_2
+
+        # khepera_encoders.bg:31: r4: error of order 1
+        r4_e1 = c.bend1 * r4_n1
+
+        # khepera_encoders.bg:31: r4: encoders, order 2
+        r4_n2 = c.r4_w2_m__2__wheel * r4_m__2__wheel_speed_2
+
+        # khepera_encoders.bg:31: r4: terms of order 0
+        r4_g0 = (
             c.r4_Fx__2 * s.Fx__2 + c.r4_integral_2 * r4_change - c.r4_integral * r4_change_2
             - c.r4_tanh * r4_tanh
         )
 
+        # khepera_encoders.bg:31: r4: degree 1
+        r4_d1 = r4_n1 + r4_n2
+
+        # khepera_encoders.bg:31: r4: error of order 0
+        r4_e0 = c.bend2 * r4_g0
+
+        # khepera_encoders.bg:31: r4: degree 2
+        r4_d2 = r4_n2 - r4_e1 - r4_e0
+
+        # khepera_encoders.bg:31: r4: input of stage 3
+        r4_u3 = r4_g0 + r4_n1 + r4_d2 + r4_e1 - r4_d1
+
         # khepera_encoders.bg:31: r4: stage 3
-        r4_y3 = x.r4_s3 + c.b0 * r4_u3
+        r4_y3 = x.r4_s3 + c.b * r4_u3
 
         # khepera_encoders.bg:31: r4: stage 3: memory
-        x.r4_s3 = c.a * r4_y3 + c.b1 * r4_u3
+        x.r4_s3 = c.a * r4_y3 + c.b * r4_u3
 
         # khepera_encoders.bg:31: r4: input of stage 2
-        r4_u2 = r4_y3 + c.r4_v2_m__2__wheel * r4_m__2__wheel_speed_2
+        r4_u2 = r4_y3 + r4_d1 - 2.0 * r4_d2 - 3.0 * r4_e1
 
         # khepera_encoders.bg:31: r4: stage 2
-        r4_y2 = x.r4_s2 + c.b0 * r4_u2
+        r4_y2 = x.r4_s2 + c.b * r4_u2
 
         # khepera_encoders.bg:31: r4: stage 2: memory
-        x.r4_s2 = c.a * r4_y2 + c.b1 * r4_u2
+        x.r4_s2 = c.a * r4_y2 + c.b * r4_u2
 
         # khepera_encoders.bg:31: r4: input of stage 1
-        r4_u1 = r4_y2 + c.r4_v1_m__2__wheel * r4_m__2__wheel_speed_2
+        r4_u1 = r4_y2 + r4_d2 + 3.0 * r4_e1
 
         # khepera_encoders.bg:31: r4: stage 1
-        r4_y1 = x.r4_s1 + c.b0 * r4_u1
+        r4_y1 = x.r4_s1 + c.b * r4_u1
 
         # khepera_encoders.bg:31: r4: stage 1: memory
-        x.r4_s1 = c.a * r4_y1 + c.b1 * r4_u1
+        x.r4_s1 = c.a * r4_y1 + c.b * r4_u1
 
         # khepera_encoders.bg:31: r4 = (Fx[2]*m[2].R + m[2].fs*D(m[2].wheel) +
         # m[2].Js*D(m[2].wheel, 2))/m[2].ge.N - m[2].K*(m[2].spring.q +
         # m[2].tau0*m[2].A*tanh(m[2].spring.q/(4*m[2].tau0)))
         # where m[2].spring.q = Int(D(m[2].motor) - m[2].ge.N*D(m[2].wheel))
-        r.r4 = r4_y1
+        r.r4 = r4_y1 - r4_e1
 
     def _run_r4(self, s: Samples, r: Residuals) -> None:
         """One sample for r4; what is not finite makes the next the first."""
@@ -1375,8 +1529,17 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:114: r5: terms of order 0
+        r5_g0 = s.Uin - s.Us - c.r5_load * s.load
+
+        # khepera.bg:114: r5: degree 1
+        r5_d1 = c.r5_w1_load * s.load
+
+        # khepera.bg:114: r5: error of order 0
+        r5_e0 = c.bend1 * r5_g0
+
         # khepera.bg:114: r5: input of stage 2
-        r5_u2 = s.Uin - s.Us - c.r5_v2_load * s.load
+        r5_u2 = r5_g0 - r5_d1 - r5_e0
 
         # khepera.bg:114: r5: stage 2, at rest
         r5_y2 = r5_u2
@@ -1385,7 +1548,7 @@ class Monitor:
         x.r5_s2 = c.rest * r5_u2
 
         # khepera.bg:114: r5: input of stage 1
-        r5_u1 = r5_y2 + c.r5_v1_load * s.load
+        r5_u1 = r5_y2 + r5_d1 + 2.0 * r5_e0
 
         # khepera.bg:114: r5: stage 1, at rest
         r5_y1 = r5_u1
@@ -1398,37 +1561,46 @@ class Monitor:
         # where line.cell[1].left.f = line.cell[1].right.f + 2.2e-10*D(line.cell[1].mid.e)
         # line.cell[1].mid.e = Us + R_L*line.cell[1].right.f/2 + D(line.cell[1].right.f)/4000000
         # line.cell[1].right.f = load + 2.2e-10*D(Us)
-        r.r5 = r5_y1
+        r.r5 = r5_y1 - r5_e0
 
     def _next_r5(self, s: Samples, r: Residuals) -> None:
         """r5 on every further sample."""
         c = self._c
         x = self._x
 
+        # khepera.bg:114: r5: terms of order 0
+        r5_g0 = s.Uin - s.Us - c.r5_load * s.load
+
+        # khepera.bg:114: r5: degree 1
+        r5_d1 = c.r5_w1_load * s.load
+
+        # khepera.bg:114: r5: error of order 0
+        r5_e0 = c.bend1 * r5_g0
+
         # khepera.bg:114: r5: input of stage 2
-        r5_u2 = s.Uin - s.Us - c.r5_v2_load * s.load
+        r5_u2 = r5_g0 - r5_d1 - r5_e0
 
         # khepera.bg:114: r5: stage 2
-        r5_y2 = x.r5_s2 + c.b0 * r5_u2
+        r5_y2 = x.r5_s2 + c.b * r5_u2
 
         # khepera.bg:114: r5: stage 2: memory
-        x.r5_s2 = c.a * r5_y2 + c.b1 * r5_u2
+        x.r5_s2 = c.a * r5_y2 + c.b * r5_u2
 
         # khepera.bg:114: r5: input of stage 1
-        r5_u1 = r5_y2 + c.r5_v1_load * s.load
+        r5_u1 = r5_y2 + r5_d1 + 2.0 * r5_e0
 
         # khepera.bg:114: r5: stage 1
-        r5_y1 = x.r5_s1 + c.b0 * r5_u1
+        r5_y1 = x.r5_s1 + c.b * r5_u1
 
         # khepera.bg:114: r5: stage 1: memory
-        x.r5_s1 = c.a * r5_y1 + c.b1 * r5_u1
+        x.r5_s1 = c.a * r5_y1 + c.b * r5_u1
 
         # khepera.bg:114: r5 = Uin - line.cell[1].mid.e - R_L*line.cell[1].left.f/2 -
         # D(line.cell[1].left.f)/4000000
         # where line.cell[1].left.f = line.cell[1].right.f + 2.2e-10*D(line.cell[1].mid.e)
         # line.cell[1].mid.e = Us + R_L*line.cell[1].right.f/2 + D(line.cell[1].right.f)/4000000
         # line.cell[1].right.f = load + 2.2e-10*D(Us)
-        r.r5 = r5_y1
+        r.r5 = r5_y1 - r5_e0
 
     def _run_r5(self, s: Samples, r: Residuals) -> None:
         """One sample for r5; what is not finite makes the next the first."""
@@ -1445,23 +1617,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[4] = 0
             r.r5 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t khepera_plausible_abi(void)
@@ -109,6 +80,15 @@ static void compute_coefficients(khepera_plausible_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: fe[1]*robot.m[1].el.L/robot.m[1].el.k */
     const real t = p->fe__1 * p->robot__m__1__el__L / p->robot__m__1__el__k;
 
@@ -116,100 +96,41 @@ static void compute_coefficients(khepera_plausible_monitor *monitor,
     const real t_2 = p->robot__m__1__el__L * p->robot__m__1__wh__fs / p->robot__m__1__ge__N
             / p->robot__m__1__el__k;
 
-    /* khepera.bg:17: fe[1]*robot.m[1].el.Re/robot.m[1].el.k */
-    const real t_3 = p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k;
-
     /* khepera.bg:17: robot.m[1].el.Re*robot.m[1].me.Je/robot.m[1].el.k */
-    const real t_4 = p->robot__m__1__el__Re * p->robot__m__1__me__Je / p->robot__m__1__el__k;
+    const real t_3 = p->robot__m__1__el__Re * p->robot__m__1__me__Je / p->robot__m__1__el__k;
 
     /* khepera.bg:17: Js[1]*robot.m[1].el.Re/(robot.m[1].ge.N*robot.m[1].el.k) */
-    const real t_5 = p->Js__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N
+    const real t_4 = p->Js__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N
             / p->robot__m__1__el__k;
 
     /* khepera.bg:17: fe[2]*robot.m[2].el.L/robot.m[2].el.k */
-    const real t_6 = p->fe__2 * p->robot__m__2__el__L / p->robot__m__2__el__k;
+    const real t_5 = p->fe__2 * p->robot__m__2__el__L / p->robot__m__2__el__k;
 
     /* khepera.bg:17: robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real t_7 = p->robot__m__2__el__L * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
+    const real t_6 = p->robot__m__2__el__L * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
             / p->robot__m__2__el__k;
-
-    /* khepera.bg:17: fe[2]*robot.m[2].el.Re/robot.m[2].el.k */
-    const real t_8 = p->fe__2 * p->robot__m__2__el__Re / p->robot__m__2__el__k;
 
     /* khepera.bg:17: robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2].el.k */
-    const real t_9 = p->robot__m__2__el__Re * p->robot__m__2__me__Je / p->robot__m__2__el__k;
+    const real t_7 = p->robot__m__2__el__Re * p->robot__m__2__me__Je / p->robot__m__2__el__k;
 
     /* khepera.bg:17: Js[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real t_10 = p->Js__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
+    const real t_8 = p->Js__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
             / p->robot__m__2__el__k;
 
-    /* exp(-x) */
-    const real t_11 = exponential(-x_);
+    /* 1 - pole */
+    const real t_9 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_12 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_11) / x_;
-
-    /* khepera.bg:17: (-fe[1]*robot.m[1].el.L/robot.m[1].el.k -
-     * robot.m[1].el.Re*robot.m[1].me.Je/robot.m[1] ... */
-    const real t_13 = (-t - t_4) * bandwidth;
-
-    /* khepera.bg:17: robot.m[1].el.L*robot.m[1].me.Je*bandwidth^2/robot.m[1].el.k */
-    const real t_14 = p->robot__m__1__el__L * p->robot__m__1__me__Je * bandwidth * bandwidth
-            / p->robot__m__1__el__k;
-
-    /* khepera.bg:17: (-robot.m[1].el.L*robot.m[1].wh.fs/(robot.m[1].ge.N*robot.m[1].el.k) -
-     * Js[1]*robot.m[1 ... */
-    const real t_15 = (-t_2 - t_5) * bandwidth;
-
-    /* khepera.bg:17: Js[1]*robot.m[1].el.L*bandwidth^2/(robot.m[1].ge.N*robot.m[1].el.k) */
-    const real t_16 = p->Js__1 * p->robot__m__1__el__L * bandwidth * bandwidth
-            / p->robot__m__1__ge__N / p->robot__m__1__el__k;
-
-    /* khepera.bg:41: robot.m[1].wh.fs*bandwidth/(robot.m[1].ge.N*robot.m[1].me.K) */
-    const real t_17 = p->robot__m__1__wh__fs * bandwidth / p->robot__m__1__ge__N
-            / p->robot__m__1__me__K;
-
-    /* khepera.bg:41: Js[1]*bandwidth^2/(robot.m[1].ge.N*robot.m[1].me.K) */
-    const real t_18 = p->Js__1 * bandwidth * bandwidth / p->robot__m__1__ge__N
-            / p->robot__m__1__me__K;
-
-    /* khepera.bg:17: (-fe[2]*robot.m[2].el.L/robot.m[2].el.k -
-     * robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2] ... */
-    const real t_19 = (-t_6 - t_9) * bandwidth;
-
-    /* khepera.bg:17: robot.m[2].el.L*robot.m[2].me.Je*bandwidth^2/robot.m[2].el.k */
-    const real t_20 = p->robot__m__2__el__L * p->robot__m__2__me__Je * bandwidth * bandwidth
-            / p->robot__m__2__el__k;
-
-    /* khepera.bg:17: (-robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k) -
-     * Js[2]*robot.m[2 ... */
-    const real t_21 = (-t_7 - t_10) * bandwidth;
-
-    /* khepera.bg:17: Js[2]*robot.m[2].el.L*bandwidth^2/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real t_22 = p->Js__2 * p->robot__m__2__el__L * bandwidth * bandwidth
-            / p->robot__m__2__ge__N / p->robot__m__2__el__k;
-
-    /* khepera.bg:41: robot.m[2].wh.fs*bandwidth/(robot.m[2].ge.N*robot.m[2].me.K) */
-    const real t_23 = p->robot__m__2__wh__fs * bandwidth / p->robot__m__2__ge__N
-            / p->robot__m__2__me__K;
-
-    /* khepera.bg:41: Js[2]*bandwidth^2/(robot.m[2].ge.N*robot.m[2].me.K) */
-    const real t_24 = p->Js__2 * bandwidth * bandwidth / p->robot__m__2__ge__N
-            / p->robot__m__2__me__K;
+    /* turn^2 */
+    const real t_10 = turn * turn;
 
     /* khepera.bg:17: r1: factor of robot.m[1].me.we: robot.m[1].el.k +
      * fe[1]*robot.m[1].el.Re/robot.m[1].el.k */
-    c->r1_robot__m__1__me__we = p->robot__m__1__el__k + t_3;
+    c->r1_robot__m__1__me__we = p->robot__m__1__el__k
+        + p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k;
 
     /* khepera.bg:17: r1: factor of robot.m[1].me.we': fe[1]*robot.m[1].el.L/robot.m[1].el.k +
      * robot.m[1].el.Re*robot.m[1].me.Je/robot.m[1].el.k */
-    c->r1_robot__m__1__me__we_1 = t + t_4;
+    c->r1_robot__m__1__me__we_1 = t + t_3;
 
     /* khepera.bg:17: r1: factor of robot.m[1].me.we'':
      * robot.m[1].el.L*robot.m[1].me.Je/robot.m[1].el.k */
@@ -223,7 +144,7 @@ static void compute_coefficients(khepera_plausible_monitor *monitor,
 
     /* khepera.bg:17: r1: factor of robot.m[1].wh.ws':
      * robot.m[1].el.L*robot.m[1].wh.fs/(robot.m[1].ge.N*robot.m[1].el.k) + Js[1]*robot.m[1]. ... */
-    c->r1_robot__m__1__wh__ws_1 = t_2 + t_5;
+    c->r1_robot__m__1__wh__ws_1 = t_2 + t_4;
 
     /* khepera.bg:17: r1: factor of robot.m[1].wh.ws'':
      * Js[1]*robot.m[1].el.L/(robot.m[1].ge.N*robot.m[1].el.k) */
@@ -240,46 +161,38 @@ static void compute_coefficients(khepera_plausible_monitor *monitor,
     c->r1_robot__Fx__1_1 = p->R__1 * p->robot__m__1__el__L / p->robot__m__1__ge__N
             / p->robot__m__1__el__k;
 
-    /* khepera.bg:17: r1: factor of robot.m[1].me.we in stage 1 */
-    c->r1_v1_robot__m__1__me__we = t_14;
+    /* khepera.bg:17: r1: factor of robot.m[1].me.we' */
+    c->r1_w1_robot__m__1__me__we = (-t - t_3) * w;
 
-    /* khepera.bg:17: r1: factor of robot.m[1].me.we in stage 2 */
-    c->r1_v2_robot__m__1__me__we = t_13 + REAL(2.0) * t_14;
-
-    /* khepera.bg:17: r1: factor of robot.m[1].me.we in stage 3 */
-    c->r1_v3_robot__m__1__me__we = -p->robot__m__1__el__k - t_3 - t_13 - t_14;
-
-    /* khepera.bg:17: r1: factor of robot.m[1].wh.ws in stage 1 */
-    c->r1_v1_robot__m__1__wh__ws = t_16;
-
-    /* khepera.bg:17: r1: factor of robot.m[1].wh.ws in stage 2 */
-    c->r1_v2_robot__m__1__wh__ws = t_15 + REAL(2.0) * t_16;
-
-    /* khepera.bg:17: r1: factor of robot.m[1].wh.ws in stage 3 */
-    c->r1_v3_robot__m__1__wh__ws = p->robot__m__1__el__Re * p->robot__m__1__wh__fs
-            / p->robot__m__1__ge__N / p->robot__m__1__el__k
-        + t_15 + t_16;
-
-    /* khepera.bg:17: r1: factor of robot.Fx[1] in stage 2 */
-    c->r1_v2_robot__Fx__1 = p->R__1 * p->robot__m__1__el__L * bandwidth / p->robot__m__1__ge__N
+    /* khepera.bg:17: r1: factor of robot.m[1].me.we'' */
+    c->r1_w2_robot__m__1__me__we = p->robot__m__1__el__L * p->robot__m__1__me__Je * w * w
             / p->robot__m__1__el__k;
 
-    /* khepera.bg:17: r1: factor of robot.Fx[1] in stage 3 */
-    c->r1_v3_robot__Fx__1 = p->R__1 * p->robot__m__1__el__L * bandwidth / p->robot__m__1__ge__N
-            / p->robot__m__1__el__k
-        - p->R__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N / p->robot__m__1__el__k;
+    /* khepera.bg:17: r1: factor of robot.m[1].wh.ws' */
+    c->r1_w1_robot__m__1__wh__ws = (-t_2 - t_4) * w;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_11;
+    /* khepera.bg:17: r1: factor of robot.m[1].wh.ws'' */
+    c->r1_w2_robot__m__1__wh__ws = p->Js__1 * p->robot__m__1__el__L * w * w / p->robot__m__1__ge__N
+            / p->robot__m__1__el__k;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_12;
+    /* khepera.bg:17: r1: factor of robot.Fx[1]' */
+    c->r1_w1_robot__Fx__1 = p->R__1 * p->robot__m__1__el__L * w / p->robot__m__1__ge__N
+            / p->robot__m__1__el__k;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_11 - t_12;
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_10 / REAL(6.0);
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_12;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_10 / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_9;
+
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t_9;
 
     /* khepera.bg:41: 1/(4*robot.m[1].tau0) */
     c->g = REAL(0.25) / p->robot__m__1__tau0;
@@ -308,29 +221,31 @@ static void compute_coefficients(khepera_plausible_monitor *monitor,
     /* half the sample time */
     c->half_time = REAL(0.5) * sample_time;
 
-    /* khepera.bg:41: r2: factor of robot.m[1].wh.ws in stage 1 */
-    c->r2_v1_robot__m__1__wh__ws = t_18;
+    /* sample_time/24 */
+    c->half_twelfth = sample_time / REAL(24.0);
 
-    /* khepera.bg:41: r2: factor of robot.m[1].wh.ws in stage 2 */
-    c->r2_v2_robot__m__1__wh__ws = REAL(2.0) * t_18 - t_17;
+    /* khepera.bg:41: r2: factor of robot.m[1].wh.ws' */
+    c->r2_w1_robot__m__1__wh__ws = p->robot__m__1__wh__fs * w / p->robot__m__1__ge__N
+            / p->robot__m__1__me__K;
 
-    /* khepera.bg:41: r2: factor of robot.m[1].wh.ws in stage 3 */
-    c->r2_v3_robot__m__1__wh__ws = t_17 - p->robot__m__1__ge__N - t_18;
+    /* khepera.bg:41: r2: factor of robot.m[1].wh.ws'' */
+    c->r2_w2_robot__m__1__wh__ws = p->Js__1 * w * w / p->robot__m__1__ge__N / p->robot__m__1__me__K;
 
-    /* khepera.bg:41: r2: factor of robot.Fx[1] in stage 2 */
-    c->r2_v2_robot__Fx__1 = p->R__1 * bandwidth / p->robot__m__1__ge__N / p->robot__m__1__me__K;
+    /* khepera.bg:41: r2: factor of robot.Fx[1]' */
+    c->r2_w1_robot__Fx__1 = p->R__1 * w / p->robot__m__1__ge__N / p->robot__m__1__me__K;
 
-    /* khepera.bg:41: r2: factor of tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ...
-     * in stage 2 */
-    c->r2_v2_tanh = p->robot__m__1__tau0 * p->robot__m__1__A * bandwidth;
+    /* khepera.bg:41: r2: factor of D(tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m
+     * ...) */
+    c->r2_w1_tanh = p->robot__m__1__tau0 * p->robot__m__1__A * w;
 
     /* khepera.bg:17: r3: factor of robot.m[2].me.we: robot.m[2].el.k +
      * fe[2]*robot.m[2].el.Re/robot.m[2].el.k */
-    c->r3_robot__m__2__me__we = p->robot__m__2__el__k + t_8;
+    c->r3_robot__m__2__me__we = p->robot__m__2__el__k
+        + p->fe__2 * p->robot__m__2__el__Re / p->robot__m__2__el__k;
 
     /* khepera.bg:17: r3: factor of robot.m[2].me.we': fe[2]*robot.m[2].el.L/robot.m[2].el.k +
      * robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2].el.k */
-    c->r3_robot__m__2__me__we_1 = t_6 + t_9;
+    c->r3_robot__m__2__me__we_1 = t_5 + t_7;
 
     /* khepera.bg:17: r3: factor of robot.m[2].me.we'':
      * robot.m[2].el.L*robot.m[2].me.Je/robot.m[2].el.k */
@@ -344,7 +259,7 @@ static void compute_coefficients(khepera_plausible_monitor *monitor,
 
     /* khepera.bg:17: r3: factor of robot.m[2].wh.ws':
      * robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k) + Js[2]*robot.m[2]. ... */
-    c->r3_robot__m__2__wh__ws_1 = t_7 + t_10;
+    c->r3_robot__m__2__wh__ws_1 = t_6 + t_8;
 
     /* khepera.bg:17: r3: factor of robot.m[2].wh.ws'':
      * Js[2]*robot.m[2].el.L/(robot.m[2].ge.N*robot.m[2].el.k) */
@@ -361,34 +276,23 @@ static void compute_coefficients(khepera_plausible_monitor *monitor,
     c->r3_robot__Fx__2_1 = p->R__2 * p->robot__m__2__el__L / p->robot__m__2__ge__N
             / p->robot__m__2__el__k;
 
-    /* khepera.bg:17: r3: factor of robot.m[2].me.we in stage 1 */
-    c->r3_v1_robot__m__2__me__we = t_20;
+    /* khepera.bg:17: r3: factor of robot.m[2].me.we' */
+    c->r3_w1_robot__m__2__me__we = (-t_5 - t_7) * w;
 
-    /* khepera.bg:17: r3: factor of robot.m[2].me.we in stage 2 */
-    c->r3_v2_robot__m__2__me__we = t_19 + REAL(2.0) * t_20;
-
-    /* khepera.bg:17: r3: factor of robot.m[2].me.we in stage 3 */
-    c->r3_v3_robot__m__2__me__we = -p->robot__m__2__el__k - t_8 - t_19 - t_20;
-
-    /* khepera.bg:17: r3: factor of robot.m[2].wh.ws in stage 1 */
-    c->r3_v1_robot__m__2__wh__ws = t_22;
-
-    /* khepera.bg:17: r3: factor of robot.m[2].wh.ws in stage 2 */
-    c->r3_v2_robot__m__2__wh__ws = t_21 + REAL(2.0) * t_22;
-
-    /* khepera.bg:17: r3: factor of robot.m[2].wh.ws in stage 3 */
-    c->r3_v3_robot__m__2__wh__ws = p->robot__m__2__el__Re * p->robot__m__2__wh__fs
-            / p->robot__m__2__ge__N / p->robot__m__2__el__k
-        + t_21 + t_22;
-
-    /* khepera.bg:17: r3: factor of robot.Fx[2] in stage 2 */
-    c->r3_v2_robot__Fx__2 = p->R__2 * p->robot__m__2__el__L * bandwidth / p->robot__m__2__ge__N
+    /* khepera.bg:17: r3: factor of robot.m[2].me.we'' */
+    c->r3_w2_robot__m__2__me__we = p->robot__m__2__el__L * p->robot__m__2__me__Je * w * w
             / p->robot__m__2__el__k;
 
-    /* khepera.bg:17: r3: factor of robot.Fx[2] in stage 3 */
-    c->r3_v3_robot__Fx__2 = p->R__2 * p->robot__m__2__el__L * bandwidth / p->robot__m__2__ge__N
-            / p->robot__m__2__el__k
-        - p->R__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N / p->robot__m__2__el__k;
+    /* khepera.bg:17: r3: factor of robot.m[2].wh.ws' */
+    c->r3_w1_robot__m__2__wh__ws = (-t_6 - t_8) * w;
+
+    /* khepera.bg:17: r3: factor of robot.m[2].wh.ws'' */
+    c->r3_w2_robot__m__2__wh__ws = p->Js__2 * p->robot__m__2__el__L * w * w / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: r3: factor of robot.Fx[2]' */
+    c->r3_w1_robot__Fx__2 = p->R__2 * p->robot__m__2__el__L * w / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
 
     /* khepera.bg:41: 1/(4*robot.m[2].tau0) */
     c->g_3 = REAL(0.25) / p->robot__m__2__tau0;
@@ -414,21 +318,19 @@ static void compute_coefficients(khepera_plausible_monitor *monitor,
      * ...): robot.m[2].tau0*robot.m[2].A */
     c->r4_tanh_1 = p->robot__m__2__tau0 * p->robot__m__2__A;
 
-    /* khepera.bg:41: r4: factor of robot.m[2].wh.ws in stage 1 */
-    c->r4_v1_robot__m__2__wh__ws = t_24;
+    /* khepera.bg:41: r4: factor of robot.m[2].wh.ws' */
+    c->r4_w1_robot__m__2__wh__ws = p->robot__m__2__wh__fs * w / p->robot__m__2__ge__N
+            / p->robot__m__2__me__K;
 
-    /* khepera.bg:41: r4: factor of robot.m[2].wh.ws in stage 2 */
-    c->r4_v2_robot__m__2__wh__ws = REAL(2.0) * t_24 - t_23;
+    /* khepera.bg:41: r4: factor of robot.m[2].wh.ws'' */
+    c->r4_w2_robot__m__2__wh__ws = p->Js__2 * w * w / p->robot__m__2__ge__N / p->robot__m__2__me__K;
 
-    /* khepera.bg:41: r4: factor of robot.m[2].wh.ws in stage 3 */
-    c->r4_v3_robot__m__2__wh__ws = t_23 - p->robot__m__2__ge__N - t_24;
+    /* khepera.bg:41: r4: factor of robot.Fx[2]' */
+    c->r4_w1_robot__Fx__2 = p->R__2 * w / p->robot__m__2__ge__N / p->robot__m__2__me__K;
 
-    /* khepera.bg:41: r4: factor of robot.Fx[2] in stage 2 */
-    c->r4_v2_robot__Fx__2 = p->R__2 * bandwidth / p->robot__m__2__ge__N / p->robot__m__2__me__K;
-
-    /* khepera.bg:41: r4: factor of tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ...
-     * in stage 2 */
-    c->r4_v2_tanh = p->robot__m__2__tau0 * p->robot__m__2__A * bandwidth;
+    /* khepera.bg:41: r4: factor of D(tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m
+     * ...) */
+    c->r4_w1_tanh = p->robot__m__2__tau0 * p->robot__m__2__A * w;
 
     /* khepera.bg:114: r5: factor of robot.Us': 1.5*RL*CL */
     c->r5_robot__Us_1 = REAL(1.5) * p->RL * p->CL;
@@ -460,30 +362,27 @@ static bool coefficients_are_finite(const khepera_plausible_monitor *monitor)
             + monitor->c.r1_robot__m__1__me__we_2 + monitor->c.r1_robot__m__1__wh__ws
             + monitor->c.r1_robot__m__1__wh__ws_1 + monitor->c.r1_robot__m__1__wh__ws_2
             + monitor->c.r1_robot__Fx__1 + monitor->c.r1_robot__Fx__1_1
-            + monitor->c.r1_v1_robot__m__1__me__we + monitor->c.r1_v2_robot__m__1__me__we
-            + monitor->c.r1_v3_robot__m__1__me__we + monitor->c.r1_v1_robot__m__1__wh__ws
-            + monitor->c.r1_v2_robot__m__1__wh__ws + monitor->c.r1_v3_robot__m__1__wh__ws
-            + monitor->c.r1_v2_robot__Fx__1 + monitor->c.r1_v3_robot__Fx__1 + monitor->c.a
-            + monitor->c.b0 + monitor->c.b1 + monitor->c.rest + monitor->c.g + monitor->c.g_2
+            + monitor->c.r1_w1_robot__m__1__me__we + monitor->c.r1_w2_robot__m__1__me__we
+            + monitor->c.r1_w1_robot__m__1__wh__ws + monitor->c.r1_w2_robot__m__1__wh__ws
+            + monitor->c.r1_w1_robot__Fx__1 + monitor->c.bend2 + monitor->c.bend1 + monitor->c.a
+            + monitor->c.b + monitor->c.rest + monitor->c.g + monitor->c.g_2
             + monitor->c.r2_robot__m__1__wh__ws + monitor->c.r2_robot__m__1__wh__ws_1
             + monitor->c.r2_robot__m__1__wh__ws_2 + monitor->c.r2_robot__Fx__1_1
-            + monitor->c.r2_tanh_1 + monitor->c.half_time + monitor->c.r2_v1_robot__m__1__wh__ws
-            + monitor->c.r2_v2_robot__m__1__wh__ws + monitor->c.r2_v3_robot__m__1__wh__ws
-            + monitor->c.r2_v2_robot__Fx__1 + monitor->c.r2_v2_tanh
+            + monitor->c.r2_tanh_1 + monitor->c.half_time + monitor->c.half_twelfth
+            + monitor->c.r2_w1_robot__m__1__wh__ws + monitor->c.r2_w2_robot__m__1__wh__ws
+            + monitor->c.r2_w1_robot__Fx__1 + monitor->c.r2_w1_tanh
             + monitor->c.r3_robot__m__2__me__we + monitor->c.r3_robot__m__2__me__we_1
             + monitor->c.r3_robot__m__2__me__we_2 + monitor->c.r3_robot__m__2__wh__ws
             + monitor->c.r3_robot__m__2__wh__ws_1 + monitor->c.r3_robot__m__2__wh__ws_2
             + monitor->c.r3_robot__Fx__2 + monitor->c.r3_robot__Fx__2_1
-            + monitor->c.r3_v1_robot__m__2__me__we + monitor->c.r3_v2_robot__m__2__me__we
-            + monitor->c.r3_v3_robot__m__2__me__we + monitor->c.r3_v1_robot__m__2__wh__ws
-            + monitor->c.r3_v2_robot__m__2__wh__ws + monitor->c.r3_v3_robot__m__2__wh__ws
-            + monitor->c.r3_v2_robot__Fx__2 + monitor->c.r3_v3_robot__Fx__2 + monitor->c.g_3
-            + monitor->c.g_4 + monitor->c.r4_robot__m__2__wh__ws
-            + monitor->c.r4_robot__m__2__wh__ws_1 + monitor->c.r4_robot__m__2__wh__ws_2
-            + monitor->c.r4_robot__Fx__2_1 + monitor->c.r4_tanh_1
-            + monitor->c.r4_v1_robot__m__2__wh__ws + monitor->c.r4_v2_robot__m__2__wh__ws
-            + monitor->c.r4_v3_robot__m__2__wh__ws + monitor->c.r4_v2_robot__Fx__2
-            + monitor->c.r4_v2_tanh + monitor->c.r5_robot__Us_1 + monitor->c.r5_robot__Us_2
+            + monitor->c.r3_w1_robot__m__2__me__we + monitor->c.r3_w2_robot__m__2__me__we
+            + monitor->c.r3_w1_robot__m__2__wh__ws + monitor->c.r3_w2_robot__m__2__wh__ws
+            + monitor->c.r3_w1_robot__Fx__2 + monitor->c.g_3 + monitor->c.g_4
+            + monitor->c.r4_robot__m__2__wh__ws + monitor->c.r4_robot__m__2__wh__ws_1
+            + monitor->c.r4_robot__m__2__wh__ws_2 + monitor->c.r4_robot__Fx__2_1
+            + monitor->c.r4_tanh_1 + monitor->c.r4_w1_robot__m__2__wh__ws
+            + monitor->c.r4_w2_robot__m__2__wh__ws + monitor->c.r4_w1_robot__Fx__2
+            + monitor->c.r4_w1_tanh + monitor->c.r5_robot__Us_1 + monitor->c.r5_robot__Us_2
             + monitor->c.r5_robot__Us_3 + monitor->c.r5_robot__Us_4);
 }
 
@@ -631,10 +530,27 @@ static void start_r1(
     const khepera_plausible_coefficients *c = &monitor->c;
     khepera_plausible_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->robot__U0__1 - c->r1_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_robot__m__1__wh__ws * s->robot__m__1__wh__ws - c->r1_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = c->r1_w1_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w1_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend2 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = -c->r1_w2_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w2_robot__m__1__wh__ws * s->robot__m__1__wh__ws - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend1 * r1_g1;
+
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = s->robot__U0__1 + c->r1_v3_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_v3_robot__Fx__1 * s->robot__Fx__1
-        - c->r1_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1;
 
     /* khepera.bg:17: r1: stage 3, at rest */
     const real r1_y3 = r1_u3;
@@ -643,9 +559,7 @@ static void start_r1(
     x->r1_s3 = c->rest * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        - c->r1_v2_robot__Fx__1 * s->robot__Fx__1;
+    const real r1_u2 = r1_y3 + r1_g1 - REAL(2.0) * r1_d2 - REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -654,8 +568,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_robot__m__1__me__we * s->robot__m__1__me__we
-        - c->r1_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_u1 = r1_y2 + r1_d2 + REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -669,7 +582,7 @@ static void start_r1(
      * where robot.m[1].el.k.e2 = fe[1]*robot.m[1].me.we + robot.m[1].me.Je*D(robot.m[1].me.we) +
      * (robot.m[1].wh.fs*robot.m[1].wh.ws + R[1]*robot.Fx[1] +
      * Js[1]*D(robot.m[1].wh.ws))/robot.m[1].ge.N */
-    r[KHEPERA_PLAUSIBLE_R1] = r1_y1;
+    r[KHEPERA_PLAUSIBLE_R1] = r1_y1 - r1_e1;
 }
 
 /* r1 on every further sample. */
@@ -679,37 +592,51 @@ static void next_r1(
     const khepera_plausible_coefficients *c = &monitor->c;
     khepera_plausible_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1: terms of order 0 */
+    const real r1_g0 = s->robot__U0__1 - c->r1_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_robot__m__1__wh__ws * s->robot__m__1__wh__ws - c->r1_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1: terms of order 1 */
+    const real r1_g1 = c->r1_w1_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w1_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend2 * r1_g0;
+
+    /* khepera.bg:17: r1: degree 2 */
+    const real r1_d2 = -c->r1_w2_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w2_robot__m__1__wh__ws * s->robot__m__1__wh__ws - r1_e0;
+
+    /* khepera.bg:17: r1: error of order 1 */
+    const real r1_e1 = c->bend1 * r1_g1;
+
     /* khepera.bg:17: r1: input of stage 3 */
-    const real r1_u3 = s->robot__U0__1 + c->r1_v3_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_v3_robot__Fx__1 * s->robot__Fx__1
-        - c->r1_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1;
 
     /* khepera.bg:17: r1: stage 3 */
-    const real r1_y3 = x->r1_s3 + c->b0 * r1_u3;
+    const real r1_y3 = x->r1_s3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: stage 3: memory */
-    x->r1_s3 = c->a * r1_y3 + c->b1 * r1_u3;
+    x->r1_s3 = c->a * r1_y3 + c->b * r1_u3;
 
     /* khepera.bg:17: r1: input of stage 2 */
-    const real r1_u2 = r1_y3 + c->r1_v2_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        - c->r1_v2_robot__Fx__1 * s->robot__Fx__1;
+    const real r1_u2 = r1_y3 + r1_g1 - REAL(2.0) * r1_d2 - REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* khepera.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_robot__m__1__me__we * s->robot__m__1__me__we
-        - c->r1_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_u1 = r1_y2 + r1_d2 + REAL(3.0) * r1_e1;
 
     /* khepera.bg:17: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* khepera.bg:17: r1 = robot.U0[1] - robot.m[1].el.k*robot.m[1].me.we -
      * robot.m[1].el.Re*robot.m[1].el.k.e2/robot.m[1].el.k -
@@ -717,7 +644,7 @@ static void next_r1(
      * where robot.m[1].el.k.e2 = fe[1]*robot.m[1].me.we + robot.m[1].me.Je*D(robot.m[1].me.we) +
      * (robot.m[1].wh.fs*robot.m[1].wh.ws + R[1]*robot.Fx[1] +
      * Js[1]*D(robot.m[1].wh.ws))/robot.m[1].ge.N */
-    r[KHEPERA_PLAUSIBLE_R1] = r1_y1;
+    r[KHEPERA_PLAUSIBLE_R1] = r1_y1 - r1_e1;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -763,13 +690,36 @@ static void start_r2(
      * memory */
     x->r2_q = c->half_time * r2_rate;
 
+    /* khepera.bg:41: integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ... */
+    const real r2_integral = r2_int;
+
+    /* khepera.bg:41: integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...:
+     * memory */
+    x->r2_rate2 = r2_rate;
+    x->r2_rate1 = r2_rate;
+
     /* khepera.bg:41: tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ... */
-    const real r2_tanh = MATH(tanh)(r2_int);
+    const real r2_tanh = MATH(tanh)(r2_integral);
+
+    /* khepera.bg:41: r2: terms of order 0 */
+    const real r2_g0 = s->robot__m__1__me__we - c->r2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:41: r2: terms of order 1 */
+    const real r2_g1 = c->r2_w1_tanh * r2_tanh
+        - c->r2_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r2_w1_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:41: r2: error of order 0 */
+    const real r2_e0 = c->bend2 * r2_g0;
+
+    /* khepera.bg:41: r2: degree 2 */
+    const real r2_d2 = -c->r2_w2_robot__m__1__wh__ws * s->robot__m__1__wh__ws - r2_e0;
+
+    /* khepera.bg:41: r2: error of order 1 */
+    const real r2_e1 = c->bend1 * r2_g1;
 
     /* khepera.bg:41: r2: input of stage 3 */
-    const real r2_u3 = s->robot__m__1__me__we
-        + c->r2_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        + c->r2_v2_robot__Fx__1 * s->robot__Fx__1 - c->r2_v2_tanh * r2_tanh;
+    const real r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1;
 
     /* khepera.bg:41: r2: stage 3, at rest */
     const real r2_y3 = r2_u3;
@@ -778,8 +728,7 @@ static void start_r2(
     x->r2_s3 = c->rest * r2_u3;
 
     /* khepera.bg:41: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        + c->r2_v2_tanh * r2_tanh - c->r2_v2_robot__Fx__1 * s->robot__Fx__1;
+    const real r2_u2 = r2_y3 + r2_g1 - REAL(2.0) * r2_d2 - REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -788,7 +737,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* khepera.bg:41: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r2_u1 = r2_y2 + r2_d2 + REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -801,7 +750,7 @@ static void start_r2(
      * robot.m[1].tau0*robot.m[1].A*robot.m[1].ge.N*robot.m[1].me.K*tanh((Int(robot.m[1].me.we) -
      * robot.m[1].ge.N*Int(robot.m[1].wh.ws))/(4*robot.m[1].tau0)))/(robot.m[1].ge.N*robot.m[1].m
      * e.K) */
-    r[KHEPERA_PLAUSIBLE_R2] = r2_y1;
+    r[KHEPERA_PLAUSIBLE_R2] = r2_y1 - r2_e1;
 }
 
 /* r2 on every further sample. */
@@ -822,45 +771,68 @@ static void next_r2(
      * memory */
     x->r2_q = r2_int + c->half_time * r2_rate;
 
+    /* khepera.bg:41: integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ... */
+    const real r2_integral = r2_int
+        - c->half_twelfth * (REAL(3.0) * r2_rate - REAL(4.0) * x->r2_rate1 + x->r2_rate2);
+
+    /* khepera.bg:41: integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...:
+     * memory */
+    x->r2_rate2 = x->r2_rate1;
+    x->r2_rate1 = r2_rate;
+
     /* khepera.bg:41: tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ... */
-    const real r2_tanh = MATH(tanh)(r2_int);
+    const real r2_tanh = MATH(tanh)(r2_integral);
+
+    /* khepera.bg:41: r2: terms of order 0 */
+    const real r2_g0 = s->robot__m__1__me__we - c->r2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:41: r2: terms of order 1 */
+    const real r2_g1 = c->r2_w1_tanh * r2_tanh
+        - c->r2_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r2_w1_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:41: r2: error of order 0 */
+    const real r2_e0 = c->bend2 * r2_g0;
+
+    /* khepera.bg:41: r2: degree 2 */
+    const real r2_d2 = -c->r2_w2_robot__m__1__wh__ws * s->robot__m__1__wh__ws - r2_e0;
+
+    /* khepera.bg:41: r2: error of order 1 */
+    const real r2_e1 = c->bend1 * r2_g1;
 
     /* khepera.bg:41: r2: input of stage 3 */
-    const real r2_u3 = s->robot__m__1__me__we
-        + c->r2_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        + c->r2_v2_robot__Fx__1 * s->robot__Fx__1 - c->r2_v2_tanh * r2_tanh;
+    const real r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1;
 
     /* khepera.bg:41: r2: stage 3 */
-    const real r2_y3 = x->r2_s3 + c->b0 * r2_u3;
+    const real r2_y3 = x->r2_s3 + c->b * r2_u3;
 
     /* khepera.bg:41: r2: stage 3: memory */
-    x->r2_s3 = c->a * r2_y3 + c->b1 * r2_u3;
+    x->r2_s3 = c->a * r2_y3 + c->b * r2_u3;
 
     /* khepera.bg:41: r2: input of stage 2 */
-    const real r2_u2 = r2_y3 + c->r2_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        + c->r2_v2_tanh * r2_tanh - c->r2_v2_robot__Fx__1 * s->robot__Fx__1;
+    const real r2_u2 = r2_y3 + r2_g1 - REAL(2.0) * r2_d2 - REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* khepera.bg:41: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* khepera.bg:41: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r2_u1 = r2_y2 + r2_d2 + REAL(3.0) * r2_e1;
 
     /* khepera.bg:41: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* khepera.bg:41: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* khepera.bg:41: r2 = robot.m[1].me.we - robot.m[1].ge.N*robot.m[1].wh.ws -
      * D(robot.m[1].wh.fs*robot.m[1].wh.ws + R[1]*robot.Fx[1] + Js[1]*D(robot.m[1].wh.ws) -
      * robot.m[1].tau0*robot.m[1].A*robot.m[1].ge.N*robot.m[1].me.K*tanh((Int(robot.m[1].me.we) -
      * robot.m[1].ge.N*Int(robot.m[1].wh.ws))/(4*robot.m[1].tau0)))/(robot.m[1].ge.N*robot.m[1].m
      * e.K) */
-    r[KHEPERA_PLAUSIBLE_R2] = r2_y1;
+    r[KHEPERA_PLAUSIBLE_R2] = r2_y1 - r2_e1;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */
@@ -894,10 +866,27 @@ static void start_r3(
     const khepera_plausible_coefficients *c = &monitor->c;
     khepera_plausible_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r3: terms of order 0 */
+    const real r3_g0 = s->robot__U0__2 - c->r3_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_robot__m__2__wh__ws * s->robot__m__2__wh__ws - c->r3_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3: terms of order 1 */
+    const real r3_g1 = c->r3_w1_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w1_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3: error of order 0 */
+    const real r3_e0 = c->bend2 * r3_g0;
+
+    /* khepera.bg:17: r3: degree 2 */
+    const real r3_d2 = -c->r3_w2_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w2_robot__m__2__wh__ws * s->robot__m__2__wh__ws - r3_e0;
+
+    /* khepera.bg:17: r3: error of order 1 */
+    const real r3_e1 = c->bend1 * r3_g1;
+
     /* khepera.bg:17: r3: input of stage 3 */
-    const real r3_u3 = s->robot__U0__2 + c->r3_v3_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_v3_robot__Fx__2 * s->robot__Fx__2
-        - c->r3_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_u3 = r3_g0 + r3_d2 + r3_e1 - r3_g1;
 
     /* khepera.bg:17: r3: stage 3, at rest */
     const real r3_y3 = r3_u3;
@@ -906,9 +895,7 @@ static void start_r3(
     x->r3_s3 = c->rest * r3_u3;
 
     /* khepera.bg:17: r3: input of stage 2 */
-    const real r3_u2 = r3_y3 + c->r3_v2_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        - c->r3_v2_robot__Fx__2 * s->robot__Fx__2;
+    const real r3_u2 = r3_y3 + r3_g1 - REAL(2.0) * r3_d2 - REAL(3.0) * r3_e1;
 
     /* khepera.bg:17: r3: stage 2, at rest */
     const real r3_y2 = r3_u2;
@@ -917,8 +904,7 @@ static void start_r3(
     x->r3_s2 = c->rest * r3_u2;
 
     /* khepera.bg:17: r3: input of stage 1 */
-    const real r3_u1 = r3_y2 - c->r3_v1_robot__m__2__me__we * s->robot__m__2__me__we
-        - c->r3_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_u1 = r3_y2 + r3_d2 + REAL(3.0) * r3_e1;
 
     /* khepera.bg:17: r3: stage 1, at rest */
     const real r3_y1 = r3_u1;
@@ -932,7 +918,7 @@ static void start_r3(
      * where robot.m[2].el.k.e2 = fe[2]*robot.m[2].me.we + robot.m[2].me.Je*D(robot.m[2].me.we) +
      * (robot.m[2].wh.fs*robot.m[2].wh.ws + R[2]*robot.Fx[2] +
      * Js[2]*D(robot.m[2].wh.ws))/robot.m[2].ge.N */
-    r[KHEPERA_PLAUSIBLE_R3] = r3_y1;
+    r[KHEPERA_PLAUSIBLE_R3] = r3_y1 - r3_e1;
 }
 
 /* r3 on every further sample. */
@@ -942,37 +928,51 @@ static void next_r3(
     const khepera_plausible_coefficients *c = &monitor->c;
     khepera_plausible_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r3: terms of order 0 */
+    const real r3_g0 = s->robot__U0__2 - c->r3_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_robot__m__2__wh__ws * s->robot__m__2__wh__ws - c->r3_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3: terms of order 1 */
+    const real r3_g1 = c->r3_w1_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w1_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3: error of order 0 */
+    const real r3_e0 = c->bend2 * r3_g0;
+
+    /* khepera.bg:17: r3: degree 2 */
+    const real r3_d2 = -c->r3_w2_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w2_robot__m__2__wh__ws * s->robot__m__2__wh__ws - r3_e0;
+
+    /* khepera.bg:17: r3: error of order 1 */
+    const real r3_e1 = c->bend1 * r3_g1;
+
     /* khepera.bg:17: r3: input of stage 3 */
-    const real r3_u3 = s->robot__U0__2 + c->r3_v3_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_v3_robot__Fx__2 * s->robot__Fx__2
-        - c->r3_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_u3 = r3_g0 + r3_d2 + r3_e1 - r3_g1;
 
     /* khepera.bg:17: r3: stage 3 */
-    const real r3_y3 = x->r3_s3 + c->b0 * r3_u3;
+    const real r3_y3 = x->r3_s3 + c->b * r3_u3;
 
     /* khepera.bg:17: r3: stage 3: memory */
-    x->r3_s3 = c->a * r3_y3 + c->b1 * r3_u3;
+    x->r3_s3 = c->a * r3_y3 + c->b * r3_u3;
 
     /* khepera.bg:17: r3: input of stage 2 */
-    const real r3_u2 = r3_y3 + c->r3_v2_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        - c->r3_v2_robot__Fx__2 * s->robot__Fx__2;
+    const real r3_u2 = r3_y3 + r3_g1 - REAL(2.0) * r3_d2 - REAL(3.0) * r3_e1;
 
     /* khepera.bg:17: r3: stage 2 */
-    const real r3_y2 = x->r3_s2 + c->b0 * r3_u2;
+    const real r3_y2 = x->r3_s2 + c->b * r3_u2;
 
     /* khepera.bg:17: r3: stage 2: memory */
-    x->r3_s2 = c->a * r3_y2 + c->b1 * r3_u2;
+    x->r3_s2 = c->a * r3_y2 + c->b * r3_u2;
 
     /* khepera.bg:17: r3: input of stage 1 */
-    const real r3_u1 = r3_y2 - c->r3_v1_robot__m__2__me__we * s->robot__m__2__me__we
-        - c->r3_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_u1 = r3_y2 + r3_d2 + REAL(3.0) * r3_e1;
 
     /* khepera.bg:17: r3: stage 1 */
-    const real r3_y1 = x->r3_s1 + c->b0 * r3_u1;
+    const real r3_y1 = x->r3_s1 + c->b * r3_u1;
 
     /* khepera.bg:17: r3: stage 1: memory */
-    x->r3_s1 = c->a * r3_y1 + c->b1 * r3_u1;
+    x->r3_s1 = c->a * r3_y1 + c->b * r3_u1;
 
     /* khepera.bg:17: r3 = robot.U0[2] - robot.m[2].el.k*robot.m[2].me.we -
      * robot.m[2].el.Re*robot.m[2].el.k.e2/robot.m[2].el.k -
@@ -980,7 +980,7 @@ static void next_r3(
      * where robot.m[2].el.k.e2 = fe[2]*robot.m[2].me.we + robot.m[2].me.Je*D(robot.m[2].me.we) +
      * (robot.m[2].wh.fs*robot.m[2].wh.ws + R[2]*robot.Fx[2] +
      * Js[2]*D(robot.m[2].wh.ws))/robot.m[2].ge.N */
-    r[KHEPERA_PLAUSIBLE_R3] = r3_y1;
+    r[KHEPERA_PLAUSIBLE_R3] = r3_y1 - r3_e1;
 }
 
 /* One sample for r3; a number that is not finite makes the next sample the first. */
@@ -1026,13 +1026,36 @@ static void start_r4(
      * memory */
     x->r4_q = c->half_time * r4_rate;
 
+    /* khepera.bg:41: integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ... */
+    const real r4_integral = r4_int;
+
+    /* khepera.bg:41: integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...:
+     * memory */
+    x->r4_rate2 = r4_rate;
+    x->r4_rate1 = r4_rate;
+
     /* khepera.bg:41: tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ... */
-    const real r4_tanh = MATH(tanh)(r4_int);
+    const real r4_tanh = MATH(tanh)(r4_integral);
+
+    /* khepera.bg:41: r4: terms of order 0 */
+    const real r4_g0 = s->robot__m__2__me__we - c->r4_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:41: r4: terms of order 1 */
+    const real r4_g1 = c->r4_w1_tanh * r4_tanh
+        - c->r4_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r4_w1_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:41: r4: error of order 0 */
+    const real r4_e0 = c->bend2 * r4_g0;
+
+    /* khepera.bg:41: r4: degree 2 */
+    const real r4_d2 = -c->r4_w2_robot__m__2__wh__ws * s->robot__m__2__wh__ws - r4_e0;
+
+    /* khepera.bg:41: r4: error of order 1 */
+    const real r4_e1 = c->bend1 * r4_g1;
 
     /* khepera.bg:41: r4: input of stage 3 */
-    const real r4_u3 = s->robot__m__2__me__we
-        + c->r4_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        + c->r4_v2_robot__Fx__2 * s->robot__Fx__2 - c->r4_v2_tanh * r4_tanh;
+    const real r4_u3 = r4_g0 + r4_d2 + r4_e1 - r4_g1;
 
     /* khepera.bg:41: r4: stage 3, at rest */
     const real r4_y3 = r4_u3;
@@ -1041,8 +1064,7 @@ static void start_r4(
     x->r4_s3 = c->rest * r4_u3;
 
     /* khepera.bg:41: r4: input of stage 2 */
-    const real r4_u2 = r4_y3 + c->r4_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        + c->r4_v2_tanh * r4_tanh - c->r4_v2_robot__Fx__2 * s->robot__Fx__2;
+    const real r4_u2 = r4_y3 + r4_g1 - REAL(2.0) * r4_d2 - REAL(3.0) * r4_e1;
 
     /* khepera.bg:41: r4: stage 2, at rest */
     const real r4_y2 = r4_u2;
@@ -1051,7 +1073,7 @@ static void start_r4(
     x->r4_s2 = c->rest * r4_u2;
 
     /* khepera.bg:41: r4: input of stage 1 */
-    const real r4_u1 = r4_y2 - c->r4_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r4_u1 = r4_y2 + r4_d2 + REAL(3.0) * r4_e1;
 
     /* khepera.bg:41: r4: stage 1, at rest */
     const real r4_y1 = r4_u1;
@@ -1064,7 +1086,7 @@ static void start_r4(
      * robot.m[2].tau0*robot.m[2].A*robot.m[2].ge.N*robot.m[2].me.K*tanh((Int(robot.m[2].me.we) -
      * robot.m[2].ge.N*Int(robot.m[2].wh.ws))/(4*robot.m[2].tau0)))/(robot.m[2].ge.N*robot.m[2].m
      * e.K) */
-    r[KHEPERA_PLAUSIBLE_R4] = r4_y1;
+    r[KHEPERA_PLAUSIBLE_R4] = r4_y1 - r4_e1;
 }
 
 /* r4 on every further sample. */
@@ -1085,45 +1107,68 @@ static void next_r4(
      * memory */
     x->r4_q = r4_int + c->half_time * r4_rate;
 
+    /* khepera.bg:41: integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ... */
+    const real r4_integral = r4_int
+        - c->half_twelfth * (REAL(3.0) * r4_rate - REAL(4.0) * x->r4_rate1 + x->r4_rate2);
+
+    /* khepera.bg:41: integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...:
+     * memory */
+    x->r4_rate2 = x->r4_rate1;
+    x->r4_rate1 = r4_rate;
+
     /* khepera.bg:41: tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ... */
-    const real r4_tanh = MATH(tanh)(r4_int);
+    const real r4_tanh = MATH(tanh)(r4_integral);
+
+    /* khepera.bg:41: r4: terms of order 0 */
+    const real r4_g0 = s->robot__m__2__me__we - c->r4_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:41: r4: terms of order 1 */
+    const real r4_g1 = c->r4_w1_tanh * r4_tanh
+        - c->r4_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r4_w1_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:41: r4: error of order 0 */
+    const real r4_e0 = c->bend2 * r4_g0;
+
+    /* khepera.bg:41: r4: degree 2 */
+    const real r4_d2 = -c->r4_w2_robot__m__2__wh__ws * s->robot__m__2__wh__ws - r4_e0;
+
+    /* khepera.bg:41: r4: error of order 1 */
+    const real r4_e1 = c->bend1 * r4_g1;
 
     /* khepera.bg:41: r4: input of stage 3 */
-    const real r4_u3 = s->robot__m__2__me__we
-        + c->r4_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        + c->r4_v2_robot__Fx__2 * s->robot__Fx__2 - c->r4_v2_tanh * r4_tanh;
+    const real r4_u3 = r4_g0 + r4_d2 + r4_e1 - r4_g1;
 
     /* khepera.bg:41: r4: stage 3 */
-    const real r4_y3 = x->r4_s3 + c->b0 * r4_u3;
+    const real r4_y3 = x->r4_s3 + c->b * r4_u3;
 
     /* khepera.bg:41: r4: stage 3: memory */
-    x->r4_s3 = c->a * r4_y3 + c->b1 * r4_u3;
+    x->r4_s3 = c->a * r4_y3 + c->b * r4_u3;
 
     /* khepera.bg:41: r4: input of stage 2 */
-    const real r4_u2 = r4_y3 + c->r4_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        + c->r4_v2_tanh * r4_tanh - c->r4_v2_robot__Fx__2 * s->robot__Fx__2;
+    const real r4_u2 = r4_y3 + r4_g1 - REAL(2.0) * r4_d2 - REAL(3.0) * r4_e1;
 
     /* khepera.bg:41: r4: stage 2 */
-    const real r4_y2 = x->r4_s2 + c->b0 * r4_u2;
+    const real r4_y2 = x->r4_s2 + c->b * r4_u2;
 
     /* khepera.bg:41: r4: stage 2: memory */
-    x->r4_s2 = c->a * r4_y2 + c->b1 * r4_u2;
+    x->r4_s2 = c->a * r4_y2 + c->b * r4_u2;
 
     /* khepera.bg:41: r4: input of stage 1 */
-    const real r4_u1 = r4_y2 - c->r4_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r4_u1 = r4_y2 + r4_d2 + REAL(3.0) * r4_e1;
 
     /* khepera.bg:41: r4: stage 1 */
-    const real r4_y1 = x->r4_s1 + c->b0 * r4_u1;
+    const real r4_y1 = x->r4_s1 + c->b * r4_u1;
 
     /* khepera.bg:41: r4: stage 1: memory */
-    x->r4_s1 = c->a * r4_y1 + c->b1 * r4_u1;
+    x->r4_s1 = c->a * r4_y1 + c->b * r4_u1;
 
     /* khepera.bg:41: r4 = robot.m[2].me.we - robot.m[2].ge.N*robot.m[2].wh.ws -
      * D(robot.m[2].wh.fs*robot.m[2].wh.ws + R[2]*robot.Fx[2] + Js[2]*D(robot.m[2].wh.ws) -
      * robot.m[2].tau0*robot.m[2].A*robot.m[2].ge.N*robot.m[2].me.K*tanh((Int(robot.m[2].me.we) -
      * robot.m[2].ge.N*Int(robot.m[2].wh.ws))/(4*robot.m[2].tau0)))/(robot.m[2].ge.N*robot.m[2].m
      * e.K) */
-    r[KHEPERA_PLAUSIBLE_R4] = r4_y1;
+    r[KHEPERA_PLAUSIBLE_R4] = r4_y1 - r4_e1;
 }
 
 /* One sample for r4; a number that is not finite makes the next sample the first. */
@@ -1184,10 +1229,10 @@ static void next_r5(
     const real r5_u1 = s->robot__Uin - s->robot__Us;
 
     /* khepera.bg:114: r5: stage 1 */
-    const real r5_y1 = x->r5_s1 + c->b0 * r5_u1;
+    const real r5_y1 = x->r5_s1 + c->b * r5_u1;
 
     /* khepera.bg:114: r5: stage 1: memory */
-    x->r5_s1 = c->a * r5_y1 + c->b1 * r5_u1;
+    x->r5_s1 = c->a * r5_y1 + c->b * r5_u1;
 
     /* khepera.bg:114: r5 = robot.Uin - robot.line.cell[1].mid.e - RL*robot.line.cell[1].left.f/2
      * - LL*D(robot.line.cell[1].left.f)/2

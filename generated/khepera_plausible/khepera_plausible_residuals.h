@@ -29,7 +29,7 @@ typedef double khepera_plausible_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_PLAUSIBLE_ABI (1u * 256u + (uint32_t)sizeof(khepera_plausible_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_PLAUSIBLE_DIGEST "24983f6fc5e96968"
+#define KHEPERA_PLAUSIBLE_DIGEST "3bac45e06397cad7"
 
 /* What the code was made for: arguments of khepera_plausible_configure, in s, rad/s and s. */
 #define KHEPERA_PLAUSIBLE_SAMPLE_TIME KHEPERA_PLAUSIBLE_CONSTANT(0.001)
@@ -195,20 +195,21 @@ typedef struct khepera_plausible_coefficients {
     khepera_plausible_real r1_robot__Fx__1;
     /* r1: factor of robot.Fx[1]': R[1]*robot.m[1].el.L/(robot.m[1].ge.N*robot.m[1].el.k) */
     khepera_plausible_real r1_robot__Fx__1_1;
-    khepera_plausible_real r1_v1_robot__m__1__me__we;/* r1: factor of robot.m[1].me.we in stage 1 */
-    khepera_plausible_real r1_v2_robot__m__1__me__we;/* r1: factor of robot.m[1].me.we in stage 2 */
-    khepera_plausible_real r1_v3_robot__m__1__me__we;/* r1: factor of robot.m[1].me.we in stage 3 */
-    khepera_plausible_real r1_v1_robot__m__1__wh__ws;/* r1: factor of robot.m[1].wh.ws in stage 1 */
-    khepera_plausible_real r1_v2_robot__m__1__wh__ws;/* r1: factor of robot.m[1].wh.ws in stage 2 */
-    khepera_plausible_real r1_v3_robot__m__1__wh__ws;/* r1: factor of robot.m[1].wh.ws in stage 3 */
-    khepera_plausible_real r1_v2_robot__Fx__1;  /* r1: factor of robot.Fx[1] in stage 2 */
-    khepera_plausible_real r1_v3_robot__Fx__1;  /* r1: factor of robot.Fx[1] in stage 3 */
-    khepera_plausible_real a;                   /* filter: exp(-bandwidth*sample_time) */
-    khepera_plausible_real b0;                  /* filter: weight of the new sample */
-    khepera_plausible_real b1;                  /* filter: weight of the sample before */
-    khepera_plausible_real rest;                /* filter: 1 - b0, the memory of a constant 1 */
-    khepera_plausible_real g;                   /* 1/(4*robot.m[1].tau0) */
-    khepera_plausible_real g_2;                 /* robot.m[1].ge.N/(4*robot.m[1].tau0) */
+    khepera_plausible_real r1_w1_robot__m__1__me__we;  /* r1: factor of robot.m[1].me.we' */
+    khepera_plausible_real r1_w2_robot__m__1__me__we;  /* r1: factor of robot.m[1].me.we'' */
+    khepera_plausible_real r1_w1_robot__m__1__wh__ws;  /* r1: factor of robot.m[1].wh.ws' */
+    khepera_plausible_real r1_w2_robot__m__1__wh__ws;  /* r1: factor of robot.m[1].wh.ws'' */
+    khepera_plausible_real r1_w1_robot__Fx__1;         /* r1: factor of robot.Fx[1]' */
+    khepera_plausible_real bend2;                      /* filter: 2 * (w*sample_time)^2/12 */
+    khepera_plausible_real bend1;                      /* filter: 1 * (w*sample_time)^2/12 */
+    /* filter: what is left of a memory a sample later */
+    khepera_plausible_real a;
+    /* filter: weight of a sample, new and a sample later */
+    khepera_plausible_real b;
+    /* filter: 1 - b, the memory of a constant 1 */
+    khepera_plausible_real rest;
+    khepera_plausible_real g;                          /* 1/(4*robot.m[1].tau0) */
+    khepera_plausible_real g_2;                        /* robot.m[1].ge.N/(4*robot.m[1].tau0) */
     /* r2: factor of robot.m[1].wh.ws: robot.m[1].ge.N */
     khepera_plausible_real r2_robot__m__1__wh__ws;
     /* r2: factor of robot.m[1].wh.ws': robot.m[1].wh.fs/(robot.m[1].ge.N*robot.m[1].me.K) */
@@ -220,13 +221,13 @@ typedef struct khepera_plausible_coefficients {
     /* r2: factor of D(tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ...):
      * robot.m[1].tau0*robot.m[1].A */
     khepera_plausible_real r2_tanh_1;
-    khepera_plausible_real half_time;           /* half the sample time */
-    khepera_plausible_real r2_v1_robot__m__1__wh__ws;/* r2: factor of robot.m[1].wh.ws in stage 1 */
-    khepera_plausible_real r2_v2_robot__m__1__wh__ws;/* r2: factor of robot.m[1].wh.ws in stage 2 */
-    khepera_plausible_real r2_v3_robot__m__1__wh__ws;/* r2: factor of robot.m[1].wh.ws in stage 3 */
-    khepera_plausible_real r2_v2_robot__Fx__1;  /* r2: factor of robot.Fx[1] in stage 2 */
-    /* r2: factor of tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ... in stage 2 */
-    khepera_plausible_real r2_v2_tanh;
+    khepera_plausible_real half_time;                  /* half the sample time */
+    khepera_plausible_real half_twelfth;               /* sample_time/24 */
+    khepera_plausible_real r2_w1_robot__m__1__wh__ws;  /* r2: factor of robot.m[1].wh.ws' */
+    khepera_plausible_real r2_w2_robot__m__1__wh__ws;  /* r2: factor of robot.m[1].wh.ws'' */
+    khepera_plausible_real r2_w1_robot__Fx__1;         /* r2: factor of robot.Fx[1]' */
+    /* r2: factor of D(tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ...) */
+    khepera_plausible_real r2_w1_tanh;
     /* r3: factor of robot.m[2].me.we: robot.m[2].el.k + fe[2]*robot.m[2].el.Re/robot.m[2].el.k */
     khepera_plausible_real r3_robot__m__2__me__we;
     /* r3: factor of robot.m[2].me.we': fe[2]*robot.m[2].el.L/robot.m[2].el.k +
@@ -246,16 +247,13 @@ typedef struct khepera_plausible_coefficients {
     khepera_plausible_real r3_robot__Fx__2;
     /* r3: factor of robot.Fx[2]': R[2]*robot.m[2].el.L/(robot.m[2].ge.N*robot.m[2].el.k) */
     khepera_plausible_real r3_robot__Fx__2_1;
-    khepera_plausible_real r3_v1_robot__m__2__me__we;/* r3: factor of robot.m[2].me.we in stage 1 */
-    khepera_plausible_real r3_v2_robot__m__2__me__we;/* r3: factor of robot.m[2].me.we in stage 2 */
-    khepera_plausible_real r3_v3_robot__m__2__me__we;/* r3: factor of robot.m[2].me.we in stage 3 */
-    khepera_plausible_real r3_v1_robot__m__2__wh__ws;/* r3: factor of robot.m[2].wh.ws in stage 1 */
-    khepera_plausible_real r3_v2_robot__m__2__wh__ws;/* r3: factor of robot.m[2].wh.ws in stage 2 */
-    khepera_plausible_real r3_v3_robot__m__2__wh__ws;/* r3: factor of robot.m[2].wh.ws in stage 3 */
-    khepera_plausible_real r3_v2_robot__Fx__2;  /* r3: factor of robot.Fx[2] in stage 2 */
-    khepera_plausible_real r3_v3_robot__Fx__2;  /* r3: factor of robot.Fx[2] in stage 3 */
-    khepera_plausible_real g_3;                 /* 1/(4*robot.m[2].tau0) */
-    khepera_plausible_real g_4;                 /* robot.m[2].ge.N/(4*robot.m[2].tau0) */
+    khepera_plausible_real r3_w1_robot__m__2__me__we;  /* r3: factor of robot.m[2].me.we' */
+    khepera_plausible_real r3_w2_robot__m__2__me__we;  /* r3: factor of robot.m[2].me.we'' */
+    khepera_plausible_real r3_w1_robot__m__2__wh__ws;  /* r3: factor of robot.m[2].wh.ws' */
+    khepera_plausible_real r3_w2_robot__m__2__wh__ws;  /* r3: factor of robot.m[2].wh.ws'' */
+    khepera_plausible_real r3_w1_robot__Fx__2;         /* r3: factor of robot.Fx[2]' */
+    khepera_plausible_real g_3;                        /* 1/(4*robot.m[2].tau0) */
+    khepera_plausible_real g_4;                        /* robot.m[2].ge.N/(4*robot.m[2].tau0) */
     /* r4: factor of robot.m[2].wh.ws: robot.m[2].ge.N */
     khepera_plausible_real r4_robot__m__2__wh__ws;
     /* r4: factor of robot.m[2].wh.ws': robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].me.K) */
@@ -267,17 +265,17 @@ typedef struct khepera_plausible_coefficients {
     /* r4: factor of D(tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ...):
      * robot.m[2].tau0*robot.m[2].A */
     khepera_plausible_real r4_tanh_1;
-    khepera_plausible_real r4_v1_robot__m__2__wh__ws;/* r4: factor of robot.m[2].wh.ws in stage 1 */
-    khepera_plausible_real r4_v2_robot__m__2__wh__ws;/* r4: factor of robot.m[2].wh.ws in stage 2 */
-    khepera_plausible_real r4_v3_robot__m__2__wh__ws;/* r4: factor of robot.m[2].wh.ws in stage 3 */
-    khepera_plausible_real r4_v2_robot__Fx__2;  /* r4: factor of robot.Fx[2] in stage 2 */
-    /* r4: factor of tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ... in stage 2 */
-    khepera_plausible_real r4_v2_tanh;
-    khepera_plausible_real r5_robot__Us_1;      /* r5: factor of robot.Us': 1.5*RL*CL */
+    khepera_plausible_real r4_w1_robot__m__2__wh__ws;  /* r4: factor of robot.m[2].wh.ws' */
+    khepera_plausible_real r4_w2_robot__m__2__wh__ws;  /* r4: factor of robot.m[2].wh.ws'' */
+    khepera_plausible_real r4_w1_robot__Fx__2;         /* r4: factor of robot.Fx[2]' */
+    /* r4: factor of D(tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ...) */
+    khepera_plausible_real r4_w1_tanh;
+    khepera_plausible_real r5_robot__Us_1;             /* r5: factor of robot.Us': 1.5*RL*CL */
     /* r5: factor of robot.Us'': 1.5*LL*CL + RL^2*CL^2/4 */
     khepera_plausible_real r5_robot__Us_2;
-    khepera_plausible_real r5_robot__Us_3;      /* r5: factor of robot.Us''': RL*LL*CL^2/2 */
-    khepera_plausible_real r5_robot__Us_4;      /* r5: factor of D(robot.Us, 4): LL^2*CL^2/4 */
+    khepera_plausible_real r5_robot__Us_3;             /* r5: factor of robot.Us''': RL*LL*CL^2/2 */
+    /* r5: factor of D(robot.Us, 4): LL^2*CL^2/4 */
+    khepera_plausible_real r5_robot__Us_4;
 } khepera_plausible_coefficients;
 
 /* What the filters remember from sample to sample. */
@@ -287,6 +285,12 @@ typedef struct khepera_plausible_memory {
     khepera_plausible_real r1_s1;  /* memory of r1: stage 1 */
     /* memory of integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ... */
     khepera_plausible_real r2_q;
+    /* integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...: rate a sample
+     * before */
+    khepera_plausible_real r2_rate1;
+    /* integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...: rate two samples
+     * before */
+    khepera_plausible_real r2_rate2;
     khepera_plausible_real r2_s3;  /* memory of r2: stage 3 */
     khepera_plausible_real r2_s2;  /* memory of r2: stage 2 */
     khepera_plausible_real r2_s1;  /* memory of r2: stage 1 */
@@ -295,6 +299,12 @@ typedef struct khepera_plausible_memory {
     khepera_plausible_real r3_s1;  /* memory of r3: stage 1 */
     /* memory of integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ... */
     khepera_plausible_real r4_q;
+    /* integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...: rate a sample
+     * before */
+    khepera_plausible_real r4_rate1;
+    /* integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...: rate two samples
+     * before */
+    khepera_plausible_real r4_rate2;
     khepera_plausible_real r4_s3;  /* memory of r4: stage 3 */
     khepera_plausible_real r4_s2;  /* memory of r4: stage 2 */
     khepera_plausible_real r4_s1;  /* memory of r4: stage 1 */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "24983f6fc5e96968"
+DIGEST = "3bac45e06397cad7"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -174,18 +174,16 @@ class Coefficients:
     r1_robot__Fx__1: float
     # r1: factor of robot.Fx[1]': R[1]*robot.m[1].el.L/(robot.m[1].ge.N*robot.m[1].el.k)
     r1_robot__Fx__1_1: float
-    r1_v1_robot__m__1__me__we: float  # r1: factor of robot.m[1].me.we in stage 1
-    r1_v2_robot__m__1__me__we: float  # r1: factor of robot.m[1].me.we in stage 2
-    r1_v3_robot__m__1__me__we: float  # r1: factor of robot.m[1].me.we in stage 3
-    r1_v1_robot__m__1__wh__ws: float  # r1: factor of robot.m[1].wh.ws in stage 1
-    r1_v2_robot__m__1__wh__ws: float  # r1: factor of robot.m[1].wh.ws in stage 2
-    r1_v3_robot__m__1__wh__ws: float  # r1: factor of robot.m[1].wh.ws in stage 3
-    r1_v2_robot__Fx__1: float         # r1: factor of robot.Fx[1] in stage 2
-    r1_v3_robot__Fx__1: float         # r1: factor of robot.Fx[1] in stage 3
-    a: float                          # filter: exp(-bandwidth*sample_time)
-    b0: float                         # filter: weight of the new sample
-    b1: float                         # filter: weight of the sample before
-    rest: float                       # filter: 1 - b0, the memory of a constant 1
+    r1_w1_robot__m__1__me__we: float  # r1: factor of robot.m[1].me.we'
+    r1_w2_robot__m__1__me__we: float  # r1: factor of robot.m[1].me.we''
+    r1_w1_robot__m__1__wh__ws: float  # r1: factor of robot.m[1].wh.ws'
+    r1_w2_robot__m__1__wh__ws: float  # r1: factor of robot.m[1].wh.ws''
+    r1_w1_robot__Fx__1: float         # r1: factor of robot.Fx[1]'
+    bend2: float                      # filter: 2 * (w*sample_time)^2/12
+    bend1: float                      # filter: 1 * (w*sample_time)^2/12
+    a: float                          # filter: what is left of a memory a sample later
+    b: float                          # filter: weight of a sample, new and a sample later
+    rest: float                       # filter: 1 - b, the memory of a constant 1
     g: float                          # 1/(4*robot.m[1].tau0)
     g_2: float                        # robot.m[1].ge.N/(4*robot.m[1].tau0)
     r2_robot__m__1__wh__ws: float     # r2: factor of robot.m[1].wh.ws: robot.m[1].ge.N
@@ -199,12 +197,12 @@ class Coefficients:
     # robot.m[1].tau0*robot.m[1].A
     r2_tanh_1: float
     half_time: float                  # half the sample time
-    r2_v1_robot__m__1__wh__ws: float  # r2: factor of robot.m[1].wh.ws in stage 1
-    r2_v2_robot__m__1__wh__ws: float  # r2: factor of robot.m[1].wh.ws in stage 2
-    r2_v3_robot__m__1__wh__ws: float  # r2: factor of robot.m[1].wh.ws in stage 3
-    r2_v2_robot__Fx__1: float         # r2: factor of robot.Fx[1] in stage 2
-    # r2: factor of tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ... in stage 2
-    r2_v2_tanh: float
+    half_twelfth: float               # sample_time/24
+    r2_w1_robot__m__1__wh__ws: float  # r2: factor of robot.m[1].wh.ws'
+    r2_w2_robot__m__1__wh__ws: float  # r2: factor of robot.m[1].wh.ws''
+    r2_w1_robot__Fx__1: float         # r2: factor of robot.Fx[1]'
+    # r2: factor of D(tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ...)
+    r2_w1_tanh: float
     # r3: factor of robot.m[2].me.we: robot.m[2].el.k + fe[2]*robot.m[2].el.Re/robot.m[2].el.k
     r3_robot__m__2__me__we: float
     # r3: factor of robot.m[2].me.we': fe[2]*robot.m[2].el.L/robot.m[2].el.k +
@@ -224,14 +222,11 @@ class Coefficients:
     r3_robot__Fx__2: float
     # r3: factor of robot.Fx[2]': R[2]*robot.m[2].el.L/(robot.m[2].ge.N*robot.m[2].el.k)
     r3_robot__Fx__2_1: float
-    r3_v1_robot__m__2__me__we: float  # r3: factor of robot.m[2].me.we in stage 1
-    r3_v2_robot__m__2__me__we: float  # r3: factor of robot.m[2].me.we in stage 2
-    r3_v3_robot__m__2__me__we: float  # r3: factor of robot.m[2].me.we in stage 3
-    r3_v1_robot__m__2__wh__ws: float  # r3: factor of robot.m[2].wh.ws in stage 1
-    r3_v2_robot__m__2__wh__ws: float  # r3: factor of robot.m[2].wh.ws in stage 2
-    r3_v3_robot__m__2__wh__ws: float  # r3: factor of robot.m[2].wh.ws in stage 3
-    r3_v2_robot__Fx__2: float         # r3: factor of robot.Fx[2] in stage 2
-    r3_v3_robot__Fx__2: float         # r3: factor of robot.Fx[2] in stage 3
+    r3_w1_robot__m__2__me__we: float  # r3: factor of robot.m[2].me.we'
+    r3_w2_robot__m__2__me__we: float  # r3: factor of robot.m[2].me.we''
+    r3_w1_robot__m__2__wh__ws: float  # r3: factor of robot.m[2].wh.ws'
+    r3_w2_robot__m__2__wh__ws: float  # r3: factor of robot.m[2].wh.ws''
+    r3_w1_robot__Fx__2: float         # r3: factor of robot.Fx[2]'
     g_3: float                        # 1/(4*robot.m[2].tau0)
     g_4: float                        # robot.m[2].ge.N/(4*robot.m[2].tau0)
     r4_robot__m__2__wh__ws: float     # r4: factor of robot.m[2].wh.ws: robot.m[2].ge.N
@@ -244,12 +239,11 @@ class Coefficients:
     # r4: factor of D(tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ...):
     # robot.m[2].tau0*robot.m[2].A
     r4_tanh_1: float
-    r4_v1_robot__m__2__wh__ws: float  # r4: factor of robot.m[2].wh.ws in stage 1
-    r4_v2_robot__m__2__wh__ws: float  # r4: factor of robot.m[2].wh.ws in stage 2
-    r4_v3_robot__m__2__wh__ws: float  # r4: factor of robot.m[2].wh.ws in stage 3
-    r4_v2_robot__Fx__2: float         # r4: factor of robot.Fx[2] in stage 2
-    # r4: factor of tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ... in stage 2
-    r4_v2_tanh: float
+    r4_w1_robot__m__2__wh__ws: float  # r4: factor of robot.m[2].wh.ws'
+    r4_w2_robot__m__2__wh__ws: float  # r4: factor of robot.m[2].wh.ws''
+    r4_w1_robot__Fx__2: float         # r4: factor of robot.Fx[2]'
+    # r4: factor of D(tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ...)
+    r4_w1_tanh: float
     r5_robot__Us_1: float             # r5: factor of robot.Us': 1.5*RL*CL
     r5_robot__Us_2: float             # r5: factor of robot.Us'': 1.5*LL*CL + RL^2*CL^2/4
     r5_robot__Us_3: float             # r5: factor of robot.Us''': RL*LL*CL^2/2
@@ -264,6 +258,12 @@ class Memory:
     r1_s1: float  # memory of r1: stage 1
     # memory of integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...
     r2_q: float
+    # integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...: rate a sample
+    # before
+    r2_rate1: float
+    # integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...: rate two samples
+    # before
+    r2_rate2: float
     r2_s3: float  # memory of r2: stage 3
     r2_s2: float  # memory of r2: stage 2
     r2_s1: float  # memory of r2: stage 1
@@ -272,6 +272,12 @@ class Memory:
     r3_s1: float  # memory of r3: stage 1
     # memory of integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...
     r4_q: float
+    # integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...: rate a sample
+    # before
+    r4_rate1: float
+    # integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...: rate two samples
+    # before
+    r4_rate2: float
     r4_s3: float  # memory of r4: stage 3
     r4_s2: float  # memory of r4: stage 2
     r4_s1: float  # memory of r4: stage 1
@@ -319,30 +325,27 @@ class Monitor:
                     + self._c.r1_robot__m__1__me__we_2 + self._c.r1_robot__m__1__wh__ws
                     + self._c.r1_robot__m__1__wh__ws_1 + self._c.r1_robot__m__1__wh__ws_2
                     + self._c.r1_robot__Fx__1 + self._c.r1_robot__Fx__1_1
-                    + self._c.r1_v1_robot__m__1__me__we + self._c.r1_v2_robot__m__1__me__we
-                    + self._c.r1_v3_robot__m__1__me__we + self._c.r1_v1_robot__m__1__wh__ws
-                    + self._c.r1_v2_robot__m__1__wh__ws + self._c.r1_v3_robot__m__1__wh__ws
-                    + self._c.r1_v2_robot__Fx__1 + self._c.r1_v3_robot__Fx__1 + self._c.a
-                    + self._c.b0 + self._c.b1 + self._c.rest + self._c.g + self._c.g_2
+                    + self._c.r1_w1_robot__m__1__me__we + self._c.r1_w2_robot__m__1__me__we
+                    + self._c.r1_w1_robot__m__1__wh__ws + self._c.r1_w2_robot__m__1__wh__ws
+                    + self._c.r1_w1_robot__Fx__1 + self._c.bend2 + self._c.bend1 + self._c.a
+                    + self._c.b + self._c.rest + self._c.g + self._c.g_2
                     + self._c.r2_robot__m__1__wh__ws + self._c.r2_robot__m__1__wh__ws_1
                     + self._c.r2_robot__m__1__wh__ws_2 + self._c.r2_robot__Fx__1_1
-                    + self._c.r2_tanh_1 + self._c.half_time + self._c.r2_v1_robot__m__1__wh__ws
-                    + self._c.r2_v2_robot__m__1__wh__ws + self._c.r2_v3_robot__m__1__wh__ws
-                    + self._c.r2_v2_robot__Fx__1 + self._c.r2_v2_tanh
+                    + self._c.r2_tanh_1 + self._c.half_time + self._c.half_twelfth
+                    + self._c.r2_w1_robot__m__1__wh__ws + self._c.r2_w2_robot__m__1__wh__ws
+                    + self._c.r2_w1_robot__Fx__1 + self._c.r2_w1_tanh
                     + self._c.r3_robot__m__2__me__we + self._c.r3_robot__m__2__me__we_1
                     + self._c.r3_robot__m__2__me__we_2 + self._c.r3_robot__m__2__wh__ws
                     + self._c.r3_robot__m__2__wh__ws_1 + self._c.r3_robot__m__2__wh__ws_2
                     + self._c.r3_robot__Fx__2 + self._c.r3_robot__Fx__2_1
-                    + self._c.r3_v1_robot__m__2__me__we + self._c.r3_v2_robot__m__2__me__we
-                    + self._c.r3_v3_robot__m__2__me__we + self._c.r3_v1_robot__m__2__wh__ws
-                    + self._c.r3_v2_robot__m__2__wh__ws + self._c.r3_v3_robot__m__2__wh__ws
-                    + self._c.r3_v2_robot__Fx__2 + self._c.r3_v3_robot__Fx__2 + self._c.g_3
-                    + self._c.g_4 + self._c.r4_robot__m__2__wh__ws
-                    + self._c.r4_robot__m__2__wh__ws_1 + self._c.r4_robot__m__2__wh__ws_2
-                    + self._c.r4_robot__Fx__2_1 + self._c.r4_tanh_1
-                    + self._c.r4_v1_robot__m__2__wh__ws + self._c.r4_v2_robot__m__2__wh__ws
-                    + self._c.r4_v3_robot__m__2__wh__ws + self._c.r4_v2_robot__Fx__2
-                    + self._c.r4_v2_tanh + self._c.r5_robot__Us_1 + self._c.r5_robot__Us_2
+                    + self._c.r3_w1_robot__m__2__me__we + self._c.r3_w2_robot__m__2__me__we
+                    + self._c.r3_w1_robot__m__2__wh__ws + self._c.r3_w2_robot__m__2__wh__ws
+                    + self._c.r3_w1_robot__Fx__2 + self._c.g_3 + self._c.g_4
+                    + self._c.r4_robot__m__2__wh__ws + self._c.r4_robot__m__2__wh__ws_1
+                    + self._c.r4_robot__m__2__wh__ws_2 + self._c.r4_robot__Fx__2_1
+                    + self._c.r4_tanh_1 + self._c.r4_w1_robot__m__2__wh__ws
+                    + self._c.r4_w2_robot__m__2__wh__ws + self._c.r4_w1_robot__Fx__2
+                    + self._c.r4_w1_tanh + self._c.r5_robot__Us_1 + self._c.r5_robot__Us_2
                     + self._c.r5_robot__Us_3 + self._c.r5_robot__Us_4
             ):
                 raise ValueError("not finite")
@@ -476,6 +479,15 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: fe[1]*robot.m[1].el.L/robot.m[1].el.k
         t = p.fe__1 * p.robot__m__1__el__L / p.robot__m__1__el__k
 
@@ -485,103 +497,42 @@ class Monitor:
                 / p.robot__m__1__el__k
         )
 
-        # khepera.bg:17: fe[1]*robot.m[1].el.Re/robot.m[1].el.k
-        t_3 = p.fe__1 * p.robot__m__1__el__Re / p.robot__m__1__el__k
-
         # khepera.bg:17: robot.m[1].el.Re*robot.m[1].me.Je/robot.m[1].el.k
-        t_4 = p.robot__m__1__el__Re * p.robot__m__1__me__Je / p.robot__m__1__el__k
+        t_3 = p.robot__m__1__el__Re * p.robot__m__1__me__Je / p.robot__m__1__el__k
 
         # khepera.bg:17: Js[1]*robot.m[1].el.Re/(robot.m[1].ge.N*robot.m[1].el.k)
-        t_5 = p.Js__1 * p.robot__m__1__el__Re / p.robot__m__1__ge__N / p.robot__m__1__el__k
+        t_4 = p.Js__1 * p.robot__m__1__el__Re / p.robot__m__1__ge__N / p.robot__m__1__el__k
 
         # khepera.bg:17: fe[2]*robot.m[2].el.L/robot.m[2].el.k
-        t_6 = p.fe__2 * p.robot__m__2__el__L / p.robot__m__2__el__k
+        t_5 = p.fe__2 * p.robot__m__2__el__L / p.robot__m__2__el__k
 
         # khepera.bg:17: robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k)
-        t_7 = (
+        t_6 = (
             p.robot__m__2__el__L * p.robot__m__2__wh__fs / p.robot__m__2__ge__N
                 / p.robot__m__2__el__k
         )
 
-        # khepera.bg:17: fe[2]*robot.m[2].el.Re/robot.m[2].el.k
-        t_8 = p.fe__2 * p.robot__m__2__el__Re / p.robot__m__2__el__k
-
         # khepera.bg:17: robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2].el.k
-        t_9 = p.robot__m__2__el__Re * p.robot__m__2__me__Je / p.robot__m__2__el__k
+        t_7 = p.robot__m__2__el__Re * p.robot__m__2__me__Je / p.robot__m__2__el__k
 
         # khepera.bg:17: Js[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k)
-        t_10 = p.Js__2 * p.robot__m__2__el__Re / p.robot__m__2__ge__N / p.robot__m__2__el__k
+        t_8 = p.Js__2 * p.robot__m__2__el__Re / p.robot__m__2__ge__N / p.robot__m__2__el__k
 
-        # exp(-x)
-        t_11 = _exponential(-x_)
+        # 1 - pole
+        t_9 = 1.0 - pole
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_12 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_11) / x_
-        )
-
-        # khepera.bg:17: (-fe[1]*robot.m[1].el.L/robot.m[1].el.k -
-        # robot.m[1].el.Re*robot.m[1].me.Je/robot.m[1] ...
-        t_13 = (-t - t_4) * bandwidth
-
-        # khepera.bg:17: robot.m[1].el.L*robot.m[1].me.Je*bandwidth^2/robot.m[1].el.k
-        t_14 = (
-            p.robot__m__1__el__L * p.robot__m__1__me__Je * bandwidth * bandwidth
-                / p.robot__m__1__el__k
-        )
-
-        # khepera.bg:17: (-robot.m[1].el.L*robot.m[1].wh.fs/(robot.m[1].ge.N*robot.m[1].el.k) -
-        # Js[1]*robot.m[1 ...
-        t_15 = (-t_2 - t_5) * bandwidth
-
-        # khepera.bg:17: Js[1]*robot.m[1].el.L*bandwidth^2/(robot.m[1].ge.N*robot.m[1].el.k)
-        t_16 = (
-            p.Js__1 * p.robot__m__1__el__L * bandwidth * bandwidth / p.robot__m__1__ge__N
-                / p.robot__m__1__el__k
-        )
-
-        # khepera.bg:41: robot.m[1].wh.fs*bandwidth/(robot.m[1].ge.N*robot.m[1].me.K)
-        t_17 = p.robot__m__1__wh__fs * bandwidth / p.robot__m__1__ge__N / p.robot__m__1__me__K
-
-        # khepera.bg:41: Js[1]*bandwidth^2/(robot.m[1].ge.N*robot.m[1].me.K)
-        t_18 = p.Js__1 * bandwidth * bandwidth / p.robot__m__1__ge__N / p.robot__m__1__me__K
-
-        # khepera.bg:17: (-fe[2]*robot.m[2].el.L/robot.m[2].el.k -
-        # robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2] ...
-        t_19 = (-t_6 - t_9) * bandwidth
-
-        # khepera.bg:17: robot.m[2].el.L*robot.m[2].me.Je*bandwidth^2/robot.m[2].el.k
-        t_20 = (
-            p.robot__m__2__el__L * p.robot__m__2__me__Je * bandwidth * bandwidth
-                / p.robot__m__2__el__k
-        )
-
-        # khepera.bg:17: (-robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k) -
-        # Js[2]*robot.m[2 ...
-        t_21 = (-t_7 - t_10) * bandwidth
-
-        # khepera.bg:17: Js[2]*robot.m[2].el.L*bandwidth^2/(robot.m[2].ge.N*robot.m[2].el.k)
-        t_22 = (
-            p.Js__2 * p.robot__m__2__el__L * bandwidth * bandwidth / p.robot__m__2__ge__N
-                / p.robot__m__2__el__k
-        )
-
-        # khepera.bg:41: robot.m[2].wh.fs*bandwidth/(robot.m[2].ge.N*robot.m[2].me.K)
-        t_23 = p.robot__m__2__wh__fs * bandwidth / p.robot__m__2__ge__N / p.robot__m__2__me__K
-
-        # khepera.bg:41: Js[2]*bandwidth^2/(robot.m[2].ge.N*robot.m[2].me.K)
-        t_24 = p.Js__2 * bandwidth * bandwidth / p.robot__m__2__ge__N / p.robot__m__2__me__K
+        # turn^2
+        t_10 = turn * turn
 
         # khepera.bg:17: r1: factor of robot.m[1].me.we: robot.m[1].el.k +
         # fe[1]*robot.m[1].el.Re/robot.m[1].el.k
-        c.r1_robot__m__1__me__we = p.robot__m__1__el__k + t_3
+        c.r1_robot__m__1__me__we = (
+            p.robot__m__1__el__k + p.fe__1 * p.robot__m__1__el__Re / p.robot__m__1__el__k
+        )
 
         # khepera.bg:17: r1: factor of robot.m[1].me.we': fe[1]*robot.m[1].el.L/robot.m[1].el.k +
         # robot.m[1].el.Re*robot.m[1].me.Je/robot.m[1].el.k
-        c.r1_robot__m__1__me__we_1 = t + t_4
+        c.r1_robot__m__1__me__we_1 = t + t_3
 
         # khepera.bg:17: r1: factor of robot.m[1].me.we'':
         # robot.m[1].el.L*robot.m[1].me.Je/robot.m[1].el.k
@@ -599,7 +550,7 @@ class Monitor:
         # khepera.bg:17: r1: factor of robot.m[1].wh.ws':
         # robot.m[1].el.L*robot.m[1].wh.fs/(robot.m[1].ge.N*robot.m[1].el.k) + Js[1]*robot.m[1].
         # ...
-        c.r1_robot__m__1__wh__ws_1 = t_2 + t_5
+        c.r1_robot__m__1__wh__ws_1 = t_2 + t_4
 
         # khepera.bg:17: r1: factor of robot.m[1].wh.ws'':
         # Js[1]*robot.m[1].el.L/(robot.m[1].ge.N*robot.m[1].el.k)
@@ -619,50 +570,41 @@ class Monitor:
             p.R__1 * p.robot__m__1__el__L / p.robot__m__1__ge__N / p.robot__m__1__el__k
         )
 
-        # khepera.bg:17: r1: factor of robot.m[1].me.we in stage 1
-        c.r1_v1_robot__m__1__me__we = t_14
+        # khepera.bg:17: r1: factor of robot.m[1].me.we'
+        c.r1_w1_robot__m__1__me__we = (-t - t_3) * w
 
-        # khepera.bg:17: r1: factor of robot.m[1].me.we in stage 2
-        c.r1_v2_robot__m__1__me__we = t_13 + 2.0 * t_14
-
-        # khepera.bg:17: r1: factor of robot.m[1].me.we in stage 3
-        c.r1_v3_robot__m__1__me__we = -p.robot__m__1__el__k - t_3 - t_13 - t_14
-
-        # khepera.bg:17: r1: factor of robot.m[1].wh.ws in stage 1
-        c.r1_v1_robot__m__1__wh__ws = t_16
-
-        # khepera.bg:17: r1: factor of robot.m[1].wh.ws in stage 2
-        c.r1_v2_robot__m__1__wh__ws = t_15 + 2.0 * t_16
-
-        # khepera.bg:17: r1: factor of robot.m[1].wh.ws in stage 3
-        c.r1_v3_robot__m__1__wh__ws = (
-            p.robot__m__1__el__Re * p.robot__m__1__wh__fs / p.robot__m__1__ge__N
-                / p.robot__m__1__el__k
-            + t_15 + t_16
+        # khepera.bg:17: r1: factor of robot.m[1].me.we''
+        c.r1_w2_robot__m__1__me__we = (
+            p.robot__m__1__el__L * p.robot__m__1__me__Je * w * w / p.robot__m__1__el__k
         )
 
-        # khepera.bg:17: r1: factor of robot.Fx[1] in stage 2
-        c.r1_v2_robot__Fx__1 = (
-            p.R__1 * p.robot__m__1__el__L * bandwidth / p.robot__m__1__ge__N / p.robot__m__1__el__k
+        # khepera.bg:17: r1: factor of robot.m[1].wh.ws'
+        c.r1_w1_robot__m__1__wh__ws = (-t_2 - t_4) * w
+
+        # khepera.bg:17: r1: factor of robot.m[1].wh.ws''
+        c.r1_w2_robot__m__1__wh__ws = (
+            p.Js__1 * p.robot__m__1__el__L * w * w / p.robot__m__1__ge__N / p.robot__m__1__el__k
         )
 
-        # khepera.bg:17: r1: factor of robot.Fx[1] in stage 3
-        c.r1_v3_robot__Fx__1 = (
-            p.R__1 * p.robot__m__1__el__L * bandwidth / p.robot__m__1__ge__N / p.robot__m__1__el__k
-            - p.R__1 * p.robot__m__1__el__Re / p.robot__m__1__ge__N / p.robot__m__1__el__k
+        # khepera.bg:17: r1: factor of robot.Fx[1]'
+        c.r1_w1_robot__Fx__1 = (
+            p.R__1 * p.robot__m__1__el__L * w / p.robot__m__1__ge__N / p.robot__m__1__el__k
         )
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_11
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_10 / 6.0
 
-        # filter: weight of the new sample
-        c.b0 = t_12
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_10 / 12.0
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_11 - t_12
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_12
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_9
+
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t_9
 
         # khepera.bg:41: 1/(4*robot.m[1].tau0)
         c.g = 0.25 / p.robot__m__1__tau0
@@ -692,29 +634,33 @@ class Monitor:
         # half the sample time
         c.half_time = 0.5 * sample_time
 
-        # khepera.bg:41: r2: factor of robot.m[1].wh.ws in stage 1
-        c.r2_v1_robot__m__1__wh__ws = t_18
+        # sample_time/24
+        c.half_twelfth = sample_time / 24.0
 
-        # khepera.bg:41: r2: factor of robot.m[1].wh.ws in stage 2
-        c.r2_v2_robot__m__1__wh__ws = 2.0 * t_18 - t_17
+        # khepera.bg:41: r2: factor of robot.m[1].wh.ws'
+        c.r2_w1_robot__m__1__wh__ws = (
+            p.robot__m__1__wh__fs * w / p.robot__m__1__ge__N / p.robot__m__1__me__K
+        )
 
-        # khepera.bg:41: r2: factor of robot.m[1].wh.ws in stage 3
-        c.r2_v3_robot__m__1__wh__ws = t_17 - p.robot__m__1__ge__N - t_18
+        # khepera.bg:41: r2: factor of robot.m[1].wh.ws''
+        c.r2_w2_robot__m__1__wh__ws = p.Js__1 * w * w / p.robot__m__1__ge__N / p.robot__m__1__me__K
 
-        # khepera.bg:41: r2: factor of robot.Fx[1] in stage 2
-        c.r2_v2_robot__Fx__1 = p.R__1 * bandwidth / p.robot__m__1__ge__N / p.robot__m__1__me__K
+        # khepera.bg:41: r2: factor of robot.Fx[1]'
+        c.r2_w1_robot__Fx__1 = p.R__1 * w / p.robot__m__1__ge__N / p.robot__m__1__me__K
 
-        # khepera.bg:41: r2: factor of tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ...
-        # in stage 2
-        c.r2_v2_tanh = p.robot__m__1__tau0 * p.robot__m__1__A * bandwidth
+        # khepera.bg:41: r2: factor of D(tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m
+        # ...)
+        c.r2_w1_tanh = p.robot__m__1__tau0 * p.robot__m__1__A * w
 
         # khepera.bg:17: r3: factor of robot.m[2].me.we: robot.m[2].el.k +
         # fe[2]*robot.m[2].el.Re/robot.m[2].el.k
-        c.r3_robot__m__2__me__we = p.robot__m__2__el__k + t_8
+        c.r3_robot__m__2__me__we = (
+            p.robot__m__2__el__k + p.fe__2 * p.robot__m__2__el__Re / p.robot__m__2__el__k
+        )
 
         # khepera.bg:17: r3: factor of robot.m[2].me.we': fe[2]*robot.m[2].el.L/robot.m[2].el.k +
         # robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2].el.k
-        c.r3_robot__m__2__me__we_1 = t_6 + t_9
+        c.r3_robot__m__2__me__we_1 = t_5 + t_7
 
         # khepera.bg:17: r3: factor of robot.m[2].me.we'':
         # robot.m[2].el.L*robot.m[2].me.Je/robot.m[2].el.k
@@ -732,7 +678,7 @@ class Monitor:
         # khepera.bg:17: r3: factor of robot.m[2].wh.ws':
         # robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robot.m[2].el.k) + Js[2]*robot.m[2].
         # ...
-        c.r3_robot__m__2__wh__ws_1 = t_7 + t_10
+        c.r3_robot__m__2__wh__ws_1 = t_6 + t_8
 
         # khepera.bg:17: r3: factor of robot.m[2].wh.ws'':
         # Js[2]*robot.m[2].el.L/(robot.m[2].ge.N*robot.m[2].el.k)
@@ -752,37 +698,25 @@ class Monitor:
             p.R__2 * p.robot__m__2__el__L / p.robot__m__2__ge__N / p.robot__m__2__el__k
         )
 
-        # khepera.bg:17: r3: factor of robot.m[2].me.we in stage 1
-        c.r3_v1_robot__m__2__me__we = t_20
+        # khepera.bg:17: r3: factor of robot.m[2].me.we'
+        c.r3_w1_robot__m__2__me__we = (-t_5 - t_7) * w
 
-        # khepera.bg:17: r3: factor of robot.m[2].me.we in stage 2
-        c.r3_v2_robot__m__2__me__we = t_19 + 2.0 * t_20
-
-        # khepera.bg:17: r3: factor of robot.m[2].me.we in stage 3
-        c.r3_v3_robot__m__2__me__we = -p.robot__m__2__el__k - t_8 - t_19 - t_20
-
-        # khepera.bg:17: r3: factor of robot.m[2].wh.ws in stage 1
-        c.r3_v1_robot__m__2__wh__ws = t_22
-
-        # khepera.bg:17: r3: factor of robot.m[2].wh.ws in stage 2
-        c.r3_v2_robot__m__2__wh__ws = t_21 + 2.0 * t_22
-
-        # khepera.bg:17: r3: factor of robot.m[2].wh.ws in stage 3
-        c.r3_v3_robot__m__2__wh__ws = (
-            p.robot__m__2__el__Re * p.robot__m__2__wh__fs / p.robot__m__2__ge__N
-                / p.robot__m__2__el__k
-            + t_21 + t_22
+        # khepera.bg:17: r3: factor of robot.m[2].me.we''
+        c.r3_w2_robot__m__2__me__we = (
+            p.robot__m__2__el__L * p.robot__m__2__me__Je * w * w / p.robot__m__2__el__k
         )
 
-        # khepera.bg:17: r3: factor of robot.Fx[2] in stage 2
-        c.r3_v2_robot__Fx__2 = (
-            p.R__2 * p.robot__m__2__el__L * bandwidth / p.robot__m__2__ge__N / p.robot__m__2__el__k
+        # khepera.bg:17: r3: factor of robot.m[2].wh.ws'
+        c.r3_w1_robot__m__2__wh__ws = (-t_6 - t_8) * w
+
+        # khepera.bg:17: r3: factor of robot.m[2].wh.ws''
+        c.r3_w2_robot__m__2__wh__ws = (
+            p.Js__2 * p.robot__m__2__el__L * w * w / p.robot__m__2__ge__N / p.robot__m__2__el__k
         )
 
-        # khepera.bg:17: r3: factor of robot.Fx[2] in stage 3
-        c.r3_v3_robot__Fx__2 = (
-            p.R__2 * p.robot__m__2__el__L * bandwidth / p.robot__m__2__ge__N / p.robot__m__2__el__k
-            - p.R__2 * p.robot__m__2__el__Re / p.robot__m__2__ge__N / p.robot__m__2__el__k
+        # khepera.bg:17: r3: factor of robot.Fx[2]'
+        c.r3_w1_robot__Fx__2 = (
+            p.R__2 * p.robot__m__2__el__L * w / p.robot__m__2__ge__N / p.robot__m__2__el__k
         )
 
         # khepera.bg:41: 1/(4*robot.m[2].tau0)
@@ -810,21 +744,20 @@ class Monitor:
         # ...): robot.m[2].tau0*robot.m[2].A
         c.r4_tanh_1 = p.robot__m__2__tau0 * p.robot__m__2__A
 
-        # khepera.bg:41: r4: factor of robot.m[2].wh.ws in stage 1
-        c.r4_v1_robot__m__2__wh__ws = t_24
+        # khepera.bg:41: r4: factor of robot.m[2].wh.ws'
+        c.r4_w1_robot__m__2__wh__ws = (
+            p.robot__m__2__wh__fs * w / p.robot__m__2__ge__N / p.robot__m__2__me__K
+        )
 
-        # khepera.bg:41: r4: factor of robot.m[2].wh.ws in stage 2
-        c.r4_v2_robot__m__2__wh__ws = 2.0 * t_24 - t_23
+        # khepera.bg:41: r4: factor of robot.m[2].wh.ws''
+        c.r4_w2_robot__m__2__wh__ws = p.Js__2 * w * w / p.robot__m__2__ge__N / p.robot__m__2__me__K
 
-        # khepera.bg:41: r4: factor of robot.m[2].wh.ws in stage 3
-        c.r4_v3_robot__m__2__wh__ws = t_23 - p.robot__m__2__ge__N - t_24
+        # khepera.bg:41: r4: factor of robot.Fx[2]'
+        c.r4_w1_robot__Fx__2 = p.R__2 * w / p.robot__m__2__ge__N / p.robot__m__2__me__K
 
-        # khepera.bg:41: r4: factor of robot.Fx[2] in stage 2
-        c.r4_v2_robot__Fx__2 = p.R__2 * bandwidth / p.robot__m__2__ge__N / p.robot__m__2__me__K
-
-        # khepera.bg:41: r4: factor of tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ...
-        # in stage 2
-        c.r4_v2_tanh = p.robot__m__2__tau0 * p.robot__m__2__A * bandwidth
+        # khepera.bg:41: r4: factor of D(tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m
+        # ...)
+        c.r4_w1_tanh = p.robot__m__2__tau0 * p.robot__m__2__A * w
 
         # khepera.bg:114: r5: factor of robot.Us': 1.5*RL*CL
         c.r5_robot__Us_1 = 1.5 * p.RL * p.CL
@@ -843,12 +776,33 @@ class Monitor:
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r1: input of stage 3
-        r1_u3 = (
-            s.robot__U0__1 + c.r1_v3_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_v3_robot__Fx__1 * s.robot__Fx__1
-            - c.r1_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        # khepera.bg:17: r1: terms of order 0
+        r1_g0 = (
+            s.robot__U0__1 - c.r1_robot__m__1__me__we * s.robot__m__1__me__we
+            - c.r1_robot__m__1__wh__ws * s.robot__m__1__wh__ws - c.r1_robot__Fx__1 * s.robot__Fx__1
         )
+
+        # khepera.bg:17: r1: terms of order 1
+        r1_g1 = (
+            c.r1_w1_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r1_w1_robot__Fx__1 * s.robot__Fx__1
+        )
+
+        # khepera.bg:17: r1: error of order 0
+        r1_e0 = c.bend2 * r1_g0
+
+        # khepera.bg:17: r1: degree 2
+        r1_d2 = (
+            -c.r1_w2_robot__m__1__me__we * s.robot__m__1__me__we
+            - c.r1_w2_robot__m__1__wh__ws * s.robot__m__1__wh__ws - r1_e0
+        )
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1 = c.bend1 * r1_g1
+
+        # khepera.bg:17: r1: input of stage 3
+        r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1
 
         # khepera.bg:17: r1: stage 3, at rest
         r1_y3 = r1_u3
@@ -857,11 +811,7 @@ class Monitor:
         x.r1_s3 = c.rest * r1_u3
 
         # khepera.bg:17: r1: input of stage 2
-        r1_u2 = (
-            r1_y3 + c.r1_v2_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            - c.r1_v2_robot__Fx__1 * s.robot__Fx__1
-        )
+        r1_u2 = r1_y3 + r1_g1 - 2.0 * r1_d2 - 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -870,10 +820,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # khepera.bg:17: r1: input of stage 1
-        r1_u1 = (
-            r1_y2 - c.r1_v1_robot__m__1__me__we * s.robot__m__1__me__we
-            - c.r1_v1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-        )
+        r1_u1 = r1_y2 + r1_d2 + 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -887,50 +834,64 @@ class Monitor:
         # where robot.m[1].el.k.e2 = fe[1]*robot.m[1].me.we + robot.m[1].me.Je*D(robot.m[1].me.we)
         # + (robot.m[1].wh.fs*robot.m[1].wh.ws + R[1]*robot.Fx[1] +
         # Js[1]*D(robot.m[1].wh.ws))/robot.m[1].ge.N
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e1
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r1: input of stage 3
-        r1_u3 = (
-            s.robot__U0__1 + c.r1_v3_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_v3_robot__Fx__1 * s.robot__Fx__1
-            - c.r1_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        # khepera.bg:17: r1: terms of order 0
+        r1_g0 = (
+            s.robot__U0__1 - c.r1_robot__m__1__me__we * s.robot__m__1__me__we
+            - c.r1_robot__m__1__wh__ws * s.robot__m__1__wh__ws - c.r1_robot__Fx__1 * s.robot__Fx__1
         )
+
+        # khepera.bg:17: r1: terms of order 1
+        r1_g1 = (
+            c.r1_w1_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r1_w1_robot__Fx__1 * s.robot__Fx__1
+        )
+
+        # khepera.bg:17: r1: error of order 0
+        r1_e0 = c.bend2 * r1_g0
+
+        # khepera.bg:17: r1: degree 2
+        r1_d2 = (
+            -c.r1_w2_robot__m__1__me__we * s.robot__m__1__me__we
+            - c.r1_w2_robot__m__1__wh__ws * s.robot__m__1__wh__ws - r1_e0
+        )
+
+        # khepera.bg:17: r1: error of order 1
+        r1_e1 = c.bend1 * r1_g1
+
+        # khepera.bg:17: r1: input of stage 3
+        r1_u3 = r1_g0 + r1_d2 + r1_e1 - r1_g1
 
         # khepera.bg:17: r1: stage 3
-        r1_y3 = x.r1_s3 + c.b0 * r1_u3
+        r1_y3 = x.r1_s3 + c.b * r1_u3
 
         # khepera.bg:17: r1: stage 3: memory
-        x.r1_s3 = c.a * r1_y3 + c.b1 * r1_u3
+        x.r1_s3 = c.a * r1_y3 + c.b * r1_u3
 
         # khepera.bg:17: r1: input of stage 2
-        r1_u2 = (
-            r1_y3 + c.r1_v2_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            - c.r1_v2_robot__Fx__1 * s.robot__Fx__1
-        )
+        r1_u2 = r1_y3 + r1_g1 - 2.0 * r1_d2 - 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # khepera.bg:17: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # khepera.bg:17: r1: input of stage 1
-        r1_u1 = (
-            r1_y2 - c.r1_v1_robot__m__1__me__we * s.robot__m__1__me__we
-            - c.r1_v1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-        )
+        r1_u1 = r1_y2 + r1_d2 + 3.0 * r1_e1
 
         # khepera.bg:17: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # khepera.bg:17: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # khepera.bg:17: r1 = robot.U0[1] - robot.m[1].el.k*robot.m[1].me.we -
         # robot.m[1].el.Re*robot.m[1].el.k.e2/robot.m[1].el.k -
@@ -938,7 +899,7 @@ class Monitor:
         # where robot.m[1].el.k.e2 = fe[1]*robot.m[1].me.we + robot.m[1].me.Je*D(robot.m[1].me.we)
         # + (robot.m[1].wh.fs*robot.m[1].wh.ws + R[1]*robot.Fx[1] +
         # Js[1]*D(robot.m[1].wh.ws))/robot.m[1].ge.N
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e1
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -976,14 +937,37 @@ class Monitor:
         # memory
         x.r2_q = c.half_time * r2_rate
 
+        # khepera.bg:41: integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...
+        r2_integral = r2_int
+
+        # khepera.bg:41: integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...:
+        # memory
+        x.r2_rate2 = r2_rate
+        x.r2_rate1 = r2_rate
+
         # khepera.bg:41: tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ...
-        r2_tanh = math.tanh(r2_int)
+        r2_tanh = math.tanh(r2_integral)
+
+        # khepera.bg:41: r2: terms of order 0
+        r2_g0 = s.robot__m__1__me__we - c.r2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
+        # khepera.bg:41: r2: terms of order 1
+        r2_g1 = (
+            c.r2_w1_tanh * r2_tanh - c.r2_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r2_w1_robot__Fx__1 * s.robot__Fx__1
+        )
+
+        # khepera.bg:41: r2: error of order 0
+        r2_e0 = c.bend2 * r2_g0
+
+        # khepera.bg:41: r2: degree 2
+        r2_d2 = -c.r2_w2_robot__m__1__wh__ws * s.robot__m__1__wh__ws - r2_e0
+
+        # khepera.bg:41: r2: error of order 1
+        r2_e1 = c.bend1 * r2_g1
 
         # khepera.bg:41: r2: input of stage 3
-        r2_u3 = (
-            s.robot__m__1__me__we + c.r2_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            + c.r2_v2_robot__Fx__1 * s.robot__Fx__1 - c.r2_v2_tanh * r2_tanh
-        )
+        r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1
 
         # khepera.bg:41: r2: stage 3, at rest
         r2_y3 = r2_u3
@@ -992,10 +976,7 @@ class Monitor:
         x.r2_s3 = c.rest * r2_u3
 
         # khepera.bg:41: r2: input of stage 2
-        r2_u2 = (
-            r2_y3 + c.r2_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws + c.r2_v2_tanh * r2_tanh
-            - c.r2_v2_robot__Fx__1 * s.robot__Fx__1
-        )
+        r2_u2 = r2_y3 + r2_g1 - 2.0 * r2_d2 - 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -1004,7 +985,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # khepera.bg:41: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r2_u1 = r2_y2 + r2_d2 + 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -1017,7 +998,7 @@ class Monitor:
         # robot.m[1].tau0*robot.m[1].A*robot.m[1].ge.N*robot.m[1].me.K*tanh((Int(robot.m[1].me.we)
         # - robot.m[1].ge.N*Int(robot.m[1].wh.ws))/(4*robot.m[1].tau0)))/(robot.m[1].ge.N*robot.m[1
         # ].me.K)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e1
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
@@ -1035,48 +1016,68 @@ class Monitor:
         # memory
         x.r2_q = r2_int + c.half_time * r2_rate
 
+        # khepera.bg:41: integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...
+        r2_integral = r2_int - c.half_twelfth * (3.0 * r2_rate - 4.0 * x.r2_rate1 + x.r2_rate2)
+
+        # khepera.bg:41: integral of robot.m[1].me.we/(4*robot.m[1].tau0) - robot.m[1].ge.N*r ...:
+        # memory
+        x.r2_rate2 = x.r2_rate1
+        x.r2_rate1 = r2_rate
+
         # khepera.bg:41: tanh(Int(robot.m[1].me.we)/(4*robot.m[1].tau0) - robot.m ...
-        r2_tanh = math.tanh(r2_int)
+        r2_tanh = math.tanh(r2_integral)
+
+        # khepera.bg:41: r2: terms of order 0
+        r2_g0 = s.robot__m__1__me__we - c.r2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
+        # khepera.bg:41: r2: terms of order 1
+        r2_g1 = (
+            c.r2_w1_tanh * r2_tanh - c.r2_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r2_w1_robot__Fx__1 * s.robot__Fx__1
+        )
+
+        # khepera.bg:41: r2: error of order 0
+        r2_e0 = c.bend2 * r2_g0
+
+        # khepera.bg:41: r2: degree 2
+        r2_d2 = -c.r2_w2_robot__m__1__wh__ws * s.robot__m__1__wh__ws - r2_e0
+
+        # khepera.bg:41: r2: error of order 1
+        r2_e1 = c.bend1 * r2_g1
 
         # khepera.bg:41: r2: input of stage 3
-        r2_u3 = (
-            s.robot__m__1__me__we + c.r2_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            + c.r2_v2_robot__Fx__1 * s.robot__Fx__1 - c.r2_v2_tanh * r2_tanh
-        )
+        r2_u3 = r2_g0 + r2_d2 + r2_e1 - r2_g1
 
         # khepera.bg:41: r2: stage 3
-        r2_y3 = x.r2_s3 + c.b0 * r2_u3
+        r2_y3 = x.r2_s3 + c.b * r2_u3
 
         # khepera.bg:41: r2: stage 3: memory
-        x.r2_s3 = c.a * r2_y3 + c.b1 * r2_u3
+        x.r2_s3 = c.a * r2_y3 + c.b * r2_u3
 
         # khepera.bg:41: r2: input of stage 2
-        r2_u2 = (
-            r2_y3 + c.r2_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws + c.r2_v2_tanh * r2_tanh
-            - c.r2_v2_robot__Fx__1 * s.robot__Fx__1
-        )
+        r2_u2 = r2_y3 + r2_g1 - 2.0 * r2_d2 - 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # khepera.bg:41: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # khepera.bg:41: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r2_u1 = r2_y2 + r2_d2 + 3.0 * r2_e1
 
         # khepera.bg:41: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # khepera.bg:41: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # khepera.bg:41: r2 = robot.m[1].me.we - robot.m[1].ge.N*robot.m[1].wh.ws -
         # D(robot.m[1].wh.fs*robot.m[1].wh.ws + R[1]*robot.Fx[1] + Js[1]*D(robot.m[1].wh.ws) -
         # robot.m[1].tau0*robot.m[1].A*robot.m[1].ge.N*robot.m[1].me.K*tanh((Int(robot.m[1].me.we)
         # - robot.m[1].ge.N*Int(robot.m[1].wh.ws))/(4*robot.m[1].tau0)))/(robot.m[1].ge.N*robot.m[1
         # ].me.K)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e1
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -1101,12 +1102,33 @@ class Monitor:
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r3: input of stage 3
-        r3_u3 = (
-            s.robot__U0__2 + c.r3_v3_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_v3_robot__Fx__2 * s.robot__Fx__2
-            - c.r3_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        # khepera.bg:17: r3: terms of order 0
+        r3_g0 = (
+            s.robot__U0__2 - c.r3_robot__m__2__me__we * s.robot__m__2__me__we
+            - c.r3_robot__m__2__wh__ws * s.robot__m__2__wh__ws - c.r3_robot__Fx__2 * s.robot__Fx__2
         )
+
+        # khepera.bg:17: r3: terms of order 1
+        r3_g1 = (
+            c.r3_w1_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r3_w1_robot__Fx__2 * s.robot__Fx__2
+        )
+
+        # khepera.bg:17: r3: error of order 0
+        r3_e0 = c.bend2 * r3_g0
+
+        # khepera.bg:17: r3: degree 2
+        r3_d2 = (
+            -c.r3_w2_robot__m__2__me__we * s.robot__m__2__me__we
+            - c.r3_w2_robot__m__2__wh__ws * s.robot__m__2__wh__ws - r3_e0
+        )
+
+        # khepera.bg:17: r3: error of order 1
+        r3_e1 = c.bend1 * r3_g1
+
+        # khepera.bg:17: r3: input of stage 3
+        r3_u3 = r3_g0 + r3_d2 + r3_e1 - r3_g1
 
         # khepera.bg:17: r3: stage 3, at rest
         r3_y3 = r3_u3
@@ -1115,11 +1137,7 @@ class Monitor:
         x.r3_s3 = c.rest * r3_u3
 
         # khepera.bg:17: r3: input of stage 2
-        r3_u2 = (
-            r3_y3 + c.r3_v2_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            - c.r3_v2_robot__Fx__2 * s.robot__Fx__2
-        )
+        r3_u2 = r3_y3 + r3_g1 - 2.0 * r3_d2 - 3.0 * r3_e1
 
         # khepera.bg:17: r3: stage 2, at rest
         r3_y2 = r3_u2
@@ -1128,10 +1146,7 @@ class Monitor:
         x.r3_s2 = c.rest * r3_u2
 
         # khepera.bg:17: r3: input of stage 1
-        r3_u1 = (
-            r3_y2 - c.r3_v1_robot__m__2__me__we * s.robot__m__2__me__we
-            - c.r3_v1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-        )
+        r3_u1 = r3_y2 + r3_d2 + 3.0 * r3_e1
 
         # khepera.bg:17: r3: stage 1, at rest
         r3_y1 = r3_u1
@@ -1145,50 +1160,64 @@ class Monitor:
         # where robot.m[2].el.k.e2 = fe[2]*robot.m[2].me.we + robot.m[2].me.Je*D(robot.m[2].me.we)
         # + (robot.m[2].wh.fs*robot.m[2].wh.ws + R[2]*robot.Fx[2] +
         # Js[2]*D(robot.m[2].wh.ws))/robot.m[2].ge.N
-        r.r3 = r3_y1
+        r.r3 = r3_y1 - r3_e1
 
     def _next_r3(self, s: Samples, r: Residuals) -> None:
         """r3 on every further sample."""
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r3: input of stage 3
-        r3_u3 = (
-            s.robot__U0__2 + c.r3_v3_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_v3_robot__Fx__2 * s.robot__Fx__2
-            - c.r3_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        # khepera.bg:17: r3: terms of order 0
+        r3_g0 = (
+            s.robot__U0__2 - c.r3_robot__m__2__me__we * s.robot__m__2__me__we
+            - c.r3_robot__m__2__wh__ws * s.robot__m__2__wh__ws - c.r3_robot__Fx__2 * s.robot__Fx__2
         )
+
+        # khepera.bg:17: r3: terms of order 1
+        r3_g1 = (
+            c.r3_w1_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r3_w1_robot__Fx__2 * s.robot__Fx__2
+        )
+
+        # khepera.bg:17: r3: error of order 0
+        r3_e0 = c.bend2 * r3_g0
+
+        # khepera.bg:17: r3: degree 2
+        r3_d2 = (
+            -c.r3_w2_robot__m__2__me__we * s.robot__m__2__me__we
+            - c.r3_w2_robot__m__2__wh__ws * s.robot__m__2__wh__ws - r3_e0
+        )
+
+        # khepera.bg:17: r3: error of order 1
+        r3_e1 = c.bend1 * r3_g1
+
+        # khepera.bg:17: r3: input of stage 3
+        r3_u3 = r3_g0 + r3_d2 + r3_e1 - r3_g1
 
         # khepera.bg:17: r3: stage 3
-        r3_y3 = x.r3_s3 + c.b0 * r3_u3
+        r3_y3 = x.r3_s3 + c.b * r3_u3
 
         # khepera.bg:17: r3: stage 3: memory
-        x.r3_s3 = c.a * r3_y3 + c.b1 * r3_u3
+        x.r3_s3 = c.a * r3_y3 + c.b * r3_u3
 
         # khepera.bg:17: r3: input of stage 2
-        r3_u2 = (
-            r3_y3 + c.r3_v2_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            - c.r3_v2_robot__Fx__2 * s.robot__Fx__2
-        )
+        r3_u2 = r3_y3 + r3_g1 - 2.0 * r3_d2 - 3.0 * r3_e1
 
         # khepera.bg:17: r3: stage 2
-        r3_y2 = x.r3_s2 + c.b0 * r3_u2
+        r3_y2 = x.r3_s2 + c.b * r3_u2
 
         # khepera.bg:17: r3: stage 2: memory
-        x.r3_s2 = c.a * r3_y2 + c.b1 * r3_u2
+        x.r3_s2 = c.a * r3_y2 + c.b * r3_u2
 
         # khepera.bg:17: r3: input of stage 1
-        r3_u1 = (
-            r3_y2 - c.r3_v1_robot__m__2__me__we * s.robot__m__2__me__we
-            - c.r3_v1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-        )
+        r3_u1 = r3_y2 + r3_d2 + 3.0 * r3_e1
 
         # khepera.bg:17: r3: stage 1
-        r3_y1 = x.r3_s1 + c.b0 * r3_u1
+        r3_y1 = x.r3_s1 + c.b * r3_u1
 
         # khepera.bg:17: r3: stage 1: memory
-        x.r3_s1 = c.a * r3_y1 + c.b1 * r3_u1
+        x.r3_s1 = c.a * r3_y1 + c.b * r3_u1
 
         # khepera.bg:17: r3 = robot.U0[2] - robot.m[2].el.k*robot.m[2].me.we -
         # robot.m[2].el.Re*robot.m[2].el.k.e2/robot.m[2].el.k -
@@ -1196,7 +1225,7 @@ class Monitor:
         # where robot.m[2].el.k.e2 = fe[2]*robot.m[2].me.we + robot.m[2].me.Je*D(robot.m[2].me.we)
         # + (robot.m[2].wh.fs*robot.m[2].wh.ws + R[2]*robot.Fx[2] +
         # Js[2]*D(robot.m[2].wh.ws))/robot.m[2].ge.N
-        r.r3 = r3_y1
+        r.r3 = r3_y1 - r3_e1
 
     def _run_r3(self, s: Samples, r: Residuals) -> None:
         """One sample for r3; what is not finite makes the next the first."""
@@ -1234,14 +1263,37 @@ class Monitor:
         # memory
         x.r4_q = c.half_time * r4_rate
 
+        # khepera.bg:41: integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...
+        r4_integral = r4_int
+
+        # khepera.bg:41: integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...:
+        # memory
+        x.r4_rate2 = r4_rate
+        x.r4_rate1 = r4_rate
+
         # khepera.bg:41: tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ...
-        r4_tanh = math.tanh(r4_int)
+        r4_tanh = math.tanh(r4_integral)
+
+        # khepera.bg:41: r4: terms of order 0
+        r4_g0 = s.robot__m__2__me__we - c.r4_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
+        # khepera.bg:41: r4: terms of order 1
+        r4_g1 = (
+            c.r4_w1_tanh * r4_tanh - c.r4_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r4_w1_robot__Fx__2 * s.robot__Fx__2
+        )
+
+        # khepera.bg:41: r4: error of order 0
+        r4_e0 = c.bend2 * r4_g0
+
+        # khepera.bg:41: r4: degree 2
+        r4_d2 = -c.r4_w2_robot__m__2__wh__ws * s.robot__m__2__wh__ws - r4_e0
+
+        # khepera.bg:41: r4: error of order 1
+        r4_e1 = c.bend1 * r4_g1
 
         # khepera.bg:41: r4: input of stage 3
-        r4_u3 = (
-            s.robot__m__2__me__we + c.r4_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            + c.r4_v2_robot__Fx__2 * s.robot__Fx__2 - c.r4_v2_tanh * r4_tanh
-        )
+        r4_u3 = r4_g0 + r4_d2 + r4_e1 - r4_g1
 
         # khepera.bg:41: r4: stage 3, at rest
         r4_y3 = r4_u3
@@ -1250,10 +1302,7 @@ class Monitor:
         x.r4_s3 = c.rest * r4_u3
 
         # khepera.bg:41: r4: input of stage 2
-        r4_u2 = (
-            r4_y3 + c.r4_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws + c.r4_v2_tanh * r4_tanh
-            - c.r4_v2_robot__Fx__2 * s.robot__Fx__2
-        )
+        r4_u2 = r4_y3 + r4_g1 - 2.0 * r4_d2 - 3.0 * r4_e1
 
         # khepera.bg:41: r4: stage 2, at rest
         r4_y2 = r4_u2
@@ -1262,7 +1311,7 @@ class Monitor:
         x.r4_s2 = c.rest * r4_u2
 
         # khepera.bg:41: r4: input of stage 1
-        r4_u1 = r4_y2 - c.r4_v1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r4_u1 = r4_y2 + r4_d2 + 3.0 * r4_e1
 
         # khepera.bg:41: r4: stage 1, at rest
         r4_y1 = r4_u1
@@ -1275,7 +1324,7 @@ class Monitor:
         # robot.m[2].tau0*robot.m[2].A*robot.m[2].ge.N*robot.m[2].me.K*tanh((Int(robot.m[2].me.we)
         # - robot.m[2].ge.N*Int(robot.m[2].wh.ws))/(4*robot.m[2].tau0)))/(robot.m[2].ge.N*robot.m[2
         # ].me.K)
-        r.r4 = r4_y1
+        r.r4 = r4_y1 - r4_e1
 
     def _next_r4(self, s: Samples, r: Residuals) -> None:
         """r4 on every further sample."""
@@ -1293,48 +1342,68 @@ class Monitor:
         # memory
         x.r4_q = r4_int + c.half_time * r4_rate
 
+        # khepera.bg:41: integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...
+        r4_integral = r4_int - c.half_twelfth * (3.0 * r4_rate - 4.0 * x.r4_rate1 + x.r4_rate2)
+
+        # khepera.bg:41: integral of robot.m[2].me.we/(4*robot.m[2].tau0) - robot.m[2].ge.N*r ...:
+        # memory
+        x.r4_rate2 = x.r4_rate1
+        x.r4_rate1 = r4_rate
+
         # khepera.bg:41: tanh(Int(robot.m[2].me.we)/(4*robot.m[2].tau0) - robot.m ...
-        r4_tanh = math.tanh(r4_int)
+        r4_tanh = math.tanh(r4_integral)
+
+        # khepera.bg:41: r4: terms of order 0
+        r4_g0 = s.robot__m__2__me__we - c.r4_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
+        # khepera.bg:41: r4: terms of order 1
+        r4_g1 = (
+            c.r4_w1_tanh * r4_tanh - c.r4_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r4_w1_robot__Fx__2 * s.robot__Fx__2
+        )
+
+        # khepera.bg:41: r4: error of order 0
+        r4_e0 = c.bend2 * r4_g0
+
+        # khepera.bg:41: r4: degree 2
+        r4_d2 = -c.r4_w2_robot__m__2__wh__ws * s.robot__m__2__wh__ws - r4_e0
+
+        # khepera.bg:41: r4: error of order 1
+        r4_e1 = c.bend1 * r4_g1
 
         # khepera.bg:41: r4: input of stage 3
-        r4_u3 = (
-            s.robot__m__2__me__we + c.r4_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            + c.r4_v2_robot__Fx__2 * s.robot__Fx__2 - c.r4_v2_tanh * r4_tanh
-        )
+        r4_u3 = r4_g0 + r4_d2 + r4_e1 - r4_g1
 
         # khepera.bg:41: r4: stage 3
-        r4_y3 = x.r4_s3 + c.b0 * r4_u3
+        r4_y3 = x.r4_s3 + c.b * r4_u3
 
         # khepera.bg:41: r4: stage 3: memory
-        x.r4_s3 = c.a * r4_y3 + c.b1 * r4_u3
+        x.r4_s3 = c.a * r4_y3 + c.b * r4_u3
 
         # khepera.bg:41: r4: input of stage 2
-        r4_u2 = (
-            r4_y3 + c.r4_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws + c.r4_v2_tanh * r4_tanh
-            - c.r4_v2_robot__Fx__2 * s.robot__Fx__2
-        )
+        r4_u2 = r4_y3 + r4_g1 - 2.0 * r4_d2 - 3.0 * r4_e1
 
         # khepera.bg:41: r4: stage 2
-        r4_y2 = x.r4_s2 + c.b0 * r4_u2
+        r4_y2 = x.r4_s2 + c.b * r4_u2
 
         # khepera.bg:41: r4: stage 2: memory
-        x.r4_s2 = c.a * r4_y2 + c.b1 * r4_u2
+        x.r4_s2 = c.a * r4_y2 + c.b * r4_u2
 
         # khepera.bg:41: r4: input of stage 1
-        r4_u1 = r4_y2 - c.r4_v1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r4_u1 = r4_y2 + r4_d2 + 3.0 * r4_e1
 
         # khepera.bg:41: r4: stage 1
-        r4_y1 = x.r4_s1 + c.b0 * r4_u1
+        r4_y1 = x.r4_s1 + c.b * r4_u1
 
         # khepera.bg:41: r4: stage 1: memory
-        x.r4_s1 = c.a * r4_y1 + c.b1 * r4_u1
+        x.r4_s1 = c.a * r4_y1 + c.b * r4_u1
 
         # khepera.bg:41: r4 = robot.m[2].me.we - robot.m[2].ge.N*robot.m[2].wh.ws -
         # D(robot.m[2].wh.fs*robot.m[2].wh.ws + R[2]*robot.Fx[2] + Js[2]*D(robot.m[2].wh.ws) -
         # robot.m[2].tau0*robot.m[2].A*robot.m[2].ge.N*robot.m[2].me.K*tanh((Int(robot.m[2].me.we)
         # - robot.m[2].ge.N*Int(robot.m[2].wh.ws))/(4*robot.m[2].tau0)))/(robot.m[2].ge.N*robot.m[2
         # ].me.K)
-        r.r4 = r4_y1
+        r.r4 = r4_y1 - r4_e1
 
     def _run_r4(self, s: Samples, r: Residuals) -> None:
         """One sample for r4; what is not finite makes the next the first."""
@@ -1383,10 +1452,10 @@ class Monitor:
         r5_u1 = s.robot__Uin - s.robot__Us
 
         # khepera.bg:114: r5: stage 1
-        r5_y1 = x.r5_s1 + c.b0 * r5_u1
+        r5_y1 = x.r5_s1 + c.b * r5_u1
 
         # khepera.bg:114: r5: stage 1: memory
-        x.r5_s1 = c.a * r5_y1 + c.b1 * r5_u1
+        x.r5_s1 = c.a * r5_y1 + c.b * r5_u1
 
         # khepera.bg:114: r5 = robot.Uin - robot.line.cell[1].mid.e -
         # RL*robot.line.cell[1].left.f/2 - LL*D(robot.line.cell[1].left.f)/2
@@ -1409,23 +1478,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[4] = 0
             r.r5 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

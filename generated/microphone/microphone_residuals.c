@@ -21,39 +21,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t microphone_abi(void)
@@ -86,17 +57,17 @@ static void compute_coefficients(microphone_monitor *monitor, const microphone_p
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* 1 - pole */
+    const real t = REAL(1.0) - pole;
 
     /* microphone.bg:17: mic.mech.q0 */
     c->mic__mech__q0 = p->x0;
@@ -110,20 +81,23 @@ static void compute_coefficients(microphone_monitor *monitor, const microphone_p
     /* half the sample time */
     c->half_time = REAL(0.5) * sample_time;
 
-    /* microphone.bg:17: r1: factor of u/(mic.mech.q0 + Int(v)) in stage 1 */
-    c->r1_v1_product = p->eps * p->A * bandwidth;
+    /* sample_time/24 */
+    c->half_twelfth = sample_time / REAL(24.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* microphone.bg:17: r1: factor of D(u/(mic.mech.q0 + Int(v))) */
+    c->r1_w1_product = p->eps * p->A * w;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t;
+
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t;
 
     /* microphone.bg:29: r2: factor of pressure: A */
     c->r2_pressure = p->A;
@@ -139,6 +113,9 @@ static void compute_coefficients(microphone_monitor *monitor, const microphone_p
 
     /* microphone.bg:29: r2: factor of u^2/(mic.mech.q0 + Int(v))^2: eps*A/2 */
     c->r2_product = REAL(0.5) * p->eps * p->A;
+
+    /* filter: w*sample_time^2/12 */
+    c->bend_int = sample_time * sample_time * w / REAL(12.0);
 }
 
 static bool parameters_are_finite(const microphone_parameters *p)
@@ -149,9 +126,10 @@ static bool parameters_are_finite(const microphone_parameters *p)
 static bool coefficients_are_finite(const microphone_monitor *monitor)
 {
     return finite_number(monitor->c.mic__mech__q0 + monitor->c.r1_U0 + monitor->c.r1_product_1
-            + monitor->c.half_time + monitor->c.r1_v1_product + monitor->c.a + monitor->c.b0
-            + monitor->c.b1 + monitor->c.rest + monitor->c.r2_pressure + monitor->c.r2_v_int
-            + monitor->c.r2_v + monitor->c.r2_v_1 + monitor->c.r2_product);
+            + monitor->c.half_time + monitor->c.half_twelfth + monitor->c.r1_w1_product
+            + monitor->c.bend1 + monitor->c.a + monitor->c.b + monitor->c.rest
+            + monitor->c.r2_pressure + monitor->c.r2_v_int + monitor->c.r2_v + monitor->c.r2_v_1
+            + monitor->c.r2_product + monitor->c.bend_int);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -231,11 +209,27 @@ static void start_r1(
     /* microphone.bg:17: integral of v: memory */
     x->r1_q = c->half_time * s->v;
 
+    /* microphone.bg:17: integral of v */
+    const real r1_integral = r1_int;
+
+    /* microphone.bg:17: integral of v: memory */
+    x->r1_rate2 = s->v;
+    x->r1_rate1 = s->v;
+
     /* microphone.bg:17: u/(mic.mech.q0 + Int(v)) */
-    const real r1_product = s->u / (r1_int + c->mic__mech__q0);
+    const real r1_product = s->u / (r1_integral + c->mic__mech__q0);
+
+    /* microphone.bg:17: r1: terms of order 0 */
+    const real r1_g0 = c->r1_U0 * s->U0 - c->r1_U0 * s->u;
+
+    /* microphone.bg:17: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_product * r1_product;
+
+    /* microphone.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
 
     /* microphone.bg:17: r1: input of stage 2 */
-    const real r1_u2 = c->r1_U0 * s->U0 + c->r1_v1_product * r1_product - c->r1_U0 * s->u;
+    const real r1_u2 = r1_g0 + r1_d1 - r1_e0;
 
     /* microphone.bg:17: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -244,7 +238,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* microphone.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_product * r1_product;
+    const real r1_u1 = r1_y2 + REAL(2.0) * r1_e0 - r1_d1;
 
     /* microphone.bg:17: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -253,7 +247,7 @@ static void start_r1(
     x->r1_s1 = c->rest * r1_u1;
 
     /* microphone.bg:17: r1 = (U0 - u)/R - eps*A*D(u/Int(v, x0)) */
-    r[MICROPHONE_R1] = r1_y1;
+    r[MICROPHONE_R1] = r1_y1 - r1_e0;
 }
 
 /* r1 on every further sample. */
@@ -269,29 +263,46 @@ static void next_r1(
     /* microphone.bg:17: integral of v: memory */
     x->r1_q = r1_int + c->half_time * s->v;
 
+    /* microphone.bg:17: integral of v */
+    const real r1_integral = r1_int
+        - c->half_twelfth * (REAL(3.0) * s->v - REAL(4.0) * x->r1_rate1 + x->r1_rate2);
+
+    /* microphone.bg:17: integral of v: memory */
+    x->r1_rate2 = x->r1_rate1;
+    x->r1_rate1 = s->v;
+
     /* microphone.bg:17: u/(mic.mech.q0 + Int(v)) */
-    const real r1_product = s->u / (r1_int + c->mic__mech__q0);
+    const real r1_product = s->u / (r1_integral + c->mic__mech__q0);
+
+    /* microphone.bg:17: r1: terms of order 0 */
+    const real r1_g0 = c->r1_U0 * s->U0 - c->r1_U0 * s->u;
+
+    /* microphone.bg:17: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_product * r1_product;
+
+    /* microphone.bg:17: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
 
     /* microphone.bg:17: r1: input of stage 2 */
-    const real r1_u2 = c->r1_U0 * s->U0 + c->r1_v1_product * r1_product - c->r1_U0 * s->u;
+    const real r1_u2 = r1_g0 + r1_d1 - r1_e0;
 
     /* microphone.bg:17: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* microphone.bg:17: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* microphone.bg:17: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_product * r1_product;
+    const real r1_u1 = r1_y2 + REAL(2.0) * r1_e0 - r1_d1;
 
     /* microphone.bg:17: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* microphone.bg:17: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* microphone.bg:17: r1 = (U0 - u)/R - eps*A*D(u/Int(v, x0)) */
-    r[MICROPHONE_R1] = r1_y1;
+    r[MICROPHONE_R1] = r1_y1 - r1_e0;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -330,8 +341,15 @@ static void start_r2(
     /* microphone.bg:29: integral of v: memory */
     x->r2_q = c->half_time * s->v;
 
+    /* microphone.bg:29: integral of v */
+    const real r2_integral = r2_int;
+
+    /* microphone.bg:29: integral of v: memory */
+    x->r2_rate2 = s->v;
+    x->r2_rate1 = s->v;
+
     /* microphone.bg:29: mic.mech.q0 + Int(v) */
-    const real r2_t = r2_int + c->mic__mech__q0;
+    const real r2_t = r2_integral + c->mic__mech__q0;
 
     /* microphone.bg:29: u^2/(mic.mech.q0 + Int(v))^2 */
     const real r2_product = s->u * s->u / r2_t / r2_t;
@@ -345,8 +363,11 @@ static void start_r2(
     /* microphone.bg:29: r2: integral: memory */
     x->r2_q_2 = c->half_time * r2_rate;
 
+    /* microphone.bg:29: r2: error of order -1 */
+    const real r2_i = c->bend_int * r2_rate;
+
     /* microphone.bg:29: r2: input of stage 1 */
-    const real r2_u1 = c->r2_pressure * s->pressure + r2_int_2 - c->r2_v * s->v
+    const real r2_u1 = c->r2_pressure * s->pressure + r2_int_2 + r2_i - c->r2_v * s->v
         - c->r2_product * r2_product;
 
     /* microphone.bg:29: r2: stage 1, at rest */
@@ -356,7 +377,7 @@ static void start_r2(
     x->r2_s1 = c->rest * r2_u1;
 
     /* microphone.bg:29: r2 = pressure*A - b*v - k*Int(v) - eps*A*u^2/(2*Int(v, x0)^2) - m*D(v) */
-    r[MICROPHONE_R2] = r2_y1;
+    r[MICROPHONE_R2] = r2_y1 - r2_i;
 }
 
 /* r2 on every further sample. */
@@ -372,8 +393,16 @@ static void next_r2(
     /* microphone.bg:29: integral of v: memory */
     x->r2_q = r2_int + c->half_time * s->v;
 
+    /* microphone.bg:29: integral of v */
+    const real r2_integral = r2_int
+        - c->half_twelfth * (REAL(3.0) * s->v - REAL(4.0) * x->r2_rate1 + x->r2_rate2);
+
+    /* microphone.bg:29: integral of v: memory */
+    x->r2_rate2 = x->r2_rate1;
+    x->r2_rate1 = s->v;
+
     /* microphone.bg:29: mic.mech.q0 + Int(v) */
-    const real r2_t = r2_int + c->mic__mech__q0;
+    const real r2_t = r2_integral + c->mic__mech__q0;
 
     /* microphone.bg:29: u^2/(mic.mech.q0 + Int(v))^2 */
     const real r2_product = s->u * s->u / r2_t / r2_t;
@@ -387,18 +416,21 @@ static void next_r2(
     /* microphone.bg:29: r2: integral: memory */
     x->r2_q_2 = r2_int_2 + c->half_time * r2_rate;
 
+    /* microphone.bg:29: r2: error of order -1 */
+    const real r2_i = c->bend_int * r2_rate;
+
     /* microphone.bg:29: r2: input of stage 1 */
-    const real r2_u1 = c->r2_pressure * s->pressure + r2_int_2 - c->r2_v * s->v
+    const real r2_u1 = c->r2_pressure * s->pressure + r2_int_2 + r2_i - c->r2_v * s->v
         - c->r2_product * r2_product;
 
     /* microphone.bg:29: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* microphone.bg:29: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* microphone.bg:29: r2 = pressure*A - b*v - k*Int(v) - eps*A*u^2/(2*Int(v, x0)^2) - m*D(v) */
-    r[MICROPHONE_R2] = r2_y1;
+    r[MICROPHONE_R2] = r2_y1 - r2_i;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */

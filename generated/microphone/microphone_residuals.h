@@ -28,7 +28,7 @@ typedef double microphone_real;
 /* Version of the structs and functions, and the size of a number. */
 #define MICROPHONE_ABI (1u * 256u + (uint32_t)sizeof(microphone_real))
 /* Identifies the model and the options that this code was made from. */
-#define MICROPHONE_DIGEST "88496eda2f15fb06"
+#define MICROPHONE_DIGEST "4957ee3137d8e5ee"
 
 /* What the code was made for: arguments of microphone_configure, in s, rad/s and s. */
 #define MICROPHONE_SAMPLE_TIME MICROPHONE_CONSTANT(0.001)
@@ -92,26 +92,32 @@ typedef struct microphone_coefficients {
     microphone_real r1_U0;          /* r1: factor of U0: 1/R */
     microphone_real r1_product_1;   /* r1: factor of D(u/(mic.mech.q0 + Int(v))): eps*A */
     microphone_real half_time;      /* half the sample time */
-    microphone_real r1_v1_product;  /* r1: factor of u/(mic.mech.q0 + Int(v)) in stage 1 */
-    microphone_real a;              /* filter: exp(-bandwidth*sample_time) */
-    microphone_real b0;             /* filter: weight of the new sample */
-    microphone_real b1;             /* filter: weight of the sample before */
-    microphone_real rest;           /* filter: 1 - b0, the memory of a constant 1 */
+    microphone_real half_twelfth;   /* sample_time/24 */
+    microphone_real r1_w1_product;  /* r1: factor of D(u/(mic.mech.q0 + Int(v))) */
+    microphone_real bend1;          /* filter: 1 * (w*sample_time)^2/12 */
+    microphone_real a;              /* filter: what is left of a memory a sample later */
+    microphone_real b;              /* filter: weight of a sample, new and a sample later */
+    microphone_real rest;           /* filter: 1 - b, the memory of a constant 1 */
     microphone_real r2_pressure;    /* r2: factor of pressure: A */
     microphone_real r2_v_int;       /* r2: factor of Int(v): k */
     microphone_real r2_v;           /* r2: factor of v: b */
     microphone_real r2_v_1;         /* r2: factor of v': m */
     microphone_real r2_product;     /* r2: factor of u^2/(mic.mech.q0 + Int(v))^2: eps*A/2 */
+    microphone_real bend_int;       /* filter: w*sample_time^2/12 */
 } microphone_coefficients;
 
 /* What the filters remember from sample to sample. */
 typedef struct microphone_memory {
-    microphone_real r1_q;    /* memory of integral of v */
-    microphone_real r1_s2;   /* memory of r1: stage 2 */
-    microphone_real r1_s1;   /* memory of r1: stage 1 */
-    microphone_real r2_q;    /* memory of integral of v */
-    microphone_real r2_q_2;  /* memory of r2: integral */
-    microphone_real r2_s1;   /* memory of r2: stage 1 */
+    microphone_real r1_q;      /* memory of integral of v */
+    microphone_real r1_rate1;  /* integral of v: rate a sample before */
+    microphone_real r1_rate2;  /* integral of v: rate two samples before */
+    microphone_real r1_s2;     /* memory of r1: stage 2 */
+    microphone_real r1_s1;     /* memory of r1: stage 1 */
+    microphone_real r2_q;      /* memory of integral of v */
+    microphone_real r2_rate1;  /* integral of v: rate a sample before */
+    microphone_real r2_rate2;  /* integral of v: rate two samples before */
+    microphone_real r2_q_2;    /* memory of r2: integral */
+    microphone_real r2_s1;     /* memory of r2: stage 1 */
 } microphone_memory;
 
 /* One monitor. You own it; configure fills it, step keeps it. */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "88496eda2f15fb06"
+DIGEST = "4957ee3137d8e5ee"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -74,27 +74,33 @@ class Coefficients:
     r1_U0: float          # r1: factor of U0: 1/R
     r1_product_1: float   # r1: factor of D(u/(mic.mech.q0 + Int(v))): eps*A
     half_time: float      # half the sample time
-    r1_v1_product: float  # r1: factor of u/(mic.mech.q0 + Int(v)) in stage 1
-    a: float              # filter: exp(-bandwidth*sample_time)
-    b0: float             # filter: weight of the new sample
-    b1: float             # filter: weight of the sample before
-    rest: float           # filter: 1 - b0, the memory of a constant 1
+    half_twelfth: float   # sample_time/24
+    r1_w1_product: float  # r1: factor of D(u/(mic.mech.q0 + Int(v)))
+    bend1: float          # filter: 1 * (w*sample_time)^2/12
+    a: float              # filter: what is left of a memory a sample later
+    b: float              # filter: weight of a sample, new and a sample later
+    rest: float           # filter: 1 - b, the memory of a constant 1
     r2_pressure: float    # r2: factor of pressure: A
     r2_v_int: float       # r2: factor of Int(v): k
     r2_v: float           # r2: factor of v: b
     r2_v_1: float         # r2: factor of v': m
     r2_product: float     # r2: factor of u^2/(mic.mech.q0 + Int(v))^2: eps*A/2
+    bend_int: float       # filter: w*sample_time^2/12
 
 
 class Memory:
     """What the filters remember from sample to sample."""
 
-    r1_q: float    # memory of integral of v
-    r1_s2: float   # memory of r1: stage 2
-    r1_s1: float   # memory of r1: stage 1
-    r2_q: float    # memory of integral of v
-    r2_q_2: float  # memory of r2: integral
-    r2_s1: float   # memory of r2: stage 1
+    r1_q: float      # memory of integral of v
+    r1_rate1: float  # integral of v: rate a sample before
+    r1_rate2: float  # integral of v: rate two samples before
+    r1_s2: float     # memory of r1: stage 2
+    r1_s1: float     # memory of r1: stage 1
+    r2_q: float      # memory of integral of v
+    r2_rate1: float  # integral of v: rate a sample before
+    r2_rate2: float  # integral of v: rate two samples before
+    r2_q_2: float    # memory of r2: integral
+    r2_s1: float     # memory of r2: stage 1
 
 
 class Monitor:
@@ -127,9 +133,9 @@ class Monitor:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
                     self._c.mic__mech__q0 + self._c.r1_U0 + self._c.r1_product_1 + self._c.half_time
-                    + self._c.r1_v1_product + self._c.a + self._c.b0 + self._c.b1 + self._c.rest
-                    + self._c.r2_pressure + self._c.r2_v_int + self._c.r2_v + self._c.r2_v_1
-                    + self._c.r2_product
+                    + self._c.half_twelfth + self._c.r1_w1_product + self._c.bend1 + self._c.a
+                    + self._c.b + self._c.rest + self._c.r2_pressure + self._c.r2_v_int
+                    + self._c.r2_v + self._c.r2_v_1 + self._c.r2_product + self._c.bend_int
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -186,16 +192,17 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
+        # 1 - pole
+        t = 1.0 - pole
 
         # microphone.bg:17: mic.mech.q0
         c.mic__mech__q0 = p.x0
@@ -209,20 +216,23 @@ class Monitor:
         # half the sample time
         c.half_time = 0.5 * sample_time
 
-        # microphone.bg:17: r1: factor of u/(mic.mech.q0 + Int(v)) in stage 1
-        c.r1_v1_product = p.eps * p.A * bandwidth
+        # sample_time/24
+        c.half_twelfth = sample_time / 24.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # microphone.bg:17: r1: factor of D(u/(mic.mech.q0 + Int(v)))
+        c.r1_w1_product = p.eps * p.A * w
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = turn * turn / 12.0
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
+
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
         # microphone.bg:29: r2: factor of pressure: A
         c.r2_pressure = p.A
@@ -239,6 +249,9 @@ class Monitor:
         # microphone.bg:29: r2: factor of u^2/(mic.mech.q0 + Int(v))^2: eps*A/2
         c.r2_product = 0.5 * p.eps * p.A
 
+        # filter: w*sample_time^2/12
+        c.bend_int = sample_time * sample_time * w / 12.0
+
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
         c = self._c
@@ -250,11 +263,27 @@ class Monitor:
         # microphone.bg:17: integral of v: memory
         x.r1_q = c.half_time * s.v
 
+        # microphone.bg:17: integral of v
+        r1_integral = r1_int
+
+        # microphone.bg:17: integral of v: memory
+        x.r1_rate2 = s.v
+        x.r1_rate1 = s.v
+
         # microphone.bg:17: u/(mic.mech.q0 + Int(v))
-        r1_product = s.u / (r1_int + c.mic__mech__q0)
+        r1_product = s.u / (r1_integral + c.mic__mech__q0)
+
+        # microphone.bg:17: r1: terms of order 0
+        r1_g0 = c.r1_U0 * s.U0 - c.r1_U0 * s.u
+
+        # microphone.bg:17: r1: degree 1
+        r1_d1 = c.r1_w1_product * r1_product
+
+        # microphone.bg:17: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
 
         # microphone.bg:17: r1: input of stage 2
-        r1_u2 = c.r1_U0 * s.U0 + c.r1_v1_product * r1_product - c.r1_U0 * s.u
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # microphone.bg:17: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -263,7 +292,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # microphone.bg:17: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_product * r1_product
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # microphone.bg:17: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -272,7 +301,7 @@ class Monitor:
         x.r1_s1 = c.rest * r1_u1
 
         # microphone.bg:17: r1 = (U0 - u)/R - eps*A*D(u/Int(v, x0))
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
@@ -285,29 +314,45 @@ class Monitor:
         # microphone.bg:17: integral of v: memory
         x.r1_q = r1_int + c.half_time * s.v
 
+        # microphone.bg:17: integral of v
+        r1_integral = r1_int - c.half_twelfth * (3.0 * s.v - 4.0 * x.r1_rate1 + x.r1_rate2)
+
+        # microphone.bg:17: integral of v: memory
+        x.r1_rate2 = x.r1_rate1
+        x.r1_rate1 = s.v
+
         # microphone.bg:17: u/(mic.mech.q0 + Int(v))
-        r1_product = s.u / (r1_int + c.mic__mech__q0)
+        r1_product = s.u / (r1_integral + c.mic__mech__q0)
+
+        # microphone.bg:17: r1: terms of order 0
+        r1_g0 = c.r1_U0 * s.U0 - c.r1_U0 * s.u
+
+        # microphone.bg:17: r1: degree 1
+        r1_d1 = c.r1_w1_product * r1_product
+
+        # microphone.bg:17: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
 
         # microphone.bg:17: r1: input of stage 2
-        r1_u2 = c.r1_U0 * s.U0 + c.r1_v1_product * r1_product - c.r1_U0 * s.u
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # microphone.bg:17: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # microphone.bg:17: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # microphone.bg:17: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_product * r1_product
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # microphone.bg:17: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # microphone.bg:17: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # microphone.bg:17: r1 = (U0 - u)/R - eps*A*D(u/Int(v, x0))
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -336,8 +381,15 @@ class Monitor:
         # microphone.bg:29: integral of v: memory
         x.r2_q = c.half_time * s.v
 
+        # microphone.bg:29: integral of v
+        r2_integral = r2_int
+
+        # microphone.bg:29: integral of v: memory
+        x.r2_rate2 = s.v
+        x.r2_rate1 = s.v
+
         # microphone.bg:29: mic.mech.q0 + Int(v)
-        r2_t = r2_int + c.mic__mech__q0
+        r2_t = r2_integral + c.mic__mech__q0
 
         # microphone.bg:29: u^2/(mic.mech.q0 + Int(v))^2
         r2_product = s.u * s.u / r2_t / r2_t
@@ -351,8 +403,13 @@ class Monitor:
         # microphone.bg:29: r2: integral: memory
         x.r2_q_2 = c.half_time * r2_rate
 
+        # microphone.bg:29: r2: error of order -1
+        r2_i = c.bend_int * r2_rate
+
         # microphone.bg:29: r2: input of stage 1
-        r2_u1 = c.r2_pressure * s.pressure + r2_int_2 - c.r2_v * s.v - c.r2_product * r2_product
+        r2_u1 = (
+            c.r2_pressure * s.pressure + r2_int_2 + r2_i - c.r2_v * s.v - c.r2_product * r2_product
+        )
 
         # microphone.bg:29: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -361,7 +418,7 @@ class Monitor:
         x.r2_s1 = c.rest * r2_u1
 
         # microphone.bg:29: r2 = pressure*A - b*v - k*Int(v) - eps*A*u^2/(2*Int(v, x0)^2) - m*D(v)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_i
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
@@ -374,8 +431,15 @@ class Monitor:
         # microphone.bg:29: integral of v: memory
         x.r2_q = r2_int + c.half_time * s.v
 
+        # microphone.bg:29: integral of v
+        r2_integral = r2_int - c.half_twelfth * (3.0 * s.v - 4.0 * x.r2_rate1 + x.r2_rate2)
+
+        # microphone.bg:29: integral of v: memory
+        x.r2_rate2 = x.r2_rate1
+        x.r2_rate1 = s.v
+
         # microphone.bg:29: mic.mech.q0 + Int(v)
-        r2_t = r2_int + c.mic__mech__q0
+        r2_t = r2_integral + c.mic__mech__q0
 
         # microphone.bg:29: u^2/(mic.mech.q0 + Int(v))^2
         r2_product = s.u * s.u / r2_t / r2_t
@@ -389,17 +453,22 @@ class Monitor:
         # microphone.bg:29: r2: integral: memory
         x.r2_q_2 = r2_int_2 + c.half_time * r2_rate
 
+        # microphone.bg:29: r2: error of order -1
+        r2_i = c.bend_int * r2_rate
+
         # microphone.bg:29: r2: input of stage 1
-        r2_u1 = c.r2_pressure * s.pressure + r2_int_2 - c.r2_v * s.v - c.r2_product * r2_product
+        r2_u1 = (
+            c.r2_pressure * s.pressure + r2_int_2 + r2_i - c.r2_v * s.v - c.r2_product * r2_product
+        )
 
         # microphone.bg:29: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # microphone.bg:29: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # microphone.bg:29: r2 = pressure*A - b*v - k*Int(v) - eps*A*u^2/(2*Int(v, x0)^2) - m*D(v)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_i
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -416,23 +485,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

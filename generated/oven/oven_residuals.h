@@ -28,7 +28,7 @@ typedef double oven_real;
 /* Version of the structs and functions, and the size of a number. */
 #define OVEN_ABI (1u * 256u + (uint32_t)sizeof(oven_real))
 /* Identifies the model and the options that this code was made from. */
-#define OVEN_DIGEST "0861aca0235ee241"
+#define OVEN_DIGEST "86e8b5fcee3e06c5"
 
 /* What the code was made for: arguments of oven_configure, in s, rad/s and s. */
 #define OVEN_SAMPLE_TIME OVEN_CONSTANT(0.001)
@@ -86,23 +86,18 @@ typedef struct oven_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct oven_coefficients {
-    oven_real r1_Th;      /* r1: factor of Th: Gh */
-    oven_real r1_Th_1;    /* r1: factor of Th': Ch */
-    oven_real r1_pace;    /* part of the start that a sample is */
-    oven_real r1_slope1;  /* a time constant of the filter as part of the start, to the power 1 */
-    oven_real r1_v1_Th;   /* r1: factor of Th in stage 1 */
-    oven_real r1_v2_Th;   /* r1: factor of Th in stage 2 */
-    oven_real n0;         /* filter: weight of the new sample 0 stages further */
-    oven_real n1;         /* filter: weight of the new sample 1 stages further */
-    oven_real m0;         /* filter: what is left of a memory 0 stages further */
-    oven_real o0;         /* filter: weight of the sample before 0 stages further */
-    oven_real m1;         /* filter: what is left of a memory 1 stages further */
-    oven_real o1;         /* filter: weight of the sample before 1 stages further */
-    oven_real r2_Ta;      /* r2: factor of Ta: Go */
-    oven_real r2_To;      /* r2: factor of To: Gh + Go */
-    oven_real r2_To_1;    /* r2: factor of To': Co */
-    oven_real r2_v1_To;   /* r2: factor of To in stage 1 */
-    oven_real r2_v2_To;   /* r2: factor of To in stage 2 */
+    oven_real r1_Th;       /* r1: factor of Th: Gh */
+    oven_real r1_Th_1;     /* r1: factor of Th': Ch */
+    oven_real r1_pace;     /* part of the start that a sample is */
+    oven_real r1_slope1;   /* 1/w of the filter as part of the start, to the power 1 */
+    oven_real r1_w0_Th_1;  /* r1: factor of Th times derivative 1 of the window */
+    oven_real bend1;       /* filter: 1 * (w*sample_time)^2/12 */
+    oven_real a;           /* filter: what is left of a memory a sample later */
+    oven_real b;           /* filter: weight of a sample, new and a sample later */
+    oven_real r2_Ta;       /* r2: factor of Ta: Go */
+    oven_real r2_To;       /* r2: factor of To: Gh + Go */
+    oven_real r2_To_1;     /* r2: factor of To': Co */
+    oven_real r2_w0_To_1;  /* r2: factor of To times derivative 1 of the window */
 } oven_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "0861aca0235ee241"
+DIGEST = "86e8b5fcee3e06c5"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -68,23 +68,18 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
-    r1_Th: float      # r1: factor of Th: Gh
-    r1_Th_1: float    # r1: factor of Th': Ch
-    r1_pace: float    # part of the start that a sample is
-    r1_slope1: float  # a time constant of the filter as part of the start, to the power 1
-    r1_v1_Th: float   # r1: factor of Th in stage 1
-    r1_v2_Th: float   # r1: factor of Th in stage 2
-    n0: float         # filter: weight of the new sample 0 stages further
-    n1: float         # filter: weight of the new sample 1 stages further
-    m0: float         # filter: what is left of a memory 0 stages further
-    o0: float         # filter: weight of the sample before 0 stages further
-    m1: float         # filter: what is left of a memory 1 stages further
-    o1: float         # filter: weight of the sample before 1 stages further
-    r2_Ta: float      # r2: factor of Ta: Go
-    r2_To: float      # r2: factor of To: Gh + Go
-    r2_To_1: float    # r2: factor of To': Co
-    r2_v1_To: float   # r2: factor of To in stage 1
-    r2_v2_To: float   # r2: factor of To in stage 2
+    r1_Th: float       # r1: factor of Th: Gh
+    r1_Th_1: float     # r1: factor of Th': Ch
+    r1_pace: float     # part of the start that a sample is
+    r1_slope1: float   # 1/w of the filter as part of the start, to the power 1
+    r1_w0_Th_1: float  # r1: factor of Th times derivative 1 of the window
+    bend1: float       # filter: 1 * (w*sample_time)^2/12
+    a: float           # filter: what is left of a memory a sample later
+    b: float           # filter: weight of a sample, new and a sample later
+    r2_Ta: float       # r2: factor of Ta: Go
+    r2_To: float       # r2: factor of To: Gh + Go
+    r2_To_1: float     # r2: factor of To': Co
+    r2_w0_To_1: float  # r2: factor of To times derivative 1 of the window
 
 
 class Memory:
@@ -129,9 +124,8 @@ class Monitor:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
                     self._c.r1_Th + self._c.r1_Th_1 + self._c.r1_pace + self._c.r1_slope1
-                    + self._c.r1_v1_Th + self._c.r1_v2_Th + self._c.n0 + self._c.n1 + self._c.m0
-                    + self._c.o0 + self._c.m1 + self._c.o1 + self._c.r2_Ta + self._c.r2_To
-                    + self._c.r2_To_1 + self._c.r2_v1_To + self._c.r2_v2_To
+                    + self._c.r1_w0_Th_1 + self._c.bend1 + self._c.a + self._c.b + self._c.r2_Ta
+                    + self._c.r2_To + self._c.r2_To_1 + self._c.r2_w0_To_1
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -187,81 +181,17 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(x) from x^35 on
-        series36 = x_ * (x_ * (x_ / 38.0 + 1.0) / 37.0 + 1.0) / 36.0 + 1.0
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # exp(x) from x^29 on
-        series30 = (
-            x_
-                * (x_
-                    * (0.03125 * x_ * (x_ * (x_ * (x_ * series36 / 35.0 + 1.0) / 34.0 + 1.0) / 33.0
-                        + 1.0)
-                    + 1.0) / 31.0
-                + 1.0) / 30.0
-            + 1.0
-        )
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
 
-        # exp(x) from x^23 on
-        series24 = (
-            x_
-                * (x_
-                    * (x_ * (x_ * (x_ * (x_ * series30 / 29.0 + 1.0) / 28.0 + 1.0) / 27.0
-                        + 1.0) / 26.0
-                    + 1.0) / 25.0
-                + 1.0) / 24.0
-            + 1.0
-        )
-
-        # exp(x) from x^17 on
-        series18 = (
-            x_
-                * (x_
-                    * (x_ * (x_ * (x_ * (x_ * series24 / 23.0 + 1.0) / 22.0 + 1.0) / 21.0
-                        + 1.0) / 20.0
-                    + 1.0) / 19.0
-                + 1.0) / 18.0
-            + 1.0
-        )
-
-        # exp(x) from x^11 on
-        series12 = (
-            x_
-                * (x_
-                    * (x_ * (x_ * (0.0625 * x_ * (x_ * series18 / 17.0 + 1.0) + 1.0) / 15.0
-                        + 1.0) / 14.0
-                    + 1.0) / 13.0
-                + 1.0) / 12.0
-            + 1.0
-        )
-
-        # exp(x) from x^5 on
-        series6 = (
-            x_
-                * (x_
-                    * (0.125 * x_ * (x_ * (x_ * (x_ * series12 / 11.0 + 1.0) / 10.0 + 1.0) / 9.0
-                        + 1.0)
-                    + 1.0) / 7.0
-                + 1.0) / 6.0
-            + 1.0
-        )
-
-        # exp(-x)
-        t = _exponential(-x_)
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
 
         # min(x/2, 0.025)
-        t_2 = min(0.5 * x_, 1.0 / 40.0)
-
-        # x*(x*series6/5 + 1)/4 + 1
-        t_3 = 0.25 * x_ * (x_ * series6 / 5.0 + 1.0) + 1.0
-
-        # x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1
-        t_4 = x_ * t_3 / 3.0 + 1.0
-
-        # x*exp(-x)*(x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1)
-        t_5 = x_ * t * t_4
-
-        # x^2*exp(-x)*(x*(x*series6/5 + 1)/4 + 1)
-        t_6 = x_ * x_ * t * t_3
+        t = min(0.5 * x_, 1.0 / 40.0)
 
         # oven.bg:15: r1: factor of Th: Gh
         c.r1_Th = p.Gh
@@ -270,34 +200,22 @@ class Monitor:
         c.r1_Th_1 = p.Ch
 
         # part of the start that a sample is
-        c.r1_pace = t_2
+        c.r1_pace = t
 
-        # a time constant of the filter as part of the start, to the power 1
-        c.r1_slope1 = t_2 / x_
+        # 1/w of the filter as part of the start, to the power 1
+        c.r1_slope1 = t / turn
 
-        # oven.bg:15: r1: factor of Th in stage 1
-        c.r1_v1_Th = p.Ch * bandwidth
+        # oven.bg:15: r1: factor of Th times derivative 1 of the window
+        c.r1_w0_Th_1 = p.Ch * w
 
-        # oven.bg:15: r1: factor of Th in stage 2
-        c.r1_v2_Th = p.Ch * bandwidth - p.Gh
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = turn * turn / 12.0
 
-        # filter: weight of the new sample 0 stages further
-        c.n0 = x_ * t * (0.5 * x_ * t_4 + 1.0) - 0.5 * t_5
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample 1 stages further
-        c.n1 = 0.5 * x_ * x_ * t * t_4 - t_6 / 3.0
-
-        # filter: what is left of a memory 0 stages further
-        c.m0 = t
-
-        # filter: weight of the sample before 0 stages further
-        c.o0 = 0.5 * t_5
-
-        # filter: what is left of a memory 1 stages further
-        c.m1 = x_ * t
-
-        # filter: weight of the sample before 1 stages further
-        c.o1 = t_6 / 3.0
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * (1.0 - pole)
 
         # oven.bg:15: r2: factor of Ta: Go
         c.r2_Ta = p.Go
@@ -308,11 +226,8 @@ class Monitor:
         # oven.bg:15: r2: factor of To': Co
         c.r2_To_1 = p.Co
 
-        # oven.bg:15: r2: factor of To in stage 1
-        c.r2_v1_To = p.Co * bandwidth
-
-        # oven.bg:15: r2: factor of To in stage 2
-        c.r2_v2_To = -p.Gh - p.Go + p.Co * bandwidth
+        # oven.bg:15: r2: factor of To times derivative 1 of the window
+        c.r2_w0_To_1 = p.Co * w
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: nothing is known yet."""
@@ -324,10 +239,10 @@ class Monitor:
         # oven.bg:15: r1: the same, for the next sample
         x.r1_open = 0.0
 
-        # oven.bg:15: r1: memory of stage 2
+        # oven.bg:15: r1: stage 2: memory
         x.r1_s2 = 0.0
 
-        # oven.bg:15: r1: memory of stage 1
+        # oven.bg:15: r1: stage 1: memory
         x.r1_s1 = 0.0
 
         # oven.bg:15: r1 = if(on, P, 0) - Gh*(Th - To) - Ch*D(Th)
@@ -362,29 +277,38 @@ class Monitor:
         # oven.bg:15: if(on, P, 0)
         r1_choice = s.P if s.on else 0.0
 
-        # oven.bg:15: r1: input of stage 2
-        r1_v2 = (
-            r1_phi0 * (r1_choice + c.r1_v2_Th * s.Th + c.r1_Th * s.To)
-            + r1_phi1 * (c.r1_v1_Th * s.Th)
+        # oven.bg:15: r1: terms of order 0
+        r1_g0 = (
+            r1_phi0 * (r1_choice + c.r1_Th * s.To - c.r1_Th * s.Th)
+            + r1_phi1 * (c.r1_w0_Th_1 * s.Th)
         )
 
-        # oven.bg:15: r1: input of stage 1
-        r1_v1 = -r1_phi0 * (c.r1_v1_Th * s.Th)
+        # oven.bg:15: r1: degree 1
+        r1_d1 = r1_phi0 * (c.r1_w0_Th_1 * s.Th)
+
+        # oven.bg:15: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
+        # oven.bg:15: r1: input of stage 2
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # oven.bg:15: r1: stage 2
-        r1_y2 = r1_kept * x.r1_s2 + c.n0 * r1_v2
+        r1_y2 = r1_kept * x.r1_s2 + c.b * r1_u2
+
+        # oven.bg:15: r1: stage 2: memory
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
+
+        # oven.bg:15: r1: input of stage 1
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # oven.bg:15: r1: stage 1
-        r1_y1 = r1_kept * x.r1_s1 + c.n1 * r1_v2 + c.n0 * r1_v1
+        r1_y1 = r1_kept * x.r1_s1 + c.b * r1_u1
 
-        # oven.bg:15: r1: memory of stage 2
-        x.r1_s2 = c.m0 * r1_y2 + c.o0 * r1_v2
-
-        # oven.bg:15: r1: memory of stage 1
-        x.r1_s1 = c.m1 * r1_y2 + c.o1 * r1_v2 + c.m0 * r1_y1 + c.o0 * r1_v1
+        # oven.bg:15: r1: stage 1: memory
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # oven.bg:15: r1 = if(on, P, 0) - Gh*(Th - To) - Ch*D(Th)
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -409,10 +333,10 @@ class Monitor:
         # oven.bg:15: r2: the same, for the next sample
         x.r2_open = 0.0
 
-        # oven.bg:15: r2: memory of stage 2
+        # oven.bg:15: r2: stage 2: memory
         x.r2_s2 = 0.0
 
-        # oven.bg:15: r2: memory of stage 1
+        # oven.bg:15: r2: stage 1: memory
         x.r2_s1 = 0.0
 
         # oven.bg:15: r2 = Gh*(Th - To) - Go*(To - Ta) - Co*D(To)
@@ -438,29 +362,38 @@ class Monitor:
         # oven.bg:15: r2: derivative 1 of the window
         r2_phi1 = c.r1_slope1 * (30.0 * (r2_u * r2_u) * (r2_rest * r2_rest))
 
-        # oven.bg:15: r2: input of stage 2
-        r2_v2 = (
-            r2_phi0 * (c.r2_Ta * s.Ta + c.r2_v2_To * s.To + c.r1_Th * s.Th)
-            + r2_phi1 * (c.r2_v1_To * s.To)
+        # oven.bg:15: r2: terms of order 0
+        r2_g0 = (
+            r2_phi0 * (c.r2_Ta * s.Ta + c.r1_Th * s.Th - c.r2_To * s.To)
+            + r2_phi1 * (c.r2_w0_To_1 * s.To)
         )
 
-        # oven.bg:15: r2: input of stage 1
-        r2_v1 = -r2_phi0 * (c.r2_v1_To * s.To)
+        # oven.bg:15: r2: degree 1
+        r2_d1 = r2_phi0 * (c.r2_w0_To_1 * s.To)
+
+        # oven.bg:15: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
+        # oven.bg:15: r2: input of stage 2
+        r2_u2 = r2_g0 + r2_d1 - r2_e0
 
         # oven.bg:15: r2: stage 2
-        r2_y2 = x.r2_s2 + c.n0 * r2_v2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
+
+        # oven.bg:15: r2: stage 2: memory
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
+
+        # oven.bg:15: r2: input of stage 1
+        r2_u1 = r2_y2 + 2.0 * r2_e0 - r2_d1
 
         # oven.bg:15: r2: stage 1
-        r2_y1 = x.r2_s1 + c.n1 * r2_v2 + c.n0 * r2_v1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
-        # oven.bg:15: r2: memory of stage 2
-        x.r2_s2 = c.m0 * r2_y2 + c.o0 * r2_v2
-
-        # oven.bg:15: r2: memory of stage 1
-        x.r2_s1 = c.m1 * r2_y2 + c.o1 * r2_v2 + c.m0 * r2_y1 + c.o0 * r2_v1
+        # oven.bg:15: r2: stage 1: memory
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # oven.bg:15: r2 = Gh*(Th - To) - Go*(To - Ta) - Co*D(To)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -477,23 +410,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

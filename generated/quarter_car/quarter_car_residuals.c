@@ -21,39 +21,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t quarter_car_abi(void)
@@ -83,17 +54,17 @@ static void compute_coefficients(quarter_car_monitor *monitor, const quarter_car
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* 1 - pole */
+    const real t = REAL(1.0) - pole;
 
     /* quarter_car.bg:15: r1: factor of 1: g*ms */
     c->r1_constant = p->g * p->ms;
@@ -107,26 +78,23 @@ static void compute_coefficients(quarter_car_monitor *monitor, const quarter_car
     /* quarter_car.bg:15: r1: factor of vb': ms */
     c->r1_vb_1 = p->ms;
 
-    /* quarter_car.bg:15: r1: factor of vb in stage 1 */
-    c->r1_v1_vb = p->ms * bandwidth;
+    /* quarter_car.bg:15: r1: factor of vb' */
+    c->r1_w1_vb = p->ms * w;
 
-    /* quarter_car.bg:15: r1: factor of vb in stage 2 */
-    c->r1_v2_vb = p->ms * bandwidth - p->cs;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t;
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
-
-    /* quarter_car.bg:24: r2: factor of stroke in stage 1 */
-    c->r2_v1_stroke = bandwidth;
+    /* quarter_car.bg:24: r2: factor of stroke' */
+    c->r2_w1_stroke = w;
 }
 
 static bool parameters_are_finite(const quarter_car_parameters *p)
@@ -137,8 +105,8 @@ static bool parameters_are_finite(const quarter_car_parameters *p)
 static bool coefficients_are_finite(const quarter_car_monitor *monitor)
 {
     return finite_number(monitor->c.r1_constant + monitor->c.r1_stroke + monitor->c.r1_vw
-            + monitor->c.r1_vb_1 + monitor->c.r1_v1_vb + monitor->c.r1_v2_vb + monitor->c.a
-            + monitor->c.b0 + monitor->c.b1 + monitor->c.rest + monitor->c.r2_v1_stroke);
+            + monitor->c.r1_vb_1 + monitor->c.r1_w1_vb + monitor->c.bend1 + monitor->c.a
+            + monitor->c.b + monitor->c.rest + monitor->c.r2_w1_stroke);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -208,8 +176,17 @@ static void start_r1(
     const quarter_car_coefficients *c = &monitor->c;
     quarter_car_memory *x = &monitor->x;
 
+    /* quarter_car.bg:15: r1: terms of order 0 */
+    const real r1_g0 = c->r1_stroke * s->stroke + c->r1_vw * s->vw - c->r1_vw * s->vb;
+
+    /* quarter_car.bg:15: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_vb * s->vb;
+
+    /* quarter_car.bg:15: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* quarter_car.bg:15: r1: input of stage 2 */
-    const real r1_u2 = c->r1_stroke * s->stroke + c->r1_vw * s->vw + c->r1_v2_vb * s->vb;
+    const real r1_u2 = r1_g0 + r1_d1 - r1_e0;
 
     /* quarter_car.bg:15: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -218,7 +195,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* quarter_car.bg:15: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_vb * s->vb;
+    const real r1_u1 = r1_y2 + REAL(2.0) * r1_e0 - r1_d1;
 
     /* quarter_car.bg:15: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -227,7 +204,7 @@ static void start_r1(
     x->r1_s1 = c->rest * r1_u1;
 
     /* quarter_car.bg:15: r1 = ks*stroke + cs*(vw - vb) - g*ms - ms*D(vb) */
-    r[QUARTER_CAR_R1] = r1_y1 - c->r1_constant;
+    r[QUARTER_CAR_R1] = r1_y1 - c->r1_constant - r1_e0;
 }
 
 /* r1 on every further sample. */
@@ -237,26 +214,35 @@ static void next_r1(
     const quarter_car_coefficients *c = &monitor->c;
     quarter_car_memory *x = &monitor->x;
 
+    /* quarter_car.bg:15: r1: terms of order 0 */
+    const real r1_g0 = c->r1_stroke * s->stroke + c->r1_vw * s->vw - c->r1_vw * s->vb;
+
+    /* quarter_car.bg:15: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_vb * s->vb;
+
+    /* quarter_car.bg:15: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* quarter_car.bg:15: r1: input of stage 2 */
-    const real r1_u2 = c->r1_stroke * s->stroke + c->r1_vw * s->vw + c->r1_v2_vb * s->vb;
+    const real r1_u2 = r1_g0 + r1_d1 - r1_e0;
 
     /* quarter_car.bg:15: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* quarter_car.bg:15: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* quarter_car.bg:15: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_vb * s->vb;
+    const real r1_u1 = r1_y2 + REAL(2.0) * r1_e0 - r1_d1;
 
     /* quarter_car.bg:15: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* quarter_car.bg:15: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* quarter_car.bg:15: r1 = ks*stroke + cs*(vw - vb) - g*ms - ms*D(vb) */
-    r[QUARTER_CAR_R1] = r1_y1 - c->r1_constant;
+    r[QUARTER_CAR_R1] = r1_y1 - c->r1_constant - r1_e0;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -289,8 +275,17 @@ static void start_r2(
     const quarter_car_coefficients *c = &monitor->c;
     quarter_car_memory *x = &monitor->x;
 
+    /* quarter_car.bg:24: r2: terms of order 0 */
+    const real r2_g0 = s->vw - s->vb;
+
+    /* quarter_car.bg:24: r2: degree 1 */
+    const real r2_d1 = c->r2_w1_stroke * s->stroke;
+
+    /* quarter_car.bg:24: r2: error of order 0 */
+    const real r2_e0 = c->bend1 * r2_g0;
+
     /* quarter_car.bg:24: r2: input of stage 2 */
-    const real r2_u2 = s->vw + c->r2_v1_stroke * s->stroke - s->vb;
+    const real r2_u2 = r2_g0 + r2_d1 - r2_e0;
 
     /* quarter_car.bg:24: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -299,7 +294,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* quarter_car.bg:24: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_stroke * s->stroke;
+    const real r2_u1 = r2_y2 + REAL(2.0) * r2_e0 - r2_d1;
 
     /* quarter_car.bg:24: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -308,7 +303,7 @@ static void start_r2(
     x->r2_s1 = c->rest * r2_u1;
 
     /* quarter_car.bg:24: r2 = vw - vb - D(stroke) */
-    r[QUARTER_CAR_R2] = r2_y1;
+    r[QUARTER_CAR_R2] = r2_y1 - r2_e0;
 }
 
 /* r2 on every further sample. */
@@ -318,26 +313,35 @@ static void next_r2(
     const quarter_car_coefficients *c = &monitor->c;
     quarter_car_memory *x = &monitor->x;
 
+    /* quarter_car.bg:24: r2: terms of order 0 */
+    const real r2_g0 = s->vw - s->vb;
+
+    /* quarter_car.bg:24: r2: degree 1 */
+    const real r2_d1 = c->r2_w1_stroke * s->stroke;
+
+    /* quarter_car.bg:24: r2: error of order 0 */
+    const real r2_e0 = c->bend1 * r2_g0;
+
     /* quarter_car.bg:24: r2: input of stage 2 */
-    const real r2_u2 = s->vw + c->r2_v1_stroke * s->stroke - s->vb;
+    const real r2_u2 = r2_g0 + r2_d1 - r2_e0;
 
     /* quarter_car.bg:24: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* quarter_car.bg:24: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* quarter_car.bg:24: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_stroke * s->stroke;
+    const real r2_u1 = r2_y2 + REAL(2.0) * r2_e0 - r2_d1;
 
     /* quarter_car.bg:24: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* quarter_car.bg:24: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* quarter_car.bg:24: r2 = vw - vb - D(stroke) */
-    r[QUARTER_CAR_R2] = r2_y1;
+    r[QUARTER_CAR_R2] = r2_y1 - r2_e0;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */

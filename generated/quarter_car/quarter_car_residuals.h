@@ -28,7 +28,7 @@ typedef double quarter_car_real;
 /* Version of the structs and functions, and the size of a number. */
 #define QUARTER_CAR_ABI (1u * 256u + (uint32_t)sizeof(quarter_car_real))
 /* Identifies the model and the options that this code was made from. */
-#define QUARTER_CAR_DIGEST "a42172de5bcdf2b2"
+#define QUARTER_CAR_DIGEST "fd45a4f4f8ef0385"
 
 /* What the code was made for: arguments of quarter_car_configure, in s, rad/s and s. */
 #define QUARTER_CAR_SAMPLE_TIME QUARTER_CAR_CONSTANT(0.001)
@@ -89,13 +89,12 @@ typedef struct quarter_car_coefficients {
     quarter_car_real r1_stroke;     /* r1: factor of stroke: ks */
     quarter_car_real r1_vw;         /* r1: factor of vw: cs */
     quarter_car_real r1_vb_1;       /* r1: factor of vb': ms */
-    quarter_car_real r1_v1_vb;      /* r1: factor of vb in stage 1 */
-    quarter_car_real r1_v2_vb;      /* r1: factor of vb in stage 2 */
-    quarter_car_real a;             /* filter: exp(-bandwidth*sample_time) */
-    quarter_car_real b0;            /* filter: weight of the new sample */
-    quarter_car_real b1;            /* filter: weight of the sample before */
-    quarter_car_real rest;          /* filter: 1 - b0, the memory of a constant 1 */
-    quarter_car_real r2_v1_stroke;  /* r2: factor of stroke in stage 1 */
+    quarter_car_real r1_w1_vb;      /* r1: factor of vb' */
+    quarter_car_real bend1;         /* filter: 1 * (w*sample_time)^2/12 */
+    quarter_car_real a;             /* filter: what is left of a memory a sample later */
+    quarter_car_real b;             /* filter: weight of a sample, new and a sample later */
+    quarter_car_real rest;          /* filter: 1 - b, the memory of a constant 1 */
+    quarter_car_real r2_w1_stroke;  /* r2: factor of stroke' */
 } quarter_car_coefficients;
 
 /* What the filters remember from sample to sample. */

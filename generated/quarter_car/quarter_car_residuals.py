@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "a42172de5bcdf2b2"
+DIGEST = "fd45a4f4f8ef0385"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -71,13 +71,12 @@ class Coefficients:
     r1_stroke: float     # r1: factor of stroke: ks
     r1_vw: float         # r1: factor of vw: cs
     r1_vb_1: float       # r1: factor of vb': ms
-    r1_v1_vb: float      # r1: factor of vb in stage 1
-    r1_v2_vb: float      # r1: factor of vb in stage 2
-    a: float             # filter: exp(-bandwidth*sample_time)
-    b0: float            # filter: weight of the new sample
-    b1: float            # filter: weight of the sample before
-    rest: float          # filter: 1 - b0, the memory of a constant 1
-    r2_v1_stroke: float  # r2: factor of stroke in stage 1
+    r1_w1_vb: float      # r1: factor of vb'
+    bend1: float         # filter: 1 * (w*sample_time)^2/12
+    a: float             # filter: what is left of a memory a sample later
+    b: float             # filter: weight of a sample, new and a sample later
+    rest: float          # filter: 1 - b, the memory of a constant 1
+    r2_w1_stroke: float  # r2: factor of stroke'
 
 
 class Memory:
@@ -119,8 +118,8 @@ class Monitor:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
                     self._c.r1_constant + self._c.r1_stroke + self._c.r1_vw + self._c.r1_vb_1
-                    + self._c.r1_v1_vb + self._c.r1_v2_vb + self._c.a + self._c.b0 + self._c.b1
-                    + self._c.rest + self._c.r2_v1_stroke
+                    + self._c.r1_w1_vb + self._c.bend1 + self._c.a + self._c.b + self._c.rest
+                    + self._c.r2_w1_stroke
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -171,16 +170,17 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
+        # 1 - pole
+        t = 1.0 - pole
 
         # quarter_car.bg:15: r1: factor of 1: g*ms
         c.r1_constant = p.g * p.ms
@@ -194,34 +194,40 @@ class Monitor:
         # quarter_car.bg:15: r1: factor of vb': ms
         c.r1_vb_1 = p.ms
 
-        # quarter_car.bg:15: r1: factor of vb in stage 1
-        c.r1_v1_vb = p.ms * bandwidth
+        # quarter_car.bg:15: r1: factor of vb'
+        c.r1_w1_vb = p.ms * w
 
-        # quarter_car.bg:15: r1: factor of vb in stage 2
-        c.r1_v2_vb = p.ms * bandwidth - p.cs
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = turn * turn / 12.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
-
-        # quarter_car.bg:24: r2: factor of stroke in stage 1
-        c.r2_v1_stroke = bandwidth
+        # quarter_car.bg:24: r2: factor of stroke'
+        c.r2_w1_stroke = w
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
         c = self._c
         x = self._x
 
+        # quarter_car.bg:15: r1: terms of order 0
+        r1_g0 = c.r1_stroke * s.stroke + c.r1_vw * s.vw - c.r1_vw * s.vb
+
+        # quarter_car.bg:15: r1: degree 1
+        r1_d1 = c.r1_w1_vb * s.vb
+
+        # quarter_car.bg:15: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # quarter_car.bg:15: r1: input of stage 2
-        r1_u2 = c.r1_stroke * s.stroke + c.r1_vw * s.vw + c.r1_v2_vb * s.vb
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # quarter_car.bg:15: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -230,7 +236,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # quarter_car.bg:15: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_vb * s.vb
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # quarter_car.bg:15: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -239,33 +245,42 @@ class Monitor:
         x.r1_s1 = c.rest * r1_u1
 
         # quarter_car.bg:15: r1 = ks*stroke + cs*(vw - vb) - g*ms - ms*D(vb)
-        r.r1 = r1_y1 - c.r1_constant
+        r.r1 = r1_y1 - c.r1_constant - r1_e0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
         c = self._c
         x = self._x
 
+        # quarter_car.bg:15: r1: terms of order 0
+        r1_g0 = c.r1_stroke * s.stroke + c.r1_vw * s.vw - c.r1_vw * s.vb
+
+        # quarter_car.bg:15: r1: degree 1
+        r1_d1 = c.r1_w1_vb * s.vb
+
+        # quarter_car.bg:15: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # quarter_car.bg:15: r1: input of stage 2
-        r1_u2 = c.r1_stroke * s.stroke + c.r1_vw * s.vw + c.r1_v2_vb * s.vb
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # quarter_car.bg:15: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # quarter_car.bg:15: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # quarter_car.bg:15: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_vb * s.vb
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # quarter_car.bg:15: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # quarter_car.bg:15: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # quarter_car.bg:15: r1 = ks*stroke + cs*(vw - vb) - g*ms - ms*D(vb)
-        r.r1 = r1_y1 - c.r1_constant
+        r.r1 = r1_y1 - c.r1_constant - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -288,8 +303,17 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # quarter_car.bg:24: r2: terms of order 0
+        r2_g0 = s.vw - s.vb
+
+        # quarter_car.bg:24: r2: degree 1
+        r2_d1 = c.r2_w1_stroke * s.stroke
+
+        # quarter_car.bg:24: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
         # quarter_car.bg:24: r2: input of stage 2
-        r2_u2 = s.vw + c.r2_v1_stroke * s.stroke - s.vb
+        r2_u2 = r2_g0 + r2_d1 - r2_e0
 
         # quarter_car.bg:24: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -298,7 +322,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # quarter_car.bg:24: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_stroke * s.stroke
+        r2_u1 = r2_y2 + 2.0 * r2_e0 - r2_d1
 
         # quarter_car.bg:24: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -307,33 +331,42 @@ class Monitor:
         x.r2_s1 = c.rest * r2_u1
 
         # quarter_car.bg:24: r2 = vw - vb - D(stroke)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
         c = self._c
         x = self._x
 
+        # quarter_car.bg:24: r2: terms of order 0
+        r2_g0 = s.vw - s.vb
+
+        # quarter_car.bg:24: r2: degree 1
+        r2_d1 = c.r2_w1_stroke * s.stroke
+
+        # quarter_car.bg:24: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
         # quarter_car.bg:24: r2: input of stage 2
-        r2_u2 = s.vw + c.r2_v1_stroke * s.stroke - s.vb
+        r2_u2 = r2_g0 + r2_d1 - r2_e0
 
         # quarter_car.bg:24: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # quarter_car.bg:24: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # quarter_car.bg:24: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_stroke * s.stroke
+        r2_u1 = r2_y2 + 2.0 * r2_e0 - r2_d1
 
         # quarter_car.bg:24: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # quarter_car.bg:24: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # quarter_car.bg:24: r2 = vw - vb - D(stroke)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -350,23 +383,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -21,39 +21,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t rc_loop_abi(void)
@@ -85,6 +56,15 @@ static void compute_coefficients(rc_loop_monitor *monitor, const rc_loop_paramet
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* rc_loop.bg:14: Rab/Rca */
     const real t = p->Rab / p->Rca;
 
@@ -94,26 +74,8 @@ static void compute_coefficients(rc_loop_monitor *monitor, const rc_loop_paramet
     /* rc_loop.bg:14: R0*Ca */
     const real t_3 = p->R0 * p->Ca;
 
-    /* rc_loop.bg:14: -Rab*Ca - R0*Ca */
-    const real t_4 = -t_2 - t_3;
-
-    /* rc_loop.bg:18: Rbc/Rca */
-    const real t_5 = p->Rbc / p->Rca;
-
-    /* rc_loop.bg:18: Rab/Rca + Rbc/Rca + 1 */
-    const real t_6 = t + t_5 + REAL(1.0);
-
-    /* exp(-x) */
-    const real t_7 = exponential(-x_);
-
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_8 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_7) / x_;
+    /* 1 - pole */
+    const real t_4 = REAL(1.0) - pole;
 
     /* rc_loop.bg:14: r1: factor of ua: Rab/Rca + 1 */
     c->r1_ua = t + REAL(1.0);
@@ -127,32 +89,26 @@ static void compute_coefficients(rc_loop_monitor *monitor, const rc_loop_paramet
     /* rc_loop.bg:14: r1: factor of uc': R0*Cc */
     c->r1_uc_1 = p->R0 * p->Cc;
 
-    /* rc_loop.bg:14: r1: factor of ua in stage 1 */
-    c->r1_v1_ua = t_4 * bandwidth;
+    /* rc_loop.bg:14: r1: factor of ua' */
+    c->r1_w1_ua = (-t_2 - t_3) * w;
 
-    /* rc_loop.bg:14: r1: factor of ua in stage 2 */
-    c->r1_v2_ua = -t - REAL(1.0) - t_4 * bandwidth;
+    /* rc_loop.bg:14: r1: factor of uc' */
+    c->r1_w1_uc = p->R0 * p->Cc * w;
 
-    /* rc_loop.bg:14: r1: factor of uc in stage 1 */
-    c->r1_v1_uc = p->R0 * p->Cc * bandwidth;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
 
-    /* rc_loop.bg:14: r1: factor of uc in stage 2 */
-    c->r1_v2_uc = t + p->R0 * p->Cc * bandwidth;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_7;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_4;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_8;
-
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_7 - t_8;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_8;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t_4;
 
     /* rc_loop.bg:18: r2: factor of ua: Rab/Rca + Rbc/Rca + 1 */
-    c->r2_ua = t_6;
+    c->r2_ua = t + p->Rbc / p->Rca + REAL(1.0);
 
     /* rc_loop.bg:18: r2: factor of ua': Rab*Ca */
     c->r2_ua_1 = t_2;
@@ -160,17 +116,11 @@ static void compute_coefficients(rc_loop_monitor *monitor, const rc_loop_paramet
     /* rc_loop.bg:18: r2: factor of uc': Rbc*Cc */
     c->r2_uc_1 = p->Rbc * p->Cc;
 
-    /* rc_loop.bg:18: r2: factor of ua in stage 1 */
-    c->r2_v1_ua = p->Rab * p->Ca * bandwidth;
+    /* rc_loop.bg:18: r2: factor of ua' */
+    c->r2_w1_ua = p->Rab * p->Ca * w;
 
-    /* rc_loop.bg:18: r2: factor of ua in stage 2 */
-    c->r2_v2_ua = t_6 - p->Rab * p->Ca * bandwidth;
-
-    /* rc_loop.bg:18: r2: factor of uc in stage 1 */
-    c->r2_v1_uc = p->Rbc * p->Cc * bandwidth;
-
-    /* rc_loop.bg:18: r2: factor of uc in stage 2 */
-    c->r2_v2_uc = -t - t_5 - REAL(1.0) + p->Rbc * p->Cc * bandwidth;
+    /* rc_loop.bg:18: r2: factor of uc' */
+    c->r2_w1_uc = p->Rbc * p->Cc * w;
 }
 
 static bool parameters_are_finite(const rc_loop_parameters *p)
@@ -181,10 +131,9 @@ static bool parameters_are_finite(const rc_loop_parameters *p)
 static bool coefficients_are_finite(const rc_loop_monitor *monitor)
 {
     return finite_number(monitor->c.r1_ua + monitor->c.r1_ua_1 + monitor->c.r1_uc
-            + monitor->c.r1_uc_1 + monitor->c.r1_v1_ua + monitor->c.r1_v2_ua + monitor->c.r1_v1_uc
-            + monitor->c.r1_v2_uc + monitor->c.a + monitor->c.b0 + monitor->c.b1 + monitor->c.rest
-            + monitor->c.r2_ua + monitor->c.r2_ua_1 + monitor->c.r2_uc_1 + monitor->c.r2_v1_ua
-            + monitor->c.r2_v2_ua + monitor->c.r2_v1_uc + monitor->c.r2_v2_uc);
+            + monitor->c.r1_uc_1 + monitor->c.r1_w1_ua + monitor->c.r1_w1_uc + monitor->c.bend1
+            + monitor->c.a + monitor->c.b + monitor->c.rest + monitor->c.r2_ua + monitor->c.r2_ua_1
+            + monitor->c.r2_uc_1 + monitor->c.r2_w1_ua + monitor->c.r2_w1_uc);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -258,8 +207,17 @@ static void start_r1(
     const rc_loop_coefficients *c = &monitor->c;
     rc_loop_memory *x = &monitor->x;
 
+    /* rc_loop.bg:14: r1: terms of order 0 */
+    const real r1_g0 = s->U + c->r1_uc * s->uc - c->r1_ua * s->ua;
+
+    /* rc_loop.bg:14: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_ua * s->ua - c->r1_w1_uc * s->uc;
+
+    /* rc_loop.bg:14: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* rc_loop.bg:14: r1: input of stage 2 */
-    const real r1_u2 = c->r1_v2_ua * s->ua + s->U + c->r1_v2_uc * s->uc;
+    const real r1_u2 = r1_g0 - r1_d1 - r1_e0;
 
     /* rc_loop.bg:14: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -268,7 +226,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* rc_loop.bg:14: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 + c->r1_v1_ua * s->ua - c->r1_v1_uc * s->uc;
+    const real r1_u1 = r1_y2 + r1_d1 + REAL(2.0) * r1_e0;
 
     /* rc_loop.bg:14: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -279,7 +237,7 @@ static void start_r1(
     /* rc_loop.bg:14: r1 = U - ua - Rab*ba.f - R0*(ba.f + (Cc*D(uc) - ac.f))
      * where ba.f = ac.f + Ca*D(ua)
      * ac.f = (ua - uc)/Rca */
-    r[RC_LOOP_R1] = r1_y1;
+    r[RC_LOOP_R1] = r1_y1 - r1_e0;
 }
 
 /* r1 on every further sample. */
@@ -289,28 +247,37 @@ static void next_r1(
     const rc_loop_coefficients *c = &monitor->c;
     rc_loop_memory *x = &monitor->x;
 
+    /* rc_loop.bg:14: r1: terms of order 0 */
+    const real r1_g0 = s->U + c->r1_uc * s->uc - c->r1_ua * s->ua;
+
+    /* rc_loop.bg:14: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_ua * s->ua - c->r1_w1_uc * s->uc;
+
+    /* rc_loop.bg:14: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* rc_loop.bg:14: r1: input of stage 2 */
-    const real r1_u2 = c->r1_v2_ua * s->ua + s->U + c->r1_v2_uc * s->uc;
+    const real r1_u2 = r1_g0 - r1_d1 - r1_e0;
 
     /* rc_loop.bg:14: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* rc_loop.bg:14: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* rc_loop.bg:14: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 + c->r1_v1_ua * s->ua - c->r1_v1_uc * s->uc;
+    const real r1_u1 = r1_y2 + r1_d1 + REAL(2.0) * r1_e0;
 
     /* rc_loop.bg:14: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* rc_loop.bg:14: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* rc_loop.bg:14: r1 = U - ua - Rab*ba.f - R0*(ba.f + (Cc*D(uc) - ac.f))
      * where ba.f = ac.f + Ca*D(ua)
      * ac.f = (ua - uc)/Rca */
-    r[RC_LOOP_R1] = r1_y1;
+    r[RC_LOOP_R1] = r1_y1 - r1_e0;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -343,8 +310,17 @@ static void start_r2(
     const rc_loop_coefficients *c = &monitor->c;
     rc_loop_memory *x = &monitor->x;
 
+    /* rc_loop.bg:18: r2: terms of order 0 */
+    const real r2_g0 = c->r2_ua * s->ua - c->r2_ua * s->uc;
+
+    /* rc_loop.bg:18: r2: degree 1 */
+    const real r2_d1 = c->r2_w1_ua * s->ua - c->r2_w1_uc * s->uc;
+
+    /* rc_loop.bg:18: r2: error of order 0 */
+    const real r2_e0 = c->bend1 * r2_g0;
+
     /* rc_loop.bg:18: r2: input of stage 2 */
-    const real r2_u2 = c->r2_v2_ua * s->ua + c->r2_v2_uc * s->uc;
+    const real r2_u2 = r2_g0 - r2_d1 - r2_e0;
 
     /* rc_loop.bg:18: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -353,7 +329,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* rc_loop.bg:18: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 + c->r2_v1_ua * s->ua - c->r2_v1_uc * s->uc;
+    const real r2_u1 = r2_y2 + r2_d1 + REAL(2.0) * r2_e0;
 
     /* rc_loop.bg:18: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -363,7 +339,7 @@ static void start_r2(
 
     /* rc_loop.bg:18: r2 = ua + Rab*(ac.f + Ca*D(ua)) - uc - Rbc*(Cc*D(uc) - ac.f)
      * where ac.f = (ua - uc)/Rca */
-    r[RC_LOOP_R2] = r2_y1;
+    r[RC_LOOP_R2] = r2_y1 - r2_e0;
 }
 
 /* r2 on every further sample. */
@@ -373,27 +349,36 @@ static void next_r2(
     const rc_loop_coefficients *c = &monitor->c;
     rc_loop_memory *x = &monitor->x;
 
+    /* rc_loop.bg:18: r2: terms of order 0 */
+    const real r2_g0 = c->r2_ua * s->ua - c->r2_ua * s->uc;
+
+    /* rc_loop.bg:18: r2: degree 1 */
+    const real r2_d1 = c->r2_w1_ua * s->ua - c->r2_w1_uc * s->uc;
+
+    /* rc_loop.bg:18: r2: error of order 0 */
+    const real r2_e0 = c->bend1 * r2_g0;
+
     /* rc_loop.bg:18: r2: input of stage 2 */
-    const real r2_u2 = c->r2_v2_ua * s->ua + c->r2_v2_uc * s->uc;
+    const real r2_u2 = r2_g0 - r2_d1 - r2_e0;
 
     /* rc_loop.bg:18: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* rc_loop.bg:18: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* rc_loop.bg:18: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 + c->r2_v1_ua * s->ua - c->r2_v1_uc * s->uc;
+    const real r2_u1 = r2_y2 + r2_d1 + REAL(2.0) * r2_e0;
 
     /* rc_loop.bg:18: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* rc_loop.bg:18: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* rc_loop.bg:18: r2 = ua + Rab*(ac.f + Ca*D(ua)) - uc - Rbc*(Cc*D(uc) - ac.f)
      * where ac.f = (ua - uc)/Rca */
-    r[RC_LOOP_R2] = r2_y1;
+    r[RC_LOOP_R2] = r2_y1 - r2_e0;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */

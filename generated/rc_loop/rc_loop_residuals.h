@@ -28,7 +28,7 @@ typedef double rc_loop_real;
 /* Version of the structs and functions, and the size of a number. */
 #define RC_LOOP_ABI (1u * 256u + (uint32_t)sizeof(rc_loop_real))
 /* Identifies the model and the options that this code was made from. */
-#define RC_LOOP_DIGEST "fb6aab8f0a2e0d18"
+#define RC_LOOP_DIGEST "b901520b7cc50567"
 
 /* What the code was made for: arguments of rc_loop_configure, in s, rad/s and s. */
 #define RC_LOOP_SAMPLE_TIME RC_LOOP_CONSTANT(0.001)
@@ -91,21 +91,17 @@ typedef struct rc_loop_coefficients {
     rc_loop_real r1_ua_1;   /* r1: factor of ua': Rab*Ca + R0*Ca */
     rc_loop_real r1_uc;     /* r1: factor of uc: Rab/Rca */
     rc_loop_real r1_uc_1;   /* r1: factor of uc': R0*Cc */
-    rc_loop_real r1_v1_ua;  /* r1: factor of ua in stage 1 */
-    rc_loop_real r1_v2_ua;  /* r1: factor of ua in stage 2 */
-    rc_loop_real r1_v1_uc;  /* r1: factor of uc in stage 1 */
-    rc_loop_real r1_v2_uc;  /* r1: factor of uc in stage 2 */
-    rc_loop_real a;         /* filter: exp(-bandwidth*sample_time) */
-    rc_loop_real b0;        /* filter: weight of the new sample */
-    rc_loop_real b1;        /* filter: weight of the sample before */
-    rc_loop_real rest;      /* filter: 1 - b0, the memory of a constant 1 */
+    rc_loop_real r1_w1_ua;  /* r1: factor of ua' */
+    rc_loop_real r1_w1_uc;  /* r1: factor of uc' */
+    rc_loop_real bend1;     /* filter: 1 * (w*sample_time)^2/12 */
+    rc_loop_real a;         /* filter: what is left of a memory a sample later */
+    rc_loop_real b;         /* filter: weight of a sample, new and a sample later */
+    rc_loop_real rest;      /* filter: 1 - b, the memory of a constant 1 */
     rc_loop_real r2_ua;     /* r2: factor of ua: Rab/Rca + Rbc/Rca + 1 */
     rc_loop_real r2_ua_1;   /* r2: factor of ua': Rab*Ca */
     rc_loop_real r2_uc_1;   /* r2: factor of uc': Rbc*Cc */
-    rc_loop_real r2_v1_ua;  /* r2: factor of ua in stage 1 */
-    rc_loop_real r2_v2_ua;  /* r2: factor of ua in stage 2 */
-    rc_loop_real r2_v1_uc;  /* r2: factor of uc in stage 1 */
-    rc_loop_real r2_v2_uc;  /* r2: factor of uc in stage 2 */
+    rc_loop_real r2_w1_ua;  /* r2: factor of ua' */
+    rc_loop_real r2_w1_uc;  /* r2: factor of uc' */
 } rc_loop_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "fb6aab8f0a2e0d18"
+DIGEST = "b901520b7cc50567"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -73,21 +73,17 @@ class Coefficients:
     r1_ua_1: float   # r1: factor of ua': Rab*Ca + R0*Ca
     r1_uc: float     # r1: factor of uc: Rab/Rca
     r1_uc_1: float   # r1: factor of uc': R0*Cc
-    r1_v1_ua: float  # r1: factor of ua in stage 1
-    r1_v2_ua: float  # r1: factor of ua in stage 2
-    r1_v1_uc: float  # r1: factor of uc in stage 1
-    r1_v2_uc: float  # r1: factor of uc in stage 2
-    a: float         # filter: exp(-bandwidth*sample_time)
-    b0: float        # filter: weight of the new sample
-    b1: float        # filter: weight of the sample before
-    rest: float      # filter: 1 - b0, the memory of a constant 1
+    r1_w1_ua: float  # r1: factor of ua'
+    r1_w1_uc: float  # r1: factor of uc'
+    bend1: float     # filter: 1 * (w*sample_time)^2/12
+    a: float         # filter: what is left of a memory a sample later
+    b: float         # filter: weight of a sample, new and a sample later
+    rest: float      # filter: 1 - b, the memory of a constant 1
     r2_ua: float     # r2: factor of ua: Rab/Rca + Rbc/Rca + 1
     r2_ua_1: float   # r2: factor of ua': Rab*Ca
     r2_uc_1: float   # r2: factor of uc': Rbc*Cc
-    r2_v1_ua: float  # r2: factor of ua in stage 1
-    r2_v2_ua: float  # r2: factor of ua in stage 2
-    r2_v1_uc: float  # r2: factor of uc in stage 1
-    r2_v2_uc: float  # r2: factor of uc in stage 2
+    r2_w1_ua: float  # r2: factor of ua'
+    r2_w1_uc: float  # r2: factor of uc'
 
 
 class Memory:
@@ -129,10 +125,9 @@ class Monitor:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
                     self._c.r1_ua + self._c.r1_ua_1 + self._c.r1_uc + self._c.r1_uc_1
-                    + self._c.r1_v1_ua + self._c.r1_v2_ua + self._c.r1_v1_uc + self._c.r1_v2_uc
-                    + self._c.a + self._c.b0 + self._c.b1 + self._c.rest + self._c.r2_ua
-                    + self._c.r2_ua_1 + self._c.r2_uc_1 + self._c.r2_v1_ua + self._c.r2_v2_ua
-                    + self._c.r2_v1_uc + self._c.r2_v2_uc
+                    + self._c.r1_w1_ua + self._c.r1_w1_uc + self._c.bend1 + self._c.a + self._c.b
+                    + self._c.rest + self._c.r2_ua + self._c.r2_ua_1 + self._c.r2_uc_1
+                    + self._c.r2_w1_ua + self._c.r2_w1_uc
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -185,6 +180,15 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # rc_loop.bg:14: Rab/Rca
         t = p.Rab / p.Rca
 
@@ -194,25 +198,8 @@ class Monitor:
         # rc_loop.bg:14: R0*Ca
         t_3 = p.R0 * p.Ca
 
-        # rc_loop.bg:14: -Rab*Ca - R0*Ca
-        t_4 = -t_2 - t_3
-
-        # rc_loop.bg:18: Rbc/Rca
-        t_5 = p.Rbc / p.Rca
-
-        # rc_loop.bg:18: Rab/Rca + Rbc/Rca + 1
-        t_6 = t + t_5 + 1.0
-
-        # exp(-x)
-        t_7 = _exponential(-x_)
-
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_8 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_7) / x_
-        )
+        # 1 - pole
+        t_4 = 1.0 - pole
 
         # rc_loop.bg:14: r1: factor of ua: Rab/Rca + 1
         c.r1_ua = t + 1.0
@@ -226,32 +213,26 @@ class Monitor:
         # rc_loop.bg:14: r1: factor of uc': R0*Cc
         c.r1_uc_1 = p.R0 * p.Cc
 
-        # rc_loop.bg:14: r1: factor of ua in stage 1
-        c.r1_v1_ua = t_4 * bandwidth
+        # rc_loop.bg:14: r1: factor of ua'
+        c.r1_w1_ua = (-t_2 - t_3) * w
 
-        # rc_loop.bg:14: r1: factor of ua in stage 2
-        c.r1_v2_ua = -t - 1.0 - t_4 * bandwidth
+        # rc_loop.bg:14: r1: factor of uc'
+        c.r1_w1_uc = p.R0 * p.Cc * w
 
-        # rc_loop.bg:14: r1: factor of uc in stage 1
-        c.r1_v1_uc = p.R0 * p.Cc * bandwidth
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = turn * turn / 12.0
 
-        # rc_loop.bg:14: r1: factor of uc in stage 2
-        c.r1_v2_uc = t + p.R0 * p.Cc * bandwidth
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_7
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_4
 
-        # filter: weight of the new sample
-        c.b0 = t_8
-
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_7 - t_8
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_8
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t_4
 
         # rc_loop.bg:18: r2: factor of ua: Rab/Rca + Rbc/Rca + 1
-        c.r2_ua = t_6
+        c.r2_ua = t + p.Rbc / p.Rca + 1.0
 
         # rc_loop.bg:18: r2: factor of ua': Rab*Ca
         c.r2_ua_1 = t_2
@@ -259,25 +240,28 @@ class Monitor:
         # rc_loop.bg:18: r2: factor of uc': Rbc*Cc
         c.r2_uc_1 = p.Rbc * p.Cc
 
-        # rc_loop.bg:18: r2: factor of ua in stage 1
-        c.r2_v1_ua = p.Rab * p.Ca * bandwidth
+        # rc_loop.bg:18: r2: factor of ua'
+        c.r2_w1_ua = p.Rab * p.Ca * w
 
-        # rc_loop.bg:18: r2: factor of ua in stage 2
-        c.r2_v2_ua = t_6 - p.Rab * p.Ca * bandwidth
-
-        # rc_loop.bg:18: r2: factor of uc in stage 1
-        c.r2_v1_uc = p.Rbc * p.Cc * bandwidth
-
-        # rc_loop.bg:18: r2: factor of uc in stage 2
-        c.r2_v2_uc = -t - t_5 - 1.0 + p.Rbc * p.Cc * bandwidth
+        # rc_loop.bg:18: r2: factor of uc'
+        c.r2_w1_uc = p.Rbc * p.Cc * w
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
         c = self._c
         x = self._x
 
+        # rc_loop.bg:14: r1: terms of order 0
+        r1_g0 = s.U + c.r1_uc * s.uc - c.r1_ua * s.ua
+
+        # rc_loop.bg:14: r1: degree 1
+        r1_d1 = c.r1_w1_ua * s.ua - c.r1_w1_uc * s.uc
+
+        # rc_loop.bg:14: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # rc_loop.bg:14: r1: input of stage 2
-        r1_u2 = c.r1_v2_ua * s.ua + s.U + c.r1_v2_uc * s.uc
+        r1_u2 = r1_g0 - r1_d1 - r1_e0
 
         # rc_loop.bg:14: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -286,7 +270,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # rc_loop.bg:14: r1: input of stage 1
-        r1_u1 = r1_y2 + c.r1_v1_ua * s.ua - c.r1_v1_uc * s.uc
+        r1_u1 = r1_y2 + r1_d1 + 2.0 * r1_e0
 
         # rc_loop.bg:14: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -297,35 +281,44 @@ class Monitor:
         # rc_loop.bg:14: r1 = U - ua - Rab*ba.f - R0*(ba.f + (Cc*D(uc) - ac.f))
         # where ba.f = ac.f + Ca*D(ua)
         # ac.f = (ua - uc)/Rca
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
         c = self._c
         x = self._x
 
+        # rc_loop.bg:14: r1: terms of order 0
+        r1_g0 = s.U + c.r1_uc * s.uc - c.r1_ua * s.ua
+
+        # rc_loop.bg:14: r1: degree 1
+        r1_d1 = c.r1_w1_ua * s.ua - c.r1_w1_uc * s.uc
+
+        # rc_loop.bg:14: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # rc_loop.bg:14: r1: input of stage 2
-        r1_u2 = c.r1_v2_ua * s.ua + s.U + c.r1_v2_uc * s.uc
+        r1_u2 = r1_g0 - r1_d1 - r1_e0
 
         # rc_loop.bg:14: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # rc_loop.bg:14: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # rc_loop.bg:14: r1: input of stage 1
-        r1_u1 = r1_y2 + c.r1_v1_ua * s.ua - c.r1_v1_uc * s.uc
+        r1_u1 = r1_y2 + r1_d1 + 2.0 * r1_e0
 
         # rc_loop.bg:14: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # rc_loop.bg:14: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # rc_loop.bg:14: r1 = U - ua - Rab*ba.f - R0*(ba.f + (Cc*D(uc) - ac.f))
         # where ba.f = ac.f + Ca*D(ua)
         # ac.f = (ua - uc)/Rca
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -348,8 +341,17 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # rc_loop.bg:18: r2: terms of order 0
+        r2_g0 = c.r2_ua * s.ua - c.r2_ua * s.uc
+
+        # rc_loop.bg:18: r2: degree 1
+        r2_d1 = c.r2_w1_ua * s.ua - c.r2_w1_uc * s.uc
+
+        # rc_loop.bg:18: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
         # rc_loop.bg:18: r2: input of stage 2
-        r2_u2 = c.r2_v2_ua * s.ua + c.r2_v2_uc * s.uc
+        r2_u2 = r2_g0 - r2_d1 - r2_e0
 
         # rc_loop.bg:18: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -358,7 +360,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # rc_loop.bg:18: r2: input of stage 1
-        r2_u1 = r2_y2 + c.r2_v1_ua * s.ua - c.r2_v1_uc * s.uc
+        r2_u1 = r2_y2 + r2_d1 + 2.0 * r2_e0
 
         # rc_loop.bg:18: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -368,34 +370,43 @@ class Monitor:
 
         # rc_loop.bg:18: r2 = ua + Rab*(ac.f + Ca*D(ua)) - uc - Rbc*(Cc*D(uc) - ac.f)
         # where ac.f = (ua - uc)/Rca
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
         c = self._c
         x = self._x
 
+        # rc_loop.bg:18: r2: terms of order 0
+        r2_g0 = c.r2_ua * s.ua - c.r2_ua * s.uc
+
+        # rc_loop.bg:18: r2: degree 1
+        r2_d1 = c.r2_w1_ua * s.ua - c.r2_w1_uc * s.uc
+
+        # rc_loop.bg:18: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
         # rc_loop.bg:18: r2: input of stage 2
-        r2_u2 = c.r2_v2_ua * s.ua + c.r2_v2_uc * s.uc
+        r2_u2 = r2_g0 - r2_d1 - r2_e0
 
         # rc_loop.bg:18: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # rc_loop.bg:18: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # rc_loop.bg:18: r2: input of stage 1
-        r2_u1 = r2_y2 + c.r2_v1_ua * s.ua - c.r2_v1_uc * s.uc
+        r2_u1 = r2_y2 + r2_d1 + 2.0 * r2_e0
 
         # rc_loop.bg:18: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # rc_loop.bg:18: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # rc_loop.bg:18: r2 = ua + Rab*(ac.f + Ca*D(ua)) - uc - Rbc*(Cc*D(uc) - ac.f)
         # where ac.f = (ua - uc)/Rca
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -412,23 +423,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -21,39 +21,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t rigid_gear_abi(void)
@@ -84,17 +55,17 @@ static void compute_coefficients(rigid_gear_monitor *monitor, const rigid_gear_p
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* 1 - pole */
+    const real t = REAL(1.0) - pole;
 
     /* rigid_gear.bg:14: r1: factor of w1: f1 */
     c->r1_w1 = p->f1;
@@ -108,29 +79,23 @@ static void compute_coefficients(rigid_gear_monitor *monitor, const rigid_gear_p
     /* rigid_gear.bg:14: r1: factor of w2': J2/N */
     c->r1_w2_1 = p->J2 / p->N;
 
-    /* rigid_gear.bg:14: r1: factor of w1 in stage 1 */
-    c->r1_v1_w1 = p->J1 * bandwidth;
+    /* rigid_gear.bg:14: r1: factor of w1' */
+    c->r1_w1_w1 = p->J1 * w;
 
-    /* rigid_gear.bg:14: r1: factor of w1 in stage 2 */
-    c->r1_v2_w1 = p->J1 * bandwidth - p->f1;
+    /* rigid_gear.bg:14: r1: factor of w2' */
+    c->r1_w1_w2 = p->J2 * w / p->N;
 
-    /* rigid_gear.bg:14: r1: factor of w2 in stage 1 */
-    c->r1_v1_w2 = p->J2 * bandwidth / p->N;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
 
-    /* rigid_gear.bg:14: r1: factor of w2 in stage 2 */
-    c->r1_v2_w2 = p->J2 * bandwidth / p->N - p->f2 / p->N;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
-
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t;
 
     /* rigid_gear.bg:14: r2: factor of w2: N */
     c->r2_w2 = p->N;
@@ -144,9 +109,8 @@ static bool parameters_are_finite(const rigid_gear_parameters *p)
 static bool coefficients_are_finite(const rigid_gear_monitor *monitor)
 {
     return finite_number(monitor->c.r1_w1 + monitor->c.r1_w1_1 + monitor->c.r1_w2
-            + monitor->c.r1_w2_1 + monitor->c.r1_v1_w1 + monitor->c.r1_v2_w1 + monitor->c.r1_v1_w2
-            + monitor->c.r1_v2_w2 + monitor->c.a + monitor->c.b0 + monitor->c.b1 + monitor->c.rest
-            + monitor->c.r2_w2);
+            + monitor->c.r1_w2_1 + monitor->c.r1_w1_w1 + monitor->c.r1_w1_w2 + monitor->c.bend1
+            + monitor->c.a + monitor->c.b + monitor->c.rest + monitor->c.r2_w2);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -216,8 +180,17 @@ static void start_r1(
     const rigid_gear_coefficients *c = &monitor->c;
     rigid_gear_memory *x = &monitor->x;
 
+    /* rigid_gear.bg:14: r1: terms of order 0 */
+    const real r1_g0 = s->T - c->r1_w1 * s->w1 - c->r1_w2 * s->w2;
+
+    /* rigid_gear.bg:14: r1: degree 1 */
+    const real r1_d1 = -c->r1_w1_w1 * s->w1 - c->r1_w1_w2 * s->w2;
+
+    /* rigid_gear.bg:14: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* rigid_gear.bg:14: r1: input of stage 2 */
-    const real r1_u2 = s->T + c->r1_v2_w1 * s->w1 + c->r1_v2_w2 * s->w2;
+    const real r1_u2 = r1_g0 - r1_d1 - r1_e0;
 
     /* rigid_gear.bg:14: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -226,7 +199,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* rigid_gear.bg:14: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_w1 * s->w1 - c->r1_v1_w2 * s->w2;
+    const real r1_u1 = r1_y2 + r1_d1 + REAL(2.0) * r1_e0;
 
     /* rigid_gear.bg:14: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -235,7 +208,7 @@ static void start_r1(
     x->r1_s1 = c->rest * r1_u1;
 
     /* rigid_gear.bg:14: r1 = T - f1*w1 - J1*D(w1) - (f2*w2 + J2*D(w2))/N */
-    r[RIGID_GEAR_R1] = r1_y1;
+    r[RIGID_GEAR_R1] = r1_y1 - r1_e0;
 }
 
 /* r1 on every further sample. */
@@ -245,26 +218,35 @@ static void next_r1(
     const rigid_gear_coefficients *c = &monitor->c;
     rigid_gear_memory *x = &monitor->x;
 
+    /* rigid_gear.bg:14: r1: terms of order 0 */
+    const real r1_g0 = s->T - c->r1_w1 * s->w1 - c->r1_w2 * s->w2;
+
+    /* rigid_gear.bg:14: r1: degree 1 */
+    const real r1_d1 = -c->r1_w1_w1 * s->w1 - c->r1_w1_w2 * s->w2;
+
+    /* rigid_gear.bg:14: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* rigid_gear.bg:14: r1: input of stage 2 */
-    const real r1_u2 = s->T + c->r1_v2_w1 * s->w1 + c->r1_v2_w2 * s->w2;
+    const real r1_u2 = r1_g0 - r1_d1 - r1_e0;
 
     /* rigid_gear.bg:14: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* rigid_gear.bg:14: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* rigid_gear.bg:14: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_w1 * s->w1 - c->r1_v1_w2 * s->w2;
+    const real r1_u1 = r1_y2 + r1_d1 + REAL(2.0) * r1_e0;
 
     /* rigid_gear.bg:14: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* rigid_gear.bg:14: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* rigid_gear.bg:14: r1 = T - f1*w1 - J1*D(w1) - (f2*w2 + J2*D(w2))/N */
-    r[RIGID_GEAR_R1] = r1_y1;
+    r[RIGID_GEAR_R1] = r1_y1 - r1_e0;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -321,10 +303,10 @@ static void next_r2(
     const real r2_u1 = s->w1 - c->r2_w2 * s->w2;
 
     /* rigid_gear.bg:14: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* rigid_gear.bg:14: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* rigid_gear.bg:14: r2 = w1 - N*w2 */
     r[RIGID_GEAR_R2] = r2_y1;

@@ -28,7 +28,7 @@ typedef double rigid_gear_real;
 /* Version of the structs and functions, and the size of a number. */
 #define RIGID_GEAR_ABI (1u * 256u + (uint32_t)sizeof(rigid_gear_real))
 /* Identifies the model and the options that this code was made from. */
-#define RIGID_GEAR_DIGEST "39aebb8dd9e20065"
+#define RIGID_GEAR_DIGEST "7e7c182572467cd5"
 
 /* What the code was made for: arguments of rigid_gear_configure, in s, rad/s and s. */
 #define RIGID_GEAR_SAMPLE_TIME RIGID_GEAR_CONSTANT(0.001)
@@ -87,14 +87,12 @@ typedef struct rigid_gear_coefficients {
     rigid_gear_real r1_w1_1;   /* r1: factor of w1': J1 */
     rigid_gear_real r1_w2;     /* r1: factor of w2: f2/N */
     rigid_gear_real r1_w2_1;   /* r1: factor of w2': J2/N */
-    rigid_gear_real r1_v1_w1;  /* r1: factor of w1 in stage 1 */
-    rigid_gear_real r1_v2_w1;  /* r1: factor of w1 in stage 2 */
-    rigid_gear_real r1_v1_w2;  /* r1: factor of w2 in stage 1 */
-    rigid_gear_real r1_v2_w2;  /* r1: factor of w2 in stage 2 */
-    rigid_gear_real a;         /* filter: exp(-bandwidth*sample_time) */
-    rigid_gear_real b0;        /* filter: weight of the new sample */
-    rigid_gear_real b1;        /* filter: weight of the sample before */
-    rigid_gear_real rest;      /* filter: 1 - b0, the memory of a constant 1 */
+    rigid_gear_real r1_w1_w1;  /* r1: factor of w1' */
+    rigid_gear_real r1_w1_w2;  /* r1: factor of w2' */
+    rigid_gear_real bend1;     /* filter: 1 * (w*sample_time)^2/12 */
+    rigid_gear_real a;         /* filter: what is left of a memory a sample later */
+    rigid_gear_real b;         /* filter: weight of a sample, new and a sample later */
+    rigid_gear_real rest;      /* filter: 1 - b, the memory of a constant 1 */
     rigid_gear_real r2_w2;     /* r2: factor of w2: N */
 } rigid_gear_coefficients;
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "39aebb8dd9e20065"
+DIGEST = "7e7c182572467cd5"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -69,14 +69,12 @@ class Coefficients:
     r1_w1_1: float   # r1: factor of w1': J1
     r1_w2: float     # r1: factor of w2: f2/N
     r1_w2_1: float   # r1: factor of w2': J2/N
-    r1_v1_w1: float  # r1: factor of w1 in stage 1
-    r1_v2_w1: float  # r1: factor of w1 in stage 2
-    r1_v1_w2: float  # r1: factor of w2 in stage 1
-    r1_v2_w2: float  # r1: factor of w2 in stage 2
-    a: float         # filter: exp(-bandwidth*sample_time)
-    b0: float        # filter: weight of the new sample
-    b1: float        # filter: weight of the sample before
-    rest: float      # filter: 1 - b0, the memory of a constant 1
+    r1_w1_w1: float  # r1: factor of w1'
+    r1_w1_w2: float  # r1: factor of w2'
+    bend1: float     # filter: 1 * (w*sample_time)^2/12
+    a: float         # filter: what is left of a memory a sample later
+    b: float         # filter: weight of a sample, new and a sample later
+    rest: float      # filter: 1 - b, the memory of a constant 1
     r2_w2: float     # r2: factor of w2: N
 
 
@@ -118,8 +116,8 @@ class Monitor:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
                     self._c.r1_w1 + self._c.r1_w1_1 + self._c.r1_w2 + self._c.r1_w2_1
-                    + self._c.r1_v1_w1 + self._c.r1_v2_w1 + self._c.r1_v1_w2 + self._c.r1_v2_w2
-                    + self._c.a + self._c.b0 + self._c.b1 + self._c.rest + self._c.r2_w2
+                    + self._c.r1_w1_w1 + self._c.r1_w1_w2 + self._c.bend1 + self._c.a + self._c.b
+                    + self._c.rest + self._c.r2_w2
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -169,16 +167,17 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
+        # 1 - pole
+        t = 1.0 - pole
 
         # rigid_gear.bg:14: r1: factor of w1: f1
         c.r1_w1 = p.f1
@@ -192,29 +191,23 @@ class Monitor:
         # rigid_gear.bg:14: r1: factor of w2': J2/N
         c.r1_w2_1 = p.J2 / p.N
 
-        # rigid_gear.bg:14: r1: factor of w1 in stage 1
-        c.r1_v1_w1 = p.J1 * bandwidth
+        # rigid_gear.bg:14: r1: factor of w1'
+        c.r1_w1_w1 = p.J1 * w
 
-        # rigid_gear.bg:14: r1: factor of w1 in stage 2
-        c.r1_v2_w1 = p.J1 * bandwidth - p.f1
+        # rigid_gear.bg:14: r1: factor of w2'
+        c.r1_w1_w2 = p.J2 * w / p.N
 
-        # rigid_gear.bg:14: r1: factor of w2 in stage 1
-        c.r1_v1_w2 = p.J2 * bandwidth / p.N
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = turn * turn / 12.0
 
-        # rigid_gear.bg:14: r1: factor of w2 in stage 2
-        c.r1_v2_w2 = p.J2 * bandwidth / p.N - p.f2 / p.N
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
 
-        # filter: weight of the new sample
-        c.b0 = t_2
-
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
         # rigid_gear.bg:14: r2: factor of w2: N
         c.r2_w2 = p.N
@@ -224,8 +217,17 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # rigid_gear.bg:14: r1: terms of order 0
+        r1_g0 = s.T - c.r1_w1 * s.w1 - c.r1_w2 * s.w2
+
+        # rigid_gear.bg:14: r1: degree 1
+        r1_d1 = -c.r1_w1_w1 * s.w1 - c.r1_w1_w2 * s.w2
+
+        # rigid_gear.bg:14: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # rigid_gear.bg:14: r1: input of stage 2
-        r1_u2 = s.T + c.r1_v2_w1 * s.w1 + c.r1_v2_w2 * s.w2
+        r1_u2 = r1_g0 - r1_d1 - r1_e0
 
         # rigid_gear.bg:14: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -234,7 +236,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # rigid_gear.bg:14: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_w1 * s.w1 - c.r1_v1_w2 * s.w2
+        r1_u1 = r1_y2 + r1_d1 + 2.0 * r1_e0
 
         # rigid_gear.bg:14: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -243,33 +245,42 @@ class Monitor:
         x.r1_s1 = c.rest * r1_u1
 
         # rigid_gear.bg:14: r1 = T - f1*w1 - J1*D(w1) - (f2*w2 + J2*D(w2))/N
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
         c = self._c
         x = self._x
 
+        # rigid_gear.bg:14: r1: terms of order 0
+        r1_g0 = s.T - c.r1_w1 * s.w1 - c.r1_w2 * s.w2
+
+        # rigid_gear.bg:14: r1: degree 1
+        r1_d1 = -c.r1_w1_w1 * s.w1 - c.r1_w1_w2 * s.w2
+
+        # rigid_gear.bg:14: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # rigid_gear.bg:14: r1: input of stage 2
-        r1_u2 = s.T + c.r1_v2_w1 * s.w1 + c.r1_v2_w2 * s.w2
+        r1_u2 = r1_g0 - r1_d1 - r1_e0
 
         # rigid_gear.bg:14: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # rigid_gear.bg:14: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # rigid_gear.bg:14: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_w1 * s.w1 - c.r1_v1_w2 * s.w2
+        r1_u1 = r1_y2 + r1_d1 + 2.0 * r1_e0
 
         # rigid_gear.bg:14: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # rigid_gear.bg:14: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # rigid_gear.bg:14: r1 = T - f1*w1 - J1*D(w1) - (f2*w2 + J2*D(w2))/N
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -313,10 +324,10 @@ class Monitor:
         r2_u1 = s.w1 - c.r2_w2 * s.w2
 
         # rigid_gear.bg:14: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # rigid_gear.bg:14: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # rigid_gear.bg:14: r2 = w1 - N*w2
         r.r2 = r2_y1
@@ -336,23 +347,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t slider_crank_abi(void)
@@ -88,17 +59,17 @@ static void compute_coefficients(slider_crank_monitor *monitor, const slider_cra
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* 1 - pole */
+    const real t = REAL(1.0) - pole;
 
     /* slider_crank.bg:18: r^2 */
     c->g = p->r * p->r;
@@ -137,39 +108,31 @@ static void compute_coefficients(slider_crank_monitor *monitor, const slider_cra
     /* half the sample time */
     c->half_time = REAL(0.5) * sample_time;
 
-    /* slider_crank.bg:18: r1: factor of speed in stage 1 */
-    c->r1_v1_speed = p->J * bandwidth;
+    /* sample_time/24 */
+    c->half_twelfth = sample_time / REAL(24.0);
 
-    /* slider_crank.bg:18: r1: factor of speed in stage 2 */
-    c->r1_v2_speed = p->J * bandwidth - p->f;
+    /* slider_crank.bg:18: r1: factor of speed' */
+    c->r1_w1_speed = p->J * w;
 
-    /* slider_crank.bg:18: r1: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed
-     * ... in stage 1 */
-    c->r1_v1_product = p->m * p->r * p->r * p->r * bandwidth;
+    /* slider_crank.bg:18: r1: factor of
+     * D(speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ...) */
+    c->r1_w1_product = p->m * p->r * p->r * p->r * w;
 
-    /* slider_crank.bg:18: r1: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed
-     * ... in stage 2 */
-    c->r1_v2_product = p->m * p->r * p->r * p->r * bandwidth - p->c * p->r * p->r * p->r;
+    /* slider_crank.bg:18: r1: factor of D(speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 -
+     * r^ ...) */
+    c->r1_w1_product_2 = p->m * p->r * p->r * w;
 
-    /* slider_crank.bg:18: r1: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^
-     * ... in stage 1 */
-    c->r1_v1_product_2 = p->m * p->r * p->r * bandwidth;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
 
-    /* slider_crank.bg:18: r1: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^
-     * ... in stage 2 */
-    c->r1_v2_product_2 = p->m * p->r * p->r * bandwidth - p->c * p->r * p->r;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
-
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t;
 }
 
 static bool parameters_are_finite(const slider_crank_parameters *p)
@@ -182,10 +145,9 @@ static bool coefficients_are_finite(const slider_crank_monitor *monitor)
     return finite_number(monitor->c.g + monitor->c.g_2 + monitor->c.r + monitor->c.g_3
             + monitor->c.r1_speed + monitor->c.r1_speed_1 + monitor->c.r1_product
             + monitor->c.r1_product_1 + monitor->c.r1_product_2 + monitor->c.r1_product_1_2
-            + monitor->c.half_time + monitor->c.r1_v1_speed + monitor->c.r1_v2_speed
-            + monitor->c.r1_v1_product + monitor->c.r1_v2_product + monitor->c.r1_v1_product_2
-            + monitor->c.r1_v2_product_2 + monitor->c.a + monitor->c.b0 + monitor->c.b1
-            + monitor->c.rest);
+            + monitor->c.half_time + monitor->c.half_twelfth + monitor->c.r1_w1_speed
+            + monitor->c.r1_w1_product + monitor->c.r1_w1_product_2 + monitor->c.bend1
+            + monitor->c.a + monitor->c.b + monitor->c.rest);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -290,11 +252,18 @@ static void start_r1(
     /* slider_crank.bg:18: integral of speed: memory */
     x->r1_q = c->half_time * s->speed;
 
+    /* slider_crank.bg:18: integral of speed */
+    const real r1_integral = r1_int;
+
+    /* slider_crank.bg:18: integral of speed: memory */
+    x->r1_rate2 = s->speed;
+    x->r1_rate1 = s->speed;
+
     /* slider_crank.bg:18: sin(Int(speed)) */
-    const real r1_t = MATH(sin)(r1_int);
+    const real r1_t = MATH(sin)(r1_integral);
 
     /* slider_crank.bg:18: cos(Int(speed)) */
-    const real r1_t_2 = MATH(cos)(r1_int);
+    const real r1_t_2 = MATH(cos)(r1_integral);
 
     /* slider_crank.bg:18: sqrt(l^2 - r^2*sin(Int(speed))^2) */
     const real r1_t_3 = MATH(sqrt)(c->g_2 - c->g * r1_t * r1_t);
@@ -322,10 +291,20 @@ static void start_r1(
     /* slider_crank.bg:18: speed^2*sin(Int(speed))*cos(Int(speed))*(r*cos(Int(speed ... */
     const real r1_product_6 = s->speed * s->speed * r1_t * r1_t_2 * r1_t_4;
 
+    /* slider_crank.bg:18: r1: terms of order 0 */
+    const real r1_g0 = s->T + c->r1_product_1 * r1_product_3 + c->r1_product_1_2 * r1_product_6
+        - c->r1_speed * s->speed - c->g * r1_product - c->r1_product * r1_product_2
+        - c->r * r1_product_4 - c->r1_product_2 * r1_product_5;
+
+    /* slider_crank.bg:18: r1: degree 1 */
+    const real r1_d1 = -c->r1_w1_speed * s->speed - c->r1_w1_product * r1_product_2
+        - c->r1_w1_product_2 * r1_product_5;
+
+    /* slider_crank.bg:18: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* slider_crank.bg:18: r1: input of stage 2 */
-    const real r1_u2 = s->T + c->r1_v2_speed * s->speed + c->r1_v2_product * r1_product_2
-        + c->r1_product_1 * r1_product_3 + c->r1_v2_product_2 * r1_product_5
-        + c->r1_product_1_2 * r1_product_6 - c->g * r1_product - c->r * r1_product_4;
+    const real r1_u2 = r1_g0 - r1_d1 - r1_e0;
 
     /* slider_crank.bg:18: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -334,8 +313,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* slider_crank.bg:18: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_speed * s->speed - c->r1_v1_product * r1_product_2
-        - c->r1_v1_product_2 * r1_product_5;
+    const real r1_u1 = r1_y2 + r1_d1 + REAL(2.0) * r1_e0;
 
     /* slider_crank.bg:18: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -346,7 +324,7 @@ static void start_r1(
     /* slider_crank.bg:18: r1 = T - f*speed - J*D(speed) - r*sin(Int(speed))*x1*(load +
      * c*r*speed*sin(Int(speed))*x1 + m*r*D(speed*sin(Int(speed))*x1))
      * where x1 = r*cos(Int(speed))/sqrt(l^2 - r^2*sin(Int(speed))^2) + 1 */
-    r[SLIDER_CRANK_R1] = r1_y1;
+    r[SLIDER_CRANK_R1] = r1_y1 - r1_e0;
 }
 
 /* r1 on every further sample. */
@@ -362,11 +340,19 @@ static void next_r1(
     /* slider_crank.bg:18: integral of speed: memory */
     x->r1_q = r1_int + c->half_time * s->speed;
 
+    /* slider_crank.bg:18: integral of speed */
+    const real r1_integral = r1_int
+        - c->half_twelfth * (REAL(3.0) * s->speed - REAL(4.0) * x->r1_rate1 + x->r1_rate2);
+
+    /* slider_crank.bg:18: integral of speed: memory */
+    x->r1_rate2 = x->r1_rate1;
+    x->r1_rate1 = s->speed;
+
     /* slider_crank.bg:18: sin(Int(speed)) */
-    const real r1_t = MATH(sin)(r1_int);
+    const real r1_t = MATH(sin)(r1_integral);
 
     /* slider_crank.bg:18: cos(Int(speed)) */
-    const real r1_t_2 = MATH(cos)(r1_int);
+    const real r1_t_2 = MATH(cos)(r1_integral);
 
     /* slider_crank.bg:18: sqrt(l^2 - r^2*sin(Int(speed))^2) */
     const real r1_t_3 = MATH(sqrt)(c->g_2 - c->g * r1_t * r1_t);
@@ -394,31 +380,40 @@ static void next_r1(
     /* slider_crank.bg:18: speed^2*sin(Int(speed))*cos(Int(speed))*(r*cos(Int(speed ... */
     const real r1_product_6 = s->speed * s->speed * r1_t * r1_t_2 * r1_t_4;
 
+    /* slider_crank.bg:18: r1: terms of order 0 */
+    const real r1_g0 = s->T + c->r1_product_1 * r1_product_3 + c->r1_product_1_2 * r1_product_6
+        - c->r1_speed * s->speed - c->g * r1_product - c->r1_product * r1_product_2
+        - c->r * r1_product_4 - c->r1_product_2 * r1_product_5;
+
+    /* slider_crank.bg:18: r1: degree 1 */
+    const real r1_d1 = -c->r1_w1_speed * s->speed - c->r1_w1_product * r1_product_2
+        - c->r1_w1_product_2 * r1_product_5;
+
+    /* slider_crank.bg:18: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* slider_crank.bg:18: r1: input of stage 2 */
-    const real r1_u2 = s->T + c->r1_v2_speed * s->speed + c->r1_v2_product * r1_product_2
-        + c->r1_product_1 * r1_product_3 + c->r1_v2_product_2 * r1_product_5
-        + c->r1_product_1_2 * r1_product_6 - c->g * r1_product - c->r * r1_product_4;
+    const real r1_u2 = r1_g0 - r1_d1 - r1_e0;
 
     /* slider_crank.bg:18: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* slider_crank.bg:18: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* slider_crank.bg:18: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_speed * s->speed - c->r1_v1_product * r1_product_2
-        - c->r1_v1_product_2 * r1_product_5;
+    const real r1_u1 = r1_y2 + r1_d1 + REAL(2.0) * r1_e0;
 
     /* slider_crank.bg:18: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* slider_crank.bg:18: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* slider_crank.bg:18: r1 = T - f*speed - J*D(speed) - r*sin(Int(speed))*x1*(load +
      * c*r*speed*sin(Int(speed))*x1 + m*r*D(speed*sin(Int(speed))*x1))
      * where x1 = r*cos(Int(speed))/sqrt(l^2 - r^2*sin(Int(speed))^2) + 1 */
-    r[SLIDER_CRANK_R1] = r1_y1;
+    r[SLIDER_CRANK_R1] = r1_y1 - r1_e0;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */

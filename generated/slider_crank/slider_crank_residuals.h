@@ -29,7 +29,7 @@ typedef double slider_crank_real;
 /* Version of the structs and functions, and the size of a number. */
 #define SLIDER_CRANK_ABI (1u * 256u + (uint32_t)sizeof(slider_crank_real))
 /* Identifies the model and the options that this code was made from. */
-#define SLIDER_CRANK_DIGEST "bac698f08972520d"
+#define SLIDER_CRANK_DIGEST "327ab99a17cc6685"
 
 /* What the code was made for: arguments of slider_crank_configure, in s, rad/s and s. */
 #define SLIDER_CRANK_SAMPLE_TIME SLIDER_CRANK_CONSTANT(0.001)
@@ -85,12 +85,12 @@ typedef struct slider_crank_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct slider_crank_coefficients {
-    slider_crank_real g;            /* r^2 */
-    slider_crank_real g_2;          /* l^2 */
-    slider_crank_real r;            /* r */
-    slider_crank_real g_3;          /* r^3 */
-    slider_crank_real r1_speed;     /* r1: factor of speed: f */
-    slider_crank_real r1_speed_1;   /* r1: factor of speed': J */
+    slider_crank_real g;             /* r^2 */
+    slider_crank_real g_2;           /* l^2 */
+    slider_crank_real r;             /* r */
+    slider_crank_real g_3;           /* r^3 */
+    slider_crank_real r1_speed;      /* r1: factor of speed: f */
+    slider_crank_real r1_speed_1;    /* r1: factor of speed': J */
     /* r1: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ...: c*r^3 */
     slider_crank_real r1_product;
     /* r1: factor of D(speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ...): m*r^3 */
@@ -99,28 +99,26 @@ typedef struct slider_crank_coefficients {
     slider_crank_real r1_product_2;
     /* r1: factor of D(speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ...): m*r^2 */
     slider_crank_real r1_product_1_2;
-    slider_crank_real half_time;    /* half the sample time */
-    slider_crank_real r1_v1_speed;  /* r1: factor of speed in stage 1 */
-    slider_crank_real r1_v2_speed;  /* r1: factor of speed in stage 2 */
-    /* r1: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... in stage 1 */
-    slider_crank_real r1_v1_product;
-    /* r1: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... in stage 2 */
-    slider_crank_real r1_v2_product;
-    /* r1: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ... in stage 1 */
-    slider_crank_real r1_v1_product_2;
-    /* r1: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ... in stage 2 */
-    slider_crank_real r1_v2_product_2;
-    slider_crank_real a;            /* filter: exp(-bandwidth*sample_time) */
-    slider_crank_real b0;           /* filter: weight of the new sample */
-    slider_crank_real b1;           /* filter: weight of the sample before */
-    slider_crank_real rest;         /* filter: 1 - b0, the memory of a constant 1 */
+    slider_crank_real half_time;     /* half the sample time */
+    slider_crank_real half_twelfth;  /* sample_time/24 */
+    slider_crank_real r1_w1_speed;   /* r1: factor of speed' */
+    /* r1: factor of D(speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ...) */
+    slider_crank_real r1_w1_product;
+    /* r1: factor of D(speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ...) */
+    slider_crank_real r1_w1_product_2;
+    slider_crank_real bend1;         /* filter: 1 * (w*sample_time)^2/12 */
+    slider_crank_real a;             /* filter: what is left of a memory a sample later */
+    slider_crank_real b;             /* filter: weight of a sample, new and a sample later */
+    slider_crank_real rest;          /* filter: 1 - b, the memory of a constant 1 */
 } slider_crank_coefficients;
 
 /* What the filters remember from sample to sample. */
 typedef struct slider_crank_memory {
-    slider_crank_real r1_q;   /* memory of integral of speed */
-    slider_crank_real r1_s2;  /* memory of r1: stage 2 */
-    slider_crank_real r1_s1;  /* memory of r1: stage 1 */
+    slider_crank_real r1_q;      /* memory of integral of speed */
+    slider_crank_real r1_rate1;  /* integral of speed: rate a sample before */
+    slider_crank_real r1_rate2;  /* integral of speed: rate two samples before */
+    slider_crank_real r1_s2;     /* memory of r1: stage 2 */
+    slider_crank_real r1_s1;     /* memory of r1: stage 1 */
 } slider_crank_memory;
 
 /* One monitor. You own it; configure fills it, step keeps it. */

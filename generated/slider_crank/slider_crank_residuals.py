@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "bac698f08972520d"
+DIGEST = "327ab99a17cc6685"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -66,12 +66,12 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
-    g: float            # r^2
-    g_2: float          # l^2
-    r: float            # r
-    g_3: float          # r^3
-    r1_speed: float     # r1: factor of speed: f
-    r1_speed_1: float   # r1: factor of speed': J
+    g: float             # r^2
+    g_2: float           # l^2
+    r: float             # r
+    g_3: float           # r^3
+    r1_speed: float      # r1: factor of speed: f
+    r1_speed_1: float    # r1: factor of speed': J
     # r1: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ...: c*r^3
     r1_product: float
     # r1: factor of D(speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ...): m*r^3
@@ -80,29 +80,27 @@ class Coefficients:
     r1_product_2: float
     # r1: factor of D(speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ...): m*r^2
     r1_product_1_2: float
-    half_time: float    # half the sample time
-    r1_v1_speed: float  # r1: factor of speed in stage 1
-    r1_v2_speed: float  # r1: factor of speed in stage 2
-    # r1: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... in stage 1
-    r1_v1_product: float
-    # r1: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... in stage 2
-    r1_v2_product: float
-    # r1: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ... in stage 1
-    r1_v1_product_2: float
-    # r1: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ... in stage 2
-    r1_v2_product_2: float
-    a: float            # filter: exp(-bandwidth*sample_time)
-    b0: float           # filter: weight of the new sample
-    b1: float           # filter: weight of the sample before
-    rest: float         # filter: 1 - b0, the memory of a constant 1
+    half_time: float     # half the sample time
+    half_twelfth: float  # sample_time/24
+    r1_w1_speed: float   # r1: factor of speed'
+    # r1: factor of D(speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ...)
+    r1_w1_product: float
+    # r1: factor of D(speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ...)
+    r1_w1_product_2: float
+    bend1: float         # filter: 1 * (w*sample_time)^2/12
+    a: float             # filter: what is left of a memory a sample later
+    b: float             # filter: weight of a sample, new and a sample later
+    rest: float          # filter: 1 - b, the memory of a constant 1
 
 
 class Memory:
     """What the filters remember from sample to sample."""
 
-    r1_q: float   # memory of integral of speed
-    r1_s2: float  # memory of r1: stage 2
-    r1_s1: float  # memory of r1: stage 1
+    r1_q: float      # memory of integral of speed
+    r1_rate1: float  # integral of speed: rate a sample before
+    r1_rate2: float  # integral of speed: rate two samples before
+    r1_s2: float     # memory of r1: stage 2
+    r1_s1: float     # memory of r1: stage 1
 
 
 class Monitor:
@@ -137,9 +135,8 @@ class Monitor:
                     self._c.g + self._c.g_2 + self._c.r + self._c.g_3 + self._c.r1_speed
                     + self._c.r1_speed_1 + self._c.r1_product + self._c.r1_product_1
                     + self._c.r1_product_2 + self._c.r1_product_1_2 + self._c.half_time
-                    + self._c.r1_v1_speed + self._c.r1_v2_speed + self._c.r1_v1_product
-                    + self._c.r1_v2_product + self._c.r1_v1_product_2 + self._c.r1_v2_product_2
-                    + self._c.a + self._c.b0 + self._c.b1 + self._c.rest
+                    + self._c.half_twelfth + self._c.r1_w1_speed + self._c.r1_w1_product
+                    + self._c.r1_w1_product_2 + self._c.bend1 + self._c.a + self._c.b + self._c.rest
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -217,16 +214,17 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
+        # 1 - pole
+        t = 1.0 - pole
 
         # slider_crank.bg:18: r^2
         c.g = p.r * p.r
@@ -265,39 +263,31 @@ class Monitor:
         # half the sample time
         c.half_time = 0.5 * sample_time
 
-        # slider_crank.bg:18: r1: factor of speed in stage 1
-        c.r1_v1_speed = p.J * bandwidth
+        # sample_time/24
+        c.half_twelfth = sample_time / 24.0
 
-        # slider_crank.bg:18: r1: factor of speed in stage 2
-        c.r1_v2_speed = p.J * bandwidth - p.f
-
-        # slider_crank.bg:18: r1: factor of
-        # speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... in stage 1
-        c.r1_v1_product = p.m * p.r * p.r * p.r * bandwidth
+        # slider_crank.bg:18: r1: factor of speed'
+        c.r1_w1_speed = p.J * w
 
         # slider_crank.bg:18: r1: factor of
-        # speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... in stage 2
-        c.r1_v2_product = p.m * p.r * p.r * p.r * bandwidth - p.c * p.r * p.r * p.r
+        # D(speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ...)
+        c.r1_w1_product = p.m * p.r * p.r * p.r * w
 
-        # slider_crank.bg:18: r1: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 -
-        # r^ ... in stage 1
-        c.r1_v1_product_2 = p.m * p.r * p.r * bandwidth
+        # slider_crank.bg:18: r1: factor of D(speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 -
+        # r^ ...)
+        c.r1_w1_product_2 = p.m * p.r * p.r * w
 
-        # slider_crank.bg:18: r1: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 -
-        # r^ ... in stage 2
-        c.r1_v2_product_2 = p.m * p.r * p.r * bandwidth - p.c * p.r * p.r
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = turn * turn / 12.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -310,11 +300,18 @@ class Monitor:
         # slider_crank.bg:18: integral of speed: memory
         x.r1_q = c.half_time * s.speed
 
+        # slider_crank.bg:18: integral of speed
+        r1_integral = r1_int
+
+        # slider_crank.bg:18: integral of speed: memory
+        x.r1_rate2 = s.speed
+        x.r1_rate1 = s.speed
+
         # slider_crank.bg:18: sin(Int(speed))
-        r1_t = math.sin(r1_int)
+        r1_t = math.sin(r1_integral)
 
         # slider_crank.bg:18: cos(Int(speed))
-        r1_t_2 = math.cos(r1_int)
+        r1_t_2 = math.cos(r1_integral)
 
         # slider_crank.bg:18: sqrt(l^2 - r^2*sin(Int(speed))^2)
         r1_t_3 = math.sqrt(c.g_2 - c.g * r1_t * r1_t)
@@ -344,12 +341,24 @@ class Monitor:
         # slider_crank.bg:18: speed^2*sin(Int(speed))*cos(Int(speed))*(r*cos(Int(speed ...
         r1_product_6 = s.speed * s.speed * r1_t * r1_t_2 * r1_t_4
 
-        # slider_crank.bg:18: r1: input of stage 2
-        r1_u2 = (
-            s.T + c.r1_v2_speed * s.speed + c.r1_v2_product * r1_product_2
-            + c.r1_product_1 * r1_product_3 + c.r1_v2_product_2 * r1_product_5
-            + c.r1_product_1_2 * r1_product_6 - c.g * r1_product - c.r * r1_product_4
+        # slider_crank.bg:18: r1: terms of order 0
+        r1_g0 = (
+            s.T + c.r1_product_1 * r1_product_3 + c.r1_product_1_2 * r1_product_6
+            - c.r1_speed * s.speed - c.g * r1_product - c.r1_product * r1_product_2
+            - c.r * r1_product_4 - c.r1_product_2 * r1_product_5
         )
+
+        # slider_crank.bg:18: r1: degree 1
+        r1_d1 = (
+            -c.r1_w1_speed * s.speed - c.r1_w1_product * r1_product_2
+            - c.r1_w1_product_2 * r1_product_5
+        )
+
+        # slider_crank.bg:18: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
+        # slider_crank.bg:18: r1: input of stage 2
+        r1_u2 = r1_g0 - r1_d1 - r1_e0
 
         # slider_crank.bg:18: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -358,10 +367,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # slider_crank.bg:18: r1: input of stage 1
-        r1_u1 = (
-            r1_y2 - c.r1_v1_speed * s.speed - c.r1_v1_product * r1_product_2
-            - c.r1_v1_product_2 * r1_product_5
-        )
+        r1_u1 = r1_y2 + r1_d1 + 2.0 * r1_e0
 
         # slider_crank.bg:18: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -372,7 +378,7 @@ class Monitor:
         # slider_crank.bg:18: r1 = T - f*speed - J*D(speed) - r*sin(Int(speed))*x1*(load +
         # c*r*speed*sin(Int(speed))*x1 + m*r*D(speed*sin(Int(speed))*x1))
         # where x1 = r*cos(Int(speed))/sqrt(l^2 - r^2*sin(Int(speed))^2) + 1
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
@@ -385,11 +391,18 @@ class Monitor:
         # slider_crank.bg:18: integral of speed: memory
         x.r1_q = r1_int + c.half_time * s.speed
 
+        # slider_crank.bg:18: integral of speed
+        r1_integral = r1_int - c.half_twelfth * (3.0 * s.speed - 4.0 * x.r1_rate1 + x.r1_rate2)
+
+        # slider_crank.bg:18: integral of speed: memory
+        x.r1_rate2 = x.r1_rate1
+        x.r1_rate1 = s.speed
+
         # slider_crank.bg:18: sin(Int(speed))
-        r1_t = math.sin(r1_int)
+        r1_t = math.sin(r1_integral)
 
         # slider_crank.bg:18: cos(Int(speed))
-        r1_t_2 = math.cos(r1_int)
+        r1_t_2 = math.cos(r1_integral)
 
         # slider_crank.bg:18: sqrt(l^2 - r^2*sin(Int(speed))^2)
         r1_t_3 = math.sqrt(c.g_2 - c.g * r1_t * r1_t)
@@ -419,35 +432,44 @@ class Monitor:
         # slider_crank.bg:18: speed^2*sin(Int(speed))*cos(Int(speed))*(r*cos(Int(speed ...
         r1_product_6 = s.speed * s.speed * r1_t * r1_t_2 * r1_t_4
 
-        # slider_crank.bg:18: r1: input of stage 2
-        r1_u2 = (
-            s.T + c.r1_v2_speed * s.speed + c.r1_v2_product * r1_product_2
-            + c.r1_product_1 * r1_product_3 + c.r1_v2_product_2 * r1_product_5
-            + c.r1_product_1_2 * r1_product_6 - c.g * r1_product - c.r * r1_product_4
+        # slider_crank.bg:18: r1: terms of order 0
+        r1_g0 = (
+            s.T + c.r1_product_1 * r1_product_3 + c.r1_product_1_2 * r1_product_6
+            - c.r1_speed * s.speed - c.g * r1_product - c.r1_product * r1_product_2
+            - c.r * r1_product_4 - c.r1_product_2 * r1_product_5
         )
+
+        # slider_crank.bg:18: r1: degree 1
+        r1_d1 = (
+            -c.r1_w1_speed * s.speed - c.r1_w1_product * r1_product_2
+            - c.r1_w1_product_2 * r1_product_5
+        )
+
+        # slider_crank.bg:18: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
+        # slider_crank.bg:18: r1: input of stage 2
+        r1_u2 = r1_g0 - r1_d1 - r1_e0
 
         # slider_crank.bg:18: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # slider_crank.bg:18: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # slider_crank.bg:18: r1: input of stage 1
-        r1_u1 = (
-            r1_y2 - c.r1_v1_speed * s.speed - c.r1_v1_product * r1_product_2
-            - c.r1_v1_product_2 * r1_product_5
-        )
+        r1_u1 = r1_y2 + r1_d1 + 2.0 * r1_e0
 
         # slider_crank.bg:18: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # slider_crank.bg:18: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # slider_crank.bg:18: r1 = T - f*speed - J*D(speed) - r*sin(Int(speed))*x1*(load +
         # c*r*speed*sin(Int(speed))*x1 + m*r*D(speed*sin(Int(speed))*x1))
         # where x1 = r*cos(Int(speed))/sqrt(l^2 - r^2*sin(Int(speed))^2) + 1
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -464,23 +486,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[0] = 0
             r.r1 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

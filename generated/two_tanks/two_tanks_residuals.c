@@ -30,39 +30,10 @@ static real signed_root(real value)
     return value < REAL(0.0) ? -MATH(sqrt)(-value) : MATH(sqrt)(value);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t two_tanks_abi(void)
@@ -95,17 +66,17 @@ static void compute_coefficients(two_tanks_monitor *monitor, const two_tanks_par
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
+    /* 1 - pole */
+    const real t = REAL(1.0) - pole;
 
     /* two_tanks.bg:16: r1: factor of ssqrt(p1): leak */
     c->r1_ssqrt = p->leak;
@@ -116,20 +87,20 @@ static void compute_coefficients(two_tanks_monitor *monitor, const two_tanks_par
     /* two_tanks.bg:16: r1: factor of p1': A1/(rho*g) */
     c->r1_p1_1 = p->A1 / p->rho / p->g;
 
-    /* two_tanks.bg:16: r1: factor of p1 in stage 1 */
-    c->r1_v1_p1 = p->A1 * bandwidth / p->rho / p->g;
+    /* two_tanks.bg:16: r1: factor of p1' */
+    c->r1_w1_p1 = p->A1 * w / p->rho / p->g;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = turn * turn / REAL(12.0);
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t;
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t;
 
     /* two_tanks.bg:16: r2: factor of ssqrt(p2): kout */
     c->r2_ssqrt = p->kout;
@@ -137,8 +108,8 @@ static void compute_coefficients(two_tanks_monitor *monitor, const two_tanks_par
     /* two_tanks.bg:16: r2: factor of p2': A2/(rho*g) */
     c->r2_p2_1 = p->A2 / p->rho / p->g;
 
-    /* two_tanks.bg:16: r2: factor of p2 in stage 1 */
-    c->r2_v1_p2 = p->A2 * bandwidth / p->rho / p->g;
+    /* two_tanks.bg:16: r2: factor of p2' */
+    c->r2_w1_p2 = p->A2 * w / p->rho / p->g;
 }
 
 static bool parameters_are_finite(const two_tanks_parameters *p)
@@ -149,8 +120,8 @@ static bool parameters_are_finite(const two_tanks_parameters *p)
 static bool coefficients_are_finite(const two_tanks_monitor *monitor)
 {
     return finite_number(monitor->c.r1_ssqrt + monitor->c.r1_ssqrt_2 + monitor->c.r1_p1_1
-            + monitor->c.r1_v1_p1 + monitor->c.a + monitor->c.b0 + monitor->c.b1 + monitor->c.rest
-            + monitor->c.r2_ssqrt + monitor->c.r2_p2_1 + monitor->c.r2_v1_p2);
+            + monitor->c.r1_w1_p1 + monitor->c.bend1 + monitor->c.a + monitor->c.b + monitor->c.rest
+            + monitor->c.r2_ssqrt + monitor->c.r2_p2_1 + monitor->c.r2_w1_p2);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -227,9 +198,17 @@ static void start_r1(
     /* two_tanks.bg:16: ssqrt(p1 - p2) */
     const real r1_ssqrt_2 = signed_root(s->p1 - s->p2);
 
+    /* two_tanks.bg:16: r1: terms of order 0 */
+    const real r1_g0 = s->Q - c->r1_ssqrt * r1_ssqrt - c->r1_ssqrt_2 * r1_ssqrt_2;
+
+    /* two_tanks.bg:16: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_p1 * s->p1;
+
+    /* two_tanks.bg:16: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* two_tanks.bg:16: r1: input of stage 2 */
-    const real r1_u2 = s->Q + c->r1_v1_p1 * s->p1 - c->r1_ssqrt * r1_ssqrt
-        - c->r1_ssqrt_2 * r1_ssqrt_2;
+    const real r1_u2 = r1_g0 + r1_d1 - r1_e0;
 
     /* two_tanks.bg:16: r1: stage 2, at rest */
     const real r1_y2 = r1_u2;
@@ -238,7 +217,7 @@ static void start_r1(
     x->r1_s2 = c->rest * r1_u2;
 
     /* two_tanks.bg:16: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_p1 * s->p1;
+    const real r1_u1 = r1_y2 + REAL(2.0) * r1_e0 - r1_d1;
 
     /* two_tanks.bg:16: r1: stage 1, at rest */
     const real r1_y1 = r1_u1;
@@ -247,7 +226,7 @@ static void start_r1(
     x->r1_s1 = c->rest * r1_u1;
 
     /* two_tanks.bg:16: r1 = Q - leak*ssqrt(p1) - k12*ssqrt(p1 - p2) - A1*D(p1)/(rho*g) */
-    r[TWO_TANKS_R1] = r1_y1;
+    r[TWO_TANKS_R1] = r1_y1 - r1_e0;
 }
 
 /* r1 on every further sample. */
@@ -263,27 +242,35 @@ static void next_r1(
     /* two_tanks.bg:16: ssqrt(p1 - p2) */
     const real r1_ssqrt_2 = signed_root(s->p1 - s->p2);
 
+    /* two_tanks.bg:16: r1: terms of order 0 */
+    const real r1_g0 = s->Q - c->r1_ssqrt * r1_ssqrt - c->r1_ssqrt_2 * r1_ssqrt_2;
+
+    /* two_tanks.bg:16: r1: degree 1 */
+    const real r1_d1 = c->r1_w1_p1 * s->p1;
+
+    /* two_tanks.bg:16: r1: error of order 0 */
+    const real r1_e0 = c->bend1 * r1_g0;
+
     /* two_tanks.bg:16: r1: input of stage 2 */
-    const real r1_u2 = s->Q + c->r1_v1_p1 * s->p1 - c->r1_ssqrt * r1_ssqrt
-        - c->r1_ssqrt_2 * r1_ssqrt_2;
+    const real r1_u2 = r1_g0 + r1_d1 - r1_e0;
 
     /* two_tanks.bg:16: r1: stage 2 */
-    const real r1_y2 = x->r1_s2 + c->b0 * r1_u2;
+    const real r1_y2 = x->r1_s2 + c->b * r1_u2;
 
     /* two_tanks.bg:16: r1: stage 2: memory */
-    x->r1_s2 = c->a * r1_y2 + c->b1 * r1_u2;
+    x->r1_s2 = c->a * r1_y2 + c->b * r1_u2;
 
     /* two_tanks.bg:16: r1: input of stage 1 */
-    const real r1_u1 = r1_y2 - c->r1_v1_p1 * s->p1;
+    const real r1_u1 = r1_y2 + REAL(2.0) * r1_e0 - r1_d1;
 
     /* two_tanks.bg:16: r1: stage 1 */
-    const real r1_y1 = x->r1_s1 + c->b0 * r1_u1;
+    const real r1_y1 = x->r1_s1 + c->b * r1_u1;
 
     /* two_tanks.bg:16: r1: stage 1: memory */
-    x->r1_s1 = c->a * r1_y1 + c->b1 * r1_u1;
+    x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* two_tanks.bg:16: r1 = Q - leak*ssqrt(p1) - k12*ssqrt(p1 - p2) - A1*D(p1)/(rho*g) */
-    r[TWO_TANKS_R1] = r1_y1;
+    r[TWO_TANKS_R1] = r1_y1 - r1_e0;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */
@@ -322,8 +309,17 @@ static void start_r2(
     /* two_tanks.bg:16: ssqrt(p1 - p2) */
     const real r2_ssqrt_2 = signed_root(s->p1 - s->p2);
 
+    /* two_tanks.bg:16: r2: terms of order 0 */
+    const real r2_g0 = c->r1_ssqrt_2 * r2_ssqrt_2 - c->r2_ssqrt * r2_ssqrt;
+
+    /* two_tanks.bg:16: r2: degree 1 */
+    const real r2_d1 = c->r2_w1_p2 * s->p2;
+
+    /* two_tanks.bg:16: r2: error of order 0 */
+    const real r2_e0 = c->bend1 * r2_g0;
+
     /* two_tanks.bg:16: r2: input of stage 2 */
-    const real r2_u2 = c->r1_ssqrt_2 * r2_ssqrt_2 + c->r2_v1_p2 * s->p2 - c->r2_ssqrt * r2_ssqrt;
+    const real r2_u2 = r2_g0 + r2_d1 - r2_e0;
 
     /* two_tanks.bg:16: r2: stage 2, at rest */
     const real r2_y2 = r2_u2;
@@ -332,7 +328,7 @@ static void start_r2(
     x->r2_s2 = c->rest * r2_u2;
 
     /* two_tanks.bg:16: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_p2 * s->p2;
+    const real r2_u1 = r2_y2 + REAL(2.0) * r2_e0 - r2_d1;
 
     /* two_tanks.bg:16: r2: stage 1, at rest */
     const real r2_y1 = r2_u1;
@@ -341,7 +337,7 @@ static void start_r2(
     x->r2_s1 = c->rest * r2_u1;
 
     /* two_tanks.bg:16: r2 = k12*ssqrt(p1 - p2) - kout*ssqrt(p2) - A2*D(p2)/(rho*g) */
-    r[TWO_TANKS_R2] = r2_y1;
+    r[TWO_TANKS_R2] = r2_y1 - r2_e0;
 }
 
 /* r2 on every further sample. */
@@ -357,26 +353,35 @@ static void next_r2(
     /* two_tanks.bg:16: ssqrt(p1 - p2) */
     const real r2_ssqrt_2 = signed_root(s->p1 - s->p2);
 
+    /* two_tanks.bg:16: r2: terms of order 0 */
+    const real r2_g0 = c->r1_ssqrt_2 * r2_ssqrt_2 - c->r2_ssqrt * r2_ssqrt;
+
+    /* two_tanks.bg:16: r2: degree 1 */
+    const real r2_d1 = c->r2_w1_p2 * s->p2;
+
+    /* two_tanks.bg:16: r2: error of order 0 */
+    const real r2_e0 = c->bend1 * r2_g0;
+
     /* two_tanks.bg:16: r2: input of stage 2 */
-    const real r2_u2 = c->r1_ssqrt_2 * r2_ssqrt_2 + c->r2_v1_p2 * s->p2 - c->r2_ssqrt * r2_ssqrt;
+    const real r2_u2 = r2_g0 + r2_d1 - r2_e0;
 
     /* two_tanks.bg:16: r2: stage 2 */
-    const real r2_y2 = x->r2_s2 + c->b0 * r2_u2;
+    const real r2_y2 = x->r2_s2 + c->b * r2_u2;
 
     /* two_tanks.bg:16: r2: stage 2: memory */
-    x->r2_s2 = c->a * r2_y2 + c->b1 * r2_u2;
+    x->r2_s2 = c->a * r2_y2 + c->b * r2_u2;
 
     /* two_tanks.bg:16: r2: input of stage 1 */
-    const real r2_u1 = r2_y2 - c->r2_v1_p2 * s->p2;
+    const real r2_u1 = r2_y2 + REAL(2.0) * r2_e0 - r2_d1;
 
     /* two_tanks.bg:16: r2: stage 1 */
-    const real r2_y1 = x->r2_s1 + c->b0 * r2_u1;
+    const real r2_y1 = x->r2_s1 + c->b * r2_u1;
 
     /* two_tanks.bg:16: r2: stage 1: memory */
-    x->r2_s1 = c->a * r2_y1 + c->b1 * r2_u1;
+    x->r2_s1 = c->a * r2_y1 + c->b * r2_u1;
 
     /* two_tanks.bg:16: r2 = k12*ssqrt(p1 - p2) - kout*ssqrt(p2) - A2*D(p2)/(rho*g) */
-    r[TWO_TANKS_R2] = r2_y1;
+    r[TWO_TANKS_R2] = r2_y1 - r2_e0;
 }
 
 /* One sample for r2; a number that is not finite makes the next sample the first. */

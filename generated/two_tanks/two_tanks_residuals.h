@@ -28,7 +28,7 @@ typedef double two_tanks_real;
 /* Version of the structs and functions, and the size of a number. */
 #define TWO_TANKS_ABI (1u * 256u + (uint32_t)sizeof(two_tanks_real))
 /* Identifies the model and the options that this code was made from. */
-#define TWO_TANKS_DIGEST "03f1ff435bd94b59"
+#define TWO_TANKS_DIGEST "da4edbd4069a5aa7"
 
 /* What the code was made for: arguments of two_tanks_configure, in s, rad/s and s. */
 #define TWO_TANKS_SAMPLE_TIME TWO_TANKS_CONSTANT(0.001)
@@ -88,14 +88,14 @@ typedef struct two_tanks_coefficients {
     two_tanks_real r1_ssqrt;    /* r1: factor of ssqrt(p1): leak */
     two_tanks_real r1_ssqrt_2;  /* r1: factor of ssqrt(p1 - p2): k12 */
     two_tanks_real r1_p1_1;     /* r1: factor of p1': A1/(rho*g) */
-    two_tanks_real r1_v1_p1;    /* r1: factor of p1 in stage 1 */
-    two_tanks_real a;           /* filter: exp(-bandwidth*sample_time) */
-    two_tanks_real b0;          /* filter: weight of the new sample */
-    two_tanks_real b1;          /* filter: weight of the sample before */
-    two_tanks_real rest;        /* filter: 1 - b0, the memory of a constant 1 */
+    two_tanks_real r1_w1_p1;    /* r1: factor of p1' */
+    two_tanks_real bend1;       /* filter: 1 * (w*sample_time)^2/12 */
+    two_tanks_real a;           /* filter: what is left of a memory a sample later */
+    two_tanks_real b;           /* filter: weight of a sample, new and a sample later */
+    two_tanks_real rest;        /* filter: 1 - b, the memory of a constant 1 */
     two_tanks_real r2_ssqrt;    /* r2: factor of ssqrt(p2): kout */
     two_tanks_real r2_p2_1;     /* r2: factor of p2': A2/(rho*g) */
-    two_tanks_real r2_v1_p2;    /* r2: factor of p2 in stage 1 */
+    two_tanks_real r2_w1_p2;    /* r2: factor of p2' */
 } two_tanks_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "03f1ff435bd94b59"
+DIGEST = "da4edbd4069a5aa7"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -70,14 +70,14 @@ class Coefficients:
     r1_ssqrt: float    # r1: factor of ssqrt(p1): leak
     r1_ssqrt_2: float  # r1: factor of ssqrt(p1 - p2): k12
     r1_p1_1: float     # r1: factor of p1': A1/(rho*g)
-    r1_v1_p1: float    # r1: factor of p1 in stage 1
-    a: float           # filter: exp(-bandwidth*sample_time)
-    b0: float          # filter: weight of the new sample
-    b1: float          # filter: weight of the sample before
-    rest: float        # filter: 1 - b0, the memory of a constant 1
+    r1_w1_p1: float    # r1: factor of p1'
+    bend1: float       # filter: 1 * (w*sample_time)^2/12
+    a: float           # filter: what is left of a memory a sample later
+    b: float           # filter: weight of a sample, new and a sample later
+    rest: float        # filter: 1 - b, the memory of a constant 1
     r2_ssqrt: float    # r2: factor of ssqrt(p2): kout
     r2_p2_1: float     # r2: factor of p2': A2/(rho*g)
-    r2_v1_p2: float    # r2: factor of p2 in stage 1
+    r2_w1_p2: float    # r2: factor of p2'
 
 
 class Memory:
@@ -118,9 +118,9 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_ssqrt + self._c.r1_ssqrt_2 + self._c.r1_p1_1 + self._c.r1_v1_p1
-                    + self._c.a + self._c.b0 + self._c.b1 + self._c.rest + self._c.r2_ssqrt
-                    + self._c.r2_p2_1 + self._c.r2_v1_p2
+                    self._c.r1_ssqrt + self._c.r1_ssqrt_2 + self._c.r1_p1_1 + self._c.r1_w1_p1
+                    + self._c.bend1 + self._c.a + self._c.b + self._c.rest + self._c.r2_ssqrt
+                    + self._c.r2_p2_1 + self._c.r2_w1_p2
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -174,16 +174,17 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
+        # 1 - pole
+        t = 1.0 - pole
 
         # two_tanks.bg:16: r1: factor of ssqrt(p1): leak
         c.r1_ssqrt = p.leak
@@ -194,20 +195,20 @@ class Monitor:
         # two_tanks.bg:16: r1: factor of p1': A1/(rho*g)
         c.r1_p1_1 = p.A1 / p.rho / p.g
 
-        # two_tanks.bg:16: r1: factor of p1 in stage 1
-        c.r1_v1_p1 = p.A1 * bandwidth / p.rho / p.g
+        # two_tanks.bg:16: r1: factor of p1'
+        c.r1_w1_p1 = p.A1 * w / p.rho / p.g
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = turn * turn / 12.0
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
         # two_tanks.bg:16: r2: factor of ssqrt(p2): kout
         c.r2_ssqrt = p.kout
@@ -215,8 +216,8 @@ class Monitor:
         # two_tanks.bg:16: r2: factor of p2': A2/(rho*g)
         c.r2_p2_1 = p.A2 / p.rho / p.g
 
-        # two_tanks.bg:16: r2: factor of p2 in stage 1
-        c.r2_v1_p2 = p.A2 * bandwidth / p.rho / p.g
+        # two_tanks.bg:16: r2: factor of p2'
+        c.r2_w1_p2 = p.A2 * w / p.rho / p.g
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -229,8 +230,17 @@ class Monitor:
         # two_tanks.bg:16: ssqrt(p1 - p2)
         r1_ssqrt_2 = _signed_root(s.p1 - s.p2)
 
+        # two_tanks.bg:16: r1: terms of order 0
+        r1_g0 = s.Q - c.r1_ssqrt * r1_ssqrt - c.r1_ssqrt_2 * r1_ssqrt_2
+
+        # two_tanks.bg:16: r1: degree 1
+        r1_d1 = c.r1_w1_p1 * s.p1
+
+        # two_tanks.bg:16: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # two_tanks.bg:16: r1: input of stage 2
-        r1_u2 = s.Q + c.r1_v1_p1 * s.p1 - c.r1_ssqrt * r1_ssqrt - c.r1_ssqrt_2 * r1_ssqrt_2
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # two_tanks.bg:16: r1: stage 2, at rest
         r1_y2 = r1_u2
@@ -239,7 +249,7 @@ class Monitor:
         x.r1_s2 = c.rest * r1_u2
 
         # two_tanks.bg:16: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_p1 * s.p1
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # two_tanks.bg:16: r1: stage 1, at rest
         r1_y1 = r1_u1
@@ -248,7 +258,7 @@ class Monitor:
         x.r1_s1 = c.rest * r1_u1
 
         # two_tanks.bg:16: r1 = Q - leak*ssqrt(p1) - k12*ssqrt(p1 - p2) - A1*D(p1)/(rho*g)
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
@@ -261,26 +271,35 @@ class Monitor:
         # two_tanks.bg:16: ssqrt(p1 - p2)
         r1_ssqrt_2 = _signed_root(s.p1 - s.p2)
 
+        # two_tanks.bg:16: r1: terms of order 0
+        r1_g0 = s.Q - c.r1_ssqrt * r1_ssqrt - c.r1_ssqrt_2 * r1_ssqrt_2
+
+        # two_tanks.bg:16: r1: degree 1
+        r1_d1 = c.r1_w1_p1 * s.p1
+
+        # two_tanks.bg:16: r1: error of order 0
+        r1_e0 = c.bend1 * r1_g0
+
         # two_tanks.bg:16: r1: input of stage 2
-        r1_u2 = s.Q + c.r1_v1_p1 * s.p1 - c.r1_ssqrt * r1_ssqrt - c.r1_ssqrt_2 * r1_ssqrt_2
+        r1_u2 = r1_g0 + r1_d1 - r1_e0
 
         # two_tanks.bg:16: r1: stage 2
-        r1_y2 = x.r1_s2 + c.b0 * r1_u2
+        r1_y2 = x.r1_s2 + c.b * r1_u2
 
         # two_tanks.bg:16: r1: stage 2: memory
-        x.r1_s2 = c.a * r1_y2 + c.b1 * r1_u2
+        x.r1_s2 = c.a * r1_y2 + c.b * r1_u2
 
         # two_tanks.bg:16: r1: input of stage 1
-        r1_u1 = r1_y2 - c.r1_v1_p1 * s.p1
+        r1_u1 = r1_y2 + 2.0 * r1_e0 - r1_d1
 
         # two_tanks.bg:16: r1: stage 1
-        r1_y1 = x.r1_s1 + c.b0 * r1_u1
+        r1_y1 = x.r1_s1 + c.b * r1_u1
 
         # two_tanks.bg:16: r1: stage 1: memory
-        x.r1_s1 = c.a * r1_y1 + c.b1 * r1_u1
+        x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # two_tanks.bg:16: r1 = Q - leak*ssqrt(p1) - k12*ssqrt(p1 - p2) - A1*D(p1)/(rho*g)
-        r.r1 = r1_y1
+        r.r1 = r1_y1 - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""
@@ -309,8 +328,17 @@ class Monitor:
         # two_tanks.bg:16: ssqrt(p1 - p2)
         r2_ssqrt_2 = _signed_root(s.p1 - s.p2)
 
+        # two_tanks.bg:16: r2: terms of order 0
+        r2_g0 = c.r1_ssqrt_2 * r2_ssqrt_2 - c.r2_ssqrt * r2_ssqrt
+
+        # two_tanks.bg:16: r2: degree 1
+        r2_d1 = c.r2_w1_p2 * s.p2
+
+        # two_tanks.bg:16: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
         # two_tanks.bg:16: r2: input of stage 2
-        r2_u2 = c.r1_ssqrt_2 * r2_ssqrt_2 + c.r2_v1_p2 * s.p2 - c.r2_ssqrt * r2_ssqrt
+        r2_u2 = r2_g0 + r2_d1 - r2_e0
 
         # two_tanks.bg:16: r2: stage 2, at rest
         r2_y2 = r2_u2
@@ -319,7 +347,7 @@ class Monitor:
         x.r2_s2 = c.rest * r2_u2
 
         # two_tanks.bg:16: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_p2 * s.p2
+        r2_u1 = r2_y2 + 2.0 * r2_e0 - r2_d1
 
         # two_tanks.bg:16: r2: stage 1, at rest
         r2_y1 = r2_u1
@@ -328,7 +356,7 @@ class Monitor:
         x.r2_s1 = c.rest * r2_u1
 
         # two_tanks.bg:16: r2 = k12*ssqrt(p1 - p2) - kout*ssqrt(p2) - A2*D(p2)/(rho*g)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _next_r2(self, s: Samples, r: Residuals) -> None:
         """r2 on every further sample."""
@@ -341,26 +369,35 @@ class Monitor:
         # two_tanks.bg:16: ssqrt(p1 - p2)
         r2_ssqrt_2 = _signed_root(s.p1 - s.p2)
 
+        # two_tanks.bg:16: r2: terms of order 0
+        r2_g0 = c.r1_ssqrt_2 * r2_ssqrt_2 - c.r2_ssqrt * r2_ssqrt
+
+        # two_tanks.bg:16: r2: degree 1
+        r2_d1 = c.r2_w1_p2 * s.p2
+
+        # two_tanks.bg:16: r2: error of order 0
+        r2_e0 = c.bend1 * r2_g0
+
         # two_tanks.bg:16: r2: input of stage 2
-        r2_u2 = c.r1_ssqrt_2 * r2_ssqrt_2 + c.r2_v1_p2 * s.p2 - c.r2_ssqrt * r2_ssqrt
+        r2_u2 = r2_g0 + r2_d1 - r2_e0
 
         # two_tanks.bg:16: r2: stage 2
-        r2_y2 = x.r2_s2 + c.b0 * r2_u2
+        r2_y2 = x.r2_s2 + c.b * r2_u2
 
         # two_tanks.bg:16: r2: stage 2: memory
-        x.r2_s2 = c.a * r2_y2 + c.b1 * r2_u2
+        x.r2_s2 = c.a * r2_y2 + c.b * r2_u2
 
         # two_tanks.bg:16: r2: input of stage 1
-        r2_u1 = r2_y2 - c.r2_v1_p2 * s.p2
+        r2_u1 = r2_y2 + 2.0 * r2_e0 - r2_d1
 
         # two_tanks.bg:16: r2: stage 1
-        r2_y1 = x.r2_s1 + c.b0 * r2_u1
+        r2_y1 = x.r2_s1 + c.b * r2_u1
 
         # two_tanks.bg:16: r2: stage 1: memory
-        x.r2_s1 = c.a * r2_y1 + c.b1 * r2_u1
+        x.r2_s1 = c.a * r2_y1 + c.b * r2_u1
 
         # two_tanks.bg:16: r2 = k12*ssqrt(p1 - p2) - kout*ssqrt(p2) - A2*D(p2)/(rho*g)
-        r.r2 = r2_y1
+        r.r2 = r2_y1 - r2_e0
 
     def _run_r2(self, s: Samples, r: Residuals) -> None:
         """One sample for r2; what is not finite makes the next the first."""
@@ -382,23 +419,3 @@ class Monitor:
 def _signed_root(value: float) -> float:
     """sign(value) * sqrt(|value|)"""
     return -math.sqrt(-value) if value < 0.0 else math.sqrt(value)
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -37,7 +37,8 @@ from bondgraph.passes.lowering.newton import newton_blocks
 from bondgraph.passes.lowering.procedure import ZERO
 from bondgraph.passes.lowering.program_names import brief, identifier, short
 from bondgraph.passes.lowering.prune import pruned
-from bondgraph.passes.lowering.switched import Switched, order
+from bondgraph.passes.lowering.stages import order
+from bondgraph.passes.lowering.switched import Switched
 from bondgraph.passes.lowering.tape import Large, large
 from bondgraph.passes.lowering.visible import Seen, seen, unseen_faults
 from bondgraph.text.tuples import NamedTuple
@@ -74,11 +75,6 @@ _MOST = 1e6  # samples of a signal that are remembered
 _NOT_REMEMBERED = "a switch or an encoder in it would have to be remembered"
 
 
-def fastest(options: LowerOptions) -> float:
-    """The largest bandwidth * sample_time that the coefficients of the filter are made for."""
-    return max(3.0, 1.01 * (options.bandwidth or options.rate / 50) / options.rate)
-
-
 class _Lowered(NamedTuple):
     info: ResidualInfo
     first: list[Assignment]
@@ -113,7 +109,7 @@ def lower(
     forms = [normalise(graph.pool, e, LIMIT, builder.initials) for e in exprs]
     builder.scaled = any(f.tape is not None for f in forms)
     exactly = Exactly(builder)
-    filter = Filter(builder, fastest(options))
+    filter = Filter(builder)
     switched = Switched(builder, filter, residuals.system)
     tapes: list[Large | None] = []
     time_unit = options.time_unit

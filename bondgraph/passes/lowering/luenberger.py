@@ -180,7 +180,7 @@ class _Later:
 
 def _gain(chain: Chain, observer: Observer) -> list[Expr]:
     """l, for slopes that the samples can follow."""
-    pool, n, wc = chain.pool, len(observer.states), chain.filter.rate
+    pool, n, wc = chain.pool, len(observer.states), chain.filter.bandwidth
     limit = pool.div(pool.num(_STEEPEST), chain.builder.option("sample_time"))
 
     def followed(slope: Expr) -> Expr:

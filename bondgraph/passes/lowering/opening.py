@@ -113,11 +113,11 @@ class Window:
         if self.order is None:
             return
         rest = self._write("rest", Sum(((True, ONE), (False, u))), "how much is to come")
-        slope = pool.div(steps, self._filter.pace)
+        slope = pool.div(steps, self._filter.turn)
         for j in range(self.order + 1):
             shape = _shape(self.order + 1, j, u, rest)
             if j:
-                doc = f"a time constant of the filter as part of the start, to the power {j}"
+                doc = f"1/w of the filter as part of the start, to the power {j}"
                 scale = coef(pool.power(slope, j), f"{self._name}_slope{j}", doc)
                 shape = Product((scale, shape))
             what = f"derivative {j} of the window" if j else "the window"

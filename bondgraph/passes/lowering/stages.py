@@ -1,20 +1,27 @@
 """The entry point that takes samples: every residual through one chain of first-order stages.
 
-With H = 1/(1 + p/wc) is p = wc (1 - H)/H, so that p**k H**n = wc**k H**(n-k) (1-H)**k: the
-residual over (1 + p/wc)**n is a polynomial in H whose coefficients are linear in the samples.
-Horner's rule makes it r = H(v1 + H(v2 + ... + H vn)). Each stage is exact for input that is
-linear between samples (first-order hold): y = s + b0 u, then s = a y + b1 u, with
-a = exp(-wc T), b0 = 1 - (1-a)/(wc T), b1 = 1 - a - b0.
+With H = 1/(1 + D/w) is D = w (1 - H)/H, so that D**k H**n = w**k H**(n-k) (1-H)**k: a residual
+sum_k D**k g_k over (1 + D/w)**n is a polynomial in H whose coefficients are linear in the samples.
+Horner's rule makes it r = H(v1 + H(v2 + ... + H vn)) + v0. What has the same order is summed first.
+
+A stage is y = s + b u, then s = a y + b u (`Filter`), and its D is the trapezoid rule: D T = 2
+tanh(p T/2). Taken for p it is off by (p T)**2/12, and that is what remains of large terms that
+cancel. But p = D (1 + (D T)**2/12) to fourth order, so that there is one filter F which all terms
+pass, and each comes out as a polynomial in D:
+
+    p**k F = D**k (1 - (K-k) (D T)**2/12),  F = 1 - K (D T)**2/12 + ...,
+
+where K is the order of the residual: nothing of higher degree than n = K+1 is needed, so there is
+neither a delay nor a memory more (docs/decisions/hold.md).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from math import comb
 
 from bondgraph.algebra.derivative import TooManyOperations, operations
-from bondgraph.ir.expr import Expr, Kind, Op
+from bondgraph.ir.expr import Expr, Kind, Op, topological
 from bondgraph.ir.normal import Term
 from bondgraph.ir.program import Assign, Assignment, Expression, Field, Product, Ref, Sum
 from bondgraph.ir.residuals import Residual
@@ -24,6 +31,14 @@ from bondgraph.passes.lowering.filter import Filter
 from bondgraph.passes.lowering.integrals import gathered
 from bondgraph.passes.lowering.procedure import ONE, Procedure, positive_part
 from bondgraph.passes.lowering.program_names import Names, identifier, short
+
+
+class Parts(dict[int, list[tuple[bool, Expression]]]):
+    """Signed terms by a whole number: an order, a degree or a stage."""
+
+    def add(self, at: int, sign: bool, value: Expression) -> None:
+        """One term more."""
+        self.setdefault(at, []).append((sign, value))
 
 
 class Chain:
@@ -64,8 +79,9 @@ class Chain:
         Raises `TooManyOperations`, before anything is written, if its nonlinear terms need more
         than `LARGEST`.
         """
-        inputs: dict[int, list[tuple[bool, Expression]]] = {}
+        self.highest = max(map(order, terms), default=0)
         outside = self._approximate([t for t in terms if not t.static])
+        orders, speeds, bare = Parts(), Parts(), Parts()
         integrals: dict[int, list[Term]] = {}
         by_atom: dict[Expr, list[Term]] = {}
         for term in terms:
@@ -79,20 +95,13 @@ class Chain:
                 by_atom.setdefault(term.atom, []).append(term)
         self._prepare([*by_atom, *[t.atom for level in integrals.values() for t in level]])
         for atom, own in by_atom.items():
-            self._enter(atom, own, inputs, outside)
+            for term in own:
+                self._enter(atom, term, orders, speeds, outside)
         if integrals:
-            inputs.setdefault(self.stages, []).append((True, self._integrals(integrals)))
-        output: Expression | None = None
-        for m in range(self.stages, 0, -1):
-            parts = list(inputs.get(m, []))
-            if output is not None:
-                parts.insert(0, (True, output))
-            if parts:
-                entry = self._local(f"u{m}", total(parts), f"{self.name}: input of stage {m}")
-                output = self._stage(entry, f"{m}", f"{self.name}: stage {m}")
-        if output is not None:
-            outside.insert(0, (True, output))
-        self._both(Assign(Ref("residual", self.name), total(outside), text, self.origin))
+            self._integrated(integrals, orders, bare)
+        self._turned(speeds, bare)
+        output = self._horner(self._bent(orders, bare), outside)
+        self._both(Assign(Ref("residual", self.name), output, text, self.origin))
 
     def _both(self, statement: Assignment) -> None:
         self.first.append(statement)
@@ -113,12 +122,11 @@ class Chain:
         coef, f = self.builder.coef, self.filter
         state = self._state(f"s{wish}", f"memory of {comment}")
         output = Ref("local", self.names.new(f"{self.name}_y{wish}"))
-        a = coef(f.a, "a", "filter: exp(-bandwidth*sample_time)")
-        b0 = coef(f.b0, "b0", "filter: weight of the new sample")
-        b1 = coef(f.b1, "b1", "filter: weight of the sample before")
-        rest = coef(f.rest, "rest", "filter: 1 - b0, the memory of a constant 1")
-        value = _plus(state, Product((b0, entry)))
-        kept = _plus(Product((a, output)), Product((b1, entry)))
+        a = coef(f.a, "a", "filter: what is left of a memory a sample later")
+        b = coef(f.b, "b", "filter: weight of a sample, new and a sample later")
+        rest = coef(f.rest, "rest", "filter: 1 - b, the memory of a constant 1")
+        value = _plus(state, Product((b, entry)))
+        kept = _plus(Product((a, output)), Product((b, entry)))
         self.step.append(Assign(output, value, comment, self.origin))
         self.step.append(Assign(state, kept, f"{comment}: memory", self.origin))
         self.first.append(Assign(output, entry, f"{comment}, at rest", self.origin))
@@ -135,60 +143,110 @@ class Chain:
     def _enter(
         self,
         atom: Expr,
-        terms: list[Term],
-        inputs: dict[int, list[tuple[bool, Expression]]],
+        term: Term,
+        orders: Parts,
+        speeds: Parts,
         outside: list[tuple[bool, Expression]],
     ) -> None:
-        """Put the terms of one atom at the stages of the chain where they belong."""
-        signal = self.builder.signals.get(atom)
+        """Add w**k c of an atom to the terms of order k; an encoder that turns to the `speeds`."""
+        pool, signal, k = self.pool, self.builder.signals.get(atom), term.order
+        words, told = label(self.builder, atom), short(atom, k)
         if signal is None or signal.scale is None:
-            self._weigh(atom, terms, self._static_value(atom), 0, inputs)
-            return
-        still = [t for t in terms if t.order == 0]
-        moving = [t for t in terms if t.order > 0]
-        for term in still:
-            scaled = self.pool.mul(term.coefficient, signal.scale)
-            sign, factor = self._signed(
-                scaled, signal.name, f"factor of the counts of {short(atom)}"
-            )
+            value = pool.mul(term.coefficient, pool.power(self.filter.rate, k))
+            sign, factor = self._signed(value, f"w{k}_{words}" if k else words, f"factor of {told}")
+            sample = self._static_value(atom)
+            orders.add(k, sign, sample if factor == ONE else Product((factor, sample)))
+        elif k:
+            value = pool.mul(term.coefficient, pool.power(self.filter.rate, k - 1))
+            sign, factor = self._signed(value, f"w{k}_{words}", f"factor of {told}")
+            speed = self._speed(signal)
+            speeds.add(k, sign, speed if factor == ONE else Product((factor, speed)))
+        else:
+            scaled = pool.mul(term.coefficient, signal.scale)
+            sign, factor = self._signed(scaled, signal.name, f"factor of the counts of {told}")
             self.builder.sampled[signal.name] = None
-            product = Product((factor, Ref("total", signal.name)))
-            inputs.setdefault(self.stages, []).append((sign, product))
+            orders.add(0, sign, Product((factor, Ref("total", signal.name))))
             if signal.offset is not None:
-                value = self.pool.mul(term.coefficient, signal.offset)
-                outside.append(self._signed(value, "offset", f"start of {short(atom)}"))
-        if moving:
-            self._weigh(atom, moving, self._speed(signal), 1, inputs)
+                value = pool.mul(term.coefficient, signal.offset)
+                outside.append(self._signed(value, "offset", f"start of {told}"))
 
-    def _weigh(
-        self,
-        atom: Expr,
-        terms: list[Term],
-        sample: Expression,
-        speed: int,
-        inputs: dict[int, list[tuple[bool, Expression]]],
-    ) -> None:
-        """Add c p**k H**n of a sample, where the sample is H p of the atom if `speed` is 1."""
-        n, pool = self.stages, self.pool
-        weights: dict[int, list[tuple[Fraction | int, Expr]]] = {}
-        for term in terms:
-            k = term.order - speed
-            scaled = pool.mul(term.coefficient, pool.power(self.filter.rate, k))
+    def _turned(self, speeds: Parts, bare: Parts) -> None:
+        """Add the terms of encoders, which have H D of their angle in place of the angle.
+
+        w**(k-1) H**(n-k) (1-H)**(k-1) of that has a stage less: as H + (1-H) = 1, it is the sum of
+        the terms of degree k-1 and k.
+        """
+        for k, parts in sorted(speeds.items()):
+            value = self._named(parts, f"n{k}", f"{self.name}: encoders, order {k}")
+            for degree in (k - 1, k):
+                bare.add(degree, True, value)
+            if k < self.highest:
+                missed = self._missed(k, value)
+                for degree in (k + 1, k + 2):
+                    bare.add(degree, False, missed)
+
+    def _bent(self, orders: Parts, bare: Parts) -> Parts:
+        """All terms by their degree k in w**k H**(n-k) (1-H)**k, each as one value if k > 0.
+
+        p**k F is the term of degree k less (K-k) (w T)**2/12 in that of degree k+2.
+        """
+        found, whole = Parts(), dict[int, Expression]()
+        for k in range(self.highest + 2):
+            parts = list(orders.get(k, []))
+            if parts and k < self.highest:
+                whole[k] = self._named(parts, f"g{k}", f"{self.name}: terms of order {k}")
+                parts = [(True, whole[k])]
+            parts += bare.get(k, [])
+            if k - 2 in whole:
+                parts.append((False, self._missed(k - 2, whole[k - 2])))
+            if k and len(parts) > 1:
+                parts = [(True, self._named(parts, f"d{k}", f"{self.name}: degree {k}"))]
+            elif k and parts:
+                ((sign, value),) = parts
+                named = self._named([(True, value)], f"d{k}", f"{self.name}: degree {k}")
+                parts = [(sign, named)]
+            if parts:
+                found[k] = parts
+        return found
+
+    def _within(self, wish: str, value: Expression, comment: str) -> Expression:
+        """A value of the chain."""
+        return self._local(wish, value, comment)
+
+    def _missed(self, k: int, value: Expression) -> Expression:
+        """(K-k) (w T)**2/12 of the terms of order k."""
+        off = self.highest - k
+        weight = self.pool.scale(off, self.filter.bend)
+        doc = f"filter: {off} * (w*sample_time)^2/12"
+        coef = self.builder.coef(weight, f"bend{off}", doc)
+        return self._within(f"e{k}", Product((coef, value)), f"{self.name}: error of order {k}")
+
+    def _named(self, parts: list[tuple[bool, Expression]], wish: str, comment: str) -> Expression:
+        """A sum that is read more than once."""
+        value = total(parts)
+        return value if isinstance(value, Ref) else self._within(wish, value, comment)
+
+    def _horner(self, degrees: Parts, outside: list[tuple[bool, Expression]]) -> Expression:
+        """All stages: what comes out at this sample."""
+        inputs = Parts({0: outside})
+        for k, parts in degrees.items():
             for j in range(k + 1):
-                m = n - term.order + j
-                weights.setdefault(m, []).append(((-1) ** j * comb(k, j), scaled))
-        words = label(self.builder, atom)
-        for m in sorted(weights):
-            value = pool.add(*weights[m])
-            if value is pool.zero:
-                continue
-            doc = f"factor of {short(atom)} in stage {m}"
-            sign, factor = self._signed(value, f"v{m}_{words}", doc)
-            product = sample if factor == ONE else Product((factor, sample))
-            inputs.setdefault(m, []).append((sign, product))
+                number = comb(k, j)
+                for sign, value in parts:
+                    part = value if number == 1 else Product((_number(self, number), value))
+                    inputs.add(self.stages - k + j, sign == (j % 2 == 0), part)
+        output: Expression | None = None
+        for m in range(self.stages, 0, -1):
+            parts = list(inputs.get(m, []))
+            if output is not None:
+                parts.insert(0, (True, output))
+            if parts:
+                entry = self._within(f"u{m}", total(parts), f"{self.name}: input of stage {m}")
+                output = self._stage(entry, f"{m}", f"{self.name}: stage {m}")
+        return total([*([] if output is None else [(True, output)]), *inputs[0]])
 
     def _speed(self, signal: Signal) -> Expression:
-        """H p of an encoder, from the counts of this sample: no position is formed."""
+        """H D of an encoder, from the counts of this sample: no position is formed."""
         assert signal.scale is not None
         found = self._speeds.get(signal.name)
         if found is not None:
@@ -196,7 +254,7 @@ class Chain:
         coef, f = self.builder.coef, self.filter
         factor = self.pool.mul(f.count, signal.scale)
         gain = coef(factor, f"{signal.name}_gain", f"speed of {signal.declared.name} for one count")
-        a = coef(f.a, "a", "filter: exp(-bandwidth*sample_time)")
+        a = coef(f.a, "a", "filter: what is left of a memory a sample later")
         state = self._state(f"{signal.name}_speed", f"filtered speed of {signal.declared.name}")
         speed = Ref("local", self.names.new(f"{self.name}_{signal.name}_speed"))
         self.builder.sampled[signal.name] = None
@@ -213,9 +271,27 @@ class Chain:
 
     # ----------------------------------------------------------- integrals
 
-    def _integrals(self, levels: dict[int, list[Term]]) -> Expression:
-        """All integrals of the residual as one: what is integrated is summed first."""
+    def _integrated(self, levels: dict[int, list[Term]], orders: Parts, bare: Parts) -> None:
+        """Add all integrals of the residual as one: what is integrated is summed first.
+
+        The trapezoid rule is 1/D: an integral is that less T**2/12 times the slope of what is
+        integrated (Euler and Maclaurin), which here is filtered.
+        """
+        value, rate = self._integrals(levels)
+        orders.add(0, True, value)
+        factor = self.pool.mul(self.filter.rate, self.filter.twelfth)
+        weight = self.builder.coef(factor, "bend_int", "filter: w*sample_time^2/12")
+        off = self._local("i", Product((weight, rate)), f"{self.name}: error of order -1")
+        self._slope(off, bare)
+
+    def _slope(self, rate: Expression, bare: Parts) -> None:
+        """Take away D/w of what is integrated."""
+        bare.add(1, False, rate)
+
+    def _integrals(self, levels: dict[int, list[Term]]) -> tuple[Expression, Expression]:
+        """The sum of all integrals by the trapezoid rule, and what is summed last."""
         inner: Expression | None = None
+        rate: Expression | None = None
         for level in range(max(levels), 0, -1):
             parts: list[tuple[bool, Expression]] = []
             if inner is not None:
@@ -231,15 +307,24 @@ class Chain:
                 else:
                     product = sample if factor == ONE else Product((factor, sample))
                     parts.append((sign, product))
-            inner = self._trapezoid(total(parts), f"{self.name}: integral")
-        assert inner is not None
-        return inner
+            before, rate = rate, self._rate(total(parts), f"{self.name}: integral")
+            inner = self._trapezoid(rate, f"{self.name}: integral")
+            if before is not None:  # what this sum misses of the one inside, as it stands
+                doc = "sample_time^2/12: what a sum of slopes misses"
+                weight = self.builder.coef(self.filter.twelfth, "twelfth", doc)
+                inner = Sum(((True, inner), (False, Product((weight, before)))))
+        assert inner is not None and rate is not None
+        return inner, rate
+
+    def _rate(self, value: Expression, comment: str) -> Expression:
+        """A value that is integrated, to be read twice."""
+        if isinstance(value, Ref):
+            return value
+        return self._local("rate", value, f"{comment}, what is integrated")
 
     def _trapezoid(self, rate: Expression, comment: str) -> Expression:
         """The integral of a value since the start."""
         half = self.builder.coef(self.filter.half, "half_time", "half the sample time")
-        if not isinstance(rate, Ref):
-            rate = self._local("rate", rate, f"{comment}, what is integrated")
         state = self._state("q", f"memory of {comment}")
         value = Ref("local", self.names.new(f"{self.name}_int"))
         gain = Product((half, rate))
@@ -249,6 +334,27 @@ class Chain:
         self.first.append(Assign(value, zero, f"{comment}, at the start", self.origin))
         self.first.append(Assign(state, gain, f"{comment}: memory", self.origin))
         return value
+
+    def _less_slope(self, value: Expression, rate: Expression, comment: str) -> Expression:
+        """An integral as it stands, without what the trapezoid rule is off by.
+
+        That is T**2/12 times the slope of the rate, T/24 times its difference backwards over three
+        samples: together the implicit rule of Adams, of fourth order.
+        """
+        weight = self.builder.coef(self.filter.half_twelfth, "half_twelfth", "sample_time/24")
+        last = self._state("rate1", f"{comment}: rate a sample before")
+        before = self._state("rate2", f"{comment}: rate two samples before")
+        three, four = (_number(self, number) for number in (3, 4))
+        now, past = Product((three, rate)), Product((four, last))
+        slope = Sum(((True, now), (False, past), (True, before)))
+        target = Ref("local", self.names.new(f"{self.name}_integral"))
+        less = Sum(((True, value), (False, Product((weight, slope)))))
+        self.step.append(Assign(target, less, comment, self.origin))
+        self.step.append(Assign(before, last, f"{comment}: memory", self.origin))
+        self.first.append(Assign(target, value, comment, self.origin))
+        self.first.append(Assign(before, rate, f"{comment}: memory", self.origin))
+        self._both(Assign(last, rate, f"{comment}: memory", self.origin))
+        return target
 
     def _change(self, value: Expression, comment: str) -> Expression:
         """A value minus what it was at the start."""
@@ -321,7 +427,9 @@ class Chain:
             value = self._change(procedure.value(inner.args[0], self.origin), f"change of {words}")
         else:
             rate = procedure.value(gathered(self.pool, inner, self.builder.zero_start), self.origin)
-            value = self._trapezoid(rate, f"integral of {words}")
+            comment = f"integral of {words}"
+            rate = self._rate(rate, comment)
+            value = self._less_slope(self._trapezoid(rate, comment), rate, comment)
         if node.symbol == self.builder.zero_start.symbol:
             return value
         start = self.pool.symbol(node.symbol.name, node.symbol.kind)
@@ -357,7 +465,7 @@ class Chain:
         return [(True, value) for value in self._moving.values(exprs, self.origin)]
 
     def _state_variable(self, symbol: Expr, order: int) -> Expression:
-        """p**order H**n of a known signal, from the outputs of its own chain of n stages."""
+        """p**order F H**n of a known signal, from the outputs of its own chain of n stages."""
         found = self._filtered.get((symbol, order))
         if found is not None:
             return found
@@ -372,23 +480,37 @@ class Chain:
                 outputs.append(self._stage(outputs[-1], wish, f"{short(key)}: stage {j}"))
             self._ladders[key] = outputs
         outputs = self._ladders[key]
-        k = order - speed
+        weights: dict[int, list[tuple[int, Expr]]] = {}
+        for m, number, factor in self._powers(order, speed):
+            weights.setdefault(m, []).append((number, factor))
         terms = []
-        for j in range(k + 1):
-            weight, value = comb(k, j), outputs[n - order + j]
-            weighed = value if weight == 1 else Product((_number(self, weight), value))
-            terms.append((j % 2 == 0, weighed))
+        for m in sorted(weights, reverse=True):
+            sign, value = positive_part(pool, pool.add(*weights[m]))
+            doc = f"filter: factor of stage {m} in derivative {order}"
+            weight = self.builder.coef(value, f"d{order}_{m}", doc)
+            terms.append((sign, outputs[m] if weight == ONE else Product((weight, outputs[m]))))
         result = total(terms)
-        if k:
-            factor = pool.power(self.filter.rate, k)
-            doc = f"filter: bandwidth^{k}"
-            result = Product((self.builder.coef(factor, f"bandwidth_{k}", doc), result))
         if not isinstance(result, Ref):
             result = self._local(
                 f"{signal.name}_{order}", result, f"{short(symbol, order)}, filtered"
             )
         self._filtered[symbol, order] = result
         return result
+
+    def _powers(self, order: int, speed: int) -> list[tuple[int, int, Expr]]:
+        """p**order F H**n as a polynomial in H, over H D if `speed` is 1.
+
+        Each term as the power of H, a number and a factor; a power may come twice.
+        """
+        n, k, off = self.stages, order - speed, self.highest - order
+        scale = self.pool.power(self.filter.rate, k)
+        found = [(n - order + j, (-1) ** j * comb(k, j), scale) for j in range(k + 1)]
+        if off:
+            bend = self.pool.mul(scale, self.filter.bend)
+            found += [
+                (n - order - 2 + j, -off * (-1) ** j * comb(k + 2, j), bend) for j in range(k + 3)
+            ]
+        return found
 
 
 def _number(chain: Chain, value: int) -> Expression:
@@ -397,3 +519,20 @@ def _number(chain: Chain, value: int) -> Expression:
 
 def _plus(left: Expression, right: Expression) -> Expression:
     return Sum(((True, left), (True, right)))
+
+
+def order(term: Term) -> int:
+    """The highest derivative that a term needs, those inside its atom counted."""
+    if term.static:
+        return max(term.order, 0)
+    inside: dict[Expr, int] = {}
+    deepest = 0
+    for node in reversed(topological([term.atom])):
+        own = inside.get(node, 0)
+        deepest = max(deepest, own)
+        below = own + 1 if node.op is Op.DER else own
+        if node.op is Op.INT:
+            below = max(own - 1, 0)
+        for arg in node.args:
+            inside[arg] = max(inside.get(arg, 0), below)
+    return max(term.order, 0) + deepest

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from bondgraph.algebra.normalise import LIMIT, normalise
 from bondgraph.ir.equation_system import EquationSystem
-from bondgraph.ir.expr import Expr, Op, topological
+from bondgraph.ir.expr import Expr
 from bondgraph.ir.normal import NormalForm, Term
 from bondgraph.ir.residuals import Residual
 from bondgraph.passes.lowering.builder import Builder
-from bondgraph.passes.lowering.coupled import CoupledChain
 from bondgraph.passes.lowering.filter import Filter, settle
 from bondgraph.passes.lowering.jumps import Jumps
 from bondgraph.passes.lowering.opening import Window
 from bondgraph.passes.lowering.program_names import identifier
-from bondgraph.passes.lowering.stages import Chain
+from bondgraph.passes.lowering.stages import Chain, order
+from bondgraph.passes.lowering.windowed import WindowedChain
 
 _HIGHEST = 4  # order up to which a residual fades in; above, the filter has to forget
 _LEFT = 1e-8  # of what jumped, when the filter counts as having forgotten
@@ -68,7 +68,7 @@ class Switched:
         if window is None or window.order is None:
             names = None if window is None else window.names
             return Chain(self._builder, self._filter, residual, stages, names)
-        return CoupledChain(self._builder, self._filter, residual, stages, window)
+        return WindowedChain(self._builder, self._filter, residual, stages, window)
 
     def _jump(self, mode: Expr, terms: tuple[Term, ...]) -> bool:
         """Whether a change of this mode may make some term jump."""
@@ -80,20 +80,3 @@ class Switched:
         signal = self._builder.signals.get(term.atom)
         counts = signal is not None and signal.scale is not None
         return term.static and not (counts and term.order > 0)
-
-
-def order(term: Term) -> int:
-    """The highest derivative that a term needs, those inside its atom counted."""
-    if term.static:
-        return max(term.order, 0)
-    inside: dict[Expr, int] = {}
-    deepest = 0
-    for node in reversed(topological([term.atom])):
-        own = inside.get(node, 0)
-        deepest = max(deepest, own)
-        below = own + 1 if node.op is Op.DER else own
-        if node.op is Op.INT:
-            below = max(own - 1, 0)
-        for arg in node.args:
-            inside[arg] = max(inside.get(arg, 0), below)
-    return max(term.order, 0) + deepest

@@ -25,7 +25,7 @@ from bondgraph.ir.residuals import Observer, Residual, ResidualSet
 from bondgraph.passes.lowering.builder import Builder
 from bondgraph.passes.lowering.exactly import LARGEST
 from bondgraph.passes.lowering.filter import Filter
-from bondgraph.passes.lowering.lower import LowerOptions, digest, fastest, with_tables
+from bondgraph.passes.lowering.lower import LowerOptions, digest, with_tables
 from bondgraph.passes.lowering.luenberger import Luenberger
 from bondgraph.passes.lowering.newton import newton_blocks
 from bondgraph.passes.lowering.procedure import ZERO
@@ -70,7 +70,7 @@ def thresholds(
     if not any(v.tolerance for v in graph.values):
         return None
     builder = Builder(graph)
-    filter = Filter(builder, fastest(options))
+    filter = Filter(builder)
     switched = Switched(builder, filter, residuals.system)
     large = {s.residual for s in program.configure if isinstance(s, PolynomialTape)}
     found = [

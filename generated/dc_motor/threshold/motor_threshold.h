@@ -31,7 +31,7 @@ typedef double motor_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define MOTOR_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(motor_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define MOTOR_THRESHOLD_DIGEST "09299574f7f471f6"
+#define MOTOR_THRESHOLD_DIGEST "8f94ab1752b376f2"
 
 /* What the code was made for: arguments of motor_threshold_configure, in s, rad/s and s. */
 #define MOTOR_THRESHOLD_SAMPLE_TIME MOTOR_THRESHOLD_CONSTANT(0.001)
@@ -84,13 +84,12 @@ typedef struct motor_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct motor_threshold_coefficients {
-    motor_threshold_real r1_w1_v2_current;  /* r1_w1: factor of current in stage 2 */
-    motor_threshold_real a;                 /* filter: exp(-bandwidth*sample_time) */
-    motor_threshold_real b0;                /* filter: weight of the new sample */
-    motor_threshold_real b1;                /* filter: weight of the sample before */
-    motor_threshold_real rest;              /* filter: 1 - b0, the memory of a constant 1 */
-    motor_threshold_real r1_w2_v2_speed;    /* r1_w2: factor of speed in stage 2 */
-    motor_threshold_real r2_w2_v2_speed;    /* r2_w2: factor of speed in stage 2 */
+    motor_threshold_real r1_w1_current;  /* r1_w1: factor of current */
+    motor_threshold_real a;              /* filter: what is left of a memory a sample later */
+    motor_threshold_real b;              /* filter: weight of a sample, new and a sample later */
+    motor_threshold_real rest;           /* filter: 1 - b, the memory of a constant 1 */
+    motor_threshold_real r1_w2_speed;    /* r1_w2: factor of speed */
+    motor_threshold_real r2_w2_speed;    /* r2_w2: factor of speed */
 } motor_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */

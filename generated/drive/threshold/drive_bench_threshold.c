@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t drive_bench_threshold_abi(void)
@@ -91,6 +62,15 @@ static void compute_coefficients(drive_bench_threshold_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: m.el.Re*m.me.fe/m.el.k */
     const real t = p->m__el__Re * p->m__me__fe / p->m__el__k;
 
@@ -100,186 +80,168 @@ static void compute_coefficients(drive_bench_threshold_monitor *monitor,
     /* khepera.bg:17: m.el.Re*m.wh.R/(m.ge.N*m.el.k) */
     const real t_3 = p->m__el__Re * p->m__wh__R / p->m__ge__N / p->m__el__k;
 
-    /* exp(-x) */
-    const real t_4 = exponential(-x_);
+    /* 1 - pole */
+    const real t_4 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_5 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_4) / x_;
+    /* turn^2 */
+    const real t_5 = turn * turn;
 
-    /* khepera.bg:17: m.el.L*m.me.Je*bandwidth^2/m.el.k */
-    const real t_6 = p->m__el__L * p->m__me__Je * bandwidth * bandwidth / p->m__el__k;
+    /* khepera.bg:17: m.el.L*m.me.Je*w^2/m.el.k */
+    const real t_6 = p->m__el__L * p->m__me__Je * w * w / p->m__el__k;
 
-    /* khepera.bg:17: m.el.L*m.wh.Js*bandwidth^2/(m.ge.N*m.el.k) */
-    const real t_7 = p->m__el__L * p->m__wh__Js * bandwidth * bandwidth / p->m__ge__N / p->m__el__k;
+    /* khepera.bg:17: m.el.L*m.wh.Js*w^2/(m.ge.N*m.el.k) */
+    const real t_7 = p->m__el__L * p->m__wh__Js * w * w / p->m__ge__N / p->m__el__k;
 
-    /* khepera.bg:17: m.el.L*m.wh.R*bandwidth/(m.ge.N*m.el.k) */
-    const real t_8 = p->m__el__L * p->m__wh__R * bandwidth / p->m__ge__N / p->m__el__k;
+    /* khepera.bg:17: m.el.L*m.wh.R*w/(m.ge.N*m.el.k) */
+    const real t_8 = p->m__el__L * p->m__wh__R * w / p->m__ge__N / p->m__el__k;
 
-    /* khepera.bg:17: m.el.Re*m.wh.Js*bandwidth/(m.ge.N*m.el.k) */
-    const real t_9 = p->m__el__Re * p->m__wh__Js * bandwidth / p->m__ge__N / p->m__el__k;
+    /* khepera.bg:17: m.el.Re*m.wh.Js*w/(m.ge.N*m.el.k) */
+    const real t_9 = p->m__el__Re * p->m__wh__Js * w / p->m__ge__N / p->m__el__k;
 
-    /* khepera.bg:17: m.el.Re*m.me.Je*bandwidth/m.el.k */
-    const real t_10 = p->m__el__Re * p->m__me__Je * bandwidth / p->m__el__k;
+    /* khepera.bg:17: m.el.Re*m.me.Je*w/m.el.k */
+    const real t_10 = p->m__el__Re * p->m__me__Je * w / p->m__el__k;
 
-    /* khepera.bg:17: m.el.k*bandwidth*(m.el.Re*m.me.Je/m.el.k^2 + m.el.L*m.me.fe/m.el.k^2) */
-    const real t_11 = p->m__el__k * bandwidth
+    /* khepera.bg:17: m.el.L*m.me.fe*w/m.el.k */
+    const real t_11 = p->m__el__L * p->m__me__fe * w / p->m__el__k;
+
+    /* khepera.bg:17: m.el.L*m.wh.fs*w/(m.ge.N*m.el.k) */
+    const real t_12 = p->m__el__L * p->m__wh__fs * w / p->m__ge__N / p->m__el__k;
+
+    /* khepera.bg:17: r1_w1: factor of Fx */
+    c->r1_w1_Fx = t_3 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w1: factor of m.wh.ws */
+    c->r1_w1_m__wh__ws = t_2 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w1: factor of m.wh.ws' */
+    c->r1_w1_w1_m__wh__ws = t_9 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w1: factor of m.me.we */
+    c->r1_w1_m__me__we = t / REAL(20.0);
+
+    /* khepera.bg:17: r1_w1: factor of m.me.we' */
+    c->r1_w1_w1_m__me__we = t_10 / REAL(20.0);
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_5 / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_4;
+
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t_4;
+
+    /* khepera.bg:17: r1_w2: factor of m.me.we */
+    c->r1_w2_m__me__we = p->m__el__k * (p->m__el__Re * p->m__me__fe / p->m__el__k / p->m__el__k
+            - REAL(1.0)) / REAL(50.0);
+
+    /* khepera.bg:17: r1_w2: factor of m.me.we' */
+    c->r1_w2_w1_m__me__we = p->m__el__k * w
             * (p->m__el__Re * p->m__me__Je / p->m__el__k / p->m__el__k
-            + p->m__el__L * p->m__me__fe / p->m__el__k / p->m__el__k);
+            + p->m__el__L * p->m__me__fe / p->m__el__k / p->m__el__k) / REAL(50.0);
 
-    /* khepera.bg:17: m.el.k*bandwidth*(m.el.Re*m.wh.Js/(m.ge.N*m.el.k^2) +
-     * m.el.L*m.wh.fs/(m.ge.N*m.el.k^2)) */
-    const real t_12 = p->m__el__k * bandwidth
+    /* khepera.bg:17: r1_w2: factor of m.me.we'' */
+    c->r1_w2_w2_m__me__we = t_6 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w2: factor of Fx */
+    c->r1_w2_Fx = t_3 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w2: factor of Fx' */
+    c->r1_w2_w1_Fx = t_8 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w2: factor of m.wh.ws */
+    c->r1_w2_m__wh__ws = t_2 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w2: factor of m.wh.ws' */
+    c->r1_w2_w1_m__wh__ws = p->m__el__k * w
             * (p->m__el__Re * p->m__wh__Js / p->m__ge__N / p->m__el__k / p->m__el__k
-            + p->m__el__L * p->m__wh__fs / p->m__ge__N / p->m__el__k / p->m__el__k);
+            + p->m__el__L * p->m__wh__fs / p->m__ge__N / p->m__el__k / p->m__el__k) / REAL(50.0);
 
-    /* khepera.bg:17: m.el.L*m.me.fe*bandwidth/m.el.k */
-    const real t_13 = p->m__el__L * p->m__me__fe * bandwidth / p->m__el__k;
+    /* khepera.bg:17: r1_w2: factor of m.wh.ws'' */
+    c->r1_w2_w2_m__wh__ws = t_7 / REAL(50.0);
 
-    /* khepera.bg:17: m.el.L*m.wh.fs*bandwidth/(m.ge.N*m.el.k) */
-    const real t_14 = p->m__el__L * p->m__wh__fs * bandwidth / p->m__ge__N / p->m__el__k;
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_5 / REAL(6.0);
 
-    /* khepera.bg:17: m.el.k^2*bandwidth*(-2*m.el.L*m.me.fe/m.el.k^3 -
-     * 2*m.el.Re*m.me.Je/m.el.k^3) */
-    const real t_15 = p->m__el__k * p->m__el__k * bandwidth
+    /* khepera.bg:17: r1_w3: factor of m.me.we */
+    c->r1_w3_m__me__we = t / REAL(10.0);
+
+    /* khepera.bg:17: r1_w3: factor of m.me.we' */
+    c->r1_w3_w1_m__me__we = t_11 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w4: factor of m.wh.ws */
+    c->r1_w4_m__wh__ws = t_2 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w4: factor of m.wh.ws' */
+    c->r1_w4_w1_m__wh__ws = t_12 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w5: factor of m.me.we */
+    c->r1_w5_m__me__we = t / REAL(730.0);
+
+    /* khepera.bg:17: r1_w5: factor of m.me.we' */
+    c->r1_w5_w1_m__me__we = t_10 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w5: factor of m.wh.ws */
+    c->r1_w5_m__wh__ws = t_2 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w5: factor of m.wh.ws' */
+    c->r1_w5_w1_m__wh__ws = t_9 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w5: factor of Fx */
+    c->r1_w5_Fx = t_3 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w6: factor of m.me.we */
+    c->r1_w6_m__me__we = t / REAL(146.0);
+
+    /* khepera.bg:17: r1_w7: factor of m.wh.ws */
+    c->r1_w7_m__wh__ws = t_2 / REAL(146.0);
+
+    /* khepera.bg:17: r1_w8: factor of m.me.we */
+    c->r1_w8_m__me__we = t / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w8: factor of m.me.we' */
+    c->r1_w8_w1_m__me__we = p->m__el__k * p->m__el__k * w
             * (-REAL(2.0) * p->m__el__L * p->m__me__fe / p->m__el__k / p->m__el__k / p->m__el__k
-            - REAL(2.0) * p->m__el__Re * p->m__me__Je / p->m__el__k / p->m__el__k / p->m__el__k);
+            - REAL(2.0) * p->m__el__Re * p->m__me__Je / p->m__el__k / p->m__el__k / p->m__el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17: m.el.k^2*bandwidth*(-2*m.el.L*m.wh.fs/(m.ge.N*m.el.k^3) -
-     * 2*m.el.Re*m.wh.Js/(m.ge.N*m. ... */
-    const real t_16 = p->m__el__k * p->m__el__k * bandwidth
+    /* khepera.bg:17: r1_w8: factor of m.me.we'' */
+    c->r1_w8_w2_m__me__we = t_6 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w8: factor of m.wh.ws */
+    c->r1_w8_m__wh__ws = t_2 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w8: factor of m.wh.ws' */
+    c->r1_w8_w1_m__wh__ws = p->m__el__k * p->m__el__k * w
             * (-REAL(2.0) * p->m__el__L * p->m__wh__fs / p->m__ge__N / p->m__el__k / p->m__el__k
                 / p->m__el__k
             - REAL(2.0) * p->m__el__Re * p->m__wh__Js / p->m__ge__N / p->m__el__k / p->m__el__k
-                / p->m__el__k);
+                / p->m__el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17: r1_w1: factor of Fx in stage 3 */
-    c->r1_w1_v3_Fx = t_3 / REAL(20.0);
+    /* khepera.bg:17: r1_w8: factor of m.wh.ws'' */
+    c->r1_w8_w2_m__wh__ws = t_7 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w1: factor of m.wh.ws in stage 2 */
-    c->r1_w1_v2_m__wh__ws = t_9 / REAL(20.0);
+    /* khepera.bg:17: r1_w8: factor of Fx */
+    c->r1_w8_Fx = t_3 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w1: factor of m.wh.ws in stage 3 */
-    c->r1_w1_v3_m__wh__ws = t_9 / REAL(20.0) - t_2 / REAL(20.0);
+    /* khepera.bg:17: r1_w8: factor of Fx' */
+    c->r1_w8_w1_Fx = t_8 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w1: factor of m.me.we in stage 2 */
-    c->r1_w1_v2_m__me__we = t_10 / REAL(20.0);
+    /* khepera.bg:17: r1_w9: factor of m.me.we */
+    c->r1_w9_m__me__we = t / REAL(365.0);
 
-    /* khepera.bg:17: r1_w1: factor of m.me.we in stage 3 */
-    c->r1_w1_v3_m__me__we = t_10 / REAL(20.0) - t / REAL(20.0);
+    /* khepera.bg:17: r1_w9: factor of m.me.we' */
+    c->r1_w9_w1_m__me__we = t_11 / REAL(365.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_4;
+    /* khepera.bg:17: r1_w10: factor of m.wh.ws */
+    c->r1_w10_m__wh__ws = t_2 / REAL(365.0);
 
-    /* filter: weight of the new sample */
-    c->b0 = t_5;
-
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_4 - t_5;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_5;
-
-    /* khepera.bg:17: r1_w2: factor of m.me.we in stage 1 */
-    c->r1_w2_v1_m__me__we = t_6 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w2: factor of m.me.we in stage 2 */
-    c->r1_w2_v2_m__me__we = t_11 / REAL(50.0) - t_6 / REAL(25.0);
-
-    /* khepera.bg:17: r1_w2: factor of m.me.we in stage 3 */
-    c->r1_w2_v3_m__me__we = t_6 / REAL(50.0)
-        + p->m__el__k * (p->m__el__Re * p->m__me__fe / p->m__el__k / p->m__el__k
-            - REAL(1.0)) / REAL(50.0)
-        - t_11 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w2: factor of Fx in stage 2 */
-    c->r1_w2_v2_Fx = t_8 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w2: factor of Fx in stage 3 */
-    c->r1_w2_v3_Fx = t_3 / REAL(50.0) - t_8 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w2: factor of m.wh.ws in stage 1 */
-    c->r1_w2_v1_m__wh__ws = t_7 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w2: factor of m.wh.ws in stage 2 */
-    c->r1_w2_v2_m__wh__ws = t_12 / REAL(50.0) - t_7 / REAL(25.0);
-
-    /* khepera.bg:17: r1_w2: factor of m.wh.ws in stage 3 */
-    c->r1_w2_v3_m__wh__ws = t_2 / REAL(50.0) + t_7 / REAL(50.0) - t_12 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w3: factor of m.me.we in stage 2 */
-    c->r1_w3_v2_m__me__we = t_13 / REAL(10.0);
-
-    /* khepera.bg:17: r1_w3: factor of m.me.we in stage 3 */
-    c->r1_w3_v3_m__me__we = t_13 / REAL(10.0) - t / REAL(10.0);
-
-    /* khepera.bg:17: r1_w4: factor of m.wh.ws in stage 2 */
-    c->r1_w4_v2_m__wh__ws = t_14 / REAL(10.0);
-
-    /* khepera.bg:17: r1_w4: factor of m.wh.ws in stage 3 */
-    c->r1_w4_v3_m__wh__ws = t_14 / REAL(10.0) - t_2 / REAL(10.0);
-
-    /* khepera.bg:17: r1_w5: factor of m.me.we in stage 2 */
-    c->r1_w5_v2_m__me__we = t_10 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w5: factor of m.me.we in stage 3 */
-    c->r1_w5_v3_m__me__we = t / REAL(730.0) - t_10 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w5: factor of m.wh.ws in stage 2 */
-    c->r1_w5_v2_m__wh__ws = t_9 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w5: factor of m.wh.ws in stage 3 */
-    c->r1_w5_v3_m__wh__ws = t_2 / REAL(730.0) - t_9 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w5: factor of Fx in stage 3 */
-    c->r1_w5_v3_Fx = t_3 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w6: factor of m.me.we in stage 3 */
-    c->r1_w6_v3_m__me__we = t / REAL(146.0);
-
-    /* khepera.bg:17: r1_w7: factor of m.wh.ws in stage 3 */
-    c->r1_w7_v3_m__wh__ws = t_2 / REAL(146.0);
-
-    /* khepera.bg:17: r1_w8: factor of m.me.we in stage 1 */
-    c->r1_w8_v1_m__me__we = t_6 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w8: factor of m.me.we in stage 2 */
-    c->r1_w8_v2_m__me__we = REAL(2.0) * t_6 / REAL(1825.0) + t_15 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w8: factor of m.me.we in stage 3 */
-    c->r1_w8_v3_m__me__we = t / REAL(1825.0) + t_6 / REAL(1825.0) + t_15 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w8: factor of m.wh.ws in stage 1 */
-    c->r1_w8_v1_m__wh__ws = t_7 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w8: factor of m.wh.ws in stage 2 */
-    c->r1_w8_v2_m__wh__ws = REAL(2.0) * t_7 / REAL(1825.0) + t_16 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w8: factor of m.wh.ws in stage 3 */
-    c->r1_w8_v3_m__wh__ws = t_2 / REAL(1825.0) + t_7 / REAL(1825.0) + t_16 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w8: factor of Fx in stage 2 */
-    c->r1_w8_v2_Fx = t_8 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w8: factor of Fx in stage 3 */
-    c->r1_w8_v3_Fx = t_8 / REAL(1825.0) - t_3 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w9: factor of m.me.we in stage 2 */
-    c->r1_w9_v2_m__me__we = t_13 / REAL(365.0);
-
-    /* khepera.bg:17: r1_w9: factor of m.me.we in stage 3 */
-    c->r1_w9_v3_m__me__we = t / REAL(365.0) - t_13 / REAL(365.0);
-
-    /* khepera.bg:17: r1_w10: factor of m.wh.ws in stage 2 */
-    c->r1_w10_v2_m__wh__ws = t_14 / REAL(365.0);
-
-    /* khepera.bg:17: r1_w10: factor of m.wh.ws in stage 3 */
-    c->r1_w10_v3_m__wh__ws = t_2 / REAL(365.0) - t_14 / REAL(365.0);
+    /* khepera.bg:17: r1_w10: factor of m.wh.ws' */
+    c->r1_w10_w1_m__wh__ws = t_12 / REAL(365.0);
 }
 
 static bool parameters_are_finite(const drive_bench_threshold_parameters *p)
@@ -290,23 +252,23 @@ static bool parameters_are_finite(const drive_bench_threshold_parameters *p)
 
 static bool coefficients_are_finite(const drive_bench_threshold_monitor *monitor)
 {
-    return finite_number(monitor->c.r1_w1_v3_Fx + monitor->c.r1_w1_v2_m__wh__ws
-            + monitor->c.r1_w1_v3_m__wh__ws + monitor->c.r1_w1_v2_m__me__we
-            + monitor->c.r1_w1_v3_m__me__we + monitor->c.a + monitor->c.b0 + monitor->c.b1
-            + monitor->c.rest + monitor->c.r1_w2_v1_m__me__we + monitor->c.r1_w2_v2_m__me__we
-            + monitor->c.r1_w2_v3_m__me__we + monitor->c.r1_w2_v2_Fx + monitor->c.r1_w2_v3_Fx
-            + monitor->c.r1_w2_v1_m__wh__ws + monitor->c.r1_w2_v2_m__wh__ws
-            + monitor->c.r1_w2_v3_m__wh__ws + monitor->c.r1_w3_v2_m__me__we
-            + monitor->c.r1_w3_v3_m__me__we + monitor->c.r1_w4_v2_m__wh__ws
-            + monitor->c.r1_w4_v3_m__wh__ws + monitor->c.r1_w5_v2_m__me__we
-            + monitor->c.r1_w5_v3_m__me__we + monitor->c.r1_w5_v2_m__wh__ws
-            + monitor->c.r1_w5_v3_m__wh__ws + monitor->c.r1_w5_v3_Fx + monitor->c.r1_w6_v3_m__me__we
-            + monitor->c.r1_w7_v3_m__wh__ws + monitor->c.r1_w8_v1_m__me__we
-            + monitor->c.r1_w8_v2_m__me__we + monitor->c.r1_w8_v3_m__me__we
-            + monitor->c.r1_w8_v1_m__wh__ws + monitor->c.r1_w8_v2_m__wh__ws
-            + monitor->c.r1_w8_v3_m__wh__ws + monitor->c.r1_w8_v2_Fx + monitor->c.r1_w8_v3_Fx
-            + monitor->c.r1_w9_v2_m__me__we + monitor->c.r1_w9_v3_m__me__we
-            + monitor->c.r1_w10_v2_m__wh__ws + monitor->c.r1_w10_v3_m__wh__ws);
+    return finite_number(monitor->c.r1_w1_Fx + monitor->c.r1_w1_m__wh__ws
+            + monitor->c.r1_w1_w1_m__wh__ws + monitor->c.r1_w1_m__me__we
+            + monitor->c.r1_w1_w1_m__me__we + monitor->c.bend1 + monitor->c.a + monitor->c.b
+            + monitor->c.rest + monitor->c.r1_w2_m__me__we + monitor->c.r1_w2_w1_m__me__we
+            + monitor->c.r1_w2_w2_m__me__we + monitor->c.r1_w2_Fx + monitor->c.r1_w2_w1_Fx
+            + monitor->c.r1_w2_m__wh__ws + monitor->c.r1_w2_w1_m__wh__ws
+            + monitor->c.r1_w2_w2_m__wh__ws + monitor->c.bend2 + monitor->c.r1_w3_m__me__we
+            + monitor->c.r1_w3_w1_m__me__we + monitor->c.r1_w4_m__wh__ws
+            + monitor->c.r1_w4_w1_m__wh__ws + monitor->c.r1_w5_m__me__we
+            + monitor->c.r1_w5_w1_m__me__we + monitor->c.r1_w5_m__wh__ws
+            + monitor->c.r1_w5_w1_m__wh__ws + monitor->c.r1_w5_Fx + monitor->c.r1_w6_m__me__we
+            + monitor->c.r1_w7_m__wh__ws + monitor->c.r1_w8_m__me__we
+            + monitor->c.r1_w8_w1_m__me__we + monitor->c.r1_w8_w2_m__me__we
+            + monitor->c.r1_w8_m__wh__ws + monitor->c.r1_w8_w1_m__wh__ws
+            + monitor->c.r1_w8_w2_m__wh__ws + monitor->c.r1_w8_Fx + monitor->c.r1_w8_w1_Fx
+            + monitor->c.r1_w9_m__me__we + monitor->c.r1_w9_w1_m__me__we
+            + monitor->c.r1_w10_m__wh__ws + monitor->c.r1_w10_w1_m__wh__ws);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -378,9 +340,19 @@ static void start_r1(
     const drive_bench_threshold_coefficients *c = &monitor->c;
     drive_bench_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1_w1: terms of order 0 */
+    const real r1_w1_g0 = -c->r1_w1_Fx * s->Fx - c->r1_w1_m__wh__ws * s->m__wh__ws
+        - c->r1_w1_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = -c->r1_w1_w1_m__wh__ws * s->m__wh__ws
+        - c->r1_w1_w1_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w1: error of order 0 */
+    const real r1_w1_e0 = c->bend1 * r1_w1_g0;
+
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_m__wh__ws * s->m__wh__ws
-        + c->r1_w1_v3_m__me__we * s->m__me__we - c->r1_w1_v3_Fx * s->Fx;
+    const real r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 3, at rest */
     const real r1_w1_y3 = r1_w1_u3;
@@ -389,8 +361,7 @@ static void start_r1(
     x->r1_w1_s3 = c->rest * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_m__wh__ws * s->m__wh__ws
-        - c->r1_w1_v2_m__me__we * s->m__me__we;
+    const real r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + REAL(2.0) * r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 2, at rest */
     const real r1_w1_y2 = r1_w1_u2;
@@ -399,7 +370,7 @@ static void start_r1(
     x->r1_w1_s2 = c->rest * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 1, at rest */
     const real r1_w1_y1 = r1_w1_u1;
@@ -410,9 +381,26 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerance of m.el.Re can do */
     const real r1_w1 = r1_w1_y1;
 
+    /* khepera.bg:17: r1_w2: terms of order 0 */
+    const real r1_w2_g0 = c->r1_w2_m__me__we * s->m__me__we + c->r1_w2_Fx * s->Fx
+        + c->r1_w2_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w2: terms of order 1 */
+    const real r1_w2_g1 = c->r1_w2_w1_m__me__we * s->m__me__we + c->r1_w2_w1_Fx * s->Fx
+        + c->r1_w2_w1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w2: error of order 0 */
+    const real r1_w2_e0 = c->bend2 * r1_w2_g0;
+
+    /* khepera.bg:17: r1_w2: degree 2 */
+    const real r1_w2_d2 = c->r1_w2_w2_m__me__we * s->m__me__we
+        + c->r1_w2_w2_m__wh__ws * s->m__wh__ws - r1_w2_e0;
+
+    /* khepera.bg:17: r1_w2: error of order 1 */
+    const real r1_w2_e1 = c->bend1 * r1_w2_g1;
+
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_m__me__we * s->m__me__we + c->r1_w2_v3_Fx * s->Fx
-        + c->r1_w2_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1;
 
     /* khepera.bg:17: r1_w2: stage 3, at rest */
     const real r1_w2_y3 = r1_w2_u3;
@@ -421,8 +409,7 @@ static void start_r1(
     x->r1_w2_s3 = c->rest * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 + c->r1_w2_v2_m__me__we * s->m__me__we + c->r1_w2_v2_Fx * s->Fx
-        + c->r1_w2_v2_m__wh__ws * s->m__wh__ws;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - REAL(2.0) * r1_w2_d2 - REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 2, at rest */
     const real r1_w2_y2 = r1_w2_u2;
@@ -431,8 +418,7 @@ static void start_r1(
     x->r1_w2_s2 = c->rest * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2 + c->r1_w2_v1_m__me__we * s->m__me__we
-        + c->r1_w2_v1_m__wh__ws * s->m__wh__ws;
+    const real r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 1, at rest */
     const real r1_w2_y1 = r1_w2_u1;
@@ -441,10 +427,19 @@ static void start_r1(
     x->r1_w2_s1 = c->rest * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m.el.k can do */
-    const real r1_w2 = r1_w2_y1;
+    const real r1_w2 = r1_w2_y1 - r1_w2_e1;
+
+    /* khepera.bg:17: r1_w3: terms of order 0 */
+    const real r1_w3_g0 = -c->r1_w3_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w3: degree 1 */
+    const real r1_w3_d1 = c->r1_w3_w1_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w3: error of order 0 */
+    const real r1_w3_e0 = c->bend1 * r1_w3_g0;
 
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_m__me__we * s->m__me__we;
+    const real r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 3, at rest */
     const real r1_w3_y3 = r1_w3_u3;
@@ -453,7 +448,7 @@ static void start_r1(
     x->r1_w3_s3 = c->rest * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 - c->r1_w3_v2_m__me__we * s->m__me__we;
+    const real r1_w3_u2 = r1_w3_y3 + REAL(2.0) * r1_w3_e0 - r1_w3_d1;
 
     /* khepera.bg:17: r1_w3: stage 2, at rest */
     const real r1_w3_y2 = r1_w3_u2;
@@ -462,7 +457,7 @@ static void start_r1(
     x->r1_w3_s2 = c->rest * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2;
+    const real r1_w3_u1 = r1_w3_y2 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 1, at rest */
     const real r1_w3_y1 = r1_w3_u1;
@@ -473,8 +468,17 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerance of m.me.fe can do */
     const real r1_w3 = r1_w3_y1;
 
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = c->r1_w4_w1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend1 * r1_w4_g0;
+
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = c->r1_w4_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 3, at rest */
     const real r1_w4_y3 = r1_w4_u3;
@@ -483,7 +487,7 @@ static void start_r1(
     x->r1_w4_s3 = c->rest * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_m__wh__ws * s->m__wh__ws;
+    const real r1_w4_u2 = r1_w4_y3 + REAL(2.0) * r1_w4_e0 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 2, at rest */
     const real r1_w4_y2 = r1_w4_u2;
@@ -492,7 +496,7 @@ static void start_r1(
     x->r1_w4_s2 = c->rest * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 1, at rest */
     const real r1_w4_y1 = r1_w4_u1;
@@ -503,9 +507,19 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerance of m.wh.fs can do */
     const real r1_w4 = r1_w4_y1;
 
+    /* khepera.bg:17: r1_w5: terms of order 0 */
+    const real r1_w5_g0 = c->r1_w5_m__me__we * s->m__me__we + c->r1_w5_m__wh__ws * s->m__wh__ws
+        + c->r1_w5_Fx * s->Fx;
+
+    /* khepera.bg:17: r1_w5: degree 1 */
+    const real r1_w5_d1 = c->r1_w5_w1_m__me__we * s->m__me__we
+        + c->r1_w5_w1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w5: error of order 0 */
+    const real r1_w5_e0 = c->bend1 * r1_w5_g0;
+
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = c->r1_w5_v3_m__me__we * s->m__me__we
-        + c->r1_w5_v3_m__wh__ws * s->m__wh__ws + c->r1_w5_v3_Fx * s->Fx;
+    const real r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 3, at rest */
     const real r1_w5_y3 = r1_w5_u3;
@@ -514,8 +528,7 @@ static void start_r1(
     x->r1_w5_s3 = c->rest * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
-    const real r1_w5_u2 = r1_w5_y3 + c->r1_w5_v2_m__me__we * s->m__me__we
-        + c->r1_w5_v2_m__wh__ws * s->m__wh__ws;
+    const real r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + REAL(2.0) * r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 2, at rest */
     const real r1_w5_y2 = r1_w5_u2;
@@ -524,7 +537,7 @@ static void start_r1(
     x->r1_w5_s2 = c->rest * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
-    const real r1_w5_u1 = r1_w5_y2;
+    const real r1_w5_u1 = r1_w5_y2 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 1, at rest */
     const real r1_w5_y1 = r1_w5_u1;
@@ -536,7 +549,7 @@ static void start_r1(
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = -c->r1_w6_v3_m__me__we * s->m__me__we;
+    const real r1_w6_u3 = -c->r1_w6_m__me__we * s->m__me__we;
 
     /* khepera.bg:17: r1_w6: stage 3, at rest */
     const real r1_w6_y3 = r1_w6_u3;
@@ -566,7 +579,7 @@ static void start_r1(
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = -c->r1_w7_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_w7_u3 = -c->r1_w7_m__wh__ws * s->m__wh__ws;
 
     /* khepera.bg:17: r1_w7: stage 3, at rest */
     const real r1_w7_y3 = r1_w7_u3;
@@ -595,9 +608,26 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerances of m.el.Re and m.wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
 
+    /* khepera.bg:17: r1_w8: terms of order 0 */
+    const real r1_w8_g0 = -c->r1_w8_m__me__we * s->m__me__we - c->r1_w8_m__wh__ws * s->m__wh__ws
+        - c->r1_w8_Fx * s->Fx;
+
+    /* khepera.bg:17: r1_w8: terms of order 1 */
+    const real r1_w8_g1 = c->r1_w8_w1_m__me__we * s->m__me__we
+        + c->r1_w8_w1_m__wh__ws * s->m__wh__ws - c->r1_w8_w1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1_w8: error of order 0 */
+    const real r1_w8_e0 = c->bend2 * r1_w8_g0;
+
+    /* khepera.bg:17: r1_w8: degree 2 */
+    const real r1_w8_d2 = -c->r1_w8_w2_m__me__we * s->m__me__we
+        - c->r1_w8_w2_m__wh__ws * s->m__wh__ws - r1_w8_e0;
+
+    /* khepera.bg:17: r1_w8: error of order 1 */
+    const real r1_w8_e1 = c->bend1 * r1_w8_g1;
+
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = c->r1_w8_v3_Fx * s->Fx - c->r1_w8_v3_m__me__we * s->m__me__we
-        - c->r1_w8_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1;
 
     /* khepera.bg:17: r1_w8: stage 3, at rest */
     const real r1_w8_y3 = r1_w8_u3;
@@ -606,8 +636,7 @@ static void start_r1(
     x->r1_w8_s3 = c->rest * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
-    const real r1_w8_u2 = r1_w8_y3 + c->r1_w8_v2_m__me__we * s->m__me__we
-        + c->r1_w8_v2_m__wh__ws * s->m__wh__ws - c->r1_w8_v2_Fx * s->Fx;
+    const real r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - REAL(2.0) * r1_w8_d2 - REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 2, at rest */
     const real r1_w8_y2 = r1_w8_u2;
@@ -616,8 +645,7 @@ static void start_r1(
     x->r1_w8_s2 = c->rest * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: input of stage 1 */
-    const real r1_w8_u1 = r1_w8_y2 - c->r1_w8_v1_m__me__we * s->m__me__we
-        - c->r1_w8_v1_m__wh__ws * s->m__wh__ws;
+    const real r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 1, at rest */
     const real r1_w8_y1 = r1_w8_u1;
@@ -626,10 +654,19 @@ static void start_r1(
     x->r1_w8_s1 = c->rest * r1_w8_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of m.el.k can do */
-    const real r1_w8 = r1_w8_y1;
+    const real r1_w8 = r1_w8_y1 - r1_w8_e1;
+
+    /* khepera.bg:17: r1_w9: terms of order 0 */
+    const real r1_w9_g0 = c->r1_w9_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w9: degree 1 */
+    const real r1_w9_d1 = c->r1_w9_w1_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w9: error of order 0 */
+    const real r1_w9_e0 = c->bend1 * r1_w9_g0;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_m__me__we * s->m__me__we;
+    const real r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 3, at rest */
     const real r1_w9_y3 = r1_w9_u3;
@@ -638,7 +675,7 @@ static void start_r1(
     x->r1_w9_s3 = c->rest * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_m__me__we * s->m__me__we;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + REAL(2.0) * r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 2, at rest */
     const real r1_w9_y2 = r1_w9_u2;
@@ -647,7 +684,7 @@ static void start_r1(
     x->r1_w9_s2 = c->rest * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2;
+    const real r1_w9_u1 = r1_w9_y2 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 1, at rest */
     const real r1_w9_y1 = r1_w9_u1;
@@ -658,8 +695,17 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerances of m.el.k and m.me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
+    /* khepera.bg:17: r1_w10: terms of order 0 */
+    const real r1_w10_g0 = c->r1_w10_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w10: degree 1 */
+    const real r1_w10_d1 = c->r1_w10_w1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w10: error of order 0 */
+    const real r1_w10_e0 = c->bend1 * r1_w10_g0;
+
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = c->r1_w10_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 3, at rest */
     const real r1_w10_y3 = r1_w10_u3;
@@ -668,7 +714,7 @@ static void start_r1(
     x->r1_w10_s3 = c->rest * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: input of stage 2 */
-    const real r1_w10_u2 = r1_w10_y3 + c->r1_w10_v2_m__wh__ws * s->m__wh__ws;
+    const real r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + REAL(2.0) * r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 2, at rest */
     const real r1_w10_y2 = r1_w10_u2;
@@ -677,7 +723,7 @@ static void start_r1(
     x->r1_w10_s2 = c->rest * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: input of stage 1 */
-    const real r1_w10_u1 = r1_w10_y2;
+    const real r1_w10_u1 = r1_w10_y2 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 1, at rest */
     const real r1_w10_y1 = r1_w10_u1;
@@ -701,312 +747,396 @@ static void next_r1(
     const drive_bench_threshold_coefficients *c = &monitor->c;
     drive_bench_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1_w1: terms of order 0 */
+    const real r1_w1_g0 = -c->r1_w1_Fx * s->Fx - c->r1_w1_m__wh__ws * s->m__wh__ws
+        - c->r1_w1_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = -c->r1_w1_w1_m__wh__ws * s->m__wh__ws
+        - c->r1_w1_w1_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w1: error of order 0 */
+    const real r1_w1_e0 = c->bend1 * r1_w1_g0;
+
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_m__wh__ws * s->m__wh__ws
-        + c->r1_w1_v3_m__me__we * s->m__me__we - c->r1_w1_v3_Fx * s->Fx;
+    const real r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 3 */
-    const real r1_w1_y3 = x->r1_w1_s3 + c->b0 * r1_w1_u3;
+    const real r1_w1_y3 = x->r1_w1_s3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: stage 3: memory */
-    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b1 * r1_w1_u3;
+    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_m__wh__ws * s->m__wh__ws
-        - c->r1_w1_v2_m__me__we * s->m__me__we;
+    const real r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + REAL(2.0) * r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 2 */
-    const real r1_w1_y2 = x->r1_w1_s2 + c->b0 * r1_w1_u2;
+    const real r1_w1_y2 = x->r1_w1_s2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: stage 2: memory */
-    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b1 * r1_w1_u2;
+    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 1 */
-    const real r1_w1_y1 = x->r1_w1_s1 + c->b0 * r1_w1_u1;
+    const real r1_w1_y1 = x->r1_w1_s1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1_w1: stage 1: memory */
-    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b1 * r1_w1_u1;
+    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m.el.Re can do */
     const real r1_w1 = r1_w1_y1;
 
+    /* khepera.bg:17: r1_w2: terms of order 0 */
+    const real r1_w2_g0 = c->r1_w2_m__me__we * s->m__me__we + c->r1_w2_Fx * s->Fx
+        + c->r1_w2_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w2: terms of order 1 */
+    const real r1_w2_g1 = c->r1_w2_w1_m__me__we * s->m__me__we + c->r1_w2_w1_Fx * s->Fx
+        + c->r1_w2_w1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w2: error of order 0 */
+    const real r1_w2_e0 = c->bend2 * r1_w2_g0;
+
+    /* khepera.bg:17: r1_w2: degree 2 */
+    const real r1_w2_d2 = c->r1_w2_w2_m__me__we * s->m__me__we
+        + c->r1_w2_w2_m__wh__ws * s->m__wh__ws - r1_w2_e0;
+
+    /* khepera.bg:17: r1_w2: error of order 1 */
+    const real r1_w2_e1 = c->bend1 * r1_w2_g1;
+
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_m__me__we * s->m__me__we + c->r1_w2_v3_Fx * s->Fx
-        + c->r1_w2_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1;
 
     /* khepera.bg:17: r1_w2: stage 3 */
-    const real r1_w2_y3 = x->r1_w2_s3 + c->b0 * r1_w2_u3;
+    const real r1_w2_y3 = x->r1_w2_s3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: stage 3: memory */
-    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b1 * r1_w2_u3;
+    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 + c->r1_w2_v2_m__me__we * s->m__me__we + c->r1_w2_v2_Fx * s->Fx
-        + c->r1_w2_v2_m__wh__ws * s->m__wh__ws;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - REAL(2.0) * r1_w2_d2 - REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 2 */
-    const real r1_w2_y2 = x->r1_w2_s2 + c->b0 * r1_w2_u2;
+    const real r1_w2_y2 = x->r1_w2_s2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: stage 2: memory */
-    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b1 * r1_w2_u2;
+    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2 + c->r1_w2_v1_m__me__we * s->m__me__we
-        + c->r1_w2_v1_m__wh__ws * s->m__wh__ws;
+    const real r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 1 */
-    const real r1_w2_y1 = x->r1_w2_s1 + c->b0 * r1_w2_u1;
+    const real r1_w2_y1 = x->r1_w2_s1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1_w2: stage 1: memory */
-    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b1 * r1_w2_u1;
+    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m.el.k can do */
-    const real r1_w2 = r1_w2_y1;
+    const real r1_w2 = r1_w2_y1 - r1_w2_e1;
+
+    /* khepera.bg:17: r1_w3: terms of order 0 */
+    const real r1_w3_g0 = -c->r1_w3_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w3: degree 1 */
+    const real r1_w3_d1 = c->r1_w3_w1_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w3: error of order 0 */
+    const real r1_w3_e0 = c->bend1 * r1_w3_g0;
 
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_m__me__we * s->m__me__we;
+    const real r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 3 */
-    const real r1_w3_y3 = x->r1_w3_s3 + c->b0 * r1_w3_u3;
+    const real r1_w3_y3 = x->r1_w3_s3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: stage 3: memory */
-    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b1 * r1_w3_u3;
+    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 - c->r1_w3_v2_m__me__we * s->m__me__we;
+    const real r1_w3_u2 = r1_w3_y3 + REAL(2.0) * r1_w3_e0 - r1_w3_d1;
 
     /* khepera.bg:17: r1_w3: stage 2 */
-    const real r1_w3_y2 = x->r1_w3_s2 + c->b0 * r1_w3_u2;
+    const real r1_w3_y2 = x->r1_w3_s2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: stage 2: memory */
-    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b1 * r1_w3_u2;
+    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2;
+    const real r1_w3_u1 = r1_w3_y2 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 1 */
-    const real r1_w3_y1 = x->r1_w3_s1 + c->b0 * r1_w3_u1;
+    const real r1_w3_y1 = x->r1_w3_s1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1_w3: stage 1: memory */
-    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b1 * r1_w3_u1;
+    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m.me.fe can do */
     const real r1_w3 = r1_w3_y1;
 
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = c->r1_w4_w1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend1 * r1_w4_g0;
+
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = c->r1_w4_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 3 */
-    const real r1_w4_y3 = x->r1_w4_s3 + c->b0 * r1_w4_u3;
+    const real r1_w4_y3 = x->r1_w4_s3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: stage 3: memory */
-    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b1 * r1_w4_u3;
+    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_m__wh__ws * s->m__wh__ws;
+    const real r1_w4_u2 = r1_w4_y3 + REAL(2.0) * r1_w4_e0 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 2 */
-    const real r1_w4_y2 = x->r1_w4_s2 + c->b0 * r1_w4_u2;
+    const real r1_w4_y2 = x->r1_w4_s2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: stage 2: memory */
-    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b1 * r1_w4_u2;
+    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 1 */
-    const real r1_w4_y1 = x->r1_w4_s1 + c->b0 * r1_w4_u1;
+    const real r1_w4_y1 = x->r1_w4_s1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1_w4: stage 1: memory */
-    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b1 * r1_w4_u1;
+    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m.wh.fs can do */
     const real r1_w4 = r1_w4_y1;
 
+    /* khepera.bg:17: r1_w5: terms of order 0 */
+    const real r1_w5_g0 = c->r1_w5_m__me__we * s->m__me__we + c->r1_w5_m__wh__ws * s->m__wh__ws
+        + c->r1_w5_Fx * s->Fx;
+
+    /* khepera.bg:17: r1_w5: degree 1 */
+    const real r1_w5_d1 = c->r1_w5_w1_m__me__we * s->m__me__we
+        + c->r1_w5_w1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w5: error of order 0 */
+    const real r1_w5_e0 = c->bend1 * r1_w5_g0;
+
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = c->r1_w5_v3_m__me__we * s->m__me__we
-        + c->r1_w5_v3_m__wh__ws * s->m__wh__ws + c->r1_w5_v3_Fx * s->Fx;
+    const real r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 3 */
-    const real r1_w5_y3 = x->r1_w5_s3 + c->b0 * r1_w5_u3;
+    const real r1_w5_y3 = x->r1_w5_s3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: stage 3: memory */
-    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b1 * r1_w5_u3;
+    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
-    const real r1_w5_u2 = r1_w5_y3 + c->r1_w5_v2_m__me__we * s->m__me__we
-        + c->r1_w5_v2_m__wh__ws * s->m__wh__ws;
+    const real r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + REAL(2.0) * r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 2 */
-    const real r1_w5_y2 = x->r1_w5_s2 + c->b0 * r1_w5_u2;
+    const real r1_w5_y2 = x->r1_w5_s2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: stage 2: memory */
-    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b1 * r1_w5_u2;
+    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
-    const real r1_w5_u1 = r1_w5_y2;
+    const real r1_w5_u1 = r1_w5_y2 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 1 */
-    const real r1_w5_y1 = x->r1_w5_s1 + c->b0 * r1_w5_u1;
+    const real r1_w5_y1 = x->r1_w5_s1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1_w5: stage 1: memory */
-    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
+    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m.el.Re and m.el.k can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = -c->r1_w6_v3_m__me__we * s->m__me__we;
+    const real r1_w6_u3 = -c->r1_w6_m__me__we * s->m__me__we;
 
     /* khepera.bg:17: r1_w6: stage 3 */
-    const real r1_w6_y3 = x->r1_w6_s3 + c->b0 * r1_w6_u3;
+    const real r1_w6_y3 = x->r1_w6_s3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: stage 3: memory */
-    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b1 * r1_w6_u3;
+    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: input of stage 2 */
     const real r1_w6_u2 = r1_w6_y3;
 
     /* khepera.bg:17: r1_w6: stage 2 */
-    const real r1_w6_y2 = x->r1_w6_s2 + c->b0 * r1_w6_u2;
+    const real r1_w6_y2 = x->r1_w6_s2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: stage 2: memory */
-    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b1 * r1_w6_u2;
+    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: input of stage 1 */
     const real r1_w6_u1 = r1_w6_y2;
 
     /* khepera.bg:17: r1_w6: stage 1 */
-    const real r1_w6_y1 = x->r1_w6_s1 + c->b0 * r1_w6_u1;
+    const real r1_w6_y1 = x->r1_w6_s1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1_w6: stage 1: memory */
-    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
+    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m.el.Re and m.me.fe can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = -c->r1_w7_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_w7_u3 = -c->r1_w7_m__wh__ws * s->m__wh__ws;
 
     /* khepera.bg:17: r1_w7: stage 3 */
-    const real r1_w7_y3 = x->r1_w7_s3 + c->b0 * r1_w7_u3;
+    const real r1_w7_y3 = x->r1_w7_s3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: stage 3: memory */
-    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b1 * r1_w7_u3;
+    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: input of stage 2 */
     const real r1_w7_u2 = r1_w7_y3;
 
     /* khepera.bg:17: r1_w7: stage 2 */
-    const real r1_w7_y2 = x->r1_w7_s2 + c->b0 * r1_w7_u2;
+    const real r1_w7_y2 = x->r1_w7_s2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: stage 2: memory */
-    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b1 * r1_w7_u2;
+    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: input of stage 1 */
     const real r1_w7_u1 = r1_w7_y2;
 
     /* khepera.bg:17: r1_w7: stage 1 */
-    const real r1_w7_y1 = x->r1_w7_s1 + c->b0 * r1_w7_u1;
+    const real r1_w7_y1 = x->r1_w7_s1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1_w7: stage 1: memory */
-    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
+    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m.el.Re and m.wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
 
+    /* khepera.bg:17: r1_w8: terms of order 0 */
+    const real r1_w8_g0 = -c->r1_w8_m__me__we * s->m__me__we - c->r1_w8_m__wh__ws * s->m__wh__ws
+        - c->r1_w8_Fx * s->Fx;
+
+    /* khepera.bg:17: r1_w8: terms of order 1 */
+    const real r1_w8_g1 = c->r1_w8_w1_m__me__we * s->m__me__we
+        + c->r1_w8_w1_m__wh__ws * s->m__wh__ws - c->r1_w8_w1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1_w8: error of order 0 */
+    const real r1_w8_e0 = c->bend2 * r1_w8_g0;
+
+    /* khepera.bg:17: r1_w8: degree 2 */
+    const real r1_w8_d2 = -c->r1_w8_w2_m__me__we * s->m__me__we
+        - c->r1_w8_w2_m__wh__ws * s->m__wh__ws - r1_w8_e0;
+
+    /* khepera.bg:17: r1_w8: error of order 1 */
+    const real r1_w8_e1 = c->bend1 * r1_w8_g1;
+
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = c->r1_w8_v3_Fx * s->Fx - c->r1_w8_v3_m__me__we * s->m__me__we
-        - c->r1_w8_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1;
 
     /* khepera.bg:17: r1_w8: stage 3 */
-    const real r1_w8_y3 = x->r1_w8_s3 + c->b0 * r1_w8_u3;
+    const real r1_w8_y3 = x->r1_w8_s3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: stage 3: memory */
-    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b1 * r1_w8_u3;
+    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
-    const real r1_w8_u2 = r1_w8_y3 + c->r1_w8_v2_m__me__we * s->m__me__we
-        + c->r1_w8_v2_m__wh__ws * s->m__wh__ws - c->r1_w8_v2_Fx * s->Fx;
+    const real r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - REAL(2.0) * r1_w8_d2 - REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 2 */
-    const real r1_w8_y2 = x->r1_w8_s2 + c->b0 * r1_w8_u2;
+    const real r1_w8_y2 = x->r1_w8_s2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: stage 2: memory */
-    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b1 * r1_w8_u2;
+    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: input of stage 1 */
-    const real r1_w8_u1 = r1_w8_y2 - c->r1_w8_v1_m__me__we * s->m__me__we
-        - c->r1_w8_v1_m__wh__ws * s->m__wh__ws;
+    const real r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 1 */
-    const real r1_w8_y1 = x->r1_w8_s1 + c->b0 * r1_w8_u1;
+    const real r1_w8_y1 = x->r1_w8_s1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1_w8: stage 1: memory */
-    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
+    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of m.el.k can do */
-    const real r1_w8 = r1_w8_y1;
+    const real r1_w8 = r1_w8_y1 - r1_w8_e1;
+
+    /* khepera.bg:17: r1_w9: terms of order 0 */
+    const real r1_w9_g0 = c->r1_w9_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w9: degree 1 */
+    const real r1_w9_d1 = c->r1_w9_w1_m__me__we * s->m__me__we;
+
+    /* khepera.bg:17: r1_w9: error of order 0 */
+    const real r1_w9_e0 = c->bend1 * r1_w9_g0;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_m__me__we * s->m__me__we;
+    const real r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 3 */
-    const real r1_w9_y3 = x->r1_w9_s3 + c->b0 * r1_w9_u3;
+    const real r1_w9_y3 = x->r1_w9_s3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: stage 3: memory */
-    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b1 * r1_w9_u3;
+    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_m__me__we * s->m__me__we;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + REAL(2.0) * r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 2 */
-    const real r1_w9_y2 = x->r1_w9_s2 + c->b0 * r1_w9_u2;
+    const real r1_w9_y2 = x->r1_w9_s2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: stage 2: memory */
-    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b1 * r1_w9_u2;
+    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2;
+    const real r1_w9_u1 = r1_w9_y2 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 1 */
-    const real r1_w9_y1 = x->r1_w9_s1 + c->b0 * r1_w9_u1;
+    const real r1_w9_y1 = x->r1_w9_s1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1_w9: stage 1: memory */
-    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
+    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m.el.k and m.me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
+    /* khepera.bg:17: r1_w10: terms of order 0 */
+    const real r1_w10_g0 = c->r1_w10_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w10: degree 1 */
+    const real r1_w10_d1 = c->r1_w10_w1_m__wh__ws * s->m__wh__ws;
+
+    /* khepera.bg:17: r1_w10: error of order 0 */
+    const real r1_w10_e0 = c->bend1 * r1_w10_g0;
+
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = c->r1_w10_v3_m__wh__ws * s->m__wh__ws;
+    const real r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 3 */
-    const real r1_w10_y3 = x->r1_w10_s3 + c->b0 * r1_w10_u3;
+    const real r1_w10_y3 = x->r1_w10_s3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: stage 3: memory */
-    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b1 * r1_w10_u3;
+    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: input of stage 2 */
-    const real r1_w10_u2 = r1_w10_y3 + c->r1_w10_v2_m__wh__ws * s->m__wh__ws;
+    const real r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + REAL(2.0) * r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 2 */
-    const real r1_w10_y2 = x->r1_w10_s2 + c->b0 * r1_w10_u2;
+    const real r1_w10_y2 = x->r1_w10_s2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: stage 2: memory */
-    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b1 * r1_w10_u2;
+    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: input of stage 1 */
-    const real r1_w10_u1 = r1_w10_y2;
+    const real r1_w10_u1 = r1_w10_y2 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 1 */
-    const real r1_w10_y1 = x->r1_w10_s1 + c->b0 * r1_w10_u1;
+    const real r1_w10_y1 = x->r1_w10_s1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1_w10: stage 1: memory */
-    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
+    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m.el.k and m.wh.fs can do together */
     const real r1_w10 = r1_w10_y1;

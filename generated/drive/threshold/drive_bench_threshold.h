@@ -32,7 +32,7 @@ typedef double drive_bench_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define DRIVE_BENCH_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(drive_bench_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define DRIVE_BENCH_THRESHOLD_DIGEST "ef1e6991462440a5"
+#define DRIVE_BENCH_THRESHOLD_DIGEST "e727117c054f0c86"
 
 /* What the code was made for: arguments of drive_bench_threshold_configure, in s, rad/s and s. */
 #define DRIVE_BENCH_THRESHOLD_SAMPLE_TIME DRIVE_BENCH_THRESHOLD_CONSTANT(0.001)
@@ -93,47 +93,49 @@ typedef struct drive_bench_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct drive_bench_threshold_coefficients {
-    drive_bench_threshold_real r1_w1_v3_Fx;          /* r1_w1: factor of Fx in stage 3 */
-    drive_bench_threshold_real r1_w1_v2_m__wh__ws;   /* r1_w1: factor of m.wh.ws in stage 2 */
-    drive_bench_threshold_real r1_w1_v3_m__wh__ws;   /* r1_w1: factor of m.wh.ws in stage 3 */
-    drive_bench_threshold_real r1_w1_v2_m__me__we;   /* r1_w1: factor of m.me.we in stage 2 */
-    drive_bench_threshold_real r1_w1_v3_m__me__we;   /* r1_w1: factor of m.me.we in stage 3 */
-    drive_bench_threshold_real a;                    /* filter: exp(-bandwidth*sample_time) */
-    drive_bench_threshold_real b0;                   /* filter: weight of the new sample */
-    drive_bench_threshold_real b1;                   /* filter: weight of the sample before */
-    /* filter: 1 - b0, the memory of a constant 1 */
-    drive_bench_threshold_real rest;
-    drive_bench_threshold_real r1_w2_v1_m__me__we;   /* r1_w2: factor of m.me.we in stage 1 */
-    drive_bench_threshold_real r1_w2_v2_m__me__we;   /* r1_w2: factor of m.me.we in stage 2 */
-    drive_bench_threshold_real r1_w2_v3_m__me__we;   /* r1_w2: factor of m.me.we in stage 3 */
-    drive_bench_threshold_real r1_w2_v2_Fx;          /* r1_w2: factor of Fx in stage 2 */
-    drive_bench_threshold_real r1_w2_v3_Fx;          /* r1_w2: factor of Fx in stage 3 */
-    drive_bench_threshold_real r1_w2_v1_m__wh__ws;   /* r1_w2: factor of m.wh.ws in stage 1 */
-    drive_bench_threshold_real r1_w2_v2_m__wh__ws;   /* r1_w2: factor of m.wh.ws in stage 2 */
-    drive_bench_threshold_real r1_w2_v3_m__wh__ws;   /* r1_w2: factor of m.wh.ws in stage 3 */
-    drive_bench_threshold_real r1_w3_v2_m__me__we;   /* r1_w3: factor of m.me.we in stage 2 */
-    drive_bench_threshold_real r1_w3_v3_m__me__we;   /* r1_w3: factor of m.me.we in stage 3 */
-    drive_bench_threshold_real r1_w4_v2_m__wh__ws;   /* r1_w4: factor of m.wh.ws in stage 2 */
-    drive_bench_threshold_real r1_w4_v3_m__wh__ws;   /* r1_w4: factor of m.wh.ws in stage 3 */
-    drive_bench_threshold_real r1_w5_v2_m__me__we;   /* r1_w5: factor of m.me.we in stage 2 */
-    drive_bench_threshold_real r1_w5_v3_m__me__we;   /* r1_w5: factor of m.me.we in stage 3 */
-    drive_bench_threshold_real r1_w5_v2_m__wh__ws;   /* r1_w5: factor of m.wh.ws in stage 2 */
-    drive_bench_threshold_real r1_w5_v3_m__wh__ws;   /* r1_w5: factor of m.wh.ws in stage 3 */
-    drive_bench_threshold_real r1_w5_v3_Fx;          /* r1_w5: factor of Fx in stage 3 */
-    drive_bench_threshold_real r1_w6_v3_m__me__we;   /* r1_w6: factor of m.me.we in stage 3 */
-    drive_bench_threshold_real r1_w7_v3_m__wh__ws;   /* r1_w7: factor of m.wh.ws in stage 3 */
-    drive_bench_threshold_real r1_w8_v1_m__me__we;   /* r1_w8: factor of m.me.we in stage 1 */
-    drive_bench_threshold_real r1_w8_v2_m__me__we;   /* r1_w8: factor of m.me.we in stage 2 */
-    drive_bench_threshold_real r1_w8_v3_m__me__we;   /* r1_w8: factor of m.me.we in stage 3 */
-    drive_bench_threshold_real r1_w8_v1_m__wh__ws;   /* r1_w8: factor of m.wh.ws in stage 1 */
-    drive_bench_threshold_real r1_w8_v2_m__wh__ws;   /* r1_w8: factor of m.wh.ws in stage 2 */
-    drive_bench_threshold_real r1_w8_v3_m__wh__ws;   /* r1_w8: factor of m.wh.ws in stage 3 */
-    drive_bench_threshold_real r1_w8_v2_Fx;          /* r1_w8: factor of Fx in stage 2 */
-    drive_bench_threshold_real r1_w8_v3_Fx;          /* r1_w8: factor of Fx in stage 3 */
-    drive_bench_threshold_real r1_w9_v2_m__me__we;   /* r1_w9: factor of m.me.we in stage 2 */
-    drive_bench_threshold_real r1_w9_v3_m__me__we;   /* r1_w9: factor of m.me.we in stage 3 */
-    drive_bench_threshold_real r1_w10_v2_m__wh__ws;  /* r1_w10: factor of m.wh.ws in stage 2 */
-    drive_bench_threshold_real r1_w10_v3_m__wh__ws;  /* r1_w10: factor of m.wh.ws in stage 3 */
+    drive_bench_threshold_real r1_w1_Fx;             /* r1_w1: factor of Fx */
+    drive_bench_threshold_real r1_w1_m__wh__ws;      /* r1_w1: factor of m.wh.ws */
+    drive_bench_threshold_real r1_w1_w1_m__wh__ws;   /* r1_w1: factor of m.wh.ws' */
+    drive_bench_threshold_real r1_w1_m__me__we;      /* r1_w1: factor of m.me.we */
+    drive_bench_threshold_real r1_w1_w1_m__me__we;   /* r1_w1: factor of m.me.we' */
+    drive_bench_threshold_real bend1;                /* filter: 1 * (w*sample_time)^2/12 */
+    /* filter: what is left of a memory a sample later */
+    drive_bench_threshold_real a;
+    /* filter: weight of a sample, new and a sample later */
+    drive_bench_threshold_real b;
+    drive_bench_threshold_real rest;                 /* filter: 1 - b, the memory of a constant 1 */
+    drive_bench_threshold_real r1_w2_m__me__we;      /* r1_w2: factor of m.me.we */
+    drive_bench_threshold_real r1_w2_w1_m__me__we;   /* r1_w2: factor of m.me.we' */
+    drive_bench_threshold_real r1_w2_w2_m__me__we;   /* r1_w2: factor of m.me.we'' */
+    drive_bench_threshold_real r1_w2_Fx;             /* r1_w2: factor of Fx */
+    drive_bench_threshold_real r1_w2_w1_Fx;          /* r1_w2: factor of Fx' */
+    drive_bench_threshold_real r1_w2_m__wh__ws;      /* r1_w2: factor of m.wh.ws */
+    drive_bench_threshold_real r1_w2_w1_m__wh__ws;   /* r1_w2: factor of m.wh.ws' */
+    drive_bench_threshold_real r1_w2_w2_m__wh__ws;   /* r1_w2: factor of m.wh.ws'' */
+    drive_bench_threshold_real bend2;                /* filter: 2 * (w*sample_time)^2/12 */
+    drive_bench_threshold_real r1_w3_m__me__we;      /* r1_w3: factor of m.me.we */
+    drive_bench_threshold_real r1_w3_w1_m__me__we;   /* r1_w3: factor of m.me.we' */
+    drive_bench_threshold_real r1_w4_m__wh__ws;      /* r1_w4: factor of m.wh.ws */
+    drive_bench_threshold_real r1_w4_w1_m__wh__ws;   /* r1_w4: factor of m.wh.ws' */
+    drive_bench_threshold_real r1_w5_m__me__we;      /* r1_w5: factor of m.me.we */
+    drive_bench_threshold_real r1_w5_w1_m__me__we;   /* r1_w5: factor of m.me.we' */
+    drive_bench_threshold_real r1_w5_m__wh__ws;      /* r1_w5: factor of m.wh.ws */
+    drive_bench_threshold_real r1_w5_w1_m__wh__ws;   /* r1_w5: factor of m.wh.ws' */
+    drive_bench_threshold_real r1_w5_Fx;             /* r1_w5: factor of Fx */
+    drive_bench_threshold_real r1_w6_m__me__we;      /* r1_w6: factor of m.me.we */
+    drive_bench_threshold_real r1_w7_m__wh__ws;      /* r1_w7: factor of m.wh.ws */
+    drive_bench_threshold_real r1_w8_m__me__we;      /* r1_w8: factor of m.me.we */
+    drive_bench_threshold_real r1_w8_w1_m__me__we;   /* r1_w8: factor of m.me.we' */
+    drive_bench_threshold_real r1_w8_w2_m__me__we;   /* r1_w8: factor of m.me.we'' */
+    drive_bench_threshold_real r1_w8_m__wh__ws;      /* r1_w8: factor of m.wh.ws */
+    drive_bench_threshold_real r1_w8_w1_m__wh__ws;   /* r1_w8: factor of m.wh.ws' */
+    drive_bench_threshold_real r1_w8_w2_m__wh__ws;   /* r1_w8: factor of m.wh.ws'' */
+    drive_bench_threshold_real r1_w8_Fx;             /* r1_w8: factor of Fx */
+    drive_bench_threshold_real r1_w8_w1_Fx;          /* r1_w8: factor of Fx' */
+    drive_bench_threshold_real r1_w9_m__me__we;      /* r1_w9: factor of m.me.we */
+    drive_bench_threshold_real r1_w9_w1_m__me__we;   /* r1_w9: factor of m.me.we' */
+    drive_bench_threshold_real r1_w10_m__wh__ws;     /* r1_w10: factor of m.wh.ws */
+    drive_bench_threshold_real r1_w10_w1_m__wh__ws;  /* r1_w10: factor of m.wh.ws' */
 } drive_bench_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "ef1e6991462440a5"
+DIGEST = "e727117c054f0c86"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -73,46 +73,47 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
-    r1_w1_v3_Fx: float          # r1_w1: factor of Fx in stage 3
-    r1_w1_v2_m__wh__ws: float   # r1_w1: factor of m.wh.ws in stage 2
-    r1_w1_v3_m__wh__ws: float   # r1_w1: factor of m.wh.ws in stage 3
-    r1_w1_v2_m__me__we: float   # r1_w1: factor of m.me.we in stage 2
-    r1_w1_v3_m__me__we: float   # r1_w1: factor of m.me.we in stage 3
-    a: float                    # filter: exp(-bandwidth*sample_time)
-    b0: float                   # filter: weight of the new sample
-    b1: float                   # filter: weight of the sample before
-    rest: float                 # filter: 1 - b0, the memory of a constant 1
-    r1_w2_v1_m__me__we: float   # r1_w2: factor of m.me.we in stage 1
-    r1_w2_v2_m__me__we: float   # r1_w2: factor of m.me.we in stage 2
-    r1_w2_v3_m__me__we: float   # r1_w2: factor of m.me.we in stage 3
-    r1_w2_v2_Fx: float          # r1_w2: factor of Fx in stage 2
-    r1_w2_v3_Fx: float          # r1_w2: factor of Fx in stage 3
-    r1_w2_v1_m__wh__ws: float   # r1_w2: factor of m.wh.ws in stage 1
-    r1_w2_v2_m__wh__ws: float   # r1_w2: factor of m.wh.ws in stage 2
-    r1_w2_v3_m__wh__ws: float   # r1_w2: factor of m.wh.ws in stage 3
-    r1_w3_v2_m__me__we: float   # r1_w3: factor of m.me.we in stage 2
-    r1_w3_v3_m__me__we: float   # r1_w3: factor of m.me.we in stage 3
-    r1_w4_v2_m__wh__ws: float   # r1_w4: factor of m.wh.ws in stage 2
-    r1_w4_v3_m__wh__ws: float   # r1_w4: factor of m.wh.ws in stage 3
-    r1_w5_v2_m__me__we: float   # r1_w5: factor of m.me.we in stage 2
-    r1_w5_v3_m__me__we: float   # r1_w5: factor of m.me.we in stage 3
-    r1_w5_v2_m__wh__ws: float   # r1_w5: factor of m.wh.ws in stage 2
-    r1_w5_v3_m__wh__ws: float   # r1_w5: factor of m.wh.ws in stage 3
-    r1_w5_v3_Fx: float          # r1_w5: factor of Fx in stage 3
-    r1_w6_v3_m__me__we: float   # r1_w6: factor of m.me.we in stage 3
-    r1_w7_v3_m__wh__ws: float   # r1_w7: factor of m.wh.ws in stage 3
-    r1_w8_v1_m__me__we: float   # r1_w8: factor of m.me.we in stage 1
-    r1_w8_v2_m__me__we: float   # r1_w8: factor of m.me.we in stage 2
-    r1_w8_v3_m__me__we: float   # r1_w8: factor of m.me.we in stage 3
-    r1_w8_v1_m__wh__ws: float   # r1_w8: factor of m.wh.ws in stage 1
-    r1_w8_v2_m__wh__ws: float   # r1_w8: factor of m.wh.ws in stage 2
-    r1_w8_v3_m__wh__ws: float   # r1_w8: factor of m.wh.ws in stage 3
-    r1_w8_v2_Fx: float          # r1_w8: factor of Fx in stage 2
-    r1_w8_v3_Fx: float          # r1_w8: factor of Fx in stage 3
-    r1_w9_v2_m__me__we: float   # r1_w9: factor of m.me.we in stage 2
-    r1_w9_v3_m__me__we: float   # r1_w9: factor of m.me.we in stage 3
-    r1_w10_v2_m__wh__ws: float  # r1_w10: factor of m.wh.ws in stage 2
-    r1_w10_v3_m__wh__ws: float  # r1_w10: factor of m.wh.ws in stage 3
+    r1_w1_Fx: float             # r1_w1: factor of Fx
+    r1_w1_m__wh__ws: float      # r1_w1: factor of m.wh.ws
+    r1_w1_w1_m__wh__ws: float   # r1_w1: factor of m.wh.ws'
+    r1_w1_m__me__we: float      # r1_w1: factor of m.me.we
+    r1_w1_w1_m__me__we: float   # r1_w1: factor of m.me.we'
+    bend1: float                # filter: 1 * (w*sample_time)^2/12
+    a: float                    # filter: what is left of a memory a sample later
+    b: float                    # filter: weight of a sample, new and a sample later
+    rest: float                 # filter: 1 - b, the memory of a constant 1
+    r1_w2_m__me__we: float      # r1_w2: factor of m.me.we
+    r1_w2_w1_m__me__we: float   # r1_w2: factor of m.me.we'
+    r1_w2_w2_m__me__we: float   # r1_w2: factor of m.me.we''
+    r1_w2_Fx: float             # r1_w2: factor of Fx
+    r1_w2_w1_Fx: float          # r1_w2: factor of Fx'
+    r1_w2_m__wh__ws: float      # r1_w2: factor of m.wh.ws
+    r1_w2_w1_m__wh__ws: float   # r1_w2: factor of m.wh.ws'
+    r1_w2_w2_m__wh__ws: float   # r1_w2: factor of m.wh.ws''
+    bend2: float                # filter: 2 * (w*sample_time)^2/12
+    r1_w3_m__me__we: float      # r1_w3: factor of m.me.we
+    r1_w3_w1_m__me__we: float   # r1_w3: factor of m.me.we'
+    r1_w4_m__wh__ws: float      # r1_w4: factor of m.wh.ws
+    r1_w4_w1_m__wh__ws: float   # r1_w4: factor of m.wh.ws'
+    r1_w5_m__me__we: float      # r1_w5: factor of m.me.we
+    r1_w5_w1_m__me__we: float   # r1_w5: factor of m.me.we'
+    r1_w5_m__wh__ws: float      # r1_w5: factor of m.wh.ws
+    r1_w5_w1_m__wh__ws: float   # r1_w5: factor of m.wh.ws'
+    r1_w5_Fx: float             # r1_w5: factor of Fx
+    r1_w6_m__me__we: float      # r1_w6: factor of m.me.we
+    r1_w7_m__wh__ws: float      # r1_w7: factor of m.wh.ws
+    r1_w8_m__me__we: float      # r1_w8: factor of m.me.we
+    r1_w8_w1_m__me__we: float   # r1_w8: factor of m.me.we'
+    r1_w8_w2_m__me__we: float   # r1_w8: factor of m.me.we''
+    r1_w8_m__wh__ws: float      # r1_w8: factor of m.wh.ws
+    r1_w8_w1_m__wh__ws: float   # r1_w8: factor of m.wh.ws'
+    r1_w8_w2_m__wh__ws: float   # r1_w8: factor of m.wh.ws''
+    r1_w8_Fx: float             # r1_w8: factor of Fx
+    r1_w8_w1_Fx: float          # r1_w8: factor of Fx'
+    r1_w9_m__me__we: float      # r1_w9: factor of m.me.we
+    r1_w9_w1_m__me__we: float   # r1_w9: factor of m.me.we'
+    r1_w10_m__wh__ws: float     # r1_w10: factor of m.wh.ws
+    r1_w10_w1_m__wh__ws: float  # r1_w10: factor of m.wh.ws'
 
 
 class Memory:
@@ -182,22 +183,21 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_w1_v3_Fx + self._c.r1_w1_v2_m__wh__ws + self._c.r1_w1_v3_m__wh__ws
-                    + self._c.r1_w1_v2_m__me__we + self._c.r1_w1_v3_m__me__we + self._c.a
-                    + self._c.b0 + self._c.b1 + self._c.rest + self._c.r1_w2_v1_m__me__we
-                    + self._c.r1_w2_v2_m__me__we + self._c.r1_w2_v3_m__me__we + self._c.r1_w2_v2_Fx
-                    + self._c.r1_w2_v3_Fx + self._c.r1_w2_v1_m__wh__ws + self._c.r1_w2_v2_m__wh__ws
-                    + self._c.r1_w2_v3_m__wh__ws + self._c.r1_w3_v2_m__me__we
-                    + self._c.r1_w3_v3_m__me__we + self._c.r1_w4_v2_m__wh__ws
-                    + self._c.r1_w4_v3_m__wh__ws + self._c.r1_w5_v2_m__me__we
-                    + self._c.r1_w5_v3_m__me__we + self._c.r1_w5_v2_m__wh__ws
-                    + self._c.r1_w5_v3_m__wh__ws + self._c.r1_w5_v3_Fx + self._c.r1_w6_v3_m__me__we
-                    + self._c.r1_w7_v3_m__wh__ws + self._c.r1_w8_v1_m__me__we
-                    + self._c.r1_w8_v2_m__me__we + self._c.r1_w8_v3_m__me__we
-                    + self._c.r1_w8_v1_m__wh__ws + self._c.r1_w8_v2_m__wh__ws
-                    + self._c.r1_w8_v3_m__wh__ws + self._c.r1_w8_v2_Fx + self._c.r1_w8_v3_Fx
-                    + self._c.r1_w9_v2_m__me__we + self._c.r1_w9_v3_m__me__we
-                    + self._c.r1_w10_v2_m__wh__ws + self._c.r1_w10_v3_m__wh__ws
+                    self._c.r1_w1_Fx + self._c.r1_w1_m__wh__ws + self._c.r1_w1_w1_m__wh__ws
+                    + self._c.r1_w1_m__me__we + self._c.r1_w1_w1_m__me__we + self._c.bend1
+                    + self._c.a + self._c.b + self._c.rest + self._c.r1_w2_m__me__we
+                    + self._c.r1_w2_w1_m__me__we + self._c.r1_w2_w2_m__me__we + self._c.r1_w2_Fx
+                    + self._c.r1_w2_w1_Fx + self._c.r1_w2_m__wh__ws + self._c.r1_w2_w1_m__wh__ws
+                    + self._c.r1_w2_w2_m__wh__ws + self._c.bend2 + self._c.r1_w3_m__me__we
+                    + self._c.r1_w3_w1_m__me__we + self._c.r1_w4_m__wh__ws
+                    + self._c.r1_w4_w1_m__wh__ws + self._c.r1_w5_m__me__we
+                    + self._c.r1_w5_w1_m__me__we + self._c.r1_w5_m__wh__ws
+                    + self._c.r1_w5_w1_m__wh__ws + self._c.r1_w5_Fx + self._c.r1_w6_m__me__we
+                    + self._c.r1_w7_m__wh__ws + self._c.r1_w8_m__me__we + self._c.r1_w8_w1_m__me__we
+                    + self._c.r1_w8_w2_m__me__we + self._c.r1_w8_m__wh__ws
+                    + self._c.r1_w8_w1_m__wh__ws + self._c.r1_w8_w2_m__wh__ws + self._c.r1_w8_Fx
+                    + self._c.r1_w8_w1_Fx + self._c.r1_w9_m__me__we + self._c.r1_w9_w1_m__me__we
+                    + self._c.r1_w10_m__wh__ws + self._c.r1_w10_w1_m__wh__ws
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -244,6 +244,15 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: m.el.Re*m.me.fe/m.el.k
         t = p.m__el__Re * p.m__me__fe / p.m__el__k
 
@@ -253,204 +262,193 @@ class Monitor:
         # khepera.bg:17: m.el.Re*m.wh.R/(m.ge.N*m.el.k)
         t_3 = p.m__el__Re * p.m__wh__R / p.m__ge__N / p.m__el__k
 
-        # exp(-x)
-        t_4 = _exponential(-x_)
+        # 1 - pole
+        t_4 = 1.0 - pole
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_5 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_4) / x_
+        # turn^2
+        t_5 = turn * turn
+
+        # khepera.bg:17: m.el.L*m.me.Je*w^2/m.el.k
+        t_6 = p.m__el__L * p.m__me__Je * w * w / p.m__el__k
+
+        # khepera.bg:17: m.el.L*m.wh.Js*w^2/(m.ge.N*m.el.k)
+        t_7 = p.m__el__L * p.m__wh__Js * w * w / p.m__ge__N / p.m__el__k
+
+        # khepera.bg:17: m.el.L*m.wh.R*w/(m.ge.N*m.el.k)
+        t_8 = p.m__el__L * p.m__wh__R * w / p.m__ge__N / p.m__el__k
+
+        # khepera.bg:17: m.el.Re*m.wh.Js*w/(m.ge.N*m.el.k)
+        t_9 = p.m__el__Re * p.m__wh__Js * w / p.m__ge__N / p.m__el__k
+
+        # khepera.bg:17: m.el.Re*m.me.Je*w/m.el.k
+        t_10 = p.m__el__Re * p.m__me__Je * w / p.m__el__k
+
+        # khepera.bg:17: m.el.L*m.me.fe*w/m.el.k
+        t_11 = p.m__el__L * p.m__me__fe * w / p.m__el__k
+
+        # khepera.bg:17: m.el.L*m.wh.fs*w/(m.ge.N*m.el.k)
+        t_12 = p.m__el__L * p.m__wh__fs * w / p.m__ge__N / p.m__el__k
+
+        # khepera.bg:17: r1_w1: factor of Fx
+        c.r1_w1_Fx = t_3 / 20.0
+
+        # khepera.bg:17: r1_w1: factor of m.wh.ws
+        c.r1_w1_m__wh__ws = t_2 / 20.0
+
+        # khepera.bg:17: r1_w1: factor of m.wh.ws'
+        c.r1_w1_w1_m__wh__ws = t_9 / 20.0
+
+        # khepera.bg:17: r1_w1: factor of m.me.we
+        c.r1_w1_m__me__we = t / 20.0
+
+        # khepera.bg:17: r1_w1: factor of m.me.we'
+        c.r1_w1_w1_m__me__we = t_10 / 20.0
+
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_5 / 12.0
+
+        # filter: what is left of a memory a sample later
+        c.a = pole
+
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_4
+
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t_4
+
+        # khepera.bg:17: r1_w2: factor of m.me.we
+        c.r1_w2_m__me__we = (
+            p.m__el__k * (p.m__el__Re * p.m__me__fe / p.m__el__k / p.m__el__k - 1.0) / 50.0
         )
 
-        # khepera.bg:17: m.el.L*m.me.Je*bandwidth^2/m.el.k
-        t_6 = p.m__el__L * p.m__me__Je * bandwidth * bandwidth / p.m__el__k
-
-        # khepera.bg:17: m.el.L*m.wh.Js*bandwidth^2/(m.ge.N*m.el.k)
-        t_7 = p.m__el__L * p.m__wh__Js * bandwidth * bandwidth / p.m__ge__N / p.m__el__k
-
-        # khepera.bg:17: m.el.L*m.wh.R*bandwidth/(m.ge.N*m.el.k)
-        t_8 = p.m__el__L * p.m__wh__R * bandwidth / p.m__ge__N / p.m__el__k
-
-        # khepera.bg:17: m.el.Re*m.wh.Js*bandwidth/(m.ge.N*m.el.k)
-        t_9 = p.m__el__Re * p.m__wh__Js * bandwidth / p.m__ge__N / p.m__el__k
-
-        # khepera.bg:17: m.el.Re*m.me.Je*bandwidth/m.el.k
-        t_10 = p.m__el__Re * p.m__me__Je * bandwidth / p.m__el__k
-
-        # khepera.bg:17: m.el.k*bandwidth*(m.el.Re*m.me.Je/m.el.k^2 + m.el.L*m.me.fe/m.el.k^2)
-        t_11 = (
-            p.m__el__k * bandwidth * (p.m__el__Re * p.m__me__Je / p.m__el__k / p.m__el__k
-                + p.m__el__L * p.m__me__fe / p.m__el__k / p.m__el__k)
+        # khepera.bg:17: r1_w2: factor of m.me.we'
+        c.r1_w2_w1_m__me__we = (
+            p.m__el__k * w * (p.m__el__Re * p.m__me__Je / p.m__el__k / p.m__el__k
+                + p.m__el__L * p.m__me__fe / p.m__el__k / p.m__el__k) / 50.0
         )
 
-        # khepera.bg:17: m.el.k*bandwidth*(m.el.Re*m.wh.Js/(m.ge.N*m.el.k^2) +
-        # m.el.L*m.wh.fs/(m.ge.N*m.el.k^2))
-        t_12 = (
-            p.m__el__k * bandwidth
-                * (p.m__el__Re * p.m__wh__Js / p.m__ge__N / p.m__el__k / p.m__el__k
-                + p.m__el__L * p.m__wh__fs / p.m__ge__N / p.m__el__k / p.m__el__k)
+        # khepera.bg:17: r1_w2: factor of m.me.we''
+        c.r1_w2_w2_m__me__we = t_6 / 50.0
+
+        # khepera.bg:17: r1_w2: factor of Fx
+        c.r1_w2_Fx = t_3 / 50.0
+
+        # khepera.bg:17: r1_w2: factor of Fx'
+        c.r1_w2_w1_Fx = t_8 / 50.0
+
+        # khepera.bg:17: r1_w2: factor of m.wh.ws
+        c.r1_w2_m__wh__ws = t_2 / 50.0
+
+        # khepera.bg:17: r1_w2: factor of m.wh.ws'
+        c.r1_w2_w1_m__wh__ws = (
+            p.m__el__k * w * (p.m__el__Re * p.m__wh__Js / p.m__ge__N / p.m__el__k / p.m__el__k
+                + p.m__el__L * p.m__wh__fs / p.m__ge__N / p.m__el__k / p.m__el__k) / 50.0
         )
 
-        # khepera.bg:17: m.el.L*m.me.fe*bandwidth/m.el.k
-        t_13 = p.m__el__L * p.m__me__fe * bandwidth / p.m__el__k
+        # khepera.bg:17: r1_w2: factor of m.wh.ws''
+        c.r1_w2_w2_m__wh__ws = t_7 / 50.0
 
-        # khepera.bg:17: m.el.L*m.wh.fs*bandwidth/(m.ge.N*m.el.k)
-        t_14 = p.m__el__L * p.m__wh__fs * bandwidth / p.m__ge__N / p.m__el__k
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_5 / 6.0
 
-        # khepera.bg:17: m.el.k^2*bandwidth*(-2*m.el.L*m.me.fe/m.el.k^3 -
-        # 2*m.el.Re*m.me.Je/m.el.k^3)
-        t_15 = (
-            p.m__el__k * p.m__el__k * bandwidth
+        # khepera.bg:17: r1_w3: factor of m.me.we
+        c.r1_w3_m__me__we = t / 10.0
+
+        # khepera.bg:17: r1_w3: factor of m.me.we'
+        c.r1_w3_w1_m__me__we = t_11 / 10.0
+
+        # khepera.bg:17: r1_w4: factor of m.wh.ws
+        c.r1_w4_m__wh__ws = t_2 / 10.0
+
+        # khepera.bg:17: r1_w4: factor of m.wh.ws'
+        c.r1_w4_w1_m__wh__ws = t_12 / 10.0
+
+        # khepera.bg:17: r1_w5: factor of m.me.we
+        c.r1_w5_m__me__we = t / 730.0
+
+        # khepera.bg:17: r1_w5: factor of m.me.we'
+        c.r1_w5_w1_m__me__we = t_10 / 730.0
+
+        # khepera.bg:17: r1_w5: factor of m.wh.ws
+        c.r1_w5_m__wh__ws = t_2 / 730.0
+
+        # khepera.bg:17: r1_w5: factor of m.wh.ws'
+        c.r1_w5_w1_m__wh__ws = t_9 / 730.0
+
+        # khepera.bg:17: r1_w5: factor of Fx
+        c.r1_w5_Fx = t_3 / 730.0
+
+        # khepera.bg:17: r1_w6: factor of m.me.we
+        c.r1_w6_m__me__we = t / 146.0
+
+        # khepera.bg:17: r1_w7: factor of m.wh.ws
+        c.r1_w7_m__wh__ws = t_2 / 146.0
+
+        # khepera.bg:17: r1_w8: factor of m.me.we
+        c.r1_w8_m__me__we = t / 1825.0
+
+        # khepera.bg:17: r1_w8: factor of m.me.we'
+        c.r1_w8_w1_m__me__we = (
+            p.m__el__k * p.m__el__k * w
                 * (-2.0 * p.m__el__L * p.m__me__fe / p.m__el__k / p.m__el__k / p.m__el__k
-                - 2.0 * p.m__el__Re * p.m__me__Je / p.m__el__k / p.m__el__k / p.m__el__k)
+                - 2.0 * p.m__el__Re * p.m__me__Je / p.m__el__k / p.m__el__k / p.m__el__k) / 3650.0
         )
 
-        # khepera.bg:17: m.el.k^2*bandwidth*(-2*m.el.L*m.wh.fs/(m.ge.N*m.el.k^3) -
-        # 2*m.el.Re*m.wh.Js/(m.ge.N*m. ...
-        t_16 = (
-            p.m__el__k * p.m__el__k * bandwidth
+        # khepera.bg:17: r1_w8: factor of m.me.we''
+        c.r1_w8_w2_m__me__we = t_6 / 1825.0
+
+        # khepera.bg:17: r1_w8: factor of m.wh.ws
+        c.r1_w8_m__wh__ws = t_2 / 1825.0
+
+        # khepera.bg:17: r1_w8: factor of m.wh.ws'
+        c.r1_w8_w1_m__wh__ws = (
+            p.m__el__k * p.m__el__k * w
                 * (-2.0 * p.m__el__L * p.m__wh__fs / p.m__ge__N / p.m__el__k / p.m__el__k
                     / p.m__el__k
                 - 2.0 * p.m__el__Re * p.m__wh__Js / p.m__ge__N / p.m__el__k / p.m__el__k
                     / p.m__el__k)
+                / 3650.0
         )
 
-        # khepera.bg:17: r1_w1: factor of Fx in stage 3
-        c.r1_w1_v3_Fx = t_3 / 20.0
+        # khepera.bg:17: r1_w8: factor of m.wh.ws''
+        c.r1_w8_w2_m__wh__ws = t_7 / 1825.0
 
-        # khepera.bg:17: r1_w1: factor of m.wh.ws in stage 2
-        c.r1_w1_v2_m__wh__ws = t_9 / 20.0
+        # khepera.bg:17: r1_w8: factor of Fx
+        c.r1_w8_Fx = t_3 / 1825.0
 
-        # khepera.bg:17: r1_w1: factor of m.wh.ws in stage 3
-        c.r1_w1_v3_m__wh__ws = t_9 / 20.0 - t_2 / 20.0
+        # khepera.bg:17: r1_w8: factor of Fx'
+        c.r1_w8_w1_Fx = t_8 / 1825.0
 
-        # khepera.bg:17: r1_w1: factor of m.me.we in stage 2
-        c.r1_w1_v2_m__me__we = t_10 / 20.0
+        # khepera.bg:17: r1_w9: factor of m.me.we
+        c.r1_w9_m__me__we = t / 365.0
 
-        # khepera.bg:17: r1_w1: factor of m.me.we in stage 3
-        c.r1_w1_v3_m__me__we = t_10 / 20.0 - t / 20.0
+        # khepera.bg:17: r1_w9: factor of m.me.we'
+        c.r1_w9_w1_m__me__we = t_11 / 365.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_4
+        # khepera.bg:17: r1_w10: factor of m.wh.ws
+        c.r1_w10_m__wh__ws = t_2 / 365.0
 
-        # filter: weight of the new sample
-        c.b0 = t_5
-
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_4 - t_5
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_5
-
-        # khepera.bg:17: r1_w2: factor of m.me.we in stage 1
-        c.r1_w2_v1_m__me__we = t_6 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of m.me.we in stage 2
-        c.r1_w2_v2_m__me__we = t_11 / 50.0 - t_6 / 25.0
-
-        # khepera.bg:17: r1_w2: factor of m.me.we in stage 3
-        c.r1_w2_v3_m__me__we = (
-            t_6 / 50.0
-            + p.m__el__k * (p.m__el__Re * p.m__me__fe / p.m__el__k / p.m__el__k - 1.0) / 50.0
-            - t_11 / 50.0
-        )
-
-        # khepera.bg:17: r1_w2: factor of Fx in stage 2
-        c.r1_w2_v2_Fx = t_8 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of Fx in stage 3
-        c.r1_w2_v3_Fx = t_3 / 50.0 - t_8 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of m.wh.ws in stage 1
-        c.r1_w2_v1_m__wh__ws = t_7 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of m.wh.ws in stage 2
-        c.r1_w2_v2_m__wh__ws = t_12 / 50.0 - t_7 / 25.0
-
-        # khepera.bg:17: r1_w2: factor of m.wh.ws in stage 3
-        c.r1_w2_v3_m__wh__ws = t_2 / 50.0 + t_7 / 50.0 - t_12 / 50.0
-
-        # khepera.bg:17: r1_w3: factor of m.me.we in stage 2
-        c.r1_w3_v2_m__me__we = t_13 / 10.0
-
-        # khepera.bg:17: r1_w3: factor of m.me.we in stage 3
-        c.r1_w3_v3_m__me__we = t_13 / 10.0 - t / 10.0
-
-        # khepera.bg:17: r1_w4: factor of m.wh.ws in stage 2
-        c.r1_w4_v2_m__wh__ws = t_14 / 10.0
-
-        # khepera.bg:17: r1_w4: factor of m.wh.ws in stage 3
-        c.r1_w4_v3_m__wh__ws = t_14 / 10.0 - t_2 / 10.0
-
-        # khepera.bg:17: r1_w5: factor of m.me.we in stage 2
-        c.r1_w5_v2_m__me__we = t_10 / 730.0
-
-        # khepera.bg:17: r1_w5: factor of m.me.we in stage 3
-        c.r1_w5_v3_m__me__we = t / 730.0 - t_10 / 730.0
-
-        # khepera.bg:17: r1_w5: factor of m.wh.ws in stage 2
-        c.r1_w5_v2_m__wh__ws = t_9 / 730.0
-
-        # khepera.bg:17: r1_w5: factor of m.wh.ws in stage 3
-        c.r1_w5_v3_m__wh__ws = t_2 / 730.0 - t_9 / 730.0
-
-        # khepera.bg:17: r1_w5: factor of Fx in stage 3
-        c.r1_w5_v3_Fx = t_3 / 730.0
-
-        # khepera.bg:17: r1_w6: factor of m.me.we in stage 3
-        c.r1_w6_v3_m__me__we = t / 146.0
-
-        # khepera.bg:17: r1_w7: factor of m.wh.ws in stage 3
-        c.r1_w7_v3_m__wh__ws = t_2 / 146.0
-
-        # khepera.bg:17: r1_w8: factor of m.me.we in stage 1
-        c.r1_w8_v1_m__me__we = t_6 / 1825.0
-
-        # khepera.bg:17: r1_w8: factor of m.me.we in stage 2
-        c.r1_w8_v2_m__me__we = 2.0 * t_6 / 1825.0 + t_15 / 3650.0
-
-        # khepera.bg:17: r1_w8: factor of m.me.we in stage 3
-        c.r1_w8_v3_m__me__we = t / 1825.0 + t_6 / 1825.0 + t_15 / 3650.0
-
-        # khepera.bg:17: r1_w8: factor of m.wh.ws in stage 1
-        c.r1_w8_v1_m__wh__ws = t_7 / 1825.0
-
-        # khepera.bg:17: r1_w8: factor of m.wh.ws in stage 2
-        c.r1_w8_v2_m__wh__ws = 2.0 * t_7 / 1825.0 + t_16 / 3650.0
-
-        # khepera.bg:17: r1_w8: factor of m.wh.ws in stage 3
-        c.r1_w8_v3_m__wh__ws = t_2 / 1825.0 + t_7 / 1825.0 + t_16 / 3650.0
-
-        # khepera.bg:17: r1_w8: factor of Fx in stage 2
-        c.r1_w8_v2_Fx = t_8 / 1825.0
-
-        # khepera.bg:17: r1_w8: factor of Fx in stage 3
-        c.r1_w8_v3_Fx = t_8 / 1825.0 - t_3 / 1825.0
-
-        # khepera.bg:17: r1_w9: factor of m.me.we in stage 2
-        c.r1_w9_v2_m__me__we = t_13 / 365.0
-
-        # khepera.bg:17: r1_w9: factor of m.me.we in stage 3
-        c.r1_w9_v3_m__me__we = t / 365.0 - t_13 / 365.0
-
-        # khepera.bg:17: r1_w10: factor of m.wh.ws in stage 2
-        c.r1_w10_v2_m__wh__ws = t_14 / 365.0
-
-        # khepera.bg:17: r1_w10: factor of m.wh.ws in stage 3
-        c.r1_w10_v3_m__wh__ws = t_2 / 365.0 - t_14 / 365.0
+        # khepera.bg:17: r1_w10: factor of m.wh.ws'
+        c.r1_w10_w1_m__wh__ws = t_12 / 365.0
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = (
-            c.r1_w1_v3_m__wh__ws * s.m__wh__ws + c.r1_w1_v3_m__me__we * s.m__me__we
-            - c.r1_w1_v3_Fx * s.Fx
+        # khepera.bg:17: r1_w1: terms of order 0
+        r1_w1_g0 = (
+            -c.r1_w1_Fx * s.Fx - c.r1_w1_m__wh__ws * s.m__wh__ws - c.r1_w1_m__me__we * s.m__me__we
         )
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = -c.r1_w1_w1_m__wh__ws * s.m__wh__ws - c.r1_w1_w1_m__me__we * s.m__me__we
+
+        # khepera.bg:17: r1_w1: error of order 0
+        r1_w1_e0 = c.bend1 * r1_w1_g0
+
+        # khepera.bg:17: r1_w1: input of stage 3
+        r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 3, at rest
         r1_w1_y3 = r1_w1_u3
@@ -459,9 +457,7 @@ class Monitor:
         x.r1_w1_s3 = c.rest * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = (
-            r1_w1_y3 - c.r1_w1_v2_m__wh__ws * s.m__wh__ws - c.r1_w1_v2_m__me__we * s.m__me__we
-        )
+        r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + 2.0 * r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 2, at rest
         r1_w1_y2 = r1_w1_u2
@@ -470,7 +466,7 @@ class Monitor:
         x.r1_w1_s2 = c.rest * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 1, at rest
         r1_w1_y1 = r1_w1_u1
@@ -481,11 +477,30 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerance of m.el.Re can do
         r1_w1 = r1_w1_y1
 
-        # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = (
-            c.r1_w2_v3_m__me__we * s.m__me__we + c.r1_w2_v3_Fx * s.Fx
-            + c.r1_w2_v3_m__wh__ws * s.m__wh__ws
+        # khepera.bg:17: r1_w2: terms of order 0
+        r1_w2_g0 = (
+            c.r1_w2_m__me__we * s.m__me__we + c.r1_w2_Fx * s.Fx + c.r1_w2_m__wh__ws * s.m__wh__ws
         )
+
+        # khepera.bg:17: r1_w2: terms of order 1
+        r1_w2_g1 = (
+            c.r1_w2_w1_m__me__we * s.m__me__we + c.r1_w2_w1_Fx * s.Fx
+            + c.r1_w2_w1_m__wh__ws * s.m__wh__ws
+        )
+
+        # khepera.bg:17: r1_w2: error of order 0
+        r1_w2_e0 = c.bend2 * r1_w2_g0
+
+        # khepera.bg:17: r1_w2: degree 2
+        r1_w2_d2 = (
+            c.r1_w2_w2_m__me__we * s.m__me__we + c.r1_w2_w2_m__wh__ws * s.m__wh__ws - r1_w2_e0
+        )
+
+        # khepera.bg:17: r1_w2: error of order 1
+        r1_w2_e1 = c.bend1 * r1_w2_g1
+
+        # khepera.bg:17: r1_w2: input of stage 3
+        r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1
 
         # khepera.bg:17: r1_w2: stage 3, at rest
         r1_w2_y3 = r1_w2_u3
@@ -494,10 +509,7 @@ class Monitor:
         x.r1_w2_s3 = c.rest * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = (
-            r1_w2_y3 + c.r1_w2_v2_m__me__we * s.m__me__we + c.r1_w2_v2_Fx * s.Fx
-            + c.r1_w2_v2_m__wh__ws * s.m__wh__ws
-        )
+        r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - 2.0 * r1_w2_d2 - 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 2, at rest
         r1_w2_y2 = r1_w2_u2
@@ -506,9 +518,7 @@ class Monitor:
         x.r1_w2_s2 = c.rest * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = (
-            r1_w2_y2 + c.r1_w2_v1_m__me__we * s.m__me__we + c.r1_w2_v1_m__wh__ws * s.m__wh__ws
-        )
+        r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 1, at rest
         r1_w2_y1 = r1_w2_u1
@@ -517,10 +527,19 @@ class Monitor:
         x.r1_w2_s1 = c.rest * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of m.el.k can do
-        r1_w2 = r1_w2_y1
+        r1_w2 = r1_w2_y1 - r1_w2_e1
+
+        # khepera.bg:17: r1_w3: terms of order 0
+        r1_w3_g0 = -c.r1_w3_m__me__we * s.m__me__we
+
+        # khepera.bg:17: r1_w3: degree 1
+        r1_w3_d1 = c.r1_w3_w1_m__me__we * s.m__me__we
+
+        # khepera.bg:17: r1_w3: error of order 0
+        r1_w3_e0 = c.bend1 * r1_w3_g0
 
         # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = c.r1_w3_v3_m__me__we * s.m__me__we
+        r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 3, at rest
         r1_w3_y3 = r1_w3_u3
@@ -529,7 +548,7 @@ class Monitor:
         x.r1_w3_s3 = c.rest * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = r1_w3_y3 - c.r1_w3_v2_m__me__we * s.m__me__we
+        r1_w3_u2 = r1_w3_y3 + 2.0 * r1_w3_e0 - r1_w3_d1
 
         # khepera.bg:17: r1_w3: stage 2, at rest
         r1_w3_y2 = r1_w3_u2
@@ -538,7 +557,7 @@ class Monitor:
         x.r1_w3_s2 = c.rest * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = r1_w3_y2
+        r1_w3_u1 = r1_w3_y2 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 1, at rest
         r1_w3_y1 = r1_w3_u1
@@ -549,8 +568,17 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerance of m.me.fe can do
         r1_w3 = r1_w3_y1
 
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = c.r1_w4_w1_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend1 * r1_w4_g0
+
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = c.r1_w4_v3_m__wh__ws * s.m__wh__ws
+        r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 3, at rest
         r1_w4_y3 = r1_w4_u3
@@ -559,7 +587,7 @@ class Monitor:
         x.r1_w4_s3 = c.rest * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = r1_w4_y3 - c.r1_w4_v2_m__wh__ws * s.m__wh__ws
+        r1_w4_u2 = r1_w4_y3 + 2.0 * r1_w4_e0 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 2, at rest
         r1_w4_y2 = r1_w4_u2
@@ -568,7 +596,7 @@ class Monitor:
         x.r1_w4_s2 = c.rest * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 1, at rest
         r1_w4_y1 = r1_w4_u1
@@ -579,11 +607,19 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerance of m.wh.fs can do
         r1_w4 = r1_w4_y1
 
-        # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = (
-            c.r1_w5_v3_m__me__we * s.m__me__we + c.r1_w5_v3_m__wh__ws * s.m__wh__ws
-            + c.r1_w5_v3_Fx * s.Fx
+        # khepera.bg:17: r1_w5: terms of order 0
+        r1_w5_g0 = (
+            c.r1_w5_m__me__we * s.m__me__we + c.r1_w5_m__wh__ws * s.m__wh__ws + c.r1_w5_Fx * s.Fx
         )
+
+        # khepera.bg:17: r1_w5: degree 1
+        r1_w5_d1 = c.r1_w5_w1_m__me__we * s.m__me__we + c.r1_w5_w1_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:17: r1_w5: error of order 0
+        r1_w5_e0 = c.bend1 * r1_w5_g0
+
+        # khepera.bg:17: r1_w5: input of stage 3
+        r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 3, at rest
         r1_w5_y3 = r1_w5_u3
@@ -592,9 +628,7 @@ class Monitor:
         x.r1_w5_s3 = c.rest * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
-        r1_w5_u2 = (
-            r1_w5_y3 + c.r1_w5_v2_m__me__we * s.m__me__we + c.r1_w5_v2_m__wh__ws * s.m__wh__ws
-        )
+        r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + 2.0 * r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 2, at rest
         r1_w5_y2 = r1_w5_u2
@@ -603,7 +637,7 @@ class Monitor:
         x.r1_w5_s2 = c.rest * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
-        r1_w5_u1 = r1_w5_y2
+        r1_w5_u1 = r1_w5_y2 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 1, at rest
         r1_w5_y1 = r1_w5_u1
@@ -615,7 +649,7 @@ class Monitor:
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = -c.r1_w6_v3_m__me__we * s.m__me__we
+        r1_w6_u3 = -c.r1_w6_m__me__we * s.m__me__we
 
         # khepera.bg:17: r1_w6: stage 3, at rest
         r1_w6_y3 = r1_w6_u3
@@ -645,7 +679,7 @@ class Monitor:
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = -c.r1_w7_v3_m__wh__ws * s.m__wh__ws
+        r1_w7_u3 = -c.r1_w7_m__wh__ws * s.m__wh__ws
 
         # khepera.bg:17: r1_w7: stage 3, at rest
         r1_w7_y3 = r1_w7_u3
@@ -674,11 +708,30 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerances of m.el.Re and m.wh.fs can do together
         r1_w7 = r1_w7_y1
 
-        # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = (
-            c.r1_w8_v3_Fx * s.Fx - c.r1_w8_v3_m__me__we * s.m__me__we
-            - c.r1_w8_v3_m__wh__ws * s.m__wh__ws
+        # khepera.bg:17: r1_w8: terms of order 0
+        r1_w8_g0 = (
+            -c.r1_w8_m__me__we * s.m__me__we - c.r1_w8_m__wh__ws * s.m__wh__ws - c.r1_w8_Fx * s.Fx
         )
+
+        # khepera.bg:17: r1_w8: terms of order 1
+        r1_w8_g1 = (
+            c.r1_w8_w1_m__me__we * s.m__me__we + c.r1_w8_w1_m__wh__ws * s.m__wh__ws
+            - c.r1_w8_w1_Fx * s.Fx
+        )
+
+        # khepera.bg:17: r1_w8: error of order 0
+        r1_w8_e0 = c.bend2 * r1_w8_g0
+
+        # khepera.bg:17: r1_w8: degree 2
+        r1_w8_d2 = (
+            -c.r1_w8_w2_m__me__we * s.m__me__we - c.r1_w8_w2_m__wh__ws * s.m__wh__ws - r1_w8_e0
+        )
+
+        # khepera.bg:17: r1_w8: error of order 1
+        r1_w8_e1 = c.bend1 * r1_w8_g1
+
+        # khepera.bg:17: r1_w8: input of stage 3
+        r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1
 
         # khepera.bg:17: r1_w8: stage 3, at rest
         r1_w8_y3 = r1_w8_u3
@@ -687,10 +740,7 @@ class Monitor:
         x.r1_w8_s3 = c.rest * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
-        r1_w8_u2 = (
-            r1_w8_y3 + c.r1_w8_v2_m__me__we * s.m__me__we + c.r1_w8_v2_m__wh__ws * s.m__wh__ws
-            - c.r1_w8_v2_Fx * s.Fx
-        )
+        r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - 2.0 * r1_w8_d2 - 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 2, at rest
         r1_w8_y2 = r1_w8_u2
@@ -699,9 +749,7 @@ class Monitor:
         x.r1_w8_s2 = c.rest * r1_w8_u2
 
         # khepera.bg:17: r1_w8: input of stage 1
-        r1_w8_u1 = (
-            r1_w8_y2 - c.r1_w8_v1_m__me__we * s.m__me__we - c.r1_w8_v1_m__wh__ws * s.m__wh__ws
-        )
+        r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 1, at rest
         r1_w8_y1 = r1_w8_u1
@@ -710,10 +758,19 @@ class Monitor:
         x.r1_w8_s1 = c.rest * r1_w8_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of m.el.k can do
-        r1_w8 = r1_w8_y1
+        r1_w8 = r1_w8_y1 - r1_w8_e1
+
+        # khepera.bg:17: r1_w9: terms of order 0
+        r1_w9_g0 = c.r1_w9_m__me__we * s.m__me__we
+
+        # khepera.bg:17: r1_w9: degree 1
+        r1_w9_d1 = c.r1_w9_w1_m__me__we * s.m__me__we
+
+        # khepera.bg:17: r1_w9: error of order 0
+        r1_w9_e0 = c.bend1 * r1_w9_g0
 
         # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = c.r1_w9_v3_m__me__we * s.m__me__we
+        r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 3, at rest
         r1_w9_y3 = r1_w9_u3
@@ -722,7 +779,7 @@ class Monitor:
         x.r1_w9_s3 = c.rest * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = r1_w9_y3 + c.r1_w9_v2_m__me__we * s.m__me__we
+        r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + 2.0 * r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 2, at rest
         r1_w9_y2 = r1_w9_u2
@@ -731,7 +788,7 @@ class Monitor:
         x.r1_w9_s2 = c.rest * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = r1_w9_y2
+        r1_w9_u1 = r1_w9_y2 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 1, at rest
         r1_w9_y1 = r1_w9_u1
@@ -742,8 +799,17 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerances of m.el.k and m.me.fe can do together
         r1_w9 = r1_w9_y1
 
+        # khepera.bg:17: r1_w10: terms of order 0
+        r1_w10_g0 = c.r1_w10_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:17: r1_w10: degree 1
+        r1_w10_d1 = c.r1_w10_w1_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:17: r1_w10: error of order 0
+        r1_w10_e0 = c.bend1 * r1_w10_g0
+
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = c.r1_w10_v3_m__wh__ws * s.m__wh__ws
+        r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 3, at rest
         r1_w10_y3 = r1_w10_u3
@@ -752,7 +818,7 @@ class Monitor:
         x.r1_w10_s3 = c.rest * r1_w10_u3
 
         # khepera.bg:17: r1_w10: input of stage 2
-        r1_w10_u2 = r1_w10_y3 + c.r1_w10_v2_m__wh__ws * s.m__wh__ws
+        r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + 2.0 * r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 2, at rest
         r1_w10_y2 = r1_w10_u2
@@ -761,7 +827,7 @@ class Monitor:
         x.r1_w10_s2 = c.rest * r1_w10_u2
 
         # khepera.bg:17: r1_w10: input of stage 1
-        r1_w10_u1 = r1_w10_y2
+        r1_w10_u1 = r1_w10_y2 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 1, at rest
         r1_w10_y1 = r1_w10_u1
@@ -783,328 +849,404 @@ class Monitor:
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = (
-            c.r1_w1_v3_m__wh__ws * s.m__wh__ws + c.r1_w1_v3_m__me__we * s.m__me__we
-            - c.r1_w1_v3_Fx * s.Fx
+        # khepera.bg:17: r1_w1: terms of order 0
+        r1_w1_g0 = (
+            -c.r1_w1_Fx * s.Fx - c.r1_w1_m__wh__ws * s.m__wh__ws - c.r1_w1_m__me__we * s.m__me__we
         )
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = -c.r1_w1_w1_m__wh__ws * s.m__wh__ws - c.r1_w1_w1_m__me__we * s.m__me__we
+
+        # khepera.bg:17: r1_w1: error of order 0
+        r1_w1_e0 = c.bend1 * r1_w1_g0
+
+        # khepera.bg:17: r1_w1: input of stage 3
+        r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 3
-        r1_w1_y3 = x.r1_w1_s3 + c.b0 * r1_w1_u3
+        r1_w1_y3 = x.r1_w1_s3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: stage 3: memory
-        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b1 * r1_w1_u3
+        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = (
-            r1_w1_y3 - c.r1_w1_v2_m__wh__ws * s.m__wh__ws - c.r1_w1_v2_m__me__we * s.m__me__we
-        )
+        r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + 2.0 * r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 2
-        r1_w1_y2 = x.r1_w1_s2 + c.b0 * r1_w1_u2
+        r1_w1_y2 = x.r1_w1_s2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b1 * r1_w1_u2
+        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 1
-        r1_w1_y1 = x.r1_w1_s1 + c.b0 * r1_w1_u1
+        r1_w1_y1 = x.r1_w1_s1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b1 * r1_w1_u1
+        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1: what the tolerance of m.el.Re can do
         r1_w1 = r1_w1_y1
 
-        # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = (
-            c.r1_w2_v3_m__me__we * s.m__me__we + c.r1_w2_v3_Fx * s.Fx
-            + c.r1_w2_v3_m__wh__ws * s.m__wh__ws
+        # khepera.bg:17: r1_w2: terms of order 0
+        r1_w2_g0 = (
+            c.r1_w2_m__me__we * s.m__me__we + c.r1_w2_Fx * s.Fx + c.r1_w2_m__wh__ws * s.m__wh__ws
         )
+
+        # khepera.bg:17: r1_w2: terms of order 1
+        r1_w2_g1 = (
+            c.r1_w2_w1_m__me__we * s.m__me__we + c.r1_w2_w1_Fx * s.Fx
+            + c.r1_w2_w1_m__wh__ws * s.m__wh__ws
+        )
+
+        # khepera.bg:17: r1_w2: error of order 0
+        r1_w2_e0 = c.bend2 * r1_w2_g0
+
+        # khepera.bg:17: r1_w2: degree 2
+        r1_w2_d2 = (
+            c.r1_w2_w2_m__me__we * s.m__me__we + c.r1_w2_w2_m__wh__ws * s.m__wh__ws - r1_w2_e0
+        )
+
+        # khepera.bg:17: r1_w2: error of order 1
+        r1_w2_e1 = c.bend1 * r1_w2_g1
+
+        # khepera.bg:17: r1_w2: input of stage 3
+        r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1
 
         # khepera.bg:17: r1_w2: stage 3
-        r1_w2_y3 = x.r1_w2_s3 + c.b0 * r1_w2_u3
+        r1_w2_y3 = x.r1_w2_s3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: stage 3: memory
-        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b1 * r1_w2_u3
+        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = (
-            r1_w2_y3 + c.r1_w2_v2_m__me__we * s.m__me__we + c.r1_w2_v2_Fx * s.Fx
-            + c.r1_w2_v2_m__wh__ws * s.m__wh__ws
-        )
+        r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - 2.0 * r1_w2_d2 - 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 2
-        r1_w2_y2 = x.r1_w2_s2 + c.b0 * r1_w2_u2
+        r1_w2_y2 = x.r1_w2_s2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: stage 2: memory
-        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b1 * r1_w2_u2
+        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = (
-            r1_w2_y2 + c.r1_w2_v1_m__me__we * s.m__me__we + c.r1_w2_v1_m__wh__ws * s.m__wh__ws
-        )
+        r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 1
-        r1_w2_y1 = x.r1_w2_s1 + c.b0 * r1_w2_u1
+        r1_w2_y1 = x.r1_w2_s1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1_w2: stage 1: memory
-        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b1 * r1_w2_u1
+        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of m.el.k can do
-        r1_w2 = r1_w2_y1
+        r1_w2 = r1_w2_y1 - r1_w2_e1
+
+        # khepera.bg:17: r1_w3: terms of order 0
+        r1_w3_g0 = -c.r1_w3_m__me__we * s.m__me__we
+
+        # khepera.bg:17: r1_w3: degree 1
+        r1_w3_d1 = c.r1_w3_w1_m__me__we * s.m__me__we
+
+        # khepera.bg:17: r1_w3: error of order 0
+        r1_w3_e0 = c.bend1 * r1_w3_g0
 
         # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = c.r1_w3_v3_m__me__we * s.m__me__we
+        r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 3
-        r1_w3_y3 = x.r1_w3_s3 + c.b0 * r1_w3_u3
+        r1_w3_y3 = x.r1_w3_s3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: stage 3: memory
-        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b1 * r1_w3_u3
+        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = r1_w3_y3 - c.r1_w3_v2_m__me__we * s.m__me__we
+        r1_w3_u2 = r1_w3_y3 + 2.0 * r1_w3_e0 - r1_w3_d1
 
         # khepera.bg:17: r1_w3: stage 2
-        r1_w3_y2 = x.r1_w3_s2 + c.b0 * r1_w3_u2
+        r1_w3_y2 = x.r1_w3_s2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: stage 2: memory
-        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b1 * r1_w3_u2
+        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = r1_w3_y2
+        r1_w3_u1 = r1_w3_y2 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 1
-        r1_w3_y1 = x.r1_w3_s1 + c.b0 * r1_w3_u1
+        r1_w3_y1 = x.r1_w3_s1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1_w3: stage 1: memory
-        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b1 * r1_w3_u1
+        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1: what the tolerance of m.me.fe can do
         r1_w3 = r1_w3_y1
 
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = c.r1_w4_w1_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend1 * r1_w4_g0
+
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = c.r1_w4_v3_m__wh__ws * s.m__wh__ws
+        r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 3
-        r1_w4_y3 = x.r1_w4_s3 + c.b0 * r1_w4_u3
+        r1_w4_y3 = x.r1_w4_s3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: stage 3: memory
-        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b1 * r1_w4_u3
+        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = r1_w4_y3 - c.r1_w4_v2_m__wh__ws * s.m__wh__ws
+        r1_w4_u2 = r1_w4_y3 + 2.0 * r1_w4_e0 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 2
-        r1_w4_y2 = x.r1_w4_s2 + c.b0 * r1_w4_u2
+        r1_w4_y2 = x.r1_w4_s2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: stage 2: memory
-        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b1 * r1_w4_u2
+        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 1
-        r1_w4_y1 = x.r1_w4_s1 + c.b0 * r1_w4_u1
+        r1_w4_y1 = x.r1_w4_s1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1_w4: stage 1: memory
-        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b1 * r1_w4_u1
+        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1: what the tolerance of m.wh.fs can do
         r1_w4 = r1_w4_y1
 
-        # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = (
-            c.r1_w5_v3_m__me__we * s.m__me__we + c.r1_w5_v3_m__wh__ws * s.m__wh__ws
-            + c.r1_w5_v3_Fx * s.Fx
+        # khepera.bg:17: r1_w5: terms of order 0
+        r1_w5_g0 = (
+            c.r1_w5_m__me__we * s.m__me__we + c.r1_w5_m__wh__ws * s.m__wh__ws + c.r1_w5_Fx * s.Fx
         )
+
+        # khepera.bg:17: r1_w5: degree 1
+        r1_w5_d1 = c.r1_w5_w1_m__me__we * s.m__me__we + c.r1_w5_w1_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:17: r1_w5: error of order 0
+        r1_w5_e0 = c.bend1 * r1_w5_g0
+
+        # khepera.bg:17: r1_w5: input of stage 3
+        r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 3
-        r1_w5_y3 = x.r1_w5_s3 + c.b0 * r1_w5_u3
+        r1_w5_y3 = x.r1_w5_s3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: stage 3: memory
-        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b1 * r1_w5_u3
+        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
-        r1_w5_u2 = (
-            r1_w5_y3 + c.r1_w5_v2_m__me__we * s.m__me__we + c.r1_w5_v2_m__wh__ws * s.m__wh__ws
-        )
+        r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + 2.0 * r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 2
-        r1_w5_y2 = x.r1_w5_s2 + c.b0 * r1_w5_u2
+        r1_w5_y2 = x.r1_w5_s2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: stage 2: memory
-        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b1 * r1_w5_u2
+        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
-        r1_w5_u1 = r1_w5_y2
+        r1_w5_u1 = r1_w5_y2 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 1
-        r1_w5_y1 = x.r1_w5_s1 + c.b0 * r1_w5_u1
+        r1_w5_y1 = x.r1_w5_s1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1_w5: stage 1: memory
-        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b1 * r1_w5_u1
+        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1: what the tolerances of m.el.Re and m.el.k can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = -c.r1_w6_v3_m__me__we * s.m__me__we
+        r1_w6_u3 = -c.r1_w6_m__me__we * s.m__me__we
 
         # khepera.bg:17: r1_w6: stage 3
-        r1_w6_y3 = x.r1_w6_s3 + c.b0 * r1_w6_u3
+        r1_w6_y3 = x.r1_w6_s3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: stage 3: memory
-        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b1 * r1_w6_u3
+        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: input of stage 2
         r1_w6_u2 = r1_w6_y3
 
         # khepera.bg:17: r1_w6: stage 2
-        r1_w6_y2 = x.r1_w6_s2 + c.b0 * r1_w6_u2
+        r1_w6_y2 = x.r1_w6_s2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: stage 2: memory
-        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b1 * r1_w6_u2
+        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: input of stage 1
         r1_w6_u1 = r1_w6_y2
 
         # khepera.bg:17: r1_w6: stage 1
-        r1_w6_y1 = x.r1_w6_s1 + c.b0 * r1_w6_u1
+        r1_w6_y1 = x.r1_w6_s1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1_w6: stage 1: memory
-        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b1 * r1_w6_u1
+        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1: what the tolerances of m.el.Re and m.me.fe can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = -c.r1_w7_v3_m__wh__ws * s.m__wh__ws
+        r1_w7_u3 = -c.r1_w7_m__wh__ws * s.m__wh__ws
 
         # khepera.bg:17: r1_w7: stage 3
-        r1_w7_y3 = x.r1_w7_s3 + c.b0 * r1_w7_u3
+        r1_w7_y3 = x.r1_w7_s3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: stage 3: memory
-        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b1 * r1_w7_u3
+        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: input of stage 2
         r1_w7_u2 = r1_w7_y3
 
         # khepera.bg:17: r1_w7: stage 2
-        r1_w7_y2 = x.r1_w7_s2 + c.b0 * r1_w7_u2
+        r1_w7_y2 = x.r1_w7_s2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: stage 2: memory
-        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b1 * r1_w7_u2
+        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: input of stage 1
         r1_w7_u1 = r1_w7_y2
 
         # khepera.bg:17: r1_w7: stage 1
-        r1_w7_y1 = x.r1_w7_s1 + c.b0 * r1_w7_u1
+        r1_w7_y1 = x.r1_w7_s1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1_w7: stage 1: memory
-        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b1 * r1_w7_u1
+        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1: what the tolerances of m.el.Re and m.wh.fs can do together
         r1_w7 = r1_w7_y1
 
-        # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = (
-            c.r1_w8_v3_Fx * s.Fx - c.r1_w8_v3_m__me__we * s.m__me__we
-            - c.r1_w8_v3_m__wh__ws * s.m__wh__ws
+        # khepera.bg:17: r1_w8: terms of order 0
+        r1_w8_g0 = (
+            -c.r1_w8_m__me__we * s.m__me__we - c.r1_w8_m__wh__ws * s.m__wh__ws - c.r1_w8_Fx * s.Fx
         )
+
+        # khepera.bg:17: r1_w8: terms of order 1
+        r1_w8_g1 = (
+            c.r1_w8_w1_m__me__we * s.m__me__we + c.r1_w8_w1_m__wh__ws * s.m__wh__ws
+            - c.r1_w8_w1_Fx * s.Fx
+        )
+
+        # khepera.bg:17: r1_w8: error of order 0
+        r1_w8_e0 = c.bend2 * r1_w8_g0
+
+        # khepera.bg:17: r1_w8: degree 2
+        r1_w8_d2 = (
+            -c.r1_w8_w2_m__me__we * s.m__me__we - c.r1_w8_w2_m__wh__ws * s.m__wh__ws - r1_w8_e0
+        )
+
+        # khepera.bg:17: r1_w8: error of order 1
+        r1_w8_e1 = c.bend1 * r1_w8_g1
+
+        # khepera.bg:17: r1_w8: input of stage 3
+        r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1
 
         # khepera.bg:17: r1_w8: stage 3
-        r1_w8_y3 = x.r1_w8_s3 + c.b0 * r1_w8_u3
+        r1_w8_y3 = x.r1_w8_s3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: stage 3: memory
-        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b1 * r1_w8_u3
+        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
-        r1_w8_u2 = (
-            r1_w8_y3 + c.r1_w8_v2_m__me__we * s.m__me__we + c.r1_w8_v2_m__wh__ws * s.m__wh__ws
-            - c.r1_w8_v2_Fx * s.Fx
-        )
+        r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - 2.0 * r1_w8_d2 - 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 2
-        r1_w8_y2 = x.r1_w8_s2 + c.b0 * r1_w8_u2
+        r1_w8_y2 = x.r1_w8_s2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: stage 2: memory
-        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b1 * r1_w8_u2
+        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: input of stage 1
-        r1_w8_u1 = (
-            r1_w8_y2 - c.r1_w8_v1_m__me__we * s.m__me__we - c.r1_w8_v1_m__wh__ws * s.m__wh__ws
-        )
+        r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 1
-        r1_w8_y1 = x.r1_w8_s1 + c.b0 * r1_w8_u1
+        r1_w8_y1 = x.r1_w8_s1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1_w8: stage 1: memory
-        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b1 * r1_w8_u1
+        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of m.el.k can do
-        r1_w8 = r1_w8_y1
+        r1_w8 = r1_w8_y1 - r1_w8_e1
+
+        # khepera.bg:17: r1_w9: terms of order 0
+        r1_w9_g0 = c.r1_w9_m__me__we * s.m__me__we
+
+        # khepera.bg:17: r1_w9: degree 1
+        r1_w9_d1 = c.r1_w9_w1_m__me__we * s.m__me__we
+
+        # khepera.bg:17: r1_w9: error of order 0
+        r1_w9_e0 = c.bend1 * r1_w9_g0
 
         # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = c.r1_w9_v3_m__me__we * s.m__me__we
+        r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 3
-        r1_w9_y3 = x.r1_w9_s3 + c.b0 * r1_w9_u3
+        r1_w9_y3 = x.r1_w9_s3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: stage 3: memory
-        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b1 * r1_w9_u3
+        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = r1_w9_y3 + c.r1_w9_v2_m__me__we * s.m__me__we
+        r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + 2.0 * r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 2
-        r1_w9_y2 = x.r1_w9_s2 + c.b0 * r1_w9_u2
+        r1_w9_y2 = x.r1_w9_s2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: stage 2: memory
-        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b1 * r1_w9_u2
+        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = r1_w9_y2
+        r1_w9_u1 = r1_w9_y2 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 1
-        r1_w9_y1 = x.r1_w9_s1 + c.b0 * r1_w9_u1
+        r1_w9_y1 = x.r1_w9_s1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1_w9: stage 1: memory
-        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b1 * r1_w9_u1
+        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1: what the tolerances of m.el.k and m.me.fe can do together
         r1_w9 = r1_w9_y1
 
+        # khepera.bg:17: r1_w10: terms of order 0
+        r1_w10_g0 = c.r1_w10_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:17: r1_w10: degree 1
+        r1_w10_d1 = c.r1_w10_w1_m__wh__ws * s.m__wh__ws
+
+        # khepera.bg:17: r1_w10: error of order 0
+        r1_w10_e0 = c.bend1 * r1_w10_g0
+
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = c.r1_w10_v3_m__wh__ws * s.m__wh__ws
+        r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 3
-        r1_w10_y3 = x.r1_w10_s3 + c.b0 * r1_w10_u3
+        r1_w10_y3 = x.r1_w10_s3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: stage 3: memory
-        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b1 * r1_w10_u3
+        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: input of stage 2
-        r1_w10_u2 = r1_w10_y3 + c.r1_w10_v2_m__wh__ws * s.m__wh__ws
+        r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + 2.0 * r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 2
-        r1_w10_y2 = x.r1_w10_s2 + c.b0 * r1_w10_u2
+        r1_w10_y2 = x.r1_w10_s2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: stage 2: memory
-        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b1 * r1_w10_u2
+        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: input of stage 1
-        r1_w10_u1 = r1_w10_y2
+        r1_w10_u1 = r1_w10_y2 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 1
-        r1_w10_y1 = x.r1_w10_s1 + c.b0 * r1_w10_u1
+        r1_w10_y1 = x.r1_w10_s1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1_w10: stage 1: memory
-        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b1 * r1_w10_u1
+        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1: what the tolerances of m.el.k and m.wh.fs can do together
         r1_w10 = r1_w10_y1
@@ -1156,23 +1298,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

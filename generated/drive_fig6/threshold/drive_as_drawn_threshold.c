@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t drive_as_drawn_threshold_abi(void)
@@ -94,6 +65,15 @@ static void compute_coefficients(drive_as_drawn_threshold_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: el.Re*me.fe/el.k */
     const real t = p->el__Re * p->me__fe / p->el__k;
 
@@ -106,60 +86,35 @@ static void compute_coefficients(drive_as_drawn_threshold_monitor *monitor,
     /* khepera.bg:17: el.Re*wh.R/(ge.N*el.k) */
     const real t_4 = p->el__Re * p->wh__R / p->ge__N / p->el__k;
 
-    /* exp(-x) */
-    const real t_5 = exponential(-x_);
+    /* 1 - pole */
+    const real t_5 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_6 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_5) / x_;
+    /* turn^2 */
+    const real t_6 = turn * turn;
 
-    /* khepera.bg:17: el.L*me.Je*bandwidth^2/el.k */
-    const real t_7 = p->el__L * p->me__Je * bandwidth * bandwidth / p->el__k;
+    /* khepera.bg:17: el.L*me.Je*w^2/el.k */
+    const real t_7 = p->el__L * p->me__Je * w * w / p->el__k;
 
-    /* khepera.bg:17: tau0*A*me.K*el.L*bandwidth/el.k */
-    const real t_8 = p->tau0 * p->A * p->me__K * p->el__L * bandwidth / p->el__k;
+    /* khepera.bg:17: tau0*A*me.K*el.L*w/el.k */
+    const real t_8 = p->tau0 * p->A * p->me__K * p->el__L * w / p->el__k;
 
-    /* khepera.bg:17: el.L*wh.Js*bandwidth^2/(ge.N*el.k) */
-    const real t_9 = p->el__L * p->wh__Js * bandwidth * bandwidth / p->ge__N / p->el__k;
+    /* khepera.bg:17: el.L*wh.Js*w^2/(ge.N*el.k) */
+    const real t_9 = p->el__L * p->wh__Js * w * w / p->ge__N / p->el__k;
 
-    /* khepera.bg:17: el.L*wh.R*bandwidth/(ge.N*el.k) */
-    const real t_10 = p->el__L * p->wh__R * bandwidth / p->ge__N / p->el__k;
+    /* khepera.bg:17: el.L*wh.R*w/(ge.N*el.k) */
+    const real t_10 = p->el__L * p->wh__R * w / p->ge__N / p->el__k;
 
-    /* khepera.bg:17: el.Re*me.Je*bandwidth/el.k */
-    const real t_11 = p->el__Re * p->me__Je * bandwidth / p->el__k;
+    /* khepera.bg:17: el.Re*me.Je*w/el.k */
+    const real t_11 = p->el__Re * p->me__Je * w / p->el__k;
 
-    /* khepera.bg:17: el.Re*wh.Js*bandwidth/(ge.N*el.k) */
-    const real t_12 = p->el__Re * p->wh__Js * bandwidth / p->ge__N / p->el__k;
+    /* khepera.bg:17: el.Re*wh.Js*w/(ge.N*el.k) */
+    const real t_12 = p->el__Re * p->wh__Js * w / p->ge__N / p->el__k;
 
-    /* khepera.bg:17: el.k*bandwidth*(el.Re*wh.Js/(ge.N*el.k^2) + el.L*wh.fs/(ge.N*el.k^2)) */
-    const real t_13 = p->el__k * bandwidth * (p->el__Re * p->wh__Js / p->ge__N / p->el__k / p->el__k
-            + p->el__L * p->wh__fs / p->ge__N / p->el__k / p->el__k);
+    /* khepera.bg:17: el.L*me.fe*w/el.k */
+    const real t_13 = p->el__L * p->me__fe * w / p->el__k;
 
-    /* khepera.bg:17: el.k*bandwidth*(el.Re*me.Je/el.k^2 + el.L*me.fe/el.k^2) */
-    const real t_14 = p->el__k * bandwidth * (p->el__Re * p->me__Je / p->el__k / p->el__k
-            + p->el__L * p->me__fe / p->el__k / p->el__k);
-
-    /* khepera.bg:17: el.L*me.fe*bandwidth/el.k */
-    const real t_15 = p->el__L * p->me__fe * bandwidth / p->el__k;
-
-    /* khepera.bg:17: el.L*wh.fs*bandwidth/(ge.N*el.k) */
-    const real t_16 = p->el__L * p->wh__fs * bandwidth / p->ge__N / p->el__k;
-
-    /* khepera.bg:17: el.k^2*bandwidth*(-2*el.Re*wh.Js/(ge.N*el.k^3) -
-     * 2*el.L*wh.fs/(ge.N*el.k^3)) */
-    const real t_17 = p->el__k * p->el__k * bandwidth
-            * (-REAL(2.0) * p->el__Re * p->wh__Js / p->ge__N / p->el__k / p->el__k / p->el__k
-            - REAL(2.0) * p->el__L * p->wh__fs / p->ge__N / p->el__k / p->el__k / p->el__k);
-
-    /* khepera.bg:17: el.k^2*bandwidth*(-2*el.Re*me.Je/el.k^3 - 2*el.L*me.fe/el.k^3) */
-    const real t_18 = p->el__k * p->el__k * bandwidth
-            * (-REAL(2.0) * p->el__Re * p->me__Je / p->el__k / p->el__k / p->el__k
-            - REAL(2.0) * p->el__L * p->me__fe / p->el__k / p->el__k / p->el__k);
+    /* khepera.bg:17: el.L*wh.fs*w/(ge.N*el.k) */
+    const real t_14 = p->el__L * p->wh__fs * w / p->ge__N / p->el__k;
 
     /* khepera.bg:17: 1/(4*tau0) */
     c->g = REAL(0.25) / p->tau0;
@@ -170,151 +125,157 @@ static void compute_coefficients(drive_as_drawn_threshold_monitor *monitor,
     /* half the sample time */
     c->half_time = REAL(0.5) * sample_time;
 
-    /* khepera.bg:17: r1_w1: factor of me.we in stage 2 */
-    c->r1_w1_v2_me__we = t_11 / REAL(20.0);
+    /* sample_time/24 */
+    c->half_twelfth = sample_time / REAL(24.0);
 
-    /* khepera.bg:17: r1_w1: factor of me.we in stage 3 */
-    c->r1_w1_v3_me__we = t_11 / REAL(20.0) - t / REAL(20.0);
+    /* khepera.bg:17: r1_w1: factor of me.we */
+    c->r1_w1_me__we = t / REAL(20.0);
 
-    /* khepera.bg:17: r1_w1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-     * stage 3 */
-    c->r1_w1_v3_tanh = t_2 / REAL(10.0);
+    /* khepera.bg:17: r1_w1: factor of me.we' */
+    c->r1_w1_w1_me__we = t_11 / REAL(20.0);
 
-    /* khepera.bg:17: r1_w1: factor of wh.ws in stage 2 */
-    c->r1_w1_v2_wh__ws = t_12 / REAL(20.0);
+    /* khepera.bg:17: r1_w1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    c->r1_w1_tanh = t_2 / REAL(10.0);
 
-    /* khepera.bg:17: r1_w1: factor of wh.ws in stage 3 */
-    c->r1_w1_v3_wh__ws = t_12 / REAL(20.0) - t_3 / REAL(20.0);
+    /* khepera.bg:17: r1_w1: factor of wh.ws */
+    c->r1_w1_wh__ws = t_3 / REAL(20.0);
 
-    /* khepera.bg:17: r1_w1: factor of Fx in stage 3 */
-    c->r1_w1_v3_Fx = t_4 / REAL(20.0);
+    /* khepera.bg:17: r1_w1: factor of wh.ws' */
+    c->r1_w1_w1_wh__ws = t_12 / REAL(20.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_5;
+    /* khepera.bg:17: r1_w1: factor of Fx */
+    c->r1_w1_Fx = t_4 / REAL(20.0);
 
-    /* filter: weight of the new sample */
-    c->b0 = t_6;
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_6 / REAL(12.0);
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_5 - t_6;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_6;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_5;
 
-    /* khepera.bg:17: r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-     * stage 2 */
-    c->r1_w2_v2_tanh = t_8 / REAL(25.0);
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t_5;
 
-    /* khepera.bg:17: r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-     * stage 3 */
-    c->r1_w2_v3_tanh = t_8 / REAL(25.0) - t_2 / REAL(25.0);
+    /* khepera.bg:17: r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    c->r1_w2_tanh = t_2 / REAL(25.0);
 
-    /* khepera.bg:17: r1_w2: factor of wh.ws in stage 1 */
-    c->r1_w2_v1_wh__ws = t_9 / REAL(50.0);
+    /* khepera.bg:17: r1_w2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
+    c->r1_w2_w1_tanh = t_8 / REAL(25.0);
 
-    /* khepera.bg:17: r1_w2: factor of wh.ws in stage 2 */
-    c->r1_w2_v2_wh__ws = t_13 / REAL(50.0) - t_9 / REAL(25.0);
+    /* khepera.bg:17: r1_w2: factor of wh.ws */
+    c->r1_w2_wh__ws = t_3 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w2: factor of wh.ws in stage 3 */
-    c->r1_w2_v3_wh__ws = t_3 / REAL(50.0) + t_9 / REAL(50.0) - t_13 / REAL(50.0);
+    /* khepera.bg:17: r1_w2: factor of wh.ws' */
+    c->r1_w2_w1_wh__ws = p->el__k * w * (p->el__Re * p->wh__Js / p->ge__N / p->el__k / p->el__k
+            + p->el__L * p->wh__fs / p->ge__N / p->el__k / p->el__k) / REAL(50.0);
 
-    /* khepera.bg:17: r1_w2: factor of Fx in stage 2 */
-    c->r1_w2_v2_Fx = t_10 / REAL(50.0);
+    /* khepera.bg:17: r1_w2: factor of wh.ws'' */
+    c->r1_w2_w2_wh__ws = t_9 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w2: factor of Fx in stage 3 */
-    c->r1_w2_v3_Fx = t_4 / REAL(50.0) - t_10 / REAL(50.0);
+    /* khepera.bg:17: r1_w2: factor of Fx */
+    c->r1_w2_Fx = t_4 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w2: factor of me.we in stage 1 */
-    c->r1_w2_v1_me__we = t_7 / REAL(50.0);
+    /* khepera.bg:17: r1_w2: factor of Fx' */
+    c->r1_w2_w1_Fx = t_10 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w2: factor of me.we in stage 2 */
-    c->r1_w2_v2_me__we = t_14 / REAL(50.0) - t_7 / REAL(25.0);
+    /* khepera.bg:17: r1_w2: factor of me.we */
+    c->r1_w2_me__we = p->el__k * (p->el__Re * p->me__fe / p->el__k / p->el__k
+            - REAL(1.0)) / REAL(50.0);
 
-    /* khepera.bg:17: r1_w2: factor of me.we in stage 3 */
-    c->r1_w2_v3_me__we = t_7 / REAL(50.0)
-        + p->el__k * (p->el__Re * p->me__fe / p->el__k / p->el__k - REAL(1.0)) / REAL(50.0)
-        - t_14 / REAL(50.0);
+    /* khepera.bg:17: r1_w2: factor of me.we' */
+    c->r1_w2_w1_me__we = p->el__k * w * (p->el__Re * p->me__Je / p->el__k / p->el__k
+            + p->el__L * p->me__fe / p->el__k / p->el__k) / REAL(50.0);
 
-    /* khepera.bg:17: r1_w3: factor of me.we in stage 2 */
-    c->r1_w3_v2_me__we = t_15 / REAL(10.0);
+    /* khepera.bg:17: r1_w2: factor of me.we'' */
+    c->r1_w2_w2_me__we = t_7 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w3: factor of me.we in stage 3 */
-    c->r1_w3_v3_me__we = t_15 / REAL(10.0) - t / REAL(10.0);
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_6 / REAL(6.0);
 
-    /* khepera.bg:17: r1_w4: factor of wh.ws in stage 2 */
-    c->r1_w4_v2_wh__ws = t_16 / REAL(10.0);
+    /* khepera.bg:17: r1_w3: factor of me.we */
+    c->r1_w3_me__we = t / REAL(10.0);
 
-    /* khepera.bg:17: r1_w4: factor of wh.ws in stage 3 */
-    c->r1_w4_v3_wh__ws = t_16 / REAL(10.0) - t_3 / REAL(10.0);
+    /* khepera.bg:17: r1_w3: factor of me.we' */
+    c->r1_w3_w1_me__we = t_13 / REAL(10.0);
 
-    /* khepera.bg:17: r1_w5: factor of me.we in stage 2 */
-    c->r1_w5_v2_me__we = t_11 / REAL(730.0);
+    /* khepera.bg:17: r1_w4: factor of wh.ws */
+    c->r1_w4_wh__ws = t_3 / REAL(10.0);
 
-    /* khepera.bg:17: r1_w5: factor of me.we in stage 3 */
-    c->r1_w5_v3_me__we = t / REAL(730.0) - t_11 / REAL(730.0);
+    /* khepera.bg:17: r1_w4: factor of wh.ws' */
+    c->r1_w4_w1_wh__ws = t_14 / REAL(10.0);
 
-    /* khepera.bg:17: r1_w5: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-     * stage 3 */
-    c->r1_w5_v3_tanh = t_2 / REAL(365.0);
+    /* khepera.bg:17: r1_w5: factor of me.we */
+    c->r1_w5_me__we = t / REAL(730.0);
 
-    /* khepera.bg:17: r1_w5: factor of wh.ws in stage 2 */
-    c->r1_w5_v2_wh__ws = t_12 / REAL(730.0);
+    /* khepera.bg:17: r1_w5: factor of me.we' */
+    c->r1_w5_w1_me__we = t_11 / REAL(730.0);
 
-    /* khepera.bg:17: r1_w5: factor of wh.ws in stage 3 */
-    c->r1_w5_v3_wh__ws = t_3 / REAL(730.0) - t_12 / REAL(730.0);
+    /* khepera.bg:17: r1_w5: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    c->r1_w5_tanh = t_2 / REAL(365.0);
 
-    /* khepera.bg:17: r1_w5: factor of Fx in stage 3 */
-    c->r1_w5_v3_Fx = t_4 / REAL(730.0);
+    /* khepera.bg:17: r1_w5: factor of wh.ws */
+    c->r1_w5_wh__ws = t_3 / REAL(730.0);
 
-    /* khepera.bg:17: r1_w6: factor of me.we in stage 3 */
-    c->r1_w6_v3_me__we = t / REAL(146.0);
+    /* khepera.bg:17: r1_w5: factor of wh.ws' */
+    c->r1_w5_w1_wh__ws = t_12 / REAL(730.0);
 
-    /* khepera.bg:17: r1_w7: factor of wh.ws in stage 3 */
-    c->r1_w7_v3_wh__ws = t_3 / REAL(146.0);
+    /* khepera.bg:17: r1_w5: factor of Fx */
+    c->r1_w5_Fx = t_4 / REAL(730.0);
 
-    /* khepera.bg:17: r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-     * stage 2 */
-    c->r1_w8_v2_tanh = REAL(2.0) * t_8 / REAL(1825.0);
+    /* khepera.bg:17: r1_w6: factor of me.we */
+    c->r1_w6_me__we = t / REAL(146.0);
 
-    /* khepera.bg:17: r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-     * stage 3 */
-    c->r1_w8_v3_tanh = REAL(2.0) * t_2 / REAL(1825.0) - REAL(2.0) * t_8 / REAL(1825.0);
+    /* khepera.bg:17: r1_w7: factor of wh.ws */
+    c->r1_w7_wh__ws = t_3 / REAL(146.0);
 
-    /* khepera.bg:17: r1_w8: factor of wh.ws in stage 1 */
-    c->r1_w8_v1_wh__ws = t_9 / REAL(1825.0);
+    /* khepera.bg:17: r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    c->r1_w8_tanh = REAL(2.0) * t_2 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w8: factor of wh.ws in stage 2 */
-    c->r1_w8_v2_wh__ws = REAL(2.0) * t_9 / REAL(1825.0) + t_17 / REAL(3650.0);
+    /* khepera.bg:17: r1_w8: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
+    c->r1_w8_w1_tanh = REAL(2.0) * t_8 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w8: factor of wh.ws in stage 3 */
-    c->r1_w8_v3_wh__ws = t_3 / REAL(1825.0) + t_9 / REAL(1825.0) + t_17 / REAL(3650.0);
+    /* khepera.bg:17: r1_w8: factor of wh.ws */
+    c->r1_w8_wh__ws = t_3 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w8: factor of Fx in stage 2 */
-    c->r1_w8_v2_Fx = t_10 / REAL(1825.0);
+    /* khepera.bg:17: r1_w8: factor of wh.ws' */
+    c->r1_w8_w1_wh__ws = p->el__k * p->el__k * w
+            * (-REAL(2.0) * p->el__Re * p->wh__Js / p->ge__N / p->el__k / p->el__k / p->el__k
+            - REAL(2.0) * p->el__L * p->wh__fs / p->ge__N / p->el__k / p->el__k / p->el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17: r1_w8: factor of Fx in stage 3 */
-    c->r1_w8_v3_Fx = t_10 / REAL(1825.0) - t_4 / REAL(1825.0);
+    /* khepera.bg:17: r1_w8: factor of wh.ws'' */
+    c->r1_w8_w2_wh__ws = t_9 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w8: factor of me.we in stage 1 */
-    c->r1_w8_v1_me__we = t_7 / REAL(1825.0);
+    /* khepera.bg:17: r1_w8: factor of Fx */
+    c->r1_w8_Fx = t_4 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w8: factor of me.we in stage 2 */
-    c->r1_w8_v2_me__we = REAL(2.0) * t_7 / REAL(1825.0) + t_18 / REAL(3650.0);
+    /* khepera.bg:17: r1_w8: factor of Fx' */
+    c->r1_w8_w1_Fx = t_10 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w8: factor of me.we in stage 3 */
-    c->r1_w8_v3_me__we = t / REAL(1825.0) + t_7 / REAL(1825.0) + t_18 / REAL(3650.0);
+    /* khepera.bg:17: r1_w8: factor of me.we */
+    c->r1_w8_me__we = t / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w9: factor of me.we in stage 2 */
-    c->r1_w9_v2_me__we = t_15 / REAL(365.0);
+    /* khepera.bg:17: r1_w8: factor of me.we' */
+    c->r1_w8_w1_me__we = p->el__k * p->el__k * w
+            * (-REAL(2.0) * p->el__Re * p->me__Je / p->el__k / p->el__k / p->el__k
+            - REAL(2.0) * p->el__L * p->me__fe / p->el__k / p->el__k / p->el__k) / REAL(3650.0);
 
-    /* khepera.bg:17: r1_w9: factor of me.we in stage 3 */
-    c->r1_w9_v3_me__we = t / REAL(365.0) - t_15 / REAL(365.0);
+    /* khepera.bg:17: r1_w8: factor of me.we'' */
+    c->r1_w8_w2_me__we = t_7 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w10: factor of wh.ws in stage 2 */
-    c->r1_w10_v2_wh__ws = t_16 / REAL(365.0);
+    /* khepera.bg:17: r1_w9: factor of me.we */
+    c->r1_w9_me__we = t / REAL(365.0);
 
-    /* khepera.bg:17: r1_w10: factor of wh.ws in stage 3 */
-    c->r1_w10_v3_wh__ws = t_3 / REAL(365.0) - t_16 / REAL(365.0);
+    /* khepera.bg:17: r1_w9: factor of me.we' */
+    c->r1_w9_w1_me__we = t_13 / REAL(365.0);
+
+    /* khepera.bg:17: r1_w10: factor of wh.ws */
+    c->r1_w10_wh__ws = t_3 / REAL(365.0);
+
+    /* khepera.bg:17: r1_w10: factor of wh.ws' */
+    c->r1_w10_w1_wh__ws = t_14 / REAL(365.0);
 }
 
 static bool parameters_are_finite(const drive_as_drawn_threshold_parameters *p)
@@ -326,22 +287,22 @@ static bool parameters_are_finite(const drive_as_drawn_threshold_parameters *p)
 static bool coefficients_are_finite(const drive_as_drawn_threshold_monitor *monitor)
 {
     return finite_number(monitor->c.g + monitor->c.g_2 + monitor->c.half_time
-            + monitor->c.r1_w1_v2_me__we + monitor->c.r1_w1_v3_me__we + monitor->c.r1_w1_v3_tanh
-            + monitor->c.r1_w1_v2_wh__ws + monitor->c.r1_w1_v3_wh__ws + monitor->c.r1_w1_v3_Fx
-            + monitor->c.a + monitor->c.b0 + monitor->c.b1 + monitor->c.rest
-            + monitor->c.r1_w2_v2_tanh + monitor->c.r1_w2_v3_tanh + monitor->c.r1_w2_v1_wh__ws
-            + monitor->c.r1_w2_v2_wh__ws + monitor->c.r1_w2_v3_wh__ws + monitor->c.r1_w2_v2_Fx
-            + monitor->c.r1_w2_v3_Fx + monitor->c.r1_w2_v1_me__we + monitor->c.r1_w2_v2_me__we
-            + monitor->c.r1_w2_v3_me__we + monitor->c.r1_w3_v2_me__we + monitor->c.r1_w3_v3_me__we
-            + monitor->c.r1_w4_v2_wh__ws + monitor->c.r1_w4_v3_wh__ws + monitor->c.r1_w5_v2_me__we
-            + monitor->c.r1_w5_v3_me__we + monitor->c.r1_w5_v3_tanh + monitor->c.r1_w5_v2_wh__ws
-            + monitor->c.r1_w5_v3_wh__ws + monitor->c.r1_w5_v3_Fx + monitor->c.r1_w6_v3_me__we
-            + monitor->c.r1_w7_v3_wh__ws + monitor->c.r1_w8_v2_tanh + monitor->c.r1_w8_v3_tanh
-            + monitor->c.r1_w8_v1_wh__ws + monitor->c.r1_w8_v2_wh__ws + monitor->c.r1_w8_v3_wh__ws
-            + monitor->c.r1_w8_v2_Fx + monitor->c.r1_w8_v3_Fx + monitor->c.r1_w8_v1_me__we
-            + monitor->c.r1_w8_v2_me__we + monitor->c.r1_w8_v3_me__we + monitor->c.r1_w9_v2_me__we
-            + monitor->c.r1_w9_v3_me__we + monitor->c.r1_w10_v2_wh__ws
-            + monitor->c.r1_w10_v3_wh__ws);
+            + monitor->c.half_twelfth + monitor->c.r1_w1_me__we + monitor->c.r1_w1_w1_me__we
+            + monitor->c.r1_w1_tanh + monitor->c.r1_w1_wh__ws + monitor->c.r1_w1_w1_wh__ws
+            + monitor->c.r1_w1_Fx + monitor->c.bend1 + monitor->c.a + monitor->c.b + monitor->c.rest
+            + monitor->c.r1_w2_tanh + monitor->c.r1_w2_w1_tanh + monitor->c.r1_w2_wh__ws
+            + monitor->c.r1_w2_w1_wh__ws + monitor->c.r1_w2_w2_wh__ws + monitor->c.r1_w2_Fx
+            + monitor->c.r1_w2_w1_Fx + monitor->c.r1_w2_me__we + monitor->c.r1_w2_w1_me__we
+            + monitor->c.r1_w2_w2_me__we + monitor->c.bend2 + monitor->c.r1_w3_me__we
+            + monitor->c.r1_w3_w1_me__we + monitor->c.r1_w4_wh__ws + monitor->c.r1_w4_w1_wh__ws
+            + monitor->c.r1_w5_me__we + monitor->c.r1_w5_w1_me__we + monitor->c.r1_w5_tanh
+            + monitor->c.r1_w5_wh__ws + monitor->c.r1_w5_w1_wh__ws + monitor->c.r1_w5_Fx
+            + monitor->c.r1_w6_me__we + monitor->c.r1_w7_wh__ws + monitor->c.r1_w8_tanh
+            + monitor->c.r1_w8_w1_tanh + monitor->c.r1_w8_wh__ws + monitor->c.r1_w8_w1_wh__ws
+            + monitor->c.r1_w8_w2_wh__ws + monitor->c.r1_w8_Fx + monitor->c.r1_w8_w1_Fx
+            + monitor->c.r1_w8_me__we + monitor->c.r1_w8_w1_me__we + monitor->c.r1_w8_w2_me__we
+            + monitor->c.r1_w9_me__we + monitor->c.r1_w9_w1_me__we + monitor->c.r1_w10_wh__ws
+            + monitor->c.r1_w10_w1_wh__ws);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -422,12 +383,28 @@ static void start_r1(
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r1_w1_q = c->half_time * r1_w1_rate;
 
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_w1_integral = r1_w1_int;
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_w1_rate2 = r1_w1_rate;
+    x->r1_w1_rate1 = r1_w1_rate;
+
     /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r1_w1_tanh = MATH(tanh)(r1_w1_int);
+    const real r1_w1_tanh = MATH(tanh)(r1_w1_integral);
+
+    /* khepera.bg:17: r1_w1: terms of order 0 */
+    const real r1_w1_g0 = c->r1_w1_tanh * r1_w1_tanh - c->r1_w1_me__we * s->me__we
+        - c->r1_w1_wh__ws * s->wh__ws - c->r1_w1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = -c->r1_w1_w1_me__we * s->me__we - c->r1_w1_w1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w1: error of order 0 */
+    const real r1_w1_e0 = c->bend1 * r1_w1_g0;
 
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_me__we * s->me__we + c->r1_w1_v3_tanh * r1_w1_tanh
-        + c->r1_w1_v3_wh__ws * s->wh__ws - c->r1_w1_v3_Fx * s->Fx;
+    const real r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 3, at rest */
     const real r1_w1_y3 = r1_w1_u3;
@@ -436,8 +413,7 @@ static void start_r1(
     x->r1_w1_s3 = c->rest * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_me__we * s->me__we
-        - c->r1_w1_v2_wh__ws * s->wh__ws;
+    const real r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + REAL(2.0) * r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 2, at rest */
     const real r1_w1_y2 = r1_w1_u2;
@@ -446,7 +422,7 @@ static void start_r1(
     x->r1_w1_s2 = c->rest * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 1, at rest */
     const real r1_w1_y1 = r1_w1_u1;
@@ -466,12 +442,36 @@ static void start_r1(
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r1_w2_q = c->half_time * r1_w2_rate;
 
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_w2_integral = r1_w2_int;
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_w2_rate2 = r1_w2_rate;
+    x->r1_w2_rate1 = r1_w2_rate;
+
     /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r1_w2_tanh = MATH(tanh)(r1_w2_int);
+    const real r1_w2_tanh = MATH(tanh)(r1_w2_integral);
+
+    /* khepera.bg:17: r1_w2: terms of order 0 */
+    const real r1_w2_g0 = c->r1_w2_wh__ws * s->wh__ws + c->r1_w2_Fx * s->Fx
+        + c->r1_w2_me__we * s->me__we - c->r1_w2_tanh * r1_w2_tanh;
+
+    /* khepera.bg:17: r1_w2: terms of order 1 */
+    const real r1_w2_g1 = c->r1_w2_w1_wh__ws * s->wh__ws + c->r1_w2_w1_Fx * s->Fx
+        + c->r1_w2_w1_me__we * s->me__we - c->r1_w2_w1_tanh * r1_w2_tanh;
+
+    /* khepera.bg:17: r1_w2: error of order 0 */
+    const real r1_w2_e0 = c->bend2 * r1_w2_g0;
+
+    /* khepera.bg:17: r1_w2: degree 2 */
+    const real r1_w2_d2 = c->r1_w2_w2_wh__ws * s->wh__ws + c->r1_w2_w2_me__we * s->me__we
+        - r1_w2_e0;
+
+    /* khepera.bg:17: r1_w2: error of order 1 */
+    const real r1_w2_e1 = c->bend1 * r1_w2_g1;
 
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_tanh * r1_w2_tanh + c->r1_w2_v3_wh__ws * s->wh__ws
-        + c->r1_w2_v3_Fx * s->Fx + c->r1_w2_v3_me__we * s->me__we;
+    const real r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1;
 
     /* khepera.bg:17: r1_w2: stage 3, at rest */
     const real r1_w2_y3 = r1_w2_u3;
@@ -480,8 +480,7 @@ static void start_r1(
     x->r1_w2_s3 = c->rest * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 + c->r1_w2_v2_wh__ws * s->wh__ws + c->r1_w2_v2_Fx * s->Fx
-        + c->r1_w2_v2_me__we * s->me__we - c->r1_w2_v2_tanh * r1_w2_tanh;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - REAL(2.0) * r1_w2_d2 - REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 2, at rest */
     const real r1_w2_y2 = r1_w2_u2;
@@ -490,8 +489,7 @@ static void start_r1(
     x->r1_w2_s2 = c->rest * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2 + c->r1_w2_v1_wh__ws * s->wh__ws
-        + c->r1_w2_v1_me__we * s->me__we;
+    const real r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 1, at rest */
     const real r1_w2_y1 = r1_w2_u1;
@@ -500,10 +498,19 @@ static void start_r1(
     x->r1_w2_s1 = c->rest * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of el.k can do */
-    const real r1_w2 = r1_w2_y1;
+    const real r1_w2 = r1_w2_y1 - r1_w2_e1;
+
+    /* khepera.bg:17: r1_w3: terms of order 0 */
+    const real r1_w3_g0 = -c->r1_w3_me__we * s->me__we;
+
+    /* khepera.bg:17: r1_w3: degree 1 */
+    const real r1_w3_d1 = c->r1_w3_w1_me__we * s->me__we;
+
+    /* khepera.bg:17: r1_w3: error of order 0 */
+    const real r1_w3_e0 = c->bend1 * r1_w3_g0;
 
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_me__we * s->me__we;
+    const real r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 3, at rest */
     const real r1_w3_y3 = r1_w3_u3;
@@ -512,7 +519,7 @@ static void start_r1(
     x->r1_w3_s3 = c->rest * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 - c->r1_w3_v2_me__we * s->me__we;
+    const real r1_w3_u2 = r1_w3_y3 + REAL(2.0) * r1_w3_e0 - r1_w3_d1;
 
     /* khepera.bg:17: r1_w3: stage 2, at rest */
     const real r1_w3_y2 = r1_w3_u2;
@@ -521,7 +528,7 @@ static void start_r1(
     x->r1_w3_s2 = c->rest * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2;
+    const real r1_w3_u1 = r1_w3_y2 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 1, at rest */
     const real r1_w3_y1 = r1_w3_u1;
@@ -532,8 +539,17 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerance of me.fe can do */
     const real r1_w3 = r1_w3_y1;
 
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = c->r1_w4_w1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend1 * r1_w4_g0;
+
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = c->r1_w4_v3_wh__ws * s->wh__ws;
+    const real r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 3, at rest */
     const real r1_w4_y3 = r1_w4_u3;
@@ -542,7 +558,7 @@ static void start_r1(
     x->r1_w4_s3 = c->rest * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_wh__ws * s->wh__ws;
+    const real r1_w4_u2 = r1_w4_y3 + REAL(2.0) * r1_w4_e0 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 2, at rest */
     const real r1_w4_y2 = r1_w4_u2;
@@ -551,7 +567,7 @@ static void start_r1(
     x->r1_w4_s2 = c->rest * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 1, at rest */
     const real r1_w4_y1 = r1_w4_u1;
@@ -571,12 +587,28 @@ static void start_r1(
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r1_w5_q = c->half_time * r1_w5_rate;
 
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_w5_integral = r1_w5_int;
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_w5_rate2 = r1_w5_rate;
+    x->r1_w5_rate1 = r1_w5_rate;
+
     /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r1_w5_tanh = MATH(tanh)(r1_w5_int);
+    const real r1_w5_tanh = MATH(tanh)(r1_w5_integral);
+
+    /* khepera.bg:17: r1_w5: terms of order 0 */
+    const real r1_w5_g0 = c->r1_w5_me__we * s->me__we + c->r1_w5_wh__ws * s->wh__ws
+        + c->r1_w5_Fx * s->Fx - c->r1_w5_tanh * r1_w5_tanh;
+
+    /* khepera.bg:17: r1_w5: degree 1 */
+    const real r1_w5_d1 = c->r1_w5_w1_me__we * s->me__we + c->r1_w5_w1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w5: error of order 0 */
+    const real r1_w5_e0 = c->bend1 * r1_w5_g0;
 
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = c->r1_w5_v3_me__we * s->me__we + c->r1_w5_v3_wh__ws * s->wh__ws
-        + c->r1_w5_v3_Fx * s->Fx - c->r1_w5_v3_tanh * r1_w5_tanh;
+    const real r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 3, at rest */
     const real r1_w5_y3 = r1_w5_u3;
@@ -585,8 +617,7 @@ static void start_r1(
     x->r1_w5_s3 = c->rest * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
-    const real r1_w5_u2 = r1_w5_y3 + c->r1_w5_v2_me__we * s->me__we
-        + c->r1_w5_v2_wh__ws * s->wh__ws;
+    const real r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + REAL(2.0) * r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 2, at rest */
     const real r1_w5_y2 = r1_w5_u2;
@@ -595,7 +626,7 @@ static void start_r1(
     x->r1_w5_s2 = c->rest * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
-    const real r1_w5_u1 = r1_w5_y2;
+    const real r1_w5_u1 = r1_w5_y2 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 1, at rest */
     const real r1_w5_y1 = r1_w5_u1;
@@ -607,7 +638,7 @@ static void start_r1(
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = -c->r1_w6_v3_me__we * s->me__we;
+    const real r1_w6_u3 = -c->r1_w6_me__we * s->me__we;
 
     /* khepera.bg:17: r1_w6: stage 3, at rest */
     const real r1_w6_y3 = r1_w6_u3;
@@ -637,7 +668,7 @@ static void start_r1(
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = -c->r1_w7_v3_wh__ws * s->wh__ws;
+    const real r1_w7_u3 = -c->r1_w7_wh__ws * s->wh__ws;
 
     /* khepera.bg:17: r1_w7: stage 3, at rest */
     const real r1_w7_y3 = r1_w7_u3;
@@ -675,12 +706,36 @@ static void start_r1(
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r1_w8_q = c->half_time * r1_w8_rate;
 
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_w8_integral = r1_w8_int;
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_w8_rate2 = r1_w8_rate;
+    x->r1_w8_rate1 = r1_w8_rate;
+
     /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r1_w8_tanh = MATH(tanh)(r1_w8_int);
+    const real r1_w8_tanh = MATH(tanh)(r1_w8_integral);
+
+    /* khepera.bg:17: r1_w8: terms of order 0 */
+    const real r1_w8_g0 = c->r1_w8_tanh * r1_w8_tanh - c->r1_w8_wh__ws * s->wh__ws
+        - c->r1_w8_Fx * s->Fx - c->r1_w8_me__we * s->me__we;
+
+    /* khepera.bg:17: r1_w8: terms of order 1 */
+    const real r1_w8_g1 = c->r1_w8_w1_tanh * r1_w8_tanh + c->r1_w8_w1_wh__ws * s->wh__ws
+        + c->r1_w8_w1_me__we * s->me__we - c->r1_w8_w1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1_w8: error of order 0 */
+    const real r1_w8_e0 = c->bend2 * r1_w8_g0;
+
+    /* khepera.bg:17: r1_w8: degree 2 */
+    const real r1_w8_d2 = -c->r1_w8_w2_wh__ws * s->wh__ws - c->r1_w8_w2_me__we * s->me__we
+        - r1_w8_e0;
+
+    /* khepera.bg:17: r1_w8: error of order 1 */
+    const real r1_w8_e1 = c->bend1 * r1_w8_g1;
 
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = c->r1_w8_v3_tanh * r1_w8_tanh + c->r1_w8_v3_Fx * s->Fx
-        - c->r1_w8_v3_wh__ws * s->wh__ws - c->r1_w8_v3_me__we * s->me__we;
+    const real r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1;
 
     /* khepera.bg:17: r1_w8: stage 3, at rest */
     const real r1_w8_y3 = r1_w8_u3;
@@ -689,8 +744,7 @@ static void start_r1(
     x->r1_w8_s3 = c->rest * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
-    const real r1_w8_u2 = r1_w8_y3 + c->r1_w8_v2_tanh * r1_w8_tanh + c->r1_w8_v2_wh__ws * s->wh__ws
-        + c->r1_w8_v2_me__we * s->me__we - c->r1_w8_v2_Fx * s->Fx;
+    const real r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - REAL(2.0) * r1_w8_d2 - REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 2, at rest */
     const real r1_w8_y2 = r1_w8_u2;
@@ -699,8 +753,7 @@ static void start_r1(
     x->r1_w8_s2 = c->rest * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: input of stage 1 */
-    const real r1_w8_u1 = r1_w8_y2 - c->r1_w8_v1_wh__ws * s->wh__ws
-        - c->r1_w8_v1_me__we * s->me__we;
+    const real r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 1, at rest */
     const real r1_w8_y1 = r1_w8_u1;
@@ -709,10 +762,19 @@ static void start_r1(
     x->r1_w8_s1 = c->rest * r1_w8_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of el.k can do */
-    const real r1_w8 = r1_w8_y1;
+    const real r1_w8 = r1_w8_y1 - r1_w8_e1;
+
+    /* khepera.bg:17: r1_w9: terms of order 0 */
+    const real r1_w9_g0 = c->r1_w9_me__we * s->me__we;
+
+    /* khepera.bg:17: r1_w9: degree 1 */
+    const real r1_w9_d1 = c->r1_w9_w1_me__we * s->me__we;
+
+    /* khepera.bg:17: r1_w9: error of order 0 */
+    const real r1_w9_e0 = c->bend1 * r1_w9_g0;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_me__we * s->me__we;
+    const real r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 3, at rest */
     const real r1_w9_y3 = r1_w9_u3;
@@ -721,7 +783,7 @@ static void start_r1(
     x->r1_w9_s3 = c->rest * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_me__we * s->me__we;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + REAL(2.0) * r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 2, at rest */
     const real r1_w9_y2 = r1_w9_u2;
@@ -730,7 +792,7 @@ static void start_r1(
     x->r1_w9_s2 = c->rest * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2;
+    const real r1_w9_u1 = r1_w9_y2 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 1, at rest */
     const real r1_w9_y1 = r1_w9_u1;
@@ -741,8 +803,17 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerances of el.k and me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
+    /* khepera.bg:17: r1_w10: terms of order 0 */
+    const real r1_w10_g0 = c->r1_w10_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w10: degree 1 */
+    const real r1_w10_d1 = c->r1_w10_w1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w10: error of order 0 */
+    const real r1_w10_e0 = c->bend1 * r1_w10_g0;
+
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = c->r1_w10_v3_wh__ws * s->wh__ws;
+    const real r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 3, at rest */
     const real r1_w10_y3 = r1_w10_u3;
@@ -751,7 +822,7 @@ static void start_r1(
     x->r1_w10_s3 = c->rest * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: input of stage 2 */
-    const real r1_w10_u2 = r1_w10_y3 + c->r1_w10_v2_wh__ws * s->wh__ws;
+    const real r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + REAL(2.0) * r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 2, at rest */
     const real r1_w10_y2 = r1_w10_u2;
@@ -760,7 +831,7 @@ static void start_r1(
     x->r1_w10_s2 = c->rest * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: input of stage 1 */
-    const real r1_w10_u1 = r1_w10_y2;
+    const real r1_w10_u1 = r1_w10_y2 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 1, at rest */
     const real r1_w10_y1 = r1_w10_u1;
@@ -793,37 +864,53 @@ static void next_r1(
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r1_w1_q = r1_w1_int + c->half_time * r1_w1_rate;
 
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_w1_integral = r1_w1_int
+        - c->half_twelfth * (REAL(3.0) * r1_w1_rate - REAL(4.0) * x->r1_w1_rate1 + x->r1_w1_rate2);
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_w1_rate2 = x->r1_w1_rate1;
+    x->r1_w1_rate1 = r1_w1_rate;
+
     /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r1_w1_tanh = MATH(tanh)(r1_w1_int);
+    const real r1_w1_tanh = MATH(tanh)(r1_w1_integral);
+
+    /* khepera.bg:17: r1_w1: terms of order 0 */
+    const real r1_w1_g0 = c->r1_w1_tanh * r1_w1_tanh - c->r1_w1_me__we * s->me__we
+        - c->r1_w1_wh__ws * s->wh__ws - c->r1_w1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = -c->r1_w1_w1_me__we * s->me__we - c->r1_w1_w1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w1: error of order 0 */
+    const real r1_w1_e0 = c->bend1 * r1_w1_g0;
 
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_me__we * s->me__we + c->r1_w1_v3_tanh * r1_w1_tanh
-        + c->r1_w1_v3_wh__ws * s->wh__ws - c->r1_w1_v3_Fx * s->Fx;
+    const real r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 3 */
-    const real r1_w1_y3 = x->r1_w1_s3 + c->b0 * r1_w1_u3;
+    const real r1_w1_y3 = x->r1_w1_s3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: stage 3: memory */
-    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b1 * r1_w1_u3;
+    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_me__we * s->me__we
-        - c->r1_w1_v2_wh__ws * s->wh__ws;
+    const real r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + REAL(2.0) * r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 2 */
-    const real r1_w1_y2 = x->r1_w1_s2 + c->b0 * r1_w1_u2;
+    const real r1_w1_y2 = x->r1_w1_s2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: stage 2: memory */
-    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b1 * r1_w1_u2;
+    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 1 */
-    const real r1_w1_y1 = x->r1_w1_s1 + c->b0 * r1_w1_u1;
+    const real r1_w1_y1 = x->r1_w1_s1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1_w1: stage 1: memory */
-    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b1 * r1_w1_u1;
+    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1: what the tolerance of el.Re can do */
     const real r1_w1 = r1_w1_y1;
@@ -837,98 +924,139 @@ static void next_r1(
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r1_w2_q = r1_w2_int + c->half_time * r1_w2_rate;
 
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_w2_integral = r1_w2_int
+        - c->half_twelfth * (REAL(3.0) * r1_w2_rate - REAL(4.0) * x->r1_w2_rate1 + x->r1_w2_rate2);
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_w2_rate2 = x->r1_w2_rate1;
+    x->r1_w2_rate1 = r1_w2_rate;
+
     /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r1_w2_tanh = MATH(tanh)(r1_w2_int);
+    const real r1_w2_tanh = MATH(tanh)(r1_w2_integral);
+
+    /* khepera.bg:17: r1_w2: terms of order 0 */
+    const real r1_w2_g0 = c->r1_w2_wh__ws * s->wh__ws + c->r1_w2_Fx * s->Fx
+        + c->r1_w2_me__we * s->me__we - c->r1_w2_tanh * r1_w2_tanh;
+
+    /* khepera.bg:17: r1_w2: terms of order 1 */
+    const real r1_w2_g1 = c->r1_w2_w1_wh__ws * s->wh__ws + c->r1_w2_w1_Fx * s->Fx
+        + c->r1_w2_w1_me__we * s->me__we - c->r1_w2_w1_tanh * r1_w2_tanh;
+
+    /* khepera.bg:17: r1_w2: error of order 0 */
+    const real r1_w2_e0 = c->bend2 * r1_w2_g0;
+
+    /* khepera.bg:17: r1_w2: degree 2 */
+    const real r1_w2_d2 = c->r1_w2_w2_wh__ws * s->wh__ws + c->r1_w2_w2_me__we * s->me__we
+        - r1_w2_e0;
+
+    /* khepera.bg:17: r1_w2: error of order 1 */
+    const real r1_w2_e1 = c->bend1 * r1_w2_g1;
 
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_tanh * r1_w2_tanh + c->r1_w2_v3_wh__ws * s->wh__ws
-        + c->r1_w2_v3_Fx * s->Fx + c->r1_w2_v3_me__we * s->me__we;
+    const real r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1;
 
     /* khepera.bg:17: r1_w2: stage 3 */
-    const real r1_w2_y3 = x->r1_w2_s3 + c->b0 * r1_w2_u3;
+    const real r1_w2_y3 = x->r1_w2_s3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: stage 3: memory */
-    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b1 * r1_w2_u3;
+    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 + c->r1_w2_v2_wh__ws * s->wh__ws + c->r1_w2_v2_Fx * s->Fx
-        + c->r1_w2_v2_me__we * s->me__we - c->r1_w2_v2_tanh * r1_w2_tanh;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - REAL(2.0) * r1_w2_d2 - REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 2 */
-    const real r1_w2_y2 = x->r1_w2_s2 + c->b0 * r1_w2_u2;
+    const real r1_w2_y2 = x->r1_w2_s2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: stage 2: memory */
-    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b1 * r1_w2_u2;
+    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2 + c->r1_w2_v1_wh__ws * s->wh__ws
-        + c->r1_w2_v1_me__we * s->me__we;
+    const real r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 1 */
-    const real r1_w2_y1 = x->r1_w2_s1 + c->b0 * r1_w2_u1;
+    const real r1_w2_y1 = x->r1_w2_s1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1_w2: stage 1: memory */
-    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b1 * r1_w2_u1;
+    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of el.k can do */
-    const real r1_w2 = r1_w2_y1;
+    const real r1_w2 = r1_w2_y1 - r1_w2_e1;
+
+    /* khepera.bg:17: r1_w3: terms of order 0 */
+    const real r1_w3_g0 = -c->r1_w3_me__we * s->me__we;
+
+    /* khepera.bg:17: r1_w3: degree 1 */
+    const real r1_w3_d1 = c->r1_w3_w1_me__we * s->me__we;
+
+    /* khepera.bg:17: r1_w3: error of order 0 */
+    const real r1_w3_e0 = c->bend1 * r1_w3_g0;
 
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_me__we * s->me__we;
+    const real r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 3 */
-    const real r1_w3_y3 = x->r1_w3_s3 + c->b0 * r1_w3_u3;
+    const real r1_w3_y3 = x->r1_w3_s3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: stage 3: memory */
-    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b1 * r1_w3_u3;
+    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 - c->r1_w3_v2_me__we * s->me__we;
+    const real r1_w3_u2 = r1_w3_y3 + REAL(2.0) * r1_w3_e0 - r1_w3_d1;
 
     /* khepera.bg:17: r1_w3: stage 2 */
-    const real r1_w3_y2 = x->r1_w3_s2 + c->b0 * r1_w3_u2;
+    const real r1_w3_y2 = x->r1_w3_s2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: stage 2: memory */
-    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b1 * r1_w3_u2;
+    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2;
+    const real r1_w3_u1 = r1_w3_y2 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 1 */
-    const real r1_w3_y1 = x->r1_w3_s1 + c->b0 * r1_w3_u1;
+    const real r1_w3_y1 = x->r1_w3_s1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1_w3: stage 1: memory */
-    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b1 * r1_w3_u1;
+    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1: what the tolerance of me.fe can do */
     const real r1_w3 = r1_w3_y1;
 
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = c->r1_w4_w1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend1 * r1_w4_g0;
+
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = c->r1_w4_v3_wh__ws * s->wh__ws;
+    const real r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 3 */
-    const real r1_w4_y3 = x->r1_w4_s3 + c->b0 * r1_w4_u3;
+    const real r1_w4_y3 = x->r1_w4_s3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: stage 3: memory */
-    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b1 * r1_w4_u3;
+    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_wh__ws * s->wh__ws;
+    const real r1_w4_u2 = r1_w4_y3 + REAL(2.0) * r1_w4_e0 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 2 */
-    const real r1_w4_y2 = x->r1_w4_s2 + c->b0 * r1_w4_u2;
+    const real r1_w4_y2 = x->r1_w4_s2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: stage 2: memory */
-    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b1 * r1_w4_u2;
+    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 1 */
-    const real r1_w4_y1 = x->r1_w4_s1 + c->b0 * r1_w4_u1;
+    const real r1_w4_y1 = x->r1_w4_s1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1_w4: stage 1: memory */
-    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b1 * r1_w4_u1;
+    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1: what the tolerance of wh.fs can do */
     const real r1_w4 = r1_w4_y1;
@@ -942,97 +1070,113 @@ static void next_r1(
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r1_w5_q = r1_w5_int + c->half_time * r1_w5_rate;
 
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_w5_integral = r1_w5_int
+        - c->half_twelfth * (REAL(3.0) * r1_w5_rate - REAL(4.0) * x->r1_w5_rate1 + x->r1_w5_rate2);
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_w5_rate2 = x->r1_w5_rate1;
+    x->r1_w5_rate1 = r1_w5_rate;
+
     /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r1_w5_tanh = MATH(tanh)(r1_w5_int);
+    const real r1_w5_tanh = MATH(tanh)(r1_w5_integral);
+
+    /* khepera.bg:17: r1_w5: terms of order 0 */
+    const real r1_w5_g0 = c->r1_w5_me__we * s->me__we + c->r1_w5_wh__ws * s->wh__ws
+        + c->r1_w5_Fx * s->Fx - c->r1_w5_tanh * r1_w5_tanh;
+
+    /* khepera.bg:17: r1_w5: degree 1 */
+    const real r1_w5_d1 = c->r1_w5_w1_me__we * s->me__we + c->r1_w5_w1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w5: error of order 0 */
+    const real r1_w5_e0 = c->bend1 * r1_w5_g0;
 
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = c->r1_w5_v3_me__we * s->me__we + c->r1_w5_v3_wh__ws * s->wh__ws
-        + c->r1_w5_v3_Fx * s->Fx - c->r1_w5_v3_tanh * r1_w5_tanh;
+    const real r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 3 */
-    const real r1_w5_y3 = x->r1_w5_s3 + c->b0 * r1_w5_u3;
+    const real r1_w5_y3 = x->r1_w5_s3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: stage 3: memory */
-    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b1 * r1_w5_u3;
+    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
-    const real r1_w5_u2 = r1_w5_y3 + c->r1_w5_v2_me__we * s->me__we
-        + c->r1_w5_v2_wh__ws * s->wh__ws;
+    const real r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + REAL(2.0) * r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 2 */
-    const real r1_w5_y2 = x->r1_w5_s2 + c->b0 * r1_w5_u2;
+    const real r1_w5_y2 = x->r1_w5_s2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: stage 2: memory */
-    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b1 * r1_w5_u2;
+    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
-    const real r1_w5_u1 = r1_w5_y2;
+    const real r1_w5_u1 = r1_w5_y2 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 1 */
-    const real r1_w5_y1 = x->r1_w5_s1 + c->b0 * r1_w5_u1;
+    const real r1_w5_y1 = x->r1_w5_s1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1_w5: stage 1: memory */
-    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
+    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1: what the tolerances of el.Re and el.k can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = -c->r1_w6_v3_me__we * s->me__we;
+    const real r1_w6_u3 = -c->r1_w6_me__we * s->me__we;
 
     /* khepera.bg:17: r1_w6: stage 3 */
-    const real r1_w6_y3 = x->r1_w6_s3 + c->b0 * r1_w6_u3;
+    const real r1_w6_y3 = x->r1_w6_s3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: stage 3: memory */
-    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b1 * r1_w6_u3;
+    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: input of stage 2 */
     const real r1_w6_u2 = r1_w6_y3;
 
     /* khepera.bg:17: r1_w6: stage 2 */
-    const real r1_w6_y2 = x->r1_w6_s2 + c->b0 * r1_w6_u2;
+    const real r1_w6_y2 = x->r1_w6_s2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: stage 2: memory */
-    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b1 * r1_w6_u2;
+    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: input of stage 1 */
     const real r1_w6_u1 = r1_w6_y2;
 
     /* khepera.bg:17: r1_w6: stage 1 */
-    const real r1_w6_y1 = x->r1_w6_s1 + c->b0 * r1_w6_u1;
+    const real r1_w6_y1 = x->r1_w6_s1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1_w6: stage 1: memory */
-    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
+    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1: what the tolerances of el.Re and me.fe can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = -c->r1_w7_v3_wh__ws * s->wh__ws;
+    const real r1_w7_u3 = -c->r1_w7_wh__ws * s->wh__ws;
 
     /* khepera.bg:17: r1_w7: stage 3 */
-    const real r1_w7_y3 = x->r1_w7_s3 + c->b0 * r1_w7_u3;
+    const real r1_w7_y3 = x->r1_w7_s3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: stage 3: memory */
-    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b1 * r1_w7_u3;
+    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: input of stage 2 */
     const real r1_w7_u2 = r1_w7_y3;
 
     /* khepera.bg:17: r1_w7: stage 2 */
-    const real r1_w7_y2 = x->r1_w7_s2 + c->b0 * r1_w7_u2;
+    const real r1_w7_y2 = x->r1_w7_s2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: stage 2: memory */
-    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b1 * r1_w7_u2;
+    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: input of stage 1 */
     const real r1_w7_u1 = r1_w7_y2;
 
     /* khepera.bg:17: r1_w7: stage 1 */
-    const real r1_w7_y1 = x->r1_w7_s1 + c->b0 * r1_w7_u1;
+    const real r1_w7_y1 = x->r1_w7_s1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1_w7: stage 1: memory */
-    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
+    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1: what the tolerances of el.Re and wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
@@ -1046,98 +1190,139 @@ static void next_r1(
     /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
     x->r1_w8_q = r1_w8_int + c->half_time * r1_w8_rate;
 
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
+    const real r1_w8_integral = r1_w8_int
+        - c->half_twelfth * (REAL(3.0) * r1_w8_rate - REAL(4.0) * x->r1_w8_rate1 + x->r1_w8_rate2);
+
+    /* khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory */
+    x->r1_w8_rate2 = x->r1_w8_rate1;
+    x->r1_w8_rate1 = r1_w8_rate;
+
     /* khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
-    const real r1_w8_tanh = MATH(tanh)(r1_w8_int);
+    const real r1_w8_tanh = MATH(tanh)(r1_w8_integral);
+
+    /* khepera.bg:17: r1_w8: terms of order 0 */
+    const real r1_w8_g0 = c->r1_w8_tanh * r1_w8_tanh - c->r1_w8_wh__ws * s->wh__ws
+        - c->r1_w8_Fx * s->Fx - c->r1_w8_me__we * s->me__we;
+
+    /* khepera.bg:17: r1_w8: terms of order 1 */
+    const real r1_w8_g1 = c->r1_w8_w1_tanh * r1_w8_tanh + c->r1_w8_w1_wh__ws * s->wh__ws
+        + c->r1_w8_w1_me__we * s->me__we - c->r1_w8_w1_Fx * s->Fx;
+
+    /* khepera.bg:17: r1_w8: error of order 0 */
+    const real r1_w8_e0 = c->bend2 * r1_w8_g0;
+
+    /* khepera.bg:17: r1_w8: degree 2 */
+    const real r1_w8_d2 = -c->r1_w8_w2_wh__ws * s->wh__ws - c->r1_w8_w2_me__we * s->me__we
+        - r1_w8_e0;
+
+    /* khepera.bg:17: r1_w8: error of order 1 */
+    const real r1_w8_e1 = c->bend1 * r1_w8_g1;
 
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = c->r1_w8_v3_tanh * r1_w8_tanh + c->r1_w8_v3_Fx * s->Fx
-        - c->r1_w8_v3_wh__ws * s->wh__ws - c->r1_w8_v3_me__we * s->me__we;
+    const real r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1;
 
     /* khepera.bg:17: r1_w8: stage 3 */
-    const real r1_w8_y3 = x->r1_w8_s3 + c->b0 * r1_w8_u3;
+    const real r1_w8_y3 = x->r1_w8_s3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: stage 3: memory */
-    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b1 * r1_w8_u3;
+    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
-    const real r1_w8_u2 = r1_w8_y3 + c->r1_w8_v2_tanh * r1_w8_tanh + c->r1_w8_v2_wh__ws * s->wh__ws
-        + c->r1_w8_v2_me__we * s->me__we - c->r1_w8_v2_Fx * s->Fx;
+    const real r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - REAL(2.0) * r1_w8_d2 - REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 2 */
-    const real r1_w8_y2 = x->r1_w8_s2 + c->b0 * r1_w8_u2;
+    const real r1_w8_y2 = x->r1_w8_s2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: stage 2: memory */
-    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b1 * r1_w8_u2;
+    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: input of stage 1 */
-    const real r1_w8_u1 = r1_w8_y2 - c->r1_w8_v1_wh__ws * s->wh__ws
-        - c->r1_w8_v1_me__we * s->me__we;
+    const real r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 1 */
-    const real r1_w8_y1 = x->r1_w8_s1 + c->b0 * r1_w8_u1;
+    const real r1_w8_y1 = x->r1_w8_s1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1_w8: stage 1: memory */
-    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
+    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of el.k can do */
-    const real r1_w8 = r1_w8_y1;
+    const real r1_w8 = r1_w8_y1 - r1_w8_e1;
+
+    /* khepera.bg:17: r1_w9: terms of order 0 */
+    const real r1_w9_g0 = c->r1_w9_me__we * s->me__we;
+
+    /* khepera.bg:17: r1_w9: degree 1 */
+    const real r1_w9_d1 = c->r1_w9_w1_me__we * s->me__we;
+
+    /* khepera.bg:17: r1_w9: error of order 0 */
+    const real r1_w9_e0 = c->bend1 * r1_w9_g0;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_me__we * s->me__we;
+    const real r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 3 */
-    const real r1_w9_y3 = x->r1_w9_s3 + c->b0 * r1_w9_u3;
+    const real r1_w9_y3 = x->r1_w9_s3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: stage 3: memory */
-    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b1 * r1_w9_u3;
+    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_me__we * s->me__we;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + REAL(2.0) * r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 2 */
-    const real r1_w9_y2 = x->r1_w9_s2 + c->b0 * r1_w9_u2;
+    const real r1_w9_y2 = x->r1_w9_s2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: stage 2: memory */
-    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b1 * r1_w9_u2;
+    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2;
+    const real r1_w9_u1 = r1_w9_y2 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 1 */
-    const real r1_w9_y1 = x->r1_w9_s1 + c->b0 * r1_w9_u1;
+    const real r1_w9_y1 = x->r1_w9_s1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1_w9: stage 1: memory */
-    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
+    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1: what the tolerances of el.k and me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
+    /* khepera.bg:17: r1_w10: terms of order 0 */
+    const real r1_w10_g0 = c->r1_w10_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w10: degree 1 */
+    const real r1_w10_d1 = c->r1_w10_w1_wh__ws * s->wh__ws;
+
+    /* khepera.bg:17: r1_w10: error of order 0 */
+    const real r1_w10_e0 = c->bend1 * r1_w10_g0;
+
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = c->r1_w10_v3_wh__ws * s->wh__ws;
+    const real r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 3 */
-    const real r1_w10_y3 = x->r1_w10_s3 + c->b0 * r1_w10_u3;
+    const real r1_w10_y3 = x->r1_w10_s3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: stage 3: memory */
-    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b1 * r1_w10_u3;
+    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: input of stage 2 */
-    const real r1_w10_u2 = r1_w10_y3 + c->r1_w10_v2_wh__ws * s->wh__ws;
+    const real r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + REAL(2.0) * r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 2 */
-    const real r1_w10_y2 = x->r1_w10_s2 + c->b0 * r1_w10_u2;
+    const real r1_w10_y2 = x->r1_w10_s2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: stage 2: memory */
-    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b1 * r1_w10_u2;
+    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: input of stage 1 */
-    const real r1_w10_u1 = r1_w10_y2;
+    const real r1_w10_u1 = r1_w10_y2 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 1 */
-    const real r1_w10_y1 = x->r1_w10_s1 + c->b0 * r1_w10_u1;
+    const real r1_w10_y1 = x->r1_w10_s1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1_w10: stage 1: memory */
-    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
+    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1: what the tolerances of el.k and wh.fs can do together */
     const real r1_w10 = r1_w10_y1;

@@ -32,7 +32,7 @@ typedef double drive_as_drawn_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define DRIVE_AS_DRAWN_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(drive_as_drawn_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define DRIVE_AS_DRAWN_THRESHOLD_DIGEST "cacc599e2fa3b334"
+#define DRIVE_AS_DRAWN_THRESHOLD_DIGEST "ccc760dc47c2348d"
 
 /* What the code was made for: arguments of drive_as_drawn_threshold_configure, in s, rad/s and s. */
 #define DRIVE_AS_DRAWN_THRESHOLD_SAMPLE_TIME DRIVE_AS_DRAWN_THRESHOLD_CONSTANT(0.001)
@@ -99,70 +99,81 @@ typedef struct drive_as_drawn_threshold_coefficients {
     drive_as_drawn_threshold_real g;                 /* 1/(4*tau0) */
     drive_as_drawn_threshold_real g_2;               /* ge.N/(4*tau0) */
     drive_as_drawn_threshold_real half_time;         /* half the sample time */
-    drive_as_drawn_threshold_real r1_w1_v2_me__we;   /* r1_w1: factor of me.we in stage 2 */
-    drive_as_drawn_threshold_real r1_w1_v3_me__we;   /* r1_w1: factor of me.we in stage 3 */
-    /* r1_w1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 3 */
-    drive_as_drawn_threshold_real r1_w1_v3_tanh;
-    drive_as_drawn_threshold_real r1_w1_v2_wh__ws;   /* r1_w1: factor of wh.ws in stage 2 */
-    drive_as_drawn_threshold_real r1_w1_v3_wh__ws;   /* r1_w1: factor of wh.ws in stage 3 */
-    drive_as_drawn_threshold_real r1_w1_v3_Fx;       /* r1_w1: factor of Fx in stage 3 */
-    drive_as_drawn_threshold_real a;                 /* filter: exp(-bandwidth*sample_time) */
-    drive_as_drawn_threshold_real b0;                /* filter: weight of the new sample */
-    drive_as_drawn_threshold_real b1;                /* filter: weight of the sample before */
-    /* filter: 1 - b0, the memory of a constant 1 */
-    drive_as_drawn_threshold_real rest;
-    /* r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 2 */
-    drive_as_drawn_threshold_real r1_w2_v2_tanh;
-    /* r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 3 */
-    drive_as_drawn_threshold_real r1_w2_v3_tanh;
-    drive_as_drawn_threshold_real r1_w2_v1_wh__ws;   /* r1_w2: factor of wh.ws in stage 1 */
-    drive_as_drawn_threshold_real r1_w2_v2_wh__ws;   /* r1_w2: factor of wh.ws in stage 2 */
-    drive_as_drawn_threshold_real r1_w2_v3_wh__ws;   /* r1_w2: factor of wh.ws in stage 3 */
-    drive_as_drawn_threshold_real r1_w2_v2_Fx;       /* r1_w2: factor of Fx in stage 2 */
-    drive_as_drawn_threshold_real r1_w2_v3_Fx;       /* r1_w2: factor of Fx in stage 3 */
-    drive_as_drawn_threshold_real r1_w2_v1_me__we;   /* r1_w2: factor of me.we in stage 1 */
-    drive_as_drawn_threshold_real r1_w2_v2_me__we;   /* r1_w2: factor of me.we in stage 2 */
-    drive_as_drawn_threshold_real r1_w2_v3_me__we;   /* r1_w2: factor of me.we in stage 3 */
-    drive_as_drawn_threshold_real r1_w3_v2_me__we;   /* r1_w3: factor of me.we in stage 2 */
-    drive_as_drawn_threshold_real r1_w3_v3_me__we;   /* r1_w3: factor of me.we in stage 3 */
-    drive_as_drawn_threshold_real r1_w4_v2_wh__ws;   /* r1_w4: factor of wh.ws in stage 2 */
-    drive_as_drawn_threshold_real r1_w4_v3_wh__ws;   /* r1_w4: factor of wh.ws in stage 3 */
-    drive_as_drawn_threshold_real r1_w5_v2_me__we;   /* r1_w5: factor of me.we in stage 2 */
-    drive_as_drawn_threshold_real r1_w5_v3_me__we;   /* r1_w5: factor of me.we in stage 3 */
-    /* r1_w5: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 3 */
-    drive_as_drawn_threshold_real r1_w5_v3_tanh;
-    drive_as_drawn_threshold_real r1_w5_v2_wh__ws;   /* r1_w5: factor of wh.ws in stage 2 */
-    drive_as_drawn_threshold_real r1_w5_v3_wh__ws;   /* r1_w5: factor of wh.ws in stage 3 */
-    drive_as_drawn_threshold_real r1_w5_v3_Fx;       /* r1_w5: factor of Fx in stage 3 */
-    drive_as_drawn_threshold_real r1_w6_v3_me__we;   /* r1_w6: factor of me.we in stage 3 */
-    drive_as_drawn_threshold_real r1_w7_v3_wh__ws;   /* r1_w7: factor of wh.ws in stage 3 */
-    /* r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 2 */
-    drive_as_drawn_threshold_real r1_w8_v2_tanh;
-    /* r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 3 */
-    drive_as_drawn_threshold_real r1_w8_v3_tanh;
-    drive_as_drawn_threshold_real r1_w8_v1_wh__ws;   /* r1_w8: factor of wh.ws in stage 1 */
-    drive_as_drawn_threshold_real r1_w8_v2_wh__ws;   /* r1_w8: factor of wh.ws in stage 2 */
-    drive_as_drawn_threshold_real r1_w8_v3_wh__ws;   /* r1_w8: factor of wh.ws in stage 3 */
-    drive_as_drawn_threshold_real r1_w8_v2_Fx;       /* r1_w8: factor of Fx in stage 2 */
-    drive_as_drawn_threshold_real r1_w8_v3_Fx;       /* r1_w8: factor of Fx in stage 3 */
-    drive_as_drawn_threshold_real r1_w8_v1_me__we;   /* r1_w8: factor of me.we in stage 1 */
-    drive_as_drawn_threshold_real r1_w8_v2_me__we;   /* r1_w8: factor of me.we in stage 2 */
-    drive_as_drawn_threshold_real r1_w8_v3_me__we;   /* r1_w8: factor of me.we in stage 3 */
-    drive_as_drawn_threshold_real r1_w9_v2_me__we;   /* r1_w9: factor of me.we in stage 2 */
-    drive_as_drawn_threshold_real r1_w9_v3_me__we;   /* r1_w9: factor of me.we in stage 3 */
-    drive_as_drawn_threshold_real r1_w10_v2_wh__ws;  /* r1_w10: factor of wh.ws in stage 2 */
-    drive_as_drawn_threshold_real r1_w10_v3_wh__ws;  /* r1_w10: factor of wh.ws in stage 3 */
+    drive_as_drawn_threshold_real half_twelfth;      /* sample_time/24 */
+    drive_as_drawn_threshold_real r1_w1_me__we;      /* r1_w1: factor of me.we */
+    drive_as_drawn_threshold_real r1_w1_w1_me__we;   /* r1_w1: factor of me.we' */
+    /* r1_w1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    drive_as_drawn_threshold_real r1_w1_tanh;
+    drive_as_drawn_threshold_real r1_w1_wh__ws;      /* r1_w1: factor of wh.ws */
+    drive_as_drawn_threshold_real r1_w1_w1_wh__ws;   /* r1_w1: factor of wh.ws' */
+    drive_as_drawn_threshold_real r1_w1_Fx;          /* r1_w1: factor of Fx */
+    drive_as_drawn_threshold_real bend1;             /* filter: 1 * (w*sample_time)^2/12 */
+    /* filter: what is left of a memory a sample later */
+    drive_as_drawn_threshold_real a;
+    /* filter: weight of a sample, new and a sample later */
+    drive_as_drawn_threshold_real b;
+    drive_as_drawn_threshold_real rest;              /* filter: 1 - b, the memory of a constant 1 */
+    /* r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    drive_as_drawn_threshold_real r1_w2_tanh;
+    /* r1_w2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
+    drive_as_drawn_threshold_real r1_w2_w1_tanh;
+    drive_as_drawn_threshold_real r1_w2_wh__ws;      /* r1_w2: factor of wh.ws */
+    drive_as_drawn_threshold_real r1_w2_w1_wh__ws;   /* r1_w2: factor of wh.ws' */
+    drive_as_drawn_threshold_real r1_w2_w2_wh__ws;   /* r1_w2: factor of wh.ws'' */
+    drive_as_drawn_threshold_real r1_w2_Fx;          /* r1_w2: factor of Fx */
+    drive_as_drawn_threshold_real r1_w2_w1_Fx;       /* r1_w2: factor of Fx' */
+    drive_as_drawn_threshold_real r1_w2_me__we;      /* r1_w2: factor of me.we */
+    drive_as_drawn_threshold_real r1_w2_w1_me__we;   /* r1_w2: factor of me.we' */
+    drive_as_drawn_threshold_real r1_w2_w2_me__we;   /* r1_w2: factor of me.we'' */
+    drive_as_drawn_threshold_real bend2;             /* filter: 2 * (w*sample_time)^2/12 */
+    drive_as_drawn_threshold_real r1_w3_me__we;      /* r1_w3: factor of me.we */
+    drive_as_drawn_threshold_real r1_w3_w1_me__we;   /* r1_w3: factor of me.we' */
+    drive_as_drawn_threshold_real r1_w4_wh__ws;      /* r1_w4: factor of wh.ws */
+    drive_as_drawn_threshold_real r1_w4_w1_wh__ws;   /* r1_w4: factor of wh.ws' */
+    drive_as_drawn_threshold_real r1_w5_me__we;      /* r1_w5: factor of me.we */
+    drive_as_drawn_threshold_real r1_w5_w1_me__we;   /* r1_w5: factor of me.we' */
+    /* r1_w5: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    drive_as_drawn_threshold_real r1_w5_tanh;
+    drive_as_drawn_threshold_real r1_w5_wh__ws;      /* r1_w5: factor of wh.ws */
+    drive_as_drawn_threshold_real r1_w5_w1_wh__ws;   /* r1_w5: factor of wh.ws' */
+    drive_as_drawn_threshold_real r1_w5_Fx;          /* r1_w5: factor of Fx */
+    drive_as_drawn_threshold_real r1_w6_me__we;      /* r1_w6: factor of me.we */
+    drive_as_drawn_threshold_real r1_w7_wh__ws;      /* r1_w7: factor of wh.ws */
+    /* r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) */
+    drive_as_drawn_threshold_real r1_w8_tanh;
+    /* r1_w8: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))) */
+    drive_as_drawn_threshold_real r1_w8_w1_tanh;
+    drive_as_drawn_threshold_real r1_w8_wh__ws;      /* r1_w8: factor of wh.ws */
+    drive_as_drawn_threshold_real r1_w8_w1_wh__ws;   /* r1_w8: factor of wh.ws' */
+    drive_as_drawn_threshold_real r1_w8_w2_wh__ws;   /* r1_w8: factor of wh.ws'' */
+    drive_as_drawn_threshold_real r1_w8_Fx;          /* r1_w8: factor of Fx */
+    drive_as_drawn_threshold_real r1_w8_w1_Fx;       /* r1_w8: factor of Fx' */
+    drive_as_drawn_threshold_real r1_w8_me__we;      /* r1_w8: factor of me.we */
+    drive_as_drawn_threshold_real r1_w8_w1_me__we;   /* r1_w8: factor of me.we' */
+    drive_as_drawn_threshold_real r1_w8_w2_me__we;   /* r1_w8: factor of me.we'' */
+    drive_as_drawn_threshold_real r1_w9_me__we;      /* r1_w9: factor of me.we */
+    drive_as_drawn_threshold_real r1_w9_w1_me__we;   /* r1_w9: factor of me.we' */
+    drive_as_drawn_threshold_real r1_w10_wh__ws;     /* r1_w10: factor of wh.ws */
+    drive_as_drawn_threshold_real r1_w10_w1_wh__ws;  /* r1_w10: factor of wh.ws' */
 } drive_as_drawn_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */
 typedef struct drive_as_drawn_threshold_memory {
     /* memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
     drive_as_drawn_threshold_real r1_w1_q;
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before */
+    drive_as_drawn_threshold_real r1_w1_rate1;
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before */
+    drive_as_drawn_threshold_real r1_w1_rate2;
     drive_as_drawn_threshold_real r1_w1_s3;   /* memory of r1_w1: stage 3 */
     drive_as_drawn_threshold_real r1_w1_s2;   /* memory of r1_w1: stage 2 */
     drive_as_drawn_threshold_real r1_w1_s1;   /* memory of r1_w1: stage 1 */
     /* memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
     drive_as_drawn_threshold_real r1_w2_q;
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before */
+    drive_as_drawn_threshold_real r1_w2_rate1;
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before */
+    drive_as_drawn_threshold_real r1_w2_rate2;
     drive_as_drawn_threshold_real r1_w2_s3;   /* memory of r1_w2: stage 3 */
     drive_as_drawn_threshold_real r1_w2_s2;   /* memory of r1_w2: stage 2 */
     drive_as_drawn_threshold_real r1_w2_s1;   /* memory of r1_w2: stage 1 */
@@ -174,6 +185,10 @@ typedef struct drive_as_drawn_threshold_memory {
     drive_as_drawn_threshold_real r1_w4_s1;   /* memory of r1_w4: stage 1 */
     /* memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
     drive_as_drawn_threshold_real r1_w5_q;
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before */
+    drive_as_drawn_threshold_real r1_w5_rate1;
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before */
+    drive_as_drawn_threshold_real r1_w5_rate2;
     drive_as_drawn_threshold_real r1_w5_s3;   /* memory of r1_w5: stage 3 */
     drive_as_drawn_threshold_real r1_w5_s2;   /* memory of r1_w5: stage 2 */
     drive_as_drawn_threshold_real r1_w5_s1;   /* memory of r1_w5: stage 1 */
@@ -185,6 +200,10 @@ typedef struct drive_as_drawn_threshold_memory {
     drive_as_drawn_threshold_real r1_w7_s1;   /* memory of r1_w7: stage 1 */
     /* memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0) */
     drive_as_drawn_threshold_real r1_w8_q;
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before */
+    drive_as_drawn_threshold_real r1_w8_rate1;
+    /* integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before */
+    drive_as_drawn_threshold_real r1_w8_rate2;
     drive_as_drawn_threshold_real r1_w8_s3;   /* memory of r1_w8: stage 3 */
     drive_as_drawn_threshold_real r1_w8_s2;   /* memory of r1_w8: stage 2 */
     drive_as_drawn_threshold_real r1_w8_s1;   /* memory of r1_w8: stage 1 */

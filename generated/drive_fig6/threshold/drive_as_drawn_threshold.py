@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "cacc599e2fa3b334"
+DIGEST = "ccc760dc47c2348d"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -79,97 +79,103 @@ class Coefficients:
     g: float                 # 1/(4*tau0)
     g_2: float               # ge.N/(4*tau0)
     half_time: float         # half the sample time
-    r1_w1_v2_me__we: float   # r1_w1: factor of me.we in stage 2
-    r1_w1_v3_me__we: float   # r1_w1: factor of me.we in stage 3
-    # r1_w1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 3
-    r1_w1_v3_tanh: float
-    r1_w1_v2_wh__ws: float   # r1_w1: factor of wh.ws in stage 2
-    r1_w1_v3_wh__ws: float   # r1_w1: factor of wh.ws in stage 3
-    r1_w1_v3_Fx: float       # r1_w1: factor of Fx in stage 3
-    a: float                 # filter: exp(-bandwidth*sample_time)
-    b0: float                # filter: weight of the new sample
-    b1: float                # filter: weight of the sample before
-    rest: float              # filter: 1 - b0, the memory of a constant 1
-    # r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 2
-    r1_w2_v2_tanh: float
-    # r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 3
-    r1_w2_v3_tanh: float
-    r1_w2_v1_wh__ws: float   # r1_w2: factor of wh.ws in stage 1
-    r1_w2_v2_wh__ws: float   # r1_w2: factor of wh.ws in stage 2
-    r1_w2_v3_wh__ws: float   # r1_w2: factor of wh.ws in stage 3
-    r1_w2_v2_Fx: float       # r1_w2: factor of Fx in stage 2
-    r1_w2_v3_Fx: float       # r1_w2: factor of Fx in stage 3
-    r1_w2_v1_me__we: float   # r1_w2: factor of me.we in stage 1
-    r1_w2_v2_me__we: float   # r1_w2: factor of me.we in stage 2
-    r1_w2_v3_me__we: float   # r1_w2: factor of me.we in stage 3
-    r1_w3_v2_me__we: float   # r1_w3: factor of me.we in stage 2
-    r1_w3_v3_me__we: float   # r1_w3: factor of me.we in stage 3
-    r1_w4_v2_wh__ws: float   # r1_w4: factor of wh.ws in stage 2
-    r1_w4_v3_wh__ws: float   # r1_w4: factor of wh.ws in stage 3
-    r1_w5_v2_me__we: float   # r1_w5: factor of me.we in stage 2
-    r1_w5_v3_me__we: float   # r1_w5: factor of me.we in stage 3
-    # r1_w5: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 3
-    r1_w5_v3_tanh: float
-    r1_w5_v2_wh__ws: float   # r1_w5: factor of wh.ws in stage 2
-    r1_w5_v3_wh__ws: float   # r1_w5: factor of wh.ws in stage 3
-    r1_w5_v3_Fx: float       # r1_w5: factor of Fx in stage 3
-    r1_w6_v3_me__we: float   # r1_w6: factor of me.we in stage 3
-    r1_w7_v3_wh__ws: float   # r1_w7: factor of wh.ws in stage 3
-    # r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 2
-    r1_w8_v2_tanh: float
-    # r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in stage 3
-    r1_w8_v3_tanh: float
-    r1_w8_v1_wh__ws: float   # r1_w8: factor of wh.ws in stage 1
-    r1_w8_v2_wh__ws: float   # r1_w8: factor of wh.ws in stage 2
-    r1_w8_v3_wh__ws: float   # r1_w8: factor of wh.ws in stage 3
-    r1_w8_v2_Fx: float       # r1_w8: factor of Fx in stage 2
-    r1_w8_v3_Fx: float       # r1_w8: factor of Fx in stage 3
-    r1_w8_v1_me__we: float   # r1_w8: factor of me.we in stage 1
-    r1_w8_v2_me__we: float   # r1_w8: factor of me.we in stage 2
-    r1_w8_v3_me__we: float   # r1_w8: factor of me.we in stage 3
-    r1_w9_v2_me__we: float   # r1_w9: factor of me.we in stage 2
-    r1_w9_v3_me__we: float   # r1_w9: factor of me.we in stage 3
-    r1_w10_v2_wh__ws: float  # r1_w10: factor of wh.ws in stage 2
-    r1_w10_v3_wh__ws: float  # r1_w10: factor of wh.ws in stage 3
+    half_twelfth: float      # sample_time/24
+    r1_w1_me__we: float      # r1_w1: factor of me.we
+    r1_w1_w1_me__we: float   # r1_w1: factor of me.we'
+    r1_w1_tanh: float        # r1_w1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
+    r1_w1_wh__ws: float      # r1_w1: factor of wh.ws
+    r1_w1_w1_wh__ws: float   # r1_w1: factor of wh.ws'
+    r1_w1_Fx: float          # r1_w1: factor of Fx
+    bend1: float             # filter: 1 * (w*sample_time)^2/12
+    a: float                 # filter: what is left of a memory a sample later
+    b: float                 # filter: weight of a sample, new and a sample later
+    rest: float              # filter: 1 - b, the memory of a constant 1
+    r1_w2_tanh: float        # r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
+    # r1_w2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)))
+    r1_w2_w1_tanh: float
+    r1_w2_wh__ws: float      # r1_w2: factor of wh.ws
+    r1_w2_w1_wh__ws: float   # r1_w2: factor of wh.ws'
+    r1_w2_w2_wh__ws: float   # r1_w2: factor of wh.ws''
+    r1_w2_Fx: float          # r1_w2: factor of Fx
+    r1_w2_w1_Fx: float       # r1_w2: factor of Fx'
+    r1_w2_me__we: float      # r1_w2: factor of me.we
+    r1_w2_w1_me__we: float   # r1_w2: factor of me.we'
+    r1_w2_w2_me__we: float   # r1_w2: factor of me.we''
+    bend2: float             # filter: 2 * (w*sample_time)^2/12
+    r1_w3_me__we: float      # r1_w3: factor of me.we
+    r1_w3_w1_me__we: float   # r1_w3: factor of me.we'
+    r1_w4_wh__ws: float      # r1_w4: factor of wh.ws
+    r1_w4_w1_wh__ws: float   # r1_w4: factor of wh.ws'
+    r1_w5_me__we: float      # r1_w5: factor of me.we
+    r1_w5_w1_me__we: float   # r1_w5: factor of me.we'
+    r1_w5_tanh: float        # r1_w5: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
+    r1_w5_wh__ws: float      # r1_w5: factor of wh.ws
+    r1_w5_w1_wh__ws: float   # r1_w5: factor of wh.ws'
+    r1_w5_Fx: float          # r1_w5: factor of Fx
+    r1_w6_me__we: float      # r1_w6: factor of me.we
+    r1_w7_wh__ws: float      # r1_w7: factor of wh.ws
+    r1_w8_tanh: float        # r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
+    # r1_w8: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)))
+    r1_w8_w1_tanh: float
+    r1_w8_wh__ws: float      # r1_w8: factor of wh.ws
+    r1_w8_w1_wh__ws: float   # r1_w8: factor of wh.ws'
+    r1_w8_w2_wh__ws: float   # r1_w8: factor of wh.ws''
+    r1_w8_Fx: float          # r1_w8: factor of Fx
+    r1_w8_w1_Fx: float       # r1_w8: factor of Fx'
+    r1_w8_me__we: float      # r1_w8: factor of me.we
+    r1_w8_w1_me__we: float   # r1_w8: factor of me.we'
+    r1_w8_w2_me__we: float   # r1_w8: factor of me.we''
+    r1_w9_me__we: float      # r1_w9: factor of me.we
+    r1_w9_w1_me__we: float   # r1_w9: factor of me.we'
+    r1_w10_wh__ws: float     # r1_w10: factor of wh.ws
+    r1_w10_w1_wh__ws: float  # r1_w10: factor of wh.ws'
 
 
 class Memory:
     """What the filters remember from sample to sample."""
 
-    r1_w1_q: float    # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
-    r1_w1_s3: float   # memory of r1_w1: stage 3
-    r1_w1_s2: float   # memory of r1_w1: stage 2
-    r1_w1_s1: float   # memory of r1_w1: stage 1
-    r1_w2_q: float    # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
-    r1_w2_s3: float   # memory of r1_w2: stage 3
-    r1_w2_s2: float   # memory of r1_w2: stage 2
-    r1_w2_s1: float   # memory of r1_w2: stage 1
-    r1_w3_s3: float   # memory of r1_w3: stage 3
-    r1_w3_s2: float   # memory of r1_w3: stage 2
-    r1_w3_s1: float   # memory of r1_w3: stage 1
-    r1_w4_s3: float   # memory of r1_w4: stage 3
-    r1_w4_s2: float   # memory of r1_w4: stage 2
-    r1_w4_s1: float   # memory of r1_w4: stage 1
-    r1_w5_q: float    # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
-    r1_w5_s3: float   # memory of r1_w5: stage 3
-    r1_w5_s2: float   # memory of r1_w5: stage 2
-    r1_w5_s1: float   # memory of r1_w5: stage 1
-    r1_w6_s3: float   # memory of r1_w6: stage 3
-    r1_w6_s2: float   # memory of r1_w6: stage 2
-    r1_w6_s1: float   # memory of r1_w6: stage 1
-    r1_w7_s3: float   # memory of r1_w7: stage 3
-    r1_w7_s2: float   # memory of r1_w7: stage 2
-    r1_w7_s1: float   # memory of r1_w7: stage 1
-    r1_w8_q: float    # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
-    r1_w8_s3: float   # memory of r1_w8: stage 3
-    r1_w8_s2: float   # memory of r1_w8: stage 2
-    r1_w8_s1: float   # memory of r1_w8: stage 1
-    r1_w9_s3: float   # memory of r1_w9: stage 3
-    r1_w9_s2: float   # memory of r1_w9: stage 2
-    r1_w9_s1: float   # memory of r1_w9: stage 1
-    r1_w10_s3: float  # memory of r1_w10: stage 3
-    r1_w10_s2: float  # memory of r1_w10: stage 2
-    r1_w10_s1: float  # memory of r1_w10: stage 1
+    r1_w1_q: float      # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+    r1_w1_rate1: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before
+    r1_w1_rate2: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before
+    r1_w1_s3: float     # memory of r1_w1: stage 3
+    r1_w1_s2: float     # memory of r1_w1: stage 2
+    r1_w1_s1: float     # memory of r1_w1: stage 1
+    r1_w2_q: float      # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+    r1_w2_rate1: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before
+    r1_w2_rate2: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before
+    r1_w2_s3: float     # memory of r1_w2: stage 3
+    r1_w2_s2: float     # memory of r1_w2: stage 2
+    r1_w2_s1: float     # memory of r1_w2: stage 1
+    r1_w3_s3: float     # memory of r1_w3: stage 3
+    r1_w3_s2: float     # memory of r1_w3: stage 2
+    r1_w3_s1: float     # memory of r1_w3: stage 1
+    r1_w4_s3: float     # memory of r1_w4: stage 3
+    r1_w4_s2: float     # memory of r1_w4: stage 2
+    r1_w4_s1: float     # memory of r1_w4: stage 1
+    r1_w5_q: float      # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+    r1_w5_rate1: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before
+    r1_w5_rate2: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before
+    r1_w5_s3: float     # memory of r1_w5: stage 3
+    r1_w5_s2: float     # memory of r1_w5: stage 2
+    r1_w5_s1: float     # memory of r1_w5: stage 1
+    r1_w6_s3: float     # memory of r1_w6: stage 3
+    r1_w6_s2: float     # memory of r1_w6: stage 2
+    r1_w6_s1: float     # memory of r1_w6: stage 1
+    r1_w7_s3: float     # memory of r1_w7: stage 3
+    r1_w7_s2: float     # memory of r1_w7: stage 2
+    r1_w7_s1: float     # memory of r1_w7: stage 1
+    r1_w8_q: float      # memory of integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+    r1_w8_rate1: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate a sample before
+    r1_w8_rate2: float  # integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): rate two samples before
+    r1_w8_s3: float     # memory of r1_w8: stage 3
+    r1_w8_s2: float     # memory of r1_w8: stage 2
+    r1_w8_s1: float     # memory of r1_w8: stage 1
+    r1_w9_s3: float     # memory of r1_w9: stage 3
+    r1_w9_s2: float     # memory of r1_w9: stage 2
+    r1_w9_s1: float     # memory of r1_w9: stage 1
+    r1_w10_s3: float    # memory of r1_w10: stage 3
+    r1_w10_s2: float    # memory of r1_w10: stage 2
+    r1_w10_s1: float    # memory of r1_w10: stage 1
 
 
 class Monitor:
@@ -204,22 +210,22 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.g + self._c.g_2 + self._c.half_time + self._c.r1_w1_v2_me__we
-                    + self._c.r1_w1_v3_me__we + self._c.r1_w1_v3_tanh + self._c.r1_w1_v2_wh__ws
-                    + self._c.r1_w1_v3_wh__ws + self._c.r1_w1_v3_Fx + self._c.a + self._c.b0
-                    + self._c.b1 + self._c.rest + self._c.r1_w2_v2_tanh + self._c.r1_w2_v3_tanh
-                    + self._c.r1_w2_v1_wh__ws + self._c.r1_w2_v2_wh__ws + self._c.r1_w2_v3_wh__ws
-                    + self._c.r1_w2_v2_Fx + self._c.r1_w2_v3_Fx + self._c.r1_w2_v1_me__we
-                    + self._c.r1_w2_v2_me__we + self._c.r1_w2_v3_me__we + self._c.r1_w3_v2_me__we
-                    + self._c.r1_w3_v3_me__we + self._c.r1_w4_v2_wh__ws + self._c.r1_w4_v3_wh__ws
-                    + self._c.r1_w5_v2_me__we + self._c.r1_w5_v3_me__we + self._c.r1_w5_v3_tanh
-                    + self._c.r1_w5_v2_wh__ws + self._c.r1_w5_v3_wh__ws + self._c.r1_w5_v3_Fx
-                    + self._c.r1_w6_v3_me__we + self._c.r1_w7_v3_wh__ws + self._c.r1_w8_v2_tanh
-                    + self._c.r1_w8_v3_tanh + self._c.r1_w8_v1_wh__ws + self._c.r1_w8_v2_wh__ws
-                    + self._c.r1_w8_v3_wh__ws + self._c.r1_w8_v2_Fx + self._c.r1_w8_v3_Fx
-                    + self._c.r1_w8_v1_me__we + self._c.r1_w8_v2_me__we + self._c.r1_w8_v3_me__we
-                    + self._c.r1_w9_v2_me__we + self._c.r1_w9_v3_me__we + self._c.r1_w10_v2_wh__ws
-                    + self._c.r1_w10_v3_wh__ws
+                    self._c.g + self._c.g_2 + self._c.half_time + self._c.half_twelfth
+                    + self._c.r1_w1_me__we + self._c.r1_w1_w1_me__we + self._c.r1_w1_tanh
+                    + self._c.r1_w1_wh__ws + self._c.r1_w1_w1_wh__ws + self._c.r1_w1_Fx
+                    + self._c.bend1 + self._c.a + self._c.b + self._c.rest + self._c.r1_w2_tanh
+                    + self._c.r1_w2_w1_tanh + self._c.r1_w2_wh__ws + self._c.r1_w2_w1_wh__ws
+                    + self._c.r1_w2_w2_wh__ws + self._c.r1_w2_Fx + self._c.r1_w2_w1_Fx
+                    + self._c.r1_w2_me__we + self._c.r1_w2_w1_me__we + self._c.r1_w2_w2_me__we
+                    + self._c.bend2 + self._c.r1_w3_me__we + self._c.r1_w3_w1_me__we
+                    + self._c.r1_w4_wh__ws + self._c.r1_w4_w1_wh__ws + self._c.r1_w5_me__we
+                    + self._c.r1_w5_w1_me__we + self._c.r1_w5_tanh + self._c.r1_w5_wh__ws
+                    + self._c.r1_w5_w1_wh__ws + self._c.r1_w5_Fx + self._c.r1_w6_me__we
+                    + self._c.r1_w7_wh__ws + self._c.r1_w8_tanh + self._c.r1_w8_w1_tanh
+                    + self._c.r1_w8_wh__ws + self._c.r1_w8_w1_wh__ws + self._c.r1_w8_w2_wh__ws
+                    + self._c.r1_w8_Fx + self._c.r1_w8_w1_Fx + self._c.r1_w8_me__we
+                    + self._c.r1_w8_w1_me__we + self._c.r1_w8_w2_me__we + self._c.r1_w9_me__we
+                    + self._c.r1_w9_w1_me__we + self._c.r1_w10_wh__ws + self._c.r1_w10_w1_wh__ws
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -266,6 +272,15 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: el.Re*me.fe/el.k
         t = p.el__Re * p.me__fe / p.el__k
 
@@ -278,67 +293,35 @@ class Monitor:
         # khepera.bg:17: el.Re*wh.R/(ge.N*el.k)
         t_4 = p.el__Re * p.wh__R / p.ge__N / p.el__k
 
-        # exp(-x)
-        t_5 = _exponential(-x_)
+        # 1 - pole
+        t_5 = 1.0 - pole
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_6 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_5) / x_
-        )
+        # turn^2
+        t_6 = turn * turn
 
-        # khepera.bg:17: el.L*me.Je*bandwidth^2/el.k
-        t_7 = p.el__L * p.me__Je * bandwidth * bandwidth / p.el__k
+        # khepera.bg:17: el.L*me.Je*w^2/el.k
+        t_7 = p.el__L * p.me__Je * w * w / p.el__k
 
-        # khepera.bg:17: tau0*A*me.K*el.L*bandwidth/el.k
-        t_8 = p.tau0 * p.A * p.me__K * p.el__L * bandwidth / p.el__k
+        # khepera.bg:17: tau0*A*me.K*el.L*w/el.k
+        t_8 = p.tau0 * p.A * p.me__K * p.el__L * w / p.el__k
 
-        # khepera.bg:17: el.L*wh.Js*bandwidth^2/(ge.N*el.k)
-        t_9 = p.el__L * p.wh__Js * bandwidth * bandwidth / p.ge__N / p.el__k
+        # khepera.bg:17: el.L*wh.Js*w^2/(ge.N*el.k)
+        t_9 = p.el__L * p.wh__Js * w * w / p.ge__N / p.el__k
 
-        # khepera.bg:17: el.L*wh.R*bandwidth/(ge.N*el.k)
-        t_10 = p.el__L * p.wh__R * bandwidth / p.ge__N / p.el__k
+        # khepera.bg:17: el.L*wh.R*w/(ge.N*el.k)
+        t_10 = p.el__L * p.wh__R * w / p.ge__N / p.el__k
 
-        # khepera.bg:17: el.Re*me.Je*bandwidth/el.k
-        t_11 = p.el__Re * p.me__Je * bandwidth / p.el__k
+        # khepera.bg:17: el.Re*me.Je*w/el.k
+        t_11 = p.el__Re * p.me__Je * w / p.el__k
 
-        # khepera.bg:17: el.Re*wh.Js*bandwidth/(ge.N*el.k)
-        t_12 = p.el__Re * p.wh__Js * bandwidth / p.ge__N / p.el__k
+        # khepera.bg:17: el.Re*wh.Js*w/(ge.N*el.k)
+        t_12 = p.el__Re * p.wh__Js * w / p.ge__N / p.el__k
 
-        # khepera.bg:17: el.k*bandwidth*(el.Re*wh.Js/(ge.N*el.k^2) + el.L*wh.fs/(ge.N*el.k^2))
-        t_13 = (
-            p.el__k * bandwidth * (p.el__Re * p.wh__Js / p.ge__N / p.el__k / p.el__k
-                + p.el__L * p.wh__fs / p.ge__N / p.el__k / p.el__k)
-        )
+        # khepera.bg:17: el.L*me.fe*w/el.k
+        t_13 = p.el__L * p.me__fe * w / p.el__k
 
-        # khepera.bg:17: el.k*bandwidth*(el.Re*me.Je/el.k^2 + el.L*me.fe/el.k^2)
-        t_14 = (
-            p.el__k * bandwidth * (p.el__Re * p.me__Je / p.el__k / p.el__k
-                + p.el__L * p.me__fe / p.el__k / p.el__k)
-        )
-
-        # khepera.bg:17: el.L*me.fe*bandwidth/el.k
-        t_15 = p.el__L * p.me__fe * bandwidth / p.el__k
-
-        # khepera.bg:17: el.L*wh.fs*bandwidth/(ge.N*el.k)
-        t_16 = p.el__L * p.wh__fs * bandwidth / p.ge__N / p.el__k
-
-        # khepera.bg:17: el.k^2*bandwidth*(-2*el.Re*wh.Js/(ge.N*el.k^3) -
-        # 2*el.L*wh.fs/(ge.N*el.k^3))
-        t_17 = (
-            p.el__k * p.el__k * bandwidth
-                * (-2.0 * p.el__Re * p.wh__Js / p.ge__N / p.el__k / p.el__k / p.el__k
-                - 2.0 * p.el__L * p.wh__fs / p.ge__N / p.el__k / p.el__k / p.el__k)
-        )
-
-        # khepera.bg:17: el.k^2*bandwidth*(-2*el.Re*me.Je/el.k^3 - 2*el.L*me.fe/el.k^3)
-        t_18 = (
-            p.el__k * p.el__k * bandwidth
-                * (-2.0 * p.el__Re * p.me__Je / p.el__k / p.el__k / p.el__k
-                - 2.0 * p.el__L * p.me__fe / p.el__k / p.el__k / p.el__k)
-        )
+        # khepera.bg:17: el.L*wh.fs*w/(ge.N*el.k)
+        t_14 = p.el__L * p.wh__fs * w / p.ge__N / p.el__k
 
         # khepera.bg:17: 1/(4*tau0)
         c.g = 0.25 / p.tau0
@@ -349,152 +332,162 @@ class Monitor:
         # half the sample time
         c.half_time = 0.5 * sample_time
 
-        # khepera.bg:17: r1_w1: factor of me.we in stage 2
-        c.r1_w1_v2_me__we = t_11 / 20.0
+        # sample_time/24
+        c.half_twelfth = sample_time / 24.0
 
-        # khepera.bg:17: r1_w1: factor of me.we in stage 3
-        c.r1_w1_v3_me__we = t_11 / 20.0 - t / 20.0
+        # khepera.bg:17: r1_w1: factor of me.we
+        c.r1_w1_me__we = t / 20.0
 
-        # khepera.bg:17: r1_w1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-        # stage 3
-        c.r1_w1_v3_tanh = t_2 / 10.0
+        # khepera.bg:17: r1_w1: factor of me.we'
+        c.r1_w1_w1_me__we = t_11 / 20.0
 
-        # khepera.bg:17: r1_w1: factor of wh.ws in stage 2
-        c.r1_w1_v2_wh__ws = t_12 / 20.0
+        # khepera.bg:17: r1_w1: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
+        c.r1_w1_tanh = t_2 / 10.0
 
-        # khepera.bg:17: r1_w1: factor of wh.ws in stage 3
-        c.r1_w1_v3_wh__ws = t_12 / 20.0 - t_3 / 20.0
+        # khepera.bg:17: r1_w1: factor of wh.ws
+        c.r1_w1_wh__ws = t_3 / 20.0
 
-        # khepera.bg:17: r1_w1: factor of Fx in stage 3
-        c.r1_w1_v3_Fx = t_4 / 20.0
+        # khepera.bg:17: r1_w1: factor of wh.ws'
+        c.r1_w1_w1_wh__ws = t_12 / 20.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_5
+        # khepera.bg:17: r1_w1: factor of Fx
+        c.r1_w1_Fx = t_4 / 20.0
 
-        # filter: weight of the new sample
-        c.b0 = t_6
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_6 / 12.0
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_5 - t_6
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_6
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_5
 
-        # khepera.bg:17: r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-        # stage 2
-        c.r1_w2_v2_tanh = t_8 / 25.0
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t_5
 
-        # khepera.bg:17: r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-        # stage 3
-        c.r1_w2_v3_tanh = t_8 / 25.0 - t_2 / 25.0
+        # khepera.bg:17: r1_w2: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
+        c.r1_w2_tanh = t_2 / 25.0
 
-        # khepera.bg:17: r1_w2: factor of wh.ws in stage 1
-        c.r1_w2_v1_wh__ws = t_9 / 50.0
+        # khepera.bg:17: r1_w2: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)))
+        c.r1_w2_w1_tanh = t_8 / 25.0
 
-        # khepera.bg:17: r1_w2: factor of wh.ws in stage 2
-        c.r1_w2_v2_wh__ws = t_13 / 50.0 - t_9 / 25.0
+        # khepera.bg:17: r1_w2: factor of wh.ws
+        c.r1_w2_wh__ws = t_3 / 50.0
 
-        # khepera.bg:17: r1_w2: factor of wh.ws in stage 3
-        c.r1_w2_v3_wh__ws = t_3 / 50.0 + t_9 / 50.0 - t_13 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of Fx in stage 2
-        c.r1_w2_v2_Fx = t_10 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of Fx in stage 3
-        c.r1_w2_v3_Fx = t_4 / 50.0 - t_10 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of me.we in stage 1
-        c.r1_w2_v1_me__we = t_7 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of me.we in stage 2
-        c.r1_w2_v2_me__we = t_14 / 50.0 - t_7 / 25.0
-
-        # khepera.bg:17: r1_w2: factor of me.we in stage 3
-        c.r1_w2_v3_me__we = (
-            t_7 / 50.0 + p.el__k * (p.el__Re * p.me__fe / p.el__k / p.el__k - 1.0) / 50.0
-            - t_14 / 50.0
+        # khepera.bg:17: r1_w2: factor of wh.ws'
+        c.r1_w2_w1_wh__ws = (
+            p.el__k * w * (p.el__Re * p.wh__Js / p.ge__N / p.el__k / p.el__k
+                + p.el__L * p.wh__fs / p.ge__N / p.el__k / p.el__k) / 50.0
         )
 
-        # khepera.bg:17: r1_w3: factor of me.we in stage 2
-        c.r1_w3_v2_me__we = t_15 / 10.0
+        # khepera.bg:17: r1_w2: factor of wh.ws''
+        c.r1_w2_w2_wh__ws = t_9 / 50.0
 
-        # khepera.bg:17: r1_w3: factor of me.we in stage 3
-        c.r1_w3_v3_me__we = t_15 / 10.0 - t / 10.0
+        # khepera.bg:17: r1_w2: factor of Fx
+        c.r1_w2_Fx = t_4 / 50.0
 
-        # khepera.bg:17: r1_w4: factor of wh.ws in stage 2
-        c.r1_w4_v2_wh__ws = t_16 / 10.0
+        # khepera.bg:17: r1_w2: factor of Fx'
+        c.r1_w2_w1_Fx = t_10 / 50.0
 
-        # khepera.bg:17: r1_w4: factor of wh.ws in stage 3
-        c.r1_w4_v3_wh__ws = t_16 / 10.0 - t_3 / 10.0
+        # khepera.bg:17: r1_w2: factor of me.we
+        c.r1_w2_me__we = p.el__k * (p.el__Re * p.me__fe / p.el__k / p.el__k - 1.0) / 50.0
 
-        # khepera.bg:17: r1_w5: factor of me.we in stage 2
-        c.r1_w5_v2_me__we = t_11 / 730.0
+        # khepera.bg:17: r1_w2: factor of me.we'
+        c.r1_w2_w1_me__we = (
+            p.el__k * w * (p.el__Re * p.me__Je / p.el__k / p.el__k
+                + p.el__L * p.me__fe / p.el__k / p.el__k) / 50.0
+        )
 
-        # khepera.bg:17: r1_w5: factor of me.we in stage 3
-        c.r1_w5_v3_me__we = t / 730.0 - t_11 / 730.0
+        # khepera.bg:17: r1_w2: factor of me.we''
+        c.r1_w2_w2_me__we = t_7 / 50.0
 
-        # khepera.bg:17: r1_w5: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-        # stage 3
-        c.r1_w5_v3_tanh = t_2 / 365.0
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_6 / 6.0
 
-        # khepera.bg:17: r1_w5: factor of wh.ws in stage 2
-        c.r1_w5_v2_wh__ws = t_12 / 730.0
+        # khepera.bg:17: r1_w3: factor of me.we
+        c.r1_w3_me__we = t / 10.0
 
-        # khepera.bg:17: r1_w5: factor of wh.ws in stage 3
-        c.r1_w5_v3_wh__ws = t_3 / 730.0 - t_12 / 730.0
+        # khepera.bg:17: r1_w3: factor of me.we'
+        c.r1_w3_w1_me__we = t_13 / 10.0
 
-        # khepera.bg:17: r1_w5: factor of Fx in stage 3
-        c.r1_w5_v3_Fx = t_4 / 730.0
+        # khepera.bg:17: r1_w4: factor of wh.ws
+        c.r1_w4_wh__ws = t_3 / 10.0
 
-        # khepera.bg:17: r1_w6: factor of me.we in stage 3
-        c.r1_w6_v3_me__we = t / 146.0
+        # khepera.bg:17: r1_w4: factor of wh.ws'
+        c.r1_w4_w1_wh__ws = t_14 / 10.0
 
-        # khepera.bg:17: r1_w7: factor of wh.ws in stage 3
-        c.r1_w7_v3_wh__ws = t_3 / 146.0
+        # khepera.bg:17: r1_w5: factor of me.we
+        c.r1_w5_me__we = t / 730.0
 
-        # khepera.bg:17: r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-        # stage 2
-        c.r1_w8_v2_tanh = 2.0 * t_8 / 1825.0
+        # khepera.bg:17: r1_w5: factor of me.we'
+        c.r1_w5_w1_me__we = t_11 / 730.0
 
-        # khepera.bg:17: r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)) in
-        # stage 3
-        c.r1_w8_v3_tanh = 2.0 * t_2 / 1825.0 - 2.0 * t_8 / 1825.0
+        # khepera.bg:17: r1_w5: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
+        c.r1_w5_tanh = t_2 / 365.0
 
-        # khepera.bg:17: r1_w8: factor of wh.ws in stage 1
-        c.r1_w8_v1_wh__ws = t_9 / 1825.0
+        # khepera.bg:17: r1_w5: factor of wh.ws
+        c.r1_w5_wh__ws = t_3 / 730.0
 
-        # khepera.bg:17: r1_w8: factor of wh.ws in stage 2
-        c.r1_w8_v2_wh__ws = 2.0 * t_9 / 1825.0 + t_17 / 3650.0
+        # khepera.bg:17: r1_w5: factor of wh.ws'
+        c.r1_w5_w1_wh__ws = t_12 / 730.0
 
-        # khepera.bg:17: r1_w8: factor of wh.ws in stage 3
-        c.r1_w8_v3_wh__ws = t_3 / 1825.0 + t_9 / 1825.0 + t_17 / 3650.0
+        # khepera.bg:17: r1_w5: factor of Fx
+        c.r1_w5_Fx = t_4 / 730.0
 
-        # khepera.bg:17: r1_w8: factor of Fx in stage 2
-        c.r1_w8_v2_Fx = t_10 / 1825.0
+        # khepera.bg:17: r1_w6: factor of me.we
+        c.r1_w6_me__we = t / 146.0
 
-        # khepera.bg:17: r1_w8: factor of Fx in stage 3
-        c.r1_w8_v3_Fx = t_10 / 1825.0 - t_4 / 1825.0
+        # khepera.bg:17: r1_w7: factor of wh.ws
+        c.r1_w7_wh__ws = t_3 / 146.0
 
-        # khepera.bg:17: r1_w8: factor of me.we in stage 1
-        c.r1_w8_v1_me__we = t_7 / 1825.0
+        # khepera.bg:17: r1_w8: factor of tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
+        c.r1_w8_tanh = 2.0 * t_2 / 1825.0
 
-        # khepera.bg:17: r1_w8: factor of me.we in stage 2
-        c.r1_w8_v2_me__we = 2.0 * t_7 / 1825.0 + t_18 / 3650.0
+        # khepera.bg:17: r1_w8: factor of D(tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0)))
+        c.r1_w8_w1_tanh = 2.0 * t_8 / 1825.0
 
-        # khepera.bg:17: r1_w8: factor of me.we in stage 3
-        c.r1_w8_v3_me__we = t / 1825.0 + t_7 / 1825.0 + t_18 / 3650.0
+        # khepera.bg:17: r1_w8: factor of wh.ws
+        c.r1_w8_wh__ws = t_3 / 1825.0
 
-        # khepera.bg:17: r1_w9: factor of me.we in stage 2
-        c.r1_w9_v2_me__we = t_15 / 365.0
+        # khepera.bg:17: r1_w8: factor of wh.ws'
+        c.r1_w8_w1_wh__ws = (
+            p.el__k * p.el__k * w
+                * (-2.0 * p.el__Re * p.wh__Js / p.ge__N / p.el__k / p.el__k / p.el__k
+                - 2.0 * p.el__L * p.wh__fs / p.ge__N / p.el__k / p.el__k / p.el__k) / 3650.0
+        )
 
-        # khepera.bg:17: r1_w9: factor of me.we in stage 3
-        c.r1_w9_v3_me__we = t / 365.0 - t_15 / 365.0
+        # khepera.bg:17: r1_w8: factor of wh.ws''
+        c.r1_w8_w2_wh__ws = t_9 / 1825.0
 
-        # khepera.bg:17: r1_w10: factor of wh.ws in stage 2
-        c.r1_w10_v2_wh__ws = t_16 / 365.0
+        # khepera.bg:17: r1_w8: factor of Fx
+        c.r1_w8_Fx = t_4 / 1825.0
 
-        # khepera.bg:17: r1_w10: factor of wh.ws in stage 3
-        c.r1_w10_v3_wh__ws = t_3 / 365.0 - t_16 / 365.0
+        # khepera.bg:17: r1_w8: factor of Fx'
+        c.r1_w8_w1_Fx = t_10 / 1825.0
+
+        # khepera.bg:17: r1_w8: factor of me.we
+        c.r1_w8_me__we = t / 1825.0
+
+        # khepera.bg:17: r1_w8: factor of me.we'
+        c.r1_w8_w1_me__we = (
+            p.el__k * p.el__k * w * (-2.0 * p.el__Re * p.me__Je / p.el__k / p.el__k / p.el__k
+                - 2.0 * p.el__L * p.me__fe / p.el__k / p.el__k / p.el__k) / 3650.0
+        )
+
+        # khepera.bg:17: r1_w8: factor of me.we''
+        c.r1_w8_w2_me__we = t_7 / 1825.0
+
+        # khepera.bg:17: r1_w9: factor of me.we
+        c.r1_w9_me__we = t / 365.0
+
+        # khepera.bg:17: r1_w9: factor of me.we'
+        c.r1_w9_w1_me__we = t_13 / 365.0
+
+        # khepera.bg:17: r1_w10: factor of wh.ws
+        c.r1_w10_wh__ws = t_3 / 365.0
+
+        # khepera.bg:17: r1_w10: factor of wh.ws'
+        c.r1_w10_w1_wh__ws = t_14 / 365.0
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -510,14 +503,30 @@ class Monitor:
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r1_w1_q = c.half_time * r1_w1_rate
 
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r1_w1_integral = r1_w1_int
+
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r1_w1_rate2 = r1_w1_rate
+        x.r1_w1_rate1 = r1_w1_rate
+
         # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r1_w1_tanh = math.tanh(r1_w1_int)
+        r1_w1_tanh = math.tanh(r1_w1_integral)
+
+        # khepera.bg:17: r1_w1: terms of order 0
+        r1_w1_g0 = (
+            c.r1_w1_tanh * r1_w1_tanh - c.r1_w1_me__we * s.me__we - c.r1_w1_wh__ws * s.wh__ws
+            - c.r1_w1_Fx * s.Fx
+        )
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = -c.r1_w1_w1_me__we * s.me__we - c.r1_w1_w1_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w1: error of order 0
+        r1_w1_e0 = c.bend1 * r1_w1_g0
 
         # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = (
-            c.r1_w1_v3_me__we * s.me__we + c.r1_w1_v3_tanh * r1_w1_tanh
-            + c.r1_w1_v3_wh__ws * s.wh__ws - c.r1_w1_v3_Fx * s.Fx
-        )
+        r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 3, at rest
         r1_w1_y3 = r1_w1_u3
@@ -526,7 +535,7 @@ class Monitor:
         x.r1_w1_s3 = c.rest * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = r1_w1_y3 - c.r1_w1_v2_me__we * s.me__we - c.r1_w1_v2_wh__ws * s.wh__ws
+        r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + 2.0 * r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 2, at rest
         r1_w1_y2 = r1_w1_u2
@@ -535,7 +544,7 @@ class Monitor:
         x.r1_w1_s2 = c.rest * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 1, at rest
         r1_w1_y1 = r1_w1_u1
@@ -555,14 +564,39 @@ class Monitor:
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r1_w2_q = c.half_time * r1_w2_rate
 
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r1_w2_integral = r1_w2_int
+
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r1_w2_rate2 = r1_w2_rate
+        x.r1_w2_rate1 = r1_w2_rate
+
         # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r1_w2_tanh = math.tanh(r1_w2_int)
+        r1_w2_tanh = math.tanh(r1_w2_integral)
+
+        # khepera.bg:17: r1_w2: terms of order 0
+        r1_w2_g0 = (
+            c.r1_w2_wh__ws * s.wh__ws + c.r1_w2_Fx * s.Fx + c.r1_w2_me__we * s.me__we
+            - c.r1_w2_tanh * r1_w2_tanh
+        )
+
+        # khepera.bg:17: r1_w2: terms of order 1
+        r1_w2_g1 = (
+            c.r1_w2_w1_wh__ws * s.wh__ws + c.r1_w2_w1_Fx * s.Fx + c.r1_w2_w1_me__we * s.me__we
+            - c.r1_w2_w1_tanh * r1_w2_tanh
+        )
+
+        # khepera.bg:17: r1_w2: error of order 0
+        r1_w2_e0 = c.bend2 * r1_w2_g0
+
+        # khepera.bg:17: r1_w2: degree 2
+        r1_w2_d2 = c.r1_w2_w2_wh__ws * s.wh__ws + c.r1_w2_w2_me__we * s.me__we - r1_w2_e0
+
+        # khepera.bg:17: r1_w2: error of order 1
+        r1_w2_e1 = c.bend1 * r1_w2_g1
 
         # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = (
-            c.r1_w2_v3_tanh * r1_w2_tanh + c.r1_w2_v3_wh__ws * s.wh__ws + c.r1_w2_v3_Fx * s.Fx
-            + c.r1_w2_v3_me__we * s.me__we
-        )
+        r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1
 
         # khepera.bg:17: r1_w2: stage 3, at rest
         r1_w2_y3 = r1_w2_u3
@@ -571,10 +605,7 @@ class Monitor:
         x.r1_w2_s3 = c.rest * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = (
-            r1_w2_y3 + c.r1_w2_v2_wh__ws * s.wh__ws + c.r1_w2_v2_Fx * s.Fx
-            + c.r1_w2_v2_me__we * s.me__we - c.r1_w2_v2_tanh * r1_w2_tanh
-        )
+        r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - 2.0 * r1_w2_d2 - 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 2, at rest
         r1_w2_y2 = r1_w2_u2
@@ -583,7 +614,7 @@ class Monitor:
         x.r1_w2_s2 = c.rest * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = r1_w2_y2 + c.r1_w2_v1_wh__ws * s.wh__ws + c.r1_w2_v1_me__we * s.me__we
+        r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 1, at rest
         r1_w2_y1 = r1_w2_u1
@@ -592,10 +623,19 @@ class Monitor:
         x.r1_w2_s1 = c.rest * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of el.k can do
-        r1_w2 = r1_w2_y1
+        r1_w2 = r1_w2_y1 - r1_w2_e1
+
+        # khepera.bg:17: r1_w3: terms of order 0
+        r1_w3_g0 = -c.r1_w3_me__we * s.me__we
+
+        # khepera.bg:17: r1_w3: degree 1
+        r1_w3_d1 = c.r1_w3_w1_me__we * s.me__we
+
+        # khepera.bg:17: r1_w3: error of order 0
+        r1_w3_e0 = c.bend1 * r1_w3_g0
 
         # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = c.r1_w3_v3_me__we * s.me__we
+        r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 3, at rest
         r1_w3_y3 = r1_w3_u3
@@ -604,7 +644,7 @@ class Monitor:
         x.r1_w3_s3 = c.rest * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = r1_w3_y3 - c.r1_w3_v2_me__we * s.me__we
+        r1_w3_u2 = r1_w3_y3 + 2.0 * r1_w3_e0 - r1_w3_d1
 
         # khepera.bg:17: r1_w3: stage 2, at rest
         r1_w3_y2 = r1_w3_u2
@@ -613,7 +653,7 @@ class Monitor:
         x.r1_w3_s2 = c.rest * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = r1_w3_y2
+        r1_w3_u1 = r1_w3_y2 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 1, at rest
         r1_w3_y1 = r1_w3_u1
@@ -624,8 +664,17 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerance of me.fe can do
         r1_w3 = r1_w3_y1
 
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = c.r1_w4_w1_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend1 * r1_w4_g0
+
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = c.r1_w4_v3_wh__ws * s.wh__ws
+        r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 3, at rest
         r1_w4_y3 = r1_w4_u3
@@ -634,7 +683,7 @@ class Monitor:
         x.r1_w4_s3 = c.rest * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = r1_w4_y3 - c.r1_w4_v2_wh__ws * s.wh__ws
+        r1_w4_u2 = r1_w4_y3 + 2.0 * r1_w4_e0 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 2, at rest
         r1_w4_y2 = r1_w4_u2
@@ -643,7 +692,7 @@ class Monitor:
         x.r1_w4_s2 = c.rest * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 1, at rest
         r1_w4_y1 = r1_w4_u1
@@ -663,14 +712,30 @@ class Monitor:
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r1_w5_q = c.half_time * r1_w5_rate
 
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r1_w5_integral = r1_w5_int
+
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r1_w5_rate2 = r1_w5_rate
+        x.r1_w5_rate1 = r1_w5_rate
+
         # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r1_w5_tanh = math.tanh(r1_w5_int)
+        r1_w5_tanh = math.tanh(r1_w5_integral)
+
+        # khepera.bg:17: r1_w5: terms of order 0
+        r1_w5_g0 = (
+            c.r1_w5_me__we * s.me__we + c.r1_w5_wh__ws * s.wh__ws + c.r1_w5_Fx * s.Fx
+            - c.r1_w5_tanh * r1_w5_tanh
+        )
+
+        # khepera.bg:17: r1_w5: degree 1
+        r1_w5_d1 = c.r1_w5_w1_me__we * s.me__we + c.r1_w5_w1_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w5: error of order 0
+        r1_w5_e0 = c.bend1 * r1_w5_g0
 
         # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = (
-            c.r1_w5_v3_me__we * s.me__we + c.r1_w5_v3_wh__ws * s.wh__ws + c.r1_w5_v3_Fx * s.Fx
-            - c.r1_w5_v3_tanh * r1_w5_tanh
-        )
+        r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 3, at rest
         r1_w5_y3 = r1_w5_u3
@@ -679,7 +744,7 @@ class Monitor:
         x.r1_w5_s3 = c.rest * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
-        r1_w5_u2 = r1_w5_y3 + c.r1_w5_v2_me__we * s.me__we + c.r1_w5_v2_wh__ws * s.wh__ws
+        r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + 2.0 * r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 2, at rest
         r1_w5_y2 = r1_w5_u2
@@ -688,7 +753,7 @@ class Monitor:
         x.r1_w5_s2 = c.rest * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
-        r1_w5_u1 = r1_w5_y2
+        r1_w5_u1 = r1_w5_y2 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 1, at rest
         r1_w5_y1 = r1_w5_u1
@@ -700,7 +765,7 @@ class Monitor:
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = -c.r1_w6_v3_me__we * s.me__we
+        r1_w6_u3 = -c.r1_w6_me__we * s.me__we
 
         # khepera.bg:17: r1_w6: stage 3, at rest
         r1_w6_y3 = r1_w6_u3
@@ -730,7 +795,7 @@ class Monitor:
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = -c.r1_w7_v3_wh__ws * s.wh__ws
+        r1_w7_u3 = -c.r1_w7_wh__ws * s.wh__ws
 
         # khepera.bg:17: r1_w7: stage 3, at rest
         r1_w7_y3 = r1_w7_u3
@@ -768,14 +833,39 @@ class Monitor:
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r1_w8_q = c.half_time * r1_w8_rate
 
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r1_w8_integral = r1_w8_int
+
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r1_w8_rate2 = r1_w8_rate
+        x.r1_w8_rate1 = r1_w8_rate
+
         # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r1_w8_tanh = math.tanh(r1_w8_int)
+        r1_w8_tanh = math.tanh(r1_w8_integral)
+
+        # khepera.bg:17: r1_w8: terms of order 0
+        r1_w8_g0 = (
+            c.r1_w8_tanh * r1_w8_tanh - c.r1_w8_wh__ws * s.wh__ws - c.r1_w8_Fx * s.Fx
+            - c.r1_w8_me__we * s.me__we
+        )
+
+        # khepera.bg:17: r1_w8: terms of order 1
+        r1_w8_g1 = (
+            c.r1_w8_w1_tanh * r1_w8_tanh + c.r1_w8_w1_wh__ws * s.wh__ws
+            + c.r1_w8_w1_me__we * s.me__we - c.r1_w8_w1_Fx * s.Fx
+        )
+
+        # khepera.bg:17: r1_w8: error of order 0
+        r1_w8_e0 = c.bend2 * r1_w8_g0
+
+        # khepera.bg:17: r1_w8: degree 2
+        r1_w8_d2 = -c.r1_w8_w2_wh__ws * s.wh__ws - c.r1_w8_w2_me__we * s.me__we - r1_w8_e0
+
+        # khepera.bg:17: r1_w8: error of order 1
+        r1_w8_e1 = c.bend1 * r1_w8_g1
 
         # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = (
-            c.r1_w8_v3_tanh * r1_w8_tanh + c.r1_w8_v3_Fx * s.Fx - c.r1_w8_v3_wh__ws * s.wh__ws
-            - c.r1_w8_v3_me__we * s.me__we
-        )
+        r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1
 
         # khepera.bg:17: r1_w8: stage 3, at rest
         r1_w8_y3 = r1_w8_u3
@@ -784,10 +874,7 @@ class Monitor:
         x.r1_w8_s3 = c.rest * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
-        r1_w8_u2 = (
-            r1_w8_y3 + c.r1_w8_v2_tanh * r1_w8_tanh + c.r1_w8_v2_wh__ws * s.wh__ws
-            + c.r1_w8_v2_me__we * s.me__we - c.r1_w8_v2_Fx * s.Fx
-        )
+        r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - 2.0 * r1_w8_d2 - 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 2, at rest
         r1_w8_y2 = r1_w8_u2
@@ -796,7 +883,7 @@ class Monitor:
         x.r1_w8_s2 = c.rest * r1_w8_u2
 
         # khepera.bg:17: r1_w8: input of stage 1
-        r1_w8_u1 = r1_w8_y2 - c.r1_w8_v1_wh__ws * s.wh__ws - c.r1_w8_v1_me__we * s.me__we
+        r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 1, at rest
         r1_w8_y1 = r1_w8_u1
@@ -805,10 +892,19 @@ class Monitor:
         x.r1_w8_s1 = c.rest * r1_w8_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of el.k can do
-        r1_w8 = r1_w8_y1
+        r1_w8 = r1_w8_y1 - r1_w8_e1
+
+        # khepera.bg:17: r1_w9: terms of order 0
+        r1_w9_g0 = c.r1_w9_me__we * s.me__we
+
+        # khepera.bg:17: r1_w9: degree 1
+        r1_w9_d1 = c.r1_w9_w1_me__we * s.me__we
+
+        # khepera.bg:17: r1_w9: error of order 0
+        r1_w9_e0 = c.bend1 * r1_w9_g0
 
         # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = c.r1_w9_v3_me__we * s.me__we
+        r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 3, at rest
         r1_w9_y3 = r1_w9_u3
@@ -817,7 +913,7 @@ class Monitor:
         x.r1_w9_s3 = c.rest * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = r1_w9_y3 + c.r1_w9_v2_me__we * s.me__we
+        r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + 2.0 * r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 2, at rest
         r1_w9_y2 = r1_w9_u2
@@ -826,7 +922,7 @@ class Monitor:
         x.r1_w9_s2 = c.rest * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = r1_w9_y2
+        r1_w9_u1 = r1_w9_y2 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 1, at rest
         r1_w9_y1 = r1_w9_u1
@@ -837,8 +933,17 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerances of el.k and me.fe can do together
         r1_w9 = r1_w9_y1
 
+        # khepera.bg:17: r1_w10: terms of order 0
+        r1_w10_g0 = c.r1_w10_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w10: degree 1
+        r1_w10_d1 = c.r1_w10_w1_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w10: error of order 0
+        r1_w10_e0 = c.bend1 * r1_w10_g0
+
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = c.r1_w10_v3_wh__ws * s.wh__ws
+        r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 3, at rest
         r1_w10_y3 = r1_w10_u3
@@ -847,7 +952,7 @@ class Monitor:
         x.r1_w10_s3 = c.rest * r1_w10_u3
 
         # khepera.bg:17: r1_w10: input of stage 2
-        r1_w10_u2 = r1_w10_y3 + c.r1_w10_v2_wh__ws * s.wh__ws
+        r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + 2.0 * r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 2, at rest
         r1_w10_y2 = r1_w10_u2
@@ -856,7 +961,7 @@ class Monitor:
         x.r1_w10_s2 = c.rest * r1_w10_u2
 
         # khepera.bg:17: r1_w10: input of stage 1
-        r1_w10_u1 = r1_w10_y2
+        r1_w10_u1 = r1_w10_y2 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 1, at rest
         r1_w10_y1 = r1_w10_u1
@@ -887,38 +992,56 @@ class Monitor:
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r1_w1_q = r1_w1_int + c.half_time * r1_w1_rate
 
-        # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r1_w1_tanh = math.tanh(r1_w1_int)
-
-        # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = (
-            c.r1_w1_v3_me__we * s.me__we + c.r1_w1_v3_tanh * r1_w1_tanh
-            + c.r1_w1_v3_wh__ws * s.wh__ws - c.r1_w1_v3_Fx * s.Fx
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r1_w1_integral = (
+            r1_w1_int - c.half_twelfth * (3.0 * r1_w1_rate - 4.0 * x.r1_w1_rate1 + x.r1_w1_rate2)
         )
 
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r1_w1_rate2 = x.r1_w1_rate1
+        x.r1_w1_rate1 = r1_w1_rate
+
+        # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
+        r1_w1_tanh = math.tanh(r1_w1_integral)
+
+        # khepera.bg:17: r1_w1: terms of order 0
+        r1_w1_g0 = (
+            c.r1_w1_tanh * r1_w1_tanh - c.r1_w1_me__we * s.me__we - c.r1_w1_wh__ws * s.wh__ws
+            - c.r1_w1_Fx * s.Fx
+        )
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = -c.r1_w1_w1_me__we * s.me__we - c.r1_w1_w1_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w1: error of order 0
+        r1_w1_e0 = c.bend1 * r1_w1_g0
+
+        # khepera.bg:17: r1_w1: input of stage 3
+        r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0
+
         # khepera.bg:17: r1_w1: stage 3
-        r1_w1_y3 = x.r1_w1_s3 + c.b0 * r1_w1_u3
+        r1_w1_y3 = x.r1_w1_s3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: stage 3: memory
-        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b1 * r1_w1_u3
+        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = r1_w1_y3 - c.r1_w1_v2_me__we * s.me__we - c.r1_w1_v2_wh__ws * s.wh__ws
+        r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + 2.0 * r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 2
-        r1_w1_y2 = x.r1_w1_s2 + c.b0 * r1_w1_u2
+        r1_w1_y2 = x.r1_w1_s2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b1 * r1_w1_u2
+        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 1
-        r1_w1_y1 = x.r1_w1_s1 + c.b0 * r1_w1_u1
+        r1_w1_y1 = x.r1_w1_s1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b1 * r1_w1_u1
+        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1: what the tolerance of el.Re can do
         r1_w1 = r1_w1_y1
@@ -932,101 +1055,143 @@ class Monitor:
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r1_w2_q = r1_w2_int + c.half_time * r1_w2_rate
 
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r1_w2_integral = (
+            r1_w2_int - c.half_twelfth * (3.0 * r1_w2_rate - 4.0 * x.r1_w2_rate1 + x.r1_w2_rate2)
+        )
+
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r1_w2_rate2 = x.r1_w2_rate1
+        x.r1_w2_rate1 = r1_w2_rate
+
         # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r1_w2_tanh = math.tanh(r1_w2_int)
+        r1_w2_tanh = math.tanh(r1_w2_integral)
+
+        # khepera.bg:17: r1_w2: terms of order 0
+        r1_w2_g0 = (
+            c.r1_w2_wh__ws * s.wh__ws + c.r1_w2_Fx * s.Fx + c.r1_w2_me__we * s.me__we
+            - c.r1_w2_tanh * r1_w2_tanh
+        )
+
+        # khepera.bg:17: r1_w2: terms of order 1
+        r1_w2_g1 = (
+            c.r1_w2_w1_wh__ws * s.wh__ws + c.r1_w2_w1_Fx * s.Fx + c.r1_w2_w1_me__we * s.me__we
+            - c.r1_w2_w1_tanh * r1_w2_tanh
+        )
+
+        # khepera.bg:17: r1_w2: error of order 0
+        r1_w2_e0 = c.bend2 * r1_w2_g0
+
+        # khepera.bg:17: r1_w2: degree 2
+        r1_w2_d2 = c.r1_w2_w2_wh__ws * s.wh__ws + c.r1_w2_w2_me__we * s.me__we - r1_w2_e0
+
+        # khepera.bg:17: r1_w2: error of order 1
+        r1_w2_e1 = c.bend1 * r1_w2_g1
 
         # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = (
-            c.r1_w2_v3_tanh * r1_w2_tanh + c.r1_w2_v3_wh__ws * s.wh__ws + c.r1_w2_v3_Fx * s.Fx
-            + c.r1_w2_v3_me__we * s.me__we
-        )
+        r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1
 
         # khepera.bg:17: r1_w2: stage 3
-        r1_w2_y3 = x.r1_w2_s3 + c.b0 * r1_w2_u3
+        r1_w2_y3 = x.r1_w2_s3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: stage 3: memory
-        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b1 * r1_w2_u3
+        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = (
-            r1_w2_y3 + c.r1_w2_v2_wh__ws * s.wh__ws + c.r1_w2_v2_Fx * s.Fx
-            + c.r1_w2_v2_me__we * s.me__we - c.r1_w2_v2_tanh * r1_w2_tanh
-        )
+        r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - 2.0 * r1_w2_d2 - 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 2
-        r1_w2_y2 = x.r1_w2_s2 + c.b0 * r1_w2_u2
+        r1_w2_y2 = x.r1_w2_s2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: stage 2: memory
-        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b1 * r1_w2_u2
+        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = r1_w2_y2 + c.r1_w2_v1_wh__ws * s.wh__ws + c.r1_w2_v1_me__we * s.me__we
+        r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 1
-        r1_w2_y1 = x.r1_w2_s1 + c.b0 * r1_w2_u1
+        r1_w2_y1 = x.r1_w2_s1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1_w2: stage 1: memory
-        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b1 * r1_w2_u1
+        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of el.k can do
-        r1_w2 = r1_w2_y1
+        r1_w2 = r1_w2_y1 - r1_w2_e1
+
+        # khepera.bg:17: r1_w3: terms of order 0
+        r1_w3_g0 = -c.r1_w3_me__we * s.me__we
+
+        # khepera.bg:17: r1_w3: degree 1
+        r1_w3_d1 = c.r1_w3_w1_me__we * s.me__we
+
+        # khepera.bg:17: r1_w3: error of order 0
+        r1_w3_e0 = c.bend1 * r1_w3_g0
 
         # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = c.r1_w3_v3_me__we * s.me__we
+        r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 3
-        r1_w3_y3 = x.r1_w3_s3 + c.b0 * r1_w3_u3
+        r1_w3_y3 = x.r1_w3_s3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: stage 3: memory
-        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b1 * r1_w3_u3
+        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = r1_w3_y3 - c.r1_w3_v2_me__we * s.me__we
+        r1_w3_u2 = r1_w3_y3 + 2.0 * r1_w3_e0 - r1_w3_d1
 
         # khepera.bg:17: r1_w3: stage 2
-        r1_w3_y2 = x.r1_w3_s2 + c.b0 * r1_w3_u2
+        r1_w3_y2 = x.r1_w3_s2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: stage 2: memory
-        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b1 * r1_w3_u2
+        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = r1_w3_y2
+        r1_w3_u1 = r1_w3_y2 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 1
-        r1_w3_y1 = x.r1_w3_s1 + c.b0 * r1_w3_u1
+        r1_w3_y1 = x.r1_w3_s1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1_w3: stage 1: memory
-        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b1 * r1_w3_u1
+        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1: what the tolerance of me.fe can do
         r1_w3 = r1_w3_y1
 
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = c.r1_w4_w1_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend1 * r1_w4_g0
+
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = c.r1_w4_v3_wh__ws * s.wh__ws
+        r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 3
-        r1_w4_y3 = x.r1_w4_s3 + c.b0 * r1_w4_u3
+        r1_w4_y3 = x.r1_w4_s3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: stage 3: memory
-        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b1 * r1_w4_u3
+        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = r1_w4_y3 - c.r1_w4_v2_wh__ws * s.wh__ws
+        r1_w4_u2 = r1_w4_y3 + 2.0 * r1_w4_e0 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 2
-        r1_w4_y2 = x.r1_w4_s2 + c.b0 * r1_w4_u2
+        r1_w4_y2 = x.r1_w4_s2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: stage 2: memory
-        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b1 * r1_w4_u2
+        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 1
-        r1_w4_y1 = x.r1_w4_s1 + c.b0 * r1_w4_u1
+        r1_w4_y1 = x.r1_w4_s1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1_w4: stage 1: memory
-        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b1 * r1_w4_u1
+        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1: what the tolerance of wh.fs can do
         r1_w4 = r1_w4_y1
@@ -1040,98 +1205,116 @@ class Monitor:
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r1_w5_q = r1_w5_int + c.half_time * r1_w5_rate
 
-        # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r1_w5_tanh = math.tanh(r1_w5_int)
-
-        # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = (
-            c.r1_w5_v3_me__we * s.me__we + c.r1_w5_v3_wh__ws * s.wh__ws + c.r1_w5_v3_Fx * s.Fx
-            - c.r1_w5_v3_tanh * r1_w5_tanh
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r1_w5_integral = (
+            r1_w5_int - c.half_twelfth * (3.0 * r1_w5_rate - 4.0 * x.r1_w5_rate1 + x.r1_w5_rate2)
         )
 
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r1_w5_rate2 = x.r1_w5_rate1
+        x.r1_w5_rate1 = r1_w5_rate
+
+        # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
+        r1_w5_tanh = math.tanh(r1_w5_integral)
+
+        # khepera.bg:17: r1_w5: terms of order 0
+        r1_w5_g0 = (
+            c.r1_w5_me__we * s.me__we + c.r1_w5_wh__ws * s.wh__ws + c.r1_w5_Fx * s.Fx
+            - c.r1_w5_tanh * r1_w5_tanh
+        )
+
+        # khepera.bg:17: r1_w5: degree 1
+        r1_w5_d1 = c.r1_w5_w1_me__we * s.me__we + c.r1_w5_w1_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w5: error of order 0
+        r1_w5_e0 = c.bend1 * r1_w5_g0
+
+        # khepera.bg:17: r1_w5: input of stage 3
+        r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0
+
         # khepera.bg:17: r1_w5: stage 3
-        r1_w5_y3 = x.r1_w5_s3 + c.b0 * r1_w5_u3
+        r1_w5_y3 = x.r1_w5_s3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: stage 3: memory
-        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b1 * r1_w5_u3
+        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
-        r1_w5_u2 = r1_w5_y3 + c.r1_w5_v2_me__we * s.me__we + c.r1_w5_v2_wh__ws * s.wh__ws
+        r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + 2.0 * r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 2
-        r1_w5_y2 = x.r1_w5_s2 + c.b0 * r1_w5_u2
+        r1_w5_y2 = x.r1_w5_s2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: stage 2: memory
-        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b1 * r1_w5_u2
+        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
-        r1_w5_u1 = r1_w5_y2
+        r1_w5_u1 = r1_w5_y2 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 1
-        r1_w5_y1 = x.r1_w5_s1 + c.b0 * r1_w5_u1
+        r1_w5_y1 = x.r1_w5_s1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1_w5: stage 1: memory
-        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b1 * r1_w5_u1
+        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1: what the tolerances of el.Re and el.k can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = -c.r1_w6_v3_me__we * s.me__we
+        r1_w6_u3 = -c.r1_w6_me__we * s.me__we
 
         # khepera.bg:17: r1_w6: stage 3
-        r1_w6_y3 = x.r1_w6_s3 + c.b0 * r1_w6_u3
+        r1_w6_y3 = x.r1_w6_s3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: stage 3: memory
-        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b1 * r1_w6_u3
+        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: input of stage 2
         r1_w6_u2 = r1_w6_y3
 
         # khepera.bg:17: r1_w6: stage 2
-        r1_w6_y2 = x.r1_w6_s2 + c.b0 * r1_w6_u2
+        r1_w6_y2 = x.r1_w6_s2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: stage 2: memory
-        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b1 * r1_w6_u2
+        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: input of stage 1
         r1_w6_u1 = r1_w6_y2
 
         # khepera.bg:17: r1_w6: stage 1
-        r1_w6_y1 = x.r1_w6_s1 + c.b0 * r1_w6_u1
+        r1_w6_y1 = x.r1_w6_s1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1_w6: stage 1: memory
-        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b1 * r1_w6_u1
+        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1: what the tolerances of el.Re and me.fe can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = -c.r1_w7_v3_wh__ws * s.wh__ws
+        r1_w7_u3 = -c.r1_w7_wh__ws * s.wh__ws
 
         # khepera.bg:17: r1_w7: stage 3
-        r1_w7_y3 = x.r1_w7_s3 + c.b0 * r1_w7_u3
+        r1_w7_y3 = x.r1_w7_s3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: stage 3: memory
-        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b1 * r1_w7_u3
+        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: input of stage 2
         r1_w7_u2 = r1_w7_y3
 
         # khepera.bg:17: r1_w7: stage 2
-        r1_w7_y2 = x.r1_w7_s2 + c.b0 * r1_w7_u2
+        r1_w7_y2 = x.r1_w7_s2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: stage 2: memory
-        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b1 * r1_w7_u2
+        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: input of stage 1
         r1_w7_u1 = r1_w7_y2
 
         # khepera.bg:17: r1_w7: stage 1
-        r1_w7_y1 = x.r1_w7_s1 + c.b0 * r1_w7_u1
+        r1_w7_y1 = x.r1_w7_s1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1_w7: stage 1: memory
-        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b1 * r1_w7_u1
+        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1: what the tolerances of el.Re and wh.fs can do together
         r1_w7 = r1_w7_y1
@@ -1145,101 +1328,143 @@ class Monitor:
         # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
         x.r1_w8_q = r1_w8_int + c.half_time * r1_w8_rate
 
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0)
+        r1_w8_integral = (
+            r1_w8_int - c.half_twelfth * (3.0 * r1_w8_rate - 4.0 * x.r1_w8_rate1 + x.r1_w8_rate2)
+        )
+
+        # khepera.bg:17: integral of me.we/(4*tau0) - ge.N*wh.ws/(4*tau0): memory
+        x.r1_w8_rate2 = x.r1_w8_rate1
+        x.r1_w8_rate1 = r1_w8_rate
+
         # khepera.bg:17: tanh(Int(me.we)/(4*tau0) - ge.N*Int(wh.ws)/(4*tau0))
-        r1_w8_tanh = math.tanh(r1_w8_int)
+        r1_w8_tanh = math.tanh(r1_w8_integral)
+
+        # khepera.bg:17: r1_w8: terms of order 0
+        r1_w8_g0 = (
+            c.r1_w8_tanh * r1_w8_tanh - c.r1_w8_wh__ws * s.wh__ws - c.r1_w8_Fx * s.Fx
+            - c.r1_w8_me__we * s.me__we
+        )
+
+        # khepera.bg:17: r1_w8: terms of order 1
+        r1_w8_g1 = (
+            c.r1_w8_w1_tanh * r1_w8_tanh + c.r1_w8_w1_wh__ws * s.wh__ws
+            + c.r1_w8_w1_me__we * s.me__we - c.r1_w8_w1_Fx * s.Fx
+        )
+
+        # khepera.bg:17: r1_w8: error of order 0
+        r1_w8_e0 = c.bend2 * r1_w8_g0
+
+        # khepera.bg:17: r1_w8: degree 2
+        r1_w8_d2 = -c.r1_w8_w2_wh__ws * s.wh__ws - c.r1_w8_w2_me__we * s.me__we - r1_w8_e0
+
+        # khepera.bg:17: r1_w8: error of order 1
+        r1_w8_e1 = c.bend1 * r1_w8_g1
 
         # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = (
-            c.r1_w8_v3_tanh * r1_w8_tanh + c.r1_w8_v3_Fx * s.Fx - c.r1_w8_v3_wh__ws * s.wh__ws
-            - c.r1_w8_v3_me__we * s.me__we
-        )
+        r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1
 
         # khepera.bg:17: r1_w8: stage 3
-        r1_w8_y3 = x.r1_w8_s3 + c.b0 * r1_w8_u3
+        r1_w8_y3 = x.r1_w8_s3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: stage 3: memory
-        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b1 * r1_w8_u3
+        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
-        r1_w8_u2 = (
-            r1_w8_y3 + c.r1_w8_v2_tanh * r1_w8_tanh + c.r1_w8_v2_wh__ws * s.wh__ws
-            + c.r1_w8_v2_me__we * s.me__we - c.r1_w8_v2_Fx * s.Fx
-        )
+        r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - 2.0 * r1_w8_d2 - 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 2
-        r1_w8_y2 = x.r1_w8_s2 + c.b0 * r1_w8_u2
+        r1_w8_y2 = x.r1_w8_s2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: stage 2: memory
-        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b1 * r1_w8_u2
+        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: input of stage 1
-        r1_w8_u1 = r1_w8_y2 - c.r1_w8_v1_wh__ws * s.wh__ws - c.r1_w8_v1_me__we * s.me__we
+        r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 1
-        r1_w8_y1 = x.r1_w8_s1 + c.b0 * r1_w8_u1
+        r1_w8_y1 = x.r1_w8_s1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1_w8: stage 1: memory
-        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b1 * r1_w8_u1
+        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of el.k can do
-        r1_w8 = r1_w8_y1
+        r1_w8 = r1_w8_y1 - r1_w8_e1
+
+        # khepera.bg:17: r1_w9: terms of order 0
+        r1_w9_g0 = c.r1_w9_me__we * s.me__we
+
+        # khepera.bg:17: r1_w9: degree 1
+        r1_w9_d1 = c.r1_w9_w1_me__we * s.me__we
+
+        # khepera.bg:17: r1_w9: error of order 0
+        r1_w9_e0 = c.bend1 * r1_w9_g0
 
         # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = c.r1_w9_v3_me__we * s.me__we
+        r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 3
-        r1_w9_y3 = x.r1_w9_s3 + c.b0 * r1_w9_u3
+        r1_w9_y3 = x.r1_w9_s3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: stage 3: memory
-        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b1 * r1_w9_u3
+        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = r1_w9_y3 + c.r1_w9_v2_me__we * s.me__we
+        r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + 2.0 * r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 2
-        r1_w9_y2 = x.r1_w9_s2 + c.b0 * r1_w9_u2
+        r1_w9_y2 = x.r1_w9_s2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: stage 2: memory
-        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b1 * r1_w9_u2
+        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = r1_w9_y2
+        r1_w9_u1 = r1_w9_y2 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 1
-        r1_w9_y1 = x.r1_w9_s1 + c.b0 * r1_w9_u1
+        r1_w9_y1 = x.r1_w9_s1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1_w9: stage 1: memory
-        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b1 * r1_w9_u1
+        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1: what the tolerances of el.k and me.fe can do together
         r1_w9 = r1_w9_y1
 
+        # khepera.bg:17: r1_w10: terms of order 0
+        r1_w10_g0 = c.r1_w10_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w10: degree 1
+        r1_w10_d1 = c.r1_w10_w1_wh__ws * s.wh__ws
+
+        # khepera.bg:17: r1_w10: error of order 0
+        r1_w10_e0 = c.bend1 * r1_w10_g0
+
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = c.r1_w10_v3_wh__ws * s.wh__ws
+        r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 3
-        r1_w10_y3 = x.r1_w10_s3 + c.b0 * r1_w10_u3
+        r1_w10_y3 = x.r1_w10_s3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: stage 3: memory
-        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b1 * r1_w10_u3
+        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: input of stage 2
-        r1_w10_u2 = r1_w10_y3 + c.r1_w10_v2_wh__ws * s.wh__ws
+        r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + 2.0 * r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 2
-        r1_w10_y2 = x.r1_w10_s2 + c.b0 * r1_w10_u2
+        r1_w10_y2 = x.r1_w10_s2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: stage 2: memory
-        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b1 * r1_w10_u2
+        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: input of stage 1
-        r1_w10_u1 = r1_w10_y2
+        r1_w10_u1 = r1_w10_y2 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 1
-        r1_w10_y1 = x.r1_w10_s1 + c.b0 * r1_w10_u1
+        r1_w10_y1 = x.r1_w10_s1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1_w10: stage 1: memory
-        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b1 * r1_w10_u1
+        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1: what the tolerances of el.k and wh.fs can do together
         r1_w10 = r1_w10_y1
@@ -1291,23 +1516,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -32,7 +32,7 @@ typedef double hydraulic_actuator_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define HYDRAULIC_ACTUATOR_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(hydraulic_actuator_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define HYDRAULIC_ACTUATOR_THRESHOLD_DIGEST "2f31237757f7e21a"
+#define HYDRAULIC_ACTUATOR_THRESHOLD_DIGEST "97ae4505020fa93e"
 
 /* What the code was made for: arguments of hydraulic_actuator_threshold_configure, in s, rad/s and s. */
 #define HYDRAULIC_ACTUATOR_THRESHOLD_SAMPLE_TIME HYDRAULIC_ACTUATOR_THRESHOLD_CONSTANT(0.001)
@@ -88,13 +88,14 @@ typedef struct hydraulic_actuator_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct hydraulic_actuator_threshold_coefficients {
-    /* r1_w1: factor of spool*ssqrt(ps - p) in stage 2 */
-    hydraulic_actuator_threshold_real r1_w1_v2_product;
-    hydraulic_actuator_threshold_real a;           /* filter: exp(-bandwidth*sample_time) */
-    hydraulic_actuator_threshold_real b0;          /* filter: weight of the new sample */
-    hydraulic_actuator_threshold_real b1;          /* filter: weight of the sample before */
-    hydraulic_actuator_threshold_real rest;        /* filter: 1 - b0, the memory of a constant 1 */
-    hydraulic_actuator_threshold_real r2_w1_v2_v;  /* r2_w1: factor of v in stage 2 */
+    hydraulic_actuator_threshold_real r1_w1_product;  /* r1_w1: factor of spool*ssqrt(ps - p) */
+    /* filter: what is left of a memory a sample later */
+    hydraulic_actuator_threshold_real a;
+    /* filter: weight of a sample, new and a sample later */
+    hydraulic_actuator_threshold_real b;
+    /* filter: 1 - b, the memory of a constant 1 */
+    hydraulic_actuator_threshold_real rest;
+    hydraulic_actuator_threshold_real r2_w1_v;        /* r2_w1: factor of v */
 } hydraulic_actuator_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */

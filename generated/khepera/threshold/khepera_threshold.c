@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t khepera_threshold_abi(void)
@@ -100,6 +71,15 @@ static void compute_coefficients(khepera_threshold_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: m[1].el.Re*m[1].me.fe/m[1].el.k */
     const real t = p->m__1__el__Re * p->m__1__me__fe / p->m__1__el__k;
 
@@ -118,355 +98,318 @@ static void compute_coefficients(khepera_threshold_monitor *monitor,
     /* khepera.bg:17: m[2].el.Re*m[2].wh.R/(m[2].ge.N*m[2].el.k) */
     const real t_6 = p->m__2__el__Re * p->m__2__wh__R / p->m__2__ge__N / p->m__2__el__k;
 
-    /* exp(-x) */
-    const real t_7 = exponential(-x_);
+    /* 1 - pole */
+    const real t_7 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_8 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_7) / x_;
+    /* turn^2 */
+    const real t_8 = turn * turn;
 
-    /* khepera.bg:17: m[1].el.L*m[1].me.Je*bandwidth^2/m[1].el.k */
-    const real t_9 = p->m__1__el__L * p->m__1__me__Je * bandwidth * bandwidth / p->m__1__el__k;
+    /* khepera.bg:17: m[1].el.L*m[1].me.Je*w^2/m[1].el.k */
+    const real t_9 = p->m__1__el__L * p->m__1__me__Je * w * w / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].el.L*m[1].wh.Js*bandwidth^2/(m[1].ge.N*m[1].el.k) */
-    const real t_10 = p->m__1__el__L * p->m__1__wh__Js * bandwidth * bandwidth / p->m__1__ge__N
-            / p->m__1__el__k;
+    /* khepera.bg:17: m[1].el.L*m[1].wh.Js*w^2/(m[1].ge.N*m[1].el.k) */
+    const real t_10 = p->m__1__el__L * p->m__1__wh__Js * w * w / p->m__1__ge__N / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].el.L*m[1].wh.R*bandwidth/(m[1].ge.N*m[1].el.k) */
-    const real t_11 = p->m__1__el__L * p->m__1__wh__R * bandwidth / p->m__1__ge__N / p->m__1__el__k;
+    /* khepera.bg:17: m[1].el.L*m[1].wh.R*w/(m[1].ge.N*m[1].el.k) */
+    const real t_11 = p->m__1__el__L * p->m__1__wh__R * w / p->m__1__ge__N / p->m__1__el__k;
 
-    /* khepera.bg:17: m[2].el.L*m[2].me.Je*bandwidth^2/m[2].el.k */
-    const real t_12 = p->m__2__el__L * p->m__2__me__Je * bandwidth * bandwidth / p->m__2__el__k;
+    /* khepera.bg:17: m[2].el.L*m[2].me.Je*w^2/m[2].el.k */
+    const real t_12 = p->m__2__el__L * p->m__2__me__Je * w * w / p->m__2__el__k;
 
-    /* khepera.bg:17: m[2].el.L*m[2].wh.Js*bandwidth^2/(m[2].ge.N*m[2].el.k) */
-    const real t_13 = p->m__2__el__L * p->m__2__wh__Js * bandwidth * bandwidth / p->m__2__ge__N
-            / p->m__2__el__k;
+    /* khepera.bg:17: m[2].el.L*m[2].wh.Js*w^2/(m[2].ge.N*m[2].el.k) */
+    const real t_13 = p->m__2__el__L * p->m__2__wh__Js * w * w / p->m__2__ge__N / p->m__2__el__k;
 
-    /* khepera.bg:17: m[2].el.L*m[2].wh.R*bandwidth/(m[2].ge.N*m[2].el.k) */
-    const real t_14 = p->m__2__el__L * p->m__2__wh__R * bandwidth / p->m__2__ge__N / p->m__2__el__k;
+    /* khepera.bg:17: m[2].el.L*m[2].wh.R*w/(m[2].ge.N*m[2].el.k) */
+    const real t_14 = p->m__2__el__L * p->m__2__wh__R * w / p->m__2__ge__N / p->m__2__el__k;
 
-    /* khepera.bg:17: m[1].el.Re*m[1].wh.Js*bandwidth/(m[1].ge.N*m[1].el.k) */
-    const real t_15 = p->m__1__el__Re * p->m__1__wh__Js * bandwidth / p->m__1__ge__N
-            / p->m__1__el__k;
+    /* khepera.bg:17: m[1].el.Re*m[1].wh.Js*w/(m[1].ge.N*m[1].el.k) */
+    const real t_15 = p->m__1__el__Re * p->m__1__wh__Js * w / p->m__1__ge__N / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].el.Re*m[1].me.Je*bandwidth/m[1].el.k */
-    const real t_16 = p->m__1__el__Re * p->m__1__me__Je * bandwidth / p->m__1__el__k;
+    /* khepera.bg:17: m[1].el.Re*m[1].me.Je*w/m[1].el.k */
+    const real t_16 = p->m__1__el__Re * p->m__1__me__Je * w / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].el.k*bandwidth*(m[1].el.Re*m[1].me.Je/m[1].el.k^2 +
-     * m[1].el.L*m[1].me.fe/m[1].el.k^2) */
-    const real t_17 = p->m__1__el__k * bandwidth
+    /* khepera.bg:17: m[1].el.L*m[1].me.fe*w/m[1].el.k */
+    const real t_17 = p->m__1__el__L * p->m__1__me__fe * w / p->m__1__el__k;
+
+    /* khepera.bg:17: m[1].el.L*m[1].wh.fs*w/(m[1].ge.N*m[1].el.k) */
+    const real t_18 = p->m__1__el__L * p->m__1__wh__fs * w / p->m__1__ge__N / p->m__1__el__k;
+
+    /* khepera.bg:17: m[2].el.Re*m[2].wh.Js*w/(m[2].ge.N*m[2].el.k) */
+    const real t_19 = p->m__2__el__Re * p->m__2__wh__Js * w / p->m__2__ge__N / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].el.Re*m[2].me.Je*w/m[2].el.k */
+    const real t_20 = p->m__2__el__Re * p->m__2__me__Je * w / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].el.L*m[2].me.fe*w/m[2].el.k */
+    const real t_21 = p->m__2__el__L * p->m__2__me__fe * w / p->m__2__el__k;
+
+    /* khepera.bg:17: m[2].el.L*m[2].wh.fs*w/(m[2].ge.N*m[2].el.k) */
+    const real t_22 = p->m__2__el__L * p->m__2__wh__fs * w / p->m__2__ge__N / p->m__2__el__k;
+
+    /* khepera.bg:17: r1_w1: factor of Fx[1] */
+    c->r1_w1_Fx__1 = t_3 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w1: factor of m[1].wh.ws */
+    c->r1_w1_m__1__wh__ws = t_2 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w1: factor of m[1].wh.ws' */
+    c->r1_w1_w1_m__1__wh__ws = t_15 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w1: factor of m[1].me.we */
+    c->r1_w1_m__1__me__we = t / REAL(20.0);
+
+    /* khepera.bg:17: r1_w1: factor of m[1].me.we' */
+    c->r1_w1_w1_m__1__me__we = t_16 / REAL(20.0);
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_8 / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_7;
+
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t_7;
+
+    /* khepera.bg:17: r1_w2: factor of m[1].me.we */
+    c->r1_w2_m__1__me__we = p->m__1__el__k
+            * (p->m__1__el__Re * p->m__1__me__fe / p->m__1__el__k / p->m__1__el__k
+            - REAL(1.0)) / REAL(50.0);
+
+    /* khepera.bg:17: r1_w2: factor of m[1].me.we' */
+    c->r1_w2_w1_m__1__me__we = p->m__1__el__k * w
             * (p->m__1__el__Re * p->m__1__me__Je / p->m__1__el__k / p->m__1__el__k
-            + p->m__1__el__L * p->m__1__me__fe / p->m__1__el__k / p->m__1__el__k);
+            + p->m__1__el__L * p->m__1__me__fe / p->m__1__el__k / p->m__1__el__k) / REAL(50.0);
 
-    /* khepera.bg:17: m[1].el.k*bandwidth*(m[1].el.Re*m[1].wh.Js/(m[1].ge.N*m[1].el.k^2) +
-     * m[1].el.L*m[1].wh ... */
-    const real t_18 = p->m__1__el__k * bandwidth
+    /* khepera.bg:17: r1_w2: factor of m[1].me.we'' */
+    c->r1_w2_w2_m__1__me__we = t_9 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w2: factor of Fx[1] */
+    c->r1_w2_Fx__1 = t_3 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w2: factor of Fx[1]' */
+    c->r1_w2_w1_Fx__1 = t_11 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w2: factor of m[1].wh.ws */
+    c->r1_w2_m__1__wh__ws = t_2 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w2: factor of m[1].wh.ws' */
+    c->r1_w2_w1_m__1__wh__ws = p->m__1__el__k * w
             * (p->m__1__el__Re * p->m__1__wh__Js / p->m__1__ge__N / p->m__1__el__k / p->m__1__el__k
-            + p->m__1__el__L * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k / p->m__1__el__k);
+            + p->m__1__el__L * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k / p->m__1__el__k)
+            / REAL(50.0);
 
-    /* khepera.bg:17: m[1].el.L*m[1].me.fe*bandwidth/m[1].el.k */
-    const real t_19 = p->m__1__el__L * p->m__1__me__fe * bandwidth / p->m__1__el__k;
+    /* khepera.bg:17: r1_w2: factor of m[1].wh.ws'' */
+    c->r1_w2_w2_m__1__wh__ws = t_10 / REAL(50.0);
 
-    /* khepera.bg:17: m[1].el.L*m[1].wh.fs*bandwidth/(m[1].ge.N*m[1].el.k) */
-    const real t_20 = p->m__1__el__L * p->m__1__wh__fs * bandwidth / p->m__1__ge__N
-            / p->m__1__el__k;
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_8 / REAL(6.0);
 
-    /* khepera.bg:17: m[1].el.k^2*bandwidth*(-2*m[1].el.L*m[1].me.fe/m[1].el.k^3 -
-     * 2*m[1].el.Re*m[1].me.Je/m ... */
-    const real t_21 = p->m__1__el__k * p->m__1__el__k * bandwidth
+    /* khepera.bg:17: r1_w3: factor of m[1].me.we */
+    c->r1_w3_m__1__me__we = t / REAL(10.0);
+
+    /* khepera.bg:17: r1_w3: factor of m[1].me.we' */
+    c->r1_w3_w1_m__1__me__we = t_17 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w4: factor of m[1].wh.ws */
+    c->r1_w4_m__1__wh__ws = t_2 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w4: factor of m[1].wh.ws' */
+    c->r1_w4_w1_m__1__wh__ws = t_18 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w5: factor of m[1].me.we */
+    c->r1_w5_m__1__me__we = t / REAL(730.0);
+
+    /* khepera.bg:17: r1_w5: factor of m[1].me.we' */
+    c->r1_w5_w1_m__1__me__we = t_16 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w5: factor of m[1].wh.ws */
+    c->r1_w5_m__1__wh__ws = t_2 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w5: factor of m[1].wh.ws' */
+    c->r1_w5_w1_m__1__wh__ws = t_15 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w5: factor of Fx[1] */
+    c->r1_w5_Fx__1 = t_3 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w6: factor of m[1].me.we */
+    c->r1_w6_m__1__me__we = t / REAL(146.0);
+
+    /* khepera.bg:17: r1_w7: factor of m[1].wh.ws */
+    c->r1_w7_m__1__wh__ws = t_2 / REAL(146.0);
+
+    /* khepera.bg:17: r1_w8: factor of m[1].me.we */
+    c->r1_w8_m__1__me__we = t / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w8: factor of m[1].me.we' */
+    c->r1_w8_w1_m__1__me__we = p->m__1__el__k * p->m__1__el__k * w
             * (-REAL(2.0) * p->m__1__el__L * p->m__1__me__fe / p->m__1__el__k / p->m__1__el__k
                 / p->m__1__el__k
             - REAL(2.0) * p->m__1__el__Re * p->m__1__me__Je / p->m__1__el__k / p->m__1__el__k
-                / p->m__1__el__k);
+                / p->m__1__el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17: m[1].el.k^2*bandwidth*(-2*m[1].el.L*m[1].wh.fs/(m[1].ge.N*m[1].el.k^3) -
-     * 2*m[1].el.Re* ... */
-    const real t_22 = p->m__1__el__k * p->m__1__el__k * bandwidth
+    /* khepera.bg:17: r1_w8: factor of m[1].me.we'' */
+    c->r1_w8_w2_m__1__me__we = t_9 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w8: factor of m[1].wh.ws */
+    c->r1_w8_m__1__wh__ws = t_2 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w8: factor of m[1].wh.ws' */
+    c->r1_w8_w1_m__1__wh__ws = p->m__1__el__k * p->m__1__el__k * w
             * (-REAL(2.0) * p->m__1__el__L * p->m__1__wh__fs / p->m__1__ge__N / p->m__1__el__k
                 / p->m__1__el__k / p->m__1__el__k
             - REAL(2.0) * p->m__1__el__Re * p->m__1__wh__Js / p->m__1__ge__N / p->m__1__el__k
-                / p->m__1__el__k / p->m__1__el__k);
+                / p->m__1__el__k / p->m__1__el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17: m[2].el.Re*m[2].wh.Js*bandwidth/(m[2].ge.N*m[2].el.k) */
-    const real t_23 = p->m__2__el__Re * p->m__2__wh__Js * bandwidth / p->m__2__ge__N
-            / p->m__2__el__k;
+    /* khepera.bg:17: r1_w8: factor of m[1].wh.ws'' */
+    c->r1_w8_w2_m__1__wh__ws = t_10 / REAL(1825.0);
 
-    /* khepera.bg:17: m[2].el.Re*m[2].me.Je*bandwidth/m[2].el.k */
-    const real t_24 = p->m__2__el__Re * p->m__2__me__Je * bandwidth / p->m__2__el__k;
+    /* khepera.bg:17: r1_w8: factor of Fx[1] */
+    c->r1_w8_Fx__1 = t_3 / REAL(1825.0);
 
-    /* khepera.bg:17: m[2].el.k*bandwidth*(m[2].el.Re*m[2].me.Je/m[2].el.k^2 +
-     * m[2].el.L*m[2].me.fe/m[2].el.k^2) */
-    const real t_25 = p->m__2__el__k * bandwidth
+    /* khepera.bg:17: r1_w8: factor of Fx[1]' */
+    c->r1_w8_w1_Fx__1 = t_11 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w9: factor of m[1].me.we */
+    c->r1_w9_m__1__me__we = t / REAL(365.0);
+
+    /* khepera.bg:17: r1_w9: factor of m[1].me.we' */
+    c->r1_w9_w1_m__1__me__we = t_17 / REAL(365.0);
+
+    /* khepera.bg:17: r1_w10: factor of m[1].wh.ws */
+    c->r1_w10_m__1__wh__ws = t_2 / REAL(365.0);
+
+    /* khepera.bg:17: r1_w10: factor of m[1].wh.ws' */
+    c->r1_w10_w1_m__1__wh__ws = t_18 / REAL(365.0);
+
+    /* khepera.bg:17: r3_w1: factor of Fx[2] */
+    c->r3_w1_Fx__2 = t_6 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w1: factor of m[2].wh.ws */
+    c->r3_w1_m__2__wh__ws = t_5 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w1: factor of m[2].wh.ws' */
+    c->r3_w1_w1_m__2__wh__ws = t_19 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w1: factor of m[2].me.we */
+    c->r3_w1_m__2__me__we = t_4 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w1: factor of m[2].me.we' */
+    c->r3_w1_w1_m__2__me__we = t_20 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w2: factor of m[2].me.we */
+    c->r3_w2_m__2__me__we = p->m__2__el__k
+            * (p->m__2__el__Re * p->m__2__me__fe / p->m__2__el__k / p->m__2__el__k
+            - REAL(1.0)) / REAL(50.0);
+
+    /* khepera.bg:17: r3_w2: factor of m[2].me.we' */
+    c->r3_w2_w1_m__2__me__we = p->m__2__el__k * w
             * (p->m__2__el__Re * p->m__2__me__Je / p->m__2__el__k / p->m__2__el__k
-            + p->m__2__el__L * p->m__2__me__fe / p->m__2__el__k / p->m__2__el__k);
+            + p->m__2__el__L * p->m__2__me__fe / p->m__2__el__k / p->m__2__el__k) / REAL(50.0);
 
-    /* khepera.bg:17: m[2].el.k*bandwidth*(m[2].el.Re*m[2].wh.Js/(m[2].ge.N*m[2].el.k^2) +
-     * m[2].el.L*m[2].wh ... */
-    const real t_26 = p->m__2__el__k * bandwidth
+    /* khepera.bg:17: r3_w2: factor of m[2].me.we'' */
+    c->r3_w2_w2_m__2__me__we = t_12 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w2: factor of Fx[2] */
+    c->r3_w2_Fx__2 = t_6 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w2: factor of Fx[2]' */
+    c->r3_w2_w1_Fx__2 = t_14 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w2: factor of m[2].wh.ws */
+    c->r3_w2_m__2__wh__ws = t_5 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w2: factor of m[2].wh.ws' */
+    c->r3_w2_w1_m__2__wh__ws = p->m__2__el__k * w
             * (p->m__2__el__Re * p->m__2__wh__Js / p->m__2__ge__N / p->m__2__el__k / p->m__2__el__k
-            + p->m__2__el__L * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k / p->m__2__el__k);
+            + p->m__2__el__L * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k / p->m__2__el__k)
+            / REAL(50.0);
 
-    /* khepera.bg:17: m[2].el.L*m[2].me.fe*bandwidth/m[2].el.k */
-    const real t_27 = p->m__2__el__L * p->m__2__me__fe * bandwidth / p->m__2__el__k;
+    /* khepera.bg:17: r3_w2: factor of m[2].wh.ws'' */
+    c->r3_w2_w2_m__2__wh__ws = t_13 / REAL(50.0);
 
-    /* khepera.bg:17: m[2].el.L*m[2].wh.fs*bandwidth/(m[2].ge.N*m[2].el.k) */
-    const real t_28 = p->m__2__el__L * p->m__2__wh__fs * bandwidth / p->m__2__ge__N
-            / p->m__2__el__k;
+    /* khepera.bg:17: r3_w3: factor of m[2].me.we */
+    c->r3_w3_m__2__me__we = t_4 / REAL(10.0);
 
-    /* khepera.bg:17: m[2].el.k^2*bandwidth*(-2*m[2].el.L*m[2].me.fe/m[2].el.k^3 -
-     * 2*m[2].el.Re*m[2].me.Je/m ... */
-    const real t_29 = p->m__2__el__k * p->m__2__el__k * bandwidth
+    /* khepera.bg:17: r3_w3: factor of m[2].me.we' */
+    c->r3_w3_w1_m__2__me__we = t_21 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w4: factor of m[2].wh.ws */
+    c->r3_w4_m__2__wh__ws = t_5 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w4: factor of m[2].wh.ws' */
+    c->r3_w4_w1_m__2__wh__ws = t_22 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w5: factor of m[2].me.we */
+    c->r3_w5_m__2__me__we = t_4 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w5: factor of m[2].me.we' */
+    c->r3_w5_w1_m__2__me__we = t_20 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w5: factor of m[2].wh.ws */
+    c->r3_w5_m__2__wh__ws = t_5 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w5: factor of m[2].wh.ws' */
+    c->r3_w5_w1_m__2__wh__ws = t_19 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w5: factor of Fx[2] */
+    c->r3_w5_Fx__2 = t_6 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w6: factor of m[2].me.we */
+    c->r3_w6_m__2__me__we = t_4 / REAL(146.0);
+
+    /* khepera.bg:17: r3_w7: factor of m[2].wh.ws */
+    c->r3_w7_m__2__wh__ws = t_5 / REAL(146.0);
+
+    /* khepera.bg:17: r3_w8: factor of m[2].me.we */
+    c->r3_w8_m__2__me__we = t_4 / REAL(1825.0);
+
+    /* khepera.bg:17: r3_w8: factor of m[2].me.we' */
+    c->r3_w8_w1_m__2__me__we = p->m__2__el__k * p->m__2__el__k * w
             * (-REAL(2.0) * p->m__2__el__L * p->m__2__me__fe / p->m__2__el__k / p->m__2__el__k
                 / p->m__2__el__k
             - REAL(2.0) * p->m__2__el__Re * p->m__2__me__Je / p->m__2__el__k / p->m__2__el__k
-                / p->m__2__el__k);
+                / p->m__2__el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17: m[2].el.k^2*bandwidth*(-2*m[2].el.L*m[2].wh.fs/(m[2].ge.N*m[2].el.k^3) -
-     * 2*m[2].el.Re* ... */
-    const real t_30 = p->m__2__el__k * p->m__2__el__k * bandwidth
+    /* khepera.bg:17: r3_w8: factor of m[2].me.we'' */
+    c->r3_w8_w2_m__2__me__we = t_12 / REAL(1825.0);
+
+    /* khepera.bg:17: r3_w8: factor of m[2].wh.ws */
+    c->r3_w8_m__2__wh__ws = t_5 / REAL(1825.0);
+
+    /* khepera.bg:17: r3_w8: factor of m[2].wh.ws' */
+    c->r3_w8_w1_m__2__wh__ws = p->m__2__el__k * p->m__2__el__k * w
             * (-REAL(2.0) * p->m__2__el__L * p->m__2__wh__fs / p->m__2__ge__N / p->m__2__el__k
                 / p->m__2__el__k / p->m__2__el__k
             - REAL(2.0) * p->m__2__el__Re * p->m__2__wh__Js / p->m__2__ge__N / p->m__2__el__k
-                / p->m__2__el__k / p->m__2__el__k);
+                / p->m__2__el__k / p->m__2__el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17: r1_w1: factor of Fx[1] in stage 3 */
-    c->r1_w1_v3_Fx__1 = t_3 / REAL(20.0);
+    /* khepera.bg:17: r3_w8: factor of m[2].wh.ws'' */
+    c->r3_w8_w2_m__2__wh__ws = t_13 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w1: factor of m[1].wh.ws in stage 2 */
-    c->r1_w1_v2_m__1__wh__ws = t_15 / REAL(20.0);
+    /* khepera.bg:17: r3_w8: factor of Fx[2] */
+    c->r3_w8_Fx__2 = t_6 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w1: factor of m[1].wh.ws in stage 3 */
-    c->r1_w1_v3_m__1__wh__ws = t_15 / REAL(20.0) - t_2 / REAL(20.0);
+    /* khepera.bg:17: r3_w8: factor of Fx[2]' */
+    c->r3_w8_w1_Fx__2 = t_14 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w1: factor of m[1].me.we in stage 2 */
-    c->r1_w1_v2_m__1__me__we = t_16 / REAL(20.0);
+    /* khepera.bg:17: r3_w9: factor of m[2].me.we */
+    c->r3_w9_m__2__me__we = t_4 / REAL(365.0);
 
-    /* khepera.bg:17: r1_w1: factor of m[1].me.we in stage 3 */
-    c->r1_w1_v3_m__1__me__we = t_16 / REAL(20.0) - t / REAL(20.0);
+    /* khepera.bg:17: r3_w9: factor of m[2].me.we' */
+    c->r3_w9_w1_m__2__me__we = t_21 / REAL(365.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_7;
+    /* khepera.bg:17: r3_w10: factor of m[2].wh.ws */
+    c->r3_w10_m__2__wh__ws = t_5 / REAL(365.0);
 
-    /* filter: weight of the new sample */
-    c->b0 = t_8;
-
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_7 - t_8;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_8;
-
-    /* khepera.bg:17: r1_w2: factor of m[1].me.we in stage 1 */
-    c->r1_w2_v1_m__1__me__we = t_9 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w2: factor of m[1].me.we in stage 2 */
-    c->r1_w2_v2_m__1__me__we = t_17 / REAL(50.0) - t_9 / REAL(25.0);
-
-    /* khepera.bg:17: r1_w2: factor of m[1].me.we in stage 3 */
-    c->r1_w2_v3_m__1__me__we = t_9 / REAL(50.0)
-        + p->m__1__el__k * (p->m__1__el__Re * p->m__1__me__fe / p->m__1__el__k / p->m__1__el__k
-            - REAL(1.0)) / REAL(50.0)
-        - t_17 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w2: factor of Fx[1] in stage 2 */
-    c->r1_w2_v2_Fx__1 = t_11 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w2: factor of Fx[1] in stage 3 */
-    c->r1_w2_v3_Fx__1 = t_3 / REAL(50.0) - t_11 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w2: factor of m[1].wh.ws in stage 1 */
-    c->r1_w2_v1_m__1__wh__ws = t_10 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w2: factor of m[1].wh.ws in stage 2 */
-    c->r1_w2_v2_m__1__wh__ws = t_18 / REAL(50.0) - t_10 / REAL(25.0);
-
-    /* khepera.bg:17: r1_w2: factor of m[1].wh.ws in stage 3 */
-    c->r1_w2_v3_m__1__wh__ws = t_2 / REAL(50.0) + t_10 / REAL(50.0) - t_18 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w3: factor of m[1].me.we in stage 2 */
-    c->r1_w3_v2_m__1__me__we = t_19 / REAL(10.0);
-
-    /* khepera.bg:17: r1_w3: factor of m[1].me.we in stage 3 */
-    c->r1_w3_v3_m__1__me__we = t_19 / REAL(10.0) - t / REAL(10.0);
-
-    /* khepera.bg:17: r1_w4: factor of m[1].wh.ws in stage 2 */
-    c->r1_w4_v2_m__1__wh__ws = t_20 / REAL(10.0);
-
-    /* khepera.bg:17: r1_w4: factor of m[1].wh.ws in stage 3 */
-    c->r1_w4_v3_m__1__wh__ws = t_20 / REAL(10.0) - t_2 / REAL(10.0);
-
-    /* khepera.bg:17: r1_w5: factor of m[1].me.we in stage 2 */
-    c->r1_w5_v2_m__1__me__we = t_16 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w5: factor of m[1].me.we in stage 3 */
-    c->r1_w5_v3_m__1__me__we = t / REAL(730.0) - t_16 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w5: factor of m[1].wh.ws in stage 2 */
-    c->r1_w5_v2_m__1__wh__ws = t_15 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w5: factor of m[1].wh.ws in stage 3 */
-    c->r1_w5_v3_m__1__wh__ws = t_2 / REAL(730.0) - t_15 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w5: factor of Fx[1] in stage 3 */
-    c->r1_w5_v3_Fx__1 = t_3 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w6: factor of m[1].me.we in stage 3 */
-    c->r1_w6_v3_m__1__me__we = t / REAL(146.0);
-
-    /* khepera.bg:17: r1_w7: factor of m[1].wh.ws in stage 3 */
-    c->r1_w7_v3_m__1__wh__ws = t_2 / REAL(146.0);
-
-    /* khepera.bg:17: r1_w8: factor of m[1].me.we in stage 1 */
-    c->r1_w8_v1_m__1__me__we = t_9 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w8: factor of m[1].me.we in stage 2 */
-    c->r1_w8_v2_m__1__me__we = REAL(2.0) * t_9 / REAL(1825.0) + t_21 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w8: factor of m[1].me.we in stage 3 */
-    c->r1_w8_v3_m__1__me__we = t / REAL(1825.0) + t_9 / REAL(1825.0) + t_21 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w8: factor of m[1].wh.ws in stage 1 */
-    c->r1_w8_v1_m__1__wh__ws = t_10 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w8: factor of m[1].wh.ws in stage 2 */
-    c->r1_w8_v2_m__1__wh__ws = REAL(2.0) * t_10 / REAL(1825.0) + t_22 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w8: factor of m[1].wh.ws in stage 3 */
-    c->r1_w8_v3_m__1__wh__ws = t_2 / REAL(1825.0) + t_10 / REAL(1825.0) + t_22 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w8: factor of Fx[1] in stage 2 */
-    c->r1_w8_v2_Fx__1 = t_11 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w8: factor of Fx[1] in stage 3 */
-    c->r1_w8_v3_Fx__1 = t_11 / REAL(1825.0) - t_3 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w9: factor of m[1].me.we in stage 2 */
-    c->r1_w9_v2_m__1__me__we = t_19 / REAL(365.0);
-
-    /* khepera.bg:17: r1_w9: factor of m[1].me.we in stage 3 */
-    c->r1_w9_v3_m__1__me__we = t / REAL(365.0) - t_19 / REAL(365.0);
-
-    /* khepera.bg:17: r1_w10: factor of m[1].wh.ws in stage 2 */
-    c->r1_w10_v2_m__1__wh__ws = t_20 / REAL(365.0);
-
-    /* khepera.bg:17: r1_w10: factor of m[1].wh.ws in stage 3 */
-    c->r1_w10_v3_m__1__wh__ws = t_2 / REAL(365.0) - t_20 / REAL(365.0);
-
-    /* khepera.bg:17: r3_w1: factor of Fx[2] in stage 3 */
-    c->r3_w1_v3_Fx__2 = t_6 / REAL(20.0);
-
-    /* khepera.bg:17: r3_w1: factor of m[2].wh.ws in stage 2 */
-    c->r3_w1_v2_m__2__wh__ws = t_23 / REAL(20.0);
-
-    /* khepera.bg:17: r3_w1: factor of m[2].wh.ws in stage 3 */
-    c->r3_w1_v3_m__2__wh__ws = t_23 / REAL(20.0) - t_5 / REAL(20.0);
-
-    /* khepera.bg:17: r3_w1: factor of m[2].me.we in stage 2 */
-    c->r3_w1_v2_m__2__me__we = t_24 / REAL(20.0);
-
-    /* khepera.bg:17: r3_w1: factor of m[2].me.we in stage 3 */
-    c->r3_w1_v3_m__2__me__we = t_24 / REAL(20.0) - t_4 / REAL(20.0);
-
-    /* khepera.bg:17: r3_w2: factor of m[2].me.we in stage 1 */
-    c->r3_w2_v1_m__2__me__we = t_12 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w2: factor of m[2].me.we in stage 2 */
-    c->r3_w2_v2_m__2__me__we = t_25 / REAL(50.0) - t_12 / REAL(25.0);
-
-    /* khepera.bg:17: r3_w2: factor of m[2].me.we in stage 3 */
-    c->r3_w2_v3_m__2__me__we = t_12 / REAL(50.0)
-        + p->m__2__el__k * (p->m__2__el__Re * p->m__2__me__fe / p->m__2__el__k / p->m__2__el__k
-            - REAL(1.0)) / REAL(50.0)
-        - t_25 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w2: factor of Fx[2] in stage 2 */
-    c->r3_w2_v2_Fx__2 = t_14 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w2: factor of Fx[2] in stage 3 */
-    c->r3_w2_v3_Fx__2 = t_6 / REAL(50.0) - t_14 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w2: factor of m[2].wh.ws in stage 1 */
-    c->r3_w2_v1_m__2__wh__ws = t_13 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w2: factor of m[2].wh.ws in stage 2 */
-    c->r3_w2_v2_m__2__wh__ws = t_26 / REAL(50.0) - t_13 / REAL(25.0);
-
-    /* khepera.bg:17: r3_w2: factor of m[2].wh.ws in stage 3 */
-    c->r3_w2_v3_m__2__wh__ws = t_5 / REAL(50.0) + t_13 / REAL(50.0) - t_26 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w3: factor of m[2].me.we in stage 2 */
-    c->r3_w3_v2_m__2__me__we = t_27 / REAL(10.0);
-
-    /* khepera.bg:17: r3_w3: factor of m[2].me.we in stage 3 */
-    c->r3_w3_v3_m__2__me__we = t_27 / REAL(10.0) - t_4 / REAL(10.0);
-
-    /* khepera.bg:17: r3_w4: factor of m[2].wh.ws in stage 2 */
-    c->r3_w4_v2_m__2__wh__ws = t_28 / REAL(10.0);
-
-    /* khepera.bg:17: r3_w4: factor of m[2].wh.ws in stage 3 */
-    c->r3_w4_v3_m__2__wh__ws = t_28 / REAL(10.0) - t_5 / REAL(10.0);
-
-    /* khepera.bg:17: r3_w5: factor of m[2].me.we in stage 2 */
-    c->r3_w5_v2_m__2__me__we = t_24 / REAL(730.0);
-
-    /* khepera.bg:17: r3_w5: factor of m[2].me.we in stage 3 */
-    c->r3_w5_v3_m__2__me__we = t_4 / REAL(730.0) - t_24 / REAL(730.0);
-
-    /* khepera.bg:17: r3_w5: factor of m[2].wh.ws in stage 2 */
-    c->r3_w5_v2_m__2__wh__ws = t_23 / REAL(730.0);
-
-    /* khepera.bg:17: r3_w5: factor of m[2].wh.ws in stage 3 */
-    c->r3_w5_v3_m__2__wh__ws = t_5 / REAL(730.0) - t_23 / REAL(730.0);
-
-    /* khepera.bg:17: r3_w5: factor of Fx[2] in stage 3 */
-    c->r3_w5_v3_Fx__2 = t_6 / REAL(730.0);
-
-    /* khepera.bg:17: r3_w6: factor of m[2].me.we in stage 3 */
-    c->r3_w6_v3_m__2__me__we = t_4 / REAL(146.0);
-
-    /* khepera.bg:17: r3_w7: factor of m[2].wh.ws in stage 3 */
-    c->r3_w7_v3_m__2__wh__ws = t_5 / REAL(146.0);
-
-    /* khepera.bg:17: r3_w8: factor of m[2].me.we in stage 1 */
-    c->r3_w8_v1_m__2__me__we = t_12 / REAL(1825.0);
-
-    /* khepera.bg:17: r3_w8: factor of m[2].me.we in stage 2 */
-    c->r3_w8_v2_m__2__me__we = REAL(2.0) * t_12 / REAL(1825.0) + t_29 / REAL(3650.0);
-
-    /* khepera.bg:17: r3_w8: factor of m[2].me.we in stage 3 */
-    c->r3_w8_v3_m__2__me__we = t_4 / REAL(1825.0) + t_12 / REAL(1825.0) + t_29 / REAL(3650.0);
-
-    /* khepera.bg:17: r3_w8: factor of m[2].wh.ws in stage 1 */
-    c->r3_w8_v1_m__2__wh__ws = t_13 / REAL(1825.0);
-
-    /* khepera.bg:17: r3_w8: factor of m[2].wh.ws in stage 2 */
-    c->r3_w8_v2_m__2__wh__ws = REAL(2.0) * t_13 / REAL(1825.0) + t_30 / REAL(3650.0);
-
-    /* khepera.bg:17: r3_w8: factor of m[2].wh.ws in stage 3 */
-    c->r3_w8_v3_m__2__wh__ws = t_5 / REAL(1825.0) + t_13 / REAL(1825.0) + t_30 / REAL(3650.0);
-
-    /* khepera.bg:17: r3_w8: factor of Fx[2] in stage 2 */
-    c->r3_w8_v2_Fx__2 = t_14 / REAL(1825.0);
-
-    /* khepera.bg:17: r3_w8: factor of Fx[2] in stage 3 */
-    c->r3_w8_v3_Fx__2 = t_14 / REAL(1825.0) - t_6 / REAL(1825.0);
-
-    /* khepera.bg:17: r3_w9: factor of m[2].me.we in stage 2 */
-    c->r3_w9_v2_m__2__me__we = t_27 / REAL(365.0);
-
-    /* khepera.bg:17: r3_w9: factor of m[2].me.we in stage 3 */
-    c->r3_w9_v3_m__2__me__we = t_4 / REAL(365.0) - t_27 / REAL(365.0);
-
-    /* khepera.bg:17: r3_w10: factor of m[2].wh.ws in stage 2 */
-    c->r3_w10_v2_m__2__wh__ws = t_28 / REAL(365.0);
-
-    /* khepera.bg:17: r3_w10: factor of m[2].wh.ws in stage 3 */
-    c->r3_w10_v3_m__2__wh__ws = t_5 / REAL(365.0) - t_28 / REAL(365.0);
+    /* khepera.bg:17: r3_w10: factor of m[2].wh.ws' */
+    c->r3_w10_w1_m__2__wh__ws = t_22 / REAL(365.0);
 }
 
 static bool parameters_are_finite(const khepera_threshold_parameters *p)
@@ -479,43 +422,41 @@ static bool parameters_are_finite(const khepera_threshold_parameters *p)
 
 static bool coefficients_are_finite(const khepera_threshold_monitor *monitor)
 {
-    return finite_number(monitor->c.r1_w1_v3_Fx__1 + monitor->c.r1_w1_v2_m__1__wh__ws
-            + monitor->c.r1_w1_v3_m__1__wh__ws + monitor->c.r1_w1_v2_m__1__me__we
-            + monitor->c.r1_w1_v3_m__1__me__we + monitor->c.a + monitor->c.b0 + monitor->c.b1
-            + monitor->c.rest + monitor->c.r1_w2_v1_m__1__me__we + monitor->c.r1_w2_v2_m__1__me__we
-            + monitor->c.r1_w2_v3_m__1__me__we + monitor->c.r1_w2_v2_Fx__1
-            + monitor->c.r1_w2_v3_Fx__1 + monitor->c.r1_w2_v1_m__1__wh__ws
-            + monitor->c.r1_w2_v2_m__1__wh__ws + monitor->c.r1_w2_v3_m__1__wh__ws
-            + monitor->c.r1_w3_v2_m__1__me__we + monitor->c.r1_w3_v3_m__1__me__we
-            + monitor->c.r1_w4_v2_m__1__wh__ws + monitor->c.r1_w4_v3_m__1__wh__ws
-            + monitor->c.r1_w5_v2_m__1__me__we + monitor->c.r1_w5_v3_m__1__me__we
-            + monitor->c.r1_w5_v2_m__1__wh__ws + monitor->c.r1_w5_v3_m__1__wh__ws
-            + monitor->c.r1_w5_v3_Fx__1 + monitor->c.r1_w6_v3_m__1__me__we
-            + monitor->c.r1_w7_v3_m__1__wh__ws + monitor->c.r1_w8_v1_m__1__me__we
-            + monitor->c.r1_w8_v2_m__1__me__we + monitor->c.r1_w8_v3_m__1__me__we
-            + monitor->c.r1_w8_v1_m__1__wh__ws + monitor->c.r1_w8_v2_m__1__wh__ws
-            + monitor->c.r1_w8_v3_m__1__wh__ws + monitor->c.r1_w8_v2_Fx__1
-            + monitor->c.r1_w8_v3_Fx__1 + monitor->c.r1_w9_v2_m__1__me__we
-            + monitor->c.r1_w9_v3_m__1__me__we + monitor->c.r1_w10_v2_m__1__wh__ws
-            + monitor->c.r1_w10_v3_m__1__wh__ws + monitor->c.r3_w1_v3_Fx__2
-            + monitor->c.r3_w1_v2_m__2__wh__ws + monitor->c.r3_w1_v3_m__2__wh__ws
-            + monitor->c.r3_w1_v2_m__2__me__we + monitor->c.r3_w1_v3_m__2__me__we
-            + monitor->c.r3_w2_v1_m__2__me__we + monitor->c.r3_w2_v2_m__2__me__we
-            + monitor->c.r3_w2_v3_m__2__me__we + monitor->c.r3_w2_v2_Fx__2
-            + monitor->c.r3_w2_v3_Fx__2 + monitor->c.r3_w2_v1_m__2__wh__ws
-            + monitor->c.r3_w2_v2_m__2__wh__ws + monitor->c.r3_w2_v3_m__2__wh__ws
-            + monitor->c.r3_w3_v2_m__2__me__we + monitor->c.r3_w3_v3_m__2__me__we
-            + monitor->c.r3_w4_v2_m__2__wh__ws + monitor->c.r3_w4_v3_m__2__wh__ws
-            + monitor->c.r3_w5_v2_m__2__me__we + monitor->c.r3_w5_v3_m__2__me__we
-            + monitor->c.r3_w5_v2_m__2__wh__ws + monitor->c.r3_w5_v3_m__2__wh__ws
-            + monitor->c.r3_w5_v3_Fx__2 + monitor->c.r3_w6_v3_m__2__me__we
-            + monitor->c.r3_w7_v3_m__2__wh__ws + monitor->c.r3_w8_v1_m__2__me__we
-            + monitor->c.r3_w8_v2_m__2__me__we + monitor->c.r3_w8_v3_m__2__me__we
-            + monitor->c.r3_w8_v1_m__2__wh__ws + monitor->c.r3_w8_v2_m__2__wh__ws
-            + monitor->c.r3_w8_v3_m__2__wh__ws + monitor->c.r3_w8_v2_Fx__2
-            + monitor->c.r3_w8_v3_Fx__2 + monitor->c.r3_w9_v2_m__2__me__we
-            + monitor->c.r3_w9_v3_m__2__me__we + monitor->c.r3_w10_v2_m__2__wh__ws
-            + monitor->c.r3_w10_v3_m__2__wh__ws);
+    return finite_number(monitor->c.r1_w1_Fx__1 + monitor->c.r1_w1_m__1__wh__ws
+            + monitor->c.r1_w1_w1_m__1__wh__ws + monitor->c.r1_w1_m__1__me__we
+            + monitor->c.r1_w1_w1_m__1__me__we + monitor->c.bend1 + monitor->c.a + monitor->c.b
+            + monitor->c.rest + monitor->c.r1_w2_m__1__me__we + monitor->c.r1_w2_w1_m__1__me__we
+            + monitor->c.r1_w2_w2_m__1__me__we + monitor->c.r1_w2_Fx__1 + monitor->c.r1_w2_w1_Fx__1
+            + monitor->c.r1_w2_m__1__wh__ws + monitor->c.r1_w2_w1_m__1__wh__ws
+            + monitor->c.r1_w2_w2_m__1__wh__ws + monitor->c.bend2 + monitor->c.r1_w3_m__1__me__we
+            + monitor->c.r1_w3_w1_m__1__me__we + monitor->c.r1_w4_m__1__wh__ws
+            + monitor->c.r1_w4_w1_m__1__wh__ws + monitor->c.r1_w5_m__1__me__we
+            + monitor->c.r1_w5_w1_m__1__me__we + monitor->c.r1_w5_m__1__wh__ws
+            + monitor->c.r1_w5_w1_m__1__wh__ws + monitor->c.r1_w5_Fx__1
+            + monitor->c.r1_w6_m__1__me__we + monitor->c.r1_w7_m__1__wh__ws
+            + monitor->c.r1_w8_m__1__me__we + monitor->c.r1_w8_w1_m__1__me__we
+            + monitor->c.r1_w8_w2_m__1__me__we + monitor->c.r1_w8_m__1__wh__ws
+            + monitor->c.r1_w8_w1_m__1__wh__ws + monitor->c.r1_w8_w2_m__1__wh__ws
+            + monitor->c.r1_w8_Fx__1 + monitor->c.r1_w8_w1_Fx__1 + monitor->c.r1_w9_m__1__me__we
+            + monitor->c.r1_w9_w1_m__1__me__we + monitor->c.r1_w10_m__1__wh__ws
+            + monitor->c.r1_w10_w1_m__1__wh__ws + monitor->c.r3_w1_Fx__2
+            + monitor->c.r3_w1_m__2__wh__ws + monitor->c.r3_w1_w1_m__2__wh__ws
+            + monitor->c.r3_w1_m__2__me__we + monitor->c.r3_w1_w1_m__2__me__we
+            + monitor->c.r3_w2_m__2__me__we + monitor->c.r3_w2_w1_m__2__me__we
+            + monitor->c.r3_w2_w2_m__2__me__we + monitor->c.r3_w2_Fx__2 + monitor->c.r3_w2_w1_Fx__2
+            + monitor->c.r3_w2_m__2__wh__ws + monitor->c.r3_w2_w1_m__2__wh__ws
+            + monitor->c.r3_w2_w2_m__2__wh__ws + monitor->c.r3_w3_m__2__me__we
+            + monitor->c.r3_w3_w1_m__2__me__we + monitor->c.r3_w4_m__2__wh__ws
+            + monitor->c.r3_w4_w1_m__2__wh__ws + monitor->c.r3_w5_m__2__me__we
+            + monitor->c.r3_w5_w1_m__2__me__we + monitor->c.r3_w5_m__2__wh__ws
+            + monitor->c.r3_w5_w1_m__2__wh__ws + monitor->c.r3_w5_Fx__2
+            + monitor->c.r3_w6_m__2__me__we + monitor->c.r3_w7_m__2__wh__ws
+            + monitor->c.r3_w8_m__2__me__we + monitor->c.r3_w8_w1_m__2__me__we
+            + monitor->c.r3_w8_w2_m__2__me__we + monitor->c.r3_w8_m__2__wh__ws
+            + monitor->c.r3_w8_w1_m__2__wh__ws + monitor->c.r3_w8_w2_m__2__wh__ws
+            + monitor->c.r3_w8_Fx__2 + monitor->c.r3_w8_w1_Fx__2 + monitor->c.r3_w9_m__2__me__we
+            + monitor->c.r3_w9_w1_m__2__me__we + monitor->c.r3_w10_m__2__wh__ws
+            + monitor->c.r3_w10_w1_m__2__wh__ws);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -602,9 +543,19 @@ static void start_r1(
     const khepera_threshold_coefficients *c = &monitor->c;
     khepera_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1_w1: terms of order 0 */
+    const real r1_w1_g0 = -c->r1_w1_Fx__1 * s->Fx__1 - c->r1_w1_m__1__wh__ws * s->m__1__wh__ws
+        - c->r1_w1_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = -c->r1_w1_w1_m__1__wh__ws * s->m__1__wh__ws
+        - c->r1_w1_w1_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: error of order 0 */
+    const real r1_w1_e0 = c->bend1 * r1_w1_g0;
+
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_m__1__wh__ws * s->m__1__wh__ws
-        + c->r1_w1_v3_m__1__me__we * s->m__1__me__we - c->r1_w1_v3_Fx__1 * s->Fx__1;
+    const real r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 3, at rest */
     const real r1_w1_y3 = r1_w1_u3;
@@ -613,8 +564,7 @@ static void start_r1(
     x->r1_w1_s3 = c->rest * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_m__1__wh__ws * s->m__1__wh__ws
-        - c->r1_w1_v2_m__1__me__we * s->m__1__me__we;
+    const real r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + REAL(2.0) * r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 2, at rest */
     const real r1_w1_y2 = r1_w1_u2;
@@ -623,7 +573,7 @@ static void start_r1(
     x->r1_w1_s2 = c->rest * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 1, at rest */
     const real r1_w1_y1 = r1_w1_u1;
@@ -634,9 +584,26 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerance of m[1].el.Re can do */
     const real r1_w1 = r1_w1_y1;
 
+    /* khepera.bg:17: r1_w2: terms of order 0 */
+    const real r1_w2_g0 = c->r1_w2_m__1__me__we * s->m__1__me__we + c->r1_w2_Fx__1 * s->Fx__1
+        + c->r1_w2_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w2: terms of order 1 */
+    const real r1_w2_g1 = c->r1_w2_w1_m__1__me__we * s->m__1__me__we + c->r1_w2_w1_Fx__1 * s->Fx__1
+        + c->r1_w2_w1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w2: error of order 0 */
+    const real r1_w2_e0 = c->bend2 * r1_w2_g0;
+
+    /* khepera.bg:17: r1_w2: degree 2 */
+    const real r1_w2_d2 = c->r1_w2_w2_m__1__me__we * s->m__1__me__we
+        + c->r1_w2_w2_m__1__wh__ws * s->m__1__wh__ws - r1_w2_e0;
+
+    /* khepera.bg:17: r1_w2: error of order 1 */
+    const real r1_w2_e1 = c->bend1 * r1_w2_g1;
+
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_m__1__me__we * s->m__1__me__we + c->r1_w2_v3_Fx__1 * s->Fx__1
-        + c->r1_w2_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1;
 
     /* khepera.bg:17: r1_w2: stage 3, at rest */
     const real r1_w2_y3 = r1_w2_u3;
@@ -645,8 +612,7 @@ static void start_r1(
     x->r1_w2_s3 = c->rest * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 + c->r1_w2_v2_m__1__me__we * s->m__1__me__we
-        + c->r1_w2_v2_Fx__1 * s->Fx__1 + c->r1_w2_v2_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - REAL(2.0) * r1_w2_d2 - REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 2, at rest */
     const real r1_w2_y2 = r1_w2_u2;
@@ -655,8 +621,7 @@ static void start_r1(
     x->r1_w2_s2 = c->rest * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2 + c->r1_w2_v1_m__1__me__we * s->m__1__me__we
-        + c->r1_w2_v1_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 1, at rest */
     const real r1_w2_y1 = r1_w2_u1;
@@ -665,10 +630,19 @@ static void start_r1(
     x->r1_w2_s1 = c->rest * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].el.k can do */
-    const real r1_w2 = r1_w2_y1;
+    const real r1_w2 = r1_w2_y1 - r1_w2_e1;
+
+    /* khepera.bg:17: r1_w3: terms of order 0 */
+    const real r1_w3_g0 = -c->r1_w3_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w3: degree 1 */
+    const real r1_w3_d1 = c->r1_w3_w1_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w3: error of order 0 */
+    const real r1_w3_e0 = c->bend1 * r1_w3_g0;
 
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_m__1__me__we * s->m__1__me__we;
+    const real r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 3, at rest */
     const real r1_w3_y3 = r1_w3_u3;
@@ -677,7 +651,7 @@ static void start_r1(
     x->r1_w3_s3 = c->rest * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 - c->r1_w3_v2_m__1__me__we * s->m__1__me__we;
+    const real r1_w3_u2 = r1_w3_y3 + REAL(2.0) * r1_w3_e0 - r1_w3_d1;
 
     /* khepera.bg:17: r1_w3: stage 2, at rest */
     const real r1_w3_y2 = r1_w3_u2;
@@ -686,7 +660,7 @@ static void start_r1(
     x->r1_w3_s2 = c->rest * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2;
+    const real r1_w3_u1 = r1_w3_y2 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 1, at rest */
     const real r1_w3_y1 = r1_w3_u1;
@@ -697,8 +671,17 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerance of m[1].me.fe can do */
     const real r1_w3 = r1_w3_y1;
 
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = c->r1_w4_w1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend1 * r1_w4_g0;
+
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = c->r1_w4_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 3, at rest */
     const real r1_w4_y3 = r1_w4_u3;
@@ -707,7 +690,7 @@ static void start_r1(
     x->r1_w4_s3 = c->rest * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w4_u2 = r1_w4_y3 + REAL(2.0) * r1_w4_e0 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 2, at rest */
     const real r1_w4_y2 = r1_w4_u2;
@@ -716,7 +699,7 @@ static void start_r1(
     x->r1_w4_s2 = c->rest * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 1, at rest */
     const real r1_w4_y1 = r1_w4_u1;
@@ -727,9 +710,19 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerance of m[1].wh.fs can do */
     const real r1_w4 = r1_w4_y1;
 
+    /* khepera.bg:17: r1_w5: terms of order 0 */
+    const real r1_w5_g0 = c->r1_w5_m__1__me__we * s->m__1__me__we
+        + c->r1_w5_m__1__wh__ws * s->m__1__wh__ws + c->r1_w5_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w5: degree 1 */
+    const real r1_w5_d1 = c->r1_w5_w1_m__1__me__we * s->m__1__me__we
+        + c->r1_w5_w1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w5: error of order 0 */
+    const real r1_w5_e0 = c->bend1 * r1_w5_g0;
+
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = c->r1_w5_v3_m__1__me__we * s->m__1__me__we
-        + c->r1_w5_v3_m__1__wh__ws * s->m__1__wh__ws + c->r1_w5_v3_Fx__1 * s->Fx__1;
+    const real r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 3, at rest */
     const real r1_w5_y3 = r1_w5_u3;
@@ -738,8 +731,7 @@ static void start_r1(
     x->r1_w5_s3 = c->rest * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
-    const real r1_w5_u2 = r1_w5_y3 + c->r1_w5_v2_m__1__me__we * s->m__1__me__we
-        + c->r1_w5_v2_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + REAL(2.0) * r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 2, at rest */
     const real r1_w5_y2 = r1_w5_u2;
@@ -748,7 +740,7 @@ static void start_r1(
     x->r1_w5_s2 = c->rest * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
-    const real r1_w5_u1 = r1_w5_y2;
+    const real r1_w5_u1 = r1_w5_y2 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 1, at rest */
     const real r1_w5_y1 = r1_w5_u1;
@@ -760,7 +752,7 @@ static void start_r1(
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = -c->r1_w6_v3_m__1__me__we * s->m__1__me__we;
+    const real r1_w6_u3 = -c->r1_w6_m__1__me__we * s->m__1__me__we;
 
     /* khepera.bg:17: r1_w6: stage 3, at rest */
     const real r1_w6_y3 = r1_w6_u3;
@@ -790,7 +782,7 @@ static void start_r1(
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = -c->r1_w7_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w7_u3 = -c->r1_w7_m__1__wh__ws * s->m__1__wh__ws;
 
     /* khepera.bg:17: r1_w7: stage 3, at rest */
     const real r1_w7_y3 = r1_w7_u3;
@@ -819,9 +811,26 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
 
+    /* khepera.bg:17: r1_w8: terms of order 0 */
+    const real r1_w8_g0 = -c->r1_w8_m__1__me__we * s->m__1__me__we
+        - c->r1_w8_m__1__wh__ws * s->m__1__wh__ws - c->r1_w8_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w8: terms of order 1 */
+    const real r1_w8_g1 = c->r1_w8_w1_m__1__me__we * s->m__1__me__we
+        + c->r1_w8_w1_m__1__wh__ws * s->m__1__wh__ws - c->r1_w8_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w8: error of order 0 */
+    const real r1_w8_e0 = c->bend2 * r1_w8_g0;
+
+    /* khepera.bg:17: r1_w8: degree 2 */
+    const real r1_w8_d2 = -c->r1_w8_w2_m__1__me__we * s->m__1__me__we
+        - c->r1_w8_w2_m__1__wh__ws * s->m__1__wh__ws - r1_w8_e0;
+
+    /* khepera.bg:17: r1_w8: error of order 1 */
+    const real r1_w8_e1 = c->bend1 * r1_w8_g1;
+
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = c->r1_w8_v3_Fx__1 * s->Fx__1 - c->r1_w8_v3_m__1__me__we * s->m__1__me__we
-        - c->r1_w8_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1;
 
     /* khepera.bg:17: r1_w8: stage 3, at rest */
     const real r1_w8_y3 = r1_w8_u3;
@@ -830,8 +839,7 @@ static void start_r1(
     x->r1_w8_s3 = c->rest * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
-    const real r1_w8_u2 = r1_w8_y3 + c->r1_w8_v2_m__1__me__we * s->m__1__me__we
-        + c->r1_w8_v2_m__1__wh__ws * s->m__1__wh__ws - c->r1_w8_v2_Fx__1 * s->Fx__1;
+    const real r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - REAL(2.0) * r1_w8_d2 - REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 2, at rest */
     const real r1_w8_y2 = r1_w8_u2;
@@ -840,8 +848,7 @@ static void start_r1(
     x->r1_w8_s2 = c->rest * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: input of stage 1 */
-    const real r1_w8_u1 = r1_w8_y2 - c->r1_w8_v1_m__1__me__we * s->m__1__me__we
-        - c->r1_w8_v1_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 1, at rest */
     const real r1_w8_y1 = r1_w8_u1;
@@ -850,10 +857,19 @@ static void start_r1(
     x->r1_w8_s1 = c->rest * r1_w8_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do */
-    const real r1_w8 = r1_w8_y1;
+    const real r1_w8 = r1_w8_y1 - r1_w8_e1;
+
+    /* khepera.bg:17: r1_w9: terms of order 0 */
+    const real r1_w9_g0 = c->r1_w9_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w9: degree 1 */
+    const real r1_w9_d1 = c->r1_w9_w1_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w9: error of order 0 */
+    const real r1_w9_e0 = c->bend1 * r1_w9_g0;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_m__1__me__we * s->m__1__me__we;
+    const real r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 3, at rest */
     const real r1_w9_y3 = r1_w9_u3;
@@ -862,7 +878,7 @@ static void start_r1(
     x->r1_w9_s3 = c->rest * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_m__1__me__we * s->m__1__me__we;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + REAL(2.0) * r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 2, at rest */
     const real r1_w9_y2 = r1_w9_u2;
@@ -871,7 +887,7 @@ static void start_r1(
     x->r1_w9_s2 = c->rest * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2;
+    const real r1_w9_u1 = r1_w9_y2 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 1, at rest */
     const real r1_w9_y1 = r1_w9_u1;
@@ -882,8 +898,17 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
+    /* khepera.bg:17: r1_w10: terms of order 0 */
+    const real r1_w10_g0 = c->r1_w10_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: degree 1 */
+    const real r1_w10_d1 = c->r1_w10_w1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: error of order 0 */
+    const real r1_w10_e0 = c->bend1 * r1_w10_g0;
+
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = c->r1_w10_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 3, at rest */
     const real r1_w10_y3 = r1_w10_u3;
@@ -892,7 +917,7 @@ static void start_r1(
     x->r1_w10_s3 = c->rest * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: input of stage 2 */
-    const real r1_w10_u2 = r1_w10_y3 + c->r1_w10_v2_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + REAL(2.0) * r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 2, at rest */
     const real r1_w10_y2 = r1_w10_u2;
@@ -901,7 +926,7 @@ static void start_r1(
     x->r1_w10_s2 = c->rest * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: input of stage 1 */
-    const real r1_w10_u1 = r1_w10_y2;
+    const real r1_w10_u1 = r1_w10_y2 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 1, at rest */
     const real r1_w10_y1 = r1_w10_u1;
@@ -925,312 +950,396 @@ static void next_r1(
     const khepera_threshold_coefficients *c = &monitor->c;
     khepera_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1_w1: terms of order 0 */
+    const real r1_w1_g0 = -c->r1_w1_Fx__1 * s->Fx__1 - c->r1_w1_m__1__wh__ws * s->m__1__wh__ws
+        - c->r1_w1_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = -c->r1_w1_w1_m__1__wh__ws * s->m__1__wh__ws
+        - c->r1_w1_w1_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: error of order 0 */
+    const real r1_w1_e0 = c->bend1 * r1_w1_g0;
+
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_m__1__wh__ws * s->m__1__wh__ws
-        + c->r1_w1_v3_m__1__me__we * s->m__1__me__we - c->r1_w1_v3_Fx__1 * s->Fx__1;
+    const real r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 3 */
-    const real r1_w1_y3 = x->r1_w1_s3 + c->b0 * r1_w1_u3;
+    const real r1_w1_y3 = x->r1_w1_s3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: stage 3: memory */
-    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b1 * r1_w1_u3;
+    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_m__1__wh__ws * s->m__1__wh__ws
-        - c->r1_w1_v2_m__1__me__we * s->m__1__me__we;
+    const real r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + REAL(2.0) * r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 2 */
-    const real r1_w1_y2 = x->r1_w1_s2 + c->b0 * r1_w1_u2;
+    const real r1_w1_y2 = x->r1_w1_s2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: stage 2: memory */
-    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b1 * r1_w1_u2;
+    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 1 */
-    const real r1_w1_y1 = x->r1_w1_s1 + c->b0 * r1_w1_u1;
+    const real r1_w1_y1 = x->r1_w1_s1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1_w1: stage 1: memory */
-    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b1 * r1_w1_u1;
+    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].el.Re can do */
     const real r1_w1 = r1_w1_y1;
 
+    /* khepera.bg:17: r1_w2: terms of order 0 */
+    const real r1_w2_g0 = c->r1_w2_m__1__me__we * s->m__1__me__we + c->r1_w2_Fx__1 * s->Fx__1
+        + c->r1_w2_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w2: terms of order 1 */
+    const real r1_w2_g1 = c->r1_w2_w1_m__1__me__we * s->m__1__me__we + c->r1_w2_w1_Fx__1 * s->Fx__1
+        + c->r1_w2_w1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w2: error of order 0 */
+    const real r1_w2_e0 = c->bend2 * r1_w2_g0;
+
+    /* khepera.bg:17: r1_w2: degree 2 */
+    const real r1_w2_d2 = c->r1_w2_w2_m__1__me__we * s->m__1__me__we
+        + c->r1_w2_w2_m__1__wh__ws * s->m__1__wh__ws - r1_w2_e0;
+
+    /* khepera.bg:17: r1_w2: error of order 1 */
+    const real r1_w2_e1 = c->bend1 * r1_w2_g1;
+
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_m__1__me__we * s->m__1__me__we + c->r1_w2_v3_Fx__1 * s->Fx__1
-        + c->r1_w2_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1;
 
     /* khepera.bg:17: r1_w2: stage 3 */
-    const real r1_w2_y3 = x->r1_w2_s3 + c->b0 * r1_w2_u3;
+    const real r1_w2_y3 = x->r1_w2_s3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: stage 3: memory */
-    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b1 * r1_w2_u3;
+    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 + c->r1_w2_v2_m__1__me__we * s->m__1__me__we
-        + c->r1_w2_v2_Fx__1 * s->Fx__1 + c->r1_w2_v2_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - REAL(2.0) * r1_w2_d2 - REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 2 */
-    const real r1_w2_y2 = x->r1_w2_s2 + c->b0 * r1_w2_u2;
+    const real r1_w2_y2 = x->r1_w2_s2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: stage 2: memory */
-    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b1 * r1_w2_u2;
+    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2 + c->r1_w2_v1_m__1__me__we * s->m__1__me__we
-        + c->r1_w2_v1_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + REAL(3.0) * r1_w2_e1;
 
     /* khepera.bg:17: r1_w2: stage 1 */
-    const real r1_w2_y1 = x->r1_w2_s1 + c->b0 * r1_w2_u1;
+    const real r1_w2_y1 = x->r1_w2_s1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1_w2: stage 1: memory */
-    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b1 * r1_w2_u1;
+    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].el.k can do */
-    const real r1_w2 = r1_w2_y1;
+    const real r1_w2 = r1_w2_y1 - r1_w2_e1;
+
+    /* khepera.bg:17: r1_w3: terms of order 0 */
+    const real r1_w3_g0 = -c->r1_w3_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w3: degree 1 */
+    const real r1_w3_d1 = c->r1_w3_w1_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w3: error of order 0 */
+    const real r1_w3_e0 = c->bend1 * r1_w3_g0;
 
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_m__1__me__we * s->m__1__me__we;
+    const real r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 3 */
-    const real r1_w3_y3 = x->r1_w3_s3 + c->b0 * r1_w3_u3;
+    const real r1_w3_y3 = x->r1_w3_s3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: stage 3: memory */
-    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b1 * r1_w3_u3;
+    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 - c->r1_w3_v2_m__1__me__we * s->m__1__me__we;
+    const real r1_w3_u2 = r1_w3_y3 + REAL(2.0) * r1_w3_e0 - r1_w3_d1;
 
     /* khepera.bg:17: r1_w3: stage 2 */
-    const real r1_w3_y2 = x->r1_w3_s2 + c->b0 * r1_w3_u2;
+    const real r1_w3_y2 = x->r1_w3_s2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: stage 2: memory */
-    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b1 * r1_w3_u2;
+    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2;
+    const real r1_w3_u1 = r1_w3_y2 - r1_w3_e0;
 
     /* khepera.bg:17: r1_w3: stage 1 */
-    const real r1_w3_y1 = x->r1_w3_s1 + c->b0 * r1_w3_u1;
+    const real r1_w3_y1 = x->r1_w3_s1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1_w3: stage 1: memory */
-    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b1 * r1_w3_u1;
+    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].me.fe can do */
     const real r1_w3 = r1_w3_y1;
 
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = c->r1_w4_w1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend1 * r1_w4_g0;
+
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = c->r1_w4_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 3 */
-    const real r1_w4_y3 = x->r1_w4_s3 + c->b0 * r1_w4_u3;
+    const real r1_w4_y3 = x->r1_w4_s3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: stage 3: memory */
-    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b1 * r1_w4_u3;
+    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w4_u2 = r1_w4_y3 + REAL(2.0) * r1_w4_e0 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 2 */
-    const real r1_w4_y2 = x->r1_w4_s2 + c->b0 * r1_w4_u2;
+    const real r1_w4_y2 = x->r1_w4_s2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: stage 2: memory */
-    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b1 * r1_w4_u2;
+    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 1 */
-    const real r1_w4_y1 = x->r1_w4_s1 + c->b0 * r1_w4_u1;
+    const real r1_w4_y1 = x->r1_w4_s1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1_w4: stage 1: memory */
-    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b1 * r1_w4_u1;
+    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].wh.fs can do */
     const real r1_w4 = r1_w4_y1;
 
+    /* khepera.bg:17: r1_w5: terms of order 0 */
+    const real r1_w5_g0 = c->r1_w5_m__1__me__we * s->m__1__me__we
+        + c->r1_w5_m__1__wh__ws * s->m__1__wh__ws + c->r1_w5_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w5: degree 1 */
+    const real r1_w5_d1 = c->r1_w5_w1_m__1__me__we * s->m__1__me__we
+        + c->r1_w5_w1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w5: error of order 0 */
+    const real r1_w5_e0 = c->bend1 * r1_w5_g0;
+
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = c->r1_w5_v3_m__1__me__we * s->m__1__me__we
-        + c->r1_w5_v3_m__1__wh__ws * s->m__1__wh__ws + c->r1_w5_v3_Fx__1 * s->Fx__1;
+    const real r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 3 */
-    const real r1_w5_y3 = x->r1_w5_s3 + c->b0 * r1_w5_u3;
+    const real r1_w5_y3 = x->r1_w5_s3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: stage 3: memory */
-    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b1 * r1_w5_u3;
+    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
-    const real r1_w5_u2 = r1_w5_y3 + c->r1_w5_v2_m__1__me__we * s->m__1__me__we
-        + c->r1_w5_v2_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + REAL(2.0) * r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 2 */
-    const real r1_w5_y2 = x->r1_w5_s2 + c->b0 * r1_w5_u2;
+    const real r1_w5_y2 = x->r1_w5_s2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: stage 2: memory */
-    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b1 * r1_w5_u2;
+    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
-    const real r1_w5_u1 = r1_w5_y2;
+    const real r1_w5_u1 = r1_w5_y2 - r1_w5_e0;
 
     /* khepera.bg:17: r1_w5: stage 1 */
-    const real r1_w5_y1 = x->r1_w5_s1 + c->b0 * r1_w5_u1;
+    const real r1_w5_y1 = x->r1_w5_s1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1_w5: stage 1: memory */
-    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
+    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].el.k can do together */
     const real r1_w5 = r1_w5_y1;
 
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = -c->r1_w6_v3_m__1__me__we * s->m__1__me__we;
+    const real r1_w6_u3 = -c->r1_w6_m__1__me__we * s->m__1__me__we;
 
     /* khepera.bg:17: r1_w6: stage 3 */
-    const real r1_w6_y3 = x->r1_w6_s3 + c->b0 * r1_w6_u3;
+    const real r1_w6_y3 = x->r1_w6_s3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: stage 3: memory */
-    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b1 * r1_w6_u3;
+    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: input of stage 2 */
     const real r1_w6_u2 = r1_w6_y3;
 
     /* khepera.bg:17: r1_w6: stage 2 */
-    const real r1_w6_y2 = x->r1_w6_s2 + c->b0 * r1_w6_u2;
+    const real r1_w6_y2 = x->r1_w6_s2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: stage 2: memory */
-    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b1 * r1_w6_u2;
+    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: input of stage 1 */
     const real r1_w6_u1 = r1_w6_y2;
 
     /* khepera.bg:17: r1_w6: stage 1 */
-    const real r1_w6_y1 = x->r1_w6_s1 + c->b0 * r1_w6_u1;
+    const real r1_w6_y1 = x->r1_w6_s1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1_w6: stage 1: memory */
-    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
+    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].me.fe can do together */
     const real r1_w6 = r1_w6_y1;
 
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = -c->r1_w7_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w7_u3 = -c->r1_w7_m__1__wh__ws * s->m__1__wh__ws;
 
     /* khepera.bg:17: r1_w7: stage 3 */
-    const real r1_w7_y3 = x->r1_w7_s3 + c->b0 * r1_w7_u3;
+    const real r1_w7_y3 = x->r1_w7_s3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: stage 3: memory */
-    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b1 * r1_w7_u3;
+    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: input of stage 2 */
     const real r1_w7_u2 = r1_w7_y3;
 
     /* khepera.bg:17: r1_w7: stage 2 */
-    const real r1_w7_y2 = x->r1_w7_s2 + c->b0 * r1_w7_u2;
+    const real r1_w7_y2 = x->r1_w7_s2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: stage 2: memory */
-    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b1 * r1_w7_u2;
+    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: input of stage 1 */
     const real r1_w7_u1 = r1_w7_y2;
 
     /* khepera.bg:17: r1_w7: stage 1 */
-    const real r1_w7_y1 = x->r1_w7_s1 + c->b0 * r1_w7_u1;
+    const real r1_w7_y1 = x->r1_w7_s1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1_w7: stage 1: memory */
-    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
+    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].wh.fs can do together */
     const real r1_w7 = r1_w7_y1;
 
+    /* khepera.bg:17: r1_w8: terms of order 0 */
+    const real r1_w8_g0 = -c->r1_w8_m__1__me__we * s->m__1__me__we
+        - c->r1_w8_m__1__wh__ws * s->m__1__wh__ws - c->r1_w8_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w8: terms of order 1 */
+    const real r1_w8_g1 = c->r1_w8_w1_m__1__me__we * s->m__1__me__we
+        + c->r1_w8_w1_m__1__wh__ws * s->m__1__wh__ws - c->r1_w8_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w8: error of order 0 */
+    const real r1_w8_e0 = c->bend2 * r1_w8_g0;
+
+    /* khepera.bg:17: r1_w8: degree 2 */
+    const real r1_w8_d2 = -c->r1_w8_w2_m__1__me__we * s->m__1__me__we
+        - c->r1_w8_w2_m__1__wh__ws * s->m__1__wh__ws - r1_w8_e0;
+
+    /* khepera.bg:17: r1_w8: error of order 1 */
+    const real r1_w8_e1 = c->bend1 * r1_w8_g1;
+
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = c->r1_w8_v3_Fx__1 * s->Fx__1 - c->r1_w8_v3_m__1__me__we * s->m__1__me__we
-        - c->r1_w8_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1;
 
     /* khepera.bg:17: r1_w8: stage 3 */
-    const real r1_w8_y3 = x->r1_w8_s3 + c->b0 * r1_w8_u3;
+    const real r1_w8_y3 = x->r1_w8_s3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: stage 3: memory */
-    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b1 * r1_w8_u3;
+    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
-    const real r1_w8_u2 = r1_w8_y3 + c->r1_w8_v2_m__1__me__we * s->m__1__me__we
-        + c->r1_w8_v2_m__1__wh__ws * s->m__1__wh__ws - c->r1_w8_v2_Fx__1 * s->Fx__1;
+    const real r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - REAL(2.0) * r1_w8_d2 - REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 2 */
-    const real r1_w8_y2 = x->r1_w8_s2 + c->b0 * r1_w8_u2;
+    const real r1_w8_y2 = x->r1_w8_s2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: stage 2: memory */
-    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b1 * r1_w8_u2;
+    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: input of stage 1 */
-    const real r1_w8_u1 = r1_w8_y2 - c->r1_w8_v1_m__1__me__we * s->m__1__me__we
-        - c->r1_w8_v1_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + REAL(3.0) * r1_w8_e1;
 
     /* khepera.bg:17: r1_w8: stage 1 */
-    const real r1_w8_y1 = x->r1_w8_s1 + c->b0 * r1_w8_u1;
+    const real r1_w8_y1 = x->r1_w8_s1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1_w8: stage 1: memory */
-    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
+    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do */
-    const real r1_w8 = r1_w8_y1;
+    const real r1_w8 = r1_w8_y1 - r1_w8_e1;
+
+    /* khepera.bg:17: r1_w9: terms of order 0 */
+    const real r1_w9_g0 = c->r1_w9_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w9: degree 1 */
+    const real r1_w9_d1 = c->r1_w9_w1_m__1__me__we * s->m__1__me__we;
+
+    /* khepera.bg:17: r1_w9: error of order 0 */
+    const real r1_w9_e0 = c->bend1 * r1_w9_g0;
 
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_m__1__me__we * s->m__1__me__we;
+    const real r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 3 */
-    const real r1_w9_y3 = x->r1_w9_s3 + c->b0 * r1_w9_u3;
+    const real r1_w9_y3 = x->r1_w9_s3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: stage 3: memory */
-    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b1 * r1_w9_u3;
+    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_m__1__me__we * s->m__1__me__we;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + REAL(2.0) * r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 2 */
-    const real r1_w9_y2 = x->r1_w9_s2 + c->b0 * r1_w9_u2;
+    const real r1_w9_y2 = x->r1_w9_s2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: stage 2: memory */
-    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b1 * r1_w9_u2;
+    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2;
+    const real r1_w9_u1 = r1_w9_y2 - r1_w9_e0;
 
     /* khepera.bg:17: r1_w9: stage 1 */
-    const real r1_w9_y1 = x->r1_w9_s1 + c->b0 * r1_w9_u1;
+    const real r1_w9_y1 = x->r1_w9_s1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1_w9: stage 1: memory */
-    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
+    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].me.fe can do together */
     const real r1_w9 = r1_w9_y1;
 
+    /* khepera.bg:17: r1_w10: terms of order 0 */
+    const real r1_w10_g0 = c->r1_w10_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: degree 1 */
+    const real r1_w10_d1 = c->r1_w10_w1_m__1__wh__ws * s->m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: error of order 0 */
+    const real r1_w10_e0 = c->bend1 * r1_w10_g0;
+
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = c->r1_w10_v3_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 3 */
-    const real r1_w10_y3 = x->r1_w10_s3 + c->b0 * r1_w10_u3;
+    const real r1_w10_y3 = x->r1_w10_s3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: stage 3: memory */
-    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b1 * r1_w10_u3;
+    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: input of stage 2 */
-    const real r1_w10_u2 = r1_w10_y3 + c->r1_w10_v2_m__1__wh__ws * s->m__1__wh__ws;
+    const real r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + REAL(2.0) * r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 2 */
-    const real r1_w10_y2 = x->r1_w10_s2 + c->b0 * r1_w10_u2;
+    const real r1_w10_y2 = x->r1_w10_s2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: stage 2: memory */
-    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b1 * r1_w10_u2;
+    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: input of stage 1 */
-    const real r1_w10_u1 = r1_w10_y2;
+    const real r1_w10_u1 = r1_w10_y2 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 1 */
-    const real r1_w10_y1 = x->r1_w10_s1 + c->b0 * r1_w10_u1;
+    const real r1_w10_y1 = x->r1_w10_s1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1_w10: stage 1: memory */
-    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
+    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].wh.fs can do together */
     const real r1_w10 = r1_w10_y1;
@@ -1316,9 +1425,19 @@ static void start_r3(
     const khepera_threshold_coefficients *c = &monitor->c;
     khepera_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r3_w1: terms of order 0 */
+    const real r3_w1_g0 = -c->r3_w1_Fx__2 * s->Fx__2 - c->r3_w1_m__2__wh__ws * s->m__2__wh__ws
+        - c->r3_w1_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: degree 1 */
+    const real r3_w1_d1 = -c->r3_w1_w1_m__2__wh__ws * s->m__2__wh__ws
+        - c->r3_w1_w1_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: error of order 0 */
+    const real r3_w1_e0 = c->bend1 * r3_w1_g0;
+
     /* khepera.bg:17: r3_w1: input of stage 3 */
-    const real r3_w1_u3 = c->r3_w1_v3_m__2__wh__ws * s->m__2__wh__ws
-        + c->r3_w1_v3_m__2__me__we * s->m__2__me__we - c->r3_w1_v3_Fx__2 * s->Fx__2;
+    const real r3_w1_u3 = r3_w1_g0 - r3_w1_d1 - r3_w1_e0;
 
     /* khepera.bg:17: r3_w1: stage 3, at rest */
     const real r3_w1_y3 = r3_w1_u3;
@@ -1327,8 +1446,7 @@ static void start_r3(
     x->r3_w1_s3 = c->rest * r3_w1_u3;
 
     /* khepera.bg:17: r3_w1: input of stage 2 */
-    const real r3_w1_u2 = r3_w1_y3 - c->r3_w1_v2_m__2__wh__ws * s->m__2__wh__ws
-        - c->r3_w1_v2_m__2__me__we * s->m__2__me__we;
+    const real r3_w1_u2 = r3_w1_y3 + r3_w1_d1 + REAL(2.0) * r3_w1_e0;
 
     /* khepera.bg:17: r3_w1: stage 2, at rest */
     const real r3_w1_y2 = r3_w1_u2;
@@ -1337,7 +1455,7 @@ static void start_r3(
     x->r3_w1_s2 = c->rest * r3_w1_u2;
 
     /* khepera.bg:17: r3_w1: input of stage 1 */
-    const real r3_w1_u1 = r3_w1_y2;
+    const real r3_w1_u1 = r3_w1_y2 - r3_w1_e0;
 
     /* khepera.bg:17: r3_w1: stage 1, at rest */
     const real r3_w1_y1 = r3_w1_u1;
@@ -1348,9 +1466,26 @@ static void start_r3(
     /* khepera.bg:17: r3: what the tolerance of m[2].el.Re can do */
     const real r3_w1 = r3_w1_y1;
 
+    /* khepera.bg:17: r3_w2: terms of order 0 */
+    const real r3_w2_g0 = c->r3_w2_m__2__me__we * s->m__2__me__we + c->r3_w2_Fx__2 * s->Fx__2
+        + c->r3_w2_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w2: terms of order 1 */
+    const real r3_w2_g1 = c->r3_w2_w1_m__2__me__we * s->m__2__me__we + c->r3_w2_w1_Fx__2 * s->Fx__2
+        + c->r3_w2_w1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w2: error of order 0 */
+    const real r3_w2_e0 = c->bend2 * r3_w2_g0;
+
+    /* khepera.bg:17: r3_w2: degree 2 */
+    const real r3_w2_d2 = c->r3_w2_w2_m__2__me__we * s->m__2__me__we
+        + c->r3_w2_w2_m__2__wh__ws * s->m__2__wh__ws - r3_w2_e0;
+
+    /* khepera.bg:17: r3_w2: error of order 1 */
+    const real r3_w2_e1 = c->bend1 * r3_w2_g1;
+
     /* khepera.bg:17: r3_w2: input of stage 3 */
-    const real r3_w2_u3 = c->r3_w2_v3_m__2__me__we * s->m__2__me__we + c->r3_w2_v3_Fx__2 * s->Fx__2
-        + c->r3_w2_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w2_u3 = r3_w2_g0 + r3_w2_d2 + r3_w2_e1 - r3_w2_g1;
 
     /* khepera.bg:17: r3_w2: stage 3, at rest */
     const real r3_w2_y3 = r3_w2_u3;
@@ -1359,8 +1494,7 @@ static void start_r3(
     x->r3_w2_s3 = c->rest * r3_w2_u3;
 
     /* khepera.bg:17: r3_w2: input of stage 2 */
-    const real r3_w2_u2 = r3_w2_y3 + c->r3_w2_v2_m__2__me__we * s->m__2__me__we
-        + c->r3_w2_v2_Fx__2 * s->Fx__2 + c->r3_w2_v2_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w2_u2 = r3_w2_y3 + r3_w2_g1 - REAL(2.0) * r3_w2_d2 - REAL(3.0) * r3_w2_e1;
 
     /* khepera.bg:17: r3_w2: stage 2, at rest */
     const real r3_w2_y2 = r3_w2_u2;
@@ -1369,8 +1503,7 @@ static void start_r3(
     x->r3_w2_s2 = c->rest * r3_w2_u2;
 
     /* khepera.bg:17: r3_w2: input of stage 1 */
-    const real r3_w2_u1 = r3_w2_y2 + c->r3_w2_v1_m__2__me__we * s->m__2__me__we
-        + c->r3_w2_v1_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w2_u1 = r3_w2_y2 + r3_w2_d2 + REAL(3.0) * r3_w2_e1;
 
     /* khepera.bg:17: r3_w2: stage 1, at rest */
     const real r3_w2_y1 = r3_w2_u1;
@@ -1379,10 +1512,19 @@ static void start_r3(
     x->r3_w2_s1 = c->rest * r3_w2_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].el.k can do */
-    const real r3_w2 = r3_w2_y1;
+    const real r3_w2 = r3_w2_y1 - r3_w2_e1;
+
+    /* khepera.bg:17: r3_w3: terms of order 0 */
+    const real r3_w3_g0 = -c->r3_w3_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w3: degree 1 */
+    const real r3_w3_d1 = c->r3_w3_w1_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w3: error of order 0 */
+    const real r3_w3_e0 = c->bend1 * r3_w3_g0;
 
     /* khepera.bg:17: r3_w3: input of stage 3 */
-    const real r3_w3_u3 = c->r3_w3_v3_m__2__me__we * s->m__2__me__we;
+    const real r3_w3_u3 = r3_w3_g0 + r3_w3_d1 - r3_w3_e0;
 
     /* khepera.bg:17: r3_w3: stage 3, at rest */
     const real r3_w3_y3 = r3_w3_u3;
@@ -1391,7 +1533,7 @@ static void start_r3(
     x->r3_w3_s3 = c->rest * r3_w3_u3;
 
     /* khepera.bg:17: r3_w3: input of stage 2 */
-    const real r3_w3_u2 = r3_w3_y3 - c->r3_w3_v2_m__2__me__we * s->m__2__me__we;
+    const real r3_w3_u2 = r3_w3_y3 + REAL(2.0) * r3_w3_e0 - r3_w3_d1;
 
     /* khepera.bg:17: r3_w3: stage 2, at rest */
     const real r3_w3_y2 = r3_w3_u2;
@@ -1400,7 +1542,7 @@ static void start_r3(
     x->r3_w3_s2 = c->rest * r3_w3_u2;
 
     /* khepera.bg:17: r3_w3: input of stage 1 */
-    const real r3_w3_u1 = r3_w3_y2;
+    const real r3_w3_u1 = r3_w3_y2 - r3_w3_e0;
 
     /* khepera.bg:17: r3_w3: stage 1, at rest */
     const real r3_w3_y1 = r3_w3_u1;
@@ -1411,8 +1553,17 @@ static void start_r3(
     /* khepera.bg:17: r3: what the tolerance of m[2].me.fe can do */
     const real r3_w3 = r3_w3_y1;
 
+    /* khepera.bg:17: r3_w4: terms of order 0 */
+    const real r3_w4_g0 = -c->r3_w4_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: degree 1 */
+    const real r3_w4_d1 = c->r3_w4_w1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: error of order 0 */
+    const real r3_w4_e0 = c->bend1 * r3_w4_g0;
+
     /* khepera.bg:17: r3_w4: input of stage 3 */
-    const real r3_w4_u3 = c->r3_w4_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w4_u3 = r3_w4_g0 + r3_w4_d1 - r3_w4_e0;
 
     /* khepera.bg:17: r3_w4: stage 3, at rest */
     const real r3_w4_y3 = r3_w4_u3;
@@ -1421,7 +1572,7 @@ static void start_r3(
     x->r3_w4_s3 = c->rest * r3_w4_u3;
 
     /* khepera.bg:17: r3_w4: input of stage 2 */
-    const real r3_w4_u2 = r3_w4_y3 - c->r3_w4_v2_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w4_u2 = r3_w4_y3 + REAL(2.0) * r3_w4_e0 - r3_w4_d1;
 
     /* khepera.bg:17: r3_w4: stage 2, at rest */
     const real r3_w4_y2 = r3_w4_u2;
@@ -1430,7 +1581,7 @@ static void start_r3(
     x->r3_w4_s2 = c->rest * r3_w4_u2;
 
     /* khepera.bg:17: r3_w4: input of stage 1 */
-    const real r3_w4_u1 = r3_w4_y2;
+    const real r3_w4_u1 = r3_w4_y2 - r3_w4_e0;
 
     /* khepera.bg:17: r3_w4: stage 1, at rest */
     const real r3_w4_y1 = r3_w4_u1;
@@ -1441,9 +1592,19 @@ static void start_r3(
     /* khepera.bg:17: r3: what the tolerance of m[2].wh.fs can do */
     const real r3_w4 = r3_w4_y1;
 
+    /* khepera.bg:17: r3_w5: terms of order 0 */
+    const real r3_w5_g0 = c->r3_w5_m__2__me__we * s->m__2__me__we
+        + c->r3_w5_m__2__wh__ws * s->m__2__wh__ws + c->r3_w5_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w5: degree 1 */
+    const real r3_w5_d1 = c->r3_w5_w1_m__2__me__we * s->m__2__me__we
+        + c->r3_w5_w1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w5: error of order 0 */
+    const real r3_w5_e0 = c->bend1 * r3_w5_g0;
+
     /* khepera.bg:17: r3_w5: input of stage 3 */
-    const real r3_w5_u3 = c->r3_w5_v3_m__2__me__we * s->m__2__me__we
-        + c->r3_w5_v3_m__2__wh__ws * s->m__2__wh__ws + c->r3_w5_v3_Fx__2 * s->Fx__2;
+    const real r3_w5_u3 = r3_w5_g0 - r3_w5_d1 - r3_w5_e0;
 
     /* khepera.bg:17: r3_w5: stage 3, at rest */
     const real r3_w5_y3 = r3_w5_u3;
@@ -1452,8 +1613,7 @@ static void start_r3(
     x->r3_w5_s3 = c->rest * r3_w5_u3;
 
     /* khepera.bg:17: r3_w5: input of stage 2 */
-    const real r3_w5_u2 = r3_w5_y3 + c->r3_w5_v2_m__2__me__we * s->m__2__me__we
-        + c->r3_w5_v2_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w5_u2 = r3_w5_y3 + r3_w5_d1 + REAL(2.0) * r3_w5_e0;
 
     /* khepera.bg:17: r3_w5: stage 2, at rest */
     const real r3_w5_y2 = r3_w5_u2;
@@ -1462,7 +1622,7 @@ static void start_r3(
     x->r3_w5_s2 = c->rest * r3_w5_u2;
 
     /* khepera.bg:17: r3_w5: input of stage 1 */
-    const real r3_w5_u1 = r3_w5_y2;
+    const real r3_w5_u1 = r3_w5_y2 - r3_w5_e0;
 
     /* khepera.bg:17: r3_w5: stage 1, at rest */
     const real r3_w5_y1 = r3_w5_u1;
@@ -1474,7 +1634,7 @@ static void start_r3(
     const real r3_w5 = r3_w5_y1;
 
     /* khepera.bg:17: r3_w6: input of stage 3 */
-    const real r3_w6_u3 = -c->r3_w6_v3_m__2__me__we * s->m__2__me__we;
+    const real r3_w6_u3 = -c->r3_w6_m__2__me__we * s->m__2__me__we;
 
     /* khepera.bg:17: r3_w6: stage 3, at rest */
     const real r3_w6_y3 = r3_w6_u3;
@@ -1504,7 +1664,7 @@ static void start_r3(
     const real r3_w6 = r3_w6_y1;
 
     /* khepera.bg:17: r3_w7: input of stage 3 */
-    const real r3_w7_u3 = -c->r3_w7_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w7_u3 = -c->r3_w7_m__2__wh__ws * s->m__2__wh__ws;
 
     /* khepera.bg:17: r3_w7: stage 3, at rest */
     const real r3_w7_y3 = r3_w7_u3;
@@ -1533,9 +1693,26 @@ static void start_r3(
     /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].wh.fs can do together */
     const real r3_w7 = r3_w7_y1;
 
+    /* khepera.bg:17: r3_w8: terms of order 0 */
+    const real r3_w8_g0 = -c->r3_w8_m__2__me__we * s->m__2__me__we
+        - c->r3_w8_m__2__wh__ws * s->m__2__wh__ws - c->r3_w8_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w8: terms of order 1 */
+    const real r3_w8_g1 = c->r3_w8_w1_m__2__me__we * s->m__2__me__we
+        + c->r3_w8_w1_m__2__wh__ws * s->m__2__wh__ws - c->r3_w8_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w8: error of order 0 */
+    const real r3_w8_e0 = c->bend2 * r3_w8_g0;
+
+    /* khepera.bg:17: r3_w8: degree 2 */
+    const real r3_w8_d2 = -c->r3_w8_w2_m__2__me__we * s->m__2__me__we
+        - c->r3_w8_w2_m__2__wh__ws * s->m__2__wh__ws - r3_w8_e0;
+
+    /* khepera.bg:17: r3_w8: error of order 1 */
+    const real r3_w8_e1 = c->bend1 * r3_w8_g1;
+
     /* khepera.bg:17: r3_w8: input of stage 3 */
-    const real r3_w8_u3 = c->r3_w8_v3_Fx__2 * s->Fx__2 - c->r3_w8_v3_m__2__me__we * s->m__2__me__we
-        - c->r3_w8_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w8_u3 = r3_w8_g0 + r3_w8_d2 + r3_w8_e1 - r3_w8_g1;
 
     /* khepera.bg:17: r3_w8: stage 3, at rest */
     const real r3_w8_y3 = r3_w8_u3;
@@ -1544,8 +1721,7 @@ static void start_r3(
     x->r3_w8_s3 = c->rest * r3_w8_u3;
 
     /* khepera.bg:17: r3_w8: input of stage 2 */
-    const real r3_w8_u2 = r3_w8_y3 + c->r3_w8_v2_m__2__me__we * s->m__2__me__we
-        + c->r3_w8_v2_m__2__wh__ws * s->m__2__wh__ws - c->r3_w8_v2_Fx__2 * s->Fx__2;
+    const real r3_w8_u2 = r3_w8_y3 + r3_w8_g1 - REAL(2.0) * r3_w8_d2 - REAL(3.0) * r3_w8_e1;
 
     /* khepera.bg:17: r3_w8: stage 2, at rest */
     const real r3_w8_y2 = r3_w8_u2;
@@ -1554,8 +1730,7 @@ static void start_r3(
     x->r3_w8_s2 = c->rest * r3_w8_u2;
 
     /* khepera.bg:17: r3_w8: input of stage 1 */
-    const real r3_w8_u1 = r3_w8_y2 - c->r3_w8_v1_m__2__me__we * s->m__2__me__we
-        - c->r3_w8_v1_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w8_u1 = r3_w8_y2 + r3_w8_d2 + REAL(3.0) * r3_w8_e1;
 
     /* khepera.bg:17: r3_w8: stage 1, at rest */
     const real r3_w8_y1 = r3_w8_u1;
@@ -1564,10 +1739,19 @@ static void start_r3(
     x->r3_w8_s1 = c->rest * r3_w8_u1;
 
     /* khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do */
-    const real r3_w8 = r3_w8_y1;
+    const real r3_w8 = r3_w8_y1 - r3_w8_e1;
+
+    /* khepera.bg:17: r3_w9: terms of order 0 */
+    const real r3_w9_g0 = c->r3_w9_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w9: degree 1 */
+    const real r3_w9_d1 = c->r3_w9_w1_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w9: error of order 0 */
+    const real r3_w9_e0 = c->bend1 * r3_w9_g0;
 
     /* khepera.bg:17: r3_w9: input of stage 3 */
-    const real r3_w9_u3 = c->r3_w9_v3_m__2__me__we * s->m__2__me__we;
+    const real r3_w9_u3 = r3_w9_g0 - r3_w9_d1 - r3_w9_e0;
 
     /* khepera.bg:17: r3_w9: stage 3, at rest */
     const real r3_w9_y3 = r3_w9_u3;
@@ -1576,7 +1760,7 @@ static void start_r3(
     x->r3_w9_s3 = c->rest * r3_w9_u3;
 
     /* khepera.bg:17: r3_w9: input of stage 2 */
-    const real r3_w9_u2 = r3_w9_y3 + c->r3_w9_v2_m__2__me__we * s->m__2__me__we;
+    const real r3_w9_u2 = r3_w9_y3 + r3_w9_d1 + REAL(2.0) * r3_w9_e0;
 
     /* khepera.bg:17: r3_w9: stage 2, at rest */
     const real r3_w9_y2 = r3_w9_u2;
@@ -1585,7 +1769,7 @@ static void start_r3(
     x->r3_w9_s2 = c->rest * r3_w9_u2;
 
     /* khepera.bg:17: r3_w9: input of stage 1 */
-    const real r3_w9_u1 = r3_w9_y2;
+    const real r3_w9_u1 = r3_w9_y2 - r3_w9_e0;
 
     /* khepera.bg:17: r3_w9: stage 1, at rest */
     const real r3_w9_y1 = r3_w9_u1;
@@ -1596,8 +1780,17 @@ static void start_r3(
     /* khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].me.fe can do together */
     const real r3_w9 = r3_w9_y1;
 
+    /* khepera.bg:17: r3_w10: terms of order 0 */
+    const real r3_w10_g0 = c->r3_w10_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: degree 1 */
+    const real r3_w10_d1 = c->r3_w10_w1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: error of order 0 */
+    const real r3_w10_e0 = c->bend1 * r3_w10_g0;
+
     /* khepera.bg:17: r3_w10: input of stage 3 */
-    const real r3_w10_u3 = c->r3_w10_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w10_u3 = r3_w10_g0 - r3_w10_d1 - r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 3, at rest */
     const real r3_w10_y3 = r3_w10_u3;
@@ -1606,7 +1799,7 @@ static void start_r3(
     x->r3_w10_s3 = c->rest * r3_w10_u3;
 
     /* khepera.bg:17: r3_w10: input of stage 2 */
-    const real r3_w10_u2 = r3_w10_y3 + c->r3_w10_v2_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w10_u2 = r3_w10_y3 + r3_w10_d1 + REAL(2.0) * r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 2, at rest */
     const real r3_w10_y2 = r3_w10_u2;
@@ -1615,7 +1808,7 @@ static void start_r3(
     x->r3_w10_s2 = c->rest * r3_w10_u2;
 
     /* khepera.bg:17: r3_w10: input of stage 1 */
-    const real r3_w10_u1 = r3_w10_y2;
+    const real r3_w10_u1 = r3_w10_y2 - r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 1, at rest */
     const real r3_w10_y1 = r3_w10_u1;
@@ -1639,312 +1832,396 @@ static void next_r3(
     const khepera_threshold_coefficients *c = &monitor->c;
     khepera_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r3_w1: terms of order 0 */
+    const real r3_w1_g0 = -c->r3_w1_Fx__2 * s->Fx__2 - c->r3_w1_m__2__wh__ws * s->m__2__wh__ws
+        - c->r3_w1_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: degree 1 */
+    const real r3_w1_d1 = -c->r3_w1_w1_m__2__wh__ws * s->m__2__wh__ws
+        - c->r3_w1_w1_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: error of order 0 */
+    const real r3_w1_e0 = c->bend1 * r3_w1_g0;
+
     /* khepera.bg:17: r3_w1: input of stage 3 */
-    const real r3_w1_u3 = c->r3_w1_v3_m__2__wh__ws * s->m__2__wh__ws
-        + c->r3_w1_v3_m__2__me__we * s->m__2__me__we - c->r3_w1_v3_Fx__2 * s->Fx__2;
+    const real r3_w1_u3 = r3_w1_g0 - r3_w1_d1 - r3_w1_e0;
 
     /* khepera.bg:17: r3_w1: stage 3 */
-    const real r3_w1_y3 = x->r3_w1_s3 + c->b0 * r3_w1_u3;
+    const real r3_w1_y3 = x->r3_w1_s3 + c->b * r3_w1_u3;
 
     /* khepera.bg:17: r3_w1: stage 3: memory */
-    x->r3_w1_s3 = c->a * r3_w1_y3 + c->b1 * r3_w1_u3;
+    x->r3_w1_s3 = c->a * r3_w1_y3 + c->b * r3_w1_u3;
 
     /* khepera.bg:17: r3_w1: input of stage 2 */
-    const real r3_w1_u2 = r3_w1_y3 - c->r3_w1_v2_m__2__wh__ws * s->m__2__wh__ws
-        - c->r3_w1_v2_m__2__me__we * s->m__2__me__we;
+    const real r3_w1_u2 = r3_w1_y3 + r3_w1_d1 + REAL(2.0) * r3_w1_e0;
 
     /* khepera.bg:17: r3_w1: stage 2 */
-    const real r3_w1_y2 = x->r3_w1_s2 + c->b0 * r3_w1_u2;
+    const real r3_w1_y2 = x->r3_w1_s2 + c->b * r3_w1_u2;
 
     /* khepera.bg:17: r3_w1: stage 2: memory */
-    x->r3_w1_s2 = c->a * r3_w1_y2 + c->b1 * r3_w1_u2;
+    x->r3_w1_s2 = c->a * r3_w1_y2 + c->b * r3_w1_u2;
 
     /* khepera.bg:17: r3_w1: input of stage 1 */
-    const real r3_w1_u1 = r3_w1_y2;
+    const real r3_w1_u1 = r3_w1_y2 - r3_w1_e0;
 
     /* khepera.bg:17: r3_w1: stage 1 */
-    const real r3_w1_y1 = x->r3_w1_s1 + c->b0 * r3_w1_u1;
+    const real r3_w1_y1 = x->r3_w1_s1 + c->b * r3_w1_u1;
 
     /* khepera.bg:17: r3_w1: stage 1: memory */
-    x->r3_w1_s1 = c->a * r3_w1_y1 + c->b1 * r3_w1_u1;
+    x->r3_w1_s1 = c->a * r3_w1_y1 + c->b * r3_w1_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].el.Re can do */
     const real r3_w1 = r3_w1_y1;
 
+    /* khepera.bg:17: r3_w2: terms of order 0 */
+    const real r3_w2_g0 = c->r3_w2_m__2__me__we * s->m__2__me__we + c->r3_w2_Fx__2 * s->Fx__2
+        + c->r3_w2_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w2: terms of order 1 */
+    const real r3_w2_g1 = c->r3_w2_w1_m__2__me__we * s->m__2__me__we + c->r3_w2_w1_Fx__2 * s->Fx__2
+        + c->r3_w2_w1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w2: error of order 0 */
+    const real r3_w2_e0 = c->bend2 * r3_w2_g0;
+
+    /* khepera.bg:17: r3_w2: degree 2 */
+    const real r3_w2_d2 = c->r3_w2_w2_m__2__me__we * s->m__2__me__we
+        + c->r3_w2_w2_m__2__wh__ws * s->m__2__wh__ws - r3_w2_e0;
+
+    /* khepera.bg:17: r3_w2: error of order 1 */
+    const real r3_w2_e1 = c->bend1 * r3_w2_g1;
+
     /* khepera.bg:17: r3_w2: input of stage 3 */
-    const real r3_w2_u3 = c->r3_w2_v3_m__2__me__we * s->m__2__me__we + c->r3_w2_v3_Fx__2 * s->Fx__2
-        + c->r3_w2_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w2_u3 = r3_w2_g0 + r3_w2_d2 + r3_w2_e1 - r3_w2_g1;
 
     /* khepera.bg:17: r3_w2: stage 3 */
-    const real r3_w2_y3 = x->r3_w2_s3 + c->b0 * r3_w2_u3;
+    const real r3_w2_y3 = x->r3_w2_s3 + c->b * r3_w2_u3;
 
     /* khepera.bg:17: r3_w2: stage 3: memory */
-    x->r3_w2_s3 = c->a * r3_w2_y3 + c->b1 * r3_w2_u3;
+    x->r3_w2_s3 = c->a * r3_w2_y3 + c->b * r3_w2_u3;
 
     /* khepera.bg:17: r3_w2: input of stage 2 */
-    const real r3_w2_u2 = r3_w2_y3 + c->r3_w2_v2_m__2__me__we * s->m__2__me__we
-        + c->r3_w2_v2_Fx__2 * s->Fx__2 + c->r3_w2_v2_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w2_u2 = r3_w2_y3 + r3_w2_g1 - REAL(2.0) * r3_w2_d2 - REAL(3.0) * r3_w2_e1;
 
     /* khepera.bg:17: r3_w2: stage 2 */
-    const real r3_w2_y2 = x->r3_w2_s2 + c->b0 * r3_w2_u2;
+    const real r3_w2_y2 = x->r3_w2_s2 + c->b * r3_w2_u2;
 
     /* khepera.bg:17: r3_w2: stage 2: memory */
-    x->r3_w2_s2 = c->a * r3_w2_y2 + c->b1 * r3_w2_u2;
+    x->r3_w2_s2 = c->a * r3_w2_y2 + c->b * r3_w2_u2;
 
     /* khepera.bg:17: r3_w2: input of stage 1 */
-    const real r3_w2_u1 = r3_w2_y2 + c->r3_w2_v1_m__2__me__we * s->m__2__me__we
-        + c->r3_w2_v1_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w2_u1 = r3_w2_y2 + r3_w2_d2 + REAL(3.0) * r3_w2_e1;
 
     /* khepera.bg:17: r3_w2: stage 1 */
-    const real r3_w2_y1 = x->r3_w2_s1 + c->b0 * r3_w2_u1;
+    const real r3_w2_y1 = x->r3_w2_s1 + c->b * r3_w2_u1;
 
     /* khepera.bg:17: r3_w2: stage 1: memory */
-    x->r3_w2_s1 = c->a * r3_w2_y1 + c->b1 * r3_w2_u1;
+    x->r3_w2_s1 = c->a * r3_w2_y1 + c->b * r3_w2_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].el.k can do */
-    const real r3_w2 = r3_w2_y1;
+    const real r3_w2 = r3_w2_y1 - r3_w2_e1;
+
+    /* khepera.bg:17: r3_w3: terms of order 0 */
+    const real r3_w3_g0 = -c->r3_w3_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w3: degree 1 */
+    const real r3_w3_d1 = c->r3_w3_w1_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w3: error of order 0 */
+    const real r3_w3_e0 = c->bend1 * r3_w3_g0;
 
     /* khepera.bg:17: r3_w3: input of stage 3 */
-    const real r3_w3_u3 = c->r3_w3_v3_m__2__me__we * s->m__2__me__we;
+    const real r3_w3_u3 = r3_w3_g0 + r3_w3_d1 - r3_w3_e0;
 
     /* khepera.bg:17: r3_w3: stage 3 */
-    const real r3_w3_y3 = x->r3_w3_s3 + c->b0 * r3_w3_u3;
+    const real r3_w3_y3 = x->r3_w3_s3 + c->b * r3_w3_u3;
 
     /* khepera.bg:17: r3_w3: stage 3: memory */
-    x->r3_w3_s3 = c->a * r3_w3_y3 + c->b1 * r3_w3_u3;
+    x->r3_w3_s3 = c->a * r3_w3_y3 + c->b * r3_w3_u3;
 
     /* khepera.bg:17: r3_w3: input of stage 2 */
-    const real r3_w3_u2 = r3_w3_y3 - c->r3_w3_v2_m__2__me__we * s->m__2__me__we;
+    const real r3_w3_u2 = r3_w3_y3 + REAL(2.0) * r3_w3_e0 - r3_w3_d1;
 
     /* khepera.bg:17: r3_w3: stage 2 */
-    const real r3_w3_y2 = x->r3_w3_s2 + c->b0 * r3_w3_u2;
+    const real r3_w3_y2 = x->r3_w3_s2 + c->b * r3_w3_u2;
 
     /* khepera.bg:17: r3_w3: stage 2: memory */
-    x->r3_w3_s2 = c->a * r3_w3_y2 + c->b1 * r3_w3_u2;
+    x->r3_w3_s2 = c->a * r3_w3_y2 + c->b * r3_w3_u2;
 
     /* khepera.bg:17: r3_w3: input of stage 1 */
-    const real r3_w3_u1 = r3_w3_y2;
+    const real r3_w3_u1 = r3_w3_y2 - r3_w3_e0;
 
     /* khepera.bg:17: r3_w3: stage 1 */
-    const real r3_w3_y1 = x->r3_w3_s1 + c->b0 * r3_w3_u1;
+    const real r3_w3_y1 = x->r3_w3_s1 + c->b * r3_w3_u1;
 
     /* khepera.bg:17: r3_w3: stage 1: memory */
-    x->r3_w3_s1 = c->a * r3_w3_y1 + c->b1 * r3_w3_u1;
+    x->r3_w3_s1 = c->a * r3_w3_y1 + c->b * r3_w3_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].me.fe can do */
     const real r3_w3 = r3_w3_y1;
 
+    /* khepera.bg:17: r3_w4: terms of order 0 */
+    const real r3_w4_g0 = -c->r3_w4_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: degree 1 */
+    const real r3_w4_d1 = c->r3_w4_w1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: error of order 0 */
+    const real r3_w4_e0 = c->bend1 * r3_w4_g0;
+
     /* khepera.bg:17: r3_w4: input of stage 3 */
-    const real r3_w4_u3 = c->r3_w4_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w4_u3 = r3_w4_g0 + r3_w4_d1 - r3_w4_e0;
 
     /* khepera.bg:17: r3_w4: stage 3 */
-    const real r3_w4_y3 = x->r3_w4_s3 + c->b0 * r3_w4_u3;
+    const real r3_w4_y3 = x->r3_w4_s3 + c->b * r3_w4_u3;
 
     /* khepera.bg:17: r3_w4: stage 3: memory */
-    x->r3_w4_s3 = c->a * r3_w4_y3 + c->b1 * r3_w4_u3;
+    x->r3_w4_s3 = c->a * r3_w4_y3 + c->b * r3_w4_u3;
 
     /* khepera.bg:17: r3_w4: input of stage 2 */
-    const real r3_w4_u2 = r3_w4_y3 - c->r3_w4_v2_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w4_u2 = r3_w4_y3 + REAL(2.0) * r3_w4_e0 - r3_w4_d1;
 
     /* khepera.bg:17: r3_w4: stage 2 */
-    const real r3_w4_y2 = x->r3_w4_s2 + c->b0 * r3_w4_u2;
+    const real r3_w4_y2 = x->r3_w4_s2 + c->b * r3_w4_u2;
 
     /* khepera.bg:17: r3_w4: stage 2: memory */
-    x->r3_w4_s2 = c->a * r3_w4_y2 + c->b1 * r3_w4_u2;
+    x->r3_w4_s2 = c->a * r3_w4_y2 + c->b * r3_w4_u2;
 
     /* khepera.bg:17: r3_w4: input of stage 1 */
-    const real r3_w4_u1 = r3_w4_y2;
+    const real r3_w4_u1 = r3_w4_y2 - r3_w4_e0;
 
     /* khepera.bg:17: r3_w4: stage 1 */
-    const real r3_w4_y1 = x->r3_w4_s1 + c->b0 * r3_w4_u1;
+    const real r3_w4_y1 = x->r3_w4_s1 + c->b * r3_w4_u1;
 
     /* khepera.bg:17: r3_w4: stage 1: memory */
-    x->r3_w4_s1 = c->a * r3_w4_y1 + c->b1 * r3_w4_u1;
+    x->r3_w4_s1 = c->a * r3_w4_y1 + c->b * r3_w4_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].wh.fs can do */
     const real r3_w4 = r3_w4_y1;
 
+    /* khepera.bg:17: r3_w5: terms of order 0 */
+    const real r3_w5_g0 = c->r3_w5_m__2__me__we * s->m__2__me__we
+        + c->r3_w5_m__2__wh__ws * s->m__2__wh__ws + c->r3_w5_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w5: degree 1 */
+    const real r3_w5_d1 = c->r3_w5_w1_m__2__me__we * s->m__2__me__we
+        + c->r3_w5_w1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w5: error of order 0 */
+    const real r3_w5_e0 = c->bend1 * r3_w5_g0;
+
     /* khepera.bg:17: r3_w5: input of stage 3 */
-    const real r3_w5_u3 = c->r3_w5_v3_m__2__me__we * s->m__2__me__we
-        + c->r3_w5_v3_m__2__wh__ws * s->m__2__wh__ws + c->r3_w5_v3_Fx__2 * s->Fx__2;
+    const real r3_w5_u3 = r3_w5_g0 - r3_w5_d1 - r3_w5_e0;
 
     /* khepera.bg:17: r3_w5: stage 3 */
-    const real r3_w5_y3 = x->r3_w5_s3 + c->b0 * r3_w5_u3;
+    const real r3_w5_y3 = x->r3_w5_s3 + c->b * r3_w5_u3;
 
     /* khepera.bg:17: r3_w5: stage 3: memory */
-    x->r3_w5_s3 = c->a * r3_w5_y3 + c->b1 * r3_w5_u3;
+    x->r3_w5_s3 = c->a * r3_w5_y3 + c->b * r3_w5_u3;
 
     /* khepera.bg:17: r3_w5: input of stage 2 */
-    const real r3_w5_u2 = r3_w5_y3 + c->r3_w5_v2_m__2__me__we * s->m__2__me__we
-        + c->r3_w5_v2_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w5_u2 = r3_w5_y3 + r3_w5_d1 + REAL(2.0) * r3_w5_e0;
 
     /* khepera.bg:17: r3_w5: stage 2 */
-    const real r3_w5_y2 = x->r3_w5_s2 + c->b0 * r3_w5_u2;
+    const real r3_w5_y2 = x->r3_w5_s2 + c->b * r3_w5_u2;
 
     /* khepera.bg:17: r3_w5: stage 2: memory */
-    x->r3_w5_s2 = c->a * r3_w5_y2 + c->b1 * r3_w5_u2;
+    x->r3_w5_s2 = c->a * r3_w5_y2 + c->b * r3_w5_u2;
 
     /* khepera.bg:17: r3_w5: input of stage 1 */
-    const real r3_w5_u1 = r3_w5_y2;
+    const real r3_w5_u1 = r3_w5_y2 - r3_w5_e0;
 
     /* khepera.bg:17: r3_w5: stage 1 */
-    const real r3_w5_y1 = x->r3_w5_s1 + c->b0 * r3_w5_u1;
+    const real r3_w5_y1 = x->r3_w5_s1 + c->b * r3_w5_u1;
 
     /* khepera.bg:17: r3_w5: stage 1: memory */
-    x->r3_w5_s1 = c->a * r3_w5_y1 + c->b1 * r3_w5_u1;
+    x->r3_w5_s1 = c->a * r3_w5_y1 + c->b * r3_w5_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].el.k can do together */
     const real r3_w5 = r3_w5_y1;
 
     /* khepera.bg:17: r3_w6: input of stage 3 */
-    const real r3_w6_u3 = -c->r3_w6_v3_m__2__me__we * s->m__2__me__we;
+    const real r3_w6_u3 = -c->r3_w6_m__2__me__we * s->m__2__me__we;
 
     /* khepera.bg:17: r3_w6: stage 3 */
-    const real r3_w6_y3 = x->r3_w6_s3 + c->b0 * r3_w6_u3;
+    const real r3_w6_y3 = x->r3_w6_s3 + c->b * r3_w6_u3;
 
     /* khepera.bg:17: r3_w6: stage 3: memory */
-    x->r3_w6_s3 = c->a * r3_w6_y3 + c->b1 * r3_w6_u3;
+    x->r3_w6_s3 = c->a * r3_w6_y3 + c->b * r3_w6_u3;
 
     /* khepera.bg:17: r3_w6: input of stage 2 */
     const real r3_w6_u2 = r3_w6_y3;
 
     /* khepera.bg:17: r3_w6: stage 2 */
-    const real r3_w6_y2 = x->r3_w6_s2 + c->b0 * r3_w6_u2;
+    const real r3_w6_y2 = x->r3_w6_s2 + c->b * r3_w6_u2;
 
     /* khepera.bg:17: r3_w6: stage 2: memory */
-    x->r3_w6_s2 = c->a * r3_w6_y2 + c->b1 * r3_w6_u2;
+    x->r3_w6_s2 = c->a * r3_w6_y2 + c->b * r3_w6_u2;
 
     /* khepera.bg:17: r3_w6: input of stage 1 */
     const real r3_w6_u1 = r3_w6_y2;
 
     /* khepera.bg:17: r3_w6: stage 1 */
-    const real r3_w6_y1 = x->r3_w6_s1 + c->b0 * r3_w6_u1;
+    const real r3_w6_y1 = x->r3_w6_s1 + c->b * r3_w6_u1;
 
     /* khepera.bg:17: r3_w6: stage 1: memory */
-    x->r3_w6_s1 = c->a * r3_w6_y1 + c->b1 * r3_w6_u1;
+    x->r3_w6_s1 = c->a * r3_w6_y1 + c->b * r3_w6_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].me.fe can do together */
     const real r3_w6 = r3_w6_y1;
 
     /* khepera.bg:17: r3_w7: input of stage 3 */
-    const real r3_w7_u3 = -c->r3_w7_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w7_u3 = -c->r3_w7_m__2__wh__ws * s->m__2__wh__ws;
 
     /* khepera.bg:17: r3_w7: stage 3 */
-    const real r3_w7_y3 = x->r3_w7_s3 + c->b0 * r3_w7_u3;
+    const real r3_w7_y3 = x->r3_w7_s3 + c->b * r3_w7_u3;
 
     /* khepera.bg:17: r3_w7: stage 3: memory */
-    x->r3_w7_s3 = c->a * r3_w7_y3 + c->b1 * r3_w7_u3;
+    x->r3_w7_s3 = c->a * r3_w7_y3 + c->b * r3_w7_u3;
 
     /* khepera.bg:17: r3_w7: input of stage 2 */
     const real r3_w7_u2 = r3_w7_y3;
 
     /* khepera.bg:17: r3_w7: stage 2 */
-    const real r3_w7_y2 = x->r3_w7_s2 + c->b0 * r3_w7_u2;
+    const real r3_w7_y2 = x->r3_w7_s2 + c->b * r3_w7_u2;
 
     /* khepera.bg:17: r3_w7: stage 2: memory */
-    x->r3_w7_s2 = c->a * r3_w7_y2 + c->b1 * r3_w7_u2;
+    x->r3_w7_s2 = c->a * r3_w7_y2 + c->b * r3_w7_u2;
 
     /* khepera.bg:17: r3_w7: input of stage 1 */
     const real r3_w7_u1 = r3_w7_y2;
 
     /* khepera.bg:17: r3_w7: stage 1 */
-    const real r3_w7_y1 = x->r3_w7_s1 + c->b0 * r3_w7_u1;
+    const real r3_w7_y1 = x->r3_w7_s1 + c->b * r3_w7_u1;
 
     /* khepera.bg:17: r3_w7: stage 1: memory */
-    x->r3_w7_s1 = c->a * r3_w7_y1 + c->b1 * r3_w7_u1;
+    x->r3_w7_s1 = c->a * r3_w7_y1 + c->b * r3_w7_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].wh.fs can do together */
     const real r3_w7 = r3_w7_y1;
 
+    /* khepera.bg:17: r3_w8: terms of order 0 */
+    const real r3_w8_g0 = -c->r3_w8_m__2__me__we * s->m__2__me__we
+        - c->r3_w8_m__2__wh__ws * s->m__2__wh__ws - c->r3_w8_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w8: terms of order 1 */
+    const real r3_w8_g1 = c->r3_w8_w1_m__2__me__we * s->m__2__me__we
+        + c->r3_w8_w1_m__2__wh__ws * s->m__2__wh__ws - c->r3_w8_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w8: error of order 0 */
+    const real r3_w8_e0 = c->bend2 * r3_w8_g0;
+
+    /* khepera.bg:17: r3_w8: degree 2 */
+    const real r3_w8_d2 = -c->r3_w8_w2_m__2__me__we * s->m__2__me__we
+        - c->r3_w8_w2_m__2__wh__ws * s->m__2__wh__ws - r3_w8_e0;
+
+    /* khepera.bg:17: r3_w8: error of order 1 */
+    const real r3_w8_e1 = c->bend1 * r3_w8_g1;
+
     /* khepera.bg:17: r3_w8: input of stage 3 */
-    const real r3_w8_u3 = c->r3_w8_v3_Fx__2 * s->Fx__2 - c->r3_w8_v3_m__2__me__we * s->m__2__me__we
-        - c->r3_w8_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w8_u3 = r3_w8_g0 + r3_w8_d2 + r3_w8_e1 - r3_w8_g1;
 
     /* khepera.bg:17: r3_w8: stage 3 */
-    const real r3_w8_y3 = x->r3_w8_s3 + c->b0 * r3_w8_u3;
+    const real r3_w8_y3 = x->r3_w8_s3 + c->b * r3_w8_u3;
 
     /* khepera.bg:17: r3_w8: stage 3: memory */
-    x->r3_w8_s3 = c->a * r3_w8_y3 + c->b1 * r3_w8_u3;
+    x->r3_w8_s3 = c->a * r3_w8_y3 + c->b * r3_w8_u3;
 
     /* khepera.bg:17: r3_w8: input of stage 2 */
-    const real r3_w8_u2 = r3_w8_y3 + c->r3_w8_v2_m__2__me__we * s->m__2__me__we
-        + c->r3_w8_v2_m__2__wh__ws * s->m__2__wh__ws - c->r3_w8_v2_Fx__2 * s->Fx__2;
+    const real r3_w8_u2 = r3_w8_y3 + r3_w8_g1 - REAL(2.0) * r3_w8_d2 - REAL(3.0) * r3_w8_e1;
 
     /* khepera.bg:17: r3_w8: stage 2 */
-    const real r3_w8_y2 = x->r3_w8_s2 + c->b0 * r3_w8_u2;
+    const real r3_w8_y2 = x->r3_w8_s2 + c->b * r3_w8_u2;
 
     /* khepera.bg:17: r3_w8: stage 2: memory */
-    x->r3_w8_s2 = c->a * r3_w8_y2 + c->b1 * r3_w8_u2;
+    x->r3_w8_s2 = c->a * r3_w8_y2 + c->b * r3_w8_u2;
 
     /* khepera.bg:17: r3_w8: input of stage 1 */
-    const real r3_w8_u1 = r3_w8_y2 - c->r3_w8_v1_m__2__me__we * s->m__2__me__we
-        - c->r3_w8_v1_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w8_u1 = r3_w8_y2 + r3_w8_d2 + REAL(3.0) * r3_w8_e1;
 
     /* khepera.bg:17: r3_w8: stage 1 */
-    const real r3_w8_y1 = x->r3_w8_s1 + c->b0 * r3_w8_u1;
+    const real r3_w8_y1 = x->r3_w8_s1 + c->b * r3_w8_u1;
 
     /* khepera.bg:17: r3_w8: stage 1: memory */
-    x->r3_w8_s1 = c->a * r3_w8_y1 + c->b1 * r3_w8_u1;
+    x->r3_w8_s1 = c->a * r3_w8_y1 + c->b * r3_w8_u1;
 
     /* khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do */
-    const real r3_w8 = r3_w8_y1;
+    const real r3_w8 = r3_w8_y1 - r3_w8_e1;
+
+    /* khepera.bg:17: r3_w9: terms of order 0 */
+    const real r3_w9_g0 = c->r3_w9_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w9: degree 1 */
+    const real r3_w9_d1 = c->r3_w9_w1_m__2__me__we * s->m__2__me__we;
+
+    /* khepera.bg:17: r3_w9: error of order 0 */
+    const real r3_w9_e0 = c->bend1 * r3_w9_g0;
 
     /* khepera.bg:17: r3_w9: input of stage 3 */
-    const real r3_w9_u3 = c->r3_w9_v3_m__2__me__we * s->m__2__me__we;
+    const real r3_w9_u3 = r3_w9_g0 - r3_w9_d1 - r3_w9_e0;
 
     /* khepera.bg:17: r3_w9: stage 3 */
-    const real r3_w9_y3 = x->r3_w9_s3 + c->b0 * r3_w9_u3;
+    const real r3_w9_y3 = x->r3_w9_s3 + c->b * r3_w9_u3;
 
     /* khepera.bg:17: r3_w9: stage 3: memory */
-    x->r3_w9_s3 = c->a * r3_w9_y3 + c->b1 * r3_w9_u3;
+    x->r3_w9_s3 = c->a * r3_w9_y3 + c->b * r3_w9_u3;
 
     /* khepera.bg:17: r3_w9: input of stage 2 */
-    const real r3_w9_u2 = r3_w9_y3 + c->r3_w9_v2_m__2__me__we * s->m__2__me__we;
+    const real r3_w9_u2 = r3_w9_y3 + r3_w9_d1 + REAL(2.0) * r3_w9_e0;
 
     /* khepera.bg:17: r3_w9: stage 2 */
-    const real r3_w9_y2 = x->r3_w9_s2 + c->b0 * r3_w9_u2;
+    const real r3_w9_y2 = x->r3_w9_s2 + c->b * r3_w9_u2;
 
     /* khepera.bg:17: r3_w9: stage 2: memory */
-    x->r3_w9_s2 = c->a * r3_w9_y2 + c->b1 * r3_w9_u2;
+    x->r3_w9_s2 = c->a * r3_w9_y2 + c->b * r3_w9_u2;
 
     /* khepera.bg:17: r3_w9: input of stage 1 */
-    const real r3_w9_u1 = r3_w9_y2;
+    const real r3_w9_u1 = r3_w9_y2 - r3_w9_e0;
 
     /* khepera.bg:17: r3_w9: stage 1 */
-    const real r3_w9_y1 = x->r3_w9_s1 + c->b0 * r3_w9_u1;
+    const real r3_w9_y1 = x->r3_w9_s1 + c->b * r3_w9_u1;
 
     /* khepera.bg:17: r3_w9: stage 1: memory */
-    x->r3_w9_s1 = c->a * r3_w9_y1 + c->b1 * r3_w9_u1;
+    x->r3_w9_s1 = c->a * r3_w9_y1 + c->b * r3_w9_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].me.fe can do together */
     const real r3_w9 = r3_w9_y1;
 
+    /* khepera.bg:17: r3_w10: terms of order 0 */
+    const real r3_w10_g0 = c->r3_w10_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: degree 1 */
+    const real r3_w10_d1 = c->r3_w10_w1_m__2__wh__ws * s->m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: error of order 0 */
+    const real r3_w10_e0 = c->bend1 * r3_w10_g0;
+
     /* khepera.bg:17: r3_w10: input of stage 3 */
-    const real r3_w10_u3 = c->r3_w10_v3_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w10_u3 = r3_w10_g0 - r3_w10_d1 - r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 3 */
-    const real r3_w10_y3 = x->r3_w10_s3 + c->b0 * r3_w10_u3;
+    const real r3_w10_y3 = x->r3_w10_s3 + c->b * r3_w10_u3;
 
     /* khepera.bg:17: r3_w10: stage 3: memory */
-    x->r3_w10_s3 = c->a * r3_w10_y3 + c->b1 * r3_w10_u3;
+    x->r3_w10_s3 = c->a * r3_w10_y3 + c->b * r3_w10_u3;
 
     /* khepera.bg:17: r3_w10: input of stage 2 */
-    const real r3_w10_u2 = r3_w10_y3 + c->r3_w10_v2_m__2__wh__ws * s->m__2__wh__ws;
+    const real r3_w10_u2 = r3_w10_y3 + r3_w10_d1 + REAL(2.0) * r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 2 */
-    const real r3_w10_y2 = x->r3_w10_s2 + c->b0 * r3_w10_u2;
+    const real r3_w10_y2 = x->r3_w10_s2 + c->b * r3_w10_u2;
 
     /* khepera.bg:17: r3_w10: stage 2: memory */
-    x->r3_w10_s2 = c->a * r3_w10_y2 + c->b1 * r3_w10_u2;
+    x->r3_w10_s2 = c->a * r3_w10_y2 + c->b * r3_w10_u2;
 
     /* khepera.bg:17: r3_w10: input of stage 1 */
-    const real r3_w10_u1 = r3_w10_y2;
+    const real r3_w10_u1 = r3_w10_y2 - r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 1 */
-    const real r3_w10_y1 = x->r3_w10_s1 + c->b0 * r3_w10_u1;
+    const real r3_w10_y1 = x->r3_w10_s1 + c->b * r3_w10_u1;
 
     /* khepera.bg:17: r3_w10: stage 1: memory */
-    x->r3_w10_s1 = c->a * r3_w10_y1 + c->b1 * r3_w10_u1;
+    x->r3_w10_s1 = c->a * r3_w10_y1 + c->b * r3_w10_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].wh.fs can do together */
     const real r3_w10 = r3_w10_y1;

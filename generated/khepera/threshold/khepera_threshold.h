@@ -32,7 +32,7 @@ typedef double khepera_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(khepera_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_THRESHOLD_DIGEST "60b73c93aec6ea2d"
+#define KHEPERA_THRESHOLD_DIGEST "7cd44700aab27524"
 
 /* What the code was made for: arguments of khepera_threshold_configure, in s, rad/s and s. */
 #define KHEPERA_THRESHOLD_SAMPLE_TIME KHEPERA_THRESHOLD_CONSTANT(0.001)
@@ -128,82 +128,85 @@ typedef struct khepera_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct khepera_threshold_coefficients {
-    khepera_threshold_real r1_w1_v3_Fx__1;          /* r1_w1: factor of Fx[1] in stage 3 */
-    khepera_threshold_real r1_w1_v2_m__1__wh__ws;   /* r1_w1: factor of m[1].wh.ws in stage 2 */
-    khepera_threshold_real r1_w1_v3_m__1__wh__ws;   /* r1_w1: factor of m[1].wh.ws in stage 3 */
-    khepera_threshold_real r1_w1_v2_m__1__me__we;   /* r1_w1: factor of m[1].me.we in stage 2 */
-    khepera_threshold_real r1_w1_v3_m__1__me__we;   /* r1_w1: factor of m[1].me.we in stage 3 */
-    khepera_threshold_real a;                       /* filter: exp(-bandwidth*sample_time) */
-    khepera_threshold_real b0;                      /* filter: weight of the new sample */
-    khepera_threshold_real b1;                      /* filter: weight of the sample before */
-    khepera_threshold_real rest;                    /* filter: 1 - b0, the memory of a constant 1 */
-    khepera_threshold_real r1_w2_v1_m__1__me__we;   /* r1_w2: factor of m[1].me.we in stage 1 */
-    khepera_threshold_real r1_w2_v2_m__1__me__we;   /* r1_w2: factor of m[1].me.we in stage 2 */
-    khepera_threshold_real r1_w2_v3_m__1__me__we;   /* r1_w2: factor of m[1].me.we in stage 3 */
-    khepera_threshold_real r1_w2_v2_Fx__1;          /* r1_w2: factor of Fx[1] in stage 2 */
-    khepera_threshold_real r1_w2_v3_Fx__1;          /* r1_w2: factor of Fx[1] in stage 3 */
-    khepera_threshold_real r1_w2_v1_m__1__wh__ws;   /* r1_w2: factor of m[1].wh.ws in stage 1 */
-    khepera_threshold_real r1_w2_v2_m__1__wh__ws;   /* r1_w2: factor of m[1].wh.ws in stage 2 */
-    khepera_threshold_real r1_w2_v3_m__1__wh__ws;   /* r1_w2: factor of m[1].wh.ws in stage 3 */
-    khepera_threshold_real r1_w3_v2_m__1__me__we;   /* r1_w3: factor of m[1].me.we in stage 2 */
-    khepera_threshold_real r1_w3_v3_m__1__me__we;   /* r1_w3: factor of m[1].me.we in stage 3 */
-    khepera_threshold_real r1_w4_v2_m__1__wh__ws;   /* r1_w4: factor of m[1].wh.ws in stage 2 */
-    khepera_threshold_real r1_w4_v3_m__1__wh__ws;   /* r1_w4: factor of m[1].wh.ws in stage 3 */
-    khepera_threshold_real r1_w5_v2_m__1__me__we;   /* r1_w5: factor of m[1].me.we in stage 2 */
-    khepera_threshold_real r1_w5_v3_m__1__me__we;   /* r1_w5: factor of m[1].me.we in stage 3 */
-    khepera_threshold_real r1_w5_v2_m__1__wh__ws;   /* r1_w5: factor of m[1].wh.ws in stage 2 */
-    khepera_threshold_real r1_w5_v3_m__1__wh__ws;   /* r1_w5: factor of m[1].wh.ws in stage 3 */
-    khepera_threshold_real r1_w5_v3_Fx__1;          /* r1_w5: factor of Fx[1] in stage 3 */
-    khepera_threshold_real r1_w6_v3_m__1__me__we;   /* r1_w6: factor of m[1].me.we in stage 3 */
-    khepera_threshold_real r1_w7_v3_m__1__wh__ws;   /* r1_w7: factor of m[1].wh.ws in stage 3 */
-    khepera_threshold_real r1_w8_v1_m__1__me__we;   /* r1_w8: factor of m[1].me.we in stage 1 */
-    khepera_threshold_real r1_w8_v2_m__1__me__we;   /* r1_w8: factor of m[1].me.we in stage 2 */
-    khepera_threshold_real r1_w8_v3_m__1__me__we;   /* r1_w8: factor of m[1].me.we in stage 3 */
-    khepera_threshold_real r1_w8_v1_m__1__wh__ws;   /* r1_w8: factor of m[1].wh.ws in stage 1 */
-    khepera_threshold_real r1_w8_v2_m__1__wh__ws;   /* r1_w8: factor of m[1].wh.ws in stage 2 */
-    khepera_threshold_real r1_w8_v3_m__1__wh__ws;   /* r1_w8: factor of m[1].wh.ws in stage 3 */
-    khepera_threshold_real r1_w8_v2_Fx__1;          /* r1_w8: factor of Fx[1] in stage 2 */
-    khepera_threshold_real r1_w8_v3_Fx__1;          /* r1_w8: factor of Fx[1] in stage 3 */
-    khepera_threshold_real r1_w9_v2_m__1__me__we;   /* r1_w9: factor of m[1].me.we in stage 2 */
-    khepera_threshold_real r1_w9_v3_m__1__me__we;   /* r1_w9: factor of m[1].me.we in stage 3 */
-    khepera_threshold_real r1_w10_v2_m__1__wh__ws;  /* r1_w10: factor of m[1].wh.ws in stage 2 */
-    khepera_threshold_real r1_w10_v3_m__1__wh__ws;  /* r1_w10: factor of m[1].wh.ws in stage 3 */
-    khepera_threshold_real r3_w1_v3_Fx__2;          /* r3_w1: factor of Fx[2] in stage 3 */
-    khepera_threshold_real r3_w1_v2_m__2__wh__ws;   /* r3_w1: factor of m[2].wh.ws in stage 2 */
-    khepera_threshold_real r3_w1_v3_m__2__wh__ws;   /* r3_w1: factor of m[2].wh.ws in stage 3 */
-    khepera_threshold_real r3_w1_v2_m__2__me__we;   /* r3_w1: factor of m[2].me.we in stage 2 */
-    khepera_threshold_real r3_w1_v3_m__2__me__we;   /* r3_w1: factor of m[2].me.we in stage 3 */
-    khepera_threshold_real r3_w2_v1_m__2__me__we;   /* r3_w2: factor of m[2].me.we in stage 1 */
-    khepera_threshold_real r3_w2_v2_m__2__me__we;   /* r3_w2: factor of m[2].me.we in stage 2 */
-    khepera_threshold_real r3_w2_v3_m__2__me__we;   /* r3_w2: factor of m[2].me.we in stage 3 */
-    khepera_threshold_real r3_w2_v2_Fx__2;          /* r3_w2: factor of Fx[2] in stage 2 */
-    khepera_threshold_real r3_w2_v3_Fx__2;          /* r3_w2: factor of Fx[2] in stage 3 */
-    khepera_threshold_real r3_w2_v1_m__2__wh__ws;   /* r3_w2: factor of m[2].wh.ws in stage 1 */
-    khepera_threshold_real r3_w2_v2_m__2__wh__ws;   /* r3_w2: factor of m[2].wh.ws in stage 2 */
-    khepera_threshold_real r3_w2_v3_m__2__wh__ws;   /* r3_w2: factor of m[2].wh.ws in stage 3 */
-    khepera_threshold_real r3_w3_v2_m__2__me__we;   /* r3_w3: factor of m[2].me.we in stage 2 */
-    khepera_threshold_real r3_w3_v3_m__2__me__we;   /* r3_w3: factor of m[2].me.we in stage 3 */
-    khepera_threshold_real r3_w4_v2_m__2__wh__ws;   /* r3_w4: factor of m[2].wh.ws in stage 2 */
-    khepera_threshold_real r3_w4_v3_m__2__wh__ws;   /* r3_w4: factor of m[2].wh.ws in stage 3 */
-    khepera_threshold_real r3_w5_v2_m__2__me__we;   /* r3_w5: factor of m[2].me.we in stage 2 */
-    khepera_threshold_real r3_w5_v3_m__2__me__we;   /* r3_w5: factor of m[2].me.we in stage 3 */
-    khepera_threshold_real r3_w5_v2_m__2__wh__ws;   /* r3_w5: factor of m[2].wh.ws in stage 2 */
-    khepera_threshold_real r3_w5_v3_m__2__wh__ws;   /* r3_w5: factor of m[2].wh.ws in stage 3 */
-    khepera_threshold_real r3_w5_v3_Fx__2;          /* r3_w5: factor of Fx[2] in stage 3 */
-    khepera_threshold_real r3_w6_v3_m__2__me__we;   /* r3_w6: factor of m[2].me.we in stage 3 */
-    khepera_threshold_real r3_w7_v3_m__2__wh__ws;   /* r3_w7: factor of m[2].wh.ws in stage 3 */
-    khepera_threshold_real r3_w8_v1_m__2__me__we;   /* r3_w8: factor of m[2].me.we in stage 1 */
-    khepera_threshold_real r3_w8_v2_m__2__me__we;   /* r3_w8: factor of m[2].me.we in stage 2 */
-    khepera_threshold_real r3_w8_v3_m__2__me__we;   /* r3_w8: factor of m[2].me.we in stage 3 */
-    khepera_threshold_real r3_w8_v1_m__2__wh__ws;   /* r3_w8: factor of m[2].wh.ws in stage 1 */
-    khepera_threshold_real r3_w8_v2_m__2__wh__ws;   /* r3_w8: factor of m[2].wh.ws in stage 2 */
-    khepera_threshold_real r3_w8_v3_m__2__wh__ws;   /* r3_w8: factor of m[2].wh.ws in stage 3 */
-    khepera_threshold_real r3_w8_v2_Fx__2;          /* r3_w8: factor of Fx[2] in stage 2 */
-    khepera_threshold_real r3_w8_v3_Fx__2;          /* r3_w8: factor of Fx[2] in stage 3 */
-    khepera_threshold_real r3_w9_v2_m__2__me__we;   /* r3_w9: factor of m[2].me.we in stage 2 */
-    khepera_threshold_real r3_w9_v3_m__2__me__we;   /* r3_w9: factor of m[2].me.we in stage 3 */
-    khepera_threshold_real r3_w10_v2_m__2__wh__ws;  /* r3_w10: factor of m[2].wh.ws in stage 2 */
-    khepera_threshold_real r3_w10_v3_m__2__wh__ws;  /* r3_w10: factor of m[2].wh.ws in stage 3 */
+    khepera_threshold_real r1_w1_Fx__1;             /* r1_w1: factor of Fx[1] */
+    khepera_threshold_real r1_w1_m__1__wh__ws;      /* r1_w1: factor of m[1].wh.ws */
+    khepera_threshold_real r1_w1_w1_m__1__wh__ws;   /* r1_w1: factor of m[1].wh.ws' */
+    khepera_threshold_real r1_w1_m__1__me__we;      /* r1_w1: factor of m[1].me.we */
+    khepera_threshold_real r1_w1_w1_m__1__me__we;   /* r1_w1: factor of m[1].me.we' */
+    khepera_threshold_real bend1;                   /* filter: 1 * (w*sample_time)^2/12 */
+    /* filter: what is left of a memory a sample later */
+    khepera_threshold_real a;
+    /* filter: weight of a sample, new and a sample later */
+    khepera_threshold_real b;
+    khepera_threshold_real rest;                    /* filter: 1 - b, the memory of a constant 1 */
+    khepera_threshold_real r1_w2_m__1__me__we;      /* r1_w2: factor of m[1].me.we */
+    khepera_threshold_real r1_w2_w1_m__1__me__we;   /* r1_w2: factor of m[1].me.we' */
+    khepera_threshold_real r1_w2_w2_m__1__me__we;   /* r1_w2: factor of m[1].me.we'' */
+    khepera_threshold_real r1_w2_Fx__1;             /* r1_w2: factor of Fx[1] */
+    khepera_threshold_real r1_w2_w1_Fx__1;          /* r1_w2: factor of Fx[1]' */
+    khepera_threshold_real r1_w2_m__1__wh__ws;      /* r1_w2: factor of m[1].wh.ws */
+    khepera_threshold_real r1_w2_w1_m__1__wh__ws;   /* r1_w2: factor of m[1].wh.ws' */
+    khepera_threshold_real r1_w2_w2_m__1__wh__ws;   /* r1_w2: factor of m[1].wh.ws'' */
+    khepera_threshold_real bend2;                   /* filter: 2 * (w*sample_time)^2/12 */
+    khepera_threshold_real r1_w3_m__1__me__we;      /* r1_w3: factor of m[1].me.we */
+    khepera_threshold_real r1_w3_w1_m__1__me__we;   /* r1_w3: factor of m[1].me.we' */
+    khepera_threshold_real r1_w4_m__1__wh__ws;      /* r1_w4: factor of m[1].wh.ws */
+    khepera_threshold_real r1_w4_w1_m__1__wh__ws;   /* r1_w4: factor of m[1].wh.ws' */
+    khepera_threshold_real r1_w5_m__1__me__we;      /* r1_w5: factor of m[1].me.we */
+    khepera_threshold_real r1_w5_w1_m__1__me__we;   /* r1_w5: factor of m[1].me.we' */
+    khepera_threshold_real r1_w5_m__1__wh__ws;      /* r1_w5: factor of m[1].wh.ws */
+    khepera_threshold_real r1_w5_w1_m__1__wh__ws;   /* r1_w5: factor of m[1].wh.ws' */
+    khepera_threshold_real r1_w5_Fx__1;             /* r1_w5: factor of Fx[1] */
+    khepera_threshold_real r1_w6_m__1__me__we;      /* r1_w6: factor of m[1].me.we */
+    khepera_threshold_real r1_w7_m__1__wh__ws;      /* r1_w7: factor of m[1].wh.ws */
+    khepera_threshold_real r1_w8_m__1__me__we;      /* r1_w8: factor of m[1].me.we */
+    khepera_threshold_real r1_w8_w1_m__1__me__we;   /* r1_w8: factor of m[1].me.we' */
+    khepera_threshold_real r1_w8_w2_m__1__me__we;   /* r1_w8: factor of m[1].me.we'' */
+    khepera_threshold_real r1_w8_m__1__wh__ws;      /* r1_w8: factor of m[1].wh.ws */
+    khepera_threshold_real r1_w8_w1_m__1__wh__ws;   /* r1_w8: factor of m[1].wh.ws' */
+    khepera_threshold_real r1_w8_w2_m__1__wh__ws;   /* r1_w8: factor of m[1].wh.ws'' */
+    khepera_threshold_real r1_w8_Fx__1;             /* r1_w8: factor of Fx[1] */
+    khepera_threshold_real r1_w8_w1_Fx__1;          /* r1_w8: factor of Fx[1]' */
+    khepera_threshold_real r1_w9_m__1__me__we;      /* r1_w9: factor of m[1].me.we */
+    khepera_threshold_real r1_w9_w1_m__1__me__we;   /* r1_w9: factor of m[1].me.we' */
+    khepera_threshold_real r1_w10_m__1__wh__ws;     /* r1_w10: factor of m[1].wh.ws */
+    khepera_threshold_real r1_w10_w1_m__1__wh__ws;  /* r1_w10: factor of m[1].wh.ws' */
+    khepera_threshold_real r3_w1_Fx__2;             /* r3_w1: factor of Fx[2] */
+    khepera_threshold_real r3_w1_m__2__wh__ws;      /* r3_w1: factor of m[2].wh.ws */
+    khepera_threshold_real r3_w1_w1_m__2__wh__ws;   /* r3_w1: factor of m[2].wh.ws' */
+    khepera_threshold_real r3_w1_m__2__me__we;      /* r3_w1: factor of m[2].me.we */
+    khepera_threshold_real r3_w1_w1_m__2__me__we;   /* r3_w1: factor of m[2].me.we' */
+    khepera_threshold_real r3_w2_m__2__me__we;      /* r3_w2: factor of m[2].me.we */
+    khepera_threshold_real r3_w2_w1_m__2__me__we;   /* r3_w2: factor of m[2].me.we' */
+    khepera_threshold_real r3_w2_w2_m__2__me__we;   /* r3_w2: factor of m[2].me.we'' */
+    khepera_threshold_real r3_w2_Fx__2;             /* r3_w2: factor of Fx[2] */
+    khepera_threshold_real r3_w2_w1_Fx__2;          /* r3_w2: factor of Fx[2]' */
+    khepera_threshold_real r3_w2_m__2__wh__ws;      /* r3_w2: factor of m[2].wh.ws */
+    khepera_threshold_real r3_w2_w1_m__2__wh__ws;   /* r3_w2: factor of m[2].wh.ws' */
+    khepera_threshold_real r3_w2_w2_m__2__wh__ws;   /* r3_w2: factor of m[2].wh.ws'' */
+    khepera_threshold_real r3_w3_m__2__me__we;      /* r3_w3: factor of m[2].me.we */
+    khepera_threshold_real r3_w3_w1_m__2__me__we;   /* r3_w3: factor of m[2].me.we' */
+    khepera_threshold_real r3_w4_m__2__wh__ws;      /* r3_w4: factor of m[2].wh.ws */
+    khepera_threshold_real r3_w4_w1_m__2__wh__ws;   /* r3_w4: factor of m[2].wh.ws' */
+    khepera_threshold_real r3_w5_m__2__me__we;      /* r3_w5: factor of m[2].me.we */
+    khepera_threshold_real r3_w5_w1_m__2__me__we;   /* r3_w5: factor of m[2].me.we' */
+    khepera_threshold_real r3_w5_m__2__wh__ws;      /* r3_w5: factor of m[2].wh.ws */
+    khepera_threshold_real r3_w5_w1_m__2__wh__ws;   /* r3_w5: factor of m[2].wh.ws' */
+    khepera_threshold_real r3_w5_Fx__2;             /* r3_w5: factor of Fx[2] */
+    khepera_threshold_real r3_w6_m__2__me__we;      /* r3_w6: factor of m[2].me.we */
+    khepera_threshold_real r3_w7_m__2__wh__ws;      /* r3_w7: factor of m[2].wh.ws */
+    khepera_threshold_real r3_w8_m__2__me__we;      /* r3_w8: factor of m[2].me.we */
+    khepera_threshold_real r3_w8_w1_m__2__me__we;   /* r3_w8: factor of m[2].me.we' */
+    khepera_threshold_real r3_w8_w2_m__2__me__we;   /* r3_w8: factor of m[2].me.we'' */
+    khepera_threshold_real r3_w8_m__2__wh__ws;      /* r3_w8: factor of m[2].wh.ws */
+    khepera_threshold_real r3_w8_w1_m__2__wh__ws;   /* r3_w8: factor of m[2].wh.ws' */
+    khepera_threshold_real r3_w8_w2_m__2__wh__ws;   /* r3_w8: factor of m[2].wh.ws'' */
+    khepera_threshold_real r3_w8_Fx__2;             /* r3_w8: factor of Fx[2] */
+    khepera_threshold_real r3_w8_w1_Fx__2;          /* r3_w8: factor of Fx[2]' */
+    khepera_threshold_real r3_w9_m__2__me__we;      /* r3_w9: factor of m[2].me.we */
+    khepera_threshold_real r3_w9_w1_m__2__me__we;   /* r3_w9: factor of m[2].me.we' */
+    khepera_threshold_real r3_w10_m__2__wh__ws;     /* r3_w10: factor of m[2].wh.ws */
+    khepera_threshold_real r3_w10_w1_m__2__wh__ws;  /* r3_w10: factor of m[2].wh.ws' */
 } khepera_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "60b73c93aec6ea2d"
+DIGEST = "7cd44700aab27524"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -108,82 +108,83 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
-    r1_w1_v3_Fx__1: float          # r1_w1: factor of Fx[1] in stage 3
-    r1_w1_v2_m__1__wh__ws: float   # r1_w1: factor of m[1].wh.ws in stage 2
-    r1_w1_v3_m__1__wh__ws: float   # r1_w1: factor of m[1].wh.ws in stage 3
-    r1_w1_v2_m__1__me__we: float   # r1_w1: factor of m[1].me.we in stage 2
-    r1_w1_v3_m__1__me__we: float   # r1_w1: factor of m[1].me.we in stage 3
-    a: float                       # filter: exp(-bandwidth*sample_time)
-    b0: float                      # filter: weight of the new sample
-    b1: float                      # filter: weight of the sample before
-    rest: float                    # filter: 1 - b0, the memory of a constant 1
-    r1_w2_v1_m__1__me__we: float   # r1_w2: factor of m[1].me.we in stage 1
-    r1_w2_v2_m__1__me__we: float   # r1_w2: factor of m[1].me.we in stage 2
-    r1_w2_v3_m__1__me__we: float   # r1_w2: factor of m[1].me.we in stage 3
-    r1_w2_v2_Fx__1: float          # r1_w2: factor of Fx[1] in stage 2
-    r1_w2_v3_Fx__1: float          # r1_w2: factor of Fx[1] in stage 3
-    r1_w2_v1_m__1__wh__ws: float   # r1_w2: factor of m[1].wh.ws in stage 1
-    r1_w2_v2_m__1__wh__ws: float   # r1_w2: factor of m[1].wh.ws in stage 2
-    r1_w2_v3_m__1__wh__ws: float   # r1_w2: factor of m[1].wh.ws in stage 3
-    r1_w3_v2_m__1__me__we: float   # r1_w3: factor of m[1].me.we in stage 2
-    r1_w3_v3_m__1__me__we: float   # r1_w3: factor of m[1].me.we in stage 3
-    r1_w4_v2_m__1__wh__ws: float   # r1_w4: factor of m[1].wh.ws in stage 2
-    r1_w4_v3_m__1__wh__ws: float   # r1_w4: factor of m[1].wh.ws in stage 3
-    r1_w5_v2_m__1__me__we: float   # r1_w5: factor of m[1].me.we in stage 2
-    r1_w5_v3_m__1__me__we: float   # r1_w5: factor of m[1].me.we in stage 3
-    r1_w5_v2_m__1__wh__ws: float   # r1_w5: factor of m[1].wh.ws in stage 2
-    r1_w5_v3_m__1__wh__ws: float   # r1_w5: factor of m[1].wh.ws in stage 3
-    r1_w5_v3_Fx__1: float          # r1_w5: factor of Fx[1] in stage 3
-    r1_w6_v3_m__1__me__we: float   # r1_w6: factor of m[1].me.we in stage 3
-    r1_w7_v3_m__1__wh__ws: float   # r1_w7: factor of m[1].wh.ws in stage 3
-    r1_w8_v1_m__1__me__we: float   # r1_w8: factor of m[1].me.we in stage 1
-    r1_w8_v2_m__1__me__we: float   # r1_w8: factor of m[1].me.we in stage 2
-    r1_w8_v3_m__1__me__we: float   # r1_w8: factor of m[1].me.we in stage 3
-    r1_w8_v1_m__1__wh__ws: float   # r1_w8: factor of m[1].wh.ws in stage 1
-    r1_w8_v2_m__1__wh__ws: float   # r1_w8: factor of m[1].wh.ws in stage 2
-    r1_w8_v3_m__1__wh__ws: float   # r1_w8: factor of m[1].wh.ws in stage 3
-    r1_w8_v2_Fx__1: float          # r1_w8: factor of Fx[1] in stage 2
-    r1_w8_v3_Fx__1: float          # r1_w8: factor of Fx[1] in stage 3
-    r1_w9_v2_m__1__me__we: float   # r1_w9: factor of m[1].me.we in stage 2
-    r1_w9_v3_m__1__me__we: float   # r1_w9: factor of m[1].me.we in stage 3
-    r1_w10_v2_m__1__wh__ws: float  # r1_w10: factor of m[1].wh.ws in stage 2
-    r1_w10_v3_m__1__wh__ws: float  # r1_w10: factor of m[1].wh.ws in stage 3
-    r3_w1_v3_Fx__2: float          # r3_w1: factor of Fx[2] in stage 3
-    r3_w1_v2_m__2__wh__ws: float   # r3_w1: factor of m[2].wh.ws in stage 2
-    r3_w1_v3_m__2__wh__ws: float   # r3_w1: factor of m[2].wh.ws in stage 3
-    r3_w1_v2_m__2__me__we: float   # r3_w1: factor of m[2].me.we in stage 2
-    r3_w1_v3_m__2__me__we: float   # r3_w1: factor of m[2].me.we in stage 3
-    r3_w2_v1_m__2__me__we: float   # r3_w2: factor of m[2].me.we in stage 1
-    r3_w2_v2_m__2__me__we: float   # r3_w2: factor of m[2].me.we in stage 2
-    r3_w2_v3_m__2__me__we: float   # r3_w2: factor of m[2].me.we in stage 3
-    r3_w2_v2_Fx__2: float          # r3_w2: factor of Fx[2] in stage 2
-    r3_w2_v3_Fx__2: float          # r3_w2: factor of Fx[2] in stage 3
-    r3_w2_v1_m__2__wh__ws: float   # r3_w2: factor of m[2].wh.ws in stage 1
-    r3_w2_v2_m__2__wh__ws: float   # r3_w2: factor of m[2].wh.ws in stage 2
-    r3_w2_v3_m__2__wh__ws: float   # r3_w2: factor of m[2].wh.ws in stage 3
-    r3_w3_v2_m__2__me__we: float   # r3_w3: factor of m[2].me.we in stage 2
-    r3_w3_v3_m__2__me__we: float   # r3_w3: factor of m[2].me.we in stage 3
-    r3_w4_v2_m__2__wh__ws: float   # r3_w4: factor of m[2].wh.ws in stage 2
-    r3_w4_v3_m__2__wh__ws: float   # r3_w4: factor of m[2].wh.ws in stage 3
-    r3_w5_v2_m__2__me__we: float   # r3_w5: factor of m[2].me.we in stage 2
-    r3_w5_v3_m__2__me__we: float   # r3_w5: factor of m[2].me.we in stage 3
-    r3_w5_v2_m__2__wh__ws: float   # r3_w5: factor of m[2].wh.ws in stage 2
-    r3_w5_v3_m__2__wh__ws: float   # r3_w5: factor of m[2].wh.ws in stage 3
-    r3_w5_v3_Fx__2: float          # r3_w5: factor of Fx[2] in stage 3
-    r3_w6_v3_m__2__me__we: float   # r3_w6: factor of m[2].me.we in stage 3
-    r3_w7_v3_m__2__wh__ws: float   # r3_w7: factor of m[2].wh.ws in stage 3
-    r3_w8_v1_m__2__me__we: float   # r3_w8: factor of m[2].me.we in stage 1
-    r3_w8_v2_m__2__me__we: float   # r3_w8: factor of m[2].me.we in stage 2
-    r3_w8_v3_m__2__me__we: float   # r3_w8: factor of m[2].me.we in stage 3
-    r3_w8_v1_m__2__wh__ws: float   # r3_w8: factor of m[2].wh.ws in stage 1
-    r3_w8_v2_m__2__wh__ws: float   # r3_w8: factor of m[2].wh.ws in stage 2
-    r3_w8_v3_m__2__wh__ws: float   # r3_w8: factor of m[2].wh.ws in stage 3
-    r3_w8_v2_Fx__2: float          # r3_w8: factor of Fx[2] in stage 2
-    r3_w8_v3_Fx__2: float          # r3_w8: factor of Fx[2] in stage 3
-    r3_w9_v2_m__2__me__we: float   # r3_w9: factor of m[2].me.we in stage 2
-    r3_w9_v3_m__2__me__we: float   # r3_w9: factor of m[2].me.we in stage 3
-    r3_w10_v2_m__2__wh__ws: float  # r3_w10: factor of m[2].wh.ws in stage 2
-    r3_w10_v3_m__2__wh__ws: float  # r3_w10: factor of m[2].wh.ws in stage 3
+    r1_w1_Fx__1: float             # r1_w1: factor of Fx[1]
+    r1_w1_m__1__wh__ws: float      # r1_w1: factor of m[1].wh.ws
+    r1_w1_w1_m__1__wh__ws: float   # r1_w1: factor of m[1].wh.ws'
+    r1_w1_m__1__me__we: float      # r1_w1: factor of m[1].me.we
+    r1_w1_w1_m__1__me__we: float   # r1_w1: factor of m[1].me.we'
+    bend1: float                   # filter: 1 * (w*sample_time)^2/12
+    a: float                       # filter: what is left of a memory a sample later
+    b: float                       # filter: weight of a sample, new and a sample later
+    rest: float                    # filter: 1 - b, the memory of a constant 1
+    r1_w2_m__1__me__we: float      # r1_w2: factor of m[1].me.we
+    r1_w2_w1_m__1__me__we: float   # r1_w2: factor of m[1].me.we'
+    r1_w2_w2_m__1__me__we: float   # r1_w2: factor of m[1].me.we''
+    r1_w2_Fx__1: float             # r1_w2: factor of Fx[1]
+    r1_w2_w1_Fx__1: float          # r1_w2: factor of Fx[1]'
+    r1_w2_m__1__wh__ws: float      # r1_w2: factor of m[1].wh.ws
+    r1_w2_w1_m__1__wh__ws: float   # r1_w2: factor of m[1].wh.ws'
+    r1_w2_w2_m__1__wh__ws: float   # r1_w2: factor of m[1].wh.ws''
+    bend2: float                   # filter: 2 * (w*sample_time)^2/12
+    r1_w3_m__1__me__we: float      # r1_w3: factor of m[1].me.we
+    r1_w3_w1_m__1__me__we: float   # r1_w3: factor of m[1].me.we'
+    r1_w4_m__1__wh__ws: float      # r1_w4: factor of m[1].wh.ws
+    r1_w4_w1_m__1__wh__ws: float   # r1_w4: factor of m[1].wh.ws'
+    r1_w5_m__1__me__we: float      # r1_w5: factor of m[1].me.we
+    r1_w5_w1_m__1__me__we: float   # r1_w5: factor of m[1].me.we'
+    r1_w5_m__1__wh__ws: float      # r1_w5: factor of m[1].wh.ws
+    r1_w5_w1_m__1__wh__ws: float   # r1_w5: factor of m[1].wh.ws'
+    r1_w5_Fx__1: float             # r1_w5: factor of Fx[1]
+    r1_w6_m__1__me__we: float      # r1_w6: factor of m[1].me.we
+    r1_w7_m__1__wh__ws: float      # r1_w7: factor of m[1].wh.ws
+    r1_w8_m__1__me__we: float      # r1_w8: factor of m[1].me.we
+    r1_w8_w1_m__1__me__we: float   # r1_w8: factor of m[1].me.we'
+    r1_w8_w2_m__1__me__we: float   # r1_w8: factor of m[1].me.we''
+    r1_w8_m__1__wh__ws: float      # r1_w8: factor of m[1].wh.ws
+    r1_w8_w1_m__1__wh__ws: float   # r1_w8: factor of m[1].wh.ws'
+    r1_w8_w2_m__1__wh__ws: float   # r1_w8: factor of m[1].wh.ws''
+    r1_w8_Fx__1: float             # r1_w8: factor of Fx[1]
+    r1_w8_w1_Fx__1: float          # r1_w8: factor of Fx[1]'
+    r1_w9_m__1__me__we: float      # r1_w9: factor of m[1].me.we
+    r1_w9_w1_m__1__me__we: float   # r1_w9: factor of m[1].me.we'
+    r1_w10_m__1__wh__ws: float     # r1_w10: factor of m[1].wh.ws
+    r1_w10_w1_m__1__wh__ws: float  # r1_w10: factor of m[1].wh.ws'
+    r3_w1_Fx__2: float             # r3_w1: factor of Fx[2]
+    r3_w1_m__2__wh__ws: float      # r3_w1: factor of m[2].wh.ws
+    r3_w1_w1_m__2__wh__ws: float   # r3_w1: factor of m[2].wh.ws'
+    r3_w1_m__2__me__we: float      # r3_w1: factor of m[2].me.we
+    r3_w1_w1_m__2__me__we: float   # r3_w1: factor of m[2].me.we'
+    r3_w2_m__2__me__we: float      # r3_w2: factor of m[2].me.we
+    r3_w2_w1_m__2__me__we: float   # r3_w2: factor of m[2].me.we'
+    r3_w2_w2_m__2__me__we: float   # r3_w2: factor of m[2].me.we''
+    r3_w2_Fx__2: float             # r3_w2: factor of Fx[2]
+    r3_w2_w1_Fx__2: float          # r3_w2: factor of Fx[2]'
+    r3_w2_m__2__wh__ws: float      # r3_w2: factor of m[2].wh.ws
+    r3_w2_w1_m__2__wh__ws: float   # r3_w2: factor of m[2].wh.ws'
+    r3_w2_w2_m__2__wh__ws: float   # r3_w2: factor of m[2].wh.ws''
+    r3_w3_m__2__me__we: float      # r3_w3: factor of m[2].me.we
+    r3_w3_w1_m__2__me__we: float   # r3_w3: factor of m[2].me.we'
+    r3_w4_m__2__wh__ws: float      # r3_w4: factor of m[2].wh.ws
+    r3_w4_w1_m__2__wh__ws: float   # r3_w4: factor of m[2].wh.ws'
+    r3_w5_m__2__me__we: float      # r3_w5: factor of m[2].me.we
+    r3_w5_w1_m__2__me__we: float   # r3_w5: factor of m[2].me.we'
+    r3_w5_m__2__wh__ws: float      # r3_w5: factor of m[2].wh.ws
+    r3_w5_w1_m__2__wh__ws: float   # r3_w5: factor of m[2].wh.ws'
+    r3_w5_Fx__2: float             # r3_w5: factor of Fx[2]
+    r3_w6_m__2__me__we: float      # r3_w6: factor of m[2].me.we
+    r3_w7_m__2__wh__ws: float      # r3_w7: factor of m[2].wh.ws
+    r3_w8_m__2__me__we: float      # r3_w8: factor of m[2].me.we
+    r3_w8_w1_m__2__me__we: float   # r3_w8: factor of m[2].me.we'
+    r3_w8_w2_m__2__me__we: float   # r3_w8: factor of m[2].me.we''
+    r3_w8_m__2__wh__ws: float      # r3_w8: factor of m[2].wh.ws
+    r3_w8_w1_m__2__wh__ws: float   # r3_w8: factor of m[2].wh.ws'
+    r3_w8_w2_m__2__wh__ws: float   # r3_w8: factor of m[2].wh.ws''
+    r3_w8_Fx__2: float             # r3_w8: factor of Fx[2]
+    r3_w8_w1_Fx__2: float          # r3_w8: factor of Fx[2]'
+    r3_w9_m__2__me__we: float      # r3_w9: factor of m[2].me.we
+    r3_w9_w1_m__2__me__we: float   # r3_w9: factor of m[2].me.we'
+    r3_w10_m__2__wh__ws: float     # r3_w10: factor of m[2].wh.ws
+    r3_w10_w1_m__2__wh__ws: float  # r3_w10: factor of m[2].wh.ws'
 
 
 class Memory:
@@ -285,43 +286,40 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_w1_v3_Fx__1 + self._c.r1_w1_v2_m__1__wh__ws
-                    + self._c.r1_w1_v3_m__1__wh__ws + self._c.r1_w1_v2_m__1__me__we
-                    + self._c.r1_w1_v3_m__1__me__we + self._c.a + self._c.b0 + self._c.b1
-                    + self._c.rest + self._c.r1_w2_v1_m__1__me__we + self._c.r1_w2_v2_m__1__me__we
-                    + self._c.r1_w2_v3_m__1__me__we + self._c.r1_w2_v2_Fx__1
-                    + self._c.r1_w2_v3_Fx__1 + self._c.r1_w2_v1_m__1__wh__ws
-                    + self._c.r1_w2_v2_m__1__wh__ws + self._c.r1_w2_v3_m__1__wh__ws
-                    + self._c.r1_w3_v2_m__1__me__we + self._c.r1_w3_v3_m__1__me__we
-                    + self._c.r1_w4_v2_m__1__wh__ws + self._c.r1_w4_v3_m__1__wh__ws
-                    + self._c.r1_w5_v2_m__1__me__we + self._c.r1_w5_v3_m__1__me__we
-                    + self._c.r1_w5_v2_m__1__wh__ws + self._c.r1_w5_v3_m__1__wh__ws
-                    + self._c.r1_w5_v3_Fx__1 + self._c.r1_w6_v3_m__1__me__we
-                    + self._c.r1_w7_v3_m__1__wh__ws + self._c.r1_w8_v1_m__1__me__we
-                    + self._c.r1_w8_v2_m__1__me__we + self._c.r1_w8_v3_m__1__me__we
-                    + self._c.r1_w8_v1_m__1__wh__ws + self._c.r1_w8_v2_m__1__wh__ws
-                    + self._c.r1_w8_v3_m__1__wh__ws + self._c.r1_w8_v2_Fx__1
-                    + self._c.r1_w8_v3_Fx__1 + self._c.r1_w9_v2_m__1__me__we
-                    + self._c.r1_w9_v3_m__1__me__we + self._c.r1_w10_v2_m__1__wh__ws
-                    + self._c.r1_w10_v3_m__1__wh__ws + self._c.r3_w1_v3_Fx__2
-                    + self._c.r3_w1_v2_m__2__wh__ws + self._c.r3_w1_v3_m__2__wh__ws
-                    + self._c.r3_w1_v2_m__2__me__we + self._c.r3_w1_v3_m__2__me__we
-                    + self._c.r3_w2_v1_m__2__me__we + self._c.r3_w2_v2_m__2__me__we
-                    + self._c.r3_w2_v3_m__2__me__we + self._c.r3_w2_v2_Fx__2
-                    + self._c.r3_w2_v3_Fx__2 + self._c.r3_w2_v1_m__2__wh__ws
-                    + self._c.r3_w2_v2_m__2__wh__ws + self._c.r3_w2_v3_m__2__wh__ws
-                    + self._c.r3_w3_v2_m__2__me__we + self._c.r3_w3_v3_m__2__me__we
-                    + self._c.r3_w4_v2_m__2__wh__ws + self._c.r3_w4_v3_m__2__wh__ws
-                    + self._c.r3_w5_v2_m__2__me__we + self._c.r3_w5_v3_m__2__me__we
-                    + self._c.r3_w5_v2_m__2__wh__ws + self._c.r3_w5_v3_m__2__wh__ws
-                    + self._c.r3_w5_v3_Fx__2 + self._c.r3_w6_v3_m__2__me__we
-                    + self._c.r3_w7_v3_m__2__wh__ws + self._c.r3_w8_v1_m__2__me__we
-                    + self._c.r3_w8_v2_m__2__me__we + self._c.r3_w8_v3_m__2__me__we
-                    + self._c.r3_w8_v1_m__2__wh__ws + self._c.r3_w8_v2_m__2__wh__ws
-                    + self._c.r3_w8_v3_m__2__wh__ws + self._c.r3_w8_v2_Fx__2
-                    + self._c.r3_w8_v3_Fx__2 + self._c.r3_w9_v2_m__2__me__we
-                    + self._c.r3_w9_v3_m__2__me__we + self._c.r3_w10_v2_m__2__wh__ws
-                    + self._c.r3_w10_v3_m__2__wh__ws
+                    self._c.r1_w1_Fx__1 + self._c.r1_w1_m__1__wh__ws + self._c.r1_w1_w1_m__1__wh__ws
+                    + self._c.r1_w1_m__1__me__we + self._c.r1_w1_w1_m__1__me__we + self._c.bend1
+                    + self._c.a + self._c.b + self._c.rest + self._c.r1_w2_m__1__me__we
+                    + self._c.r1_w2_w1_m__1__me__we + self._c.r1_w2_w2_m__1__me__we
+                    + self._c.r1_w2_Fx__1 + self._c.r1_w2_w1_Fx__1 + self._c.r1_w2_m__1__wh__ws
+                    + self._c.r1_w2_w1_m__1__wh__ws + self._c.r1_w2_w2_m__1__wh__ws + self._c.bend2
+                    + self._c.r1_w3_m__1__me__we + self._c.r1_w3_w1_m__1__me__we
+                    + self._c.r1_w4_m__1__wh__ws + self._c.r1_w4_w1_m__1__wh__ws
+                    + self._c.r1_w5_m__1__me__we + self._c.r1_w5_w1_m__1__me__we
+                    + self._c.r1_w5_m__1__wh__ws + self._c.r1_w5_w1_m__1__wh__ws
+                    + self._c.r1_w5_Fx__1 + self._c.r1_w6_m__1__me__we + self._c.r1_w7_m__1__wh__ws
+                    + self._c.r1_w8_m__1__me__we + self._c.r1_w8_w1_m__1__me__we
+                    + self._c.r1_w8_w2_m__1__me__we + self._c.r1_w8_m__1__wh__ws
+                    + self._c.r1_w8_w1_m__1__wh__ws + self._c.r1_w8_w2_m__1__wh__ws
+                    + self._c.r1_w8_Fx__1 + self._c.r1_w8_w1_Fx__1 + self._c.r1_w9_m__1__me__we
+                    + self._c.r1_w9_w1_m__1__me__we + self._c.r1_w10_m__1__wh__ws
+                    + self._c.r1_w10_w1_m__1__wh__ws + self._c.r3_w1_Fx__2
+                    + self._c.r3_w1_m__2__wh__ws + self._c.r3_w1_w1_m__2__wh__ws
+                    + self._c.r3_w1_m__2__me__we + self._c.r3_w1_w1_m__2__me__we
+                    + self._c.r3_w2_m__2__me__we + self._c.r3_w2_w1_m__2__me__we
+                    + self._c.r3_w2_w2_m__2__me__we + self._c.r3_w2_Fx__2 + self._c.r3_w2_w1_Fx__2
+                    + self._c.r3_w2_m__2__wh__ws + self._c.r3_w2_w1_m__2__wh__ws
+                    + self._c.r3_w2_w2_m__2__wh__ws + self._c.r3_w3_m__2__me__we
+                    + self._c.r3_w3_w1_m__2__me__we + self._c.r3_w4_m__2__wh__ws
+                    + self._c.r3_w4_w1_m__2__wh__ws + self._c.r3_w5_m__2__me__we
+                    + self._c.r3_w5_w1_m__2__me__we + self._c.r3_w5_m__2__wh__ws
+                    + self._c.r3_w5_w1_m__2__wh__ws + self._c.r3_w5_Fx__2
+                    + self._c.r3_w6_m__2__me__we + self._c.r3_w7_m__2__wh__ws
+                    + self._c.r3_w8_m__2__me__we + self._c.r3_w8_w1_m__2__me__we
+                    + self._c.r3_w8_w2_m__2__me__we + self._c.r3_w8_m__2__wh__ws
+                    + self._c.r3_w8_w1_m__2__wh__ws + self._c.r3_w8_w2_m__2__wh__ws
+                    + self._c.r3_w8_Fx__2 + self._c.r3_w8_w1_Fx__2 + self._c.r3_w9_m__2__me__we
+                    + self._c.r3_w9_w1_m__2__me__we + self._c.r3_w10_m__2__wh__ws
+                    + self._c.r3_w10_w1_m__2__wh__ws
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -383,6 +381,15 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: m[1].el.Re*m[1].me.fe/m[1].el.k
         t = p.m__1__el__Re * p.m__1__me__fe / p.m__1__el__k
 
@@ -401,383 +408,356 @@ class Monitor:
         # khepera.bg:17: m[2].el.Re*m[2].wh.R/(m[2].ge.N*m[2].el.k)
         t_6 = p.m__2__el__Re * p.m__2__wh__R / p.m__2__ge__N / p.m__2__el__k
 
-        # exp(-x)
-        t_7 = _exponential(-x_)
+        # 1 - pole
+        t_7 = 1.0 - pole
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_8 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_7) / x_
+        # turn^2
+        t_8 = turn * turn
+
+        # khepera.bg:17: m[1].el.L*m[1].me.Je*w^2/m[1].el.k
+        t_9 = p.m__1__el__L * p.m__1__me__Je * w * w / p.m__1__el__k
+
+        # khepera.bg:17: m[1].el.L*m[1].wh.Js*w^2/(m[1].ge.N*m[1].el.k)
+        t_10 = p.m__1__el__L * p.m__1__wh__Js * w * w / p.m__1__ge__N / p.m__1__el__k
+
+        # khepera.bg:17: m[1].el.L*m[1].wh.R*w/(m[1].ge.N*m[1].el.k)
+        t_11 = p.m__1__el__L * p.m__1__wh__R * w / p.m__1__ge__N / p.m__1__el__k
+
+        # khepera.bg:17: m[2].el.L*m[2].me.Je*w^2/m[2].el.k
+        t_12 = p.m__2__el__L * p.m__2__me__Je * w * w / p.m__2__el__k
+
+        # khepera.bg:17: m[2].el.L*m[2].wh.Js*w^2/(m[2].ge.N*m[2].el.k)
+        t_13 = p.m__2__el__L * p.m__2__wh__Js * w * w / p.m__2__ge__N / p.m__2__el__k
+
+        # khepera.bg:17: m[2].el.L*m[2].wh.R*w/(m[2].ge.N*m[2].el.k)
+        t_14 = p.m__2__el__L * p.m__2__wh__R * w / p.m__2__ge__N / p.m__2__el__k
+
+        # khepera.bg:17: m[1].el.Re*m[1].wh.Js*w/(m[1].ge.N*m[1].el.k)
+        t_15 = p.m__1__el__Re * p.m__1__wh__Js * w / p.m__1__ge__N / p.m__1__el__k
+
+        # khepera.bg:17: m[1].el.Re*m[1].me.Je*w/m[1].el.k
+        t_16 = p.m__1__el__Re * p.m__1__me__Je * w / p.m__1__el__k
+
+        # khepera.bg:17: m[1].el.L*m[1].me.fe*w/m[1].el.k
+        t_17 = p.m__1__el__L * p.m__1__me__fe * w / p.m__1__el__k
+
+        # khepera.bg:17: m[1].el.L*m[1].wh.fs*w/(m[1].ge.N*m[1].el.k)
+        t_18 = p.m__1__el__L * p.m__1__wh__fs * w / p.m__1__ge__N / p.m__1__el__k
+
+        # khepera.bg:17: m[2].el.Re*m[2].wh.Js*w/(m[2].ge.N*m[2].el.k)
+        t_19 = p.m__2__el__Re * p.m__2__wh__Js * w / p.m__2__ge__N / p.m__2__el__k
+
+        # khepera.bg:17: m[2].el.Re*m[2].me.Je*w/m[2].el.k
+        t_20 = p.m__2__el__Re * p.m__2__me__Je * w / p.m__2__el__k
+
+        # khepera.bg:17: m[2].el.L*m[2].me.fe*w/m[2].el.k
+        t_21 = p.m__2__el__L * p.m__2__me__fe * w / p.m__2__el__k
+
+        # khepera.bg:17: m[2].el.L*m[2].wh.fs*w/(m[2].ge.N*m[2].el.k)
+        t_22 = p.m__2__el__L * p.m__2__wh__fs * w / p.m__2__ge__N / p.m__2__el__k
+
+        # khepera.bg:17: r1_w1: factor of Fx[1]
+        c.r1_w1_Fx__1 = t_3 / 20.0
+
+        # khepera.bg:17: r1_w1: factor of m[1].wh.ws
+        c.r1_w1_m__1__wh__ws = t_2 / 20.0
+
+        # khepera.bg:17: r1_w1: factor of m[1].wh.ws'
+        c.r1_w1_w1_m__1__wh__ws = t_15 / 20.0
+
+        # khepera.bg:17: r1_w1: factor of m[1].me.we
+        c.r1_w1_m__1__me__we = t / 20.0
+
+        # khepera.bg:17: r1_w1: factor of m[1].me.we'
+        c.r1_w1_w1_m__1__me__we = t_16 / 20.0
+
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_8 / 12.0
+
+        # filter: what is left of a memory a sample later
+        c.a = pole
+
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_7
+
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t_7
+
+        # khepera.bg:17: r1_w2: factor of m[1].me.we
+        c.r1_w2_m__1__me__we = (
+            p.m__1__el__k * (p.m__1__el__Re * p.m__1__me__fe / p.m__1__el__k / p.m__1__el__k
+                - 1.0) / 50.0
         )
 
-        # khepera.bg:17: m[1].el.L*m[1].me.Je*bandwidth^2/m[1].el.k
-        t_9 = p.m__1__el__L * p.m__1__me__Je * bandwidth * bandwidth / p.m__1__el__k
-
-        # khepera.bg:17: m[1].el.L*m[1].wh.Js*bandwidth^2/(m[1].ge.N*m[1].el.k)
-        t_10 = (
-            p.m__1__el__L * p.m__1__wh__Js * bandwidth * bandwidth / p.m__1__ge__N / p.m__1__el__k
+        # khepera.bg:17: r1_w2: factor of m[1].me.we'
+        c.r1_w2_w1_m__1__me__we = (
+            p.m__1__el__k * w * (p.m__1__el__Re * p.m__1__me__Je / p.m__1__el__k / p.m__1__el__k
+                + p.m__1__el__L * p.m__1__me__fe / p.m__1__el__k / p.m__1__el__k) / 50.0
         )
 
-        # khepera.bg:17: m[1].el.L*m[1].wh.R*bandwidth/(m[1].ge.N*m[1].el.k)
-        t_11 = p.m__1__el__L * p.m__1__wh__R * bandwidth / p.m__1__ge__N / p.m__1__el__k
+        # khepera.bg:17: r1_w2: factor of m[1].me.we''
+        c.r1_w2_w2_m__1__me__we = t_9 / 50.0
 
-        # khepera.bg:17: m[2].el.L*m[2].me.Je*bandwidth^2/m[2].el.k
-        t_12 = p.m__2__el__L * p.m__2__me__Je * bandwidth * bandwidth / p.m__2__el__k
+        # khepera.bg:17: r1_w2: factor of Fx[1]
+        c.r1_w2_Fx__1 = t_3 / 50.0
 
-        # khepera.bg:17: m[2].el.L*m[2].wh.Js*bandwidth^2/(m[2].ge.N*m[2].el.k)
-        t_13 = (
-            p.m__2__el__L * p.m__2__wh__Js * bandwidth * bandwidth / p.m__2__ge__N / p.m__2__el__k
-        )
+        # khepera.bg:17: r1_w2: factor of Fx[1]'
+        c.r1_w2_w1_Fx__1 = t_11 / 50.0
 
-        # khepera.bg:17: m[2].el.L*m[2].wh.R*bandwidth/(m[2].ge.N*m[2].el.k)
-        t_14 = p.m__2__el__L * p.m__2__wh__R * bandwidth / p.m__2__ge__N / p.m__2__el__k
+        # khepera.bg:17: r1_w2: factor of m[1].wh.ws
+        c.r1_w2_m__1__wh__ws = t_2 / 50.0
 
-        # khepera.bg:17: m[1].el.Re*m[1].wh.Js*bandwidth/(m[1].ge.N*m[1].el.k)
-        t_15 = p.m__1__el__Re * p.m__1__wh__Js * bandwidth / p.m__1__ge__N / p.m__1__el__k
-
-        # khepera.bg:17: m[1].el.Re*m[1].me.Je*bandwidth/m[1].el.k
-        t_16 = p.m__1__el__Re * p.m__1__me__Je * bandwidth / p.m__1__el__k
-
-        # khepera.bg:17: m[1].el.k*bandwidth*(m[1].el.Re*m[1].me.Je/m[1].el.k^2 +
-        # m[1].el.L*m[1].me.fe/m[1].el.k^2)
-        t_17 = (
-            p.m__1__el__k * bandwidth
-                * (p.m__1__el__Re * p.m__1__me__Je / p.m__1__el__k / p.m__1__el__k
-                + p.m__1__el__L * p.m__1__me__fe / p.m__1__el__k / p.m__1__el__k)
-        )
-
-        # khepera.bg:17: m[1].el.k*bandwidth*(m[1].el.Re*m[1].wh.Js/(m[1].ge.N*m[1].el.k^2) +
-        # m[1].el.L*m[1].wh ...
-        t_18 = (
-            p.m__1__el__k * bandwidth
+        # khepera.bg:17: r1_w2: factor of m[1].wh.ws'
+        c.r1_w2_w1_m__1__wh__ws = (
+            p.m__1__el__k * w
                 * (p.m__1__el__Re * p.m__1__wh__Js / p.m__1__ge__N / p.m__1__el__k / p.m__1__el__k
                 + p.m__1__el__L * p.m__1__wh__fs / p.m__1__ge__N / p.m__1__el__k / p.m__1__el__k)
+                / 50.0
         )
 
-        # khepera.bg:17: m[1].el.L*m[1].me.fe*bandwidth/m[1].el.k
-        t_19 = p.m__1__el__L * p.m__1__me__fe * bandwidth / p.m__1__el__k
+        # khepera.bg:17: r1_w2: factor of m[1].wh.ws''
+        c.r1_w2_w2_m__1__wh__ws = t_10 / 50.0
 
-        # khepera.bg:17: m[1].el.L*m[1].wh.fs*bandwidth/(m[1].ge.N*m[1].el.k)
-        t_20 = p.m__1__el__L * p.m__1__wh__fs * bandwidth / p.m__1__ge__N / p.m__1__el__k
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_8 / 6.0
 
-        # khepera.bg:17: m[1].el.k^2*bandwidth*(-2*m[1].el.L*m[1].me.fe/m[1].el.k^3 -
-        # 2*m[1].el.Re*m[1].me.Je/m ...
-        t_21 = (
-            p.m__1__el__k * p.m__1__el__k * bandwidth
+        # khepera.bg:17: r1_w3: factor of m[1].me.we
+        c.r1_w3_m__1__me__we = t / 10.0
+
+        # khepera.bg:17: r1_w3: factor of m[1].me.we'
+        c.r1_w3_w1_m__1__me__we = t_17 / 10.0
+
+        # khepera.bg:17: r1_w4: factor of m[1].wh.ws
+        c.r1_w4_m__1__wh__ws = t_2 / 10.0
+
+        # khepera.bg:17: r1_w4: factor of m[1].wh.ws'
+        c.r1_w4_w1_m__1__wh__ws = t_18 / 10.0
+
+        # khepera.bg:17: r1_w5: factor of m[1].me.we
+        c.r1_w5_m__1__me__we = t / 730.0
+
+        # khepera.bg:17: r1_w5: factor of m[1].me.we'
+        c.r1_w5_w1_m__1__me__we = t_16 / 730.0
+
+        # khepera.bg:17: r1_w5: factor of m[1].wh.ws
+        c.r1_w5_m__1__wh__ws = t_2 / 730.0
+
+        # khepera.bg:17: r1_w5: factor of m[1].wh.ws'
+        c.r1_w5_w1_m__1__wh__ws = t_15 / 730.0
+
+        # khepera.bg:17: r1_w5: factor of Fx[1]
+        c.r1_w5_Fx__1 = t_3 / 730.0
+
+        # khepera.bg:17: r1_w6: factor of m[1].me.we
+        c.r1_w6_m__1__me__we = t / 146.0
+
+        # khepera.bg:17: r1_w7: factor of m[1].wh.ws
+        c.r1_w7_m__1__wh__ws = t_2 / 146.0
+
+        # khepera.bg:17: r1_w8: factor of m[1].me.we
+        c.r1_w8_m__1__me__we = t / 1825.0
+
+        # khepera.bg:17: r1_w8: factor of m[1].me.we'
+        c.r1_w8_w1_m__1__me__we = (
+            p.m__1__el__k * p.m__1__el__k * w
                 * (-2.0 * p.m__1__el__L * p.m__1__me__fe / p.m__1__el__k / p.m__1__el__k
                     / p.m__1__el__k
                 - 2.0 * p.m__1__el__Re * p.m__1__me__Je / p.m__1__el__k / p.m__1__el__k
                     / p.m__1__el__k)
+                / 3650.0
         )
 
-        # khepera.bg:17: m[1].el.k^2*bandwidth*(-2*m[1].el.L*m[1].wh.fs/(m[1].ge.N*m[1].el.k^3) -
-        # 2*m[1].el.Re* ...
-        t_22 = (
-            p.m__1__el__k * p.m__1__el__k * bandwidth
+        # khepera.bg:17: r1_w8: factor of m[1].me.we''
+        c.r1_w8_w2_m__1__me__we = t_9 / 1825.0
+
+        # khepera.bg:17: r1_w8: factor of m[1].wh.ws
+        c.r1_w8_m__1__wh__ws = t_2 / 1825.0
+
+        # khepera.bg:17: r1_w8: factor of m[1].wh.ws'
+        c.r1_w8_w1_m__1__wh__ws = (
+            p.m__1__el__k * p.m__1__el__k * w
                 * (-2.0 * p.m__1__el__L * p.m__1__wh__fs / p.m__1__ge__N / p.m__1__el__k
                     / p.m__1__el__k / p.m__1__el__k
                 - 2.0 * p.m__1__el__Re * p.m__1__wh__Js / p.m__1__ge__N / p.m__1__el__k
                     / p.m__1__el__k / p.m__1__el__k)
+                / 3650.0
         )
 
-        # khepera.bg:17: m[2].el.Re*m[2].wh.Js*bandwidth/(m[2].ge.N*m[2].el.k)
-        t_23 = p.m__2__el__Re * p.m__2__wh__Js * bandwidth / p.m__2__ge__N / p.m__2__el__k
+        # khepera.bg:17: r1_w8: factor of m[1].wh.ws''
+        c.r1_w8_w2_m__1__wh__ws = t_10 / 1825.0
 
-        # khepera.bg:17: m[2].el.Re*m[2].me.Je*bandwidth/m[2].el.k
-        t_24 = p.m__2__el__Re * p.m__2__me__Je * bandwidth / p.m__2__el__k
+        # khepera.bg:17: r1_w8: factor of Fx[1]
+        c.r1_w8_Fx__1 = t_3 / 1825.0
 
-        # khepera.bg:17: m[2].el.k*bandwidth*(m[2].el.Re*m[2].me.Je/m[2].el.k^2 +
-        # m[2].el.L*m[2].me.fe/m[2].el.k^2)
-        t_25 = (
-            p.m__2__el__k * bandwidth
-                * (p.m__2__el__Re * p.m__2__me__Je / p.m__2__el__k / p.m__2__el__k
-                + p.m__2__el__L * p.m__2__me__fe / p.m__2__el__k / p.m__2__el__k)
+        # khepera.bg:17: r1_w8: factor of Fx[1]'
+        c.r1_w8_w1_Fx__1 = t_11 / 1825.0
+
+        # khepera.bg:17: r1_w9: factor of m[1].me.we
+        c.r1_w9_m__1__me__we = t / 365.0
+
+        # khepera.bg:17: r1_w9: factor of m[1].me.we'
+        c.r1_w9_w1_m__1__me__we = t_17 / 365.0
+
+        # khepera.bg:17: r1_w10: factor of m[1].wh.ws
+        c.r1_w10_m__1__wh__ws = t_2 / 365.0
+
+        # khepera.bg:17: r1_w10: factor of m[1].wh.ws'
+        c.r1_w10_w1_m__1__wh__ws = t_18 / 365.0
+
+        # khepera.bg:17: r3_w1: factor of Fx[2]
+        c.r3_w1_Fx__2 = t_6 / 20.0
+
+        # khepera.bg:17: r3_w1: factor of m[2].wh.ws
+        c.r3_w1_m__2__wh__ws = t_5 / 20.0
+
+        # khepera.bg:17: r3_w1: factor of m[2].wh.ws'
+        c.r3_w1_w1_m__2__wh__ws = t_19 / 20.0
+
+        # khepera.bg:17: r3_w1: factor of m[2].me.we
+        c.r3_w1_m__2__me__we = t_4 / 20.0
+
+        # khepera.bg:17: r3_w1: factor of m[2].me.we'
+        c.r3_w1_w1_m__2__me__we = t_20 / 20.0
+
+        # khepera.bg:17: r3_w2: factor of m[2].me.we
+        c.r3_w2_m__2__me__we = (
+            p.m__2__el__k * (p.m__2__el__Re * p.m__2__me__fe / p.m__2__el__k / p.m__2__el__k
+                - 1.0) / 50.0
         )
 
-        # khepera.bg:17: m[2].el.k*bandwidth*(m[2].el.Re*m[2].wh.Js/(m[2].ge.N*m[2].el.k^2) +
-        # m[2].el.L*m[2].wh ...
-        t_26 = (
-            p.m__2__el__k * bandwidth
+        # khepera.bg:17: r3_w2: factor of m[2].me.we'
+        c.r3_w2_w1_m__2__me__we = (
+            p.m__2__el__k * w * (p.m__2__el__Re * p.m__2__me__Je / p.m__2__el__k / p.m__2__el__k
+                + p.m__2__el__L * p.m__2__me__fe / p.m__2__el__k / p.m__2__el__k) / 50.0
+        )
+
+        # khepera.bg:17: r3_w2: factor of m[2].me.we''
+        c.r3_w2_w2_m__2__me__we = t_12 / 50.0
+
+        # khepera.bg:17: r3_w2: factor of Fx[2]
+        c.r3_w2_Fx__2 = t_6 / 50.0
+
+        # khepera.bg:17: r3_w2: factor of Fx[2]'
+        c.r3_w2_w1_Fx__2 = t_14 / 50.0
+
+        # khepera.bg:17: r3_w2: factor of m[2].wh.ws
+        c.r3_w2_m__2__wh__ws = t_5 / 50.0
+
+        # khepera.bg:17: r3_w2: factor of m[2].wh.ws'
+        c.r3_w2_w1_m__2__wh__ws = (
+            p.m__2__el__k * w
                 * (p.m__2__el__Re * p.m__2__wh__Js / p.m__2__ge__N / p.m__2__el__k / p.m__2__el__k
                 + p.m__2__el__L * p.m__2__wh__fs / p.m__2__ge__N / p.m__2__el__k / p.m__2__el__k)
+                / 50.0
         )
 
-        # khepera.bg:17: m[2].el.L*m[2].me.fe*bandwidth/m[2].el.k
-        t_27 = p.m__2__el__L * p.m__2__me__fe * bandwidth / p.m__2__el__k
+        # khepera.bg:17: r3_w2: factor of m[2].wh.ws''
+        c.r3_w2_w2_m__2__wh__ws = t_13 / 50.0
 
-        # khepera.bg:17: m[2].el.L*m[2].wh.fs*bandwidth/(m[2].ge.N*m[2].el.k)
-        t_28 = p.m__2__el__L * p.m__2__wh__fs * bandwidth / p.m__2__ge__N / p.m__2__el__k
+        # khepera.bg:17: r3_w3: factor of m[2].me.we
+        c.r3_w3_m__2__me__we = t_4 / 10.0
 
-        # khepera.bg:17: m[2].el.k^2*bandwidth*(-2*m[2].el.L*m[2].me.fe/m[2].el.k^3 -
-        # 2*m[2].el.Re*m[2].me.Je/m ...
-        t_29 = (
-            p.m__2__el__k * p.m__2__el__k * bandwidth
+        # khepera.bg:17: r3_w3: factor of m[2].me.we'
+        c.r3_w3_w1_m__2__me__we = t_21 / 10.0
+
+        # khepera.bg:17: r3_w4: factor of m[2].wh.ws
+        c.r3_w4_m__2__wh__ws = t_5 / 10.0
+
+        # khepera.bg:17: r3_w4: factor of m[2].wh.ws'
+        c.r3_w4_w1_m__2__wh__ws = t_22 / 10.0
+
+        # khepera.bg:17: r3_w5: factor of m[2].me.we
+        c.r3_w5_m__2__me__we = t_4 / 730.0
+
+        # khepera.bg:17: r3_w5: factor of m[2].me.we'
+        c.r3_w5_w1_m__2__me__we = t_20 / 730.0
+
+        # khepera.bg:17: r3_w5: factor of m[2].wh.ws
+        c.r3_w5_m__2__wh__ws = t_5 / 730.0
+
+        # khepera.bg:17: r3_w5: factor of m[2].wh.ws'
+        c.r3_w5_w1_m__2__wh__ws = t_19 / 730.0
+
+        # khepera.bg:17: r3_w5: factor of Fx[2]
+        c.r3_w5_Fx__2 = t_6 / 730.0
+
+        # khepera.bg:17: r3_w6: factor of m[2].me.we
+        c.r3_w6_m__2__me__we = t_4 / 146.0
+
+        # khepera.bg:17: r3_w7: factor of m[2].wh.ws
+        c.r3_w7_m__2__wh__ws = t_5 / 146.0
+
+        # khepera.bg:17: r3_w8: factor of m[2].me.we
+        c.r3_w8_m__2__me__we = t_4 / 1825.0
+
+        # khepera.bg:17: r3_w8: factor of m[2].me.we'
+        c.r3_w8_w1_m__2__me__we = (
+            p.m__2__el__k * p.m__2__el__k * w
                 * (-2.0 * p.m__2__el__L * p.m__2__me__fe / p.m__2__el__k / p.m__2__el__k
                     / p.m__2__el__k
                 - 2.0 * p.m__2__el__Re * p.m__2__me__Je / p.m__2__el__k / p.m__2__el__k
                     / p.m__2__el__k)
+                / 3650.0
         )
 
-        # khepera.bg:17: m[2].el.k^2*bandwidth*(-2*m[2].el.L*m[2].wh.fs/(m[2].ge.N*m[2].el.k^3) -
-        # 2*m[2].el.Re* ...
-        t_30 = (
-            p.m__2__el__k * p.m__2__el__k * bandwidth
+        # khepera.bg:17: r3_w8: factor of m[2].me.we''
+        c.r3_w8_w2_m__2__me__we = t_12 / 1825.0
+
+        # khepera.bg:17: r3_w8: factor of m[2].wh.ws
+        c.r3_w8_m__2__wh__ws = t_5 / 1825.0
+
+        # khepera.bg:17: r3_w8: factor of m[2].wh.ws'
+        c.r3_w8_w1_m__2__wh__ws = (
+            p.m__2__el__k * p.m__2__el__k * w
                 * (-2.0 * p.m__2__el__L * p.m__2__wh__fs / p.m__2__ge__N / p.m__2__el__k
                     / p.m__2__el__k / p.m__2__el__k
                 - 2.0 * p.m__2__el__Re * p.m__2__wh__Js / p.m__2__ge__N / p.m__2__el__k
                     / p.m__2__el__k / p.m__2__el__k)
+                / 3650.0
         )
 
-        # khepera.bg:17: r1_w1: factor of Fx[1] in stage 3
-        c.r1_w1_v3_Fx__1 = t_3 / 20.0
+        # khepera.bg:17: r3_w8: factor of m[2].wh.ws''
+        c.r3_w8_w2_m__2__wh__ws = t_13 / 1825.0
 
-        # khepera.bg:17: r1_w1: factor of m[1].wh.ws in stage 2
-        c.r1_w1_v2_m__1__wh__ws = t_15 / 20.0
+        # khepera.bg:17: r3_w8: factor of Fx[2]
+        c.r3_w8_Fx__2 = t_6 / 1825.0
 
-        # khepera.bg:17: r1_w1: factor of m[1].wh.ws in stage 3
-        c.r1_w1_v3_m__1__wh__ws = t_15 / 20.0 - t_2 / 20.0
+        # khepera.bg:17: r3_w8: factor of Fx[2]'
+        c.r3_w8_w1_Fx__2 = t_14 / 1825.0
 
-        # khepera.bg:17: r1_w1: factor of m[1].me.we in stage 2
-        c.r1_w1_v2_m__1__me__we = t_16 / 20.0
+        # khepera.bg:17: r3_w9: factor of m[2].me.we
+        c.r3_w9_m__2__me__we = t_4 / 365.0
 
-        # khepera.bg:17: r1_w1: factor of m[1].me.we in stage 3
-        c.r1_w1_v3_m__1__me__we = t_16 / 20.0 - t / 20.0
+        # khepera.bg:17: r3_w9: factor of m[2].me.we'
+        c.r3_w9_w1_m__2__me__we = t_21 / 365.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_7
+        # khepera.bg:17: r3_w10: factor of m[2].wh.ws
+        c.r3_w10_m__2__wh__ws = t_5 / 365.0
 
-        # filter: weight of the new sample
-        c.b0 = t_8
-
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_7 - t_8
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_8
-
-        # khepera.bg:17: r1_w2: factor of m[1].me.we in stage 1
-        c.r1_w2_v1_m__1__me__we = t_9 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of m[1].me.we in stage 2
-        c.r1_w2_v2_m__1__me__we = t_17 / 50.0 - t_9 / 25.0
-
-        # khepera.bg:17: r1_w2: factor of m[1].me.we in stage 3
-        c.r1_w2_v3_m__1__me__we = (
-            t_9 / 50.0
-            + p.m__1__el__k * (p.m__1__el__Re * p.m__1__me__fe / p.m__1__el__k / p.m__1__el__k
-                - 1.0) / 50.0
-            - t_17 / 50.0
-        )
-
-        # khepera.bg:17: r1_w2: factor of Fx[1] in stage 2
-        c.r1_w2_v2_Fx__1 = t_11 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of Fx[1] in stage 3
-        c.r1_w2_v3_Fx__1 = t_3 / 50.0 - t_11 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of m[1].wh.ws in stage 1
-        c.r1_w2_v1_m__1__wh__ws = t_10 / 50.0
-
-        # khepera.bg:17: r1_w2: factor of m[1].wh.ws in stage 2
-        c.r1_w2_v2_m__1__wh__ws = t_18 / 50.0 - t_10 / 25.0
-
-        # khepera.bg:17: r1_w2: factor of m[1].wh.ws in stage 3
-        c.r1_w2_v3_m__1__wh__ws = t_2 / 50.0 + t_10 / 50.0 - t_18 / 50.0
-
-        # khepera.bg:17: r1_w3: factor of m[1].me.we in stage 2
-        c.r1_w3_v2_m__1__me__we = t_19 / 10.0
-
-        # khepera.bg:17: r1_w3: factor of m[1].me.we in stage 3
-        c.r1_w3_v3_m__1__me__we = t_19 / 10.0 - t / 10.0
-
-        # khepera.bg:17: r1_w4: factor of m[1].wh.ws in stage 2
-        c.r1_w4_v2_m__1__wh__ws = t_20 / 10.0
-
-        # khepera.bg:17: r1_w4: factor of m[1].wh.ws in stage 3
-        c.r1_w4_v3_m__1__wh__ws = t_20 / 10.0 - t_2 / 10.0
-
-        # khepera.bg:17: r1_w5: factor of m[1].me.we in stage 2
-        c.r1_w5_v2_m__1__me__we = t_16 / 730.0
-
-        # khepera.bg:17: r1_w5: factor of m[1].me.we in stage 3
-        c.r1_w5_v3_m__1__me__we = t / 730.0 - t_16 / 730.0
-
-        # khepera.bg:17: r1_w5: factor of m[1].wh.ws in stage 2
-        c.r1_w5_v2_m__1__wh__ws = t_15 / 730.0
-
-        # khepera.bg:17: r1_w5: factor of m[1].wh.ws in stage 3
-        c.r1_w5_v3_m__1__wh__ws = t_2 / 730.0 - t_15 / 730.0
-
-        # khepera.bg:17: r1_w5: factor of Fx[1] in stage 3
-        c.r1_w5_v3_Fx__1 = t_3 / 730.0
-
-        # khepera.bg:17: r1_w6: factor of m[1].me.we in stage 3
-        c.r1_w6_v3_m__1__me__we = t / 146.0
-
-        # khepera.bg:17: r1_w7: factor of m[1].wh.ws in stage 3
-        c.r1_w7_v3_m__1__wh__ws = t_2 / 146.0
-
-        # khepera.bg:17: r1_w8: factor of m[1].me.we in stage 1
-        c.r1_w8_v1_m__1__me__we = t_9 / 1825.0
-
-        # khepera.bg:17: r1_w8: factor of m[1].me.we in stage 2
-        c.r1_w8_v2_m__1__me__we = 2.0 * t_9 / 1825.0 + t_21 / 3650.0
-
-        # khepera.bg:17: r1_w8: factor of m[1].me.we in stage 3
-        c.r1_w8_v3_m__1__me__we = t / 1825.0 + t_9 / 1825.0 + t_21 / 3650.0
-
-        # khepera.bg:17: r1_w8: factor of m[1].wh.ws in stage 1
-        c.r1_w8_v1_m__1__wh__ws = t_10 / 1825.0
-
-        # khepera.bg:17: r1_w8: factor of m[1].wh.ws in stage 2
-        c.r1_w8_v2_m__1__wh__ws = 2.0 * t_10 / 1825.0 + t_22 / 3650.0
-
-        # khepera.bg:17: r1_w8: factor of m[1].wh.ws in stage 3
-        c.r1_w8_v3_m__1__wh__ws = t_2 / 1825.0 + t_10 / 1825.0 + t_22 / 3650.0
-
-        # khepera.bg:17: r1_w8: factor of Fx[1] in stage 2
-        c.r1_w8_v2_Fx__1 = t_11 / 1825.0
-
-        # khepera.bg:17: r1_w8: factor of Fx[1] in stage 3
-        c.r1_w8_v3_Fx__1 = t_11 / 1825.0 - t_3 / 1825.0
-
-        # khepera.bg:17: r1_w9: factor of m[1].me.we in stage 2
-        c.r1_w9_v2_m__1__me__we = t_19 / 365.0
-
-        # khepera.bg:17: r1_w9: factor of m[1].me.we in stage 3
-        c.r1_w9_v3_m__1__me__we = t / 365.0 - t_19 / 365.0
-
-        # khepera.bg:17: r1_w10: factor of m[1].wh.ws in stage 2
-        c.r1_w10_v2_m__1__wh__ws = t_20 / 365.0
-
-        # khepera.bg:17: r1_w10: factor of m[1].wh.ws in stage 3
-        c.r1_w10_v3_m__1__wh__ws = t_2 / 365.0 - t_20 / 365.0
-
-        # khepera.bg:17: r3_w1: factor of Fx[2] in stage 3
-        c.r3_w1_v3_Fx__2 = t_6 / 20.0
-
-        # khepera.bg:17: r3_w1: factor of m[2].wh.ws in stage 2
-        c.r3_w1_v2_m__2__wh__ws = t_23 / 20.0
-
-        # khepera.bg:17: r3_w1: factor of m[2].wh.ws in stage 3
-        c.r3_w1_v3_m__2__wh__ws = t_23 / 20.0 - t_5 / 20.0
-
-        # khepera.bg:17: r3_w1: factor of m[2].me.we in stage 2
-        c.r3_w1_v2_m__2__me__we = t_24 / 20.0
-
-        # khepera.bg:17: r3_w1: factor of m[2].me.we in stage 3
-        c.r3_w1_v3_m__2__me__we = t_24 / 20.0 - t_4 / 20.0
-
-        # khepera.bg:17: r3_w2: factor of m[2].me.we in stage 1
-        c.r3_w2_v1_m__2__me__we = t_12 / 50.0
-
-        # khepera.bg:17: r3_w2: factor of m[2].me.we in stage 2
-        c.r3_w2_v2_m__2__me__we = t_25 / 50.0 - t_12 / 25.0
-
-        # khepera.bg:17: r3_w2: factor of m[2].me.we in stage 3
-        c.r3_w2_v3_m__2__me__we = (
-            t_12 / 50.0
-            + p.m__2__el__k * (p.m__2__el__Re * p.m__2__me__fe / p.m__2__el__k / p.m__2__el__k
-                - 1.0) / 50.0
-            - t_25 / 50.0
-        )
-
-        # khepera.bg:17: r3_w2: factor of Fx[2] in stage 2
-        c.r3_w2_v2_Fx__2 = t_14 / 50.0
-
-        # khepera.bg:17: r3_w2: factor of Fx[2] in stage 3
-        c.r3_w2_v3_Fx__2 = t_6 / 50.0 - t_14 / 50.0
-
-        # khepera.bg:17: r3_w2: factor of m[2].wh.ws in stage 1
-        c.r3_w2_v1_m__2__wh__ws = t_13 / 50.0
-
-        # khepera.bg:17: r3_w2: factor of m[2].wh.ws in stage 2
-        c.r3_w2_v2_m__2__wh__ws = t_26 / 50.0 - t_13 / 25.0
-
-        # khepera.bg:17: r3_w2: factor of m[2].wh.ws in stage 3
-        c.r3_w2_v3_m__2__wh__ws = t_5 / 50.0 + t_13 / 50.0 - t_26 / 50.0
-
-        # khepera.bg:17: r3_w3: factor of m[2].me.we in stage 2
-        c.r3_w3_v2_m__2__me__we = t_27 / 10.0
-
-        # khepera.bg:17: r3_w3: factor of m[2].me.we in stage 3
-        c.r3_w3_v3_m__2__me__we = t_27 / 10.0 - t_4 / 10.0
-
-        # khepera.bg:17: r3_w4: factor of m[2].wh.ws in stage 2
-        c.r3_w4_v2_m__2__wh__ws = t_28 / 10.0
-
-        # khepera.bg:17: r3_w4: factor of m[2].wh.ws in stage 3
-        c.r3_w4_v3_m__2__wh__ws = t_28 / 10.0 - t_5 / 10.0
-
-        # khepera.bg:17: r3_w5: factor of m[2].me.we in stage 2
-        c.r3_w5_v2_m__2__me__we = t_24 / 730.0
-
-        # khepera.bg:17: r3_w5: factor of m[2].me.we in stage 3
-        c.r3_w5_v3_m__2__me__we = t_4 / 730.0 - t_24 / 730.0
-
-        # khepera.bg:17: r3_w5: factor of m[2].wh.ws in stage 2
-        c.r3_w5_v2_m__2__wh__ws = t_23 / 730.0
-
-        # khepera.bg:17: r3_w5: factor of m[2].wh.ws in stage 3
-        c.r3_w5_v3_m__2__wh__ws = t_5 / 730.0 - t_23 / 730.0
-
-        # khepera.bg:17: r3_w5: factor of Fx[2] in stage 3
-        c.r3_w5_v3_Fx__2 = t_6 / 730.0
-
-        # khepera.bg:17: r3_w6: factor of m[2].me.we in stage 3
-        c.r3_w6_v3_m__2__me__we = t_4 / 146.0
-
-        # khepera.bg:17: r3_w7: factor of m[2].wh.ws in stage 3
-        c.r3_w7_v3_m__2__wh__ws = t_5 / 146.0
-
-        # khepera.bg:17: r3_w8: factor of m[2].me.we in stage 1
-        c.r3_w8_v1_m__2__me__we = t_12 / 1825.0
-
-        # khepera.bg:17: r3_w8: factor of m[2].me.we in stage 2
-        c.r3_w8_v2_m__2__me__we = 2.0 * t_12 / 1825.0 + t_29 / 3650.0
-
-        # khepera.bg:17: r3_w8: factor of m[2].me.we in stage 3
-        c.r3_w8_v3_m__2__me__we = t_4 / 1825.0 + t_12 / 1825.0 + t_29 / 3650.0
-
-        # khepera.bg:17: r3_w8: factor of m[2].wh.ws in stage 1
-        c.r3_w8_v1_m__2__wh__ws = t_13 / 1825.0
-
-        # khepera.bg:17: r3_w8: factor of m[2].wh.ws in stage 2
-        c.r3_w8_v2_m__2__wh__ws = 2.0 * t_13 / 1825.0 + t_30 / 3650.0
-
-        # khepera.bg:17: r3_w8: factor of m[2].wh.ws in stage 3
-        c.r3_w8_v3_m__2__wh__ws = t_5 / 1825.0 + t_13 / 1825.0 + t_30 / 3650.0
-
-        # khepera.bg:17: r3_w8: factor of Fx[2] in stage 2
-        c.r3_w8_v2_Fx__2 = t_14 / 1825.0
-
-        # khepera.bg:17: r3_w8: factor of Fx[2] in stage 3
-        c.r3_w8_v3_Fx__2 = t_14 / 1825.0 - t_6 / 1825.0
-
-        # khepera.bg:17: r3_w9: factor of m[2].me.we in stage 2
-        c.r3_w9_v2_m__2__me__we = t_27 / 365.0
-
-        # khepera.bg:17: r3_w9: factor of m[2].me.we in stage 3
-        c.r3_w9_v3_m__2__me__we = t_4 / 365.0 - t_27 / 365.0
-
-        # khepera.bg:17: r3_w10: factor of m[2].wh.ws in stage 2
-        c.r3_w10_v2_m__2__wh__ws = t_28 / 365.0
-
-        # khepera.bg:17: r3_w10: factor of m[2].wh.ws in stage 3
-        c.r3_w10_v3_m__2__wh__ws = t_5 / 365.0 - t_28 / 365.0
+        # khepera.bg:17: r3_w10: factor of m[2].wh.ws'
+        c.r3_w10_w1_m__2__wh__ws = t_22 / 365.0
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = (
-            c.r1_w1_v3_m__1__wh__ws * s.m__1__wh__ws + c.r1_w1_v3_m__1__me__we * s.m__1__me__we
-            - c.r1_w1_v3_Fx__1 * s.Fx__1
+        # khepera.bg:17: r1_w1: terms of order 0
+        r1_w1_g0 = (
+            -c.r1_w1_Fx__1 * s.Fx__1 - c.r1_w1_m__1__wh__ws * s.m__1__wh__ws
+            - c.r1_w1_m__1__me__we * s.m__1__me__we
         )
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = (
+            -c.r1_w1_w1_m__1__wh__ws * s.m__1__wh__ws - c.r1_w1_w1_m__1__me__we * s.m__1__me__we
+        )
+
+        # khepera.bg:17: r1_w1: error of order 0
+        r1_w1_e0 = c.bend1 * r1_w1_g0
+
+        # khepera.bg:17: r1_w1: input of stage 3
+        r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 3, at rest
         r1_w1_y3 = r1_w1_u3
@@ -786,10 +766,7 @@ class Monitor:
         x.r1_w1_s3 = c.rest * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = (
-            r1_w1_y3 - c.r1_w1_v2_m__1__wh__ws * s.m__1__wh__ws
-            - c.r1_w1_v2_m__1__me__we * s.m__1__me__we
-        )
+        r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + 2.0 * r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 2, at rest
         r1_w1_y2 = r1_w1_u2
@@ -798,7 +775,7 @@ class Monitor:
         x.r1_w1_s2 = c.rest * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 1, at rest
         r1_w1_y1 = r1_w1_u1
@@ -809,11 +786,32 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerance of m[1].el.Re can do
         r1_w1 = r1_w1_y1
 
-        # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = (
-            c.r1_w2_v3_m__1__me__we * s.m__1__me__we + c.r1_w2_v3_Fx__1 * s.Fx__1
-            + c.r1_w2_v3_m__1__wh__ws * s.m__1__wh__ws
+        # khepera.bg:17: r1_w2: terms of order 0
+        r1_w2_g0 = (
+            c.r1_w2_m__1__me__we * s.m__1__me__we + c.r1_w2_Fx__1 * s.Fx__1
+            + c.r1_w2_m__1__wh__ws * s.m__1__wh__ws
         )
+
+        # khepera.bg:17: r1_w2: terms of order 1
+        r1_w2_g1 = (
+            c.r1_w2_w1_m__1__me__we * s.m__1__me__we + c.r1_w2_w1_Fx__1 * s.Fx__1
+            + c.r1_w2_w1_m__1__wh__ws * s.m__1__wh__ws
+        )
+
+        # khepera.bg:17: r1_w2: error of order 0
+        r1_w2_e0 = c.bend2 * r1_w2_g0
+
+        # khepera.bg:17: r1_w2: degree 2
+        r1_w2_d2 = (
+            c.r1_w2_w2_m__1__me__we * s.m__1__me__we + c.r1_w2_w2_m__1__wh__ws * s.m__1__wh__ws
+            - r1_w2_e0
+        )
+
+        # khepera.bg:17: r1_w2: error of order 1
+        r1_w2_e1 = c.bend1 * r1_w2_g1
+
+        # khepera.bg:17: r1_w2: input of stage 3
+        r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1
 
         # khepera.bg:17: r1_w2: stage 3, at rest
         r1_w2_y3 = r1_w2_u3
@@ -822,10 +820,7 @@ class Monitor:
         x.r1_w2_s3 = c.rest * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = (
-            r1_w2_y3 + c.r1_w2_v2_m__1__me__we * s.m__1__me__we + c.r1_w2_v2_Fx__1 * s.Fx__1
-            + c.r1_w2_v2_m__1__wh__ws * s.m__1__wh__ws
-        )
+        r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - 2.0 * r1_w2_d2 - 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 2, at rest
         r1_w2_y2 = r1_w2_u2
@@ -834,10 +829,7 @@ class Monitor:
         x.r1_w2_s2 = c.rest * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = (
-            r1_w2_y2 + c.r1_w2_v1_m__1__me__we * s.m__1__me__we
-            + c.r1_w2_v1_m__1__wh__ws * s.m__1__wh__ws
-        )
+        r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 1, at rest
         r1_w2_y1 = r1_w2_u1
@@ -846,10 +838,19 @@ class Monitor:
         x.r1_w2_s1 = c.rest * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].el.k can do
-        r1_w2 = r1_w2_y1
+        r1_w2 = r1_w2_y1 - r1_w2_e1
+
+        # khepera.bg:17: r1_w3: terms of order 0
+        r1_w3_g0 = -c.r1_w3_m__1__me__we * s.m__1__me__we
+
+        # khepera.bg:17: r1_w3: degree 1
+        r1_w3_d1 = c.r1_w3_w1_m__1__me__we * s.m__1__me__we
+
+        # khepera.bg:17: r1_w3: error of order 0
+        r1_w3_e0 = c.bend1 * r1_w3_g0
 
         # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = c.r1_w3_v3_m__1__me__we * s.m__1__me__we
+        r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 3, at rest
         r1_w3_y3 = r1_w3_u3
@@ -858,7 +859,7 @@ class Monitor:
         x.r1_w3_s3 = c.rest * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = r1_w3_y3 - c.r1_w3_v2_m__1__me__we * s.m__1__me__we
+        r1_w3_u2 = r1_w3_y3 + 2.0 * r1_w3_e0 - r1_w3_d1
 
         # khepera.bg:17: r1_w3: stage 2, at rest
         r1_w3_y2 = r1_w3_u2
@@ -867,7 +868,7 @@ class Monitor:
         x.r1_w3_s2 = c.rest * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = r1_w3_y2
+        r1_w3_u1 = r1_w3_y2 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 1, at rest
         r1_w3_y1 = r1_w3_u1
@@ -878,8 +879,17 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerance of m[1].me.fe can do
         r1_w3 = r1_w3_y1
 
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_m__1__wh__ws * s.m__1__wh__ws
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = c.r1_w4_w1_m__1__wh__ws * s.m__1__wh__ws
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend1 * r1_w4_g0
+
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = c.r1_w4_v3_m__1__wh__ws * s.m__1__wh__ws
+        r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 3, at rest
         r1_w4_y3 = r1_w4_u3
@@ -888,7 +898,7 @@ class Monitor:
         x.r1_w4_s3 = c.rest * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = r1_w4_y3 - c.r1_w4_v2_m__1__wh__ws * s.m__1__wh__ws
+        r1_w4_u2 = r1_w4_y3 + 2.0 * r1_w4_e0 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 2, at rest
         r1_w4_y2 = r1_w4_u2
@@ -897,7 +907,7 @@ class Monitor:
         x.r1_w4_s2 = c.rest * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 1, at rest
         r1_w4_y1 = r1_w4_u1
@@ -908,11 +918,22 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerance of m[1].wh.fs can do
         r1_w4 = r1_w4_y1
 
-        # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = (
-            c.r1_w5_v3_m__1__me__we * s.m__1__me__we + c.r1_w5_v3_m__1__wh__ws * s.m__1__wh__ws
-            + c.r1_w5_v3_Fx__1 * s.Fx__1
+        # khepera.bg:17: r1_w5: terms of order 0
+        r1_w5_g0 = (
+            c.r1_w5_m__1__me__we * s.m__1__me__we + c.r1_w5_m__1__wh__ws * s.m__1__wh__ws
+            + c.r1_w5_Fx__1 * s.Fx__1
         )
+
+        # khepera.bg:17: r1_w5: degree 1
+        r1_w5_d1 = (
+            c.r1_w5_w1_m__1__me__we * s.m__1__me__we + c.r1_w5_w1_m__1__wh__ws * s.m__1__wh__ws
+        )
+
+        # khepera.bg:17: r1_w5: error of order 0
+        r1_w5_e0 = c.bend1 * r1_w5_g0
+
+        # khepera.bg:17: r1_w5: input of stage 3
+        r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 3, at rest
         r1_w5_y3 = r1_w5_u3
@@ -921,10 +942,7 @@ class Monitor:
         x.r1_w5_s3 = c.rest * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
-        r1_w5_u2 = (
-            r1_w5_y3 + c.r1_w5_v2_m__1__me__we * s.m__1__me__we
-            + c.r1_w5_v2_m__1__wh__ws * s.m__1__wh__ws
-        )
+        r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + 2.0 * r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 2, at rest
         r1_w5_y2 = r1_w5_u2
@@ -933,7 +951,7 @@ class Monitor:
         x.r1_w5_s2 = c.rest * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
-        r1_w5_u1 = r1_w5_y2
+        r1_w5_u1 = r1_w5_y2 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 1, at rest
         r1_w5_y1 = r1_w5_u1
@@ -945,7 +963,7 @@ class Monitor:
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = -c.r1_w6_v3_m__1__me__we * s.m__1__me__we
+        r1_w6_u3 = -c.r1_w6_m__1__me__we * s.m__1__me__we
 
         # khepera.bg:17: r1_w6: stage 3, at rest
         r1_w6_y3 = r1_w6_u3
@@ -975,7 +993,7 @@ class Monitor:
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = -c.r1_w7_v3_m__1__wh__ws * s.m__1__wh__ws
+        r1_w7_u3 = -c.r1_w7_m__1__wh__ws * s.m__1__wh__ws
 
         # khepera.bg:17: r1_w7: stage 3, at rest
         r1_w7_y3 = r1_w7_u3
@@ -1004,11 +1022,32 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].wh.fs can do together
         r1_w7 = r1_w7_y1
 
-        # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = (
-            c.r1_w8_v3_Fx__1 * s.Fx__1 - c.r1_w8_v3_m__1__me__we * s.m__1__me__we
-            - c.r1_w8_v3_m__1__wh__ws * s.m__1__wh__ws
+        # khepera.bg:17: r1_w8: terms of order 0
+        r1_w8_g0 = (
+            -c.r1_w8_m__1__me__we * s.m__1__me__we - c.r1_w8_m__1__wh__ws * s.m__1__wh__ws
+            - c.r1_w8_Fx__1 * s.Fx__1
         )
+
+        # khepera.bg:17: r1_w8: terms of order 1
+        r1_w8_g1 = (
+            c.r1_w8_w1_m__1__me__we * s.m__1__me__we + c.r1_w8_w1_m__1__wh__ws * s.m__1__wh__ws
+            - c.r1_w8_w1_Fx__1 * s.Fx__1
+        )
+
+        # khepera.bg:17: r1_w8: error of order 0
+        r1_w8_e0 = c.bend2 * r1_w8_g0
+
+        # khepera.bg:17: r1_w8: degree 2
+        r1_w8_d2 = (
+            -c.r1_w8_w2_m__1__me__we * s.m__1__me__we - c.r1_w8_w2_m__1__wh__ws * s.m__1__wh__ws
+            - r1_w8_e0
+        )
+
+        # khepera.bg:17: r1_w8: error of order 1
+        r1_w8_e1 = c.bend1 * r1_w8_g1
+
+        # khepera.bg:17: r1_w8: input of stage 3
+        r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1
 
         # khepera.bg:17: r1_w8: stage 3, at rest
         r1_w8_y3 = r1_w8_u3
@@ -1017,10 +1056,7 @@ class Monitor:
         x.r1_w8_s3 = c.rest * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
-        r1_w8_u2 = (
-            r1_w8_y3 + c.r1_w8_v2_m__1__me__we * s.m__1__me__we
-            + c.r1_w8_v2_m__1__wh__ws * s.m__1__wh__ws - c.r1_w8_v2_Fx__1 * s.Fx__1
-        )
+        r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - 2.0 * r1_w8_d2 - 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 2, at rest
         r1_w8_y2 = r1_w8_u2
@@ -1029,10 +1065,7 @@ class Monitor:
         x.r1_w8_s2 = c.rest * r1_w8_u2
 
         # khepera.bg:17: r1_w8: input of stage 1
-        r1_w8_u1 = (
-            r1_w8_y2 - c.r1_w8_v1_m__1__me__we * s.m__1__me__we
-            - c.r1_w8_v1_m__1__wh__ws * s.m__1__wh__ws
-        )
+        r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 1, at rest
         r1_w8_y1 = r1_w8_u1
@@ -1041,10 +1074,19 @@ class Monitor:
         x.r1_w8_s1 = c.rest * r1_w8_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do
-        r1_w8 = r1_w8_y1
+        r1_w8 = r1_w8_y1 - r1_w8_e1
+
+        # khepera.bg:17: r1_w9: terms of order 0
+        r1_w9_g0 = c.r1_w9_m__1__me__we * s.m__1__me__we
+
+        # khepera.bg:17: r1_w9: degree 1
+        r1_w9_d1 = c.r1_w9_w1_m__1__me__we * s.m__1__me__we
+
+        # khepera.bg:17: r1_w9: error of order 0
+        r1_w9_e0 = c.bend1 * r1_w9_g0
 
         # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = c.r1_w9_v3_m__1__me__we * s.m__1__me__we
+        r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 3, at rest
         r1_w9_y3 = r1_w9_u3
@@ -1053,7 +1095,7 @@ class Monitor:
         x.r1_w9_s3 = c.rest * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = r1_w9_y3 + c.r1_w9_v2_m__1__me__we * s.m__1__me__we
+        r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + 2.0 * r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 2, at rest
         r1_w9_y2 = r1_w9_u2
@@ -1062,7 +1104,7 @@ class Monitor:
         x.r1_w9_s2 = c.rest * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = r1_w9_y2
+        r1_w9_u1 = r1_w9_y2 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 1, at rest
         r1_w9_y1 = r1_w9_u1
@@ -1073,8 +1115,17 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].me.fe can do together
         r1_w9 = r1_w9_y1
 
+        # khepera.bg:17: r1_w10: terms of order 0
+        r1_w10_g0 = c.r1_w10_m__1__wh__ws * s.m__1__wh__ws
+
+        # khepera.bg:17: r1_w10: degree 1
+        r1_w10_d1 = c.r1_w10_w1_m__1__wh__ws * s.m__1__wh__ws
+
+        # khepera.bg:17: r1_w10: error of order 0
+        r1_w10_e0 = c.bend1 * r1_w10_g0
+
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = c.r1_w10_v3_m__1__wh__ws * s.m__1__wh__ws
+        r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 3, at rest
         r1_w10_y3 = r1_w10_u3
@@ -1083,7 +1134,7 @@ class Monitor:
         x.r1_w10_s3 = c.rest * r1_w10_u3
 
         # khepera.bg:17: r1_w10: input of stage 2
-        r1_w10_u2 = r1_w10_y3 + c.r1_w10_v2_m__1__wh__ws * s.m__1__wh__ws
+        r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + 2.0 * r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 2, at rest
         r1_w10_y2 = r1_w10_u2
@@ -1092,7 +1143,7 @@ class Monitor:
         x.r1_w10_s2 = c.rest * r1_w10_u2
 
         # khepera.bg:17: r1_w10: input of stage 1
-        r1_w10_u1 = r1_w10_y2
+        r1_w10_u1 = r1_w10_y2 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 1, at rest
         r1_w10_y1 = r1_w10_u1
@@ -1114,332 +1165,414 @@ class Monitor:
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = (
-            c.r1_w1_v3_m__1__wh__ws * s.m__1__wh__ws + c.r1_w1_v3_m__1__me__we * s.m__1__me__we
-            - c.r1_w1_v3_Fx__1 * s.Fx__1
+        # khepera.bg:17: r1_w1: terms of order 0
+        r1_w1_g0 = (
+            -c.r1_w1_Fx__1 * s.Fx__1 - c.r1_w1_m__1__wh__ws * s.m__1__wh__ws
+            - c.r1_w1_m__1__me__we * s.m__1__me__we
         )
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = (
+            -c.r1_w1_w1_m__1__wh__ws * s.m__1__wh__ws - c.r1_w1_w1_m__1__me__we * s.m__1__me__we
+        )
+
+        # khepera.bg:17: r1_w1: error of order 0
+        r1_w1_e0 = c.bend1 * r1_w1_g0
+
+        # khepera.bg:17: r1_w1: input of stage 3
+        r1_w1_u3 = r1_w1_g0 - r1_w1_d1 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 3
-        r1_w1_y3 = x.r1_w1_s3 + c.b0 * r1_w1_u3
+        r1_w1_y3 = x.r1_w1_s3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: stage 3: memory
-        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b1 * r1_w1_u3
+        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = (
-            r1_w1_y3 - c.r1_w1_v2_m__1__wh__ws * s.m__1__wh__ws
-            - c.r1_w1_v2_m__1__me__we * s.m__1__me__we
-        )
+        r1_w1_u2 = r1_w1_y3 + r1_w1_d1 + 2.0 * r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 2
-        r1_w1_y2 = x.r1_w1_s2 + c.b0 * r1_w1_u2
+        r1_w1_y2 = x.r1_w1_s2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b1 * r1_w1_u2
+        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 1
-        r1_w1_y1 = x.r1_w1_s1 + c.b0 * r1_w1_u1
+        r1_w1_y1 = x.r1_w1_s1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b1 * r1_w1_u1
+        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].el.Re can do
         r1_w1 = r1_w1_y1
 
-        # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = (
-            c.r1_w2_v3_m__1__me__we * s.m__1__me__we + c.r1_w2_v3_Fx__1 * s.Fx__1
-            + c.r1_w2_v3_m__1__wh__ws * s.m__1__wh__ws
+        # khepera.bg:17: r1_w2: terms of order 0
+        r1_w2_g0 = (
+            c.r1_w2_m__1__me__we * s.m__1__me__we + c.r1_w2_Fx__1 * s.Fx__1
+            + c.r1_w2_m__1__wh__ws * s.m__1__wh__ws
         )
+
+        # khepera.bg:17: r1_w2: terms of order 1
+        r1_w2_g1 = (
+            c.r1_w2_w1_m__1__me__we * s.m__1__me__we + c.r1_w2_w1_Fx__1 * s.Fx__1
+            + c.r1_w2_w1_m__1__wh__ws * s.m__1__wh__ws
+        )
+
+        # khepera.bg:17: r1_w2: error of order 0
+        r1_w2_e0 = c.bend2 * r1_w2_g0
+
+        # khepera.bg:17: r1_w2: degree 2
+        r1_w2_d2 = (
+            c.r1_w2_w2_m__1__me__we * s.m__1__me__we + c.r1_w2_w2_m__1__wh__ws * s.m__1__wh__ws
+            - r1_w2_e0
+        )
+
+        # khepera.bg:17: r1_w2: error of order 1
+        r1_w2_e1 = c.bend1 * r1_w2_g1
+
+        # khepera.bg:17: r1_w2: input of stage 3
+        r1_w2_u3 = r1_w2_g0 + r1_w2_d2 + r1_w2_e1 - r1_w2_g1
 
         # khepera.bg:17: r1_w2: stage 3
-        r1_w2_y3 = x.r1_w2_s3 + c.b0 * r1_w2_u3
+        r1_w2_y3 = x.r1_w2_s3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: stage 3: memory
-        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b1 * r1_w2_u3
+        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = (
-            r1_w2_y3 + c.r1_w2_v2_m__1__me__we * s.m__1__me__we + c.r1_w2_v2_Fx__1 * s.Fx__1
-            + c.r1_w2_v2_m__1__wh__ws * s.m__1__wh__ws
-        )
+        r1_w2_u2 = r1_w2_y3 + r1_w2_g1 - 2.0 * r1_w2_d2 - 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 2
-        r1_w2_y2 = x.r1_w2_s2 + c.b0 * r1_w2_u2
+        r1_w2_y2 = x.r1_w2_s2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: stage 2: memory
-        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b1 * r1_w2_u2
+        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = (
-            r1_w2_y2 + c.r1_w2_v1_m__1__me__we * s.m__1__me__we
-            + c.r1_w2_v1_m__1__wh__ws * s.m__1__wh__ws
-        )
+        r1_w2_u1 = r1_w2_y2 + r1_w2_d2 + 3.0 * r1_w2_e1
 
         # khepera.bg:17: r1_w2: stage 1
-        r1_w2_y1 = x.r1_w2_s1 + c.b0 * r1_w2_u1
+        r1_w2_y1 = x.r1_w2_s1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1_w2: stage 1: memory
-        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b1 * r1_w2_u1
+        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].el.k can do
-        r1_w2 = r1_w2_y1
+        r1_w2 = r1_w2_y1 - r1_w2_e1
+
+        # khepera.bg:17: r1_w3: terms of order 0
+        r1_w3_g0 = -c.r1_w3_m__1__me__we * s.m__1__me__we
+
+        # khepera.bg:17: r1_w3: degree 1
+        r1_w3_d1 = c.r1_w3_w1_m__1__me__we * s.m__1__me__we
+
+        # khepera.bg:17: r1_w3: error of order 0
+        r1_w3_e0 = c.bend1 * r1_w3_g0
 
         # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = c.r1_w3_v3_m__1__me__we * s.m__1__me__we
+        r1_w3_u3 = r1_w3_g0 + r1_w3_d1 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 3
-        r1_w3_y3 = x.r1_w3_s3 + c.b0 * r1_w3_u3
+        r1_w3_y3 = x.r1_w3_s3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: stage 3: memory
-        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b1 * r1_w3_u3
+        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = r1_w3_y3 - c.r1_w3_v2_m__1__me__we * s.m__1__me__we
+        r1_w3_u2 = r1_w3_y3 + 2.0 * r1_w3_e0 - r1_w3_d1
 
         # khepera.bg:17: r1_w3: stage 2
-        r1_w3_y2 = x.r1_w3_s2 + c.b0 * r1_w3_u2
+        r1_w3_y2 = x.r1_w3_s2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: stage 2: memory
-        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b1 * r1_w3_u2
+        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = r1_w3_y2
+        r1_w3_u1 = r1_w3_y2 - r1_w3_e0
 
         # khepera.bg:17: r1_w3: stage 1
-        r1_w3_y1 = x.r1_w3_s1 + c.b0 * r1_w3_u1
+        r1_w3_y1 = x.r1_w3_s1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1_w3: stage 1: memory
-        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b1 * r1_w3_u1
+        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].me.fe can do
         r1_w3 = r1_w3_y1
 
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_m__1__wh__ws * s.m__1__wh__ws
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = c.r1_w4_w1_m__1__wh__ws * s.m__1__wh__ws
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend1 * r1_w4_g0
+
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = c.r1_w4_v3_m__1__wh__ws * s.m__1__wh__ws
+        r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 3
-        r1_w4_y3 = x.r1_w4_s3 + c.b0 * r1_w4_u3
+        r1_w4_y3 = x.r1_w4_s3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: stage 3: memory
-        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b1 * r1_w4_u3
+        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = r1_w4_y3 - c.r1_w4_v2_m__1__wh__ws * s.m__1__wh__ws
+        r1_w4_u2 = r1_w4_y3 + 2.0 * r1_w4_e0 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 2
-        r1_w4_y2 = x.r1_w4_s2 + c.b0 * r1_w4_u2
+        r1_w4_y2 = x.r1_w4_s2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: stage 2: memory
-        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b1 * r1_w4_u2
+        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 1
-        r1_w4_y1 = x.r1_w4_s1 + c.b0 * r1_w4_u1
+        r1_w4_y1 = x.r1_w4_s1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1_w4: stage 1: memory
-        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b1 * r1_w4_u1
+        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].wh.fs can do
         r1_w4 = r1_w4_y1
 
-        # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = (
-            c.r1_w5_v3_m__1__me__we * s.m__1__me__we + c.r1_w5_v3_m__1__wh__ws * s.m__1__wh__ws
-            + c.r1_w5_v3_Fx__1 * s.Fx__1
+        # khepera.bg:17: r1_w5: terms of order 0
+        r1_w5_g0 = (
+            c.r1_w5_m__1__me__we * s.m__1__me__we + c.r1_w5_m__1__wh__ws * s.m__1__wh__ws
+            + c.r1_w5_Fx__1 * s.Fx__1
         )
+
+        # khepera.bg:17: r1_w5: degree 1
+        r1_w5_d1 = (
+            c.r1_w5_w1_m__1__me__we * s.m__1__me__we + c.r1_w5_w1_m__1__wh__ws * s.m__1__wh__ws
+        )
+
+        # khepera.bg:17: r1_w5: error of order 0
+        r1_w5_e0 = c.bend1 * r1_w5_g0
+
+        # khepera.bg:17: r1_w5: input of stage 3
+        r1_w5_u3 = r1_w5_g0 - r1_w5_d1 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 3
-        r1_w5_y3 = x.r1_w5_s3 + c.b0 * r1_w5_u3
+        r1_w5_y3 = x.r1_w5_s3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: stage 3: memory
-        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b1 * r1_w5_u3
+        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
-        r1_w5_u2 = (
-            r1_w5_y3 + c.r1_w5_v2_m__1__me__we * s.m__1__me__we
-            + c.r1_w5_v2_m__1__wh__ws * s.m__1__wh__ws
-        )
+        r1_w5_u2 = r1_w5_y3 + r1_w5_d1 + 2.0 * r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 2
-        r1_w5_y2 = x.r1_w5_s2 + c.b0 * r1_w5_u2
+        r1_w5_y2 = x.r1_w5_s2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: stage 2: memory
-        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b1 * r1_w5_u2
+        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
-        r1_w5_u1 = r1_w5_y2
+        r1_w5_u1 = r1_w5_y2 - r1_w5_e0
 
         # khepera.bg:17: r1_w5: stage 1
-        r1_w5_y1 = x.r1_w5_s1 + c.b0 * r1_w5_u1
+        r1_w5_y1 = x.r1_w5_s1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1_w5: stage 1: memory
-        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b1 * r1_w5_u1
+        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].el.k can do together
         r1_w5 = r1_w5_y1
 
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = -c.r1_w6_v3_m__1__me__we * s.m__1__me__we
+        r1_w6_u3 = -c.r1_w6_m__1__me__we * s.m__1__me__we
 
         # khepera.bg:17: r1_w6: stage 3
-        r1_w6_y3 = x.r1_w6_s3 + c.b0 * r1_w6_u3
+        r1_w6_y3 = x.r1_w6_s3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: stage 3: memory
-        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b1 * r1_w6_u3
+        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: input of stage 2
         r1_w6_u2 = r1_w6_y3
 
         # khepera.bg:17: r1_w6: stage 2
-        r1_w6_y2 = x.r1_w6_s2 + c.b0 * r1_w6_u2
+        r1_w6_y2 = x.r1_w6_s2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: stage 2: memory
-        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b1 * r1_w6_u2
+        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: input of stage 1
         r1_w6_u1 = r1_w6_y2
 
         # khepera.bg:17: r1_w6: stage 1
-        r1_w6_y1 = x.r1_w6_s1 + c.b0 * r1_w6_u1
+        r1_w6_y1 = x.r1_w6_s1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1_w6: stage 1: memory
-        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b1 * r1_w6_u1
+        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].me.fe can do together
         r1_w6 = r1_w6_y1
 
         # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = -c.r1_w7_v3_m__1__wh__ws * s.m__1__wh__ws
+        r1_w7_u3 = -c.r1_w7_m__1__wh__ws * s.m__1__wh__ws
 
         # khepera.bg:17: r1_w7: stage 3
-        r1_w7_y3 = x.r1_w7_s3 + c.b0 * r1_w7_u3
+        r1_w7_y3 = x.r1_w7_s3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: stage 3: memory
-        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b1 * r1_w7_u3
+        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: input of stage 2
         r1_w7_u2 = r1_w7_y3
 
         # khepera.bg:17: r1_w7: stage 2
-        r1_w7_y2 = x.r1_w7_s2 + c.b0 * r1_w7_u2
+        r1_w7_y2 = x.r1_w7_s2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: stage 2: memory
-        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b1 * r1_w7_u2
+        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: input of stage 1
         r1_w7_u1 = r1_w7_y2
 
         # khepera.bg:17: r1_w7: stage 1
-        r1_w7_y1 = x.r1_w7_s1 + c.b0 * r1_w7_u1
+        r1_w7_y1 = x.r1_w7_s1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1_w7: stage 1: memory
-        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b1 * r1_w7_u1
+        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].wh.fs can do together
         r1_w7 = r1_w7_y1
 
-        # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = (
-            c.r1_w8_v3_Fx__1 * s.Fx__1 - c.r1_w8_v3_m__1__me__we * s.m__1__me__we
-            - c.r1_w8_v3_m__1__wh__ws * s.m__1__wh__ws
+        # khepera.bg:17: r1_w8: terms of order 0
+        r1_w8_g0 = (
+            -c.r1_w8_m__1__me__we * s.m__1__me__we - c.r1_w8_m__1__wh__ws * s.m__1__wh__ws
+            - c.r1_w8_Fx__1 * s.Fx__1
         )
+
+        # khepera.bg:17: r1_w8: terms of order 1
+        r1_w8_g1 = (
+            c.r1_w8_w1_m__1__me__we * s.m__1__me__we + c.r1_w8_w1_m__1__wh__ws * s.m__1__wh__ws
+            - c.r1_w8_w1_Fx__1 * s.Fx__1
+        )
+
+        # khepera.bg:17: r1_w8: error of order 0
+        r1_w8_e0 = c.bend2 * r1_w8_g0
+
+        # khepera.bg:17: r1_w8: degree 2
+        r1_w8_d2 = (
+            -c.r1_w8_w2_m__1__me__we * s.m__1__me__we - c.r1_w8_w2_m__1__wh__ws * s.m__1__wh__ws
+            - r1_w8_e0
+        )
+
+        # khepera.bg:17: r1_w8: error of order 1
+        r1_w8_e1 = c.bend1 * r1_w8_g1
+
+        # khepera.bg:17: r1_w8: input of stage 3
+        r1_w8_u3 = r1_w8_g0 + r1_w8_d2 + r1_w8_e1 - r1_w8_g1
 
         # khepera.bg:17: r1_w8: stage 3
-        r1_w8_y3 = x.r1_w8_s3 + c.b0 * r1_w8_u3
+        r1_w8_y3 = x.r1_w8_s3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: stage 3: memory
-        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b1 * r1_w8_u3
+        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
-        r1_w8_u2 = (
-            r1_w8_y3 + c.r1_w8_v2_m__1__me__we * s.m__1__me__we
-            + c.r1_w8_v2_m__1__wh__ws * s.m__1__wh__ws - c.r1_w8_v2_Fx__1 * s.Fx__1
-        )
+        r1_w8_u2 = r1_w8_y3 + r1_w8_g1 - 2.0 * r1_w8_d2 - 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 2
-        r1_w8_y2 = x.r1_w8_s2 + c.b0 * r1_w8_u2
+        r1_w8_y2 = x.r1_w8_s2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: stage 2: memory
-        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b1 * r1_w8_u2
+        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: input of stage 1
-        r1_w8_u1 = (
-            r1_w8_y2 - c.r1_w8_v1_m__1__me__we * s.m__1__me__we
-            - c.r1_w8_v1_m__1__wh__ws * s.m__1__wh__ws
-        )
+        r1_w8_u1 = r1_w8_y2 + r1_w8_d2 + 3.0 * r1_w8_e1
 
         # khepera.bg:17: r1_w8: stage 1
-        r1_w8_y1 = x.r1_w8_s1 + c.b0 * r1_w8_u1
+        r1_w8_y1 = x.r1_w8_s1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1_w8: stage 1: memory
-        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b1 * r1_w8_u1
+        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do
-        r1_w8 = r1_w8_y1
+        r1_w8 = r1_w8_y1 - r1_w8_e1
+
+        # khepera.bg:17: r1_w9: terms of order 0
+        r1_w9_g0 = c.r1_w9_m__1__me__we * s.m__1__me__we
+
+        # khepera.bg:17: r1_w9: degree 1
+        r1_w9_d1 = c.r1_w9_w1_m__1__me__we * s.m__1__me__we
+
+        # khepera.bg:17: r1_w9: error of order 0
+        r1_w9_e0 = c.bend1 * r1_w9_g0
 
         # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = c.r1_w9_v3_m__1__me__we * s.m__1__me__we
+        r1_w9_u3 = r1_w9_g0 - r1_w9_d1 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 3
-        r1_w9_y3 = x.r1_w9_s3 + c.b0 * r1_w9_u3
+        r1_w9_y3 = x.r1_w9_s3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: stage 3: memory
-        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b1 * r1_w9_u3
+        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = r1_w9_y3 + c.r1_w9_v2_m__1__me__we * s.m__1__me__we
+        r1_w9_u2 = r1_w9_y3 + r1_w9_d1 + 2.0 * r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 2
-        r1_w9_y2 = x.r1_w9_s2 + c.b0 * r1_w9_u2
+        r1_w9_y2 = x.r1_w9_s2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: stage 2: memory
-        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b1 * r1_w9_u2
+        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = r1_w9_y2
+        r1_w9_u1 = r1_w9_y2 - r1_w9_e0
 
         # khepera.bg:17: r1_w9: stage 1
-        r1_w9_y1 = x.r1_w9_s1 + c.b0 * r1_w9_u1
+        r1_w9_y1 = x.r1_w9_s1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1_w9: stage 1: memory
-        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b1 * r1_w9_u1
+        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].me.fe can do together
         r1_w9 = r1_w9_y1
 
+        # khepera.bg:17: r1_w10: terms of order 0
+        r1_w10_g0 = c.r1_w10_m__1__wh__ws * s.m__1__wh__ws
+
+        # khepera.bg:17: r1_w10: degree 1
+        r1_w10_d1 = c.r1_w10_w1_m__1__wh__ws * s.m__1__wh__ws
+
+        # khepera.bg:17: r1_w10: error of order 0
+        r1_w10_e0 = c.bend1 * r1_w10_g0
+
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = c.r1_w10_v3_m__1__wh__ws * s.m__1__wh__ws
+        r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 3
-        r1_w10_y3 = x.r1_w10_s3 + c.b0 * r1_w10_u3
+        r1_w10_y3 = x.r1_w10_s3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: stage 3: memory
-        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b1 * r1_w10_u3
+        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: input of stage 2
-        r1_w10_u2 = r1_w10_y3 + c.r1_w10_v2_m__1__wh__ws * s.m__1__wh__ws
+        r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + 2.0 * r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 2
-        r1_w10_y2 = x.r1_w10_s2 + c.b0 * r1_w10_u2
+        r1_w10_y2 = x.r1_w10_s2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: stage 2: memory
-        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b1 * r1_w10_u2
+        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: input of stage 1
-        r1_w10_u1 = r1_w10_y2
+        r1_w10_u1 = r1_w10_y2 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 1
-        r1_w10_y1 = x.r1_w10_s1 + c.b0 * r1_w10_u1
+        r1_w10_y1 = x.r1_w10_s1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1_w10: stage 1: memory
-        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b1 * r1_w10_u1
+        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].el.k and m[1].wh.fs can do together
         r1_w10 = r1_w10_y1
@@ -1497,11 +1630,22 @@ class Monitor:
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r3_w1: input of stage 3
-        r3_w1_u3 = (
-            c.r3_w1_v3_m__2__wh__ws * s.m__2__wh__ws + c.r3_w1_v3_m__2__me__we * s.m__2__me__we
-            - c.r3_w1_v3_Fx__2 * s.Fx__2
+        # khepera.bg:17: r3_w1: terms of order 0
+        r3_w1_g0 = (
+            -c.r3_w1_Fx__2 * s.Fx__2 - c.r3_w1_m__2__wh__ws * s.m__2__wh__ws
+            - c.r3_w1_m__2__me__we * s.m__2__me__we
         )
+
+        # khepera.bg:17: r3_w1: degree 1
+        r3_w1_d1 = (
+            -c.r3_w1_w1_m__2__wh__ws * s.m__2__wh__ws - c.r3_w1_w1_m__2__me__we * s.m__2__me__we
+        )
+
+        # khepera.bg:17: r3_w1: error of order 0
+        r3_w1_e0 = c.bend1 * r3_w1_g0
+
+        # khepera.bg:17: r3_w1: input of stage 3
+        r3_w1_u3 = r3_w1_g0 - r3_w1_d1 - r3_w1_e0
 
         # khepera.bg:17: r3_w1: stage 3, at rest
         r3_w1_y3 = r3_w1_u3
@@ -1510,10 +1654,7 @@ class Monitor:
         x.r3_w1_s3 = c.rest * r3_w1_u3
 
         # khepera.bg:17: r3_w1: input of stage 2
-        r3_w1_u2 = (
-            r3_w1_y3 - c.r3_w1_v2_m__2__wh__ws * s.m__2__wh__ws
-            - c.r3_w1_v2_m__2__me__we * s.m__2__me__we
-        )
+        r3_w1_u2 = r3_w1_y3 + r3_w1_d1 + 2.0 * r3_w1_e0
 
         # khepera.bg:17: r3_w1: stage 2, at rest
         r3_w1_y2 = r3_w1_u2
@@ -1522,7 +1663,7 @@ class Monitor:
         x.r3_w1_s2 = c.rest * r3_w1_u2
 
         # khepera.bg:17: r3_w1: input of stage 1
-        r3_w1_u1 = r3_w1_y2
+        r3_w1_u1 = r3_w1_y2 - r3_w1_e0
 
         # khepera.bg:17: r3_w1: stage 1, at rest
         r3_w1_y1 = r3_w1_u1
@@ -1533,11 +1674,32 @@ class Monitor:
         # khepera.bg:17: r3: what the tolerance of m[2].el.Re can do
         r3_w1 = r3_w1_y1
 
-        # khepera.bg:17: r3_w2: input of stage 3
-        r3_w2_u3 = (
-            c.r3_w2_v3_m__2__me__we * s.m__2__me__we + c.r3_w2_v3_Fx__2 * s.Fx__2
-            + c.r3_w2_v3_m__2__wh__ws * s.m__2__wh__ws
+        # khepera.bg:17: r3_w2: terms of order 0
+        r3_w2_g0 = (
+            c.r3_w2_m__2__me__we * s.m__2__me__we + c.r3_w2_Fx__2 * s.Fx__2
+            + c.r3_w2_m__2__wh__ws * s.m__2__wh__ws
         )
+
+        # khepera.bg:17: r3_w2: terms of order 1
+        r3_w2_g1 = (
+            c.r3_w2_w1_m__2__me__we * s.m__2__me__we + c.r3_w2_w1_Fx__2 * s.Fx__2
+            + c.r3_w2_w1_m__2__wh__ws * s.m__2__wh__ws
+        )
+
+        # khepera.bg:17: r3_w2: error of order 0
+        r3_w2_e0 = c.bend2 * r3_w2_g0
+
+        # khepera.bg:17: r3_w2: degree 2
+        r3_w2_d2 = (
+            c.r3_w2_w2_m__2__me__we * s.m__2__me__we + c.r3_w2_w2_m__2__wh__ws * s.m__2__wh__ws
+            - r3_w2_e0
+        )
+
+        # khepera.bg:17: r3_w2: error of order 1
+        r3_w2_e1 = c.bend1 * r3_w2_g1
+
+        # khepera.bg:17: r3_w2: input of stage 3
+        r3_w2_u3 = r3_w2_g0 + r3_w2_d2 + r3_w2_e1 - r3_w2_g1
 
         # khepera.bg:17: r3_w2: stage 3, at rest
         r3_w2_y3 = r3_w2_u3
@@ -1546,10 +1708,7 @@ class Monitor:
         x.r3_w2_s3 = c.rest * r3_w2_u3
 
         # khepera.bg:17: r3_w2: input of stage 2
-        r3_w2_u2 = (
-            r3_w2_y3 + c.r3_w2_v2_m__2__me__we * s.m__2__me__we + c.r3_w2_v2_Fx__2 * s.Fx__2
-            + c.r3_w2_v2_m__2__wh__ws * s.m__2__wh__ws
-        )
+        r3_w2_u2 = r3_w2_y3 + r3_w2_g1 - 2.0 * r3_w2_d2 - 3.0 * r3_w2_e1
 
         # khepera.bg:17: r3_w2: stage 2, at rest
         r3_w2_y2 = r3_w2_u2
@@ -1558,10 +1717,7 @@ class Monitor:
         x.r3_w2_s2 = c.rest * r3_w2_u2
 
         # khepera.bg:17: r3_w2: input of stage 1
-        r3_w2_u1 = (
-            r3_w2_y2 + c.r3_w2_v1_m__2__me__we * s.m__2__me__we
-            + c.r3_w2_v1_m__2__wh__ws * s.m__2__wh__ws
-        )
+        r3_w2_u1 = r3_w2_y2 + r3_w2_d2 + 3.0 * r3_w2_e1
 
         # khepera.bg:17: r3_w2: stage 1, at rest
         r3_w2_y1 = r3_w2_u1
@@ -1570,10 +1726,19 @@ class Monitor:
         x.r3_w2_s1 = c.rest * r3_w2_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].el.k can do
-        r3_w2 = r3_w2_y1
+        r3_w2 = r3_w2_y1 - r3_w2_e1
+
+        # khepera.bg:17: r3_w3: terms of order 0
+        r3_w3_g0 = -c.r3_w3_m__2__me__we * s.m__2__me__we
+
+        # khepera.bg:17: r3_w3: degree 1
+        r3_w3_d1 = c.r3_w3_w1_m__2__me__we * s.m__2__me__we
+
+        # khepera.bg:17: r3_w3: error of order 0
+        r3_w3_e0 = c.bend1 * r3_w3_g0
 
         # khepera.bg:17: r3_w3: input of stage 3
-        r3_w3_u3 = c.r3_w3_v3_m__2__me__we * s.m__2__me__we
+        r3_w3_u3 = r3_w3_g0 + r3_w3_d1 - r3_w3_e0
 
         # khepera.bg:17: r3_w3: stage 3, at rest
         r3_w3_y3 = r3_w3_u3
@@ -1582,7 +1747,7 @@ class Monitor:
         x.r3_w3_s3 = c.rest * r3_w3_u3
 
         # khepera.bg:17: r3_w3: input of stage 2
-        r3_w3_u2 = r3_w3_y3 - c.r3_w3_v2_m__2__me__we * s.m__2__me__we
+        r3_w3_u2 = r3_w3_y3 + 2.0 * r3_w3_e0 - r3_w3_d1
 
         # khepera.bg:17: r3_w3: stage 2, at rest
         r3_w3_y2 = r3_w3_u2
@@ -1591,7 +1756,7 @@ class Monitor:
         x.r3_w3_s2 = c.rest * r3_w3_u2
 
         # khepera.bg:17: r3_w3: input of stage 1
-        r3_w3_u1 = r3_w3_y2
+        r3_w3_u1 = r3_w3_y2 - r3_w3_e0
 
         # khepera.bg:17: r3_w3: stage 1, at rest
         r3_w3_y1 = r3_w3_u1
@@ -1602,8 +1767,17 @@ class Monitor:
         # khepera.bg:17: r3: what the tolerance of m[2].me.fe can do
         r3_w3 = r3_w3_y1
 
+        # khepera.bg:17: r3_w4: terms of order 0
+        r3_w4_g0 = -c.r3_w4_m__2__wh__ws * s.m__2__wh__ws
+
+        # khepera.bg:17: r3_w4: degree 1
+        r3_w4_d1 = c.r3_w4_w1_m__2__wh__ws * s.m__2__wh__ws
+
+        # khepera.bg:17: r3_w4: error of order 0
+        r3_w4_e0 = c.bend1 * r3_w4_g0
+
         # khepera.bg:17: r3_w4: input of stage 3
-        r3_w4_u3 = c.r3_w4_v3_m__2__wh__ws * s.m__2__wh__ws
+        r3_w4_u3 = r3_w4_g0 + r3_w4_d1 - r3_w4_e0
 
         # khepera.bg:17: r3_w4: stage 3, at rest
         r3_w4_y3 = r3_w4_u3
@@ -1612,7 +1786,7 @@ class Monitor:
         x.r3_w4_s3 = c.rest * r3_w4_u3
 
         # khepera.bg:17: r3_w4: input of stage 2
-        r3_w4_u2 = r3_w4_y3 - c.r3_w4_v2_m__2__wh__ws * s.m__2__wh__ws
+        r3_w4_u2 = r3_w4_y3 + 2.0 * r3_w4_e0 - r3_w4_d1
 
         # khepera.bg:17: r3_w4: stage 2, at rest
         r3_w4_y2 = r3_w4_u2
@@ -1621,7 +1795,7 @@ class Monitor:
         x.r3_w4_s2 = c.rest * r3_w4_u2
 
         # khepera.bg:17: r3_w4: input of stage 1
-        r3_w4_u1 = r3_w4_y2
+        r3_w4_u1 = r3_w4_y2 - r3_w4_e0
 
         # khepera.bg:17: r3_w4: stage 1, at rest
         r3_w4_y1 = r3_w4_u1
@@ -1632,11 +1806,22 @@ class Monitor:
         # khepera.bg:17: r3: what the tolerance of m[2].wh.fs can do
         r3_w4 = r3_w4_y1
 
-        # khepera.bg:17: r3_w5: input of stage 3
-        r3_w5_u3 = (
-            c.r3_w5_v3_m__2__me__we * s.m__2__me__we + c.r3_w5_v3_m__2__wh__ws * s.m__2__wh__ws
-            + c.r3_w5_v3_Fx__2 * s.Fx__2
+        # khepera.bg:17: r3_w5: terms of order 0
+        r3_w5_g0 = (
+            c.r3_w5_m__2__me__we * s.m__2__me__we + c.r3_w5_m__2__wh__ws * s.m__2__wh__ws
+            + c.r3_w5_Fx__2 * s.Fx__2
         )
+
+        # khepera.bg:17: r3_w5: degree 1
+        r3_w5_d1 = (
+            c.r3_w5_w1_m__2__me__we * s.m__2__me__we + c.r3_w5_w1_m__2__wh__ws * s.m__2__wh__ws
+        )
+
+        # khepera.bg:17: r3_w5: error of order 0
+        r3_w5_e0 = c.bend1 * r3_w5_g0
+
+        # khepera.bg:17: r3_w5: input of stage 3
+        r3_w5_u3 = r3_w5_g0 - r3_w5_d1 - r3_w5_e0
 
         # khepera.bg:17: r3_w5: stage 3, at rest
         r3_w5_y3 = r3_w5_u3
@@ -1645,10 +1830,7 @@ class Monitor:
         x.r3_w5_s3 = c.rest * r3_w5_u3
 
         # khepera.bg:17: r3_w5: input of stage 2
-        r3_w5_u2 = (
-            r3_w5_y3 + c.r3_w5_v2_m__2__me__we * s.m__2__me__we
-            + c.r3_w5_v2_m__2__wh__ws * s.m__2__wh__ws
-        )
+        r3_w5_u2 = r3_w5_y3 + r3_w5_d1 + 2.0 * r3_w5_e0
 
         # khepera.bg:17: r3_w5: stage 2, at rest
         r3_w5_y2 = r3_w5_u2
@@ -1657,7 +1839,7 @@ class Monitor:
         x.r3_w5_s2 = c.rest * r3_w5_u2
 
         # khepera.bg:17: r3_w5: input of stage 1
-        r3_w5_u1 = r3_w5_y2
+        r3_w5_u1 = r3_w5_y2 - r3_w5_e0
 
         # khepera.bg:17: r3_w5: stage 1, at rest
         r3_w5_y1 = r3_w5_u1
@@ -1669,7 +1851,7 @@ class Monitor:
         r3_w5 = r3_w5_y1
 
         # khepera.bg:17: r3_w6: input of stage 3
-        r3_w6_u3 = -c.r3_w6_v3_m__2__me__we * s.m__2__me__we
+        r3_w6_u3 = -c.r3_w6_m__2__me__we * s.m__2__me__we
 
         # khepera.bg:17: r3_w6: stage 3, at rest
         r3_w6_y3 = r3_w6_u3
@@ -1699,7 +1881,7 @@ class Monitor:
         r3_w6 = r3_w6_y1
 
         # khepera.bg:17: r3_w7: input of stage 3
-        r3_w7_u3 = -c.r3_w7_v3_m__2__wh__ws * s.m__2__wh__ws
+        r3_w7_u3 = -c.r3_w7_m__2__wh__ws * s.m__2__wh__ws
 
         # khepera.bg:17: r3_w7: stage 3, at rest
         r3_w7_y3 = r3_w7_u3
@@ -1728,11 +1910,32 @@ class Monitor:
         # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].wh.fs can do together
         r3_w7 = r3_w7_y1
 
-        # khepera.bg:17: r3_w8: input of stage 3
-        r3_w8_u3 = (
-            c.r3_w8_v3_Fx__2 * s.Fx__2 - c.r3_w8_v3_m__2__me__we * s.m__2__me__we
-            - c.r3_w8_v3_m__2__wh__ws * s.m__2__wh__ws
+        # khepera.bg:17: r3_w8: terms of order 0
+        r3_w8_g0 = (
+            -c.r3_w8_m__2__me__we * s.m__2__me__we - c.r3_w8_m__2__wh__ws * s.m__2__wh__ws
+            - c.r3_w8_Fx__2 * s.Fx__2
         )
+
+        # khepera.bg:17: r3_w8: terms of order 1
+        r3_w8_g1 = (
+            c.r3_w8_w1_m__2__me__we * s.m__2__me__we + c.r3_w8_w1_m__2__wh__ws * s.m__2__wh__ws
+            - c.r3_w8_w1_Fx__2 * s.Fx__2
+        )
+
+        # khepera.bg:17: r3_w8: error of order 0
+        r3_w8_e0 = c.bend2 * r3_w8_g0
+
+        # khepera.bg:17: r3_w8: degree 2
+        r3_w8_d2 = (
+            -c.r3_w8_w2_m__2__me__we * s.m__2__me__we - c.r3_w8_w2_m__2__wh__ws * s.m__2__wh__ws
+            - r3_w8_e0
+        )
+
+        # khepera.bg:17: r3_w8: error of order 1
+        r3_w8_e1 = c.bend1 * r3_w8_g1
+
+        # khepera.bg:17: r3_w8: input of stage 3
+        r3_w8_u3 = r3_w8_g0 + r3_w8_d2 + r3_w8_e1 - r3_w8_g1
 
         # khepera.bg:17: r3_w8: stage 3, at rest
         r3_w8_y3 = r3_w8_u3
@@ -1741,10 +1944,7 @@ class Monitor:
         x.r3_w8_s3 = c.rest * r3_w8_u3
 
         # khepera.bg:17: r3_w8: input of stage 2
-        r3_w8_u2 = (
-            r3_w8_y3 + c.r3_w8_v2_m__2__me__we * s.m__2__me__we
-            + c.r3_w8_v2_m__2__wh__ws * s.m__2__wh__ws - c.r3_w8_v2_Fx__2 * s.Fx__2
-        )
+        r3_w8_u2 = r3_w8_y3 + r3_w8_g1 - 2.0 * r3_w8_d2 - 3.0 * r3_w8_e1
 
         # khepera.bg:17: r3_w8: stage 2, at rest
         r3_w8_y2 = r3_w8_u2
@@ -1753,10 +1953,7 @@ class Monitor:
         x.r3_w8_s2 = c.rest * r3_w8_u2
 
         # khepera.bg:17: r3_w8: input of stage 1
-        r3_w8_u1 = (
-            r3_w8_y2 - c.r3_w8_v1_m__2__me__we * s.m__2__me__we
-            - c.r3_w8_v1_m__2__wh__ws * s.m__2__wh__ws
-        )
+        r3_w8_u1 = r3_w8_y2 + r3_w8_d2 + 3.0 * r3_w8_e1
 
         # khepera.bg:17: r3_w8: stage 1, at rest
         r3_w8_y1 = r3_w8_u1
@@ -1765,10 +1962,19 @@ class Monitor:
         x.r3_w8_s1 = c.rest * r3_w8_u1
 
         # khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do
-        r3_w8 = r3_w8_y1
+        r3_w8 = r3_w8_y1 - r3_w8_e1
+
+        # khepera.bg:17: r3_w9: terms of order 0
+        r3_w9_g0 = c.r3_w9_m__2__me__we * s.m__2__me__we
+
+        # khepera.bg:17: r3_w9: degree 1
+        r3_w9_d1 = c.r3_w9_w1_m__2__me__we * s.m__2__me__we
+
+        # khepera.bg:17: r3_w9: error of order 0
+        r3_w9_e0 = c.bend1 * r3_w9_g0
 
         # khepera.bg:17: r3_w9: input of stage 3
-        r3_w9_u3 = c.r3_w9_v3_m__2__me__we * s.m__2__me__we
+        r3_w9_u3 = r3_w9_g0 - r3_w9_d1 - r3_w9_e0
 
         # khepera.bg:17: r3_w9: stage 3, at rest
         r3_w9_y3 = r3_w9_u3
@@ -1777,7 +1983,7 @@ class Monitor:
         x.r3_w9_s3 = c.rest * r3_w9_u3
 
         # khepera.bg:17: r3_w9: input of stage 2
-        r3_w9_u2 = r3_w9_y3 + c.r3_w9_v2_m__2__me__we * s.m__2__me__we
+        r3_w9_u2 = r3_w9_y3 + r3_w9_d1 + 2.0 * r3_w9_e0
 
         # khepera.bg:17: r3_w9: stage 2, at rest
         r3_w9_y2 = r3_w9_u2
@@ -1786,7 +1992,7 @@ class Monitor:
         x.r3_w9_s2 = c.rest * r3_w9_u2
 
         # khepera.bg:17: r3_w9: input of stage 1
-        r3_w9_u1 = r3_w9_y2
+        r3_w9_u1 = r3_w9_y2 - r3_w9_e0
 
         # khepera.bg:17: r3_w9: stage 1, at rest
         r3_w9_y1 = r3_w9_u1
@@ -1797,8 +2003,17 @@ class Monitor:
         # khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].me.fe can do together
         r3_w9 = r3_w9_y1
 
+        # khepera.bg:17: r3_w10: terms of order 0
+        r3_w10_g0 = c.r3_w10_m__2__wh__ws * s.m__2__wh__ws
+
+        # khepera.bg:17: r3_w10: degree 1
+        r3_w10_d1 = c.r3_w10_w1_m__2__wh__ws * s.m__2__wh__ws
+
+        # khepera.bg:17: r3_w10: error of order 0
+        r3_w10_e0 = c.bend1 * r3_w10_g0
+
         # khepera.bg:17: r3_w10: input of stage 3
-        r3_w10_u3 = c.r3_w10_v3_m__2__wh__ws * s.m__2__wh__ws
+        r3_w10_u3 = r3_w10_g0 - r3_w10_d1 - r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 3, at rest
         r3_w10_y3 = r3_w10_u3
@@ -1807,7 +2022,7 @@ class Monitor:
         x.r3_w10_s3 = c.rest * r3_w10_u3
 
         # khepera.bg:17: r3_w10: input of stage 2
-        r3_w10_u2 = r3_w10_y3 + c.r3_w10_v2_m__2__wh__ws * s.m__2__wh__ws
+        r3_w10_u2 = r3_w10_y3 + r3_w10_d1 + 2.0 * r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 2, at rest
         r3_w10_y2 = r3_w10_u2
@@ -1816,7 +2031,7 @@ class Monitor:
         x.r3_w10_s2 = c.rest * r3_w10_u2
 
         # khepera.bg:17: r3_w10: input of stage 1
-        r3_w10_u1 = r3_w10_y2
+        r3_w10_u1 = r3_w10_y2 - r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 1, at rest
         r3_w10_y1 = r3_w10_u1
@@ -1838,332 +2053,414 @@ class Monitor:
         c = self._c
         x = self._x
 
-        # khepera.bg:17: r3_w1: input of stage 3
-        r3_w1_u3 = (
-            c.r3_w1_v3_m__2__wh__ws * s.m__2__wh__ws + c.r3_w1_v3_m__2__me__we * s.m__2__me__we
-            - c.r3_w1_v3_Fx__2 * s.Fx__2
+        # khepera.bg:17: r3_w1: terms of order 0
+        r3_w1_g0 = (
+            -c.r3_w1_Fx__2 * s.Fx__2 - c.r3_w1_m__2__wh__ws * s.m__2__wh__ws
+            - c.r3_w1_m__2__me__we * s.m__2__me__we
         )
+
+        # khepera.bg:17: r3_w1: degree 1
+        r3_w1_d1 = (
+            -c.r3_w1_w1_m__2__wh__ws * s.m__2__wh__ws - c.r3_w1_w1_m__2__me__we * s.m__2__me__we
+        )
+
+        # khepera.bg:17: r3_w1: error of order 0
+        r3_w1_e0 = c.bend1 * r3_w1_g0
+
+        # khepera.bg:17: r3_w1: input of stage 3
+        r3_w1_u3 = r3_w1_g0 - r3_w1_d1 - r3_w1_e0
 
         # khepera.bg:17: r3_w1: stage 3
-        r3_w1_y3 = x.r3_w1_s3 + c.b0 * r3_w1_u3
+        r3_w1_y3 = x.r3_w1_s3 + c.b * r3_w1_u3
 
         # khepera.bg:17: r3_w1: stage 3: memory
-        x.r3_w1_s3 = c.a * r3_w1_y3 + c.b1 * r3_w1_u3
+        x.r3_w1_s3 = c.a * r3_w1_y3 + c.b * r3_w1_u3
 
         # khepera.bg:17: r3_w1: input of stage 2
-        r3_w1_u2 = (
-            r3_w1_y3 - c.r3_w1_v2_m__2__wh__ws * s.m__2__wh__ws
-            - c.r3_w1_v2_m__2__me__we * s.m__2__me__we
-        )
+        r3_w1_u2 = r3_w1_y3 + r3_w1_d1 + 2.0 * r3_w1_e0
 
         # khepera.bg:17: r3_w1: stage 2
-        r3_w1_y2 = x.r3_w1_s2 + c.b0 * r3_w1_u2
+        r3_w1_y2 = x.r3_w1_s2 + c.b * r3_w1_u2
 
         # khepera.bg:17: r3_w1: stage 2: memory
-        x.r3_w1_s2 = c.a * r3_w1_y2 + c.b1 * r3_w1_u2
+        x.r3_w1_s2 = c.a * r3_w1_y2 + c.b * r3_w1_u2
 
         # khepera.bg:17: r3_w1: input of stage 1
-        r3_w1_u1 = r3_w1_y2
+        r3_w1_u1 = r3_w1_y2 - r3_w1_e0
 
         # khepera.bg:17: r3_w1: stage 1
-        r3_w1_y1 = x.r3_w1_s1 + c.b0 * r3_w1_u1
+        r3_w1_y1 = x.r3_w1_s1 + c.b * r3_w1_u1
 
         # khepera.bg:17: r3_w1: stage 1: memory
-        x.r3_w1_s1 = c.a * r3_w1_y1 + c.b1 * r3_w1_u1
+        x.r3_w1_s1 = c.a * r3_w1_y1 + c.b * r3_w1_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].el.Re can do
         r3_w1 = r3_w1_y1
 
-        # khepera.bg:17: r3_w2: input of stage 3
-        r3_w2_u3 = (
-            c.r3_w2_v3_m__2__me__we * s.m__2__me__we + c.r3_w2_v3_Fx__2 * s.Fx__2
-            + c.r3_w2_v3_m__2__wh__ws * s.m__2__wh__ws
+        # khepera.bg:17: r3_w2: terms of order 0
+        r3_w2_g0 = (
+            c.r3_w2_m__2__me__we * s.m__2__me__we + c.r3_w2_Fx__2 * s.Fx__2
+            + c.r3_w2_m__2__wh__ws * s.m__2__wh__ws
         )
+
+        # khepera.bg:17: r3_w2: terms of order 1
+        r3_w2_g1 = (
+            c.r3_w2_w1_m__2__me__we * s.m__2__me__we + c.r3_w2_w1_Fx__2 * s.Fx__2
+            + c.r3_w2_w1_m__2__wh__ws * s.m__2__wh__ws
+        )
+
+        # khepera.bg:17: r3_w2: error of order 0
+        r3_w2_e0 = c.bend2 * r3_w2_g0
+
+        # khepera.bg:17: r3_w2: degree 2
+        r3_w2_d2 = (
+            c.r3_w2_w2_m__2__me__we * s.m__2__me__we + c.r3_w2_w2_m__2__wh__ws * s.m__2__wh__ws
+            - r3_w2_e0
+        )
+
+        # khepera.bg:17: r3_w2: error of order 1
+        r3_w2_e1 = c.bend1 * r3_w2_g1
+
+        # khepera.bg:17: r3_w2: input of stage 3
+        r3_w2_u3 = r3_w2_g0 + r3_w2_d2 + r3_w2_e1 - r3_w2_g1
 
         # khepera.bg:17: r3_w2: stage 3
-        r3_w2_y3 = x.r3_w2_s3 + c.b0 * r3_w2_u3
+        r3_w2_y3 = x.r3_w2_s3 + c.b * r3_w2_u3
 
         # khepera.bg:17: r3_w2: stage 3: memory
-        x.r3_w2_s3 = c.a * r3_w2_y3 + c.b1 * r3_w2_u3
+        x.r3_w2_s3 = c.a * r3_w2_y3 + c.b * r3_w2_u3
 
         # khepera.bg:17: r3_w2: input of stage 2
-        r3_w2_u2 = (
-            r3_w2_y3 + c.r3_w2_v2_m__2__me__we * s.m__2__me__we + c.r3_w2_v2_Fx__2 * s.Fx__2
-            + c.r3_w2_v2_m__2__wh__ws * s.m__2__wh__ws
-        )
+        r3_w2_u2 = r3_w2_y3 + r3_w2_g1 - 2.0 * r3_w2_d2 - 3.0 * r3_w2_e1
 
         # khepera.bg:17: r3_w2: stage 2
-        r3_w2_y2 = x.r3_w2_s2 + c.b0 * r3_w2_u2
+        r3_w2_y2 = x.r3_w2_s2 + c.b * r3_w2_u2
 
         # khepera.bg:17: r3_w2: stage 2: memory
-        x.r3_w2_s2 = c.a * r3_w2_y2 + c.b1 * r3_w2_u2
+        x.r3_w2_s2 = c.a * r3_w2_y2 + c.b * r3_w2_u2
 
         # khepera.bg:17: r3_w2: input of stage 1
-        r3_w2_u1 = (
-            r3_w2_y2 + c.r3_w2_v1_m__2__me__we * s.m__2__me__we
-            + c.r3_w2_v1_m__2__wh__ws * s.m__2__wh__ws
-        )
+        r3_w2_u1 = r3_w2_y2 + r3_w2_d2 + 3.0 * r3_w2_e1
 
         # khepera.bg:17: r3_w2: stage 1
-        r3_w2_y1 = x.r3_w2_s1 + c.b0 * r3_w2_u1
+        r3_w2_y1 = x.r3_w2_s1 + c.b * r3_w2_u1
 
         # khepera.bg:17: r3_w2: stage 1: memory
-        x.r3_w2_s1 = c.a * r3_w2_y1 + c.b1 * r3_w2_u1
+        x.r3_w2_s1 = c.a * r3_w2_y1 + c.b * r3_w2_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].el.k can do
-        r3_w2 = r3_w2_y1
+        r3_w2 = r3_w2_y1 - r3_w2_e1
+
+        # khepera.bg:17: r3_w3: terms of order 0
+        r3_w3_g0 = -c.r3_w3_m__2__me__we * s.m__2__me__we
+
+        # khepera.bg:17: r3_w3: degree 1
+        r3_w3_d1 = c.r3_w3_w1_m__2__me__we * s.m__2__me__we
+
+        # khepera.bg:17: r3_w3: error of order 0
+        r3_w3_e0 = c.bend1 * r3_w3_g0
 
         # khepera.bg:17: r3_w3: input of stage 3
-        r3_w3_u3 = c.r3_w3_v3_m__2__me__we * s.m__2__me__we
+        r3_w3_u3 = r3_w3_g0 + r3_w3_d1 - r3_w3_e0
 
         # khepera.bg:17: r3_w3: stage 3
-        r3_w3_y3 = x.r3_w3_s3 + c.b0 * r3_w3_u3
+        r3_w3_y3 = x.r3_w3_s3 + c.b * r3_w3_u3
 
         # khepera.bg:17: r3_w3: stage 3: memory
-        x.r3_w3_s3 = c.a * r3_w3_y3 + c.b1 * r3_w3_u3
+        x.r3_w3_s3 = c.a * r3_w3_y3 + c.b * r3_w3_u3
 
         # khepera.bg:17: r3_w3: input of stage 2
-        r3_w3_u2 = r3_w3_y3 - c.r3_w3_v2_m__2__me__we * s.m__2__me__we
+        r3_w3_u2 = r3_w3_y3 + 2.0 * r3_w3_e0 - r3_w3_d1
 
         # khepera.bg:17: r3_w3: stage 2
-        r3_w3_y2 = x.r3_w3_s2 + c.b0 * r3_w3_u2
+        r3_w3_y2 = x.r3_w3_s2 + c.b * r3_w3_u2
 
         # khepera.bg:17: r3_w3: stage 2: memory
-        x.r3_w3_s2 = c.a * r3_w3_y2 + c.b1 * r3_w3_u2
+        x.r3_w3_s2 = c.a * r3_w3_y2 + c.b * r3_w3_u2
 
         # khepera.bg:17: r3_w3: input of stage 1
-        r3_w3_u1 = r3_w3_y2
+        r3_w3_u1 = r3_w3_y2 - r3_w3_e0
 
         # khepera.bg:17: r3_w3: stage 1
-        r3_w3_y1 = x.r3_w3_s1 + c.b0 * r3_w3_u1
+        r3_w3_y1 = x.r3_w3_s1 + c.b * r3_w3_u1
 
         # khepera.bg:17: r3_w3: stage 1: memory
-        x.r3_w3_s1 = c.a * r3_w3_y1 + c.b1 * r3_w3_u1
+        x.r3_w3_s1 = c.a * r3_w3_y1 + c.b * r3_w3_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].me.fe can do
         r3_w3 = r3_w3_y1
 
+        # khepera.bg:17: r3_w4: terms of order 0
+        r3_w4_g0 = -c.r3_w4_m__2__wh__ws * s.m__2__wh__ws
+
+        # khepera.bg:17: r3_w4: degree 1
+        r3_w4_d1 = c.r3_w4_w1_m__2__wh__ws * s.m__2__wh__ws
+
+        # khepera.bg:17: r3_w4: error of order 0
+        r3_w4_e0 = c.bend1 * r3_w4_g0
+
         # khepera.bg:17: r3_w4: input of stage 3
-        r3_w4_u3 = c.r3_w4_v3_m__2__wh__ws * s.m__2__wh__ws
+        r3_w4_u3 = r3_w4_g0 + r3_w4_d1 - r3_w4_e0
 
         # khepera.bg:17: r3_w4: stage 3
-        r3_w4_y3 = x.r3_w4_s3 + c.b0 * r3_w4_u3
+        r3_w4_y3 = x.r3_w4_s3 + c.b * r3_w4_u3
 
         # khepera.bg:17: r3_w4: stage 3: memory
-        x.r3_w4_s3 = c.a * r3_w4_y3 + c.b1 * r3_w4_u3
+        x.r3_w4_s3 = c.a * r3_w4_y3 + c.b * r3_w4_u3
 
         # khepera.bg:17: r3_w4: input of stage 2
-        r3_w4_u2 = r3_w4_y3 - c.r3_w4_v2_m__2__wh__ws * s.m__2__wh__ws
+        r3_w4_u2 = r3_w4_y3 + 2.0 * r3_w4_e0 - r3_w4_d1
 
         # khepera.bg:17: r3_w4: stage 2
-        r3_w4_y2 = x.r3_w4_s2 + c.b0 * r3_w4_u2
+        r3_w4_y2 = x.r3_w4_s2 + c.b * r3_w4_u2
 
         # khepera.bg:17: r3_w4: stage 2: memory
-        x.r3_w4_s2 = c.a * r3_w4_y2 + c.b1 * r3_w4_u2
+        x.r3_w4_s2 = c.a * r3_w4_y2 + c.b * r3_w4_u2
 
         # khepera.bg:17: r3_w4: input of stage 1
-        r3_w4_u1 = r3_w4_y2
+        r3_w4_u1 = r3_w4_y2 - r3_w4_e0
 
         # khepera.bg:17: r3_w4: stage 1
-        r3_w4_y1 = x.r3_w4_s1 + c.b0 * r3_w4_u1
+        r3_w4_y1 = x.r3_w4_s1 + c.b * r3_w4_u1
 
         # khepera.bg:17: r3_w4: stage 1: memory
-        x.r3_w4_s1 = c.a * r3_w4_y1 + c.b1 * r3_w4_u1
+        x.r3_w4_s1 = c.a * r3_w4_y1 + c.b * r3_w4_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].wh.fs can do
         r3_w4 = r3_w4_y1
 
-        # khepera.bg:17: r3_w5: input of stage 3
-        r3_w5_u3 = (
-            c.r3_w5_v3_m__2__me__we * s.m__2__me__we + c.r3_w5_v3_m__2__wh__ws * s.m__2__wh__ws
-            + c.r3_w5_v3_Fx__2 * s.Fx__2
+        # khepera.bg:17: r3_w5: terms of order 0
+        r3_w5_g0 = (
+            c.r3_w5_m__2__me__we * s.m__2__me__we + c.r3_w5_m__2__wh__ws * s.m__2__wh__ws
+            + c.r3_w5_Fx__2 * s.Fx__2
         )
+
+        # khepera.bg:17: r3_w5: degree 1
+        r3_w5_d1 = (
+            c.r3_w5_w1_m__2__me__we * s.m__2__me__we + c.r3_w5_w1_m__2__wh__ws * s.m__2__wh__ws
+        )
+
+        # khepera.bg:17: r3_w5: error of order 0
+        r3_w5_e0 = c.bend1 * r3_w5_g0
+
+        # khepera.bg:17: r3_w5: input of stage 3
+        r3_w5_u3 = r3_w5_g0 - r3_w5_d1 - r3_w5_e0
 
         # khepera.bg:17: r3_w5: stage 3
-        r3_w5_y3 = x.r3_w5_s3 + c.b0 * r3_w5_u3
+        r3_w5_y3 = x.r3_w5_s3 + c.b * r3_w5_u3
 
         # khepera.bg:17: r3_w5: stage 3: memory
-        x.r3_w5_s3 = c.a * r3_w5_y3 + c.b1 * r3_w5_u3
+        x.r3_w5_s3 = c.a * r3_w5_y3 + c.b * r3_w5_u3
 
         # khepera.bg:17: r3_w5: input of stage 2
-        r3_w5_u2 = (
-            r3_w5_y3 + c.r3_w5_v2_m__2__me__we * s.m__2__me__we
-            + c.r3_w5_v2_m__2__wh__ws * s.m__2__wh__ws
-        )
+        r3_w5_u2 = r3_w5_y3 + r3_w5_d1 + 2.0 * r3_w5_e0
 
         # khepera.bg:17: r3_w5: stage 2
-        r3_w5_y2 = x.r3_w5_s2 + c.b0 * r3_w5_u2
+        r3_w5_y2 = x.r3_w5_s2 + c.b * r3_w5_u2
 
         # khepera.bg:17: r3_w5: stage 2: memory
-        x.r3_w5_s2 = c.a * r3_w5_y2 + c.b1 * r3_w5_u2
+        x.r3_w5_s2 = c.a * r3_w5_y2 + c.b * r3_w5_u2
 
         # khepera.bg:17: r3_w5: input of stage 1
-        r3_w5_u1 = r3_w5_y2
+        r3_w5_u1 = r3_w5_y2 - r3_w5_e0
 
         # khepera.bg:17: r3_w5: stage 1
-        r3_w5_y1 = x.r3_w5_s1 + c.b0 * r3_w5_u1
+        r3_w5_y1 = x.r3_w5_s1 + c.b * r3_w5_u1
 
         # khepera.bg:17: r3_w5: stage 1: memory
-        x.r3_w5_s1 = c.a * r3_w5_y1 + c.b1 * r3_w5_u1
+        x.r3_w5_s1 = c.a * r3_w5_y1 + c.b * r3_w5_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].el.k can do together
         r3_w5 = r3_w5_y1
 
         # khepera.bg:17: r3_w6: input of stage 3
-        r3_w6_u3 = -c.r3_w6_v3_m__2__me__we * s.m__2__me__we
+        r3_w6_u3 = -c.r3_w6_m__2__me__we * s.m__2__me__we
 
         # khepera.bg:17: r3_w6: stage 3
-        r3_w6_y3 = x.r3_w6_s3 + c.b0 * r3_w6_u3
+        r3_w6_y3 = x.r3_w6_s3 + c.b * r3_w6_u3
 
         # khepera.bg:17: r3_w6: stage 3: memory
-        x.r3_w6_s3 = c.a * r3_w6_y3 + c.b1 * r3_w6_u3
+        x.r3_w6_s3 = c.a * r3_w6_y3 + c.b * r3_w6_u3
 
         # khepera.bg:17: r3_w6: input of stage 2
         r3_w6_u2 = r3_w6_y3
 
         # khepera.bg:17: r3_w6: stage 2
-        r3_w6_y2 = x.r3_w6_s2 + c.b0 * r3_w6_u2
+        r3_w6_y2 = x.r3_w6_s2 + c.b * r3_w6_u2
 
         # khepera.bg:17: r3_w6: stage 2: memory
-        x.r3_w6_s2 = c.a * r3_w6_y2 + c.b1 * r3_w6_u2
+        x.r3_w6_s2 = c.a * r3_w6_y2 + c.b * r3_w6_u2
 
         # khepera.bg:17: r3_w6: input of stage 1
         r3_w6_u1 = r3_w6_y2
 
         # khepera.bg:17: r3_w6: stage 1
-        r3_w6_y1 = x.r3_w6_s1 + c.b0 * r3_w6_u1
+        r3_w6_y1 = x.r3_w6_s1 + c.b * r3_w6_u1
 
         # khepera.bg:17: r3_w6: stage 1: memory
-        x.r3_w6_s1 = c.a * r3_w6_y1 + c.b1 * r3_w6_u1
+        x.r3_w6_s1 = c.a * r3_w6_y1 + c.b * r3_w6_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].me.fe can do together
         r3_w6 = r3_w6_y1
 
         # khepera.bg:17: r3_w7: input of stage 3
-        r3_w7_u3 = -c.r3_w7_v3_m__2__wh__ws * s.m__2__wh__ws
+        r3_w7_u3 = -c.r3_w7_m__2__wh__ws * s.m__2__wh__ws
 
         # khepera.bg:17: r3_w7: stage 3
-        r3_w7_y3 = x.r3_w7_s3 + c.b0 * r3_w7_u3
+        r3_w7_y3 = x.r3_w7_s3 + c.b * r3_w7_u3
 
         # khepera.bg:17: r3_w7: stage 3: memory
-        x.r3_w7_s3 = c.a * r3_w7_y3 + c.b1 * r3_w7_u3
+        x.r3_w7_s3 = c.a * r3_w7_y3 + c.b * r3_w7_u3
 
         # khepera.bg:17: r3_w7: input of stage 2
         r3_w7_u2 = r3_w7_y3
 
         # khepera.bg:17: r3_w7: stage 2
-        r3_w7_y2 = x.r3_w7_s2 + c.b0 * r3_w7_u2
+        r3_w7_y2 = x.r3_w7_s2 + c.b * r3_w7_u2
 
         # khepera.bg:17: r3_w7: stage 2: memory
-        x.r3_w7_s2 = c.a * r3_w7_y2 + c.b1 * r3_w7_u2
+        x.r3_w7_s2 = c.a * r3_w7_y2 + c.b * r3_w7_u2
 
         # khepera.bg:17: r3_w7: input of stage 1
         r3_w7_u1 = r3_w7_y2
 
         # khepera.bg:17: r3_w7: stage 1
-        r3_w7_y1 = x.r3_w7_s1 + c.b0 * r3_w7_u1
+        r3_w7_y1 = x.r3_w7_s1 + c.b * r3_w7_u1
 
         # khepera.bg:17: r3_w7: stage 1: memory
-        x.r3_w7_s1 = c.a * r3_w7_y1 + c.b1 * r3_w7_u1
+        x.r3_w7_s1 = c.a * r3_w7_y1 + c.b * r3_w7_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].wh.fs can do together
         r3_w7 = r3_w7_y1
 
-        # khepera.bg:17: r3_w8: input of stage 3
-        r3_w8_u3 = (
-            c.r3_w8_v3_Fx__2 * s.Fx__2 - c.r3_w8_v3_m__2__me__we * s.m__2__me__we
-            - c.r3_w8_v3_m__2__wh__ws * s.m__2__wh__ws
+        # khepera.bg:17: r3_w8: terms of order 0
+        r3_w8_g0 = (
+            -c.r3_w8_m__2__me__we * s.m__2__me__we - c.r3_w8_m__2__wh__ws * s.m__2__wh__ws
+            - c.r3_w8_Fx__2 * s.Fx__2
         )
+
+        # khepera.bg:17: r3_w8: terms of order 1
+        r3_w8_g1 = (
+            c.r3_w8_w1_m__2__me__we * s.m__2__me__we + c.r3_w8_w1_m__2__wh__ws * s.m__2__wh__ws
+            - c.r3_w8_w1_Fx__2 * s.Fx__2
+        )
+
+        # khepera.bg:17: r3_w8: error of order 0
+        r3_w8_e0 = c.bend2 * r3_w8_g0
+
+        # khepera.bg:17: r3_w8: degree 2
+        r3_w8_d2 = (
+            -c.r3_w8_w2_m__2__me__we * s.m__2__me__we - c.r3_w8_w2_m__2__wh__ws * s.m__2__wh__ws
+            - r3_w8_e0
+        )
+
+        # khepera.bg:17: r3_w8: error of order 1
+        r3_w8_e1 = c.bend1 * r3_w8_g1
+
+        # khepera.bg:17: r3_w8: input of stage 3
+        r3_w8_u3 = r3_w8_g0 + r3_w8_d2 + r3_w8_e1 - r3_w8_g1
 
         # khepera.bg:17: r3_w8: stage 3
-        r3_w8_y3 = x.r3_w8_s3 + c.b0 * r3_w8_u3
+        r3_w8_y3 = x.r3_w8_s3 + c.b * r3_w8_u3
 
         # khepera.bg:17: r3_w8: stage 3: memory
-        x.r3_w8_s3 = c.a * r3_w8_y3 + c.b1 * r3_w8_u3
+        x.r3_w8_s3 = c.a * r3_w8_y3 + c.b * r3_w8_u3
 
         # khepera.bg:17: r3_w8: input of stage 2
-        r3_w8_u2 = (
-            r3_w8_y3 + c.r3_w8_v2_m__2__me__we * s.m__2__me__we
-            + c.r3_w8_v2_m__2__wh__ws * s.m__2__wh__ws - c.r3_w8_v2_Fx__2 * s.Fx__2
-        )
+        r3_w8_u2 = r3_w8_y3 + r3_w8_g1 - 2.0 * r3_w8_d2 - 3.0 * r3_w8_e1
 
         # khepera.bg:17: r3_w8: stage 2
-        r3_w8_y2 = x.r3_w8_s2 + c.b0 * r3_w8_u2
+        r3_w8_y2 = x.r3_w8_s2 + c.b * r3_w8_u2
 
         # khepera.bg:17: r3_w8: stage 2: memory
-        x.r3_w8_s2 = c.a * r3_w8_y2 + c.b1 * r3_w8_u2
+        x.r3_w8_s2 = c.a * r3_w8_y2 + c.b * r3_w8_u2
 
         # khepera.bg:17: r3_w8: input of stage 1
-        r3_w8_u1 = (
-            r3_w8_y2 - c.r3_w8_v1_m__2__me__we * s.m__2__me__we
-            - c.r3_w8_v1_m__2__wh__ws * s.m__2__wh__ws
-        )
+        r3_w8_u1 = r3_w8_y2 + r3_w8_d2 + 3.0 * r3_w8_e1
 
         # khepera.bg:17: r3_w8: stage 1
-        r3_w8_y1 = x.r3_w8_s1 + c.b0 * r3_w8_u1
+        r3_w8_y1 = x.r3_w8_s1 + c.b * r3_w8_u1
 
         # khepera.bg:17: r3_w8: stage 1: memory
-        x.r3_w8_s1 = c.a * r3_w8_y1 + c.b1 * r3_w8_u1
+        x.r3_w8_s1 = c.a * r3_w8_y1 + c.b * r3_w8_u1
 
         # khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do
-        r3_w8 = r3_w8_y1
+        r3_w8 = r3_w8_y1 - r3_w8_e1
+
+        # khepera.bg:17: r3_w9: terms of order 0
+        r3_w9_g0 = c.r3_w9_m__2__me__we * s.m__2__me__we
+
+        # khepera.bg:17: r3_w9: degree 1
+        r3_w9_d1 = c.r3_w9_w1_m__2__me__we * s.m__2__me__we
+
+        # khepera.bg:17: r3_w9: error of order 0
+        r3_w9_e0 = c.bend1 * r3_w9_g0
 
         # khepera.bg:17: r3_w9: input of stage 3
-        r3_w9_u3 = c.r3_w9_v3_m__2__me__we * s.m__2__me__we
+        r3_w9_u3 = r3_w9_g0 - r3_w9_d1 - r3_w9_e0
 
         # khepera.bg:17: r3_w9: stage 3
-        r3_w9_y3 = x.r3_w9_s3 + c.b0 * r3_w9_u3
+        r3_w9_y3 = x.r3_w9_s3 + c.b * r3_w9_u3
 
         # khepera.bg:17: r3_w9: stage 3: memory
-        x.r3_w9_s3 = c.a * r3_w9_y3 + c.b1 * r3_w9_u3
+        x.r3_w9_s3 = c.a * r3_w9_y3 + c.b * r3_w9_u3
 
         # khepera.bg:17: r3_w9: input of stage 2
-        r3_w9_u2 = r3_w9_y3 + c.r3_w9_v2_m__2__me__we * s.m__2__me__we
+        r3_w9_u2 = r3_w9_y3 + r3_w9_d1 + 2.0 * r3_w9_e0
 
         # khepera.bg:17: r3_w9: stage 2
-        r3_w9_y2 = x.r3_w9_s2 + c.b0 * r3_w9_u2
+        r3_w9_y2 = x.r3_w9_s2 + c.b * r3_w9_u2
 
         # khepera.bg:17: r3_w9: stage 2: memory
-        x.r3_w9_s2 = c.a * r3_w9_y2 + c.b1 * r3_w9_u2
+        x.r3_w9_s2 = c.a * r3_w9_y2 + c.b * r3_w9_u2
 
         # khepera.bg:17: r3_w9: input of stage 1
-        r3_w9_u1 = r3_w9_y2
+        r3_w9_u1 = r3_w9_y2 - r3_w9_e0
 
         # khepera.bg:17: r3_w9: stage 1
-        r3_w9_y1 = x.r3_w9_s1 + c.b0 * r3_w9_u1
+        r3_w9_y1 = x.r3_w9_s1 + c.b * r3_w9_u1
 
         # khepera.bg:17: r3_w9: stage 1: memory
-        x.r3_w9_s1 = c.a * r3_w9_y1 + c.b1 * r3_w9_u1
+        x.r3_w9_s1 = c.a * r3_w9_y1 + c.b * r3_w9_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].me.fe can do together
         r3_w9 = r3_w9_y1
 
+        # khepera.bg:17: r3_w10: terms of order 0
+        r3_w10_g0 = c.r3_w10_m__2__wh__ws * s.m__2__wh__ws
+
+        # khepera.bg:17: r3_w10: degree 1
+        r3_w10_d1 = c.r3_w10_w1_m__2__wh__ws * s.m__2__wh__ws
+
+        # khepera.bg:17: r3_w10: error of order 0
+        r3_w10_e0 = c.bend1 * r3_w10_g0
+
         # khepera.bg:17: r3_w10: input of stage 3
-        r3_w10_u3 = c.r3_w10_v3_m__2__wh__ws * s.m__2__wh__ws
+        r3_w10_u3 = r3_w10_g0 - r3_w10_d1 - r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 3
-        r3_w10_y3 = x.r3_w10_s3 + c.b0 * r3_w10_u3
+        r3_w10_y3 = x.r3_w10_s3 + c.b * r3_w10_u3
 
         # khepera.bg:17: r3_w10: stage 3: memory
-        x.r3_w10_s3 = c.a * r3_w10_y3 + c.b1 * r3_w10_u3
+        x.r3_w10_s3 = c.a * r3_w10_y3 + c.b * r3_w10_u3
 
         # khepera.bg:17: r3_w10: input of stage 2
-        r3_w10_u2 = r3_w10_y3 + c.r3_w10_v2_m__2__wh__ws * s.m__2__wh__ws
+        r3_w10_u2 = r3_w10_y3 + r3_w10_d1 + 2.0 * r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 2
-        r3_w10_y2 = x.r3_w10_s2 + c.b0 * r3_w10_u2
+        r3_w10_y2 = x.r3_w10_s2 + c.b * r3_w10_u2
 
         # khepera.bg:17: r3_w10: stage 2: memory
-        x.r3_w10_s2 = c.a * r3_w10_y2 + c.b1 * r3_w10_u2
+        x.r3_w10_s2 = c.a * r3_w10_y2 + c.b * r3_w10_u2
 
         # khepera.bg:17: r3_w10: input of stage 1
-        r3_w10_u1 = r3_w10_y2
+        r3_w10_u1 = r3_w10_y2 - r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 1
-        r3_w10_y1 = x.r3_w10_s1 + c.b0 * r3_w10_u1
+        r3_w10_y1 = x.r3_w10_s1 + c.b * r3_w10_u1
 
         # khepera.bg:17: r3_w10: stage 1: memory
-        x.r3_w10_s1 = c.a * r3_w10_y1 + c.b1 * r3_w10_u1
+        x.r3_w10_s1 = c.a * r3_w10_y1 + c.b * r3_w10_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].el.k and m[2].wh.fs can do together
         r3_w10 = r3_w10_y1
@@ -2241,23 +2538,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[4] = 0
             r.r5 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 /* Takes a count; the difference to the one before is right also when the counter runs over. */
@@ -118,6 +89,15 @@ static void compute_coefficients(khepera_built_threshold_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: m[1].fe + m[1].fs/m[1].ge.N^2 */
     const real t = p->m__1__fe + p->m__1__fs / p->m__1__ge__N / p->m__1__ge__N;
 
@@ -142,325 +122,297 @@ static void compute_coefficients(khepera_built_threshold_monitor *monitor,
     /* khepera.bg:17: m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N) */
     const real t_8 = p->m__2__R * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N;
 
-    /* exp(-x) */
-    const real t_9 = exponential(-x_);
+    /* 1 - pole */
+    const real t_9 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_10 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_9) / x_;
+    /* 1 - (1 - pole)/2 */
+    const real t_10 = REAL(1.0) - REAL(0.5) * t_9;
 
-    /* 1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - ( ... */
-    const real t_11 = REAL(1.0) - t_10;
+    /* turn^2 */
+    const real t_11 = turn * turn;
 
-    /* khepera.bg:17: m[1].el.L*(m[1].Je + m[1].Js/m[1].ge.N^2)*bandwidth^2/m[1].el.k */
-    const real t_12 = p->m__1__el__L * t_2 * bandwidth * bandwidth / p->m__1__el__k;
+    /* khepera.bg:17: m[1].el.L*(m[1].Je + m[1].Js/m[1].ge.N^2)*w^2/m[1].el.k */
+    const real t_12 = p->m__1__el__L * t_2 * w * w / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].R*m[1].el.L*bandwidth/(m[1].el.k*m[1].ge.N) */
-    const real t_13 = p->m__1__R * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N;
+    /* khepera.bg:17: m[1].R*m[1].el.L*w/(m[1].el.k*m[1].ge.N) */
+    const real t_13 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
 
-    /* khepera.bg:17: m[2].el.L*(m[2].Je + m[2].Js/m[2].ge.N^2)*bandwidth^2/m[2].el.k */
-    const real t_14 = p->m__2__el__L * t_6 * bandwidth * bandwidth / p->m__2__el__k;
+    /* khepera.bg:17: m[2].el.L*(m[2].Je + m[2].Js/m[2].ge.N^2)*w^2/m[2].el.k */
+    const real t_14 = p->m__2__el__L * t_6 * w * w / p->m__2__el__k;
 
-    /* khepera.bg:17: m[2].R*m[2].el.L*bandwidth/(m[2].el.k*m[2].ge.N) */
-    const real t_15 = p->m__2__R * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N;
+    /* khepera.bg:17: m[2].R*m[2].el.L*w/(m[2].el.k*m[2].ge.N) */
+    const real t_15 = p->m__2__R * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
 
     /* khepera.bg:17: m[1].fe*m[1].el.Re/m[1].el.k */
     const real t_16 = p->m__1__fe * p->m__1__el__Re / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].fe*m[1].el.L*bandwidth/m[1].el.k */
-    const real t_17 = p->m__1__fe * p->m__1__el__L * bandwidth / p->m__1__el__k;
+    /* khepera.bg:17: m[1].fe*m[1].el.L*w/m[1].el.k */
+    const real t_17 = p->m__1__fe * p->m__1__el__L * w / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].Js*m[1].el.Re*bandwidth/(m[1].el.k*m[1].ge.N^2) */
-    const real t_18 = p->m__1__Js * p->m__1__el__Re * bandwidth / p->m__1__el__k / p->m__1__ge__N
+    /* khepera.bg:17: m[1].Js*m[1].el.Re*w/(m[1].el.k*m[1].ge.N^2) */
+    const real t_18 = p->m__1__Js * p->m__1__el__Re * w / p->m__1__el__k / p->m__1__ge__N
             / p->m__1__ge__N;
 
-    /* khepera.bg:17: m[1].Js*m[1].el.L*bandwidth^2/(m[1].el.k*m[1].ge.N^2) */
-    const real t_19 = p->m__1__Js * p->m__1__el__L * bandwidth * bandwidth / p->m__1__el__k
-            / p->m__1__ge__N / p->m__1__ge__N;
+    /* khepera.bg:17: m[1].Js*m[1].el.L*w^2/(m[1].el.k*m[1].ge.N^2) */
+    const real t_19 = p->m__1__Js * p->m__1__el__L * w * w / p->m__1__el__k / p->m__1__ge__N
+            / p->m__1__ge__N;
 
     /* khepera.bg:17: m[1].fs*m[1].el.Re/(m[1].el.k*m[1].ge.N^2) */
     const real t_20 = p->m__1__fs * p->m__1__el__Re / p->m__1__el__k / p->m__1__ge__N
             / p->m__1__ge__N;
 
-    /* khepera.bg:17: m[1].fs*m[1].el.L*bandwidth/(m[1].el.k*m[1].ge.N^2) */
-    const real t_21 = p->m__1__fs * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N
+    /* khepera.bg:17: m[1].fs*m[1].el.L*w/(m[1].el.k*m[1].ge.N^2) */
+    const real t_21 = p->m__1__fs * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N
             / p->m__1__ge__N;
 
-    /* khepera.bg:17: m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)*bandwidth/m[1].el.k */
-    const real t_22 = p->m__1__el__Re * t_2 * bandwidth / p->m__1__el__k;
-
-    /* khepera.bg:17: m[1].el.k*bandwidth*(m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)/m[1].el.k^2
-     * + m[1].el. ... */
-    const real t_23 = p->m__1__el__k * bandwidth
-            * (p->m__1__el__Re * t_2 / p->m__1__el__k / p->m__1__el__k
-            + p->m__1__el__L * t / p->m__1__el__k / p->m__1__el__k);
-
-    /* khepera.bg:17: m[1].el.k^2*bandwidth*(-2*m[1].el.L*(m[1].fe +
-     * m[1].fs/m[1].ge.N^2)/m[1].el.k^3 - 2*m[ ... */
-    const real t_24 = p->m__1__el__k * p->m__1__el__k * bandwidth
-            * (-REAL(2.0) * p->m__1__el__L * t / p->m__1__el__k / p->m__1__el__k / p->m__1__el__k
-            - REAL(2.0) * p->m__1__el__Re * t_2 / p->m__1__el__k / p->m__1__el__k / p->m__1__el__k);
+    /* khepera.bg:17: m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)*w/m[1].el.k */
+    const real t_22 = p->m__1__el__Re * t_2 * w / p->m__1__el__k;
 
     /* khepera.bg:17: m[2].fe*m[2].el.Re/m[2].el.k */
-    const real t_25 = p->m__2__fe * p->m__2__el__Re / p->m__2__el__k;
+    const real t_23 = p->m__2__fe * p->m__2__el__Re / p->m__2__el__k;
 
-    /* khepera.bg:17: m[2].fe*m[2].el.L*bandwidth/m[2].el.k */
-    const real t_26 = p->m__2__fe * p->m__2__el__L * bandwidth / p->m__2__el__k;
+    /* khepera.bg:17: m[2].fe*m[2].el.L*w/m[2].el.k */
+    const real t_24 = p->m__2__fe * p->m__2__el__L * w / p->m__2__el__k;
 
-    /* khepera.bg:17: m[2].Js*m[2].el.Re*bandwidth/(m[2].el.k*m[2].ge.N^2) */
-    const real t_27 = p->m__2__Js * p->m__2__el__Re * bandwidth / p->m__2__el__k / p->m__2__ge__N
+    /* khepera.bg:17: m[2].Js*m[2].el.Re*w/(m[2].el.k*m[2].ge.N^2) */
+    const real t_25 = p->m__2__Js * p->m__2__el__Re * w / p->m__2__el__k / p->m__2__ge__N
             / p->m__2__ge__N;
 
-    /* khepera.bg:17: m[2].Js*m[2].el.L*bandwidth^2/(m[2].el.k*m[2].ge.N^2) */
-    const real t_28 = p->m__2__Js * p->m__2__el__L * bandwidth * bandwidth / p->m__2__el__k
-            / p->m__2__ge__N / p->m__2__ge__N;
+    /* khepera.bg:17: m[2].Js*m[2].el.L*w^2/(m[2].el.k*m[2].ge.N^2) */
+    const real t_26 = p->m__2__Js * p->m__2__el__L * w * w / p->m__2__el__k / p->m__2__ge__N
+            / p->m__2__ge__N;
 
     /* khepera.bg:17: m[2].fs*m[2].el.Re/(m[2].el.k*m[2].ge.N^2) */
-    const real t_29 = p->m__2__fs * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N
+    const real t_27 = p->m__2__fs * p->m__2__el__Re / p->m__2__el__k / p->m__2__ge__N
             / p->m__2__ge__N;
 
-    /* khepera.bg:17: m[2].fs*m[2].el.L*bandwidth/(m[2].el.k*m[2].ge.N^2) */
-    const real t_30 = p->m__2__fs * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N
+    /* khepera.bg:17: m[2].fs*m[2].el.L*w/(m[2].el.k*m[2].ge.N^2) */
+    const real t_28 = p->m__2__fs * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N
             / p->m__2__ge__N;
 
-    /* khepera.bg:17: m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)*bandwidth/m[2].el.k */
-    const real t_31 = p->m__2__el__Re * t_6 * bandwidth / p->m__2__el__k;
+    /* khepera.bg:17: m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)*w/m[2].el.k */
+    const real t_29 = p->m__2__el__Re * t_6 * w / p->m__2__el__k;
 
-    /* khepera.bg:17: m[2].el.k*bandwidth*(m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)/m[2].el.k^2
-     * + m[2].el. ... */
-    const real t_32 = p->m__2__el__k * bandwidth
-            * (p->m__2__el__Re * t_6 / p->m__2__el__k / p->m__2__el__k
-            + p->m__2__el__L * t_5 / p->m__2__el__k / p->m__2__el__k);
-
-    /* khepera.bg:17: m[2].el.k^2*bandwidth*(-2*m[2].el.L*(m[2].fe +
-     * m[2].fs/m[2].ge.N^2)/m[2].el.k^3 - 2*m[ ... */
-    const real t_33 = p->m__2__el__k * p->m__2__el__k * bandwidth
-            * (-REAL(2.0) * p->m__2__el__L * t_5 / p->m__2__el__k / p->m__2__el__k / p->m__2__el__k
-            - REAL(2.0) * p->m__2__el__Re * t_6 / p->m__2__el__k / p->m__2__el__k / p->m__2__el__k);
+    /* khepera.bg:17: r1_w1: factor of m[1].motor' */
+    c->r1_w1_w1_m__1__motor = t_16 / REAL(10.0);
 
     /* speed of m[1].motor for one count */
-    c->m__1__motor_gain = REAL(884279719003555.0) * bandwidth * t_11 / REAL(3377699720527872.0);
+    c->m__1__motor_gain = REAL(884279719003555.0) * t_10 * w / REAL(3377699720527872.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_9;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* khepera.bg:17: r1_w1: factor of m[1].motor in stage 2 */
-    c->r1_w1_v2_m__1__motor = t_17 / REAL(10.0);
+    /* khepera.bg:17: r1_w1: factor of m[1].motor'' */
+    c->r1_w1_w2_m__1__motor = t_17 / REAL(10.0);
 
-    /* khepera.bg:17: r1_w1: factor of m[1].motor in stage 3 */
-    c->r1_w1_v3_m__1__motor = t_17 / REAL(10.0) - t_16 / REAL(10.0);
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_11 / REAL(12.0);
 
-    /* filter: weight of the new sample */
-    c->b0 = t_10;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_9;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_9 - t_10;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = t_10;
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = t_11;
+    /* khepera.bg:17: r1_w2: factor of m[1].motor'' */
+    c->r1_w2_w2_m__1__motor = t_18 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w2: factor of m[1].motor in stage 1 */
-    c->r1_w2_v1_m__1__motor = t_19 / REAL(50.0);
+    /* khepera.bg:17: r1_w2: factor of m[1].motor''' */
+    c->r1_w2_w3_m__1__motor = t_19 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w2: factor of m[1].motor in stage 2 */
-    c->r1_w2_v2_m__1__motor = t_19 / REAL(25.0) - t_18 / REAL(50.0);
+    /* khepera.bg:17: r1_w3: factor of m[1].motor' */
+    c->r1_w3_w1_m__1__motor = t_20 / REAL(10.0);
 
-    /* khepera.bg:17: r1_w2: factor of m[1].motor in stage 3 */
-    c->r1_w2_v3_m__1__motor = t_18 / REAL(50.0) - t_19 / REAL(50.0);
+    /* khepera.bg:17: r1_w3: factor of m[1].motor'' */
+    c->r1_w3_w2_m__1__motor = t_21 / REAL(10.0);
 
-    /* khepera.bg:17: r1_w3: factor of m[1].motor in stage 2 */
-    c->r1_w3_v2_m__1__motor = t_21 / REAL(10.0);
+    /* khepera.bg:17: r1_w4: factor of Fx[1] */
+    c->r1_w4_Fx__1 = t_4 / REAL(20.0);
 
-    /* khepera.bg:17: r1_w3: factor of m[1].motor in stage 3 */
-    c->r1_w3_v3_m__1__motor = t_21 / REAL(10.0) - t_20 / REAL(10.0);
+    /* khepera.bg:17: r1_w4: factor of m[1].motor' */
+    c->r1_w4_w1_m__1__motor = t_3 / REAL(20.0);
 
-    /* khepera.bg:17: r1_w4: factor of Fx[1] in stage 4 */
-    c->r1_w4_v4_Fx__1 = t_4 / REAL(20.0);
+    /* khepera.bg:17: r1_w4: factor of m[1].motor'' */
+    c->r1_w4_w2_m__1__motor = t_22 / REAL(20.0);
 
-    /* khepera.bg:17: r1_w4: factor of m[1].motor in stage 2 */
-    c->r1_w4_v2_m__1__motor = t_22 / REAL(20.0);
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_11 / REAL(6.0);
 
-    /* khepera.bg:17: r1_w4: factor of m[1].motor in stage 3 */
-    c->r1_w4_v3_m__1__motor = t_22 / REAL(20.0) - t_3 / REAL(20.0);
+    /* khepera.bg:17: r1_w5: factor of m[1].motor' */
+    c->r1_w5_w1_m__1__motor = p->m__1__el__k
+            * (p->m__1__el__Re * t / p->m__1__el__k / p->m__1__el__k
+            - REAL(1.0)) / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of m[1].motor in stage 1 */
-    c->r1_w5_v1_m__1__motor = t_12 / REAL(50.0);
+    /* khepera.bg:17: r1_w5: factor of m[1].motor'' */
+    c->r1_w5_w2_m__1__motor = p->m__1__el__k * w
+            * (p->m__1__el__Re * t_2 / p->m__1__el__k / p->m__1__el__k
+            + p->m__1__el__L * t / p->m__1__el__k / p->m__1__el__k) / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of m[1].motor in stage 2 */
-    c->r1_w5_v2_m__1__motor = t_23 / REAL(50.0) - t_12 / REAL(25.0);
+    /* khepera.bg:17: r1_w5: factor of m[1].motor''' */
+    c->r1_w5_w3_m__1__motor = t_12 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of m[1].motor in stage 3 */
-    c->r1_w5_v3_m__1__motor = t_12 / REAL(50.0)
-        + p->m__1__el__k * (p->m__1__el__Re * t / p->m__1__el__k / p->m__1__el__k
-            - REAL(1.0)) / REAL(50.0)
-        - t_23 / REAL(50.0);
+    /* khepera.bg:17: r1_w5: factor of Fx[1] */
+    c->r1_w5_Fx__1 = t_4 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of Fx[1] in stage 3 */
-    c->r1_w5_v3_Fx__1 = t_13 / REAL(50.0);
+    /* khepera.bg:17: r1_w5: factor of Fx[1]' */
+    c->r1_w5_w1_Fx__1 = t_13 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of Fx[1] in stage 4 */
-    c->r1_w5_v4_Fx__1 = t_4 / REAL(50.0) - t_13 / REAL(50.0);
+    /* filter: 3 * (w*sample_time)^2/12 */
+    c->bend3 = REAL(0.25) * t_11;
 
-    /* khepera.bg:17: r1_w6: factor of m[1].motor in stage 3 */
-    c->r1_w6_v3_m__1__motor = t_16 / REAL(142.0);
+    /* khepera.bg:17: r1_w6: factor of m[1].motor' */
+    c->r1_w6_w1_m__1__motor = t_16 / REAL(142.0);
 
-    /* khepera.bg:17: r1_w7: factor of m[1].motor in stage 2 */
-    c->r1_w7_v2_m__1__motor = t_17 / REAL(355.0);
+    /* khepera.bg:17: r1_w7: factor of m[1].motor' */
+    c->r1_w7_w1_m__1__motor = t_16 / REAL(355.0);
 
-    /* khepera.bg:17: r1_w7: factor of m[1].motor in stage 3 */
-    c->r1_w7_v3_m__1__motor = t_16 / REAL(355.0) - t_17 / REAL(355.0);
+    /* khepera.bg:17: r1_w7: factor of m[1].motor'' */
+    c->r1_w7_w2_m__1__motor = t_17 / REAL(355.0);
 
-    /* khepera.bg:17: r1_w8: factor of m[1].motor in stage 2 */
-    c->r1_w8_v2_m__1__motor = t_18 / REAL(710.0);
+    /* khepera.bg:17: r1_w8: factor of m[1].motor'' */
+    c->r1_w8_w2_m__1__motor = t_18 / REAL(710.0);
 
-    /* khepera.bg:17: r1_w9: factor of m[1].motor in stage 1 */
-    c->r1_w9_v1_m__1__motor = t_19 / REAL(1775.0);
+    /* khepera.bg:17: r1_w9: factor of m[1].motor'' */
+    c->r1_w9_w2_m__1__motor = t_18 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w9: factor of m[1].motor in stage 2 */
-    c->r1_w9_v2_m__1__motor = t_18 / REAL(1775.0) - REAL(2.0) * t_19 / REAL(1775.0);
+    /* khepera.bg:17: r1_w9: factor of m[1].motor''' */
+    c->r1_w9_w3_m__1__motor = t_19 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w9: factor of m[1].motor in stage 3 */
-    c->r1_w9_v3_m__1__motor = t_19 / REAL(1775.0) - t_18 / REAL(1775.0);
+    /* khepera.bg:17: r1_w10: factor of m[1].motor' */
+    c->r1_w10_w1_m__1__motor = t_20 / REAL(142.0);
 
-    /* khepera.bg:17: r1_w10: factor of m[1].motor in stage 3 */
-    c->r1_w10_v3_m__1__motor = t_20 / REAL(142.0);
+    /* khepera.bg:17: r1_w11: factor of m[1].motor' */
+    c->r1_w11_w1_m__1__motor = t_20 / REAL(355.0);
 
-    /* khepera.bg:17: r1_w11: factor of m[1].motor in stage 2 */
-    c->r1_w11_v2_m__1__motor = t_21 / REAL(355.0);
+    /* khepera.bg:17: r1_w11: factor of m[1].motor'' */
+    c->r1_w11_w2_m__1__motor = t_21 / REAL(355.0);
 
-    /* khepera.bg:17: r1_w11: factor of m[1].motor in stage 3 */
-    c->r1_w11_v3_m__1__motor = t_20 / REAL(355.0) - t_21 / REAL(355.0);
+    /* khepera.bg:17: r1_w12: factor of m[1].motor' */
+    c->r1_w12_w1_m__1__motor = t_3 / REAL(710.0);
 
-    /* khepera.bg:17: r1_w12: factor of m[1].motor in stage 2 */
-    c->r1_w12_v2_m__1__motor = t_22 / REAL(710.0);
+    /* khepera.bg:17: r1_w12: factor of m[1].motor'' */
+    c->r1_w12_w2_m__1__motor = t_22 / REAL(710.0);
 
-    /* khepera.bg:17: r1_w12: factor of m[1].motor in stage 3 */
-    c->r1_w12_v3_m__1__motor = t_3 / REAL(710.0) - t_22 / REAL(710.0);
+    /* khepera.bg:17: r1_w12: factor of Fx[1] */
+    c->r1_w12_Fx__1 = t_4 / REAL(710.0);
 
-    /* khepera.bg:17: r1_w12: factor of Fx[1] in stage 4 */
-    c->r1_w12_v4_Fx__1 = t_4 / REAL(710.0);
+    /* khepera.bg:17: r1_w13: factor of m[1].motor' */
+    c->r1_w13_w1_m__1__motor = t_3 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w13: factor of m[1].motor in stage 1 */
-    c->r1_w13_v1_m__1__motor = t_12 / REAL(1775.0);
+    /* khepera.bg:17: r1_w13: factor of m[1].motor'' */
+    c->r1_w13_w2_m__1__motor = p->m__1__el__k * p->m__1__el__k * w
+            * (-REAL(2.0) * p->m__1__el__L * t / p->m__1__el__k / p->m__1__el__k / p->m__1__el__k
+            - REAL(2.0) * p->m__1__el__Re * t_2 / p->m__1__el__k / p->m__1__el__k / p->m__1__el__k)
+            / REAL(3550.0);
 
-    /* khepera.bg:17: r1_w13: factor of m[1].motor in stage 2 */
-    c->r1_w13_v2_m__1__motor = REAL(2.0) * t_12 / REAL(1775.0) + t_24 / REAL(3550.0);
+    /* khepera.bg:17: r1_w13: factor of m[1].motor''' */
+    c->r1_w13_w3_m__1__motor = t_12 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w13: factor of m[1].motor in stage 3 */
-    c->r1_w13_v3_m__1__motor = t_3 / REAL(1775.0) + t_12 / REAL(1775.0) + t_24 / REAL(3550.0);
+    /* khepera.bg:17: r1_w13: factor of Fx[1] */
+    c->r1_w13_Fx__1 = t_4 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w13: factor of Fx[1] in stage 3 */
-    c->r1_w13_v3_Fx__1 = t_13 / REAL(1775.0);
+    /* khepera.bg:17: r1_w13: factor of Fx[1]' */
+    c->r1_w13_w1_Fx__1 = t_13 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w13: factor of Fx[1] in stage 4 */
-    c->r1_w13_v4_Fx__1 = t_13 / REAL(1775.0) - t_4 / REAL(1775.0);
+    /* khepera.bg:17: r2_w1: factor of m[2].motor' */
+    c->r2_w1_w1_m__2__motor = t_23 / REAL(10.0);
 
-    /* khepera.bg:17: r2_w1: factor of m[2].motor in stage 2 */
-    c->r2_w1_v2_m__2__motor = t_26 / REAL(10.0);
+    /* khepera.bg:17: r2_w1: factor of m[2].motor'' */
+    c->r2_w1_w2_m__2__motor = t_24 / REAL(10.0);
 
-    /* khepera.bg:17: r2_w1: factor of m[2].motor in stage 3 */
-    c->r2_w1_v3_m__2__motor = t_26 / REAL(10.0) - t_25 / REAL(10.0);
+    /* khepera.bg:17: r2_w2: factor of m[2].motor'' */
+    c->r2_w2_w2_m__2__motor = t_25 / REAL(50.0);
 
-    /* khepera.bg:17: r2_w2: factor of m[2].motor in stage 1 */
-    c->r2_w2_v1_m__2__motor = t_28 / REAL(50.0);
+    /* khepera.bg:17: r2_w2: factor of m[2].motor''' */
+    c->r2_w2_w3_m__2__motor = t_26 / REAL(50.0);
 
-    /* khepera.bg:17: r2_w2: factor of m[2].motor in stage 2 */
-    c->r2_w2_v2_m__2__motor = t_28 / REAL(25.0) - t_27 / REAL(50.0);
+    /* khepera.bg:17: r2_w3: factor of m[2].motor' */
+    c->r2_w3_w1_m__2__motor = t_27 / REAL(10.0);
 
-    /* khepera.bg:17: r2_w2: factor of m[2].motor in stage 3 */
-    c->r2_w2_v3_m__2__motor = t_27 / REAL(50.0) - t_28 / REAL(50.0);
+    /* khepera.bg:17: r2_w3: factor of m[2].motor'' */
+    c->r2_w3_w2_m__2__motor = t_28 / REAL(10.0);
 
-    /* khepera.bg:17: r2_w3: factor of m[2].motor in stage 2 */
-    c->r2_w3_v2_m__2__motor = t_30 / REAL(10.0);
+    /* khepera.bg:17: r2_w4: factor of Fx[2] */
+    c->r2_w4_Fx__2 = t_8 / REAL(20.0);
 
-    /* khepera.bg:17: r2_w3: factor of m[2].motor in stage 3 */
-    c->r2_w3_v3_m__2__motor = t_30 / REAL(10.0) - t_29 / REAL(10.0);
+    /* khepera.bg:17: r2_w4: factor of m[2].motor' */
+    c->r2_w4_w1_m__2__motor = t_7 / REAL(20.0);
 
-    /* khepera.bg:17: r2_w4: factor of Fx[2] in stage 4 */
-    c->r2_w4_v4_Fx__2 = t_8 / REAL(20.0);
+    /* khepera.bg:17: r2_w4: factor of m[2].motor'' */
+    c->r2_w4_w2_m__2__motor = t_29 / REAL(20.0);
 
-    /* khepera.bg:17: r2_w4: factor of m[2].motor in stage 2 */
-    c->r2_w4_v2_m__2__motor = t_31 / REAL(20.0);
+    /* khepera.bg:17: r2_w5: factor of m[2].motor' */
+    c->r2_w5_w1_m__2__motor = p->m__2__el__k
+            * (p->m__2__el__Re * t_5 / p->m__2__el__k / p->m__2__el__k
+            - REAL(1.0)) / REAL(50.0);
 
-    /* khepera.bg:17: r2_w4: factor of m[2].motor in stage 3 */
-    c->r2_w4_v3_m__2__motor = t_31 / REAL(20.0) - t_7 / REAL(20.0);
+    /* khepera.bg:17: r2_w5: factor of m[2].motor'' */
+    c->r2_w5_w2_m__2__motor = p->m__2__el__k * w
+            * (p->m__2__el__Re * t_6 / p->m__2__el__k / p->m__2__el__k
+            + p->m__2__el__L * t_5 / p->m__2__el__k / p->m__2__el__k) / REAL(50.0);
 
-    /* khepera.bg:17: r2_w5: factor of m[2].motor in stage 1 */
-    c->r2_w5_v1_m__2__motor = t_14 / REAL(50.0);
+    /* khepera.bg:17: r2_w5: factor of m[2].motor''' */
+    c->r2_w5_w3_m__2__motor = t_14 / REAL(50.0);
 
-    /* khepera.bg:17: r2_w5: factor of m[2].motor in stage 2 */
-    c->r2_w5_v2_m__2__motor = t_32 / REAL(50.0) - t_14 / REAL(25.0);
+    /* khepera.bg:17: r2_w5: factor of Fx[2] */
+    c->r2_w5_Fx__2 = t_8 / REAL(50.0);
 
-    /* khepera.bg:17: r2_w5: factor of m[2].motor in stage 3 */
-    c->r2_w5_v3_m__2__motor = t_14 / REAL(50.0)
-        + p->m__2__el__k * (p->m__2__el__Re * t_5 / p->m__2__el__k / p->m__2__el__k
-            - REAL(1.0)) / REAL(50.0)
-        - t_32 / REAL(50.0);
+    /* khepera.bg:17: r2_w5: factor of Fx[2]' */
+    c->r2_w5_w1_Fx__2 = t_15 / REAL(50.0);
 
-    /* khepera.bg:17: r2_w5: factor of Fx[2] in stage 3 */
-    c->r2_w5_v3_Fx__2 = t_15 / REAL(50.0);
+    /* khepera.bg:17: r2_w6: factor of m[2].motor' */
+    c->r2_w6_w1_m__2__motor = t_23 / REAL(142.0);
 
-    /* khepera.bg:17: r2_w5: factor of Fx[2] in stage 4 */
-    c->r2_w5_v4_Fx__2 = t_8 / REAL(50.0) - t_15 / REAL(50.0);
+    /* khepera.bg:17: r2_w7: factor of m[2].motor' */
+    c->r2_w7_w1_m__2__motor = t_23 / REAL(355.0);
 
-    /* khepera.bg:17: r2_w6: factor of m[2].motor in stage 3 */
-    c->r2_w6_v3_m__2__motor = t_25 / REAL(142.0);
+    /* khepera.bg:17: r2_w7: factor of m[2].motor'' */
+    c->r2_w7_w2_m__2__motor = t_24 / REAL(355.0);
 
-    /* khepera.bg:17: r2_w7: factor of m[2].motor in stage 2 */
-    c->r2_w7_v2_m__2__motor = t_26 / REAL(355.0);
+    /* khepera.bg:17: r2_w8: factor of m[2].motor'' */
+    c->r2_w8_w2_m__2__motor = t_25 / REAL(710.0);
 
-    /* khepera.bg:17: r2_w7: factor of m[2].motor in stage 3 */
-    c->r2_w7_v3_m__2__motor = t_25 / REAL(355.0) - t_26 / REAL(355.0);
+    /* khepera.bg:17: r2_w9: factor of m[2].motor'' */
+    c->r2_w9_w2_m__2__motor = t_25 / REAL(1775.0);
 
-    /* khepera.bg:17: r2_w8: factor of m[2].motor in stage 2 */
-    c->r2_w8_v2_m__2__motor = t_27 / REAL(710.0);
+    /* khepera.bg:17: r2_w9: factor of m[2].motor''' */
+    c->r2_w9_w3_m__2__motor = t_26 / REAL(1775.0);
 
-    /* khepera.bg:17: r2_w9: factor of m[2].motor in stage 1 */
-    c->r2_w9_v1_m__2__motor = t_28 / REAL(1775.0);
+    /* khepera.bg:17: r2_w10: factor of m[2].motor' */
+    c->r2_w10_w1_m__2__motor = t_27 / REAL(142.0);
 
-    /* khepera.bg:17: r2_w9: factor of m[2].motor in stage 2 */
-    c->r2_w9_v2_m__2__motor = t_27 / REAL(1775.0) - REAL(2.0) * t_28 / REAL(1775.0);
+    /* khepera.bg:17: r2_w11: factor of m[2].motor' */
+    c->r2_w11_w1_m__2__motor = t_27 / REAL(355.0);
 
-    /* khepera.bg:17: r2_w9: factor of m[2].motor in stage 3 */
-    c->r2_w9_v3_m__2__motor = t_28 / REAL(1775.0) - t_27 / REAL(1775.0);
+    /* khepera.bg:17: r2_w11: factor of m[2].motor'' */
+    c->r2_w11_w2_m__2__motor = t_28 / REAL(355.0);
 
-    /* khepera.bg:17: r2_w10: factor of m[2].motor in stage 3 */
-    c->r2_w10_v3_m__2__motor = t_29 / REAL(142.0);
+    /* khepera.bg:17: r2_w12: factor of m[2].motor' */
+    c->r2_w12_w1_m__2__motor = t_7 / REAL(710.0);
 
-    /* khepera.bg:17: r2_w11: factor of m[2].motor in stage 2 */
-    c->r2_w11_v2_m__2__motor = t_30 / REAL(355.0);
+    /* khepera.bg:17: r2_w12: factor of m[2].motor'' */
+    c->r2_w12_w2_m__2__motor = t_29 / REAL(710.0);
 
-    /* khepera.bg:17: r2_w11: factor of m[2].motor in stage 3 */
-    c->r2_w11_v3_m__2__motor = t_29 / REAL(355.0) - t_30 / REAL(355.0);
+    /* khepera.bg:17: r2_w12: factor of Fx[2] */
+    c->r2_w12_Fx__2 = t_8 / REAL(710.0);
 
-    /* khepera.bg:17: r2_w12: factor of m[2].motor in stage 2 */
-    c->r2_w12_v2_m__2__motor = t_31 / REAL(710.0);
+    /* khepera.bg:17: r2_w13: factor of m[2].motor' */
+    c->r2_w13_w1_m__2__motor = t_7 / REAL(1775.0);
 
-    /* khepera.bg:17: r2_w12: factor of m[2].motor in stage 3 */
-    c->r2_w12_v3_m__2__motor = t_7 / REAL(710.0) - t_31 / REAL(710.0);
+    /* khepera.bg:17: r2_w13: factor of m[2].motor'' */
+    c->r2_w13_w2_m__2__motor = p->m__2__el__k * p->m__2__el__k * w
+            * (-REAL(2.0) * p->m__2__el__L * t_5 / p->m__2__el__k / p->m__2__el__k / p->m__2__el__k
+            - REAL(2.0) * p->m__2__el__Re * t_6 / p->m__2__el__k / p->m__2__el__k / p->m__2__el__k)
+            / REAL(3550.0);
 
-    /* khepera.bg:17: r2_w12: factor of Fx[2] in stage 4 */
-    c->r2_w12_v4_Fx__2 = t_8 / REAL(710.0);
+    /* khepera.bg:17: r2_w13: factor of m[2].motor''' */
+    c->r2_w13_w3_m__2__motor = t_14 / REAL(1775.0);
 
-    /* khepera.bg:17: r2_w13: factor of m[2].motor in stage 1 */
-    c->r2_w13_v1_m__2__motor = t_14 / REAL(1775.0);
+    /* khepera.bg:17: r2_w13: factor of Fx[2] */
+    c->r2_w13_Fx__2 = t_8 / REAL(1775.0);
 
-    /* khepera.bg:17: r2_w13: factor of m[2].motor in stage 2 */
-    c->r2_w13_v2_m__2__motor = REAL(2.0) * t_14 / REAL(1775.0) + t_33 / REAL(3550.0);
-
-    /* khepera.bg:17: r2_w13: factor of m[2].motor in stage 3 */
-    c->r2_w13_v3_m__2__motor = t_7 / REAL(1775.0) + t_14 / REAL(1775.0) + t_33 / REAL(3550.0);
-
-    /* khepera.bg:17: r2_w13: factor of Fx[2] in stage 3 */
-    c->r2_w13_v3_Fx__2 = t_15 / REAL(1775.0);
-
-    /* khepera.bg:17: r2_w13: factor of Fx[2] in stage 4 */
-    c->r2_w13_v4_Fx__2 = t_15 / REAL(1775.0) - t_8 / REAL(1775.0);
+    /* khepera.bg:17: r2_w13: factor of Fx[2]' */
+    c->r2_w13_w1_Fx__2 = t_15 / REAL(1775.0);
 }
 
 static bool parameters_are_finite(const khepera_built_threshold_parameters *p)
@@ -473,41 +425,38 @@ static bool parameters_are_finite(const khepera_built_threshold_parameters *p)
 
 static bool coefficients_are_finite(const khepera_built_threshold_monitor *monitor)
 {
-    return finite_number(monitor->c.m__1__motor_gain + monitor->c.a
-            + monitor->c.r1_w1_v2_m__1__motor + monitor->c.r1_w1_v3_m__1__motor + monitor->c.b0
-            + monitor->c.b1 + monitor->c.rest + monitor->c.r1_w2_v1_m__1__motor
-            + monitor->c.r1_w2_v2_m__1__motor + monitor->c.r1_w2_v3_m__1__motor
-            + monitor->c.r1_w3_v2_m__1__motor + monitor->c.r1_w3_v3_m__1__motor
-            + monitor->c.r1_w4_v4_Fx__1 + monitor->c.r1_w4_v2_m__1__motor
-            + monitor->c.r1_w4_v3_m__1__motor + monitor->c.r1_w5_v1_m__1__motor
-            + monitor->c.r1_w5_v2_m__1__motor + monitor->c.r1_w5_v3_m__1__motor
-            + monitor->c.r1_w5_v3_Fx__1 + monitor->c.r1_w5_v4_Fx__1
-            + monitor->c.r1_w6_v3_m__1__motor + monitor->c.r1_w7_v2_m__1__motor
-            + monitor->c.r1_w7_v3_m__1__motor + monitor->c.r1_w8_v2_m__1__motor
-            + monitor->c.r1_w9_v1_m__1__motor + monitor->c.r1_w9_v2_m__1__motor
-            + monitor->c.r1_w9_v3_m__1__motor + monitor->c.r1_w10_v3_m__1__motor
-            + monitor->c.r1_w11_v2_m__1__motor + monitor->c.r1_w11_v3_m__1__motor
-            + monitor->c.r1_w12_v2_m__1__motor + monitor->c.r1_w12_v3_m__1__motor
-            + monitor->c.r1_w12_v4_Fx__1 + monitor->c.r1_w13_v1_m__1__motor
-            + monitor->c.r1_w13_v2_m__1__motor + monitor->c.r1_w13_v3_m__1__motor
-            + monitor->c.r1_w13_v3_Fx__1 + monitor->c.r1_w13_v4_Fx__1
-            + monitor->c.r2_w1_v2_m__2__motor + monitor->c.r2_w1_v3_m__2__motor
-            + monitor->c.r2_w2_v1_m__2__motor + monitor->c.r2_w2_v2_m__2__motor
-            + monitor->c.r2_w2_v3_m__2__motor + monitor->c.r2_w3_v2_m__2__motor
-            + monitor->c.r2_w3_v3_m__2__motor + monitor->c.r2_w4_v4_Fx__2
-            + monitor->c.r2_w4_v2_m__2__motor + monitor->c.r2_w4_v3_m__2__motor
-            + monitor->c.r2_w5_v1_m__2__motor + monitor->c.r2_w5_v2_m__2__motor
-            + monitor->c.r2_w5_v3_m__2__motor + monitor->c.r2_w5_v3_Fx__2
-            + monitor->c.r2_w5_v4_Fx__2 + monitor->c.r2_w6_v3_m__2__motor
-            + monitor->c.r2_w7_v2_m__2__motor + monitor->c.r2_w7_v3_m__2__motor
-            + monitor->c.r2_w8_v2_m__2__motor + monitor->c.r2_w9_v1_m__2__motor
-            + monitor->c.r2_w9_v2_m__2__motor + monitor->c.r2_w9_v3_m__2__motor
-            + monitor->c.r2_w10_v3_m__2__motor + monitor->c.r2_w11_v2_m__2__motor
-            + monitor->c.r2_w11_v3_m__2__motor + monitor->c.r2_w12_v2_m__2__motor
-            + monitor->c.r2_w12_v3_m__2__motor + monitor->c.r2_w12_v4_Fx__2
-            + monitor->c.r2_w13_v1_m__2__motor + monitor->c.r2_w13_v2_m__2__motor
-            + monitor->c.r2_w13_v3_m__2__motor + monitor->c.r2_w13_v3_Fx__2
-            + monitor->c.r2_w13_v4_Fx__2);
+    return finite_number(monitor->c.r1_w1_w1_m__1__motor + monitor->c.m__1__motor_gain
+            + monitor->c.a + monitor->c.r1_w1_w2_m__1__motor + monitor->c.bend1 + monitor->c.b
+            + monitor->c.rest + monitor->c.r1_w2_w2_m__1__motor + monitor->c.r1_w2_w3_m__1__motor
+            + monitor->c.r1_w3_w1_m__1__motor + monitor->c.r1_w3_w2_m__1__motor
+            + monitor->c.r1_w4_Fx__1 + monitor->c.r1_w4_w1_m__1__motor
+            + monitor->c.r1_w4_w2_m__1__motor + monitor->c.bend2 + monitor->c.r1_w5_w1_m__1__motor
+            + monitor->c.r1_w5_w2_m__1__motor + monitor->c.r1_w5_w3_m__1__motor
+            + monitor->c.r1_w5_Fx__1 + monitor->c.r1_w5_w1_Fx__1 + monitor->c.bend3
+            + monitor->c.r1_w6_w1_m__1__motor + monitor->c.r1_w7_w1_m__1__motor
+            + monitor->c.r1_w7_w2_m__1__motor + monitor->c.r1_w8_w2_m__1__motor
+            + monitor->c.r1_w9_w2_m__1__motor + monitor->c.r1_w9_w3_m__1__motor
+            + monitor->c.r1_w10_w1_m__1__motor + monitor->c.r1_w11_w1_m__1__motor
+            + monitor->c.r1_w11_w2_m__1__motor + monitor->c.r1_w12_w1_m__1__motor
+            + monitor->c.r1_w12_w2_m__1__motor + monitor->c.r1_w12_Fx__1
+            + monitor->c.r1_w13_w1_m__1__motor + monitor->c.r1_w13_w2_m__1__motor
+            + monitor->c.r1_w13_w3_m__1__motor + monitor->c.r1_w13_Fx__1
+            + monitor->c.r1_w13_w1_Fx__1 + monitor->c.r2_w1_w1_m__2__motor
+            + monitor->c.r2_w1_w2_m__2__motor + monitor->c.r2_w2_w2_m__2__motor
+            + monitor->c.r2_w2_w3_m__2__motor + monitor->c.r2_w3_w1_m__2__motor
+            + monitor->c.r2_w3_w2_m__2__motor + monitor->c.r2_w4_Fx__2
+            + monitor->c.r2_w4_w1_m__2__motor + monitor->c.r2_w4_w2_m__2__motor
+            + monitor->c.r2_w5_w1_m__2__motor + monitor->c.r2_w5_w2_m__2__motor
+            + monitor->c.r2_w5_w3_m__2__motor + monitor->c.r2_w5_Fx__2 + monitor->c.r2_w5_w1_Fx__2
+            + monitor->c.r2_w6_w1_m__2__motor + monitor->c.r2_w7_w1_m__2__motor
+            + monitor->c.r2_w7_w2_m__2__motor + monitor->c.r2_w8_w2_m__2__motor
+            + monitor->c.r2_w9_w2_m__2__motor + monitor->c.r2_w9_w3_m__2__motor
+            + monitor->c.r2_w10_w1_m__2__motor + monitor->c.r2_w11_w1_m__2__motor
+            + monitor->c.r2_w11_w2_m__2__motor + monitor->c.r2_w12_w1_m__2__motor
+            + monitor->c.r2_w12_w2_m__2__motor + monitor->c.r2_w12_Fx__2
+            + monitor->c.r2_w13_w1_m__2__motor + monitor->c.r2_w13_w2_m__2__motor
+            + monitor->c.r2_w13_w3_m__2__motor + monitor->c.r2_w13_Fx__2
+            + monitor->c.r2_w13_w1_Fx__2);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -592,8 +541,32 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w1_m__1__motor_speed = r1_w1_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w1: encoders, order 1 */
+    const real r1_w1_n1 = -c->r1_w1_w1_m__1__motor * r1_w1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w1: error of order 1 */
+    const real r1_w1_e1 = c->bend1 * r1_w1_n1;
+
+    /* khepera.bg:17: r1_w1: encoders, order 2 */
+    const real r1_w1_n2 = -c->r1_w1_w2_m__1__motor * r1_w1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = r1_w1_n1 + r1_w1_n2;
+
+    /* khepera.bg:17: r1_w1: degree 2 */
+    const real r1_w1_d2 = r1_w1_n2 - r1_w1_e1;
+
+    /* khepera.bg:17: r1_w1: input of stage 4 */
+    const real r1_w1_u4 = r1_w1_n1 + r1_w1_d2 + r1_w1_e1 - r1_w1_d1;
+
+    /* khepera.bg:17: r1_w1: stage 4, at rest */
+    const real r1_w1_y4 = r1_w1_u4;
+
+    /* khepera.bg:17: r1_w1: stage 4: memory */
+    x->r1_w1_s4 = c->rest * r1_w1_u4;
+
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_m__1__motor * r1_w1_m__1__motor_speed_2;
+    const real r1_w1_u3 = r1_w1_y4 + r1_w1_d1 - REAL(2.0) * r1_w1_d2 - REAL(3.0) * r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 3, at rest */
     const real r1_w1_y3 = r1_w1_u3;
@@ -602,7 +575,7 @@ static void start_r1(
     x->r1_w1_s3 = c->rest * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_m__1__motor * r1_w1_m__1__motor_speed_2;
+    const real r1_w1_u2 = r1_w1_y3 + r1_w1_d2 + REAL(3.0) * r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 2, at rest */
     const real r1_w1_y2 = r1_w1_u2;
@@ -611,7 +584,7 @@ static void start_r1(
     x->r1_w1_s2 = c->rest * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 1, at rest */
     const real r1_w1_y1 = r1_w1_u1;
@@ -628,8 +601,33 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w2_m__1__motor_speed = r1_w2_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w2: encoders, order 2 */
+    const real r1_w2_n2 = -c->r1_w2_w2_m__1__motor * r1_w2_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w2: error of order 2 */
+    const real r1_w2_e2 = c->bend1 * r1_w2_n2;
+
+    /* khepera.bg:17: r1_w2: encoders, order 3 */
+    const real r1_w2_n3 = -c->r1_w2_w3_m__1__motor * r1_w2_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w2: degree 2 */
+    const real r1_w2_d2 = r1_w2_n2 + r1_w2_n3;
+
+    /* khepera.bg:17: r1_w2: degree 3 */
+    const real r1_w2_d3 = r1_w2_n3 - r1_w2_e2;
+
+    /* khepera.bg:17: r1_w2: input of stage 4 */
+    const real r1_w2_u4 = r1_w2_d2 - r1_w2_n2 - r1_w2_d3 - r1_w2_e2;
+
+    /* khepera.bg:17: r1_w2: stage 4, at rest */
+    const real r1_w2_y4 = r1_w2_u4;
+
+    /* khepera.bg:17: r1_w2: stage 4: memory */
+    x->r1_w2_s4 = c->rest * r1_w2_u4;
+
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_m__1__motor * r1_w2_m__1__motor_speed_2;
+    const real r1_w2_u3 = r1_w2_y4 + r1_w2_n2 + REAL(3.0) * r1_w2_d3 + REAL(4.0) * r1_w2_e2
+        - REAL(2.0) * r1_w2_d2;
 
     /* khepera.bg:17: r1_w2: stage 3, at rest */
     const real r1_w2_y3 = r1_w2_u3;
@@ -638,7 +636,7 @@ static void start_r1(
     x->r1_w2_s3 = c->rest * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 + c->r1_w2_v2_m__1__motor * r1_w2_m__1__motor_speed_2;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_d2 - REAL(3.0) * r1_w2_d3 - REAL(6.0) * r1_w2_e2;
 
     /* khepera.bg:17: r1_w2: stage 2, at rest */
     const real r1_w2_y2 = r1_w2_u2;
@@ -647,7 +645,7 @@ static void start_r1(
     x->r1_w2_s2 = c->rest * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2 - c->r1_w2_v1_m__1__motor * r1_w2_m__1__motor_speed_2;
+    const real r1_w2_u1 = r1_w2_y2 + r1_w2_d3 + REAL(4.0) * r1_w2_e2;
 
     /* khepera.bg:17: r1_w2: stage 1, at rest */
     const real r1_w2_y1 = r1_w2_u1;
@@ -656,7 +654,7 @@ static void start_r1(
     x->r1_w2_s1 = c->rest * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].Js can do */
-    const real r1_w2 = r1_w2_y1;
+    const real r1_w2 = r1_w2_y1 - r1_w2_e2;
 
     /* khepera.bg:17: filtered speed of m[1].motor, at rest */
     const real r1_w3_m__1__motor_speed_2 = REAL(0.0);
@@ -664,8 +662,32 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w3_m__1__motor_speed = r1_w3_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w3: encoders, order 1 */
+    const real r1_w3_n1 = -c->r1_w3_w1_m__1__motor * r1_w3_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w3: error of order 1 */
+    const real r1_w3_e1 = c->bend1 * r1_w3_n1;
+
+    /* khepera.bg:17: r1_w3: encoders, order 2 */
+    const real r1_w3_n2 = -c->r1_w3_w2_m__1__motor * r1_w3_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w3: degree 1 */
+    const real r1_w3_d1 = r1_w3_n1 + r1_w3_n2;
+
+    /* khepera.bg:17: r1_w3: degree 2 */
+    const real r1_w3_d2 = r1_w3_n2 - r1_w3_e1;
+
+    /* khepera.bg:17: r1_w3: input of stage 4 */
+    const real r1_w3_u4 = r1_w3_n1 + r1_w3_d2 + r1_w3_e1 - r1_w3_d1;
+
+    /* khepera.bg:17: r1_w3: stage 4, at rest */
+    const real r1_w3_y4 = r1_w3_u4;
+
+    /* khepera.bg:17: r1_w3: stage 4: memory */
+    x->r1_w3_s4 = c->rest * r1_w3_u4;
+
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_m__1__motor * r1_w3_m__1__motor_speed_2;
+    const real r1_w3_u3 = r1_w3_y4 + r1_w3_d1 - REAL(2.0) * r1_w3_d2 - REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 3, at rest */
     const real r1_w3_y3 = r1_w3_u3;
@@ -674,7 +696,7 @@ static void start_r1(
     x->r1_w3_s3 = c->rest * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 - c->r1_w3_v2_m__1__motor * r1_w3_m__1__motor_speed_2;
+    const real r1_w3_u2 = r1_w3_y3 + r1_w3_d2 + REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 2, at rest */
     const real r1_w3_y2 = r1_w3_u2;
@@ -683,7 +705,7 @@ static void start_r1(
     x->r1_w3_s2 = c->rest * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2;
+    const real r1_w3_u1 = r1_w3_y2 - r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 1, at rest */
     const real r1_w3_y1 = r1_w3_u1;
@@ -700,8 +722,29 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w4_m__1__motor_speed = r1_w4_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w4: encoders, order 1 */
+    const real r1_w4_n1 = -c->r1_w4_w1_m__1__motor * r1_w4_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w4: error of order 1 */
+    const real r1_w4_e1 = c->bend1 * r1_w4_n1;
+
+    /* khepera.bg:17: r1_w4: encoders, order 2 */
+    const real r1_w4_n2 = -c->r1_w4_w2_m__1__motor * r1_w4_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = r1_w4_n1 + r1_w4_n2;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend2 * r1_w4_g0;
+
+    /* khepera.bg:17: r1_w4: degree 2 */
+    const real r1_w4_d2 = r1_w4_n2 - r1_w4_e1 - r1_w4_e0;
+
     /* khepera.bg:17: r1_w4: input of stage 4 */
-    const real r1_w4_u4 = -c->r1_w4_v4_Fx__1 * s->Fx__1;
+    const real r1_w4_u4 = r1_w4_g0 + r1_w4_n1 + r1_w4_d2 + r1_w4_e1 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 4, at rest */
     const real r1_w4_y4 = r1_w4_u4;
@@ -710,7 +753,7 @@ static void start_r1(
     x->r1_w4_s4 = c->rest * r1_w4_u4;
 
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = r1_w4_y4 + c->r1_w4_v3_m__1__motor * r1_w4_m__1__motor_speed_2;
+    const real r1_w4_u3 = r1_w4_y4 + r1_w4_d1 - REAL(2.0) * r1_w4_d2 - REAL(3.0) * r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 3, at rest */
     const real r1_w4_y3 = r1_w4_u3;
@@ -719,7 +762,7 @@ static void start_r1(
     x->r1_w4_s3 = c->rest * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_m__1__motor * r1_w4_m__1__motor_speed_2;
+    const real r1_w4_u2 = r1_w4_y3 + r1_w4_d2 + REAL(3.0) * r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 2, at rest */
     const real r1_w4_y2 = r1_w4_u2;
@@ -728,7 +771,7 @@ static void start_r1(
     x->r1_w4_s2 = c->rest * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 1, at rest */
     const real r1_w4_y1 = r1_w4_u1;
@@ -745,8 +788,44 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w5_m__1__motor_speed = r1_w5_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w5: encoders, order 1 */
+    const real r1_w5_n1 = c->r1_w5_w1_m__1__motor * r1_w5_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w5: error of order 1 */
+    const real r1_w5_e1 = c->bend2 * r1_w5_n1;
+
+    /* khepera.bg:17: r1_w5: encoders, order 2 */
+    const real r1_w5_n2 = c->r1_w5_w2_m__1__motor * r1_w5_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w5: error of order 2 */
+    const real r1_w5_e2 = c->bend1 * r1_w5_n2;
+
+    /* khepera.bg:17: r1_w5: encoders, order 3 */
+    const real r1_w5_n3 = c->r1_w5_w3_m__1__motor * r1_w5_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w5: terms of order 0 */
+    const real r1_w5_g0 = c->r1_w5_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w5: terms of order 1 */
+    const real r1_w5_g1 = c->r1_w5_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w5: degree 1 */
+    const real r1_w5_d1 = r1_w5_g1 + r1_w5_n1 + r1_w5_n2;
+
+    /* khepera.bg:17: r1_w5: error of order 0 */
+    const real r1_w5_e0 = c->bend3 * r1_w5_g0;
+
+    /* khepera.bg:17: r1_w5: degree 2 */
+    const real r1_w5_d2 = r1_w5_n2 + r1_w5_n3 - r1_w5_e1 - r1_w5_e0;
+
+    /* khepera.bg:17: r1_w5: error of order 1 */
+    const real r1_w5_e1_2 = c->bend2 * r1_w5_g1;
+
+    /* khepera.bg:17: r1_w5: degree 3 */
+    const real r1_w5_d3 = r1_w5_n3 - r1_w5_e1 - r1_w5_e2 - r1_w5_e1_2;
+
     /* khepera.bg:17: r1_w5: input of stage 4 */
-    const real r1_w5_u4 = c->r1_w5_v4_Fx__1 * s->Fx__1;
+    const real r1_w5_u4 = r1_w5_g0 + r1_w5_n1 + r1_w5_d2 - r1_w5_d1 - r1_w5_d3 - r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 4, at rest */
     const real r1_w5_y4 = r1_w5_u4;
@@ -755,8 +834,8 @@ static void start_r1(
     x->r1_w5_s4 = c->rest * r1_w5_u4;
 
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = r1_w5_y4 + c->r1_w5_v3_m__1__motor * r1_w5_m__1__motor_speed_2
-        + c->r1_w5_v3_Fx__1 * s->Fx__1;
+    const real r1_w5_u3 = r1_w5_y4 + r1_w5_d1 + REAL(3.0) * r1_w5_d3 + REAL(4.0) * r1_w5_e2
+        - REAL(2.0) * r1_w5_d2;
 
     /* khepera.bg:17: r1_w5: stage 3, at rest */
     const real r1_w5_y3 = r1_w5_u3;
@@ -765,7 +844,7 @@ static void start_r1(
     x->r1_w5_s3 = c->rest * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
-    const real r1_w5_u2 = r1_w5_y3 + c->r1_w5_v2_m__1__motor * r1_w5_m__1__motor_speed_2;
+    const real r1_w5_u2 = r1_w5_y3 + r1_w5_d2 - REAL(3.0) * r1_w5_d3 - REAL(6.0) * r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 2, at rest */
     const real r1_w5_y2 = r1_w5_u2;
@@ -774,7 +853,7 @@ static void start_r1(
     x->r1_w5_s2 = c->rest * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
-    const real r1_w5_u1 = r1_w5_y2 + c->r1_w5_v1_m__1__motor * r1_w5_m__1__motor_speed_2;
+    const real r1_w5_u1 = r1_w5_y2 + r1_w5_d3 + REAL(4.0) * r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 1, at rest */
     const real r1_w5_y1 = r1_w5_u1;
@@ -783,7 +862,7 @@ static void start_r1(
     x->r1_w5_s1 = c->rest * r1_w5_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].el.k can do */
-    const real r1_w5 = r1_w5_y1;
+    const real r1_w5 = r1_w5_y1 - r1_w5_e2;
 
     /* khepera.bg:17: filtered speed of m[1].motor, at rest */
     const real r1_w6_m__1__motor_speed_2 = REAL(0.0);
@@ -791,8 +870,20 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w6_m__1__motor_speed = r1_w6_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w6: encoders, order 1 */
+    const real r1_w6_n1 = -c->r1_w6_w1_m__1__motor * r1_w6_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w6: input of stage 4 */
+    const real r1_w6_u4 = r1_w6_n1 - r1_w6_n1;
+
+    /* khepera.bg:17: r1_w6: stage 4, at rest */
+    const real r1_w6_y4 = r1_w6_u4;
+
+    /* khepera.bg:17: r1_w6: stage 4: memory */
+    x->r1_w6_s4 = c->rest * r1_w6_u4;
+
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = -c->r1_w6_v3_m__1__motor * r1_w6_m__1__motor_speed_2;
+    const real r1_w6_u3 = r1_w6_y4 + r1_w6_n1;
 
     /* khepera.bg:17: r1_w6: stage 3, at rest */
     const real r1_w6_y3 = r1_w6_u3;
@@ -827,8 +918,32 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w7_m__1__motor_speed = r1_w7_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w7: encoders, order 1 */
+    const real r1_w7_n1 = c->r1_w7_w1_m__1__motor * r1_w7_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w7: error of order 1 */
+    const real r1_w7_e1 = c->bend1 * r1_w7_n1;
+
+    /* khepera.bg:17: r1_w7: encoders, order 2 */
+    const real r1_w7_n2 = c->r1_w7_w2_m__1__motor * r1_w7_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w7: degree 1 */
+    const real r1_w7_d1 = r1_w7_n1 + r1_w7_n2;
+
+    /* khepera.bg:17: r1_w7: degree 2 */
+    const real r1_w7_d2 = r1_w7_n2 - r1_w7_e1;
+
+    /* khepera.bg:17: r1_w7: input of stage 4 */
+    const real r1_w7_u4 = r1_w7_n1 + r1_w7_d2 + r1_w7_e1 - r1_w7_d1;
+
+    /* khepera.bg:17: r1_w7: stage 4, at rest */
+    const real r1_w7_y4 = r1_w7_u4;
+
+    /* khepera.bg:17: r1_w7: stage 4: memory */
+    x->r1_w7_s4 = c->rest * r1_w7_u4;
+
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = c->r1_w7_v3_m__1__motor * r1_w7_m__1__motor_speed_2;
+    const real r1_w7_u3 = r1_w7_y4 + r1_w7_d1 - REAL(2.0) * r1_w7_d2 - REAL(3.0) * r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 3, at rest */
     const real r1_w7_y3 = r1_w7_u3;
@@ -837,7 +952,7 @@ static void start_r1(
     x->r1_w7_s3 = c->rest * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: input of stage 2 */
-    const real r1_w7_u2 = r1_w7_y3 + c->r1_w7_v2_m__1__motor * r1_w7_m__1__motor_speed_2;
+    const real r1_w7_u2 = r1_w7_y3 + r1_w7_d2 + REAL(3.0) * r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 2, at rest */
     const real r1_w7_y2 = r1_w7_u2;
@@ -846,7 +961,7 @@ static void start_r1(
     x->r1_w7_s2 = c->rest * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: input of stage 1 */
-    const real r1_w7_u1 = r1_w7_y2;
+    const real r1_w7_u1 = r1_w7_y2 - r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 1, at rest */
     const real r1_w7_y1 = r1_w7_u1;
@@ -863,8 +978,20 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w8_m__1__motor_speed = r1_w8_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w8: encoders, order 2 */
+    const real r1_w8_n2 = -c->r1_w8_w2_m__1__motor * r1_w8_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w8: input of stage 4 */
+    const real r1_w8_u4 = r1_w8_n2 - r1_w8_n2;
+
+    /* khepera.bg:17: r1_w8: stage 4, at rest */
+    const real r1_w8_y4 = r1_w8_u4;
+
+    /* khepera.bg:17: r1_w8: stage 4: memory */
+    x->r1_w8_s4 = c->rest * r1_w8_u4;
+
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = c->r1_w8_v2_m__1__motor * r1_w8_m__1__motor_speed_2;
+    const real r1_w8_u3 = r1_w8_y4 + r1_w8_n2 - REAL(2.0) * r1_w8_n2;
 
     /* khepera.bg:17: r1_w8: stage 3, at rest */
     const real r1_w8_y3 = r1_w8_u3;
@@ -873,7 +1000,7 @@ static void start_r1(
     x->r1_w8_s3 = c->rest * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
-    const real r1_w8_u2 = r1_w8_y3 - c->r1_w8_v2_m__1__motor * r1_w8_m__1__motor_speed_2;
+    const real r1_w8_u2 = r1_w8_y3 + r1_w8_n2;
 
     /* khepera.bg:17: r1_w8: stage 2, at rest */
     const real r1_w8_y2 = r1_w8_u2;
@@ -899,8 +1026,33 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w9_m__1__motor_speed = r1_w9_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w9: encoders, order 2 */
+    const real r1_w9_n2 = c->r1_w9_w2_m__1__motor * r1_w9_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w9: error of order 2 */
+    const real r1_w9_e2 = c->bend1 * r1_w9_n2;
+
+    /* khepera.bg:17: r1_w9: encoders, order 3 */
+    const real r1_w9_n3 = c->r1_w9_w3_m__1__motor * r1_w9_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w9: degree 2 */
+    const real r1_w9_d2 = r1_w9_n2 + r1_w9_n3;
+
+    /* khepera.bg:17: r1_w9: degree 3 */
+    const real r1_w9_d3 = r1_w9_n3 - r1_w9_e2;
+
+    /* khepera.bg:17: r1_w9: input of stage 4 */
+    const real r1_w9_u4 = r1_w9_d2 - r1_w9_n2 - r1_w9_d3 - r1_w9_e2;
+
+    /* khepera.bg:17: r1_w9: stage 4, at rest */
+    const real r1_w9_y4 = r1_w9_u4;
+
+    /* khepera.bg:17: r1_w9: stage 4: memory */
+    x->r1_w9_s4 = c->rest * r1_w9_u4;
+
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_m__1__motor * r1_w9_m__1__motor_speed_2;
+    const real r1_w9_u3 = r1_w9_y4 + r1_w9_n2 + REAL(3.0) * r1_w9_d3 + REAL(4.0) * r1_w9_e2
+        - REAL(2.0) * r1_w9_d2;
 
     /* khepera.bg:17: r1_w9: stage 3, at rest */
     const real r1_w9_y3 = r1_w9_u3;
@@ -909,7 +1061,7 @@ static void start_r1(
     x->r1_w9_s3 = c->rest * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_m__1__motor * r1_w9_m__1__motor_speed_2;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_d2 - REAL(3.0) * r1_w9_d3 - REAL(6.0) * r1_w9_e2;
 
     /* khepera.bg:17: r1_w9: stage 2, at rest */
     const real r1_w9_y2 = r1_w9_u2;
@@ -918,7 +1070,7 @@ static void start_r1(
     x->r1_w9_s2 = c->rest * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2 + c->r1_w9_v1_m__1__motor * r1_w9_m__1__motor_speed_2;
+    const real r1_w9_u1 = r1_w9_y2 + r1_w9_d3 + REAL(4.0) * r1_w9_e2;
 
     /* khepera.bg:17: r1_w9: stage 1, at rest */
     const real r1_w9_y1 = r1_w9_u1;
@@ -927,7 +1079,7 @@ static void start_r1(
     x->r1_w9_s1 = c->rest * r1_w9_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.k can do together */
-    const real r1_w9 = r1_w9_y1;
+    const real r1_w9 = r1_w9_y1 - r1_w9_e2;
 
     /* khepera.bg:17: filtered speed of m[1].motor, at rest */
     const real r1_w10_m__1__motor_speed_2 = REAL(0.0);
@@ -935,8 +1087,20 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w10_m__1__motor_speed = r1_w10_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w10: encoders, order 1 */
+    const real r1_w10_n1 = -c->r1_w10_w1_m__1__motor * r1_w10_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w10: input of stage 4 */
+    const real r1_w10_u4 = r1_w10_n1 - r1_w10_n1;
+
+    /* khepera.bg:17: r1_w10: stage 4, at rest */
+    const real r1_w10_y4 = r1_w10_u4;
+
+    /* khepera.bg:17: r1_w10: stage 4: memory */
+    x->r1_w10_s4 = c->rest * r1_w10_u4;
+
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = -c->r1_w10_v3_m__1__motor * r1_w10_m__1__motor_speed_2;
+    const real r1_w10_u3 = r1_w10_y4 + r1_w10_n1;
 
     /* khepera.bg:17: r1_w10: stage 3, at rest */
     const real r1_w10_y3 = r1_w10_u3;
@@ -971,8 +1135,32 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w11_m__1__motor_speed = r1_w11_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w11: encoders, order 1 */
+    const real r1_w11_n1 = c->r1_w11_w1_m__1__motor * r1_w11_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w11: error of order 1 */
+    const real r1_w11_e1 = c->bend1 * r1_w11_n1;
+
+    /* khepera.bg:17: r1_w11: encoders, order 2 */
+    const real r1_w11_n2 = c->r1_w11_w2_m__1__motor * r1_w11_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w11: degree 1 */
+    const real r1_w11_d1 = r1_w11_n1 + r1_w11_n2;
+
+    /* khepera.bg:17: r1_w11: degree 2 */
+    const real r1_w11_d2 = r1_w11_n2 - r1_w11_e1;
+
+    /* khepera.bg:17: r1_w11: input of stage 4 */
+    const real r1_w11_u4 = r1_w11_n1 + r1_w11_d2 + r1_w11_e1 - r1_w11_d1;
+
+    /* khepera.bg:17: r1_w11: stage 4, at rest */
+    const real r1_w11_y4 = r1_w11_u4;
+
+    /* khepera.bg:17: r1_w11: stage 4: memory */
+    x->r1_w11_s4 = c->rest * r1_w11_u4;
+
     /* khepera.bg:17: r1_w11: input of stage 3 */
-    const real r1_w11_u3 = c->r1_w11_v3_m__1__motor * r1_w11_m__1__motor_speed_2;
+    const real r1_w11_u3 = r1_w11_y4 + r1_w11_d1 - REAL(2.0) * r1_w11_d2 - REAL(3.0) * r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 3, at rest */
     const real r1_w11_y3 = r1_w11_u3;
@@ -981,7 +1169,7 @@ static void start_r1(
     x->r1_w11_s3 = c->rest * r1_w11_u3;
 
     /* khepera.bg:17: r1_w11: input of stage 2 */
-    const real r1_w11_u2 = r1_w11_y3 + c->r1_w11_v2_m__1__motor * r1_w11_m__1__motor_speed_2;
+    const real r1_w11_u2 = r1_w11_y3 + r1_w11_d2 + REAL(3.0) * r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 2, at rest */
     const real r1_w11_y2 = r1_w11_u2;
@@ -990,7 +1178,7 @@ static void start_r1(
     x->r1_w11_s2 = c->rest * r1_w11_u2;
 
     /* khepera.bg:17: r1_w11: input of stage 1 */
-    const real r1_w11_u1 = r1_w11_y2;
+    const real r1_w11_u1 = r1_w11_y2 - r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 1, at rest */
     const real r1_w11_y1 = r1_w11_u1;
@@ -1007,8 +1195,29 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w12_m__1__motor_speed = r1_w12_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w12: encoders, order 1 */
+    const real r1_w12_n1 = c->r1_w12_w1_m__1__motor * r1_w12_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w12: error of order 1 */
+    const real r1_w12_e1 = c->bend1 * r1_w12_n1;
+
+    /* khepera.bg:17: r1_w12: encoders, order 2 */
+    const real r1_w12_n2 = c->r1_w12_w2_m__1__motor * r1_w12_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w12: terms of order 0 */
+    const real r1_w12_g0 = c->r1_w12_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w12: degree 1 */
+    const real r1_w12_d1 = r1_w12_n1 + r1_w12_n2;
+
+    /* khepera.bg:17: r1_w12: error of order 0 */
+    const real r1_w12_e0 = c->bend2 * r1_w12_g0;
+
+    /* khepera.bg:17: r1_w12: degree 2 */
+    const real r1_w12_d2 = r1_w12_n2 - r1_w12_e1 - r1_w12_e0;
+
     /* khepera.bg:17: r1_w12: input of stage 4 */
-    const real r1_w12_u4 = c->r1_w12_v4_Fx__1 * s->Fx__1;
+    const real r1_w12_u4 = r1_w12_g0 + r1_w12_n1 + r1_w12_d2 + r1_w12_e1 - r1_w12_d1;
 
     /* khepera.bg:17: r1_w12: stage 4, at rest */
     const real r1_w12_y4 = r1_w12_u4;
@@ -1017,7 +1226,7 @@ static void start_r1(
     x->r1_w12_s4 = c->rest * r1_w12_u4;
 
     /* khepera.bg:17: r1_w12: input of stage 3 */
-    const real r1_w12_u3 = r1_w12_y4 + c->r1_w12_v3_m__1__motor * r1_w12_m__1__motor_speed_2;
+    const real r1_w12_u3 = r1_w12_y4 + r1_w12_d1 - REAL(2.0) * r1_w12_d2 - REAL(3.0) * r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 3, at rest */
     const real r1_w12_y3 = r1_w12_u3;
@@ -1026,7 +1235,7 @@ static void start_r1(
     x->r1_w12_s3 = c->rest * r1_w12_u3;
 
     /* khepera.bg:17: r1_w12: input of stage 2 */
-    const real r1_w12_u2 = r1_w12_y3 + c->r1_w12_v2_m__1__motor * r1_w12_m__1__motor_speed_2;
+    const real r1_w12_u2 = r1_w12_y3 + r1_w12_d2 + REAL(3.0) * r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 2, at rest */
     const real r1_w12_y2 = r1_w12_u2;
@@ -1035,7 +1244,7 @@ static void start_r1(
     x->r1_w12_s2 = c->rest * r1_w12_u2;
 
     /* khepera.bg:17: r1_w12: input of stage 1 */
-    const real r1_w12_u1 = r1_w12_y2;
+    const real r1_w12_u1 = r1_w12_y2 - r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 1, at rest */
     const real r1_w12_y1 = r1_w12_u1;
@@ -1052,8 +1261,44 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w13_m__1__motor_speed = r1_w13_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w13: encoders, order 1 */
+    const real r1_w13_n1 = -c->r1_w13_w1_m__1__motor * r1_w13_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w13: error of order 1 */
+    const real r1_w13_e1 = c->bend2 * r1_w13_n1;
+
+    /* khepera.bg:17: r1_w13: encoders, order 2 */
+    const real r1_w13_n2 = c->r1_w13_w2_m__1__motor * r1_w13_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w13: error of order 2 */
+    const real r1_w13_e2 = c->bend1 * r1_w13_n2;
+
+    /* khepera.bg:17: r1_w13: encoders, order 3 */
+    const real r1_w13_n3 = -c->r1_w13_w3_m__1__motor * r1_w13_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w13: terms of order 0 */
+    const real r1_w13_g0 = -c->r1_w13_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w13: terms of order 1 */
+    const real r1_w13_g1 = -c->r1_w13_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w13: degree 1 */
+    const real r1_w13_d1 = r1_w13_g1 + r1_w13_n1 + r1_w13_n2;
+
+    /* khepera.bg:17: r1_w13: error of order 0 */
+    const real r1_w13_e0 = c->bend3 * r1_w13_g0;
+
+    /* khepera.bg:17: r1_w13: degree 2 */
+    const real r1_w13_d2 = r1_w13_n2 + r1_w13_n3 - r1_w13_e1 - r1_w13_e0;
+
+    /* khepera.bg:17: r1_w13: error of order 1 */
+    const real r1_w13_e1_2 = c->bend2 * r1_w13_g1;
+
+    /* khepera.bg:17: r1_w13: degree 3 */
+    const real r1_w13_d3 = r1_w13_n3 - r1_w13_e1 - r1_w13_e2 - r1_w13_e1_2;
+
     /* khepera.bg:17: r1_w13: input of stage 4 */
-    const real r1_w13_u4 = c->r1_w13_v4_Fx__1 * s->Fx__1;
+    const real r1_w13_u4 = r1_w13_g0 + r1_w13_n1 + r1_w13_d2 - r1_w13_d1 - r1_w13_d3 - r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 4, at rest */
     const real r1_w13_y4 = r1_w13_u4;
@@ -1062,8 +1307,8 @@ static void start_r1(
     x->r1_w13_s4 = c->rest * r1_w13_u4;
 
     /* khepera.bg:17: r1_w13: input of stage 3 */
-    const real r1_w13_u3 = r1_w13_y4 - c->r1_w13_v3_m__1__motor * r1_w13_m__1__motor_speed_2
-        - c->r1_w13_v3_Fx__1 * s->Fx__1;
+    const real r1_w13_u3 = r1_w13_y4 + r1_w13_d1 + REAL(3.0) * r1_w13_d3 + REAL(4.0) * r1_w13_e2
+        - REAL(2.0) * r1_w13_d2;
 
     /* khepera.bg:17: r1_w13: stage 3, at rest */
     const real r1_w13_y3 = r1_w13_u3;
@@ -1072,7 +1317,7 @@ static void start_r1(
     x->r1_w13_s3 = c->rest * r1_w13_u3;
 
     /* khepera.bg:17: r1_w13: input of stage 2 */
-    const real r1_w13_u2 = r1_w13_y3 + c->r1_w13_v2_m__1__motor * r1_w13_m__1__motor_speed_2;
+    const real r1_w13_u2 = r1_w13_y3 + r1_w13_d2 - REAL(3.0) * r1_w13_d3 - REAL(6.0) * r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 2, at rest */
     const real r1_w13_y2 = r1_w13_u2;
@@ -1081,7 +1326,7 @@ static void start_r1(
     x->r1_w13_s2 = c->rest * r1_w13_u2;
 
     /* khepera.bg:17: r1_w13: input of stage 1 */
-    const real r1_w13_u1 = r1_w13_y2 - c->r1_w13_v1_m__1__motor * r1_w13_m__1__motor_speed_2;
+    const real r1_w13_u1 = r1_w13_y2 + r1_w13_d3 + REAL(4.0) * r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 1, at rest */
     const real r1_w13_y1 = r1_w13_u1;
@@ -1090,7 +1335,7 @@ static void start_r1(
     x->r1_w13_s1 = c->rest * r1_w13_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do */
-    const real r1_w13 = r1_w13_y1;
+    const real r1_w13 = r1_w13_y1 - r1_w13_e2;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
     r[KHEPERA_BUILT_THRESHOLD_R1] = MATH(fabs)(r1_w1) + MATH(fabs)(r1_w2) + MATH(fabs)(r1_w3)
@@ -1114,32 +1359,56 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w1_m__1__motor_speed = r1_w1_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w1: encoders, order 1 */
+    const real r1_w1_n1 = -c->r1_w1_w1_m__1__motor * r1_w1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w1: error of order 1 */
+    const real r1_w1_e1 = c->bend1 * r1_w1_n1;
+
+    /* khepera.bg:17: r1_w1: encoders, order 2 */
+    const real r1_w1_n2 = -c->r1_w1_w2_m__1__motor * r1_w1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = r1_w1_n1 + r1_w1_n2;
+
+    /* khepera.bg:17: r1_w1: degree 2 */
+    const real r1_w1_d2 = r1_w1_n2 - r1_w1_e1;
+
+    /* khepera.bg:17: r1_w1: input of stage 4 */
+    const real r1_w1_u4 = r1_w1_n1 + r1_w1_d2 + r1_w1_e1 - r1_w1_d1;
+
+    /* khepera.bg:17: r1_w1: stage 4 */
+    const real r1_w1_y4 = x->r1_w1_s4 + c->b * r1_w1_u4;
+
+    /* khepera.bg:17: r1_w1: stage 4: memory */
+    x->r1_w1_s4 = c->a * r1_w1_y4 + c->b * r1_w1_u4;
+
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_m__1__motor * r1_w1_m__1__motor_speed_2;
+    const real r1_w1_u3 = r1_w1_y4 + r1_w1_d1 - REAL(2.0) * r1_w1_d2 - REAL(3.0) * r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 3 */
-    const real r1_w1_y3 = x->r1_w1_s3 + c->b0 * r1_w1_u3;
+    const real r1_w1_y3 = x->r1_w1_s3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: stage 3: memory */
-    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b1 * r1_w1_u3;
+    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_m__1__motor * r1_w1_m__1__motor_speed_2;
+    const real r1_w1_u2 = r1_w1_y3 + r1_w1_d2 + REAL(3.0) * r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 2 */
-    const real r1_w1_y2 = x->r1_w1_s2 + c->b0 * r1_w1_u2;
+    const real r1_w1_y2 = x->r1_w1_s2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: stage 2: memory */
-    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b1 * r1_w1_u2;
+    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 1 */
-    const real r1_w1_y1 = x->r1_w1_s1 + c->b0 * r1_w1_u1;
+    const real r1_w1_y1 = x->r1_w1_s1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1_w1: stage 1: memory */
-    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b1 * r1_w1_u1;
+    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].fe can do */
     const real r1_w1 = r1_w1_y1;
@@ -1149,67 +1418,116 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w2_m__1__motor_speed = r1_w2_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w2: encoders, order 2 */
+    const real r1_w2_n2 = -c->r1_w2_w2_m__1__motor * r1_w2_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w2: error of order 2 */
+    const real r1_w2_e2 = c->bend1 * r1_w2_n2;
+
+    /* khepera.bg:17: r1_w2: encoders, order 3 */
+    const real r1_w2_n3 = -c->r1_w2_w3_m__1__motor * r1_w2_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w2: degree 2 */
+    const real r1_w2_d2 = r1_w2_n2 + r1_w2_n3;
+
+    /* khepera.bg:17: r1_w2: degree 3 */
+    const real r1_w2_d3 = r1_w2_n3 - r1_w2_e2;
+
+    /* khepera.bg:17: r1_w2: input of stage 4 */
+    const real r1_w2_u4 = r1_w2_d2 - r1_w2_n2 - r1_w2_d3 - r1_w2_e2;
+
+    /* khepera.bg:17: r1_w2: stage 4 */
+    const real r1_w2_y4 = x->r1_w2_s4 + c->b * r1_w2_u4;
+
+    /* khepera.bg:17: r1_w2: stage 4: memory */
+    x->r1_w2_s4 = c->a * r1_w2_y4 + c->b * r1_w2_u4;
+
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_m__1__motor * r1_w2_m__1__motor_speed_2;
+    const real r1_w2_u3 = r1_w2_y4 + r1_w2_n2 + REAL(3.0) * r1_w2_d3 + REAL(4.0) * r1_w2_e2
+        - REAL(2.0) * r1_w2_d2;
 
     /* khepera.bg:17: r1_w2: stage 3 */
-    const real r1_w2_y3 = x->r1_w2_s3 + c->b0 * r1_w2_u3;
+    const real r1_w2_y3 = x->r1_w2_s3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: stage 3: memory */
-    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b1 * r1_w2_u3;
+    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 + c->r1_w2_v2_m__1__motor * r1_w2_m__1__motor_speed_2;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_d2 - REAL(3.0) * r1_w2_d3 - REAL(6.0) * r1_w2_e2;
 
     /* khepera.bg:17: r1_w2: stage 2 */
-    const real r1_w2_y2 = x->r1_w2_s2 + c->b0 * r1_w2_u2;
+    const real r1_w2_y2 = x->r1_w2_s2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: stage 2: memory */
-    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b1 * r1_w2_u2;
+    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2 - c->r1_w2_v1_m__1__motor * r1_w2_m__1__motor_speed_2;
+    const real r1_w2_u1 = r1_w2_y2 + r1_w2_d3 + REAL(4.0) * r1_w2_e2;
 
     /* khepera.bg:17: r1_w2: stage 1 */
-    const real r1_w2_y1 = x->r1_w2_s1 + c->b0 * r1_w2_u1;
+    const real r1_w2_y1 = x->r1_w2_s1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1_w2: stage 1: memory */
-    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b1 * r1_w2_u1;
+    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].Js can do */
-    const real r1_w2 = r1_w2_y1;
+    const real r1_w2 = r1_w2_y1 - r1_w2_e2;
 
     /* khepera.bg:17: filtered speed of m[1].motor */
     const real r1_w3_m__1__motor_speed_2 = c->a * x->r1_w3_m__1__motor_speed
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w3_m__1__motor_speed = r1_w3_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w3: encoders, order 1 */
+    const real r1_w3_n1 = -c->r1_w3_w1_m__1__motor * r1_w3_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w3: error of order 1 */
+    const real r1_w3_e1 = c->bend1 * r1_w3_n1;
+
+    /* khepera.bg:17: r1_w3: encoders, order 2 */
+    const real r1_w3_n2 = -c->r1_w3_w2_m__1__motor * r1_w3_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w3: degree 1 */
+    const real r1_w3_d1 = r1_w3_n1 + r1_w3_n2;
+
+    /* khepera.bg:17: r1_w3: degree 2 */
+    const real r1_w3_d2 = r1_w3_n2 - r1_w3_e1;
+
+    /* khepera.bg:17: r1_w3: input of stage 4 */
+    const real r1_w3_u4 = r1_w3_n1 + r1_w3_d2 + r1_w3_e1 - r1_w3_d1;
+
+    /* khepera.bg:17: r1_w3: stage 4 */
+    const real r1_w3_y4 = x->r1_w3_s4 + c->b * r1_w3_u4;
+
+    /* khepera.bg:17: r1_w3: stage 4: memory */
+    x->r1_w3_s4 = c->a * r1_w3_y4 + c->b * r1_w3_u4;
+
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_m__1__motor * r1_w3_m__1__motor_speed_2;
+    const real r1_w3_u3 = r1_w3_y4 + r1_w3_d1 - REAL(2.0) * r1_w3_d2 - REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 3 */
-    const real r1_w3_y3 = x->r1_w3_s3 + c->b0 * r1_w3_u3;
+    const real r1_w3_y3 = x->r1_w3_s3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: stage 3: memory */
-    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b1 * r1_w3_u3;
+    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 - c->r1_w3_v2_m__1__motor * r1_w3_m__1__motor_speed_2;
+    const real r1_w3_u2 = r1_w3_y3 + r1_w3_d2 + REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 2 */
-    const real r1_w3_y2 = x->r1_w3_s2 + c->b0 * r1_w3_u2;
+    const real r1_w3_y2 = x->r1_w3_s2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: stage 2: memory */
-    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b1 * r1_w3_u2;
+    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2;
+    const real r1_w3_u1 = r1_w3_y2 - r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 1 */
-    const real r1_w3_y1 = x->r1_w3_s1 + c->b0 * r1_w3_u1;
+    const real r1_w3_y1 = x->r1_w3_s1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1_w3: stage 1: memory */
-    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b1 * r1_w3_u1;
+    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].fs can do */
     const real r1_w3 = r1_w3_y1;
@@ -1219,41 +1537,62 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w4_m__1__motor_speed = r1_w4_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w4: encoders, order 1 */
+    const real r1_w4_n1 = -c->r1_w4_w1_m__1__motor * r1_w4_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w4: error of order 1 */
+    const real r1_w4_e1 = c->bend1 * r1_w4_n1;
+
+    /* khepera.bg:17: r1_w4: encoders, order 2 */
+    const real r1_w4_n2 = -c->r1_w4_w2_m__1__motor * r1_w4_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = r1_w4_n1 + r1_w4_n2;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend2 * r1_w4_g0;
+
+    /* khepera.bg:17: r1_w4: degree 2 */
+    const real r1_w4_d2 = r1_w4_n2 - r1_w4_e1 - r1_w4_e0;
+
     /* khepera.bg:17: r1_w4: input of stage 4 */
-    const real r1_w4_u4 = -c->r1_w4_v4_Fx__1 * s->Fx__1;
+    const real r1_w4_u4 = r1_w4_g0 + r1_w4_n1 + r1_w4_d2 + r1_w4_e1 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 4 */
-    const real r1_w4_y4 = x->r1_w4_s4 + c->b0 * r1_w4_u4;
+    const real r1_w4_y4 = x->r1_w4_s4 + c->b * r1_w4_u4;
 
     /* khepera.bg:17: r1_w4: stage 4: memory */
-    x->r1_w4_s4 = c->a * r1_w4_y4 + c->b1 * r1_w4_u4;
+    x->r1_w4_s4 = c->a * r1_w4_y4 + c->b * r1_w4_u4;
 
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = r1_w4_y4 + c->r1_w4_v3_m__1__motor * r1_w4_m__1__motor_speed_2;
+    const real r1_w4_u3 = r1_w4_y4 + r1_w4_d1 - REAL(2.0) * r1_w4_d2 - REAL(3.0) * r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 3 */
-    const real r1_w4_y3 = x->r1_w4_s3 + c->b0 * r1_w4_u3;
+    const real r1_w4_y3 = x->r1_w4_s3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: stage 3: memory */
-    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b1 * r1_w4_u3;
+    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_m__1__motor * r1_w4_m__1__motor_speed_2;
+    const real r1_w4_u2 = r1_w4_y3 + r1_w4_d2 + REAL(3.0) * r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 2 */
-    const real r1_w4_y2 = x->r1_w4_s2 + c->b0 * r1_w4_u2;
+    const real r1_w4_y2 = x->r1_w4_s2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: stage 2: memory */
-    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b1 * r1_w4_u2;
+    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 1 */
-    const real r1_w4_y1 = x->r1_w4_s1 + c->b0 * r1_w4_u1;
+    const real r1_w4_y1 = x->r1_w4_s1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1_w4: stage 1: memory */
-    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b1 * r1_w4_u1;
+    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].el.Re can do */
     const real r1_w4 = r1_w4_y1;
@@ -1263,77 +1602,125 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w5_m__1__motor_speed = r1_w5_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w5: encoders, order 1 */
+    const real r1_w5_n1 = c->r1_w5_w1_m__1__motor * r1_w5_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w5: error of order 1 */
+    const real r1_w5_e1 = c->bend2 * r1_w5_n1;
+
+    /* khepera.bg:17: r1_w5: encoders, order 2 */
+    const real r1_w5_n2 = c->r1_w5_w2_m__1__motor * r1_w5_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w5: error of order 2 */
+    const real r1_w5_e2 = c->bend1 * r1_w5_n2;
+
+    /* khepera.bg:17: r1_w5: encoders, order 3 */
+    const real r1_w5_n3 = c->r1_w5_w3_m__1__motor * r1_w5_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w5: terms of order 0 */
+    const real r1_w5_g0 = c->r1_w5_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w5: terms of order 1 */
+    const real r1_w5_g1 = c->r1_w5_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w5: degree 1 */
+    const real r1_w5_d1 = r1_w5_g1 + r1_w5_n1 + r1_w5_n2;
+
+    /* khepera.bg:17: r1_w5: error of order 0 */
+    const real r1_w5_e0 = c->bend3 * r1_w5_g0;
+
+    /* khepera.bg:17: r1_w5: degree 2 */
+    const real r1_w5_d2 = r1_w5_n2 + r1_w5_n3 - r1_w5_e1 - r1_w5_e0;
+
+    /* khepera.bg:17: r1_w5: error of order 1 */
+    const real r1_w5_e1_2 = c->bend2 * r1_w5_g1;
+
+    /* khepera.bg:17: r1_w5: degree 3 */
+    const real r1_w5_d3 = r1_w5_n3 - r1_w5_e1 - r1_w5_e2 - r1_w5_e1_2;
+
     /* khepera.bg:17: r1_w5: input of stage 4 */
-    const real r1_w5_u4 = c->r1_w5_v4_Fx__1 * s->Fx__1;
+    const real r1_w5_u4 = r1_w5_g0 + r1_w5_n1 + r1_w5_d2 - r1_w5_d1 - r1_w5_d3 - r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 4 */
-    const real r1_w5_y4 = x->r1_w5_s4 + c->b0 * r1_w5_u4;
+    const real r1_w5_y4 = x->r1_w5_s4 + c->b * r1_w5_u4;
 
     /* khepera.bg:17: r1_w5: stage 4: memory */
-    x->r1_w5_s4 = c->a * r1_w5_y4 + c->b1 * r1_w5_u4;
+    x->r1_w5_s4 = c->a * r1_w5_y4 + c->b * r1_w5_u4;
 
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = r1_w5_y4 + c->r1_w5_v3_m__1__motor * r1_w5_m__1__motor_speed_2
-        + c->r1_w5_v3_Fx__1 * s->Fx__1;
+    const real r1_w5_u3 = r1_w5_y4 + r1_w5_d1 + REAL(3.0) * r1_w5_d3 + REAL(4.0) * r1_w5_e2
+        - REAL(2.0) * r1_w5_d2;
 
     /* khepera.bg:17: r1_w5: stage 3 */
-    const real r1_w5_y3 = x->r1_w5_s3 + c->b0 * r1_w5_u3;
+    const real r1_w5_y3 = x->r1_w5_s3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: stage 3: memory */
-    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b1 * r1_w5_u3;
+    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
-    const real r1_w5_u2 = r1_w5_y3 + c->r1_w5_v2_m__1__motor * r1_w5_m__1__motor_speed_2;
+    const real r1_w5_u2 = r1_w5_y3 + r1_w5_d2 - REAL(3.0) * r1_w5_d3 - REAL(6.0) * r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 2 */
-    const real r1_w5_y2 = x->r1_w5_s2 + c->b0 * r1_w5_u2;
+    const real r1_w5_y2 = x->r1_w5_s2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: stage 2: memory */
-    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b1 * r1_w5_u2;
+    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
-    const real r1_w5_u1 = r1_w5_y2 + c->r1_w5_v1_m__1__motor * r1_w5_m__1__motor_speed_2;
+    const real r1_w5_u1 = r1_w5_y2 + r1_w5_d3 + REAL(4.0) * r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 1 */
-    const real r1_w5_y1 = x->r1_w5_s1 + c->b0 * r1_w5_u1;
+    const real r1_w5_y1 = x->r1_w5_s1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1_w5: stage 1: memory */
-    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
+    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].el.k can do */
-    const real r1_w5 = r1_w5_y1;
+    const real r1_w5 = r1_w5_y1 - r1_w5_e2;
 
     /* khepera.bg:17: filtered speed of m[1].motor */
     const real r1_w6_m__1__motor_speed_2 = c->a * x->r1_w6_m__1__motor_speed
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w6_m__1__motor_speed = r1_w6_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w6: encoders, order 1 */
+    const real r1_w6_n1 = -c->r1_w6_w1_m__1__motor * r1_w6_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w6: input of stage 4 */
+    const real r1_w6_u4 = r1_w6_n1 - r1_w6_n1;
+
+    /* khepera.bg:17: r1_w6: stage 4 */
+    const real r1_w6_y4 = x->r1_w6_s4 + c->b * r1_w6_u4;
+
+    /* khepera.bg:17: r1_w6: stage 4: memory */
+    x->r1_w6_s4 = c->a * r1_w6_y4 + c->b * r1_w6_u4;
+
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = -c->r1_w6_v3_m__1__motor * r1_w6_m__1__motor_speed_2;
+    const real r1_w6_u3 = r1_w6_y4 + r1_w6_n1;
 
     /* khepera.bg:17: r1_w6: stage 3 */
-    const real r1_w6_y3 = x->r1_w6_s3 + c->b0 * r1_w6_u3;
+    const real r1_w6_y3 = x->r1_w6_s3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: stage 3: memory */
-    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b1 * r1_w6_u3;
+    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: input of stage 2 */
     const real r1_w6_u2 = r1_w6_y3;
 
     /* khepera.bg:17: r1_w6: stage 2 */
-    const real r1_w6_y2 = x->r1_w6_s2 + c->b0 * r1_w6_u2;
+    const real r1_w6_y2 = x->r1_w6_s2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: stage 2: memory */
-    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b1 * r1_w6_u2;
+    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: input of stage 1 */
     const real r1_w6_u1 = r1_w6_y2;
 
     /* khepera.bg:17: r1_w6: stage 1 */
-    const real r1_w6_y1 = x->r1_w6_s1 + c->b0 * r1_w6_u1;
+    const real r1_w6_y1 = x->r1_w6_s1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1_w6: stage 1: memory */
-    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
+    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].fe and m[1].el.Re can do together */
     const real r1_w6 = r1_w6_y1;
@@ -1343,32 +1730,56 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w7_m__1__motor_speed = r1_w7_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w7: encoders, order 1 */
+    const real r1_w7_n1 = c->r1_w7_w1_m__1__motor * r1_w7_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w7: error of order 1 */
+    const real r1_w7_e1 = c->bend1 * r1_w7_n1;
+
+    /* khepera.bg:17: r1_w7: encoders, order 2 */
+    const real r1_w7_n2 = c->r1_w7_w2_m__1__motor * r1_w7_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w7: degree 1 */
+    const real r1_w7_d1 = r1_w7_n1 + r1_w7_n2;
+
+    /* khepera.bg:17: r1_w7: degree 2 */
+    const real r1_w7_d2 = r1_w7_n2 - r1_w7_e1;
+
+    /* khepera.bg:17: r1_w7: input of stage 4 */
+    const real r1_w7_u4 = r1_w7_n1 + r1_w7_d2 + r1_w7_e1 - r1_w7_d1;
+
+    /* khepera.bg:17: r1_w7: stage 4 */
+    const real r1_w7_y4 = x->r1_w7_s4 + c->b * r1_w7_u4;
+
+    /* khepera.bg:17: r1_w7: stage 4: memory */
+    x->r1_w7_s4 = c->a * r1_w7_y4 + c->b * r1_w7_u4;
+
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = c->r1_w7_v3_m__1__motor * r1_w7_m__1__motor_speed_2;
+    const real r1_w7_u3 = r1_w7_y4 + r1_w7_d1 - REAL(2.0) * r1_w7_d2 - REAL(3.0) * r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 3 */
-    const real r1_w7_y3 = x->r1_w7_s3 + c->b0 * r1_w7_u3;
+    const real r1_w7_y3 = x->r1_w7_s3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: stage 3: memory */
-    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b1 * r1_w7_u3;
+    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: input of stage 2 */
-    const real r1_w7_u2 = r1_w7_y3 + c->r1_w7_v2_m__1__motor * r1_w7_m__1__motor_speed_2;
+    const real r1_w7_u2 = r1_w7_y3 + r1_w7_d2 + REAL(3.0) * r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 2 */
-    const real r1_w7_y2 = x->r1_w7_s2 + c->b0 * r1_w7_u2;
+    const real r1_w7_y2 = x->r1_w7_s2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: stage 2: memory */
-    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b1 * r1_w7_u2;
+    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: input of stage 1 */
-    const real r1_w7_u1 = r1_w7_y2;
+    const real r1_w7_u1 = r1_w7_y2 - r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 1 */
-    const real r1_w7_y1 = x->r1_w7_s1 + c->b0 * r1_w7_u1;
+    const real r1_w7_y1 = x->r1_w7_s1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1_w7: stage 1: memory */
-    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
+    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].fe and m[1].el.k can do together */
     const real r1_w7 = r1_w7_y1;
@@ -1378,32 +1789,44 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w8_m__1__motor_speed = r1_w8_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w8: encoders, order 2 */
+    const real r1_w8_n2 = -c->r1_w8_w2_m__1__motor * r1_w8_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w8: input of stage 4 */
+    const real r1_w8_u4 = r1_w8_n2 - r1_w8_n2;
+
+    /* khepera.bg:17: r1_w8: stage 4 */
+    const real r1_w8_y4 = x->r1_w8_s4 + c->b * r1_w8_u4;
+
+    /* khepera.bg:17: r1_w8: stage 4: memory */
+    x->r1_w8_s4 = c->a * r1_w8_y4 + c->b * r1_w8_u4;
+
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = c->r1_w8_v2_m__1__motor * r1_w8_m__1__motor_speed_2;
+    const real r1_w8_u3 = r1_w8_y4 + r1_w8_n2 - REAL(2.0) * r1_w8_n2;
 
     /* khepera.bg:17: r1_w8: stage 3 */
-    const real r1_w8_y3 = x->r1_w8_s3 + c->b0 * r1_w8_u3;
+    const real r1_w8_y3 = x->r1_w8_s3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: stage 3: memory */
-    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b1 * r1_w8_u3;
+    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
-    const real r1_w8_u2 = r1_w8_y3 - c->r1_w8_v2_m__1__motor * r1_w8_m__1__motor_speed_2;
+    const real r1_w8_u2 = r1_w8_y3 + r1_w8_n2;
 
     /* khepera.bg:17: r1_w8: stage 2 */
-    const real r1_w8_y2 = x->r1_w8_s2 + c->b0 * r1_w8_u2;
+    const real r1_w8_y2 = x->r1_w8_s2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: stage 2: memory */
-    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b1 * r1_w8_u2;
+    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: input of stage 1 */
     const real r1_w8_u1 = r1_w8_y2;
 
     /* khepera.bg:17: r1_w8: stage 1 */
-    const real r1_w8_y1 = x->r1_w8_s1 + c->b0 * r1_w8_u1;
+    const real r1_w8_y1 = x->r1_w8_s1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1_w8: stage 1: memory */
-    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
+    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.Re can do together */
     const real r1_w8 = r1_w8_y1;
@@ -1413,67 +1836,104 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w9_m__1__motor_speed = r1_w9_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w9: encoders, order 2 */
+    const real r1_w9_n2 = c->r1_w9_w2_m__1__motor * r1_w9_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w9: error of order 2 */
+    const real r1_w9_e2 = c->bend1 * r1_w9_n2;
+
+    /* khepera.bg:17: r1_w9: encoders, order 3 */
+    const real r1_w9_n3 = c->r1_w9_w3_m__1__motor * r1_w9_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w9: degree 2 */
+    const real r1_w9_d2 = r1_w9_n2 + r1_w9_n3;
+
+    /* khepera.bg:17: r1_w9: degree 3 */
+    const real r1_w9_d3 = r1_w9_n3 - r1_w9_e2;
+
+    /* khepera.bg:17: r1_w9: input of stage 4 */
+    const real r1_w9_u4 = r1_w9_d2 - r1_w9_n2 - r1_w9_d3 - r1_w9_e2;
+
+    /* khepera.bg:17: r1_w9: stage 4 */
+    const real r1_w9_y4 = x->r1_w9_s4 + c->b * r1_w9_u4;
+
+    /* khepera.bg:17: r1_w9: stage 4: memory */
+    x->r1_w9_s4 = c->a * r1_w9_y4 + c->b * r1_w9_u4;
+
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_m__1__motor * r1_w9_m__1__motor_speed_2;
+    const real r1_w9_u3 = r1_w9_y4 + r1_w9_n2 + REAL(3.0) * r1_w9_d3 + REAL(4.0) * r1_w9_e2
+        - REAL(2.0) * r1_w9_d2;
 
     /* khepera.bg:17: r1_w9: stage 3 */
-    const real r1_w9_y3 = x->r1_w9_s3 + c->b0 * r1_w9_u3;
+    const real r1_w9_y3 = x->r1_w9_s3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: stage 3: memory */
-    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b1 * r1_w9_u3;
+    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_m__1__motor * r1_w9_m__1__motor_speed_2;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_d2 - REAL(3.0) * r1_w9_d3 - REAL(6.0) * r1_w9_e2;
 
     /* khepera.bg:17: r1_w9: stage 2 */
-    const real r1_w9_y2 = x->r1_w9_s2 + c->b0 * r1_w9_u2;
+    const real r1_w9_y2 = x->r1_w9_s2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: stage 2: memory */
-    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b1 * r1_w9_u2;
+    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2 + c->r1_w9_v1_m__1__motor * r1_w9_m__1__motor_speed_2;
+    const real r1_w9_u1 = r1_w9_y2 + r1_w9_d3 + REAL(4.0) * r1_w9_e2;
 
     /* khepera.bg:17: r1_w9: stage 1 */
-    const real r1_w9_y1 = x->r1_w9_s1 + c->b0 * r1_w9_u1;
+    const real r1_w9_y1 = x->r1_w9_s1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1_w9: stage 1: memory */
-    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
+    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.k can do together */
-    const real r1_w9 = r1_w9_y1;
+    const real r1_w9 = r1_w9_y1 - r1_w9_e2;
 
     /* khepera.bg:17: filtered speed of m[1].motor */
     const real r1_w10_m__1__motor_speed_2 = c->a * x->r1_w10_m__1__motor_speed
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w10_m__1__motor_speed = r1_w10_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w10: encoders, order 1 */
+    const real r1_w10_n1 = -c->r1_w10_w1_m__1__motor * r1_w10_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w10: input of stage 4 */
+    const real r1_w10_u4 = r1_w10_n1 - r1_w10_n1;
+
+    /* khepera.bg:17: r1_w10: stage 4 */
+    const real r1_w10_y4 = x->r1_w10_s4 + c->b * r1_w10_u4;
+
+    /* khepera.bg:17: r1_w10: stage 4: memory */
+    x->r1_w10_s4 = c->a * r1_w10_y4 + c->b * r1_w10_u4;
+
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = -c->r1_w10_v3_m__1__motor * r1_w10_m__1__motor_speed_2;
+    const real r1_w10_u3 = r1_w10_y4 + r1_w10_n1;
 
     /* khepera.bg:17: r1_w10: stage 3 */
-    const real r1_w10_y3 = x->r1_w10_s3 + c->b0 * r1_w10_u3;
+    const real r1_w10_y3 = x->r1_w10_s3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: stage 3: memory */
-    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b1 * r1_w10_u3;
+    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: input of stage 2 */
     const real r1_w10_u2 = r1_w10_y3;
 
     /* khepera.bg:17: r1_w10: stage 2 */
-    const real r1_w10_y2 = x->r1_w10_s2 + c->b0 * r1_w10_u2;
+    const real r1_w10_y2 = x->r1_w10_s2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: stage 2: memory */
-    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b1 * r1_w10_u2;
+    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: input of stage 1 */
     const real r1_w10_u1 = r1_w10_y2;
 
     /* khepera.bg:17: r1_w10: stage 1 */
-    const real r1_w10_y1 = x->r1_w10_s1 + c->b0 * r1_w10_u1;
+    const real r1_w10_y1 = x->r1_w10_s1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1_w10: stage 1: memory */
-    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
+    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].fs and m[1].el.Re can do together */
     const real r1_w10 = r1_w10_y1;
@@ -1483,32 +1943,56 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w11_m__1__motor_speed = r1_w11_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w11: encoders, order 1 */
+    const real r1_w11_n1 = c->r1_w11_w1_m__1__motor * r1_w11_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w11: error of order 1 */
+    const real r1_w11_e1 = c->bend1 * r1_w11_n1;
+
+    /* khepera.bg:17: r1_w11: encoders, order 2 */
+    const real r1_w11_n2 = c->r1_w11_w2_m__1__motor * r1_w11_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w11: degree 1 */
+    const real r1_w11_d1 = r1_w11_n1 + r1_w11_n2;
+
+    /* khepera.bg:17: r1_w11: degree 2 */
+    const real r1_w11_d2 = r1_w11_n2 - r1_w11_e1;
+
+    /* khepera.bg:17: r1_w11: input of stage 4 */
+    const real r1_w11_u4 = r1_w11_n1 + r1_w11_d2 + r1_w11_e1 - r1_w11_d1;
+
+    /* khepera.bg:17: r1_w11: stage 4 */
+    const real r1_w11_y4 = x->r1_w11_s4 + c->b * r1_w11_u4;
+
+    /* khepera.bg:17: r1_w11: stage 4: memory */
+    x->r1_w11_s4 = c->a * r1_w11_y4 + c->b * r1_w11_u4;
+
     /* khepera.bg:17: r1_w11: input of stage 3 */
-    const real r1_w11_u3 = c->r1_w11_v3_m__1__motor * r1_w11_m__1__motor_speed_2;
+    const real r1_w11_u3 = r1_w11_y4 + r1_w11_d1 - REAL(2.0) * r1_w11_d2 - REAL(3.0) * r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 3 */
-    const real r1_w11_y3 = x->r1_w11_s3 + c->b0 * r1_w11_u3;
+    const real r1_w11_y3 = x->r1_w11_s3 + c->b * r1_w11_u3;
 
     /* khepera.bg:17: r1_w11: stage 3: memory */
-    x->r1_w11_s3 = c->a * r1_w11_y3 + c->b1 * r1_w11_u3;
+    x->r1_w11_s3 = c->a * r1_w11_y3 + c->b * r1_w11_u3;
 
     /* khepera.bg:17: r1_w11: input of stage 2 */
-    const real r1_w11_u2 = r1_w11_y3 + c->r1_w11_v2_m__1__motor * r1_w11_m__1__motor_speed_2;
+    const real r1_w11_u2 = r1_w11_y3 + r1_w11_d2 + REAL(3.0) * r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 2 */
-    const real r1_w11_y2 = x->r1_w11_s2 + c->b0 * r1_w11_u2;
+    const real r1_w11_y2 = x->r1_w11_s2 + c->b * r1_w11_u2;
 
     /* khepera.bg:17: r1_w11: stage 2: memory */
-    x->r1_w11_s2 = c->a * r1_w11_y2 + c->b1 * r1_w11_u2;
+    x->r1_w11_s2 = c->a * r1_w11_y2 + c->b * r1_w11_u2;
 
     /* khepera.bg:17: r1_w11: input of stage 1 */
-    const real r1_w11_u1 = r1_w11_y2;
+    const real r1_w11_u1 = r1_w11_y2 - r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 1 */
-    const real r1_w11_y1 = x->r1_w11_s1 + c->b0 * r1_w11_u1;
+    const real r1_w11_y1 = x->r1_w11_s1 + c->b * r1_w11_u1;
 
     /* khepera.bg:17: r1_w11: stage 1: memory */
-    x->r1_w11_s1 = c->a * r1_w11_y1 + c->b1 * r1_w11_u1;
+    x->r1_w11_s1 = c->a * r1_w11_y1 + c->b * r1_w11_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].fs and m[1].el.k can do together */
     const real r1_w11 = r1_w11_y1;
@@ -1518,41 +2002,62 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w12_m__1__motor_speed = r1_w12_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w12: encoders, order 1 */
+    const real r1_w12_n1 = c->r1_w12_w1_m__1__motor * r1_w12_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w12: error of order 1 */
+    const real r1_w12_e1 = c->bend1 * r1_w12_n1;
+
+    /* khepera.bg:17: r1_w12: encoders, order 2 */
+    const real r1_w12_n2 = c->r1_w12_w2_m__1__motor * r1_w12_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w12: terms of order 0 */
+    const real r1_w12_g0 = c->r1_w12_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w12: degree 1 */
+    const real r1_w12_d1 = r1_w12_n1 + r1_w12_n2;
+
+    /* khepera.bg:17: r1_w12: error of order 0 */
+    const real r1_w12_e0 = c->bend2 * r1_w12_g0;
+
+    /* khepera.bg:17: r1_w12: degree 2 */
+    const real r1_w12_d2 = r1_w12_n2 - r1_w12_e1 - r1_w12_e0;
+
     /* khepera.bg:17: r1_w12: input of stage 4 */
-    const real r1_w12_u4 = c->r1_w12_v4_Fx__1 * s->Fx__1;
+    const real r1_w12_u4 = r1_w12_g0 + r1_w12_n1 + r1_w12_d2 + r1_w12_e1 - r1_w12_d1;
 
     /* khepera.bg:17: r1_w12: stage 4 */
-    const real r1_w12_y4 = x->r1_w12_s4 + c->b0 * r1_w12_u4;
+    const real r1_w12_y4 = x->r1_w12_s4 + c->b * r1_w12_u4;
 
     /* khepera.bg:17: r1_w12: stage 4: memory */
-    x->r1_w12_s4 = c->a * r1_w12_y4 + c->b1 * r1_w12_u4;
+    x->r1_w12_s4 = c->a * r1_w12_y4 + c->b * r1_w12_u4;
 
     /* khepera.bg:17: r1_w12: input of stage 3 */
-    const real r1_w12_u3 = r1_w12_y4 + c->r1_w12_v3_m__1__motor * r1_w12_m__1__motor_speed_2;
+    const real r1_w12_u3 = r1_w12_y4 + r1_w12_d1 - REAL(2.0) * r1_w12_d2 - REAL(3.0) * r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 3 */
-    const real r1_w12_y3 = x->r1_w12_s3 + c->b0 * r1_w12_u3;
+    const real r1_w12_y3 = x->r1_w12_s3 + c->b * r1_w12_u3;
 
     /* khepera.bg:17: r1_w12: stage 3: memory */
-    x->r1_w12_s3 = c->a * r1_w12_y3 + c->b1 * r1_w12_u3;
+    x->r1_w12_s3 = c->a * r1_w12_y3 + c->b * r1_w12_u3;
 
     /* khepera.bg:17: r1_w12: input of stage 2 */
-    const real r1_w12_u2 = r1_w12_y3 + c->r1_w12_v2_m__1__motor * r1_w12_m__1__motor_speed_2;
+    const real r1_w12_u2 = r1_w12_y3 + r1_w12_d2 + REAL(3.0) * r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 2 */
-    const real r1_w12_y2 = x->r1_w12_s2 + c->b0 * r1_w12_u2;
+    const real r1_w12_y2 = x->r1_w12_s2 + c->b * r1_w12_u2;
 
     /* khepera.bg:17: r1_w12: stage 2: memory */
-    x->r1_w12_s2 = c->a * r1_w12_y2 + c->b1 * r1_w12_u2;
+    x->r1_w12_s2 = c->a * r1_w12_y2 + c->b * r1_w12_u2;
 
     /* khepera.bg:17: r1_w12: input of stage 1 */
-    const real r1_w12_u1 = r1_w12_y2;
+    const real r1_w12_u1 = r1_w12_y2 - r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 1 */
-    const real r1_w12_y1 = x->r1_w12_s1 + c->b0 * r1_w12_u1;
+    const real r1_w12_y1 = x->r1_w12_s1 + c->b * r1_w12_u1;
 
     /* khepera.bg:17: r1_w12: stage 1: memory */
-    x->r1_w12_s1 = c->a * r1_w12_y1 + c->b1 * r1_w12_u1;
+    x->r1_w12_s1 = c->a * r1_w12_y1 + c->b * r1_w12_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].el.k can do together */
     const real r1_w12 = r1_w12_y1;
@@ -1562,45 +2067,81 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor.increment;
     x->r1_w13_m__1__motor_speed = r1_w13_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w13: encoders, order 1 */
+    const real r1_w13_n1 = -c->r1_w13_w1_m__1__motor * r1_w13_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w13: error of order 1 */
+    const real r1_w13_e1 = c->bend2 * r1_w13_n1;
+
+    /* khepera.bg:17: r1_w13: encoders, order 2 */
+    const real r1_w13_n2 = c->r1_w13_w2_m__1__motor * r1_w13_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w13: error of order 2 */
+    const real r1_w13_e2 = c->bend1 * r1_w13_n2;
+
+    /* khepera.bg:17: r1_w13: encoders, order 3 */
+    const real r1_w13_n3 = -c->r1_w13_w3_m__1__motor * r1_w13_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w13: terms of order 0 */
+    const real r1_w13_g0 = -c->r1_w13_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w13: terms of order 1 */
+    const real r1_w13_g1 = -c->r1_w13_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w13: degree 1 */
+    const real r1_w13_d1 = r1_w13_g1 + r1_w13_n1 + r1_w13_n2;
+
+    /* khepera.bg:17: r1_w13: error of order 0 */
+    const real r1_w13_e0 = c->bend3 * r1_w13_g0;
+
+    /* khepera.bg:17: r1_w13: degree 2 */
+    const real r1_w13_d2 = r1_w13_n2 + r1_w13_n3 - r1_w13_e1 - r1_w13_e0;
+
+    /* khepera.bg:17: r1_w13: error of order 1 */
+    const real r1_w13_e1_2 = c->bend2 * r1_w13_g1;
+
+    /* khepera.bg:17: r1_w13: degree 3 */
+    const real r1_w13_d3 = r1_w13_n3 - r1_w13_e1 - r1_w13_e2 - r1_w13_e1_2;
+
     /* khepera.bg:17: r1_w13: input of stage 4 */
-    const real r1_w13_u4 = c->r1_w13_v4_Fx__1 * s->Fx__1;
+    const real r1_w13_u4 = r1_w13_g0 + r1_w13_n1 + r1_w13_d2 - r1_w13_d1 - r1_w13_d3 - r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 4 */
-    const real r1_w13_y4 = x->r1_w13_s4 + c->b0 * r1_w13_u4;
+    const real r1_w13_y4 = x->r1_w13_s4 + c->b * r1_w13_u4;
 
     /* khepera.bg:17: r1_w13: stage 4: memory */
-    x->r1_w13_s4 = c->a * r1_w13_y4 + c->b1 * r1_w13_u4;
+    x->r1_w13_s4 = c->a * r1_w13_y4 + c->b * r1_w13_u4;
 
     /* khepera.bg:17: r1_w13: input of stage 3 */
-    const real r1_w13_u3 = r1_w13_y4 - c->r1_w13_v3_m__1__motor * r1_w13_m__1__motor_speed_2
-        - c->r1_w13_v3_Fx__1 * s->Fx__1;
+    const real r1_w13_u3 = r1_w13_y4 + r1_w13_d1 + REAL(3.0) * r1_w13_d3 + REAL(4.0) * r1_w13_e2
+        - REAL(2.0) * r1_w13_d2;
 
     /* khepera.bg:17: r1_w13: stage 3 */
-    const real r1_w13_y3 = x->r1_w13_s3 + c->b0 * r1_w13_u3;
+    const real r1_w13_y3 = x->r1_w13_s3 + c->b * r1_w13_u3;
 
     /* khepera.bg:17: r1_w13: stage 3: memory */
-    x->r1_w13_s3 = c->a * r1_w13_y3 + c->b1 * r1_w13_u3;
+    x->r1_w13_s3 = c->a * r1_w13_y3 + c->b * r1_w13_u3;
 
     /* khepera.bg:17: r1_w13: input of stage 2 */
-    const real r1_w13_u2 = r1_w13_y3 + c->r1_w13_v2_m__1__motor * r1_w13_m__1__motor_speed_2;
+    const real r1_w13_u2 = r1_w13_y3 + r1_w13_d2 - REAL(3.0) * r1_w13_d3 - REAL(6.0) * r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 2 */
-    const real r1_w13_y2 = x->r1_w13_s2 + c->b0 * r1_w13_u2;
+    const real r1_w13_y2 = x->r1_w13_s2 + c->b * r1_w13_u2;
 
     /* khepera.bg:17: r1_w13: stage 2: memory */
-    x->r1_w13_s2 = c->a * r1_w13_y2 + c->b1 * r1_w13_u2;
+    x->r1_w13_s2 = c->a * r1_w13_y2 + c->b * r1_w13_u2;
 
     /* khepera.bg:17: r1_w13: input of stage 1 */
-    const real r1_w13_u1 = r1_w13_y2 - c->r1_w13_v1_m__1__motor * r1_w13_m__1__motor_speed_2;
+    const real r1_w13_u1 = r1_w13_y2 + r1_w13_d3 + REAL(4.0) * r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 1 */
-    const real r1_w13_y1 = x->r1_w13_s1 + c->b0 * r1_w13_u1;
+    const real r1_w13_y1 = x->r1_w13_s1 + c->b * r1_w13_u1;
 
     /* khepera.bg:17: r1_w13: stage 1: memory */
-    x->r1_w13_s1 = c->a * r1_w13_y1 + c->b1 * r1_w13_u1;
+    x->r1_w13_s1 = c->a * r1_w13_y1 + c->b * r1_w13_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do */
-    const real r1_w13 = r1_w13_y1;
+    const real r1_w13 = r1_w13_y1 - r1_w13_e2;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
     r[KHEPERA_BUILT_THRESHOLD_R1] = MATH(fabs)(r1_w1) + MATH(fabs)(r1_w2) + MATH(fabs)(r1_w3)
@@ -1647,8 +2188,32 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w1_m__2__motor_speed = r2_w1_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w1: encoders, order 1 */
+    const real r2_w1_n1 = -c->r2_w1_w1_m__2__motor * r2_w1_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w1: error of order 1 */
+    const real r2_w1_e1 = c->bend1 * r2_w1_n1;
+
+    /* khepera.bg:17: r2_w1: encoders, order 2 */
+    const real r2_w1_n2 = -c->r2_w1_w2_m__2__motor * r2_w1_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w1: degree 1 */
+    const real r2_w1_d1 = r2_w1_n1 + r2_w1_n2;
+
+    /* khepera.bg:17: r2_w1: degree 2 */
+    const real r2_w1_d2 = r2_w1_n2 - r2_w1_e1;
+
+    /* khepera.bg:17: r2_w1: input of stage 4 */
+    const real r2_w1_u4 = r2_w1_n1 + r2_w1_d2 + r2_w1_e1 - r2_w1_d1;
+
+    /* khepera.bg:17: r2_w1: stage 4, at rest */
+    const real r2_w1_y4 = r2_w1_u4;
+
+    /* khepera.bg:17: r2_w1: stage 4: memory */
+    x->r2_w1_s4 = c->rest * r2_w1_u4;
+
     /* khepera.bg:17: r2_w1: input of stage 3 */
-    const real r2_w1_u3 = c->r2_w1_v3_m__2__motor * r2_w1_m__2__motor_speed_2;
+    const real r2_w1_u3 = r2_w1_y4 + r2_w1_d1 - REAL(2.0) * r2_w1_d2 - REAL(3.0) * r2_w1_e1;
 
     /* khepera.bg:17: r2_w1: stage 3, at rest */
     const real r2_w1_y3 = r2_w1_u3;
@@ -1657,7 +2222,7 @@ static void start_r2(
     x->r2_w1_s3 = c->rest * r2_w1_u3;
 
     /* khepera.bg:17: r2_w1: input of stage 2 */
-    const real r2_w1_u2 = r2_w1_y3 - c->r2_w1_v2_m__2__motor * r2_w1_m__2__motor_speed_2;
+    const real r2_w1_u2 = r2_w1_y3 + r2_w1_d2 + REAL(3.0) * r2_w1_e1;
 
     /* khepera.bg:17: r2_w1: stage 2, at rest */
     const real r2_w1_y2 = r2_w1_u2;
@@ -1666,7 +2231,7 @@ static void start_r2(
     x->r2_w1_s2 = c->rest * r2_w1_u2;
 
     /* khepera.bg:17: r2_w1: input of stage 1 */
-    const real r2_w1_u1 = r2_w1_y2;
+    const real r2_w1_u1 = r2_w1_y2 - r2_w1_e1;
 
     /* khepera.bg:17: r2_w1: stage 1, at rest */
     const real r2_w1_y1 = r2_w1_u1;
@@ -1683,8 +2248,33 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w2_m__2__motor_speed = r2_w2_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w2: encoders, order 2 */
+    const real r2_w2_n2 = -c->r2_w2_w2_m__2__motor * r2_w2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w2: error of order 2 */
+    const real r2_w2_e2 = c->bend1 * r2_w2_n2;
+
+    /* khepera.bg:17: r2_w2: encoders, order 3 */
+    const real r2_w2_n3 = -c->r2_w2_w3_m__2__motor * r2_w2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w2: degree 2 */
+    const real r2_w2_d2 = r2_w2_n2 + r2_w2_n3;
+
+    /* khepera.bg:17: r2_w2: degree 3 */
+    const real r2_w2_d3 = r2_w2_n3 - r2_w2_e2;
+
+    /* khepera.bg:17: r2_w2: input of stage 4 */
+    const real r2_w2_u4 = r2_w2_d2 - r2_w2_n2 - r2_w2_d3 - r2_w2_e2;
+
+    /* khepera.bg:17: r2_w2: stage 4, at rest */
+    const real r2_w2_y4 = r2_w2_u4;
+
+    /* khepera.bg:17: r2_w2: stage 4: memory */
+    x->r2_w2_s4 = c->rest * r2_w2_u4;
+
     /* khepera.bg:17: r2_w2: input of stage 3 */
-    const real r2_w2_u3 = c->r2_w2_v3_m__2__motor * r2_w2_m__2__motor_speed_2;
+    const real r2_w2_u3 = r2_w2_y4 + r2_w2_n2 + REAL(3.0) * r2_w2_d3 + REAL(4.0) * r2_w2_e2
+        - REAL(2.0) * r2_w2_d2;
 
     /* khepera.bg:17: r2_w2: stage 3, at rest */
     const real r2_w2_y3 = r2_w2_u3;
@@ -1693,7 +2283,7 @@ static void start_r2(
     x->r2_w2_s3 = c->rest * r2_w2_u3;
 
     /* khepera.bg:17: r2_w2: input of stage 2 */
-    const real r2_w2_u2 = r2_w2_y3 + c->r2_w2_v2_m__2__motor * r2_w2_m__2__motor_speed_2;
+    const real r2_w2_u2 = r2_w2_y3 + r2_w2_d2 - REAL(3.0) * r2_w2_d3 - REAL(6.0) * r2_w2_e2;
 
     /* khepera.bg:17: r2_w2: stage 2, at rest */
     const real r2_w2_y2 = r2_w2_u2;
@@ -1702,7 +2292,7 @@ static void start_r2(
     x->r2_w2_s2 = c->rest * r2_w2_u2;
 
     /* khepera.bg:17: r2_w2: input of stage 1 */
-    const real r2_w2_u1 = r2_w2_y2 - c->r2_w2_v1_m__2__motor * r2_w2_m__2__motor_speed_2;
+    const real r2_w2_u1 = r2_w2_y2 + r2_w2_d3 + REAL(4.0) * r2_w2_e2;
 
     /* khepera.bg:17: r2_w2: stage 1, at rest */
     const real r2_w2_y1 = r2_w2_u1;
@@ -1711,7 +2301,7 @@ static void start_r2(
     x->r2_w2_s1 = c->rest * r2_w2_u1;
 
     /* khepera.bg:17: r2: what the tolerance of m[2].Js can do */
-    const real r2_w2 = r2_w2_y1;
+    const real r2_w2 = r2_w2_y1 - r2_w2_e2;
 
     /* khepera.bg:17: filtered speed of m[2].motor, at rest */
     const real r2_w3_m__2__motor_speed_2 = REAL(0.0);
@@ -1719,8 +2309,32 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w3_m__2__motor_speed = r2_w3_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w3: encoders, order 1 */
+    const real r2_w3_n1 = -c->r2_w3_w1_m__2__motor * r2_w3_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w3: error of order 1 */
+    const real r2_w3_e1 = c->bend1 * r2_w3_n1;
+
+    /* khepera.bg:17: r2_w3: encoders, order 2 */
+    const real r2_w3_n2 = -c->r2_w3_w2_m__2__motor * r2_w3_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w3: degree 1 */
+    const real r2_w3_d1 = r2_w3_n1 + r2_w3_n2;
+
+    /* khepera.bg:17: r2_w3: degree 2 */
+    const real r2_w3_d2 = r2_w3_n2 - r2_w3_e1;
+
+    /* khepera.bg:17: r2_w3: input of stage 4 */
+    const real r2_w3_u4 = r2_w3_n1 + r2_w3_d2 + r2_w3_e1 - r2_w3_d1;
+
+    /* khepera.bg:17: r2_w3: stage 4, at rest */
+    const real r2_w3_y4 = r2_w3_u4;
+
+    /* khepera.bg:17: r2_w3: stage 4: memory */
+    x->r2_w3_s4 = c->rest * r2_w3_u4;
+
     /* khepera.bg:17: r2_w3: input of stage 3 */
-    const real r2_w3_u3 = c->r2_w3_v3_m__2__motor * r2_w3_m__2__motor_speed_2;
+    const real r2_w3_u3 = r2_w3_y4 + r2_w3_d1 - REAL(2.0) * r2_w3_d2 - REAL(3.0) * r2_w3_e1;
 
     /* khepera.bg:17: r2_w3: stage 3, at rest */
     const real r2_w3_y3 = r2_w3_u3;
@@ -1729,7 +2343,7 @@ static void start_r2(
     x->r2_w3_s3 = c->rest * r2_w3_u3;
 
     /* khepera.bg:17: r2_w3: input of stage 2 */
-    const real r2_w3_u2 = r2_w3_y3 - c->r2_w3_v2_m__2__motor * r2_w3_m__2__motor_speed_2;
+    const real r2_w3_u2 = r2_w3_y3 + r2_w3_d2 + REAL(3.0) * r2_w3_e1;
 
     /* khepera.bg:17: r2_w3: stage 2, at rest */
     const real r2_w3_y2 = r2_w3_u2;
@@ -1738,7 +2352,7 @@ static void start_r2(
     x->r2_w3_s2 = c->rest * r2_w3_u2;
 
     /* khepera.bg:17: r2_w3: input of stage 1 */
-    const real r2_w3_u1 = r2_w3_y2;
+    const real r2_w3_u1 = r2_w3_y2 - r2_w3_e1;
 
     /* khepera.bg:17: r2_w3: stage 1, at rest */
     const real r2_w3_y1 = r2_w3_u1;
@@ -1755,8 +2369,29 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w4_m__2__motor_speed = r2_w4_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w4: encoders, order 1 */
+    const real r2_w4_n1 = -c->r2_w4_w1_m__2__motor * r2_w4_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w4: error of order 1 */
+    const real r2_w4_e1 = c->bend1 * r2_w4_n1;
+
+    /* khepera.bg:17: r2_w4: encoders, order 2 */
+    const real r2_w4_n2 = -c->r2_w4_w2_m__2__motor * r2_w4_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w4: terms of order 0 */
+    const real r2_w4_g0 = -c->r2_w4_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w4: degree 1 */
+    const real r2_w4_d1 = r2_w4_n1 + r2_w4_n2;
+
+    /* khepera.bg:17: r2_w4: error of order 0 */
+    const real r2_w4_e0 = c->bend2 * r2_w4_g0;
+
+    /* khepera.bg:17: r2_w4: degree 2 */
+    const real r2_w4_d2 = r2_w4_n2 - r2_w4_e1 - r2_w4_e0;
+
     /* khepera.bg:17: r2_w4: input of stage 4 */
-    const real r2_w4_u4 = -c->r2_w4_v4_Fx__2 * s->Fx__2;
+    const real r2_w4_u4 = r2_w4_g0 + r2_w4_n1 + r2_w4_d2 + r2_w4_e1 - r2_w4_d1;
 
     /* khepera.bg:17: r2_w4: stage 4, at rest */
     const real r2_w4_y4 = r2_w4_u4;
@@ -1765,7 +2400,7 @@ static void start_r2(
     x->r2_w4_s4 = c->rest * r2_w4_u4;
 
     /* khepera.bg:17: r2_w4: input of stage 3 */
-    const real r2_w4_u3 = r2_w4_y4 + c->r2_w4_v3_m__2__motor * r2_w4_m__2__motor_speed_2;
+    const real r2_w4_u3 = r2_w4_y4 + r2_w4_d1 - REAL(2.0) * r2_w4_d2 - REAL(3.0) * r2_w4_e1;
 
     /* khepera.bg:17: r2_w4: stage 3, at rest */
     const real r2_w4_y3 = r2_w4_u3;
@@ -1774,7 +2409,7 @@ static void start_r2(
     x->r2_w4_s3 = c->rest * r2_w4_u3;
 
     /* khepera.bg:17: r2_w4: input of stage 2 */
-    const real r2_w4_u2 = r2_w4_y3 - c->r2_w4_v2_m__2__motor * r2_w4_m__2__motor_speed_2;
+    const real r2_w4_u2 = r2_w4_y3 + r2_w4_d2 + REAL(3.0) * r2_w4_e1;
 
     /* khepera.bg:17: r2_w4: stage 2, at rest */
     const real r2_w4_y2 = r2_w4_u2;
@@ -1783,7 +2418,7 @@ static void start_r2(
     x->r2_w4_s2 = c->rest * r2_w4_u2;
 
     /* khepera.bg:17: r2_w4: input of stage 1 */
-    const real r2_w4_u1 = r2_w4_y2;
+    const real r2_w4_u1 = r2_w4_y2 - r2_w4_e1;
 
     /* khepera.bg:17: r2_w4: stage 1, at rest */
     const real r2_w4_y1 = r2_w4_u1;
@@ -1800,8 +2435,44 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w5_m__2__motor_speed = r2_w5_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w5: encoders, order 1 */
+    const real r2_w5_n1 = c->r2_w5_w1_m__2__motor * r2_w5_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w5: error of order 1 */
+    const real r2_w5_e1 = c->bend2 * r2_w5_n1;
+
+    /* khepera.bg:17: r2_w5: encoders, order 2 */
+    const real r2_w5_n2 = c->r2_w5_w2_m__2__motor * r2_w5_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w5: error of order 2 */
+    const real r2_w5_e2 = c->bend1 * r2_w5_n2;
+
+    /* khepera.bg:17: r2_w5: encoders, order 3 */
+    const real r2_w5_n3 = c->r2_w5_w3_m__2__motor * r2_w5_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w5: terms of order 0 */
+    const real r2_w5_g0 = c->r2_w5_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w5: terms of order 1 */
+    const real r2_w5_g1 = c->r2_w5_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w5: degree 1 */
+    const real r2_w5_d1 = r2_w5_g1 + r2_w5_n1 + r2_w5_n2;
+
+    /* khepera.bg:17: r2_w5: error of order 0 */
+    const real r2_w5_e0 = c->bend3 * r2_w5_g0;
+
+    /* khepera.bg:17: r2_w5: degree 2 */
+    const real r2_w5_d2 = r2_w5_n2 + r2_w5_n3 - r2_w5_e1 - r2_w5_e0;
+
+    /* khepera.bg:17: r2_w5: error of order 1 */
+    const real r2_w5_e1_2 = c->bend2 * r2_w5_g1;
+
+    /* khepera.bg:17: r2_w5: degree 3 */
+    const real r2_w5_d3 = r2_w5_n3 - r2_w5_e1 - r2_w5_e2 - r2_w5_e1_2;
+
     /* khepera.bg:17: r2_w5: input of stage 4 */
-    const real r2_w5_u4 = c->r2_w5_v4_Fx__2 * s->Fx__2;
+    const real r2_w5_u4 = r2_w5_g0 + r2_w5_n1 + r2_w5_d2 - r2_w5_d1 - r2_w5_d3 - r2_w5_e2;
 
     /* khepera.bg:17: r2_w5: stage 4, at rest */
     const real r2_w5_y4 = r2_w5_u4;
@@ -1810,8 +2481,8 @@ static void start_r2(
     x->r2_w5_s4 = c->rest * r2_w5_u4;
 
     /* khepera.bg:17: r2_w5: input of stage 3 */
-    const real r2_w5_u3 = r2_w5_y4 + c->r2_w5_v3_m__2__motor * r2_w5_m__2__motor_speed_2
-        + c->r2_w5_v3_Fx__2 * s->Fx__2;
+    const real r2_w5_u3 = r2_w5_y4 + r2_w5_d1 + REAL(3.0) * r2_w5_d3 + REAL(4.0) * r2_w5_e2
+        - REAL(2.0) * r2_w5_d2;
 
     /* khepera.bg:17: r2_w5: stage 3, at rest */
     const real r2_w5_y3 = r2_w5_u3;
@@ -1820,7 +2491,7 @@ static void start_r2(
     x->r2_w5_s3 = c->rest * r2_w5_u3;
 
     /* khepera.bg:17: r2_w5: input of stage 2 */
-    const real r2_w5_u2 = r2_w5_y3 + c->r2_w5_v2_m__2__motor * r2_w5_m__2__motor_speed_2;
+    const real r2_w5_u2 = r2_w5_y3 + r2_w5_d2 - REAL(3.0) * r2_w5_d3 - REAL(6.0) * r2_w5_e2;
 
     /* khepera.bg:17: r2_w5: stage 2, at rest */
     const real r2_w5_y2 = r2_w5_u2;
@@ -1829,7 +2500,7 @@ static void start_r2(
     x->r2_w5_s2 = c->rest * r2_w5_u2;
 
     /* khepera.bg:17: r2_w5: input of stage 1 */
-    const real r2_w5_u1 = r2_w5_y2 + c->r2_w5_v1_m__2__motor * r2_w5_m__2__motor_speed_2;
+    const real r2_w5_u1 = r2_w5_y2 + r2_w5_d3 + REAL(4.0) * r2_w5_e2;
 
     /* khepera.bg:17: r2_w5: stage 1, at rest */
     const real r2_w5_y1 = r2_w5_u1;
@@ -1838,7 +2509,7 @@ static void start_r2(
     x->r2_w5_s1 = c->rest * r2_w5_u1;
 
     /* khepera.bg:17: r2: what the tolerance of m[2].el.k can do */
-    const real r2_w5 = r2_w5_y1;
+    const real r2_w5 = r2_w5_y1 - r2_w5_e2;
 
     /* khepera.bg:17: filtered speed of m[2].motor, at rest */
     const real r2_w6_m__2__motor_speed_2 = REAL(0.0);
@@ -1846,8 +2517,20 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w6_m__2__motor_speed = r2_w6_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w6: encoders, order 1 */
+    const real r2_w6_n1 = -c->r2_w6_w1_m__2__motor * r2_w6_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w6: input of stage 4 */
+    const real r2_w6_u4 = r2_w6_n1 - r2_w6_n1;
+
+    /* khepera.bg:17: r2_w6: stage 4, at rest */
+    const real r2_w6_y4 = r2_w6_u4;
+
+    /* khepera.bg:17: r2_w6: stage 4: memory */
+    x->r2_w6_s4 = c->rest * r2_w6_u4;
+
     /* khepera.bg:17: r2_w6: input of stage 3 */
-    const real r2_w6_u3 = -c->r2_w6_v3_m__2__motor * r2_w6_m__2__motor_speed_2;
+    const real r2_w6_u3 = r2_w6_y4 + r2_w6_n1;
 
     /* khepera.bg:17: r2_w6: stage 3, at rest */
     const real r2_w6_y3 = r2_w6_u3;
@@ -1882,8 +2565,32 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w7_m__2__motor_speed = r2_w7_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w7: encoders, order 1 */
+    const real r2_w7_n1 = c->r2_w7_w1_m__2__motor * r2_w7_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w7: error of order 1 */
+    const real r2_w7_e1 = c->bend1 * r2_w7_n1;
+
+    /* khepera.bg:17: r2_w7: encoders, order 2 */
+    const real r2_w7_n2 = c->r2_w7_w2_m__2__motor * r2_w7_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w7: degree 1 */
+    const real r2_w7_d1 = r2_w7_n1 + r2_w7_n2;
+
+    /* khepera.bg:17: r2_w7: degree 2 */
+    const real r2_w7_d2 = r2_w7_n2 - r2_w7_e1;
+
+    /* khepera.bg:17: r2_w7: input of stage 4 */
+    const real r2_w7_u4 = r2_w7_n1 + r2_w7_d2 + r2_w7_e1 - r2_w7_d1;
+
+    /* khepera.bg:17: r2_w7: stage 4, at rest */
+    const real r2_w7_y4 = r2_w7_u4;
+
+    /* khepera.bg:17: r2_w7: stage 4: memory */
+    x->r2_w7_s4 = c->rest * r2_w7_u4;
+
     /* khepera.bg:17: r2_w7: input of stage 3 */
-    const real r2_w7_u3 = c->r2_w7_v3_m__2__motor * r2_w7_m__2__motor_speed_2;
+    const real r2_w7_u3 = r2_w7_y4 + r2_w7_d1 - REAL(2.0) * r2_w7_d2 - REAL(3.0) * r2_w7_e1;
 
     /* khepera.bg:17: r2_w7: stage 3, at rest */
     const real r2_w7_y3 = r2_w7_u3;
@@ -1892,7 +2599,7 @@ static void start_r2(
     x->r2_w7_s3 = c->rest * r2_w7_u3;
 
     /* khepera.bg:17: r2_w7: input of stage 2 */
-    const real r2_w7_u2 = r2_w7_y3 + c->r2_w7_v2_m__2__motor * r2_w7_m__2__motor_speed_2;
+    const real r2_w7_u2 = r2_w7_y3 + r2_w7_d2 + REAL(3.0) * r2_w7_e1;
 
     /* khepera.bg:17: r2_w7: stage 2, at rest */
     const real r2_w7_y2 = r2_w7_u2;
@@ -1901,7 +2608,7 @@ static void start_r2(
     x->r2_w7_s2 = c->rest * r2_w7_u2;
 
     /* khepera.bg:17: r2_w7: input of stage 1 */
-    const real r2_w7_u1 = r2_w7_y2;
+    const real r2_w7_u1 = r2_w7_y2 - r2_w7_e1;
 
     /* khepera.bg:17: r2_w7: stage 1, at rest */
     const real r2_w7_y1 = r2_w7_u1;
@@ -1918,8 +2625,20 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w8_m__2__motor_speed = r2_w8_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w8: encoders, order 2 */
+    const real r2_w8_n2 = -c->r2_w8_w2_m__2__motor * r2_w8_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w8: input of stage 4 */
+    const real r2_w8_u4 = r2_w8_n2 - r2_w8_n2;
+
+    /* khepera.bg:17: r2_w8: stage 4, at rest */
+    const real r2_w8_y4 = r2_w8_u4;
+
+    /* khepera.bg:17: r2_w8: stage 4: memory */
+    x->r2_w8_s4 = c->rest * r2_w8_u4;
+
     /* khepera.bg:17: r2_w8: input of stage 3 */
-    const real r2_w8_u3 = c->r2_w8_v2_m__2__motor * r2_w8_m__2__motor_speed_2;
+    const real r2_w8_u3 = r2_w8_y4 + r2_w8_n2 - REAL(2.0) * r2_w8_n2;
 
     /* khepera.bg:17: r2_w8: stage 3, at rest */
     const real r2_w8_y3 = r2_w8_u3;
@@ -1928,7 +2647,7 @@ static void start_r2(
     x->r2_w8_s3 = c->rest * r2_w8_u3;
 
     /* khepera.bg:17: r2_w8: input of stage 2 */
-    const real r2_w8_u2 = r2_w8_y3 - c->r2_w8_v2_m__2__motor * r2_w8_m__2__motor_speed_2;
+    const real r2_w8_u2 = r2_w8_y3 + r2_w8_n2;
 
     /* khepera.bg:17: r2_w8: stage 2, at rest */
     const real r2_w8_y2 = r2_w8_u2;
@@ -1954,8 +2673,33 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w9_m__2__motor_speed = r2_w9_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w9: encoders, order 2 */
+    const real r2_w9_n2 = c->r2_w9_w2_m__2__motor * r2_w9_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w9: error of order 2 */
+    const real r2_w9_e2 = c->bend1 * r2_w9_n2;
+
+    /* khepera.bg:17: r2_w9: encoders, order 3 */
+    const real r2_w9_n3 = c->r2_w9_w3_m__2__motor * r2_w9_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w9: degree 2 */
+    const real r2_w9_d2 = r2_w9_n2 + r2_w9_n3;
+
+    /* khepera.bg:17: r2_w9: degree 3 */
+    const real r2_w9_d3 = r2_w9_n3 - r2_w9_e2;
+
+    /* khepera.bg:17: r2_w9: input of stage 4 */
+    const real r2_w9_u4 = r2_w9_d2 - r2_w9_n2 - r2_w9_d3 - r2_w9_e2;
+
+    /* khepera.bg:17: r2_w9: stage 4, at rest */
+    const real r2_w9_y4 = r2_w9_u4;
+
+    /* khepera.bg:17: r2_w9: stage 4: memory */
+    x->r2_w9_s4 = c->rest * r2_w9_u4;
+
     /* khepera.bg:17: r2_w9: input of stage 3 */
-    const real r2_w9_u3 = c->r2_w9_v3_m__2__motor * r2_w9_m__2__motor_speed_2;
+    const real r2_w9_u3 = r2_w9_y4 + r2_w9_n2 + REAL(3.0) * r2_w9_d3 + REAL(4.0) * r2_w9_e2
+        - REAL(2.0) * r2_w9_d2;
 
     /* khepera.bg:17: r2_w9: stage 3, at rest */
     const real r2_w9_y3 = r2_w9_u3;
@@ -1964,7 +2708,7 @@ static void start_r2(
     x->r2_w9_s3 = c->rest * r2_w9_u3;
 
     /* khepera.bg:17: r2_w9: input of stage 2 */
-    const real r2_w9_u2 = r2_w9_y3 + c->r2_w9_v2_m__2__motor * r2_w9_m__2__motor_speed_2;
+    const real r2_w9_u2 = r2_w9_y3 + r2_w9_d2 - REAL(3.0) * r2_w9_d3 - REAL(6.0) * r2_w9_e2;
 
     /* khepera.bg:17: r2_w9: stage 2, at rest */
     const real r2_w9_y2 = r2_w9_u2;
@@ -1973,7 +2717,7 @@ static void start_r2(
     x->r2_w9_s2 = c->rest * r2_w9_u2;
 
     /* khepera.bg:17: r2_w9: input of stage 1 */
-    const real r2_w9_u1 = r2_w9_y2 + c->r2_w9_v1_m__2__motor * r2_w9_m__2__motor_speed_2;
+    const real r2_w9_u1 = r2_w9_y2 + r2_w9_d3 + REAL(4.0) * r2_w9_e2;
 
     /* khepera.bg:17: r2_w9: stage 1, at rest */
     const real r2_w9_y1 = r2_w9_u1;
@@ -1982,7 +2726,7 @@ static void start_r2(
     x->r2_w9_s1 = c->rest * r2_w9_u1;
 
     /* khepera.bg:17: r2: what the tolerances of m[2].Js and m[2].el.k can do together */
-    const real r2_w9 = r2_w9_y1;
+    const real r2_w9 = r2_w9_y1 - r2_w9_e2;
 
     /* khepera.bg:17: filtered speed of m[2].motor, at rest */
     const real r2_w10_m__2__motor_speed_2 = REAL(0.0);
@@ -1990,8 +2734,20 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w10_m__2__motor_speed = r2_w10_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w10: encoders, order 1 */
+    const real r2_w10_n1 = -c->r2_w10_w1_m__2__motor * r2_w10_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w10: input of stage 4 */
+    const real r2_w10_u4 = r2_w10_n1 - r2_w10_n1;
+
+    /* khepera.bg:17: r2_w10: stage 4, at rest */
+    const real r2_w10_y4 = r2_w10_u4;
+
+    /* khepera.bg:17: r2_w10: stage 4: memory */
+    x->r2_w10_s4 = c->rest * r2_w10_u4;
+
     /* khepera.bg:17: r2_w10: input of stage 3 */
-    const real r2_w10_u3 = -c->r2_w10_v3_m__2__motor * r2_w10_m__2__motor_speed_2;
+    const real r2_w10_u3 = r2_w10_y4 + r2_w10_n1;
 
     /* khepera.bg:17: r2_w10: stage 3, at rest */
     const real r2_w10_y3 = r2_w10_u3;
@@ -2026,8 +2782,32 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w11_m__2__motor_speed = r2_w11_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w11: encoders, order 1 */
+    const real r2_w11_n1 = c->r2_w11_w1_m__2__motor * r2_w11_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w11: error of order 1 */
+    const real r2_w11_e1 = c->bend1 * r2_w11_n1;
+
+    /* khepera.bg:17: r2_w11: encoders, order 2 */
+    const real r2_w11_n2 = c->r2_w11_w2_m__2__motor * r2_w11_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w11: degree 1 */
+    const real r2_w11_d1 = r2_w11_n1 + r2_w11_n2;
+
+    /* khepera.bg:17: r2_w11: degree 2 */
+    const real r2_w11_d2 = r2_w11_n2 - r2_w11_e1;
+
+    /* khepera.bg:17: r2_w11: input of stage 4 */
+    const real r2_w11_u4 = r2_w11_n1 + r2_w11_d2 + r2_w11_e1 - r2_w11_d1;
+
+    /* khepera.bg:17: r2_w11: stage 4, at rest */
+    const real r2_w11_y4 = r2_w11_u4;
+
+    /* khepera.bg:17: r2_w11: stage 4: memory */
+    x->r2_w11_s4 = c->rest * r2_w11_u4;
+
     /* khepera.bg:17: r2_w11: input of stage 3 */
-    const real r2_w11_u3 = c->r2_w11_v3_m__2__motor * r2_w11_m__2__motor_speed_2;
+    const real r2_w11_u3 = r2_w11_y4 + r2_w11_d1 - REAL(2.0) * r2_w11_d2 - REAL(3.0) * r2_w11_e1;
 
     /* khepera.bg:17: r2_w11: stage 3, at rest */
     const real r2_w11_y3 = r2_w11_u3;
@@ -2036,7 +2816,7 @@ static void start_r2(
     x->r2_w11_s3 = c->rest * r2_w11_u3;
 
     /* khepera.bg:17: r2_w11: input of stage 2 */
-    const real r2_w11_u2 = r2_w11_y3 + c->r2_w11_v2_m__2__motor * r2_w11_m__2__motor_speed_2;
+    const real r2_w11_u2 = r2_w11_y3 + r2_w11_d2 + REAL(3.0) * r2_w11_e1;
 
     /* khepera.bg:17: r2_w11: stage 2, at rest */
     const real r2_w11_y2 = r2_w11_u2;
@@ -2045,7 +2825,7 @@ static void start_r2(
     x->r2_w11_s2 = c->rest * r2_w11_u2;
 
     /* khepera.bg:17: r2_w11: input of stage 1 */
-    const real r2_w11_u1 = r2_w11_y2;
+    const real r2_w11_u1 = r2_w11_y2 - r2_w11_e1;
 
     /* khepera.bg:17: r2_w11: stage 1, at rest */
     const real r2_w11_y1 = r2_w11_u1;
@@ -2062,8 +2842,29 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w12_m__2__motor_speed = r2_w12_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w12: encoders, order 1 */
+    const real r2_w12_n1 = c->r2_w12_w1_m__2__motor * r2_w12_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w12: error of order 1 */
+    const real r2_w12_e1 = c->bend1 * r2_w12_n1;
+
+    /* khepera.bg:17: r2_w12: encoders, order 2 */
+    const real r2_w12_n2 = c->r2_w12_w2_m__2__motor * r2_w12_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w12: terms of order 0 */
+    const real r2_w12_g0 = c->r2_w12_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w12: degree 1 */
+    const real r2_w12_d1 = r2_w12_n1 + r2_w12_n2;
+
+    /* khepera.bg:17: r2_w12: error of order 0 */
+    const real r2_w12_e0 = c->bend2 * r2_w12_g0;
+
+    /* khepera.bg:17: r2_w12: degree 2 */
+    const real r2_w12_d2 = r2_w12_n2 - r2_w12_e1 - r2_w12_e0;
+
     /* khepera.bg:17: r2_w12: input of stage 4 */
-    const real r2_w12_u4 = c->r2_w12_v4_Fx__2 * s->Fx__2;
+    const real r2_w12_u4 = r2_w12_g0 + r2_w12_n1 + r2_w12_d2 + r2_w12_e1 - r2_w12_d1;
 
     /* khepera.bg:17: r2_w12: stage 4, at rest */
     const real r2_w12_y4 = r2_w12_u4;
@@ -2072,7 +2873,7 @@ static void start_r2(
     x->r2_w12_s4 = c->rest * r2_w12_u4;
 
     /* khepera.bg:17: r2_w12: input of stage 3 */
-    const real r2_w12_u3 = r2_w12_y4 + c->r2_w12_v3_m__2__motor * r2_w12_m__2__motor_speed_2;
+    const real r2_w12_u3 = r2_w12_y4 + r2_w12_d1 - REAL(2.0) * r2_w12_d2 - REAL(3.0) * r2_w12_e1;
 
     /* khepera.bg:17: r2_w12: stage 3, at rest */
     const real r2_w12_y3 = r2_w12_u3;
@@ -2081,7 +2882,7 @@ static void start_r2(
     x->r2_w12_s3 = c->rest * r2_w12_u3;
 
     /* khepera.bg:17: r2_w12: input of stage 2 */
-    const real r2_w12_u2 = r2_w12_y3 + c->r2_w12_v2_m__2__motor * r2_w12_m__2__motor_speed_2;
+    const real r2_w12_u2 = r2_w12_y3 + r2_w12_d2 + REAL(3.0) * r2_w12_e1;
 
     /* khepera.bg:17: r2_w12: stage 2, at rest */
     const real r2_w12_y2 = r2_w12_u2;
@@ -2090,7 +2891,7 @@ static void start_r2(
     x->r2_w12_s2 = c->rest * r2_w12_u2;
 
     /* khepera.bg:17: r2_w12: input of stage 1 */
-    const real r2_w12_u1 = r2_w12_y2;
+    const real r2_w12_u1 = r2_w12_y2 - r2_w12_e1;
 
     /* khepera.bg:17: r2_w12: stage 1, at rest */
     const real r2_w12_y1 = r2_w12_u1;
@@ -2107,8 +2908,44 @@ static void start_r2(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r2_w13_m__2__motor_speed = r2_w13_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w13: encoders, order 1 */
+    const real r2_w13_n1 = -c->r2_w13_w1_m__2__motor * r2_w13_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w13: error of order 1 */
+    const real r2_w13_e1 = c->bend2 * r2_w13_n1;
+
+    /* khepera.bg:17: r2_w13: encoders, order 2 */
+    const real r2_w13_n2 = c->r2_w13_w2_m__2__motor * r2_w13_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w13: error of order 2 */
+    const real r2_w13_e2 = c->bend1 * r2_w13_n2;
+
+    /* khepera.bg:17: r2_w13: encoders, order 3 */
+    const real r2_w13_n3 = -c->r2_w13_w3_m__2__motor * r2_w13_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w13: terms of order 0 */
+    const real r2_w13_g0 = -c->r2_w13_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w13: terms of order 1 */
+    const real r2_w13_g1 = -c->r2_w13_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w13: degree 1 */
+    const real r2_w13_d1 = r2_w13_g1 + r2_w13_n1 + r2_w13_n2;
+
+    /* khepera.bg:17: r2_w13: error of order 0 */
+    const real r2_w13_e0 = c->bend3 * r2_w13_g0;
+
+    /* khepera.bg:17: r2_w13: degree 2 */
+    const real r2_w13_d2 = r2_w13_n2 + r2_w13_n3 - r2_w13_e1 - r2_w13_e0;
+
+    /* khepera.bg:17: r2_w13: error of order 1 */
+    const real r2_w13_e1_2 = c->bend2 * r2_w13_g1;
+
+    /* khepera.bg:17: r2_w13: degree 3 */
+    const real r2_w13_d3 = r2_w13_n3 - r2_w13_e1 - r2_w13_e2 - r2_w13_e1_2;
+
     /* khepera.bg:17: r2_w13: input of stage 4 */
-    const real r2_w13_u4 = c->r2_w13_v4_Fx__2 * s->Fx__2;
+    const real r2_w13_u4 = r2_w13_g0 + r2_w13_n1 + r2_w13_d2 - r2_w13_d1 - r2_w13_d3 - r2_w13_e2;
 
     /* khepera.bg:17: r2_w13: stage 4, at rest */
     const real r2_w13_y4 = r2_w13_u4;
@@ -2117,8 +2954,8 @@ static void start_r2(
     x->r2_w13_s4 = c->rest * r2_w13_u4;
 
     /* khepera.bg:17: r2_w13: input of stage 3 */
-    const real r2_w13_u3 = r2_w13_y4 - c->r2_w13_v3_m__2__motor * r2_w13_m__2__motor_speed_2
-        - c->r2_w13_v3_Fx__2 * s->Fx__2;
+    const real r2_w13_u3 = r2_w13_y4 + r2_w13_d1 + REAL(3.0) * r2_w13_d3 + REAL(4.0) * r2_w13_e2
+        - REAL(2.0) * r2_w13_d2;
 
     /* khepera.bg:17: r2_w13: stage 3, at rest */
     const real r2_w13_y3 = r2_w13_u3;
@@ -2127,7 +2964,7 @@ static void start_r2(
     x->r2_w13_s3 = c->rest * r2_w13_u3;
 
     /* khepera.bg:17: r2_w13: input of stage 2 */
-    const real r2_w13_u2 = r2_w13_y3 + c->r2_w13_v2_m__2__motor * r2_w13_m__2__motor_speed_2;
+    const real r2_w13_u2 = r2_w13_y3 + r2_w13_d2 - REAL(3.0) * r2_w13_d3 - REAL(6.0) * r2_w13_e2;
 
     /* khepera.bg:17: r2_w13: stage 2, at rest */
     const real r2_w13_y2 = r2_w13_u2;
@@ -2136,7 +2973,7 @@ static void start_r2(
     x->r2_w13_s2 = c->rest * r2_w13_u2;
 
     /* khepera.bg:17: r2_w13: input of stage 1 */
-    const real r2_w13_u1 = r2_w13_y2 - c->r2_w13_v1_m__2__motor * r2_w13_m__2__motor_speed_2;
+    const real r2_w13_u1 = r2_w13_y2 + r2_w13_d3 + REAL(4.0) * r2_w13_e2;
 
     /* khepera.bg:17: r2_w13: stage 1, at rest */
     const real r2_w13_y1 = r2_w13_u1;
@@ -2145,7 +2982,7 @@ static void start_r2(
     x->r2_w13_s1 = c->rest * r2_w13_u1;
 
     /* khepera.bg:17: r2: second order of what the tolerance of m[2].el.k can do */
-    const real r2_w13 = r2_w13_y1;
+    const real r2_w13 = r2_w13_y1 - r2_w13_e2;
 
     /* khepera.bg:17: r2: how far r2 can be from zero if no parameter is out of tolerance */
     r[KHEPERA_BUILT_THRESHOLD_R2] = MATH(fabs)(r2_w1) + MATH(fabs)(r2_w2) + MATH(fabs)(r2_w3)
@@ -2169,32 +3006,56 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w1_m__2__motor_speed = r2_w1_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w1: encoders, order 1 */
+    const real r2_w1_n1 = -c->r2_w1_w1_m__2__motor * r2_w1_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w1: error of order 1 */
+    const real r2_w1_e1 = c->bend1 * r2_w1_n1;
+
+    /* khepera.bg:17: r2_w1: encoders, order 2 */
+    const real r2_w1_n2 = -c->r2_w1_w2_m__2__motor * r2_w1_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w1: degree 1 */
+    const real r2_w1_d1 = r2_w1_n1 + r2_w1_n2;
+
+    /* khepera.bg:17: r2_w1: degree 2 */
+    const real r2_w1_d2 = r2_w1_n2 - r2_w1_e1;
+
+    /* khepera.bg:17: r2_w1: input of stage 4 */
+    const real r2_w1_u4 = r2_w1_n1 + r2_w1_d2 + r2_w1_e1 - r2_w1_d1;
+
+    /* khepera.bg:17: r2_w1: stage 4 */
+    const real r2_w1_y4 = x->r2_w1_s4 + c->b * r2_w1_u4;
+
+    /* khepera.bg:17: r2_w1: stage 4: memory */
+    x->r2_w1_s4 = c->a * r2_w1_y4 + c->b * r2_w1_u4;
+
     /* khepera.bg:17: r2_w1: input of stage 3 */
-    const real r2_w1_u3 = c->r2_w1_v3_m__2__motor * r2_w1_m__2__motor_speed_2;
+    const real r2_w1_u3 = r2_w1_y4 + r2_w1_d1 - REAL(2.0) * r2_w1_d2 - REAL(3.0) * r2_w1_e1;
 
     /* khepera.bg:17: r2_w1: stage 3 */
-    const real r2_w1_y3 = x->r2_w1_s3 + c->b0 * r2_w1_u3;
+    const real r2_w1_y3 = x->r2_w1_s3 + c->b * r2_w1_u3;
 
     /* khepera.bg:17: r2_w1: stage 3: memory */
-    x->r2_w1_s3 = c->a * r2_w1_y3 + c->b1 * r2_w1_u3;
+    x->r2_w1_s3 = c->a * r2_w1_y3 + c->b * r2_w1_u3;
 
     /* khepera.bg:17: r2_w1: input of stage 2 */
-    const real r2_w1_u2 = r2_w1_y3 - c->r2_w1_v2_m__2__motor * r2_w1_m__2__motor_speed_2;
+    const real r2_w1_u2 = r2_w1_y3 + r2_w1_d2 + REAL(3.0) * r2_w1_e1;
 
     /* khepera.bg:17: r2_w1: stage 2 */
-    const real r2_w1_y2 = x->r2_w1_s2 + c->b0 * r2_w1_u2;
+    const real r2_w1_y2 = x->r2_w1_s2 + c->b * r2_w1_u2;
 
     /* khepera.bg:17: r2_w1: stage 2: memory */
-    x->r2_w1_s2 = c->a * r2_w1_y2 + c->b1 * r2_w1_u2;
+    x->r2_w1_s2 = c->a * r2_w1_y2 + c->b * r2_w1_u2;
 
     /* khepera.bg:17: r2_w1: input of stage 1 */
-    const real r2_w1_u1 = r2_w1_y2;
+    const real r2_w1_u1 = r2_w1_y2 - r2_w1_e1;
 
     /* khepera.bg:17: r2_w1: stage 1 */
-    const real r2_w1_y1 = x->r2_w1_s1 + c->b0 * r2_w1_u1;
+    const real r2_w1_y1 = x->r2_w1_s1 + c->b * r2_w1_u1;
 
     /* khepera.bg:17: r2_w1: stage 1: memory */
-    x->r2_w1_s1 = c->a * r2_w1_y1 + c->b1 * r2_w1_u1;
+    x->r2_w1_s1 = c->a * r2_w1_y1 + c->b * r2_w1_u1;
 
     /* khepera.bg:17: r2: what the tolerance of m[2].fe can do */
     const real r2_w1 = r2_w1_y1;
@@ -2204,67 +3065,116 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w2_m__2__motor_speed = r2_w2_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w2: encoders, order 2 */
+    const real r2_w2_n2 = -c->r2_w2_w2_m__2__motor * r2_w2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w2: error of order 2 */
+    const real r2_w2_e2 = c->bend1 * r2_w2_n2;
+
+    /* khepera.bg:17: r2_w2: encoders, order 3 */
+    const real r2_w2_n3 = -c->r2_w2_w3_m__2__motor * r2_w2_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w2: degree 2 */
+    const real r2_w2_d2 = r2_w2_n2 + r2_w2_n3;
+
+    /* khepera.bg:17: r2_w2: degree 3 */
+    const real r2_w2_d3 = r2_w2_n3 - r2_w2_e2;
+
+    /* khepera.bg:17: r2_w2: input of stage 4 */
+    const real r2_w2_u4 = r2_w2_d2 - r2_w2_n2 - r2_w2_d3 - r2_w2_e2;
+
+    /* khepera.bg:17: r2_w2: stage 4 */
+    const real r2_w2_y4 = x->r2_w2_s4 + c->b * r2_w2_u4;
+
+    /* khepera.bg:17: r2_w2: stage 4: memory */
+    x->r2_w2_s4 = c->a * r2_w2_y4 + c->b * r2_w2_u4;
+
     /* khepera.bg:17: r2_w2: input of stage 3 */
-    const real r2_w2_u3 = c->r2_w2_v3_m__2__motor * r2_w2_m__2__motor_speed_2;
+    const real r2_w2_u3 = r2_w2_y4 + r2_w2_n2 + REAL(3.0) * r2_w2_d3 + REAL(4.0) * r2_w2_e2
+        - REAL(2.0) * r2_w2_d2;
 
     /* khepera.bg:17: r2_w2: stage 3 */
-    const real r2_w2_y3 = x->r2_w2_s3 + c->b0 * r2_w2_u3;
+    const real r2_w2_y3 = x->r2_w2_s3 + c->b * r2_w2_u3;
 
     /* khepera.bg:17: r2_w2: stage 3: memory */
-    x->r2_w2_s3 = c->a * r2_w2_y3 + c->b1 * r2_w2_u3;
+    x->r2_w2_s3 = c->a * r2_w2_y3 + c->b * r2_w2_u3;
 
     /* khepera.bg:17: r2_w2: input of stage 2 */
-    const real r2_w2_u2 = r2_w2_y3 + c->r2_w2_v2_m__2__motor * r2_w2_m__2__motor_speed_2;
+    const real r2_w2_u2 = r2_w2_y3 + r2_w2_d2 - REAL(3.0) * r2_w2_d3 - REAL(6.0) * r2_w2_e2;
 
     /* khepera.bg:17: r2_w2: stage 2 */
-    const real r2_w2_y2 = x->r2_w2_s2 + c->b0 * r2_w2_u2;
+    const real r2_w2_y2 = x->r2_w2_s2 + c->b * r2_w2_u2;
 
     /* khepera.bg:17: r2_w2: stage 2: memory */
-    x->r2_w2_s2 = c->a * r2_w2_y2 + c->b1 * r2_w2_u2;
+    x->r2_w2_s2 = c->a * r2_w2_y2 + c->b * r2_w2_u2;
 
     /* khepera.bg:17: r2_w2: input of stage 1 */
-    const real r2_w2_u1 = r2_w2_y2 - c->r2_w2_v1_m__2__motor * r2_w2_m__2__motor_speed_2;
+    const real r2_w2_u1 = r2_w2_y2 + r2_w2_d3 + REAL(4.0) * r2_w2_e2;
 
     /* khepera.bg:17: r2_w2: stage 1 */
-    const real r2_w2_y1 = x->r2_w2_s1 + c->b0 * r2_w2_u1;
+    const real r2_w2_y1 = x->r2_w2_s1 + c->b * r2_w2_u1;
 
     /* khepera.bg:17: r2_w2: stage 1: memory */
-    x->r2_w2_s1 = c->a * r2_w2_y1 + c->b1 * r2_w2_u1;
+    x->r2_w2_s1 = c->a * r2_w2_y1 + c->b * r2_w2_u1;
 
     /* khepera.bg:17: r2: what the tolerance of m[2].Js can do */
-    const real r2_w2 = r2_w2_y1;
+    const real r2_w2 = r2_w2_y1 - r2_w2_e2;
 
     /* khepera.bg:17: filtered speed of m[2].motor */
     const real r2_w3_m__2__motor_speed_2 = c->a * x->r2_w3_m__2__motor_speed
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w3_m__2__motor_speed = r2_w3_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w3: encoders, order 1 */
+    const real r2_w3_n1 = -c->r2_w3_w1_m__2__motor * r2_w3_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w3: error of order 1 */
+    const real r2_w3_e1 = c->bend1 * r2_w3_n1;
+
+    /* khepera.bg:17: r2_w3: encoders, order 2 */
+    const real r2_w3_n2 = -c->r2_w3_w2_m__2__motor * r2_w3_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w3: degree 1 */
+    const real r2_w3_d1 = r2_w3_n1 + r2_w3_n2;
+
+    /* khepera.bg:17: r2_w3: degree 2 */
+    const real r2_w3_d2 = r2_w3_n2 - r2_w3_e1;
+
+    /* khepera.bg:17: r2_w3: input of stage 4 */
+    const real r2_w3_u4 = r2_w3_n1 + r2_w3_d2 + r2_w3_e1 - r2_w3_d1;
+
+    /* khepera.bg:17: r2_w3: stage 4 */
+    const real r2_w3_y4 = x->r2_w3_s4 + c->b * r2_w3_u4;
+
+    /* khepera.bg:17: r2_w3: stage 4: memory */
+    x->r2_w3_s4 = c->a * r2_w3_y4 + c->b * r2_w3_u4;
+
     /* khepera.bg:17: r2_w3: input of stage 3 */
-    const real r2_w3_u3 = c->r2_w3_v3_m__2__motor * r2_w3_m__2__motor_speed_2;
+    const real r2_w3_u3 = r2_w3_y4 + r2_w3_d1 - REAL(2.0) * r2_w3_d2 - REAL(3.0) * r2_w3_e1;
 
     /* khepera.bg:17: r2_w3: stage 3 */
-    const real r2_w3_y3 = x->r2_w3_s3 + c->b0 * r2_w3_u3;
+    const real r2_w3_y3 = x->r2_w3_s3 + c->b * r2_w3_u3;
 
     /* khepera.bg:17: r2_w3: stage 3: memory */
-    x->r2_w3_s3 = c->a * r2_w3_y3 + c->b1 * r2_w3_u3;
+    x->r2_w3_s3 = c->a * r2_w3_y3 + c->b * r2_w3_u3;
 
     /* khepera.bg:17: r2_w3: input of stage 2 */
-    const real r2_w3_u2 = r2_w3_y3 - c->r2_w3_v2_m__2__motor * r2_w3_m__2__motor_speed_2;
+    const real r2_w3_u2 = r2_w3_y3 + r2_w3_d2 + REAL(3.0) * r2_w3_e1;
 
     /* khepera.bg:17: r2_w3: stage 2 */
-    const real r2_w3_y2 = x->r2_w3_s2 + c->b0 * r2_w3_u2;
+    const real r2_w3_y2 = x->r2_w3_s2 + c->b * r2_w3_u2;
 
     /* khepera.bg:17: r2_w3: stage 2: memory */
-    x->r2_w3_s2 = c->a * r2_w3_y2 + c->b1 * r2_w3_u2;
+    x->r2_w3_s2 = c->a * r2_w3_y2 + c->b * r2_w3_u2;
 
     /* khepera.bg:17: r2_w3: input of stage 1 */
-    const real r2_w3_u1 = r2_w3_y2;
+    const real r2_w3_u1 = r2_w3_y2 - r2_w3_e1;
 
     /* khepera.bg:17: r2_w3: stage 1 */
-    const real r2_w3_y1 = x->r2_w3_s1 + c->b0 * r2_w3_u1;
+    const real r2_w3_y1 = x->r2_w3_s1 + c->b * r2_w3_u1;
 
     /* khepera.bg:17: r2_w3: stage 1: memory */
-    x->r2_w3_s1 = c->a * r2_w3_y1 + c->b1 * r2_w3_u1;
+    x->r2_w3_s1 = c->a * r2_w3_y1 + c->b * r2_w3_u1;
 
     /* khepera.bg:17: r2: what the tolerance of m[2].fs can do */
     const real r2_w3 = r2_w3_y1;
@@ -2274,41 +3184,62 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w4_m__2__motor_speed = r2_w4_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w4: encoders, order 1 */
+    const real r2_w4_n1 = -c->r2_w4_w1_m__2__motor * r2_w4_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w4: error of order 1 */
+    const real r2_w4_e1 = c->bend1 * r2_w4_n1;
+
+    /* khepera.bg:17: r2_w4: encoders, order 2 */
+    const real r2_w4_n2 = -c->r2_w4_w2_m__2__motor * r2_w4_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w4: terms of order 0 */
+    const real r2_w4_g0 = -c->r2_w4_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w4: degree 1 */
+    const real r2_w4_d1 = r2_w4_n1 + r2_w4_n2;
+
+    /* khepera.bg:17: r2_w4: error of order 0 */
+    const real r2_w4_e0 = c->bend2 * r2_w4_g0;
+
+    /* khepera.bg:17: r2_w4: degree 2 */
+    const real r2_w4_d2 = r2_w4_n2 - r2_w4_e1 - r2_w4_e0;
+
     /* khepera.bg:17: r2_w4: input of stage 4 */
-    const real r2_w4_u4 = -c->r2_w4_v4_Fx__2 * s->Fx__2;
+    const real r2_w4_u4 = r2_w4_g0 + r2_w4_n1 + r2_w4_d2 + r2_w4_e1 - r2_w4_d1;
 
     /* khepera.bg:17: r2_w4: stage 4 */
-    const real r2_w4_y4 = x->r2_w4_s4 + c->b0 * r2_w4_u4;
+    const real r2_w4_y4 = x->r2_w4_s4 + c->b * r2_w4_u4;
 
     /* khepera.bg:17: r2_w4: stage 4: memory */
-    x->r2_w4_s4 = c->a * r2_w4_y4 + c->b1 * r2_w4_u4;
+    x->r2_w4_s4 = c->a * r2_w4_y4 + c->b * r2_w4_u4;
 
     /* khepera.bg:17: r2_w4: input of stage 3 */
-    const real r2_w4_u3 = r2_w4_y4 + c->r2_w4_v3_m__2__motor * r2_w4_m__2__motor_speed_2;
+    const real r2_w4_u3 = r2_w4_y4 + r2_w4_d1 - REAL(2.0) * r2_w4_d2 - REAL(3.0) * r2_w4_e1;
 
     /* khepera.bg:17: r2_w4: stage 3 */
-    const real r2_w4_y3 = x->r2_w4_s3 + c->b0 * r2_w4_u3;
+    const real r2_w4_y3 = x->r2_w4_s3 + c->b * r2_w4_u3;
 
     /* khepera.bg:17: r2_w4: stage 3: memory */
-    x->r2_w4_s3 = c->a * r2_w4_y3 + c->b1 * r2_w4_u3;
+    x->r2_w4_s3 = c->a * r2_w4_y3 + c->b * r2_w4_u3;
 
     /* khepera.bg:17: r2_w4: input of stage 2 */
-    const real r2_w4_u2 = r2_w4_y3 - c->r2_w4_v2_m__2__motor * r2_w4_m__2__motor_speed_2;
+    const real r2_w4_u2 = r2_w4_y3 + r2_w4_d2 + REAL(3.0) * r2_w4_e1;
 
     /* khepera.bg:17: r2_w4: stage 2 */
-    const real r2_w4_y2 = x->r2_w4_s2 + c->b0 * r2_w4_u2;
+    const real r2_w4_y2 = x->r2_w4_s2 + c->b * r2_w4_u2;
 
     /* khepera.bg:17: r2_w4: stage 2: memory */
-    x->r2_w4_s2 = c->a * r2_w4_y2 + c->b1 * r2_w4_u2;
+    x->r2_w4_s2 = c->a * r2_w4_y2 + c->b * r2_w4_u2;
 
     /* khepera.bg:17: r2_w4: input of stage 1 */
-    const real r2_w4_u1 = r2_w4_y2;
+    const real r2_w4_u1 = r2_w4_y2 - r2_w4_e1;
 
     /* khepera.bg:17: r2_w4: stage 1 */
-    const real r2_w4_y1 = x->r2_w4_s1 + c->b0 * r2_w4_u1;
+    const real r2_w4_y1 = x->r2_w4_s1 + c->b * r2_w4_u1;
 
     /* khepera.bg:17: r2_w4: stage 1: memory */
-    x->r2_w4_s1 = c->a * r2_w4_y1 + c->b1 * r2_w4_u1;
+    x->r2_w4_s1 = c->a * r2_w4_y1 + c->b * r2_w4_u1;
 
     /* khepera.bg:17: r2: what the tolerance of m[2].el.Re can do */
     const real r2_w4 = r2_w4_y1;
@@ -2318,77 +3249,125 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w5_m__2__motor_speed = r2_w5_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w5: encoders, order 1 */
+    const real r2_w5_n1 = c->r2_w5_w1_m__2__motor * r2_w5_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w5: error of order 1 */
+    const real r2_w5_e1 = c->bend2 * r2_w5_n1;
+
+    /* khepera.bg:17: r2_w5: encoders, order 2 */
+    const real r2_w5_n2 = c->r2_w5_w2_m__2__motor * r2_w5_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w5: error of order 2 */
+    const real r2_w5_e2 = c->bend1 * r2_w5_n2;
+
+    /* khepera.bg:17: r2_w5: encoders, order 3 */
+    const real r2_w5_n3 = c->r2_w5_w3_m__2__motor * r2_w5_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w5: terms of order 0 */
+    const real r2_w5_g0 = c->r2_w5_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w5: terms of order 1 */
+    const real r2_w5_g1 = c->r2_w5_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w5: degree 1 */
+    const real r2_w5_d1 = r2_w5_g1 + r2_w5_n1 + r2_w5_n2;
+
+    /* khepera.bg:17: r2_w5: error of order 0 */
+    const real r2_w5_e0 = c->bend3 * r2_w5_g0;
+
+    /* khepera.bg:17: r2_w5: degree 2 */
+    const real r2_w5_d2 = r2_w5_n2 + r2_w5_n3 - r2_w5_e1 - r2_w5_e0;
+
+    /* khepera.bg:17: r2_w5: error of order 1 */
+    const real r2_w5_e1_2 = c->bend2 * r2_w5_g1;
+
+    /* khepera.bg:17: r2_w5: degree 3 */
+    const real r2_w5_d3 = r2_w5_n3 - r2_w5_e1 - r2_w5_e2 - r2_w5_e1_2;
+
     /* khepera.bg:17: r2_w5: input of stage 4 */
-    const real r2_w5_u4 = c->r2_w5_v4_Fx__2 * s->Fx__2;
+    const real r2_w5_u4 = r2_w5_g0 + r2_w5_n1 + r2_w5_d2 - r2_w5_d1 - r2_w5_d3 - r2_w5_e2;
 
     /* khepera.bg:17: r2_w5: stage 4 */
-    const real r2_w5_y4 = x->r2_w5_s4 + c->b0 * r2_w5_u4;
+    const real r2_w5_y4 = x->r2_w5_s4 + c->b * r2_w5_u4;
 
     /* khepera.bg:17: r2_w5: stage 4: memory */
-    x->r2_w5_s4 = c->a * r2_w5_y4 + c->b1 * r2_w5_u4;
+    x->r2_w5_s4 = c->a * r2_w5_y4 + c->b * r2_w5_u4;
 
     /* khepera.bg:17: r2_w5: input of stage 3 */
-    const real r2_w5_u3 = r2_w5_y4 + c->r2_w5_v3_m__2__motor * r2_w5_m__2__motor_speed_2
-        + c->r2_w5_v3_Fx__2 * s->Fx__2;
+    const real r2_w5_u3 = r2_w5_y4 + r2_w5_d1 + REAL(3.0) * r2_w5_d3 + REAL(4.0) * r2_w5_e2
+        - REAL(2.0) * r2_w5_d2;
 
     /* khepera.bg:17: r2_w5: stage 3 */
-    const real r2_w5_y3 = x->r2_w5_s3 + c->b0 * r2_w5_u3;
+    const real r2_w5_y3 = x->r2_w5_s3 + c->b * r2_w5_u3;
 
     /* khepera.bg:17: r2_w5: stage 3: memory */
-    x->r2_w5_s3 = c->a * r2_w5_y3 + c->b1 * r2_w5_u3;
+    x->r2_w5_s3 = c->a * r2_w5_y3 + c->b * r2_w5_u3;
 
     /* khepera.bg:17: r2_w5: input of stage 2 */
-    const real r2_w5_u2 = r2_w5_y3 + c->r2_w5_v2_m__2__motor * r2_w5_m__2__motor_speed_2;
+    const real r2_w5_u2 = r2_w5_y3 + r2_w5_d2 - REAL(3.0) * r2_w5_d3 - REAL(6.0) * r2_w5_e2;
 
     /* khepera.bg:17: r2_w5: stage 2 */
-    const real r2_w5_y2 = x->r2_w5_s2 + c->b0 * r2_w5_u2;
+    const real r2_w5_y2 = x->r2_w5_s2 + c->b * r2_w5_u2;
 
     /* khepera.bg:17: r2_w5: stage 2: memory */
-    x->r2_w5_s2 = c->a * r2_w5_y2 + c->b1 * r2_w5_u2;
+    x->r2_w5_s2 = c->a * r2_w5_y2 + c->b * r2_w5_u2;
 
     /* khepera.bg:17: r2_w5: input of stage 1 */
-    const real r2_w5_u1 = r2_w5_y2 + c->r2_w5_v1_m__2__motor * r2_w5_m__2__motor_speed_2;
+    const real r2_w5_u1 = r2_w5_y2 + r2_w5_d3 + REAL(4.0) * r2_w5_e2;
 
     /* khepera.bg:17: r2_w5: stage 1 */
-    const real r2_w5_y1 = x->r2_w5_s1 + c->b0 * r2_w5_u1;
+    const real r2_w5_y1 = x->r2_w5_s1 + c->b * r2_w5_u1;
 
     /* khepera.bg:17: r2_w5: stage 1: memory */
-    x->r2_w5_s1 = c->a * r2_w5_y1 + c->b1 * r2_w5_u1;
+    x->r2_w5_s1 = c->a * r2_w5_y1 + c->b * r2_w5_u1;
 
     /* khepera.bg:17: r2: what the tolerance of m[2].el.k can do */
-    const real r2_w5 = r2_w5_y1;
+    const real r2_w5 = r2_w5_y1 - r2_w5_e2;
 
     /* khepera.bg:17: filtered speed of m[2].motor */
     const real r2_w6_m__2__motor_speed_2 = c->a * x->r2_w6_m__2__motor_speed
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w6_m__2__motor_speed = r2_w6_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w6: encoders, order 1 */
+    const real r2_w6_n1 = -c->r2_w6_w1_m__2__motor * r2_w6_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w6: input of stage 4 */
+    const real r2_w6_u4 = r2_w6_n1 - r2_w6_n1;
+
+    /* khepera.bg:17: r2_w6: stage 4 */
+    const real r2_w6_y4 = x->r2_w6_s4 + c->b * r2_w6_u4;
+
+    /* khepera.bg:17: r2_w6: stage 4: memory */
+    x->r2_w6_s4 = c->a * r2_w6_y4 + c->b * r2_w6_u4;
+
     /* khepera.bg:17: r2_w6: input of stage 3 */
-    const real r2_w6_u3 = -c->r2_w6_v3_m__2__motor * r2_w6_m__2__motor_speed_2;
+    const real r2_w6_u3 = r2_w6_y4 + r2_w6_n1;
 
     /* khepera.bg:17: r2_w6: stage 3 */
-    const real r2_w6_y3 = x->r2_w6_s3 + c->b0 * r2_w6_u3;
+    const real r2_w6_y3 = x->r2_w6_s3 + c->b * r2_w6_u3;
 
     /* khepera.bg:17: r2_w6: stage 3: memory */
-    x->r2_w6_s3 = c->a * r2_w6_y3 + c->b1 * r2_w6_u3;
+    x->r2_w6_s3 = c->a * r2_w6_y3 + c->b * r2_w6_u3;
 
     /* khepera.bg:17: r2_w6: input of stage 2 */
     const real r2_w6_u2 = r2_w6_y3;
 
     /* khepera.bg:17: r2_w6: stage 2 */
-    const real r2_w6_y2 = x->r2_w6_s2 + c->b0 * r2_w6_u2;
+    const real r2_w6_y2 = x->r2_w6_s2 + c->b * r2_w6_u2;
 
     /* khepera.bg:17: r2_w6: stage 2: memory */
-    x->r2_w6_s2 = c->a * r2_w6_y2 + c->b1 * r2_w6_u2;
+    x->r2_w6_s2 = c->a * r2_w6_y2 + c->b * r2_w6_u2;
 
     /* khepera.bg:17: r2_w6: input of stage 1 */
     const real r2_w6_u1 = r2_w6_y2;
 
     /* khepera.bg:17: r2_w6: stage 1 */
-    const real r2_w6_y1 = x->r2_w6_s1 + c->b0 * r2_w6_u1;
+    const real r2_w6_y1 = x->r2_w6_s1 + c->b * r2_w6_u1;
 
     /* khepera.bg:17: r2_w6: stage 1: memory */
-    x->r2_w6_s1 = c->a * r2_w6_y1 + c->b1 * r2_w6_u1;
+    x->r2_w6_s1 = c->a * r2_w6_y1 + c->b * r2_w6_u1;
 
     /* khepera.bg:17: r2: what the tolerances of m[2].fe and m[2].el.Re can do together */
     const real r2_w6 = r2_w6_y1;
@@ -2398,32 +3377,56 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w7_m__2__motor_speed = r2_w7_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w7: encoders, order 1 */
+    const real r2_w7_n1 = c->r2_w7_w1_m__2__motor * r2_w7_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w7: error of order 1 */
+    const real r2_w7_e1 = c->bend1 * r2_w7_n1;
+
+    /* khepera.bg:17: r2_w7: encoders, order 2 */
+    const real r2_w7_n2 = c->r2_w7_w2_m__2__motor * r2_w7_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w7: degree 1 */
+    const real r2_w7_d1 = r2_w7_n1 + r2_w7_n2;
+
+    /* khepera.bg:17: r2_w7: degree 2 */
+    const real r2_w7_d2 = r2_w7_n2 - r2_w7_e1;
+
+    /* khepera.bg:17: r2_w7: input of stage 4 */
+    const real r2_w7_u4 = r2_w7_n1 + r2_w7_d2 + r2_w7_e1 - r2_w7_d1;
+
+    /* khepera.bg:17: r2_w7: stage 4 */
+    const real r2_w7_y4 = x->r2_w7_s4 + c->b * r2_w7_u4;
+
+    /* khepera.bg:17: r2_w7: stage 4: memory */
+    x->r2_w7_s4 = c->a * r2_w7_y4 + c->b * r2_w7_u4;
+
     /* khepera.bg:17: r2_w7: input of stage 3 */
-    const real r2_w7_u3 = c->r2_w7_v3_m__2__motor * r2_w7_m__2__motor_speed_2;
+    const real r2_w7_u3 = r2_w7_y4 + r2_w7_d1 - REAL(2.0) * r2_w7_d2 - REAL(3.0) * r2_w7_e1;
 
     /* khepera.bg:17: r2_w7: stage 3 */
-    const real r2_w7_y3 = x->r2_w7_s3 + c->b0 * r2_w7_u3;
+    const real r2_w7_y3 = x->r2_w7_s3 + c->b * r2_w7_u3;
 
     /* khepera.bg:17: r2_w7: stage 3: memory */
-    x->r2_w7_s3 = c->a * r2_w7_y3 + c->b1 * r2_w7_u3;
+    x->r2_w7_s3 = c->a * r2_w7_y3 + c->b * r2_w7_u3;
 
     /* khepera.bg:17: r2_w7: input of stage 2 */
-    const real r2_w7_u2 = r2_w7_y3 + c->r2_w7_v2_m__2__motor * r2_w7_m__2__motor_speed_2;
+    const real r2_w7_u2 = r2_w7_y3 + r2_w7_d2 + REAL(3.0) * r2_w7_e1;
 
     /* khepera.bg:17: r2_w7: stage 2 */
-    const real r2_w7_y2 = x->r2_w7_s2 + c->b0 * r2_w7_u2;
+    const real r2_w7_y2 = x->r2_w7_s2 + c->b * r2_w7_u2;
 
     /* khepera.bg:17: r2_w7: stage 2: memory */
-    x->r2_w7_s2 = c->a * r2_w7_y2 + c->b1 * r2_w7_u2;
+    x->r2_w7_s2 = c->a * r2_w7_y2 + c->b * r2_w7_u2;
 
     /* khepera.bg:17: r2_w7: input of stage 1 */
-    const real r2_w7_u1 = r2_w7_y2;
+    const real r2_w7_u1 = r2_w7_y2 - r2_w7_e1;
 
     /* khepera.bg:17: r2_w7: stage 1 */
-    const real r2_w7_y1 = x->r2_w7_s1 + c->b0 * r2_w7_u1;
+    const real r2_w7_y1 = x->r2_w7_s1 + c->b * r2_w7_u1;
 
     /* khepera.bg:17: r2_w7: stage 1: memory */
-    x->r2_w7_s1 = c->a * r2_w7_y1 + c->b1 * r2_w7_u1;
+    x->r2_w7_s1 = c->a * r2_w7_y1 + c->b * r2_w7_u1;
 
     /* khepera.bg:17: r2: what the tolerances of m[2].fe and m[2].el.k can do together */
     const real r2_w7 = r2_w7_y1;
@@ -2433,32 +3436,44 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w8_m__2__motor_speed = r2_w8_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w8: encoders, order 2 */
+    const real r2_w8_n2 = -c->r2_w8_w2_m__2__motor * r2_w8_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w8: input of stage 4 */
+    const real r2_w8_u4 = r2_w8_n2 - r2_w8_n2;
+
+    /* khepera.bg:17: r2_w8: stage 4 */
+    const real r2_w8_y4 = x->r2_w8_s4 + c->b * r2_w8_u4;
+
+    /* khepera.bg:17: r2_w8: stage 4: memory */
+    x->r2_w8_s4 = c->a * r2_w8_y4 + c->b * r2_w8_u4;
+
     /* khepera.bg:17: r2_w8: input of stage 3 */
-    const real r2_w8_u3 = c->r2_w8_v2_m__2__motor * r2_w8_m__2__motor_speed_2;
+    const real r2_w8_u3 = r2_w8_y4 + r2_w8_n2 - REAL(2.0) * r2_w8_n2;
 
     /* khepera.bg:17: r2_w8: stage 3 */
-    const real r2_w8_y3 = x->r2_w8_s3 + c->b0 * r2_w8_u3;
+    const real r2_w8_y3 = x->r2_w8_s3 + c->b * r2_w8_u3;
 
     /* khepera.bg:17: r2_w8: stage 3: memory */
-    x->r2_w8_s3 = c->a * r2_w8_y3 + c->b1 * r2_w8_u3;
+    x->r2_w8_s3 = c->a * r2_w8_y3 + c->b * r2_w8_u3;
 
     /* khepera.bg:17: r2_w8: input of stage 2 */
-    const real r2_w8_u2 = r2_w8_y3 - c->r2_w8_v2_m__2__motor * r2_w8_m__2__motor_speed_2;
+    const real r2_w8_u2 = r2_w8_y3 + r2_w8_n2;
 
     /* khepera.bg:17: r2_w8: stage 2 */
-    const real r2_w8_y2 = x->r2_w8_s2 + c->b0 * r2_w8_u2;
+    const real r2_w8_y2 = x->r2_w8_s2 + c->b * r2_w8_u2;
 
     /* khepera.bg:17: r2_w8: stage 2: memory */
-    x->r2_w8_s2 = c->a * r2_w8_y2 + c->b1 * r2_w8_u2;
+    x->r2_w8_s2 = c->a * r2_w8_y2 + c->b * r2_w8_u2;
 
     /* khepera.bg:17: r2_w8: input of stage 1 */
     const real r2_w8_u1 = r2_w8_y2;
 
     /* khepera.bg:17: r2_w8: stage 1 */
-    const real r2_w8_y1 = x->r2_w8_s1 + c->b0 * r2_w8_u1;
+    const real r2_w8_y1 = x->r2_w8_s1 + c->b * r2_w8_u1;
 
     /* khepera.bg:17: r2_w8: stage 1: memory */
-    x->r2_w8_s1 = c->a * r2_w8_y1 + c->b1 * r2_w8_u1;
+    x->r2_w8_s1 = c->a * r2_w8_y1 + c->b * r2_w8_u1;
 
     /* khepera.bg:17: r2: what the tolerances of m[2].Js and m[2].el.Re can do together */
     const real r2_w8 = r2_w8_y1;
@@ -2468,67 +3483,104 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w9_m__2__motor_speed = r2_w9_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w9: encoders, order 2 */
+    const real r2_w9_n2 = c->r2_w9_w2_m__2__motor * r2_w9_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w9: error of order 2 */
+    const real r2_w9_e2 = c->bend1 * r2_w9_n2;
+
+    /* khepera.bg:17: r2_w9: encoders, order 3 */
+    const real r2_w9_n3 = c->r2_w9_w3_m__2__motor * r2_w9_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w9: degree 2 */
+    const real r2_w9_d2 = r2_w9_n2 + r2_w9_n3;
+
+    /* khepera.bg:17: r2_w9: degree 3 */
+    const real r2_w9_d3 = r2_w9_n3 - r2_w9_e2;
+
+    /* khepera.bg:17: r2_w9: input of stage 4 */
+    const real r2_w9_u4 = r2_w9_d2 - r2_w9_n2 - r2_w9_d3 - r2_w9_e2;
+
+    /* khepera.bg:17: r2_w9: stage 4 */
+    const real r2_w9_y4 = x->r2_w9_s4 + c->b * r2_w9_u4;
+
+    /* khepera.bg:17: r2_w9: stage 4: memory */
+    x->r2_w9_s4 = c->a * r2_w9_y4 + c->b * r2_w9_u4;
+
     /* khepera.bg:17: r2_w9: input of stage 3 */
-    const real r2_w9_u3 = c->r2_w9_v3_m__2__motor * r2_w9_m__2__motor_speed_2;
+    const real r2_w9_u3 = r2_w9_y4 + r2_w9_n2 + REAL(3.0) * r2_w9_d3 + REAL(4.0) * r2_w9_e2
+        - REAL(2.0) * r2_w9_d2;
 
     /* khepera.bg:17: r2_w9: stage 3 */
-    const real r2_w9_y3 = x->r2_w9_s3 + c->b0 * r2_w9_u3;
+    const real r2_w9_y3 = x->r2_w9_s3 + c->b * r2_w9_u3;
 
     /* khepera.bg:17: r2_w9: stage 3: memory */
-    x->r2_w9_s3 = c->a * r2_w9_y3 + c->b1 * r2_w9_u3;
+    x->r2_w9_s3 = c->a * r2_w9_y3 + c->b * r2_w9_u3;
 
     /* khepera.bg:17: r2_w9: input of stage 2 */
-    const real r2_w9_u2 = r2_w9_y3 + c->r2_w9_v2_m__2__motor * r2_w9_m__2__motor_speed_2;
+    const real r2_w9_u2 = r2_w9_y3 + r2_w9_d2 - REAL(3.0) * r2_w9_d3 - REAL(6.0) * r2_w9_e2;
 
     /* khepera.bg:17: r2_w9: stage 2 */
-    const real r2_w9_y2 = x->r2_w9_s2 + c->b0 * r2_w9_u2;
+    const real r2_w9_y2 = x->r2_w9_s2 + c->b * r2_w9_u2;
 
     /* khepera.bg:17: r2_w9: stage 2: memory */
-    x->r2_w9_s2 = c->a * r2_w9_y2 + c->b1 * r2_w9_u2;
+    x->r2_w9_s2 = c->a * r2_w9_y2 + c->b * r2_w9_u2;
 
     /* khepera.bg:17: r2_w9: input of stage 1 */
-    const real r2_w9_u1 = r2_w9_y2 + c->r2_w9_v1_m__2__motor * r2_w9_m__2__motor_speed_2;
+    const real r2_w9_u1 = r2_w9_y2 + r2_w9_d3 + REAL(4.0) * r2_w9_e2;
 
     /* khepera.bg:17: r2_w9: stage 1 */
-    const real r2_w9_y1 = x->r2_w9_s1 + c->b0 * r2_w9_u1;
+    const real r2_w9_y1 = x->r2_w9_s1 + c->b * r2_w9_u1;
 
     /* khepera.bg:17: r2_w9: stage 1: memory */
-    x->r2_w9_s1 = c->a * r2_w9_y1 + c->b1 * r2_w9_u1;
+    x->r2_w9_s1 = c->a * r2_w9_y1 + c->b * r2_w9_u1;
 
     /* khepera.bg:17: r2: what the tolerances of m[2].Js and m[2].el.k can do together */
-    const real r2_w9 = r2_w9_y1;
+    const real r2_w9 = r2_w9_y1 - r2_w9_e2;
 
     /* khepera.bg:17: filtered speed of m[2].motor */
     const real r2_w10_m__2__motor_speed_2 = c->a * x->r2_w10_m__2__motor_speed
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w10_m__2__motor_speed = r2_w10_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w10: encoders, order 1 */
+    const real r2_w10_n1 = -c->r2_w10_w1_m__2__motor * r2_w10_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w10: input of stage 4 */
+    const real r2_w10_u4 = r2_w10_n1 - r2_w10_n1;
+
+    /* khepera.bg:17: r2_w10: stage 4 */
+    const real r2_w10_y4 = x->r2_w10_s4 + c->b * r2_w10_u4;
+
+    /* khepera.bg:17: r2_w10: stage 4: memory */
+    x->r2_w10_s4 = c->a * r2_w10_y4 + c->b * r2_w10_u4;
+
     /* khepera.bg:17: r2_w10: input of stage 3 */
-    const real r2_w10_u3 = -c->r2_w10_v3_m__2__motor * r2_w10_m__2__motor_speed_2;
+    const real r2_w10_u3 = r2_w10_y4 + r2_w10_n1;
 
     /* khepera.bg:17: r2_w10: stage 3 */
-    const real r2_w10_y3 = x->r2_w10_s3 + c->b0 * r2_w10_u3;
+    const real r2_w10_y3 = x->r2_w10_s3 + c->b * r2_w10_u3;
 
     /* khepera.bg:17: r2_w10: stage 3: memory */
-    x->r2_w10_s3 = c->a * r2_w10_y3 + c->b1 * r2_w10_u3;
+    x->r2_w10_s3 = c->a * r2_w10_y3 + c->b * r2_w10_u3;
 
     /* khepera.bg:17: r2_w10: input of stage 2 */
     const real r2_w10_u2 = r2_w10_y3;
 
     /* khepera.bg:17: r2_w10: stage 2 */
-    const real r2_w10_y2 = x->r2_w10_s2 + c->b0 * r2_w10_u2;
+    const real r2_w10_y2 = x->r2_w10_s2 + c->b * r2_w10_u2;
 
     /* khepera.bg:17: r2_w10: stage 2: memory */
-    x->r2_w10_s2 = c->a * r2_w10_y2 + c->b1 * r2_w10_u2;
+    x->r2_w10_s2 = c->a * r2_w10_y2 + c->b * r2_w10_u2;
 
     /* khepera.bg:17: r2_w10: input of stage 1 */
     const real r2_w10_u1 = r2_w10_y2;
 
     /* khepera.bg:17: r2_w10: stage 1 */
-    const real r2_w10_y1 = x->r2_w10_s1 + c->b0 * r2_w10_u1;
+    const real r2_w10_y1 = x->r2_w10_s1 + c->b * r2_w10_u1;
 
     /* khepera.bg:17: r2_w10: stage 1: memory */
-    x->r2_w10_s1 = c->a * r2_w10_y1 + c->b1 * r2_w10_u1;
+    x->r2_w10_s1 = c->a * r2_w10_y1 + c->b * r2_w10_u1;
 
     /* khepera.bg:17: r2: what the tolerances of m[2].fs and m[2].el.Re can do together */
     const real r2_w10 = r2_w10_y1;
@@ -2538,32 +3590,56 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w11_m__2__motor_speed = r2_w11_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w11: encoders, order 1 */
+    const real r2_w11_n1 = c->r2_w11_w1_m__2__motor * r2_w11_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w11: error of order 1 */
+    const real r2_w11_e1 = c->bend1 * r2_w11_n1;
+
+    /* khepera.bg:17: r2_w11: encoders, order 2 */
+    const real r2_w11_n2 = c->r2_w11_w2_m__2__motor * r2_w11_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w11: degree 1 */
+    const real r2_w11_d1 = r2_w11_n1 + r2_w11_n2;
+
+    /* khepera.bg:17: r2_w11: degree 2 */
+    const real r2_w11_d2 = r2_w11_n2 - r2_w11_e1;
+
+    /* khepera.bg:17: r2_w11: input of stage 4 */
+    const real r2_w11_u4 = r2_w11_n1 + r2_w11_d2 + r2_w11_e1 - r2_w11_d1;
+
+    /* khepera.bg:17: r2_w11: stage 4 */
+    const real r2_w11_y4 = x->r2_w11_s4 + c->b * r2_w11_u4;
+
+    /* khepera.bg:17: r2_w11: stage 4: memory */
+    x->r2_w11_s4 = c->a * r2_w11_y4 + c->b * r2_w11_u4;
+
     /* khepera.bg:17: r2_w11: input of stage 3 */
-    const real r2_w11_u3 = c->r2_w11_v3_m__2__motor * r2_w11_m__2__motor_speed_2;
+    const real r2_w11_u3 = r2_w11_y4 + r2_w11_d1 - REAL(2.0) * r2_w11_d2 - REAL(3.0) * r2_w11_e1;
 
     /* khepera.bg:17: r2_w11: stage 3 */
-    const real r2_w11_y3 = x->r2_w11_s3 + c->b0 * r2_w11_u3;
+    const real r2_w11_y3 = x->r2_w11_s3 + c->b * r2_w11_u3;
 
     /* khepera.bg:17: r2_w11: stage 3: memory */
-    x->r2_w11_s3 = c->a * r2_w11_y3 + c->b1 * r2_w11_u3;
+    x->r2_w11_s3 = c->a * r2_w11_y3 + c->b * r2_w11_u3;
 
     /* khepera.bg:17: r2_w11: input of stage 2 */
-    const real r2_w11_u2 = r2_w11_y3 + c->r2_w11_v2_m__2__motor * r2_w11_m__2__motor_speed_2;
+    const real r2_w11_u2 = r2_w11_y3 + r2_w11_d2 + REAL(3.0) * r2_w11_e1;
 
     /* khepera.bg:17: r2_w11: stage 2 */
-    const real r2_w11_y2 = x->r2_w11_s2 + c->b0 * r2_w11_u2;
+    const real r2_w11_y2 = x->r2_w11_s2 + c->b * r2_w11_u2;
 
     /* khepera.bg:17: r2_w11: stage 2: memory */
-    x->r2_w11_s2 = c->a * r2_w11_y2 + c->b1 * r2_w11_u2;
+    x->r2_w11_s2 = c->a * r2_w11_y2 + c->b * r2_w11_u2;
 
     /* khepera.bg:17: r2_w11: input of stage 1 */
-    const real r2_w11_u1 = r2_w11_y2;
+    const real r2_w11_u1 = r2_w11_y2 - r2_w11_e1;
 
     /* khepera.bg:17: r2_w11: stage 1 */
-    const real r2_w11_y1 = x->r2_w11_s1 + c->b0 * r2_w11_u1;
+    const real r2_w11_y1 = x->r2_w11_s1 + c->b * r2_w11_u1;
 
     /* khepera.bg:17: r2_w11: stage 1: memory */
-    x->r2_w11_s1 = c->a * r2_w11_y1 + c->b1 * r2_w11_u1;
+    x->r2_w11_s1 = c->a * r2_w11_y1 + c->b * r2_w11_u1;
 
     /* khepera.bg:17: r2: what the tolerances of m[2].fs and m[2].el.k can do together */
     const real r2_w11 = r2_w11_y1;
@@ -2573,41 +3649,62 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w12_m__2__motor_speed = r2_w12_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w12: encoders, order 1 */
+    const real r2_w12_n1 = c->r2_w12_w1_m__2__motor * r2_w12_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w12: error of order 1 */
+    const real r2_w12_e1 = c->bend1 * r2_w12_n1;
+
+    /* khepera.bg:17: r2_w12: encoders, order 2 */
+    const real r2_w12_n2 = c->r2_w12_w2_m__2__motor * r2_w12_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w12: terms of order 0 */
+    const real r2_w12_g0 = c->r2_w12_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w12: degree 1 */
+    const real r2_w12_d1 = r2_w12_n1 + r2_w12_n2;
+
+    /* khepera.bg:17: r2_w12: error of order 0 */
+    const real r2_w12_e0 = c->bend2 * r2_w12_g0;
+
+    /* khepera.bg:17: r2_w12: degree 2 */
+    const real r2_w12_d2 = r2_w12_n2 - r2_w12_e1 - r2_w12_e0;
+
     /* khepera.bg:17: r2_w12: input of stage 4 */
-    const real r2_w12_u4 = c->r2_w12_v4_Fx__2 * s->Fx__2;
+    const real r2_w12_u4 = r2_w12_g0 + r2_w12_n1 + r2_w12_d2 + r2_w12_e1 - r2_w12_d1;
 
     /* khepera.bg:17: r2_w12: stage 4 */
-    const real r2_w12_y4 = x->r2_w12_s4 + c->b0 * r2_w12_u4;
+    const real r2_w12_y4 = x->r2_w12_s4 + c->b * r2_w12_u4;
 
     /* khepera.bg:17: r2_w12: stage 4: memory */
-    x->r2_w12_s4 = c->a * r2_w12_y4 + c->b1 * r2_w12_u4;
+    x->r2_w12_s4 = c->a * r2_w12_y4 + c->b * r2_w12_u4;
 
     /* khepera.bg:17: r2_w12: input of stage 3 */
-    const real r2_w12_u3 = r2_w12_y4 + c->r2_w12_v3_m__2__motor * r2_w12_m__2__motor_speed_2;
+    const real r2_w12_u3 = r2_w12_y4 + r2_w12_d1 - REAL(2.0) * r2_w12_d2 - REAL(3.0) * r2_w12_e1;
 
     /* khepera.bg:17: r2_w12: stage 3 */
-    const real r2_w12_y3 = x->r2_w12_s3 + c->b0 * r2_w12_u3;
+    const real r2_w12_y3 = x->r2_w12_s3 + c->b * r2_w12_u3;
 
     /* khepera.bg:17: r2_w12: stage 3: memory */
-    x->r2_w12_s3 = c->a * r2_w12_y3 + c->b1 * r2_w12_u3;
+    x->r2_w12_s3 = c->a * r2_w12_y3 + c->b * r2_w12_u3;
 
     /* khepera.bg:17: r2_w12: input of stage 2 */
-    const real r2_w12_u2 = r2_w12_y3 + c->r2_w12_v2_m__2__motor * r2_w12_m__2__motor_speed_2;
+    const real r2_w12_u2 = r2_w12_y3 + r2_w12_d2 + REAL(3.0) * r2_w12_e1;
 
     /* khepera.bg:17: r2_w12: stage 2 */
-    const real r2_w12_y2 = x->r2_w12_s2 + c->b0 * r2_w12_u2;
+    const real r2_w12_y2 = x->r2_w12_s2 + c->b * r2_w12_u2;
 
     /* khepera.bg:17: r2_w12: stage 2: memory */
-    x->r2_w12_s2 = c->a * r2_w12_y2 + c->b1 * r2_w12_u2;
+    x->r2_w12_s2 = c->a * r2_w12_y2 + c->b * r2_w12_u2;
 
     /* khepera.bg:17: r2_w12: input of stage 1 */
-    const real r2_w12_u1 = r2_w12_y2;
+    const real r2_w12_u1 = r2_w12_y2 - r2_w12_e1;
 
     /* khepera.bg:17: r2_w12: stage 1 */
-    const real r2_w12_y1 = x->r2_w12_s1 + c->b0 * r2_w12_u1;
+    const real r2_w12_y1 = x->r2_w12_s1 + c->b * r2_w12_u1;
 
     /* khepera.bg:17: r2_w12: stage 1: memory */
-    x->r2_w12_s1 = c->a * r2_w12_y1 + c->b1 * r2_w12_u1;
+    x->r2_w12_s1 = c->a * r2_w12_y1 + c->b * r2_w12_u1;
 
     /* khepera.bg:17: r2: what the tolerances of m[2].el.Re and m[2].el.k can do together */
     const real r2_w12 = r2_w12_y1;
@@ -2617,45 +3714,81 @@ static void next_r2(
         + c->m__1__motor_gain * (real)e->m__2__motor.increment;
     x->r2_w13_m__2__motor_speed = r2_w13_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r2_w13: encoders, order 1 */
+    const real r2_w13_n1 = -c->r2_w13_w1_m__2__motor * r2_w13_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w13: error of order 1 */
+    const real r2_w13_e1 = c->bend2 * r2_w13_n1;
+
+    /* khepera.bg:17: r2_w13: encoders, order 2 */
+    const real r2_w13_n2 = c->r2_w13_w2_m__2__motor * r2_w13_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w13: error of order 2 */
+    const real r2_w13_e2 = c->bend1 * r2_w13_n2;
+
+    /* khepera.bg:17: r2_w13: encoders, order 3 */
+    const real r2_w13_n3 = -c->r2_w13_w3_m__2__motor * r2_w13_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r2_w13: terms of order 0 */
+    const real r2_w13_g0 = -c->r2_w13_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w13: terms of order 1 */
+    const real r2_w13_g1 = -c->r2_w13_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r2_w13: degree 1 */
+    const real r2_w13_d1 = r2_w13_g1 + r2_w13_n1 + r2_w13_n2;
+
+    /* khepera.bg:17: r2_w13: error of order 0 */
+    const real r2_w13_e0 = c->bend3 * r2_w13_g0;
+
+    /* khepera.bg:17: r2_w13: degree 2 */
+    const real r2_w13_d2 = r2_w13_n2 + r2_w13_n3 - r2_w13_e1 - r2_w13_e0;
+
+    /* khepera.bg:17: r2_w13: error of order 1 */
+    const real r2_w13_e1_2 = c->bend2 * r2_w13_g1;
+
+    /* khepera.bg:17: r2_w13: degree 3 */
+    const real r2_w13_d3 = r2_w13_n3 - r2_w13_e1 - r2_w13_e2 - r2_w13_e1_2;
+
     /* khepera.bg:17: r2_w13: input of stage 4 */
-    const real r2_w13_u4 = c->r2_w13_v4_Fx__2 * s->Fx__2;
+    const real r2_w13_u4 = r2_w13_g0 + r2_w13_n1 + r2_w13_d2 - r2_w13_d1 - r2_w13_d3 - r2_w13_e2;
 
     /* khepera.bg:17: r2_w13: stage 4 */
-    const real r2_w13_y4 = x->r2_w13_s4 + c->b0 * r2_w13_u4;
+    const real r2_w13_y4 = x->r2_w13_s4 + c->b * r2_w13_u4;
 
     /* khepera.bg:17: r2_w13: stage 4: memory */
-    x->r2_w13_s4 = c->a * r2_w13_y4 + c->b1 * r2_w13_u4;
+    x->r2_w13_s4 = c->a * r2_w13_y4 + c->b * r2_w13_u4;
 
     /* khepera.bg:17: r2_w13: input of stage 3 */
-    const real r2_w13_u3 = r2_w13_y4 - c->r2_w13_v3_m__2__motor * r2_w13_m__2__motor_speed_2
-        - c->r2_w13_v3_Fx__2 * s->Fx__2;
+    const real r2_w13_u3 = r2_w13_y4 + r2_w13_d1 + REAL(3.0) * r2_w13_d3 + REAL(4.0) * r2_w13_e2
+        - REAL(2.0) * r2_w13_d2;
 
     /* khepera.bg:17: r2_w13: stage 3 */
-    const real r2_w13_y3 = x->r2_w13_s3 + c->b0 * r2_w13_u3;
+    const real r2_w13_y3 = x->r2_w13_s3 + c->b * r2_w13_u3;
 
     /* khepera.bg:17: r2_w13: stage 3: memory */
-    x->r2_w13_s3 = c->a * r2_w13_y3 + c->b1 * r2_w13_u3;
+    x->r2_w13_s3 = c->a * r2_w13_y3 + c->b * r2_w13_u3;
 
     /* khepera.bg:17: r2_w13: input of stage 2 */
-    const real r2_w13_u2 = r2_w13_y3 + c->r2_w13_v2_m__2__motor * r2_w13_m__2__motor_speed_2;
+    const real r2_w13_u2 = r2_w13_y3 + r2_w13_d2 - REAL(3.0) * r2_w13_d3 - REAL(6.0) * r2_w13_e2;
 
     /* khepera.bg:17: r2_w13: stage 2 */
-    const real r2_w13_y2 = x->r2_w13_s2 + c->b0 * r2_w13_u2;
+    const real r2_w13_y2 = x->r2_w13_s2 + c->b * r2_w13_u2;
 
     /* khepera.bg:17: r2_w13: stage 2: memory */
-    x->r2_w13_s2 = c->a * r2_w13_y2 + c->b1 * r2_w13_u2;
+    x->r2_w13_s2 = c->a * r2_w13_y2 + c->b * r2_w13_u2;
 
     /* khepera.bg:17: r2_w13: input of stage 1 */
-    const real r2_w13_u1 = r2_w13_y2 - c->r2_w13_v1_m__2__motor * r2_w13_m__2__motor_speed_2;
+    const real r2_w13_u1 = r2_w13_y2 + r2_w13_d3 + REAL(4.0) * r2_w13_e2;
 
     /* khepera.bg:17: r2_w13: stage 1 */
-    const real r2_w13_y1 = x->r2_w13_s1 + c->b0 * r2_w13_u1;
+    const real r2_w13_y1 = x->r2_w13_s1 + c->b * r2_w13_u1;
 
     /* khepera.bg:17: r2_w13: stage 1: memory */
-    x->r2_w13_s1 = c->a * r2_w13_y1 + c->b1 * r2_w13_u1;
+    x->r2_w13_s1 = c->a * r2_w13_y1 + c->b * r2_w13_u1;
 
     /* khepera.bg:17: r2: second order of what the tolerance of m[2].el.k can do */
-    const real r2_w13 = r2_w13_y1;
+    const real r2_w13 = r2_w13_y1 - r2_w13_e2;
 
     /* khepera.bg:17: r2: how far r2 can be from zero if no parameter is out of tolerance */
     r[KHEPERA_BUILT_THRESHOLD_R2] = MATH(fabs)(r2_w1) + MATH(fabs)(r2_w2) + MATH(fabs)(r2_w3)

@@ -32,7 +32,7 @@ typedef double khepera_built_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_BUILT_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(khepera_built_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_BUILT_THRESHOLD_DIGEST "fc5fe5c4d6c8236e"
+#define KHEPERA_BUILT_THRESHOLD_DIGEST "ca96af66ba4c9575"
 
 /* What the code was made for: arguments of khepera_built_threshold_configure, in s, rad/s and s. */
 #define KHEPERA_BUILT_THRESHOLD_SAMPLE_TIME KHEPERA_BUILT_THRESHOLD_CONSTANT(0.001)
@@ -119,107 +119,94 @@ typedef struct khepera_built_threshold_encoder {
 
 /* What configure computes from the parameters. */
 typedef struct khepera_built_threshold_coefficients {
-    khepera_built_threshold_real m__1__motor_gain;      /* speed of m[1].motor for one count */
-    khepera_built_threshold_real a;                     /* filter: exp(-bandwidth*sample_time) */
-    khepera_built_threshold_real r1_w1_v2_m__1__motor;  /* r1_w1: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w1_v3_m__1__motor;  /* r1_w1: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real b0;                    /* filter: weight of the new sample */
-    khepera_built_threshold_real b1;                    /* filter: weight of the sample before */
-    /* filter: 1 - b0, the memory of a constant 1 */
+    khepera_built_threshold_real r1_w1_w1_m__1__motor;   /* r1_w1: factor of m[1].motor' */
+    khepera_built_threshold_real m__1__motor_gain;       /* speed of m[1].motor for one count */
+    /* filter: what is left of a memory a sample later */
+    khepera_built_threshold_real a;
+    khepera_built_threshold_real r1_w1_w2_m__1__motor;   /* r1_w1: factor of m[1].motor'' */
+    khepera_built_threshold_real bend1;                  /* filter: 1 * (w*sample_time)^2/12 */
+    /* filter: weight of a sample, new and a sample later */
+    khepera_built_threshold_real b;
+    /* filter: 1 - b, the memory of a constant 1 */
     khepera_built_threshold_real rest;
-    khepera_built_threshold_real r1_w2_v1_m__1__motor;  /* r1_w2: factor of m[1].motor in stage 1 */
-    khepera_built_threshold_real r1_w2_v2_m__1__motor;  /* r1_w2: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w2_v3_m__1__motor;  /* r1_w2: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real r1_w3_v2_m__1__motor;  /* r1_w3: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w3_v3_m__1__motor;  /* r1_w3: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real r1_w4_v4_Fx__1;        /* r1_w4: factor of Fx[1] in stage 4 */
-    khepera_built_threshold_real r1_w4_v2_m__1__motor;  /* r1_w4: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w4_v3_m__1__motor;  /* r1_w4: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real r1_w5_v1_m__1__motor;  /* r1_w5: factor of m[1].motor in stage 1 */
-    khepera_built_threshold_real r1_w5_v2_m__1__motor;  /* r1_w5: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w5_v3_m__1__motor;  /* r1_w5: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real r1_w5_v3_Fx__1;        /* r1_w5: factor of Fx[1] in stage 3 */
-    khepera_built_threshold_real r1_w5_v4_Fx__1;        /* r1_w5: factor of Fx[1] in stage 4 */
-    khepera_built_threshold_real r1_w6_v3_m__1__motor;  /* r1_w6: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real r1_w7_v2_m__1__motor;  /* r1_w7: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w7_v3_m__1__motor;  /* r1_w7: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real r1_w8_v2_m__1__motor;  /* r1_w8: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w9_v1_m__1__motor;  /* r1_w9: factor of m[1].motor in stage 1 */
-    khepera_built_threshold_real r1_w9_v2_m__1__motor;  /* r1_w9: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w9_v3_m__1__motor;  /* r1_w9: factor of m[1].motor in stage 3 */
-    /* r1_w10: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real r1_w10_v3_m__1__motor;
-    /* r1_w11: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w11_v2_m__1__motor;
-    /* r1_w11: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real r1_w11_v3_m__1__motor;
-    /* r1_w12: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w12_v2_m__1__motor;
-    /* r1_w12: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real r1_w12_v3_m__1__motor;
-    khepera_built_threshold_real r1_w12_v4_Fx__1;       /* r1_w12: factor of Fx[1] in stage 4 */
-    /* r1_w13: factor of m[1].motor in stage 1 */
-    khepera_built_threshold_real r1_w13_v1_m__1__motor;
-    /* r1_w13: factor of m[1].motor in stage 2 */
-    khepera_built_threshold_real r1_w13_v2_m__1__motor;
-    /* r1_w13: factor of m[1].motor in stage 3 */
-    khepera_built_threshold_real r1_w13_v3_m__1__motor;
-    khepera_built_threshold_real r1_w13_v3_Fx__1;       /* r1_w13: factor of Fx[1] in stage 3 */
-    khepera_built_threshold_real r1_w13_v4_Fx__1;       /* r1_w13: factor of Fx[1] in stage 4 */
-    khepera_built_threshold_real r2_w1_v2_m__2__motor;  /* r2_w1: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w1_v3_m__2__motor;  /* r2_w1: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w2_v1_m__2__motor;  /* r2_w2: factor of m[2].motor in stage 1 */
-    khepera_built_threshold_real r2_w2_v2_m__2__motor;  /* r2_w2: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w2_v3_m__2__motor;  /* r2_w2: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w3_v2_m__2__motor;  /* r2_w3: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w3_v3_m__2__motor;  /* r2_w3: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w4_v4_Fx__2;        /* r2_w4: factor of Fx[2] in stage 4 */
-    khepera_built_threshold_real r2_w4_v2_m__2__motor;  /* r2_w4: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w4_v3_m__2__motor;  /* r2_w4: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w5_v1_m__2__motor;  /* r2_w5: factor of m[2].motor in stage 1 */
-    khepera_built_threshold_real r2_w5_v2_m__2__motor;  /* r2_w5: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w5_v3_m__2__motor;  /* r2_w5: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w5_v3_Fx__2;        /* r2_w5: factor of Fx[2] in stage 3 */
-    khepera_built_threshold_real r2_w5_v4_Fx__2;        /* r2_w5: factor of Fx[2] in stage 4 */
-    khepera_built_threshold_real r2_w6_v3_m__2__motor;  /* r2_w6: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w7_v2_m__2__motor;  /* r2_w7: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w7_v3_m__2__motor;  /* r2_w7: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w8_v2_m__2__motor;  /* r2_w8: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w9_v1_m__2__motor;  /* r2_w9: factor of m[2].motor in stage 1 */
-    khepera_built_threshold_real r2_w9_v2_m__2__motor;  /* r2_w9: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w9_v3_m__2__motor;  /* r2_w9: factor of m[2].motor in stage 3 */
-    /* r2_w10: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w10_v3_m__2__motor;
-    /* r2_w11: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w11_v2_m__2__motor;
-    /* r2_w11: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w11_v3_m__2__motor;
-    /* r2_w12: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w12_v2_m__2__motor;
-    /* r2_w12: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w12_v3_m__2__motor;
-    khepera_built_threshold_real r2_w12_v4_Fx__2;       /* r2_w12: factor of Fx[2] in stage 4 */
-    /* r2_w13: factor of m[2].motor in stage 1 */
-    khepera_built_threshold_real r2_w13_v1_m__2__motor;
-    /* r2_w13: factor of m[2].motor in stage 2 */
-    khepera_built_threshold_real r2_w13_v2_m__2__motor;
-    /* r2_w13: factor of m[2].motor in stage 3 */
-    khepera_built_threshold_real r2_w13_v3_m__2__motor;
-    khepera_built_threshold_real r2_w13_v3_Fx__2;       /* r2_w13: factor of Fx[2] in stage 3 */
-    khepera_built_threshold_real r2_w13_v4_Fx__2;       /* r2_w13: factor of Fx[2] in stage 4 */
+    khepera_built_threshold_real r1_w2_w2_m__1__motor;   /* r1_w2: factor of m[1].motor'' */
+    khepera_built_threshold_real r1_w2_w3_m__1__motor;   /* r1_w2: factor of m[1].motor''' */
+    khepera_built_threshold_real r1_w3_w1_m__1__motor;   /* r1_w3: factor of m[1].motor' */
+    khepera_built_threshold_real r1_w3_w2_m__1__motor;   /* r1_w3: factor of m[1].motor'' */
+    khepera_built_threshold_real r1_w4_Fx__1;            /* r1_w4: factor of Fx[1] */
+    khepera_built_threshold_real r1_w4_w1_m__1__motor;   /* r1_w4: factor of m[1].motor' */
+    khepera_built_threshold_real r1_w4_w2_m__1__motor;   /* r1_w4: factor of m[1].motor'' */
+    khepera_built_threshold_real bend2;                  /* filter: 2 * (w*sample_time)^2/12 */
+    khepera_built_threshold_real r1_w5_w1_m__1__motor;   /* r1_w5: factor of m[1].motor' */
+    khepera_built_threshold_real r1_w5_w2_m__1__motor;   /* r1_w5: factor of m[1].motor'' */
+    khepera_built_threshold_real r1_w5_w3_m__1__motor;   /* r1_w5: factor of m[1].motor''' */
+    khepera_built_threshold_real r1_w5_Fx__1;            /* r1_w5: factor of Fx[1] */
+    khepera_built_threshold_real r1_w5_w1_Fx__1;         /* r1_w5: factor of Fx[1]' */
+    khepera_built_threshold_real bend3;                  /* filter: 3 * (w*sample_time)^2/12 */
+    khepera_built_threshold_real r1_w6_w1_m__1__motor;   /* r1_w6: factor of m[1].motor' */
+    khepera_built_threshold_real r1_w7_w1_m__1__motor;   /* r1_w7: factor of m[1].motor' */
+    khepera_built_threshold_real r1_w7_w2_m__1__motor;   /* r1_w7: factor of m[1].motor'' */
+    khepera_built_threshold_real r1_w8_w2_m__1__motor;   /* r1_w8: factor of m[1].motor'' */
+    khepera_built_threshold_real r1_w9_w2_m__1__motor;   /* r1_w9: factor of m[1].motor'' */
+    khepera_built_threshold_real r1_w9_w3_m__1__motor;   /* r1_w9: factor of m[1].motor''' */
+    khepera_built_threshold_real r1_w10_w1_m__1__motor;  /* r1_w10: factor of m[1].motor' */
+    khepera_built_threshold_real r1_w11_w1_m__1__motor;  /* r1_w11: factor of m[1].motor' */
+    khepera_built_threshold_real r1_w11_w2_m__1__motor;  /* r1_w11: factor of m[1].motor'' */
+    khepera_built_threshold_real r1_w12_w1_m__1__motor;  /* r1_w12: factor of m[1].motor' */
+    khepera_built_threshold_real r1_w12_w2_m__1__motor;  /* r1_w12: factor of m[1].motor'' */
+    khepera_built_threshold_real r1_w12_Fx__1;           /* r1_w12: factor of Fx[1] */
+    khepera_built_threshold_real r1_w13_w1_m__1__motor;  /* r1_w13: factor of m[1].motor' */
+    khepera_built_threshold_real r1_w13_w2_m__1__motor;  /* r1_w13: factor of m[1].motor'' */
+    khepera_built_threshold_real r1_w13_w3_m__1__motor;  /* r1_w13: factor of m[1].motor''' */
+    khepera_built_threshold_real r1_w13_Fx__1;           /* r1_w13: factor of Fx[1] */
+    khepera_built_threshold_real r1_w13_w1_Fx__1;        /* r1_w13: factor of Fx[1]' */
+    khepera_built_threshold_real r2_w1_w1_m__2__motor;   /* r2_w1: factor of m[2].motor' */
+    khepera_built_threshold_real r2_w1_w2_m__2__motor;   /* r2_w1: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w2_w2_m__2__motor;   /* r2_w2: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w2_w3_m__2__motor;   /* r2_w2: factor of m[2].motor''' */
+    khepera_built_threshold_real r2_w3_w1_m__2__motor;   /* r2_w3: factor of m[2].motor' */
+    khepera_built_threshold_real r2_w3_w2_m__2__motor;   /* r2_w3: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w4_Fx__2;            /* r2_w4: factor of Fx[2] */
+    khepera_built_threshold_real r2_w4_w1_m__2__motor;   /* r2_w4: factor of m[2].motor' */
+    khepera_built_threshold_real r2_w4_w2_m__2__motor;   /* r2_w4: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w5_w1_m__2__motor;   /* r2_w5: factor of m[2].motor' */
+    khepera_built_threshold_real r2_w5_w2_m__2__motor;   /* r2_w5: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w5_w3_m__2__motor;   /* r2_w5: factor of m[2].motor''' */
+    khepera_built_threshold_real r2_w5_Fx__2;            /* r2_w5: factor of Fx[2] */
+    khepera_built_threshold_real r2_w5_w1_Fx__2;         /* r2_w5: factor of Fx[2]' */
+    khepera_built_threshold_real r2_w6_w1_m__2__motor;   /* r2_w6: factor of m[2].motor' */
+    khepera_built_threshold_real r2_w7_w1_m__2__motor;   /* r2_w7: factor of m[2].motor' */
+    khepera_built_threshold_real r2_w7_w2_m__2__motor;   /* r2_w7: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w8_w2_m__2__motor;   /* r2_w8: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w9_w2_m__2__motor;   /* r2_w9: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w9_w3_m__2__motor;   /* r2_w9: factor of m[2].motor''' */
+    khepera_built_threshold_real r2_w10_w1_m__2__motor;  /* r2_w10: factor of m[2].motor' */
+    khepera_built_threshold_real r2_w11_w1_m__2__motor;  /* r2_w11: factor of m[2].motor' */
+    khepera_built_threshold_real r2_w11_w2_m__2__motor;  /* r2_w11: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w12_w1_m__2__motor;  /* r2_w12: factor of m[2].motor' */
+    khepera_built_threshold_real r2_w12_w2_m__2__motor;  /* r2_w12: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w12_Fx__2;           /* r2_w12: factor of Fx[2] */
+    khepera_built_threshold_real r2_w13_w1_m__2__motor;  /* r2_w13: factor of m[2].motor' */
+    khepera_built_threshold_real r2_w13_w2_m__2__motor;  /* r2_w13: factor of m[2].motor'' */
+    khepera_built_threshold_real r2_w13_w3_m__2__motor;  /* r2_w13: factor of m[2].motor''' */
+    khepera_built_threshold_real r2_w13_Fx__2;           /* r2_w13: factor of Fx[2] */
+    khepera_built_threshold_real r2_w13_w1_Fx__2;        /* r2_w13: factor of Fx[2]' */
 } khepera_built_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */
 typedef struct khepera_built_threshold_memory {
     khepera_built_threshold_real r1_w1_m__1__motor_speed;   /* filtered speed of m[1].motor */
+    khepera_built_threshold_real r1_w1_s4;                  /* memory of r1_w1: stage 4 */
     khepera_built_threshold_real r1_w1_s3;                  /* memory of r1_w1: stage 3 */
     khepera_built_threshold_real r1_w1_s2;                  /* memory of r1_w1: stage 2 */
     khepera_built_threshold_real r1_w1_s1;                  /* memory of r1_w1: stage 1 */
     khepera_built_threshold_real r1_w2_m__1__motor_speed;   /* filtered speed of m[1].motor */
+    khepera_built_threshold_real r1_w2_s4;                  /* memory of r1_w2: stage 4 */
     khepera_built_threshold_real r1_w2_s3;                  /* memory of r1_w2: stage 3 */
     khepera_built_threshold_real r1_w2_s2;                  /* memory of r1_w2: stage 2 */
     khepera_built_threshold_real r1_w2_s1;                  /* memory of r1_w2: stage 1 */
     khepera_built_threshold_real r1_w3_m__1__motor_speed;   /* filtered speed of m[1].motor */
+    khepera_built_threshold_real r1_w3_s4;                  /* memory of r1_w3: stage 4 */
     khepera_built_threshold_real r1_w3_s3;                  /* memory of r1_w3: stage 3 */
     khepera_built_threshold_real r1_w3_s2;                  /* memory of r1_w3: stage 2 */
     khepera_built_threshold_real r1_w3_s1;                  /* memory of r1_w3: stage 1 */
@@ -234,26 +221,32 @@ typedef struct khepera_built_threshold_memory {
     khepera_built_threshold_real r1_w5_s2;                  /* memory of r1_w5: stage 2 */
     khepera_built_threshold_real r1_w5_s1;                  /* memory of r1_w5: stage 1 */
     khepera_built_threshold_real r1_w6_m__1__motor_speed;   /* filtered speed of m[1].motor */
+    khepera_built_threshold_real r1_w6_s4;                  /* memory of r1_w6: stage 4 */
     khepera_built_threshold_real r1_w6_s3;                  /* memory of r1_w6: stage 3 */
     khepera_built_threshold_real r1_w6_s2;                  /* memory of r1_w6: stage 2 */
     khepera_built_threshold_real r1_w6_s1;                  /* memory of r1_w6: stage 1 */
     khepera_built_threshold_real r1_w7_m__1__motor_speed;   /* filtered speed of m[1].motor */
+    khepera_built_threshold_real r1_w7_s4;                  /* memory of r1_w7: stage 4 */
     khepera_built_threshold_real r1_w7_s3;                  /* memory of r1_w7: stage 3 */
     khepera_built_threshold_real r1_w7_s2;                  /* memory of r1_w7: stage 2 */
     khepera_built_threshold_real r1_w7_s1;                  /* memory of r1_w7: stage 1 */
     khepera_built_threshold_real r1_w8_m__1__motor_speed;   /* filtered speed of m[1].motor */
+    khepera_built_threshold_real r1_w8_s4;                  /* memory of r1_w8: stage 4 */
     khepera_built_threshold_real r1_w8_s3;                  /* memory of r1_w8: stage 3 */
     khepera_built_threshold_real r1_w8_s2;                  /* memory of r1_w8: stage 2 */
     khepera_built_threshold_real r1_w8_s1;                  /* memory of r1_w8: stage 1 */
     khepera_built_threshold_real r1_w9_m__1__motor_speed;   /* filtered speed of m[1].motor */
+    khepera_built_threshold_real r1_w9_s4;                  /* memory of r1_w9: stage 4 */
     khepera_built_threshold_real r1_w9_s3;                  /* memory of r1_w9: stage 3 */
     khepera_built_threshold_real r1_w9_s2;                  /* memory of r1_w9: stage 2 */
     khepera_built_threshold_real r1_w9_s1;                  /* memory of r1_w9: stage 1 */
     khepera_built_threshold_real r1_w10_m__1__motor_speed;  /* filtered speed of m[1].motor */
+    khepera_built_threshold_real r1_w10_s4;                 /* memory of r1_w10: stage 4 */
     khepera_built_threshold_real r1_w10_s3;                 /* memory of r1_w10: stage 3 */
     khepera_built_threshold_real r1_w10_s2;                 /* memory of r1_w10: stage 2 */
     khepera_built_threshold_real r1_w10_s1;                 /* memory of r1_w10: stage 1 */
     khepera_built_threshold_real r1_w11_m__1__motor_speed;  /* filtered speed of m[1].motor */
+    khepera_built_threshold_real r1_w11_s4;                 /* memory of r1_w11: stage 4 */
     khepera_built_threshold_real r1_w11_s3;                 /* memory of r1_w11: stage 3 */
     khepera_built_threshold_real r1_w11_s2;                 /* memory of r1_w11: stage 2 */
     khepera_built_threshold_real r1_w11_s1;                 /* memory of r1_w11: stage 1 */
@@ -268,14 +261,17 @@ typedef struct khepera_built_threshold_memory {
     khepera_built_threshold_real r1_w13_s2;                 /* memory of r1_w13: stage 2 */
     khepera_built_threshold_real r1_w13_s1;                 /* memory of r1_w13: stage 1 */
     khepera_built_threshold_real r2_w1_m__2__motor_speed;   /* filtered speed of m[2].motor */
+    khepera_built_threshold_real r2_w1_s4;                  /* memory of r2_w1: stage 4 */
     khepera_built_threshold_real r2_w1_s3;                  /* memory of r2_w1: stage 3 */
     khepera_built_threshold_real r2_w1_s2;                  /* memory of r2_w1: stage 2 */
     khepera_built_threshold_real r2_w1_s1;                  /* memory of r2_w1: stage 1 */
     khepera_built_threshold_real r2_w2_m__2__motor_speed;   /* filtered speed of m[2].motor */
+    khepera_built_threshold_real r2_w2_s4;                  /* memory of r2_w2: stage 4 */
     khepera_built_threshold_real r2_w2_s3;                  /* memory of r2_w2: stage 3 */
     khepera_built_threshold_real r2_w2_s2;                  /* memory of r2_w2: stage 2 */
     khepera_built_threshold_real r2_w2_s1;                  /* memory of r2_w2: stage 1 */
     khepera_built_threshold_real r2_w3_m__2__motor_speed;   /* filtered speed of m[2].motor */
+    khepera_built_threshold_real r2_w3_s4;                  /* memory of r2_w3: stage 4 */
     khepera_built_threshold_real r2_w3_s3;                  /* memory of r2_w3: stage 3 */
     khepera_built_threshold_real r2_w3_s2;                  /* memory of r2_w3: stage 2 */
     khepera_built_threshold_real r2_w3_s1;                  /* memory of r2_w3: stage 1 */
@@ -290,26 +286,32 @@ typedef struct khepera_built_threshold_memory {
     khepera_built_threshold_real r2_w5_s2;                  /* memory of r2_w5: stage 2 */
     khepera_built_threshold_real r2_w5_s1;                  /* memory of r2_w5: stage 1 */
     khepera_built_threshold_real r2_w6_m__2__motor_speed;   /* filtered speed of m[2].motor */
+    khepera_built_threshold_real r2_w6_s4;                  /* memory of r2_w6: stage 4 */
     khepera_built_threshold_real r2_w6_s3;                  /* memory of r2_w6: stage 3 */
     khepera_built_threshold_real r2_w6_s2;                  /* memory of r2_w6: stage 2 */
     khepera_built_threshold_real r2_w6_s1;                  /* memory of r2_w6: stage 1 */
     khepera_built_threshold_real r2_w7_m__2__motor_speed;   /* filtered speed of m[2].motor */
+    khepera_built_threshold_real r2_w7_s4;                  /* memory of r2_w7: stage 4 */
     khepera_built_threshold_real r2_w7_s3;                  /* memory of r2_w7: stage 3 */
     khepera_built_threshold_real r2_w7_s2;                  /* memory of r2_w7: stage 2 */
     khepera_built_threshold_real r2_w7_s1;                  /* memory of r2_w7: stage 1 */
     khepera_built_threshold_real r2_w8_m__2__motor_speed;   /* filtered speed of m[2].motor */
+    khepera_built_threshold_real r2_w8_s4;                  /* memory of r2_w8: stage 4 */
     khepera_built_threshold_real r2_w8_s3;                  /* memory of r2_w8: stage 3 */
     khepera_built_threshold_real r2_w8_s2;                  /* memory of r2_w8: stage 2 */
     khepera_built_threshold_real r2_w8_s1;                  /* memory of r2_w8: stage 1 */
     khepera_built_threshold_real r2_w9_m__2__motor_speed;   /* filtered speed of m[2].motor */
+    khepera_built_threshold_real r2_w9_s4;                  /* memory of r2_w9: stage 4 */
     khepera_built_threshold_real r2_w9_s3;                  /* memory of r2_w9: stage 3 */
     khepera_built_threshold_real r2_w9_s2;                  /* memory of r2_w9: stage 2 */
     khepera_built_threshold_real r2_w9_s1;                  /* memory of r2_w9: stage 1 */
     khepera_built_threshold_real r2_w10_m__2__motor_speed;  /* filtered speed of m[2].motor */
+    khepera_built_threshold_real r2_w10_s4;                 /* memory of r2_w10: stage 4 */
     khepera_built_threshold_real r2_w10_s3;                 /* memory of r2_w10: stage 3 */
     khepera_built_threshold_real r2_w10_s2;                 /* memory of r2_w10: stage 2 */
     khepera_built_threshold_real r2_w10_s1;                 /* memory of r2_w10: stage 1 */
     khepera_built_threshold_real r2_w11_m__2__motor_speed;  /* filtered speed of m[2].motor */
+    khepera_built_threshold_real r2_w11_s4;                 /* memory of r2_w11: stage 4 */
     khepera_built_threshold_real r2_w11_s3;                 /* memory of r2_w11: stage 3 */
     khepera_built_threshold_real r2_w11_s2;                 /* memory of r2_w11: stage 2 */
     khepera_built_threshold_real r2_w11_s1;                 /* memory of r2_w11: stage 1 */

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "fc5fe5c4d6c8236e"
+DIGEST = "ca96af66ba4c9575"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -117,91 +117,92 @@ class Encoders:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
+    r1_w1_w1_m__1__motor: float   # r1_w1: factor of m[1].motor'
     m__1__motor_gain: float       # speed of m[1].motor for one count
-    a: float                      # filter: exp(-bandwidth*sample_time)
-    r1_w1_v2_m__1__motor: float   # r1_w1: factor of m[1].motor in stage 2
-    r1_w1_v3_m__1__motor: float   # r1_w1: factor of m[1].motor in stage 3
-    b0: float                     # filter: weight of the new sample
-    b1: float                     # filter: weight of the sample before
-    rest: float                   # filter: 1 - b0, the memory of a constant 1
-    r1_w2_v1_m__1__motor: float   # r1_w2: factor of m[1].motor in stage 1
-    r1_w2_v2_m__1__motor: float   # r1_w2: factor of m[1].motor in stage 2
-    r1_w2_v3_m__1__motor: float   # r1_w2: factor of m[1].motor in stage 3
-    r1_w3_v2_m__1__motor: float   # r1_w3: factor of m[1].motor in stage 2
-    r1_w3_v3_m__1__motor: float   # r1_w3: factor of m[1].motor in stage 3
-    r1_w4_v4_Fx__1: float         # r1_w4: factor of Fx[1] in stage 4
-    r1_w4_v2_m__1__motor: float   # r1_w4: factor of m[1].motor in stage 2
-    r1_w4_v3_m__1__motor: float   # r1_w4: factor of m[1].motor in stage 3
-    r1_w5_v1_m__1__motor: float   # r1_w5: factor of m[1].motor in stage 1
-    r1_w5_v2_m__1__motor: float   # r1_w5: factor of m[1].motor in stage 2
-    r1_w5_v3_m__1__motor: float   # r1_w5: factor of m[1].motor in stage 3
-    r1_w5_v3_Fx__1: float         # r1_w5: factor of Fx[1] in stage 3
-    r1_w5_v4_Fx__1: float         # r1_w5: factor of Fx[1] in stage 4
-    r1_w6_v3_m__1__motor: float   # r1_w6: factor of m[1].motor in stage 3
-    r1_w7_v2_m__1__motor: float   # r1_w7: factor of m[1].motor in stage 2
-    r1_w7_v3_m__1__motor: float   # r1_w7: factor of m[1].motor in stage 3
-    r1_w8_v2_m__1__motor: float   # r1_w8: factor of m[1].motor in stage 2
-    r1_w9_v1_m__1__motor: float   # r1_w9: factor of m[1].motor in stage 1
-    r1_w9_v2_m__1__motor: float   # r1_w9: factor of m[1].motor in stage 2
-    r1_w9_v3_m__1__motor: float   # r1_w9: factor of m[1].motor in stage 3
-    r1_w10_v3_m__1__motor: float  # r1_w10: factor of m[1].motor in stage 3
-    r1_w11_v2_m__1__motor: float  # r1_w11: factor of m[1].motor in stage 2
-    r1_w11_v3_m__1__motor: float  # r1_w11: factor of m[1].motor in stage 3
-    r1_w12_v2_m__1__motor: float  # r1_w12: factor of m[1].motor in stage 2
-    r1_w12_v3_m__1__motor: float  # r1_w12: factor of m[1].motor in stage 3
-    r1_w12_v4_Fx__1: float        # r1_w12: factor of Fx[1] in stage 4
-    r1_w13_v1_m__1__motor: float  # r1_w13: factor of m[1].motor in stage 1
-    r1_w13_v2_m__1__motor: float  # r1_w13: factor of m[1].motor in stage 2
-    r1_w13_v3_m__1__motor: float  # r1_w13: factor of m[1].motor in stage 3
-    r1_w13_v3_Fx__1: float        # r1_w13: factor of Fx[1] in stage 3
-    r1_w13_v4_Fx__1: float        # r1_w13: factor of Fx[1] in stage 4
-    r2_w1_v2_m__2__motor: float   # r2_w1: factor of m[2].motor in stage 2
-    r2_w1_v3_m__2__motor: float   # r2_w1: factor of m[2].motor in stage 3
-    r2_w2_v1_m__2__motor: float   # r2_w2: factor of m[2].motor in stage 1
-    r2_w2_v2_m__2__motor: float   # r2_w2: factor of m[2].motor in stage 2
-    r2_w2_v3_m__2__motor: float   # r2_w2: factor of m[2].motor in stage 3
-    r2_w3_v2_m__2__motor: float   # r2_w3: factor of m[2].motor in stage 2
-    r2_w3_v3_m__2__motor: float   # r2_w3: factor of m[2].motor in stage 3
-    r2_w4_v4_Fx__2: float         # r2_w4: factor of Fx[2] in stage 4
-    r2_w4_v2_m__2__motor: float   # r2_w4: factor of m[2].motor in stage 2
-    r2_w4_v3_m__2__motor: float   # r2_w4: factor of m[2].motor in stage 3
-    r2_w5_v1_m__2__motor: float   # r2_w5: factor of m[2].motor in stage 1
-    r2_w5_v2_m__2__motor: float   # r2_w5: factor of m[2].motor in stage 2
-    r2_w5_v3_m__2__motor: float   # r2_w5: factor of m[2].motor in stage 3
-    r2_w5_v3_Fx__2: float         # r2_w5: factor of Fx[2] in stage 3
-    r2_w5_v4_Fx__2: float         # r2_w5: factor of Fx[2] in stage 4
-    r2_w6_v3_m__2__motor: float   # r2_w6: factor of m[2].motor in stage 3
-    r2_w7_v2_m__2__motor: float   # r2_w7: factor of m[2].motor in stage 2
-    r2_w7_v3_m__2__motor: float   # r2_w7: factor of m[2].motor in stage 3
-    r2_w8_v2_m__2__motor: float   # r2_w8: factor of m[2].motor in stage 2
-    r2_w9_v1_m__2__motor: float   # r2_w9: factor of m[2].motor in stage 1
-    r2_w9_v2_m__2__motor: float   # r2_w9: factor of m[2].motor in stage 2
-    r2_w9_v3_m__2__motor: float   # r2_w9: factor of m[2].motor in stage 3
-    r2_w10_v3_m__2__motor: float  # r2_w10: factor of m[2].motor in stage 3
-    r2_w11_v2_m__2__motor: float  # r2_w11: factor of m[2].motor in stage 2
-    r2_w11_v3_m__2__motor: float  # r2_w11: factor of m[2].motor in stage 3
-    r2_w12_v2_m__2__motor: float  # r2_w12: factor of m[2].motor in stage 2
-    r2_w12_v3_m__2__motor: float  # r2_w12: factor of m[2].motor in stage 3
-    r2_w12_v4_Fx__2: float        # r2_w12: factor of Fx[2] in stage 4
-    r2_w13_v1_m__2__motor: float  # r2_w13: factor of m[2].motor in stage 1
-    r2_w13_v2_m__2__motor: float  # r2_w13: factor of m[2].motor in stage 2
-    r2_w13_v3_m__2__motor: float  # r2_w13: factor of m[2].motor in stage 3
-    r2_w13_v3_Fx__2: float        # r2_w13: factor of Fx[2] in stage 3
-    r2_w13_v4_Fx__2: float        # r2_w13: factor of Fx[2] in stage 4
+    a: float                      # filter: what is left of a memory a sample later
+    r1_w1_w2_m__1__motor: float   # r1_w1: factor of m[1].motor''
+    bend1: float                  # filter: 1 * (w*sample_time)^2/12
+    b: float                      # filter: weight of a sample, new and a sample later
+    rest: float                   # filter: 1 - b, the memory of a constant 1
+    r1_w2_w2_m__1__motor: float   # r1_w2: factor of m[1].motor''
+    r1_w2_w3_m__1__motor: float   # r1_w2: factor of m[1].motor'''
+    r1_w3_w1_m__1__motor: float   # r1_w3: factor of m[1].motor'
+    r1_w3_w2_m__1__motor: float   # r1_w3: factor of m[1].motor''
+    r1_w4_Fx__1: float            # r1_w4: factor of Fx[1]
+    r1_w4_w1_m__1__motor: float   # r1_w4: factor of m[1].motor'
+    r1_w4_w2_m__1__motor: float   # r1_w4: factor of m[1].motor''
+    bend2: float                  # filter: 2 * (w*sample_time)^2/12
+    r1_w5_w1_m__1__motor: float   # r1_w5: factor of m[1].motor'
+    r1_w5_w2_m__1__motor: float   # r1_w5: factor of m[1].motor''
+    r1_w5_w3_m__1__motor: float   # r1_w5: factor of m[1].motor'''
+    r1_w5_Fx__1: float            # r1_w5: factor of Fx[1]
+    r1_w5_w1_Fx__1: float         # r1_w5: factor of Fx[1]'
+    bend3: float                  # filter: 3 * (w*sample_time)^2/12
+    r1_w6_w1_m__1__motor: float   # r1_w6: factor of m[1].motor'
+    r1_w7_w1_m__1__motor: float   # r1_w7: factor of m[1].motor'
+    r1_w7_w2_m__1__motor: float   # r1_w7: factor of m[1].motor''
+    r1_w8_w2_m__1__motor: float   # r1_w8: factor of m[1].motor''
+    r1_w9_w2_m__1__motor: float   # r1_w9: factor of m[1].motor''
+    r1_w9_w3_m__1__motor: float   # r1_w9: factor of m[1].motor'''
+    r1_w10_w1_m__1__motor: float  # r1_w10: factor of m[1].motor'
+    r1_w11_w1_m__1__motor: float  # r1_w11: factor of m[1].motor'
+    r1_w11_w2_m__1__motor: float  # r1_w11: factor of m[1].motor''
+    r1_w12_w1_m__1__motor: float  # r1_w12: factor of m[1].motor'
+    r1_w12_w2_m__1__motor: float  # r1_w12: factor of m[1].motor''
+    r1_w12_Fx__1: float           # r1_w12: factor of Fx[1]
+    r1_w13_w1_m__1__motor: float  # r1_w13: factor of m[1].motor'
+    r1_w13_w2_m__1__motor: float  # r1_w13: factor of m[1].motor''
+    r1_w13_w3_m__1__motor: float  # r1_w13: factor of m[1].motor'''
+    r1_w13_Fx__1: float           # r1_w13: factor of Fx[1]
+    r1_w13_w1_Fx__1: float        # r1_w13: factor of Fx[1]'
+    r2_w1_w1_m__2__motor: float   # r2_w1: factor of m[2].motor'
+    r2_w1_w2_m__2__motor: float   # r2_w1: factor of m[2].motor''
+    r2_w2_w2_m__2__motor: float   # r2_w2: factor of m[2].motor''
+    r2_w2_w3_m__2__motor: float   # r2_w2: factor of m[2].motor'''
+    r2_w3_w1_m__2__motor: float   # r2_w3: factor of m[2].motor'
+    r2_w3_w2_m__2__motor: float   # r2_w3: factor of m[2].motor''
+    r2_w4_Fx__2: float            # r2_w4: factor of Fx[2]
+    r2_w4_w1_m__2__motor: float   # r2_w4: factor of m[2].motor'
+    r2_w4_w2_m__2__motor: float   # r2_w4: factor of m[2].motor''
+    r2_w5_w1_m__2__motor: float   # r2_w5: factor of m[2].motor'
+    r2_w5_w2_m__2__motor: float   # r2_w5: factor of m[2].motor''
+    r2_w5_w3_m__2__motor: float   # r2_w5: factor of m[2].motor'''
+    r2_w5_Fx__2: float            # r2_w5: factor of Fx[2]
+    r2_w5_w1_Fx__2: float         # r2_w5: factor of Fx[2]'
+    r2_w6_w1_m__2__motor: float   # r2_w6: factor of m[2].motor'
+    r2_w7_w1_m__2__motor: float   # r2_w7: factor of m[2].motor'
+    r2_w7_w2_m__2__motor: float   # r2_w7: factor of m[2].motor''
+    r2_w8_w2_m__2__motor: float   # r2_w8: factor of m[2].motor''
+    r2_w9_w2_m__2__motor: float   # r2_w9: factor of m[2].motor''
+    r2_w9_w3_m__2__motor: float   # r2_w9: factor of m[2].motor'''
+    r2_w10_w1_m__2__motor: float  # r2_w10: factor of m[2].motor'
+    r2_w11_w1_m__2__motor: float  # r2_w11: factor of m[2].motor'
+    r2_w11_w2_m__2__motor: float  # r2_w11: factor of m[2].motor''
+    r2_w12_w1_m__2__motor: float  # r2_w12: factor of m[2].motor'
+    r2_w12_w2_m__2__motor: float  # r2_w12: factor of m[2].motor''
+    r2_w12_Fx__2: float           # r2_w12: factor of Fx[2]
+    r2_w13_w1_m__2__motor: float  # r2_w13: factor of m[2].motor'
+    r2_w13_w2_m__2__motor: float  # r2_w13: factor of m[2].motor''
+    r2_w13_w3_m__2__motor: float  # r2_w13: factor of m[2].motor'''
+    r2_w13_Fx__2: float           # r2_w13: factor of Fx[2]
+    r2_w13_w1_Fx__2: float        # r2_w13: factor of Fx[2]'
 
 
 class Memory:
     """What the filters remember from sample to sample."""
 
     r1_w1_m__1__motor_speed: float   # filtered speed of m[1].motor
+    r1_w1_s4: float                  # memory of r1_w1: stage 4
     r1_w1_s3: float                  # memory of r1_w1: stage 3
     r1_w1_s2: float                  # memory of r1_w1: stage 2
     r1_w1_s1: float                  # memory of r1_w1: stage 1
     r1_w2_m__1__motor_speed: float   # filtered speed of m[1].motor
+    r1_w2_s4: float                  # memory of r1_w2: stage 4
     r1_w2_s3: float                  # memory of r1_w2: stage 3
     r1_w2_s2: float                  # memory of r1_w2: stage 2
     r1_w2_s1: float                  # memory of r1_w2: stage 1
     r1_w3_m__1__motor_speed: float   # filtered speed of m[1].motor
+    r1_w3_s4: float                  # memory of r1_w3: stage 4
     r1_w3_s3: float                  # memory of r1_w3: stage 3
     r1_w3_s2: float                  # memory of r1_w3: stage 2
     r1_w3_s1: float                  # memory of r1_w3: stage 1
@@ -216,26 +217,32 @@ class Memory:
     r1_w5_s2: float                  # memory of r1_w5: stage 2
     r1_w5_s1: float                  # memory of r1_w5: stage 1
     r1_w6_m__1__motor_speed: float   # filtered speed of m[1].motor
+    r1_w6_s4: float                  # memory of r1_w6: stage 4
     r1_w6_s3: float                  # memory of r1_w6: stage 3
     r1_w6_s2: float                  # memory of r1_w6: stage 2
     r1_w6_s1: float                  # memory of r1_w6: stage 1
     r1_w7_m__1__motor_speed: float   # filtered speed of m[1].motor
+    r1_w7_s4: float                  # memory of r1_w7: stage 4
     r1_w7_s3: float                  # memory of r1_w7: stage 3
     r1_w7_s2: float                  # memory of r1_w7: stage 2
     r1_w7_s1: float                  # memory of r1_w7: stage 1
     r1_w8_m__1__motor_speed: float   # filtered speed of m[1].motor
+    r1_w8_s4: float                  # memory of r1_w8: stage 4
     r1_w8_s3: float                  # memory of r1_w8: stage 3
     r1_w8_s2: float                  # memory of r1_w8: stage 2
     r1_w8_s1: float                  # memory of r1_w8: stage 1
     r1_w9_m__1__motor_speed: float   # filtered speed of m[1].motor
+    r1_w9_s4: float                  # memory of r1_w9: stage 4
     r1_w9_s3: float                  # memory of r1_w9: stage 3
     r1_w9_s2: float                  # memory of r1_w9: stage 2
     r1_w9_s1: float                  # memory of r1_w9: stage 1
     r1_w10_m__1__motor_speed: float  # filtered speed of m[1].motor
+    r1_w10_s4: float                 # memory of r1_w10: stage 4
     r1_w10_s3: float                 # memory of r1_w10: stage 3
     r1_w10_s2: float                 # memory of r1_w10: stage 2
     r1_w10_s1: float                 # memory of r1_w10: stage 1
     r1_w11_m__1__motor_speed: float  # filtered speed of m[1].motor
+    r1_w11_s4: float                 # memory of r1_w11: stage 4
     r1_w11_s3: float                 # memory of r1_w11: stage 3
     r1_w11_s2: float                 # memory of r1_w11: stage 2
     r1_w11_s1: float                 # memory of r1_w11: stage 1
@@ -250,14 +257,17 @@ class Memory:
     r1_w13_s2: float                 # memory of r1_w13: stage 2
     r1_w13_s1: float                 # memory of r1_w13: stage 1
     r2_w1_m__2__motor_speed: float   # filtered speed of m[2].motor
+    r2_w1_s4: float                  # memory of r2_w1: stage 4
     r2_w1_s3: float                  # memory of r2_w1: stage 3
     r2_w1_s2: float                  # memory of r2_w1: stage 2
     r2_w1_s1: float                  # memory of r2_w1: stage 1
     r2_w2_m__2__motor_speed: float   # filtered speed of m[2].motor
+    r2_w2_s4: float                  # memory of r2_w2: stage 4
     r2_w2_s3: float                  # memory of r2_w2: stage 3
     r2_w2_s2: float                  # memory of r2_w2: stage 2
     r2_w2_s1: float                  # memory of r2_w2: stage 1
     r2_w3_m__2__motor_speed: float   # filtered speed of m[2].motor
+    r2_w3_s4: float                  # memory of r2_w3: stage 4
     r2_w3_s3: float                  # memory of r2_w3: stage 3
     r2_w3_s2: float                  # memory of r2_w3: stage 2
     r2_w3_s1: float                  # memory of r2_w3: stage 1
@@ -272,26 +282,32 @@ class Memory:
     r2_w5_s2: float                  # memory of r2_w5: stage 2
     r2_w5_s1: float                  # memory of r2_w5: stage 1
     r2_w6_m__2__motor_speed: float   # filtered speed of m[2].motor
+    r2_w6_s4: float                  # memory of r2_w6: stage 4
     r2_w6_s3: float                  # memory of r2_w6: stage 3
     r2_w6_s2: float                  # memory of r2_w6: stage 2
     r2_w6_s1: float                  # memory of r2_w6: stage 1
     r2_w7_m__2__motor_speed: float   # filtered speed of m[2].motor
+    r2_w7_s4: float                  # memory of r2_w7: stage 4
     r2_w7_s3: float                  # memory of r2_w7: stage 3
     r2_w7_s2: float                  # memory of r2_w7: stage 2
     r2_w7_s1: float                  # memory of r2_w7: stage 1
     r2_w8_m__2__motor_speed: float   # filtered speed of m[2].motor
+    r2_w8_s4: float                  # memory of r2_w8: stage 4
     r2_w8_s3: float                  # memory of r2_w8: stage 3
     r2_w8_s2: float                  # memory of r2_w8: stage 2
     r2_w8_s1: float                  # memory of r2_w8: stage 1
     r2_w9_m__2__motor_speed: float   # filtered speed of m[2].motor
+    r2_w9_s4: float                  # memory of r2_w9: stage 4
     r2_w9_s3: float                  # memory of r2_w9: stage 3
     r2_w9_s2: float                  # memory of r2_w9: stage 2
     r2_w9_s1: float                  # memory of r2_w9: stage 1
     r2_w10_m__2__motor_speed: float  # filtered speed of m[2].motor
+    r2_w10_s4: float                 # memory of r2_w10: stage 4
     r2_w10_s3: float                 # memory of r2_w10: stage 3
     r2_w10_s2: float                 # memory of r2_w10: stage 2
     r2_w10_s1: float                 # memory of r2_w10: stage 1
     r2_w11_m__2__motor_speed: float  # filtered speed of m[2].motor
+    r2_w11_s4: float                 # memory of r2_w11: stage 4
     r2_w11_s3: float                 # memory of r2_w11: stage 3
     r2_w11_s2: float                 # memory of r2_w11: stage 2
     r2_w11_s1: float                 # memory of r2_w11: stage 1
@@ -342,39 +358,37 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.m__1__motor_gain + self._c.a + self._c.r1_w1_v2_m__1__motor
-                    + self._c.r1_w1_v3_m__1__motor + self._c.b0 + self._c.b1 + self._c.rest
-                    + self._c.r1_w2_v1_m__1__motor + self._c.r1_w2_v2_m__1__motor
-                    + self._c.r1_w2_v3_m__1__motor + self._c.r1_w3_v2_m__1__motor
-                    + self._c.r1_w3_v3_m__1__motor + self._c.r1_w4_v4_Fx__1
-                    + self._c.r1_w4_v2_m__1__motor + self._c.r1_w4_v3_m__1__motor
-                    + self._c.r1_w5_v1_m__1__motor + self._c.r1_w5_v2_m__1__motor
-                    + self._c.r1_w5_v3_m__1__motor + self._c.r1_w5_v3_Fx__1 + self._c.r1_w5_v4_Fx__1
-                    + self._c.r1_w6_v3_m__1__motor + self._c.r1_w7_v2_m__1__motor
-                    + self._c.r1_w7_v3_m__1__motor + self._c.r1_w8_v2_m__1__motor
-                    + self._c.r1_w9_v1_m__1__motor + self._c.r1_w9_v2_m__1__motor
-                    + self._c.r1_w9_v3_m__1__motor + self._c.r1_w10_v3_m__1__motor
-                    + self._c.r1_w11_v2_m__1__motor + self._c.r1_w11_v3_m__1__motor
-                    + self._c.r1_w12_v2_m__1__motor + self._c.r1_w12_v3_m__1__motor
-                    + self._c.r1_w12_v4_Fx__1 + self._c.r1_w13_v1_m__1__motor
-                    + self._c.r1_w13_v2_m__1__motor + self._c.r1_w13_v3_m__1__motor
-                    + self._c.r1_w13_v3_Fx__1 + self._c.r1_w13_v4_Fx__1
-                    + self._c.r2_w1_v2_m__2__motor + self._c.r2_w1_v3_m__2__motor
-                    + self._c.r2_w2_v1_m__2__motor + self._c.r2_w2_v2_m__2__motor
-                    + self._c.r2_w2_v3_m__2__motor + self._c.r2_w3_v2_m__2__motor
-                    + self._c.r2_w3_v3_m__2__motor + self._c.r2_w4_v4_Fx__2
-                    + self._c.r2_w4_v2_m__2__motor + self._c.r2_w4_v3_m__2__motor
-                    + self._c.r2_w5_v1_m__2__motor + self._c.r2_w5_v2_m__2__motor
-                    + self._c.r2_w5_v3_m__2__motor + self._c.r2_w5_v3_Fx__2 + self._c.r2_w5_v4_Fx__2
-                    + self._c.r2_w6_v3_m__2__motor + self._c.r2_w7_v2_m__2__motor
-                    + self._c.r2_w7_v3_m__2__motor + self._c.r2_w8_v2_m__2__motor
-                    + self._c.r2_w9_v1_m__2__motor + self._c.r2_w9_v2_m__2__motor
-                    + self._c.r2_w9_v3_m__2__motor + self._c.r2_w10_v3_m__2__motor
-                    + self._c.r2_w11_v2_m__2__motor + self._c.r2_w11_v3_m__2__motor
-                    + self._c.r2_w12_v2_m__2__motor + self._c.r2_w12_v3_m__2__motor
-                    + self._c.r2_w12_v4_Fx__2 + self._c.r2_w13_v1_m__2__motor
-                    + self._c.r2_w13_v2_m__2__motor + self._c.r2_w13_v3_m__2__motor
-                    + self._c.r2_w13_v3_Fx__2 + self._c.r2_w13_v4_Fx__2
+                    self._c.r1_w1_w1_m__1__motor + self._c.m__1__motor_gain + self._c.a
+                    + self._c.r1_w1_w2_m__1__motor + self._c.bend1 + self._c.b + self._c.rest
+                    + self._c.r1_w2_w2_m__1__motor + self._c.r1_w2_w3_m__1__motor
+                    + self._c.r1_w3_w1_m__1__motor + self._c.r1_w3_w2_m__1__motor
+                    + self._c.r1_w4_Fx__1 + self._c.r1_w4_w1_m__1__motor
+                    + self._c.r1_w4_w2_m__1__motor + self._c.bend2 + self._c.r1_w5_w1_m__1__motor
+                    + self._c.r1_w5_w2_m__1__motor + self._c.r1_w5_w3_m__1__motor
+                    + self._c.r1_w5_Fx__1 + self._c.r1_w5_w1_Fx__1 + self._c.bend3
+                    + self._c.r1_w6_w1_m__1__motor + self._c.r1_w7_w1_m__1__motor
+                    + self._c.r1_w7_w2_m__1__motor + self._c.r1_w8_w2_m__1__motor
+                    + self._c.r1_w9_w2_m__1__motor + self._c.r1_w9_w3_m__1__motor
+                    + self._c.r1_w10_w1_m__1__motor + self._c.r1_w11_w1_m__1__motor
+                    + self._c.r1_w11_w2_m__1__motor + self._c.r1_w12_w1_m__1__motor
+                    + self._c.r1_w12_w2_m__1__motor + self._c.r1_w12_Fx__1
+                    + self._c.r1_w13_w1_m__1__motor + self._c.r1_w13_w2_m__1__motor
+                    + self._c.r1_w13_w3_m__1__motor + self._c.r1_w13_Fx__1 + self._c.r1_w13_w1_Fx__1
+                    + self._c.r2_w1_w1_m__2__motor + self._c.r2_w1_w2_m__2__motor
+                    + self._c.r2_w2_w2_m__2__motor + self._c.r2_w2_w3_m__2__motor
+                    + self._c.r2_w3_w1_m__2__motor + self._c.r2_w3_w2_m__2__motor
+                    + self._c.r2_w4_Fx__2 + self._c.r2_w4_w1_m__2__motor
+                    + self._c.r2_w4_w2_m__2__motor + self._c.r2_w5_w1_m__2__motor
+                    + self._c.r2_w5_w2_m__2__motor + self._c.r2_w5_w3_m__2__motor
+                    + self._c.r2_w5_Fx__2 + self._c.r2_w5_w1_Fx__2 + self._c.r2_w6_w1_m__2__motor
+                    + self._c.r2_w7_w1_m__2__motor + self._c.r2_w7_w2_m__2__motor
+                    + self._c.r2_w8_w2_m__2__motor + self._c.r2_w9_w2_m__2__motor
+                    + self._c.r2_w9_w3_m__2__motor + self._c.r2_w10_w1_m__2__motor
+                    + self._c.r2_w11_w1_m__2__motor + self._c.r2_w11_w2_m__2__motor
+                    + self._c.r2_w12_w1_m__2__motor + self._c.r2_w12_w2_m__2__motor
+                    + self._c.r2_w12_Fx__2 + self._c.r2_w13_w1_m__2__motor
+                    + self._c.r2_w13_w2_m__2__motor + self._c.r2_w13_w3_m__2__motor
+                    + self._c.r2_w13_Fx__2 + self._c.r2_w13_w1_Fx__2
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -426,6 +440,15 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: m[1].fe + m[1].fs/m[1].ge.N^2
         t = p.m__1__fe + p.m__1__fs / p.m__1__ge__N / p.m__1__ge__N
 
@@ -450,339 +473,295 @@ class Monitor:
         # khepera.bg:17: m[2].R*m[2].el.Re/(m[2].el.k*m[2].ge.N)
         t_8 = p.m__2__R * p.m__2__el__Re / p.m__2__el__k / p.m__2__ge__N
 
-        # exp(-x)
-        t_9 = _exponential(-x_)
+        # 1 - pole
+        t_9 = 1.0 - pole
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_10 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_9) / x_
-        )
+        # 1 - (1 - pole)/2
+        t_10 = 1.0 - 0.5 * t_9
 
-        # 1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (
-        # ...
-        t_11 = 1.0 - t_10
+        # turn^2
+        t_11 = turn * turn
 
-        # khepera.bg:17: m[1].el.L*(m[1].Je + m[1].Js/m[1].ge.N^2)*bandwidth^2/m[1].el.k
-        t_12 = p.m__1__el__L * t_2 * bandwidth * bandwidth / p.m__1__el__k
+        # khepera.bg:17: m[1].el.L*(m[1].Je + m[1].Js/m[1].ge.N^2)*w^2/m[1].el.k
+        t_12 = p.m__1__el__L * t_2 * w * w / p.m__1__el__k
 
-        # khepera.bg:17: m[1].R*m[1].el.L*bandwidth/(m[1].el.k*m[1].ge.N)
-        t_13 = p.m__1__R * p.m__1__el__L * bandwidth / p.m__1__el__k / p.m__1__ge__N
+        # khepera.bg:17: m[1].R*m[1].el.L*w/(m[1].el.k*m[1].ge.N)
+        t_13 = p.m__1__R * p.m__1__el__L * w / p.m__1__el__k / p.m__1__ge__N
 
-        # khepera.bg:17: m[2].el.L*(m[2].Je + m[2].Js/m[2].ge.N^2)*bandwidth^2/m[2].el.k
-        t_14 = p.m__2__el__L * t_6 * bandwidth * bandwidth / p.m__2__el__k
+        # khepera.bg:17: m[2].el.L*(m[2].Je + m[2].Js/m[2].ge.N^2)*w^2/m[2].el.k
+        t_14 = p.m__2__el__L * t_6 * w * w / p.m__2__el__k
 
-        # khepera.bg:17: m[2].R*m[2].el.L*bandwidth/(m[2].el.k*m[2].ge.N)
-        t_15 = p.m__2__R * p.m__2__el__L * bandwidth / p.m__2__el__k / p.m__2__ge__N
+        # khepera.bg:17: m[2].R*m[2].el.L*w/(m[2].el.k*m[2].ge.N)
+        t_15 = p.m__2__R * p.m__2__el__L * w / p.m__2__el__k / p.m__2__ge__N
 
         # khepera.bg:17: m[1].fe*m[1].el.Re/m[1].el.k
         t_16 = p.m__1__fe * p.m__1__el__Re / p.m__1__el__k
 
-        # khepera.bg:17: m[1].fe*m[1].el.L*bandwidth/m[1].el.k
-        t_17 = p.m__1__fe * p.m__1__el__L * bandwidth / p.m__1__el__k
+        # khepera.bg:17: m[1].fe*m[1].el.L*w/m[1].el.k
+        t_17 = p.m__1__fe * p.m__1__el__L * w / p.m__1__el__k
 
-        # khepera.bg:17: m[1].Js*m[1].el.Re*bandwidth/(m[1].el.k*m[1].ge.N^2)
-        t_18 = (
-            p.m__1__Js * p.m__1__el__Re * bandwidth / p.m__1__el__k / p.m__1__ge__N / p.m__1__ge__N
-        )
+        # khepera.bg:17: m[1].Js*m[1].el.Re*w/(m[1].el.k*m[1].ge.N^2)
+        t_18 = p.m__1__Js * p.m__1__el__Re * w / p.m__1__el__k / p.m__1__ge__N / p.m__1__ge__N
 
-        # khepera.bg:17: m[1].Js*m[1].el.L*bandwidth^2/(m[1].el.k*m[1].ge.N^2)
-        t_19 = (
-            p.m__1__Js * p.m__1__el__L * bandwidth * bandwidth / p.m__1__el__k / p.m__1__ge__N
-                / p.m__1__ge__N
-        )
+        # khepera.bg:17: m[1].Js*m[1].el.L*w^2/(m[1].el.k*m[1].ge.N^2)
+        t_19 = p.m__1__Js * p.m__1__el__L * w * w / p.m__1__el__k / p.m__1__ge__N / p.m__1__ge__N
 
         # khepera.bg:17: m[1].fs*m[1].el.Re/(m[1].el.k*m[1].ge.N^2)
         t_20 = p.m__1__fs * p.m__1__el__Re / p.m__1__el__k / p.m__1__ge__N / p.m__1__ge__N
 
-        # khepera.bg:17: m[1].fs*m[1].el.L*bandwidth/(m[1].el.k*m[1].ge.N^2)
-        t_21 = (
-            p.m__1__fs * p.m__1__el__L * bandwidth / p.m__1__el__k / p.m__1__ge__N / p.m__1__ge__N
-        )
+        # khepera.bg:17: m[1].fs*m[1].el.L*w/(m[1].el.k*m[1].ge.N^2)
+        t_21 = p.m__1__fs * p.m__1__el__L * w / p.m__1__el__k / p.m__1__ge__N / p.m__1__ge__N
 
-        # khepera.bg:17: m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)*bandwidth/m[1].el.k
-        t_22 = p.m__1__el__Re * t_2 * bandwidth / p.m__1__el__k
-
-        # khepera.bg:17: m[1].el.k*bandwidth*(m[1].el.Re*(m[1].Je +
-        # m[1].Js/m[1].ge.N^2)/m[1].el.k^2 + m[1].el. ...
-        t_23 = (
-            p.m__1__el__k * bandwidth * (p.m__1__el__Re * t_2 / p.m__1__el__k / p.m__1__el__k
-                + p.m__1__el__L * t / p.m__1__el__k / p.m__1__el__k)
-        )
-
-        # khepera.bg:17: m[1].el.k^2*bandwidth*(-2*m[1].el.L*(m[1].fe +
-        # m[1].fs/m[1].ge.N^2)/m[1].el.k^3 - 2*m[ ...
-        t_24 = (
-            p.m__1__el__k * p.m__1__el__k * bandwidth
-                * (-2.0 * p.m__1__el__L * t / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
-                - 2.0 * p.m__1__el__Re * t_2 / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k)
-        )
+        # khepera.bg:17: m[1].el.Re*(m[1].Je + m[1].Js/m[1].ge.N^2)*w/m[1].el.k
+        t_22 = p.m__1__el__Re * t_2 * w / p.m__1__el__k
 
         # khepera.bg:17: m[2].fe*m[2].el.Re/m[2].el.k
-        t_25 = p.m__2__fe * p.m__2__el__Re / p.m__2__el__k
+        t_23 = p.m__2__fe * p.m__2__el__Re / p.m__2__el__k
 
-        # khepera.bg:17: m[2].fe*m[2].el.L*bandwidth/m[2].el.k
-        t_26 = p.m__2__fe * p.m__2__el__L * bandwidth / p.m__2__el__k
+        # khepera.bg:17: m[2].fe*m[2].el.L*w/m[2].el.k
+        t_24 = p.m__2__fe * p.m__2__el__L * w / p.m__2__el__k
 
-        # khepera.bg:17: m[2].Js*m[2].el.Re*bandwidth/(m[2].el.k*m[2].ge.N^2)
-        t_27 = (
-            p.m__2__Js * p.m__2__el__Re * bandwidth / p.m__2__el__k / p.m__2__ge__N / p.m__2__ge__N
-        )
+        # khepera.bg:17: m[2].Js*m[2].el.Re*w/(m[2].el.k*m[2].ge.N^2)
+        t_25 = p.m__2__Js * p.m__2__el__Re * w / p.m__2__el__k / p.m__2__ge__N / p.m__2__ge__N
 
-        # khepera.bg:17: m[2].Js*m[2].el.L*bandwidth^2/(m[2].el.k*m[2].ge.N^2)
-        t_28 = (
-            p.m__2__Js * p.m__2__el__L * bandwidth * bandwidth / p.m__2__el__k / p.m__2__ge__N
-                / p.m__2__ge__N
-        )
+        # khepera.bg:17: m[2].Js*m[2].el.L*w^2/(m[2].el.k*m[2].ge.N^2)
+        t_26 = p.m__2__Js * p.m__2__el__L * w * w / p.m__2__el__k / p.m__2__ge__N / p.m__2__ge__N
 
         # khepera.bg:17: m[2].fs*m[2].el.Re/(m[2].el.k*m[2].ge.N^2)
-        t_29 = p.m__2__fs * p.m__2__el__Re / p.m__2__el__k / p.m__2__ge__N / p.m__2__ge__N
+        t_27 = p.m__2__fs * p.m__2__el__Re / p.m__2__el__k / p.m__2__ge__N / p.m__2__ge__N
 
-        # khepera.bg:17: m[2].fs*m[2].el.L*bandwidth/(m[2].el.k*m[2].ge.N^2)
-        t_30 = (
-            p.m__2__fs * p.m__2__el__L * bandwidth / p.m__2__el__k / p.m__2__ge__N / p.m__2__ge__N
-        )
+        # khepera.bg:17: m[2].fs*m[2].el.L*w/(m[2].el.k*m[2].ge.N^2)
+        t_28 = p.m__2__fs * p.m__2__el__L * w / p.m__2__el__k / p.m__2__ge__N / p.m__2__ge__N
 
-        # khepera.bg:17: m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)*bandwidth/m[2].el.k
-        t_31 = p.m__2__el__Re * t_6 * bandwidth / p.m__2__el__k
+        # khepera.bg:17: m[2].el.Re*(m[2].Je + m[2].Js/m[2].ge.N^2)*w/m[2].el.k
+        t_29 = p.m__2__el__Re * t_6 * w / p.m__2__el__k
 
-        # khepera.bg:17: m[2].el.k*bandwidth*(m[2].el.Re*(m[2].Je +
-        # m[2].Js/m[2].ge.N^2)/m[2].el.k^2 + m[2].el. ...
-        t_32 = (
-            p.m__2__el__k * bandwidth * (p.m__2__el__Re * t_6 / p.m__2__el__k / p.m__2__el__k
-                + p.m__2__el__L * t_5 / p.m__2__el__k / p.m__2__el__k)
-        )
-
-        # khepera.bg:17: m[2].el.k^2*bandwidth*(-2*m[2].el.L*(m[2].fe +
-        # m[2].fs/m[2].ge.N^2)/m[2].el.k^3 - 2*m[ ...
-        t_33 = (
-            p.m__2__el__k * p.m__2__el__k * bandwidth
-                * (-2.0 * p.m__2__el__L * t_5 / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
-                - 2.0 * p.m__2__el__Re * t_6 / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k)
-        )
+        # khepera.bg:17: r1_w1: factor of m[1].motor'
+        c.r1_w1_w1_m__1__motor = t_16 / 10.0
 
         # speed of m[1].motor for one count
-        c.m__1__motor_gain = 884279719003555.0 * bandwidth * t_11 / 3377699720527872.0
+        c.m__1__motor_gain = 884279719003555.0 * t_10 * w / 3377699720527872.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_9
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # khepera.bg:17: r1_w1: factor of m[1].motor in stage 2
-        c.r1_w1_v2_m__1__motor = t_17 / 10.0
+        # khepera.bg:17: r1_w1: factor of m[1].motor''
+        c.r1_w1_w2_m__1__motor = t_17 / 10.0
 
-        # khepera.bg:17: r1_w1: factor of m[1].motor in stage 3
-        c.r1_w1_v3_m__1__motor = t_17 / 10.0 - t_16 / 10.0
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_11 / 12.0
 
-        # filter: weight of the new sample
-        c.b0 = t_10
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_9
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_9 - t_10
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = t_10
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = t_11
+        # khepera.bg:17: r1_w2: factor of m[1].motor''
+        c.r1_w2_w2_m__1__motor = t_18 / 50.0
 
-        # khepera.bg:17: r1_w2: factor of m[1].motor in stage 1
-        c.r1_w2_v1_m__1__motor = t_19 / 50.0
+        # khepera.bg:17: r1_w2: factor of m[1].motor'''
+        c.r1_w2_w3_m__1__motor = t_19 / 50.0
 
-        # khepera.bg:17: r1_w2: factor of m[1].motor in stage 2
-        c.r1_w2_v2_m__1__motor = t_19 / 25.0 - t_18 / 50.0
+        # khepera.bg:17: r1_w3: factor of m[1].motor'
+        c.r1_w3_w1_m__1__motor = t_20 / 10.0
 
-        # khepera.bg:17: r1_w2: factor of m[1].motor in stage 3
-        c.r1_w2_v3_m__1__motor = t_18 / 50.0 - t_19 / 50.0
+        # khepera.bg:17: r1_w3: factor of m[1].motor''
+        c.r1_w3_w2_m__1__motor = t_21 / 10.0
 
-        # khepera.bg:17: r1_w3: factor of m[1].motor in stage 2
-        c.r1_w3_v2_m__1__motor = t_21 / 10.0
+        # khepera.bg:17: r1_w4: factor of Fx[1]
+        c.r1_w4_Fx__1 = t_4 / 20.0
 
-        # khepera.bg:17: r1_w3: factor of m[1].motor in stage 3
-        c.r1_w3_v3_m__1__motor = t_21 / 10.0 - t_20 / 10.0
+        # khepera.bg:17: r1_w4: factor of m[1].motor'
+        c.r1_w4_w1_m__1__motor = t_3 / 20.0
 
-        # khepera.bg:17: r1_w4: factor of Fx[1] in stage 4
-        c.r1_w4_v4_Fx__1 = t_4 / 20.0
+        # khepera.bg:17: r1_w4: factor of m[1].motor''
+        c.r1_w4_w2_m__1__motor = t_22 / 20.0
 
-        # khepera.bg:17: r1_w4: factor of m[1].motor in stage 2
-        c.r1_w4_v2_m__1__motor = t_22 / 20.0
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_11 / 6.0
 
-        # khepera.bg:17: r1_w4: factor of m[1].motor in stage 3
-        c.r1_w4_v3_m__1__motor = t_22 / 20.0 - t_3 / 20.0
-
-        # khepera.bg:17: r1_w5: factor of m[1].motor in stage 1
-        c.r1_w5_v1_m__1__motor = t_12 / 50.0
-
-        # khepera.bg:17: r1_w5: factor of m[1].motor in stage 2
-        c.r1_w5_v2_m__1__motor = t_23 / 50.0 - t_12 / 25.0
-
-        # khepera.bg:17: r1_w5: factor of m[1].motor in stage 3
-        c.r1_w5_v3_m__1__motor = (
-            t_12 / 50.0
-            + p.m__1__el__k * (p.m__1__el__Re * t / p.m__1__el__k / p.m__1__el__k - 1.0) / 50.0
-            - t_23 / 50.0
+        # khepera.bg:17: r1_w5: factor of m[1].motor'
+        c.r1_w5_w1_m__1__motor = (
+            p.m__1__el__k * (p.m__1__el__Re * t / p.m__1__el__k / p.m__1__el__k - 1.0) / 50.0
         )
 
-        # khepera.bg:17: r1_w5: factor of Fx[1] in stage 3
-        c.r1_w5_v3_Fx__1 = t_13 / 50.0
-
-        # khepera.bg:17: r1_w5: factor of Fx[1] in stage 4
-        c.r1_w5_v4_Fx__1 = t_4 / 50.0 - t_13 / 50.0
-
-        # khepera.bg:17: r1_w6: factor of m[1].motor in stage 3
-        c.r1_w6_v3_m__1__motor = t_16 / 142.0
-
-        # khepera.bg:17: r1_w7: factor of m[1].motor in stage 2
-        c.r1_w7_v2_m__1__motor = t_17 / 355.0
-
-        # khepera.bg:17: r1_w7: factor of m[1].motor in stage 3
-        c.r1_w7_v3_m__1__motor = t_16 / 355.0 - t_17 / 355.0
-
-        # khepera.bg:17: r1_w8: factor of m[1].motor in stage 2
-        c.r1_w8_v2_m__1__motor = t_18 / 710.0
-
-        # khepera.bg:17: r1_w9: factor of m[1].motor in stage 1
-        c.r1_w9_v1_m__1__motor = t_19 / 1775.0
-
-        # khepera.bg:17: r1_w9: factor of m[1].motor in stage 2
-        c.r1_w9_v2_m__1__motor = t_18 / 1775.0 - 2.0 * t_19 / 1775.0
-
-        # khepera.bg:17: r1_w9: factor of m[1].motor in stage 3
-        c.r1_w9_v3_m__1__motor = t_19 / 1775.0 - t_18 / 1775.0
-
-        # khepera.bg:17: r1_w10: factor of m[1].motor in stage 3
-        c.r1_w10_v3_m__1__motor = t_20 / 142.0
-
-        # khepera.bg:17: r1_w11: factor of m[1].motor in stage 2
-        c.r1_w11_v2_m__1__motor = t_21 / 355.0
-
-        # khepera.bg:17: r1_w11: factor of m[1].motor in stage 3
-        c.r1_w11_v3_m__1__motor = t_20 / 355.0 - t_21 / 355.0
-
-        # khepera.bg:17: r1_w12: factor of m[1].motor in stage 2
-        c.r1_w12_v2_m__1__motor = t_22 / 710.0
-
-        # khepera.bg:17: r1_w12: factor of m[1].motor in stage 3
-        c.r1_w12_v3_m__1__motor = t_3 / 710.0 - t_22 / 710.0
-
-        # khepera.bg:17: r1_w12: factor of Fx[1] in stage 4
-        c.r1_w12_v4_Fx__1 = t_4 / 710.0
-
-        # khepera.bg:17: r1_w13: factor of m[1].motor in stage 1
-        c.r1_w13_v1_m__1__motor = t_12 / 1775.0
-
-        # khepera.bg:17: r1_w13: factor of m[1].motor in stage 2
-        c.r1_w13_v2_m__1__motor = 2.0 * t_12 / 1775.0 + t_24 / 3550.0
-
-        # khepera.bg:17: r1_w13: factor of m[1].motor in stage 3
-        c.r1_w13_v3_m__1__motor = t_3 / 1775.0 + t_12 / 1775.0 + t_24 / 3550.0
-
-        # khepera.bg:17: r1_w13: factor of Fx[1] in stage 3
-        c.r1_w13_v3_Fx__1 = t_13 / 1775.0
-
-        # khepera.bg:17: r1_w13: factor of Fx[1] in stage 4
-        c.r1_w13_v4_Fx__1 = t_13 / 1775.0 - t_4 / 1775.0
-
-        # khepera.bg:17: r2_w1: factor of m[2].motor in stage 2
-        c.r2_w1_v2_m__2__motor = t_26 / 10.0
-
-        # khepera.bg:17: r2_w1: factor of m[2].motor in stage 3
-        c.r2_w1_v3_m__2__motor = t_26 / 10.0 - t_25 / 10.0
-
-        # khepera.bg:17: r2_w2: factor of m[2].motor in stage 1
-        c.r2_w2_v1_m__2__motor = t_28 / 50.0
-
-        # khepera.bg:17: r2_w2: factor of m[2].motor in stage 2
-        c.r2_w2_v2_m__2__motor = t_28 / 25.0 - t_27 / 50.0
-
-        # khepera.bg:17: r2_w2: factor of m[2].motor in stage 3
-        c.r2_w2_v3_m__2__motor = t_27 / 50.0 - t_28 / 50.0
-
-        # khepera.bg:17: r2_w3: factor of m[2].motor in stage 2
-        c.r2_w3_v2_m__2__motor = t_30 / 10.0
-
-        # khepera.bg:17: r2_w3: factor of m[2].motor in stage 3
-        c.r2_w3_v3_m__2__motor = t_30 / 10.0 - t_29 / 10.0
-
-        # khepera.bg:17: r2_w4: factor of Fx[2] in stage 4
-        c.r2_w4_v4_Fx__2 = t_8 / 20.0
-
-        # khepera.bg:17: r2_w4: factor of m[2].motor in stage 2
-        c.r2_w4_v2_m__2__motor = t_31 / 20.0
-
-        # khepera.bg:17: r2_w4: factor of m[2].motor in stage 3
-        c.r2_w4_v3_m__2__motor = t_31 / 20.0 - t_7 / 20.0
-
-        # khepera.bg:17: r2_w5: factor of m[2].motor in stage 1
-        c.r2_w5_v1_m__2__motor = t_14 / 50.0
-
-        # khepera.bg:17: r2_w5: factor of m[2].motor in stage 2
-        c.r2_w5_v2_m__2__motor = t_32 / 50.0 - t_14 / 25.0
-
-        # khepera.bg:17: r2_w5: factor of m[2].motor in stage 3
-        c.r2_w5_v3_m__2__motor = (
-            t_14 / 50.0
-            + p.m__2__el__k * (p.m__2__el__Re * t_5 / p.m__2__el__k / p.m__2__el__k - 1.0) / 50.0
-            - t_32 / 50.0
+        # khepera.bg:17: r1_w5: factor of m[1].motor''
+        c.r1_w5_w2_m__1__motor = (
+            p.m__1__el__k * w * (p.m__1__el__Re * t_2 / p.m__1__el__k / p.m__1__el__k
+                + p.m__1__el__L * t / p.m__1__el__k / p.m__1__el__k) / 50.0
         )
 
-        # khepera.bg:17: r2_w5: factor of Fx[2] in stage 3
-        c.r2_w5_v3_Fx__2 = t_15 / 50.0
+        # khepera.bg:17: r1_w5: factor of m[1].motor'''
+        c.r1_w5_w3_m__1__motor = t_12 / 50.0
 
-        # khepera.bg:17: r2_w5: factor of Fx[2] in stage 4
-        c.r2_w5_v4_Fx__2 = t_8 / 50.0 - t_15 / 50.0
+        # khepera.bg:17: r1_w5: factor of Fx[1]
+        c.r1_w5_Fx__1 = t_4 / 50.0
 
-        # khepera.bg:17: r2_w6: factor of m[2].motor in stage 3
-        c.r2_w6_v3_m__2__motor = t_25 / 142.0
+        # khepera.bg:17: r1_w5: factor of Fx[1]'
+        c.r1_w5_w1_Fx__1 = t_13 / 50.0
 
-        # khepera.bg:17: r2_w7: factor of m[2].motor in stage 2
-        c.r2_w7_v2_m__2__motor = t_26 / 355.0
+        # filter: 3 * (w*sample_time)^2/12
+        c.bend3 = 0.25 * t_11
 
-        # khepera.bg:17: r2_w7: factor of m[2].motor in stage 3
-        c.r2_w7_v3_m__2__motor = t_25 / 355.0 - t_26 / 355.0
+        # khepera.bg:17: r1_w6: factor of m[1].motor'
+        c.r1_w6_w1_m__1__motor = t_16 / 142.0
 
-        # khepera.bg:17: r2_w8: factor of m[2].motor in stage 2
-        c.r2_w8_v2_m__2__motor = t_27 / 710.0
+        # khepera.bg:17: r1_w7: factor of m[1].motor'
+        c.r1_w7_w1_m__1__motor = t_16 / 355.0
 
-        # khepera.bg:17: r2_w9: factor of m[2].motor in stage 1
-        c.r2_w9_v1_m__2__motor = t_28 / 1775.0
+        # khepera.bg:17: r1_w7: factor of m[1].motor''
+        c.r1_w7_w2_m__1__motor = t_17 / 355.0
 
-        # khepera.bg:17: r2_w9: factor of m[2].motor in stage 2
-        c.r2_w9_v2_m__2__motor = t_27 / 1775.0 - 2.0 * t_28 / 1775.0
+        # khepera.bg:17: r1_w8: factor of m[1].motor''
+        c.r1_w8_w2_m__1__motor = t_18 / 710.0
 
-        # khepera.bg:17: r2_w9: factor of m[2].motor in stage 3
-        c.r2_w9_v3_m__2__motor = t_28 / 1775.0 - t_27 / 1775.0
+        # khepera.bg:17: r1_w9: factor of m[1].motor''
+        c.r1_w9_w2_m__1__motor = t_18 / 1775.0
 
-        # khepera.bg:17: r2_w10: factor of m[2].motor in stage 3
-        c.r2_w10_v3_m__2__motor = t_29 / 142.0
+        # khepera.bg:17: r1_w9: factor of m[1].motor'''
+        c.r1_w9_w3_m__1__motor = t_19 / 1775.0
 
-        # khepera.bg:17: r2_w11: factor of m[2].motor in stage 2
-        c.r2_w11_v2_m__2__motor = t_30 / 355.0
+        # khepera.bg:17: r1_w10: factor of m[1].motor'
+        c.r1_w10_w1_m__1__motor = t_20 / 142.0
 
-        # khepera.bg:17: r2_w11: factor of m[2].motor in stage 3
-        c.r2_w11_v3_m__2__motor = t_29 / 355.0 - t_30 / 355.0
+        # khepera.bg:17: r1_w11: factor of m[1].motor'
+        c.r1_w11_w1_m__1__motor = t_20 / 355.0
 
-        # khepera.bg:17: r2_w12: factor of m[2].motor in stage 2
-        c.r2_w12_v2_m__2__motor = t_31 / 710.0
+        # khepera.bg:17: r1_w11: factor of m[1].motor''
+        c.r1_w11_w2_m__1__motor = t_21 / 355.0
 
-        # khepera.bg:17: r2_w12: factor of m[2].motor in stage 3
-        c.r2_w12_v3_m__2__motor = t_7 / 710.0 - t_31 / 710.0
+        # khepera.bg:17: r1_w12: factor of m[1].motor'
+        c.r1_w12_w1_m__1__motor = t_3 / 710.0
 
-        # khepera.bg:17: r2_w12: factor of Fx[2] in stage 4
-        c.r2_w12_v4_Fx__2 = t_8 / 710.0
+        # khepera.bg:17: r1_w12: factor of m[1].motor''
+        c.r1_w12_w2_m__1__motor = t_22 / 710.0
 
-        # khepera.bg:17: r2_w13: factor of m[2].motor in stage 1
-        c.r2_w13_v1_m__2__motor = t_14 / 1775.0
+        # khepera.bg:17: r1_w12: factor of Fx[1]
+        c.r1_w12_Fx__1 = t_4 / 710.0
 
-        # khepera.bg:17: r2_w13: factor of m[2].motor in stage 2
-        c.r2_w13_v2_m__2__motor = 2.0 * t_14 / 1775.0 + t_33 / 3550.0
+        # khepera.bg:17: r1_w13: factor of m[1].motor'
+        c.r1_w13_w1_m__1__motor = t_3 / 1775.0
 
-        # khepera.bg:17: r2_w13: factor of m[2].motor in stage 3
-        c.r2_w13_v3_m__2__motor = t_7 / 1775.0 + t_14 / 1775.0 + t_33 / 3550.0
+        # khepera.bg:17: r1_w13: factor of m[1].motor''
+        c.r1_w13_w2_m__1__motor = (
+            p.m__1__el__k * p.m__1__el__k * w
+                * (-2.0 * p.m__1__el__L * t / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
+                - 2.0 * p.m__1__el__Re * t_2 / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k)
+                / 3550.0
+        )
 
-        # khepera.bg:17: r2_w13: factor of Fx[2] in stage 3
-        c.r2_w13_v3_Fx__2 = t_15 / 1775.0
+        # khepera.bg:17: r1_w13: factor of m[1].motor'''
+        c.r1_w13_w3_m__1__motor = t_12 / 1775.0
 
-        # khepera.bg:17: r2_w13: factor of Fx[2] in stage 4
-        c.r2_w13_v4_Fx__2 = t_15 / 1775.0 - t_8 / 1775.0
+        # khepera.bg:17: r1_w13: factor of Fx[1]
+        c.r1_w13_Fx__1 = t_4 / 1775.0
+
+        # khepera.bg:17: r1_w13: factor of Fx[1]'
+        c.r1_w13_w1_Fx__1 = t_13 / 1775.0
+
+        # khepera.bg:17: r2_w1: factor of m[2].motor'
+        c.r2_w1_w1_m__2__motor = t_23 / 10.0
+
+        # khepera.bg:17: r2_w1: factor of m[2].motor''
+        c.r2_w1_w2_m__2__motor = t_24 / 10.0
+
+        # khepera.bg:17: r2_w2: factor of m[2].motor''
+        c.r2_w2_w2_m__2__motor = t_25 / 50.0
+
+        # khepera.bg:17: r2_w2: factor of m[2].motor'''
+        c.r2_w2_w3_m__2__motor = t_26 / 50.0
+
+        # khepera.bg:17: r2_w3: factor of m[2].motor'
+        c.r2_w3_w1_m__2__motor = t_27 / 10.0
+
+        # khepera.bg:17: r2_w3: factor of m[2].motor''
+        c.r2_w3_w2_m__2__motor = t_28 / 10.0
+
+        # khepera.bg:17: r2_w4: factor of Fx[2]
+        c.r2_w4_Fx__2 = t_8 / 20.0
+
+        # khepera.bg:17: r2_w4: factor of m[2].motor'
+        c.r2_w4_w1_m__2__motor = t_7 / 20.0
+
+        # khepera.bg:17: r2_w4: factor of m[2].motor''
+        c.r2_w4_w2_m__2__motor = t_29 / 20.0
+
+        # khepera.bg:17: r2_w5: factor of m[2].motor'
+        c.r2_w5_w1_m__2__motor = (
+            p.m__2__el__k * (p.m__2__el__Re * t_5 / p.m__2__el__k / p.m__2__el__k - 1.0) / 50.0
+        )
+
+        # khepera.bg:17: r2_w5: factor of m[2].motor''
+        c.r2_w5_w2_m__2__motor = (
+            p.m__2__el__k * w * (p.m__2__el__Re * t_6 / p.m__2__el__k / p.m__2__el__k
+                + p.m__2__el__L * t_5 / p.m__2__el__k / p.m__2__el__k) / 50.0
+        )
+
+        # khepera.bg:17: r2_w5: factor of m[2].motor'''
+        c.r2_w5_w3_m__2__motor = t_14 / 50.0
+
+        # khepera.bg:17: r2_w5: factor of Fx[2]
+        c.r2_w5_Fx__2 = t_8 / 50.0
+
+        # khepera.bg:17: r2_w5: factor of Fx[2]'
+        c.r2_w5_w1_Fx__2 = t_15 / 50.0
+
+        # khepera.bg:17: r2_w6: factor of m[2].motor'
+        c.r2_w6_w1_m__2__motor = t_23 / 142.0
+
+        # khepera.bg:17: r2_w7: factor of m[2].motor'
+        c.r2_w7_w1_m__2__motor = t_23 / 355.0
+
+        # khepera.bg:17: r2_w7: factor of m[2].motor''
+        c.r2_w7_w2_m__2__motor = t_24 / 355.0
+
+        # khepera.bg:17: r2_w8: factor of m[2].motor''
+        c.r2_w8_w2_m__2__motor = t_25 / 710.0
+
+        # khepera.bg:17: r2_w9: factor of m[2].motor''
+        c.r2_w9_w2_m__2__motor = t_25 / 1775.0
+
+        # khepera.bg:17: r2_w9: factor of m[2].motor'''
+        c.r2_w9_w3_m__2__motor = t_26 / 1775.0
+
+        # khepera.bg:17: r2_w10: factor of m[2].motor'
+        c.r2_w10_w1_m__2__motor = t_27 / 142.0
+
+        # khepera.bg:17: r2_w11: factor of m[2].motor'
+        c.r2_w11_w1_m__2__motor = t_27 / 355.0
+
+        # khepera.bg:17: r2_w11: factor of m[2].motor''
+        c.r2_w11_w2_m__2__motor = t_28 / 355.0
+
+        # khepera.bg:17: r2_w12: factor of m[2].motor'
+        c.r2_w12_w1_m__2__motor = t_7 / 710.0
+
+        # khepera.bg:17: r2_w12: factor of m[2].motor''
+        c.r2_w12_w2_m__2__motor = t_29 / 710.0
+
+        # khepera.bg:17: r2_w12: factor of Fx[2]
+        c.r2_w12_Fx__2 = t_8 / 710.0
+
+        # khepera.bg:17: r2_w13: factor of m[2].motor'
+        c.r2_w13_w1_m__2__motor = t_7 / 1775.0
+
+        # khepera.bg:17: r2_w13: factor of m[2].motor''
+        c.r2_w13_w2_m__2__motor = (
+            p.m__2__el__k * p.m__2__el__k * w
+                * (-2.0 * p.m__2__el__L * t_5 / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
+                - 2.0 * p.m__2__el__Re * t_6 / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k)
+                / 3550.0
+        )
+
+        # khepera.bg:17: r2_w13: factor of m[2].motor'''
+        c.r2_w13_w3_m__2__motor = t_14 / 1775.0
+
+        # khepera.bg:17: r2_w13: factor of Fx[2]
+        c.r2_w13_Fx__2 = t_8 / 1775.0
+
+        # khepera.bg:17: r2_w13: factor of Fx[2]'
+        c.r2_w13_w1_Fx__2 = t_15 / 1775.0
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -796,8 +775,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w1_m__1__motor_speed = r1_w1_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w1: encoders, order 1
+        r1_w1_n1 = -c.r1_w1_w1_m__1__motor * r1_w1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w1: error of order 1
+        r1_w1_e1 = c.bend1 * r1_w1_n1
+
+        # khepera.bg:17: r1_w1: encoders, order 2
+        r1_w1_n2 = -c.r1_w1_w2_m__1__motor * r1_w1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = r1_w1_n1 + r1_w1_n2
+
+        # khepera.bg:17: r1_w1: degree 2
+        r1_w1_d2 = r1_w1_n2 - r1_w1_e1
+
+        # khepera.bg:17: r1_w1: input of stage 4
+        r1_w1_u4 = r1_w1_n1 + r1_w1_d2 + r1_w1_e1 - r1_w1_d1
+
+        # khepera.bg:17: r1_w1: stage 4, at rest
+        r1_w1_y4 = r1_w1_u4
+
+        # khepera.bg:17: r1_w1: stage 4: memory
+        x.r1_w1_s4 = c.rest * r1_w1_u4
+
         # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = c.r1_w1_v3_m__1__motor * r1_w1_m__1__motor_speed_2
+        r1_w1_u3 = r1_w1_y4 + r1_w1_d1 - 2.0 * r1_w1_d2 - 3.0 * r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 3, at rest
         r1_w1_y3 = r1_w1_u3
@@ -806,7 +809,7 @@ class Monitor:
         x.r1_w1_s3 = c.rest * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = r1_w1_y3 - c.r1_w1_v2_m__1__motor * r1_w1_m__1__motor_speed_2
+        r1_w1_u2 = r1_w1_y3 + r1_w1_d2 + 3.0 * r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 2, at rest
         r1_w1_y2 = r1_w1_u2
@@ -815,7 +818,7 @@ class Monitor:
         x.r1_w1_s2 = c.rest * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 1, at rest
         r1_w1_y1 = r1_w1_u1
@@ -832,8 +835,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w2_m__1__motor_speed = r1_w2_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w2: encoders, order 2
+        r1_w2_n2 = -c.r1_w2_w2_m__1__motor * r1_w2_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w2: error of order 2
+        r1_w2_e2 = c.bend1 * r1_w2_n2
+
+        # khepera.bg:17: r1_w2: encoders, order 3
+        r1_w2_n3 = -c.r1_w2_w3_m__1__motor * r1_w2_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w2: degree 2
+        r1_w2_d2 = r1_w2_n2 + r1_w2_n3
+
+        # khepera.bg:17: r1_w2: degree 3
+        r1_w2_d3 = r1_w2_n3 - r1_w2_e2
+
+        # khepera.bg:17: r1_w2: input of stage 4
+        r1_w2_u4 = r1_w2_d2 - r1_w2_n2 - r1_w2_d3 - r1_w2_e2
+
+        # khepera.bg:17: r1_w2: stage 4, at rest
+        r1_w2_y4 = r1_w2_u4
+
+        # khepera.bg:17: r1_w2: stage 4: memory
+        x.r1_w2_s4 = c.rest * r1_w2_u4
+
         # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = c.r1_w2_v3_m__1__motor * r1_w2_m__1__motor_speed_2
+        r1_w2_u3 = r1_w2_y4 + r1_w2_n2 + 3.0 * r1_w2_d3 + 4.0 * r1_w2_e2 - 2.0 * r1_w2_d2
 
         # khepera.bg:17: r1_w2: stage 3, at rest
         r1_w2_y3 = r1_w2_u3
@@ -842,7 +869,7 @@ class Monitor:
         x.r1_w2_s3 = c.rest * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = r1_w2_y3 + c.r1_w2_v2_m__1__motor * r1_w2_m__1__motor_speed_2
+        r1_w2_u2 = r1_w2_y3 + r1_w2_d2 - 3.0 * r1_w2_d3 - 6.0 * r1_w2_e2
 
         # khepera.bg:17: r1_w2: stage 2, at rest
         r1_w2_y2 = r1_w2_u2
@@ -851,7 +878,7 @@ class Monitor:
         x.r1_w2_s2 = c.rest * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = r1_w2_y2 - c.r1_w2_v1_m__1__motor * r1_w2_m__1__motor_speed_2
+        r1_w2_u1 = r1_w2_y2 + r1_w2_d3 + 4.0 * r1_w2_e2
 
         # khepera.bg:17: r1_w2: stage 1, at rest
         r1_w2_y1 = r1_w2_u1
@@ -860,7 +887,7 @@ class Monitor:
         x.r1_w2_s1 = c.rest * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].Js can do
-        r1_w2 = r1_w2_y1
+        r1_w2 = r1_w2_y1 - r1_w2_e2
 
         # khepera.bg:17: filtered speed of m[1].motor, at rest
         r1_w3_m__1__motor_speed_2 = 0.0
@@ -868,8 +895,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w3_m__1__motor_speed = r1_w3_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w3: encoders, order 1
+        r1_w3_n1 = -c.r1_w3_w1_m__1__motor * r1_w3_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w3: error of order 1
+        r1_w3_e1 = c.bend1 * r1_w3_n1
+
+        # khepera.bg:17: r1_w3: encoders, order 2
+        r1_w3_n2 = -c.r1_w3_w2_m__1__motor * r1_w3_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w3: degree 1
+        r1_w3_d1 = r1_w3_n1 + r1_w3_n2
+
+        # khepera.bg:17: r1_w3: degree 2
+        r1_w3_d2 = r1_w3_n2 - r1_w3_e1
+
+        # khepera.bg:17: r1_w3: input of stage 4
+        r1_w3_u4 = r1_w3_n1 + r1_w3_d2 + r1_w3_e1 - r1_w3_d1
+
+        # khepera.bg:17: r1_w3: stage 4, at rest
+        r1_w3_y4 = r1_w3_u4
+
+        # khepera.bg:17: r1_w3: stage 4: memory
+        x.r1_w3_s4 = c.rest * r1_w3_u4
+
         # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = c.r1_w3_v3_m__1__motor * r1_w3_m__1__motor_speed_2
+        r1_w3_u3 = r1_w3_y4 + r1_w3_d1 - 2.0 * r1_w3_d2 - 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 3, at rest
         r1_w3_y3 = r1_w3_u3
@@ -878,7 +929,7 @@ class Monitor:
         x.r1_w3_s3 = c.rest * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = r1_w3_y3 - c.r1_w3_v2_m__1__motor * r1_w3_m__1__motor_speed_2
+        r1_w3_u2 = r1_w3_y3 + r1_w3_d2 + 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 2, at rest
         r1_w3_y2 = r1_w3_u2
@@ -887,7 +938,7 @@ class Monitor:
         x.r1_w3_s2 = c.rest * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = r1_w3_y2
+        r1_w3_u1 = r1_w3_y2 - r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 1, at rest
         r1_w3_y1 = r1_w3_u1
@@ -904,8 +955,29 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w4_m__1__motor_speed = r1_w4_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w4: encoders, order 1
+        r1_w4_n1 = -c.r1_w4_w1_m__1__motor * r1_w4_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w4: error of order 1
+        r1_w4_e1 = c.bend1 * r1_w4_n1
+
+        # khepera.bg:17: r1_w4: encoders, order 2
+        r1_w4_n2 = -c.r1_w4_w2_m__1__motor * r1_w4_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = r1_w4_n1 + r1_w4_n2
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend2 * r1_w4_g0
+
+        # khepera.bg:17: r1_w4: degree 2
+        r1_w4_d2 = r1_w4_n2 - r1_w4_e1 - r1_w4_e0
+
         # khepera.bg:17: r1_w4: input of stage 4
-        r1_w4_u4 = -c.r1_w4_v4_Fx__1 * s.Fx__1
+        r1_w4_u4 = r1_w4_g0 + r1_w4_n1 + r1_w4_d2 + r1_w4_e1 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 4, at rest
         r1_w4_y4 = r1_w4_u4
@@ -914,7 +986,7 @@ class Monitor:
         x.r1_w4_s4 = c.rest * r1_w4_u4
 
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = r1_w4_y4 + c.r1_w4_v3_m__1__motor * r1_w4_m__1__motor_speed_2
+        r1_w4_u3 = r1_w4_y4 + r1_w4_d1 - 2.0 * r1_w4_d2 - 3.0 * r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 3, at rest
         r1_w4_y3 = r1_w4_u3
@@ -923,7 +995,7 @@ class Monitor:
         x.r1_w4_s3 = c.rest * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = r1_w4_y3 - c.r1_w4_v2_m__1__motor * r1_w4_m__1__motor_speed_2
+        r1_w4_u2 = r1_w4_y3 + r1_w4_d2 + 3.0 * r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 2, at rest
         r1_w4_y2 = r1_w4_u2
@@ -932,7 +1004,7 @@ class Monitor:
         x.r1_w4_s2 = c.rest * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 1, at rest
         r1_w4_y1 = r1_w4_u1
@@ -949,8 +1021,44 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w5_m__1__motor_speed = r1_w5_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w5: encoders, order 1
+        r1_w5_n1 = c.r1_w5_w1_m__1__motor * r1_w5_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w5: error of order 1
+        r1_w5_e1 = c.bend2 * r1_w5_n1
+
+        # khepera.bg:17: r1_w5: encoders, order 2
+        r1_w5_n2 = c.r1_w5_w2_m__1__motor * r1_w5_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w5: error of order 2
+        r1_w5_e2 = c.bend1 * r1_w5_n2
+
+        # khepera.bg:17: r1_w5: encoders, order 3
+        r1_w5_n3 = c.r1_w5_w3_m__1__motor * r1_w5_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w5: terms of order 0
+        r1_w5_g0 = c.r1_w5_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w5: terms of order 1
+        r1_w5_g1 = c.r1_w5_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w5: degree 1
+        r1_w5_d1 = r1_w5_g1 + r1_w5_n1 + r1_w5_n2
+
+        # khepera.bg:17: r1_w5: error of order 0
+        r1_w5_e0 = c.bend3 * r1_w5_g0
+
+        # khepera.bg:17: r1_w5: degree 2
+        r1_w5_d2 = r1_w5_n2 + r1_w5_n3 - r1_w5_e1 - r1_w5_e0
+
+        # khepera.bg:17: r1_w5: error of order 1
+        r1_w5_e1_2 = c.bend2 * r1_w5_g1
+
+        # khepera.bg:17: r1_w5: degree 3
+        r1_w5_d3 = r1_w5_n3 - r1_w5_e1 - r1_w5_e2 - r1_w5_e1_2
+
         # khepera.bg:17: r1_w5: input of stage 4
-        r1_w5_u4 = c.r1_w5_v4_Fx__1 * s.Fx__1
+        r1_w5_u4 = r1_w5_g0 + r1_w5_n1 + r1_w5_d2 - r1_w5_d1 - r1_w5_d3 - r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 4, at rest
         r1_w5_y4 = r1_w5_u4
@@ -959,10 +1067,7 @@ class Monitor:
         x.r1_w5_s4 = c.rest * r1_w5_u4
 
         # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = (
-            r1_w5_y4 + c.r1_w5_v3_m__1__motor * r1_w5_m__1__motor_speed_2
-            + c.r1_w5_v3_Fx__1 * s.Fx__1
-        )
+        r1_w5_u3 = r1_w5_y4 + r1_w5_d1 + 3.0 * r1_w5_d3 + 4.0 * r1_w5_e2 - 2.0 * r1_w5_d2
 
         # khepera.bg:17: r1_w5: stage 3, at rest
         r1_w5_y3 = r1_w5_u3
@@ -971,7 +1076,7 @@ class Monitor:
         x.r1_w5_s3 = c.rest * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
-        r1_w5_u2 = r1_w5_y3 + c.r1_w5_v2_m__1__motor * r1_w5_m__1__motor_speed_2
+        r1_w5_u2 = r1_w5_y3 + r1_w5_d2 - 3.0 * r1_w5_d3 - 6.0 * r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 2, at rest
         r1_w5_y2 = r1_w5_u2
@@ -980,7 +1085,7 @@ class Monitor:
         x.r1_w5_s2 = c.rest * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
-        r1_w5_u1 = r1_w5_y2 + c.r1_w5_v1_m__1__motor * r1_w5_m__1__motor_speed_2
+        r1_w5_u1 = r1_w5_y2 + r1_w5_d3 + 4.0 * r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 1, at rest
         r1_w5_y1 = r1_w5_u1
@@ -989,7 +1094,7 @@ class Monitor:
         x.r1_w5_s1 = c.rest * r1_w5_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].el.k can do
-        r1_w5 = r1_w5_y1
+        r1_w5 = r1_w5_y1 - r1_w5_e2
 
         # khepera.bg:17: filtered speed of m[1].motor, at rest
         r1_w6_m__1__motor_speed_2 = 0.0
@@ -997,8 +1102,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w6_m__1__motor_speed = r1_w6_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w6: encoders, order 1
+        r1_w6_n1 = -c.r1_w6_w1_m__1__motor * r1_w6_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w6: input of stage 4
+        r1_w6_u4 = r1_w6_n1 - r1_w6_n1
+
+        # khepera.bg:17: r1_w6: stage 4, at rest
+        r1_w6_y4 = r1_w6_u4
+
+        # khepera.bg:17: r1_w6: stage 4: memory
+        x.r1_w6_s4 = c.rest * r1_w6_u4
+
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = -c.r1_w6_v3_m__1__motor * r1_w6_m__1__motor_speed_2
+        r1_w6_u3 = r1_w6_y4 + r1_w6_n1
 
         # khepera.bg:17: r1_w6: stage 3, at rest
         r1_w6_y3 = r1_w6_u3
@@ -1033,8 +1150,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w7_m__1__motor_speed = r1_w7_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w7: encoders, order 1
+        r1_w7_n1 = c.r1_w7_w1_m__1__motor * r1_w7_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w7: error of order 1
+        r1_w7_e1 = c.bend1 * r1_w7_n1
+
+        # khepera.bg:17: r1_w7: encoders, order 2
+        r1_w7_n2 = c.r1_w7_w2_m__1__motor * r1_w7_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w7: degree 1
+        r1_w7_d1 = r1_w7_n1 + r1_w7_n2
+
+        # khepera.bg:17: r1_w7: degree 2
+        r1_w7_d2 = r1_w7_n2 - r1_w7_e1
+
+        # khepera.bg:17: r1_w7: input of stage 4
+        r1_w7_u4 = r1_w7_n1 + r1_w7_d2 + r1_w7_e1 - r1_w7_d1
+
+        # khepera.bg:17: r1_w7: stage 4, at rest
+        r1_w7_y4 = r1_w7_u4
+
+        # khepera.bg:17: r1_w7: stage 4: memory
+        x.r1_w7_s4 = c.rest * r1_w7_u4
+
         # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = c.r1_w7_v3_m__1__motor * r1_w7_m__1__motor_speed_2
+        r1_w7_u3 = r1_w7_y4 + r1_w7_d1 - 2.0 * r1_w7_d2 - 3.0 * r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 3, at rest
         r1_w7_y3 = r1_w7_u3
@@ -1043,7 +1184,7 @@ class Monitor:
         x.r1_w7_s3 = c.rest * r1_w7_u3
 
         # khepera.bg:17: r1_w7: input of stage 2
-        r1_w7_u2 = r1_w7_y3 + c.r1_w7_v2_m__1__motor * r1_w7_m__1__motor_speed_2
+        r1_w7_u2 = r1_w7_y3 + r1_w7_d2 + 3.0 * r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 2, at rest
         r1_w7_y2 = r1_w7_u2
@@ -1052,7 +1193,7 @@ class Monitor:
         x.r1_w7_s2 = c.rest * r1_w7_u2
 
         # khepera.bg:17: r1_w7: input of stage 1
-        r1_w7_u1 = r1_w7_y2
+        r1_w7_u1 = r1_w7_y2 - r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 1, at rest
         r1_w7_y1 = r1_w7_u1
@@ -1069,8 +1210,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w8_m__1__motor_speed = r1_w8_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w8: encoders, order 2
+        r1_w8_n2 = -c.r1_w8_w2_m__1__motor * r1_w8_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w8: input of stage 4
+        r1_w8_u4 = r1_w8_n2 - r1_w8_n2
+
+        # khepera.bg:17: r1_w8: stage 4, at rest
+        r1_w8_y4 = r1_w8_u4
+
+        # khepera.bg:17: r1_w8: stage 4: memory
+        x.r1_w8_s4 = c.rest * r1_w8_u4
+
         # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = c.r1_w8_v2_m__1__motor * r1_w8_m__1__motor_speed_2
+        r1_w8_u3 = r1_w8_y4 + r1_w8_n2 - 2.0 * r1_w8_n2
 
         # khepera.bg:17: r1_w8: stage 3, at rest
         r1_w8_y3 = r1_w8_u3
@@ -1079,7 +1232,7 @@ class Monitor:
         x.r1_w8_s3 = c.rest * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
-        r1_w8_u2 = r1_w8_y3 - c.r1_w8_v2_m__1__motor * r1_w8_m__1__motor_speed_2
+        r1_w8_u2 = r1_w8_y3 + r1_w8_n2
 
         # khepera.bg:17: r1_w8: stage 2, at rest
         r1_w8_y2 = r1_w8_u2
@@ -1105,8 +1258,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w9_m__1__motor_speed = r1_w9_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w9: encoders, order 2
+        r1_w9_n2 = c.r1_w9_w2_m__1__motor * r1_w9_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w9: error of order 2
+        r1_w9_e2 = c.bend1 * r1_w9_n2
+
+        # khepera.bg:17: r1_w9: encoders, order 3
+        r1_w9_n3 = c.r1_w9_w3_m__1__motor * r1_w9_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w9: degree 2
+        r1_w9_d2 = r1_w9_n2 + r1_w9_n3
+
+        # khepera.bg:17: r1_w9: degree 3
+        r1_w9_d3 = r1_w9_n3 - r1_w9_e2
+
+        # khepera.bg:17: r1_w9: input of stage 4
+        r1_w9_u4 = r1_w9_d2 - r1_w9_n2 - r1_w9_d3 - r1_w9_e2
+
+        # khepera.bg:17: r1_w9: stage 4, at rest
+        r1_w9_y4 = r1_w9_u4
+
+        # khepera.bg:17: r1_w9: stage 4: memory
+        x.r1_w9_s4 = c.rest * r1_w9_u4
+
         # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = c.r1_w9_v3_m__1__motor * r1_w9_m__1__motor_speed_2
+        r1_w9_u3 = r1_w9_y4 + r1_w9_n2 + 3.0 * r1_w9_d3 + 4.0 * r1_w9_e2 - 2.0 * r1_w9_d2
 
         # khepera.bg:17: r1_w9: stage 3, at rest
         r1_w9_y3 = r1_w9_u3
@@ -1115,7 +1292,7 @@ class Monitor:
         x.r1_w9_s3 = c.rest * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = r1_w9_y3 + c.r1_w9_v2_m__1__motor * r1_w9_m__1__motor_speed_2
+        r1_w9_u2 = r1_w9_y3 + r1_w9_d2 - 3.0 * r1_w9_d3 - 6.0 * r1_w9_e2
 
         # khepera.bg:17: r1_w9: stage 2, at rest
         r1_w9_y2 = r1_w9_u2
@@ -1124,7 +1301,7 @@ class Monitor:
         x.r1_w9_s2 = c.rest * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = r1_w9_y2 + c.r1_w9_v1_m__1__motor * r1_w9_m__1__motor_speed_2
+        r1_w9_u1 = r1_w9_y2 + r1_w9_d3 + 4.0 * r1_w9_e2
 
         # khepera.bg:17: r1_w9: stage 1, at rest
         r1_w9_y1 = r1_w9_u1
@@ -1133,7 +1310,7 @@ class Monitor:
         x.r1_w9_s1 = c.rest * r1_w9_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.k can do together
-        r1_w9 = r1_w9_y1
+        r1_w9 = r1_w9_y1 - r1_w9_e2
 
         # khepera.bg:17: filtered speed of m[1].motor, at rest
         r1_w10_m__1__motor_speed_2 = 0.0
@@ -1141,8 +1318,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w10_m__1__motor_speed = r1_w10_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w10: encoders, order 1
+        r1_w10_n1 = -c.r1_w10_w1_m__1__motor * r1_w10_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w10: input of stage 4
+        r1_w10_u4 = r1_w10_n1 - r1_w10_n1
+
+        # khepera.bg:17: r1_w10: stage 4, at rest
+        r1_w10_y4 = r1_w10_u4
+
+        # khepera.bg:17: r1_w10: stage 4: memory
+        x.r1_w10_s4 = c.rest * r1_w10_u4
+
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = -c.r1_w10_v3_m__1__motor * r1_w10_m__1__motor_speed_2
+        r1_w10_u3 = r1_w10_y4 + r1_w10_n1
 
         # khepera.bg:17: r1_w10: stage 3, at rest
         r1_w10_y3 = r1_w10_u3
@@ -1177,8 +1366,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w11_m__1__motor_speed = r1_w11_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w11: encoders, order 1
+        r1_w11_n1 = c.r1_w11_w1_m__1__motor * r1_w11_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w11: error of order 1
+        r1_w11_e1 = c.bend1 * r1_w11_n1
+
+        # khepera.bg:17: r1_w11: encoders, order 2
+        r1_w11_n2 = c.r1_w11_w2_m__1__motor * r1_w11_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w11: degree 1
+        r1_w11_d1 = r1_w11_n1 + r1_w11_n2
+
+        # khepera.bg:17: r1_w11: degree 2
+        r1_w11_d2 = r1_w11_n2 - r1_w11_e1
+
+        # khepera.bg:17: r1_w11: input of stage 4
+        r1_w11_u4 = r1_w11_n1 + r1_w11_d2 + r1_w11_e1 - r1_w11_d1
+
+        # khepera.bg:17: r1_w11: stage 4, at rest
+        r1_w11_y4 = r1_w11_u4
+
+        # khepera.bg:17: r1_w11: stage 4: memory
+        x.r1_w11_s4 = c.rest * r1_w11_u4
+
         # khepera.bg:17: r1_w11: input of stage 3
-        r1_w11_u3 = c.r1_w11_v3_m__1__motor * r1_w11_m__1__motor_speed_2
+        r1_w11_u3 = r1_w11_y4 + r1_w11_d1 - 2.0 * r1_w11_d2 - 3.0 * r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 3, at rest
         r1_w11_y3 = r1_w11_u3
@@ -1187,7 +1400,7 @@ class Monitor:
         x.r1_w11_s3 = c.rest * r1_w11_u3
 
         # khepera.bg:17: r1_w11: input of stage 2
-        r1_w11_u2 = r1_w11_y3 + c.r1_w11_v2_m__1__motor * r1_w11_m__1__motor_speed_2
+        r1_w11_u2 = r1_w11_y3 + r1_w11_d2 + 3.0 * r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 2, at rest
         r1_w11_y2 = r1_w11_u2
@@ -1196,7 +1409,7 @@ class Monitor:
         x.r1_w11_s2 = c.rest * r1_w11_u2
 
         # khepera.bg:17: r1_w11: input of stage 1
-        r1_w11_u1 = r1_w11_y2
+        r1_w11_u1 = r1_w11_y2 - r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 1, at rest
         r1_w11_y1 = r1_w11_u1
@@ -1213,8 +1426,29 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w12_m__1__motor_speed = r1_w12_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w12: encoders, order 1
+        r1_w12_n1 = c.r1_w12_w1_m__1__motor * r1_w12_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w12: error of order 1
+        r1_w12_e1 = c.bend1 * r1_w12_n1
+
+        # khepera.bg:17: r1_w12: encoders, order 2
+        r1_w12_n2 = c.r1_w12_w2_m__1__motor * r1_w12_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w12: terms of order 0
+        r1_w12_g0 = c.r1_w12_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w12: degree 1
+        r1_w12_d1 = r1_w12_n1 + r1_w12_n2
+
+        # khepera.bg:17: r1_w12: error of order 0
+        r1_w12_e0 = c.bend2 * r1_w12_g0
+
+        # khepera.bg:17: r1_w12: degree 2
+        r1_w12_d2 = r1_w12_n2 - r1_w12_e1 - r1_w12_e0
+
         # khepera.bg:17: r1_w12: input of stage 4
-        r1_w12_u4 = c.r1_w12_v4_Fx__1 * s.Fx__1
+        r1_w12_u4 = r1_w12_g0 + r1_w12_n1 + r1_w12_d2 + r1_w12_e1 - r1_w12_d1
 
         # khepera.bg:17: r1_w12: stage 4, at rest
         r1_w12_y4 = r1_w12_u4
@@ -1223,7 +1457,7 @@ class Monitor:
         x.r1_w12_s4 = c.rest * r1_w12_u4
 
         # khepera.bg:17: r1_w12: input of stage 3
-        r1_w12_u3 = r1_w12_y4 + c.r1_w12_v3_m__1__motor * r1_w12_m__1__motor_speed_2
+        r1_w12_u3 = r1_w12_y4 + r1_w12_d1 - 2.0 * r1_w12_d2 - 3.0 * r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 3, at rest
         r1_w12_y3 = r1_w12_u3
@@ -1232,7 +1466,7 @@ class Monitor:
         x.r1_w12_s3 = c.rest * r1_w12_u3
 
         # khepera.bg:17: r1_w12: input of stage 2
-        r1_w12_u2 = r1_w12_y3 + c.r1_w12_v2_m__1__motor * r1_w12_m__1__motor_speed_2
+        r1_w12_u2 = r1_w12_y3 + r1_w12_d2 + 3.0 * r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 2, at rest
         r1_w12_y2 = r1_w12_u2
@@ -1241,7 +1475,7 @@ class Monitor:
         x.r1_w12_s2 = c.rest * r1_w12_u2
 
         # khepera.bg:17: r1_w12: input of stage 1
-        r1_w12_u1 = r1_w12_y2
+        r1_w12_u1 = r1_w12_y2 - r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 1, at rest
         r1_w12_y1 = r1_w12_u1
@@ -1258,8 +1492,44 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w13_m__1__motor_speed = r1_w13_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w13: encoders, order 1
+        r1_w13_n1 = -c.r1_w13_w1_m__1__motor * r1_w13_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w13: error of order 1
+        r1_w13_e1 = c.bend2 * r1_w13_n1
+
+        # khepera.bg:17: r1_w13: encoders, order 2
+        r1_w13_n2 = c.r1_w13_w2_m__1__motor * r1_w13_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w13: error of order 2
+        r1_w13_e2 = c.bend1 * r1_w13_n2
+
+        # khepera.bg:17: r1_w13: encoders, order 3
+        r1_w13_n3 = -c.r1_w13_w3_m__1__motor * r1_w13_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w13: terms of order 0
+        r1_w13_g0 = -c.r1_w13_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w13: terms of order 1
+        r1_w13_g1 = -c.r1_w13_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w13: degree 1
+        r1_w13_d1 = r1_w13_g1 + r1_w13_n1 + r1_w13_n2
+
+        # khepera.bg:17: r1_w13: error of order 0
+        r1_w13_e0 = c.bend3 * r1_w13_g0
+
+        # khepera.bg:17: r1_w13: degree 2
+        r1_w13_d2 = r1_w13_n2 + r1_w13_n3 - r1_w13_e1 - r1_w13_e0
+
+        # khepera.bg:17: r1_w13: error of order 1
+        r1_w13_e1_2 = c.bend2 * r1_w13_g1
+
+        # khepera.bg:17: r1_w13: degree 3
+        r1_w13_d3 = r1_w13_n3 - r1_w13_e1 - r1_w13_e2 - r1_w13_e1_2
+
         # khepera.bg:17: r1_w13: input of stage 4
-        r1_w13_u4 = c.r1_w13_v4_Fx__1 * s.Fx__1
+        r1_w13_u4 = r1_w13_g0 + r1_w13_n1 + r1_w13_d2 - r1_w13_d1 - r1_w13_d3 - r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 4, at rest
         r1_w13_y4 = r1_w13_u4
@@ -1268,10 +1538,7 @@ class Monitor:
         x.r1_w13_s4 = c.rest * r1_w13_u4
 
         # khepera.bg:17: r1_w13: input of stage 3
-        r1_w13_u3 = (
-            r1_w13_y4 - c.r1_w13_v3_m__1__motor * r1_w13_m__1__motor_speed_2
-            - c.r1_w13_v3_Fx__1 * s.Fx__1
-        )
+        r1_w13_u3 = r1_w13_y4 + r1_w13_d1 + 3.0 * r1_w13_d3 + 4.0 * r1_w13_e2 - 2.0 * r1_w13_d2
 
         # khepera.bg:17: r1_w13: stage 3, at rest
         r1_w13_y3 = r1_w13_u3
@@ -1280,7 +1547,7 @@ class Monitor:
         x.r1_w13_s3 = c.rest * r1_w13_u3
 
         # khepera.bg:17: r1_w13: input of stage 2
-        r1_w13_u2 = r1_w13_y3 + c.r1_w13_v2_m__1__motor * r1_w13_m__1__motor_speed_2
+        r1_w13_u2 = r1_w13_y3 + r1_w13_d2 - 3.0 * r1_w13_d3 - 6.0 * r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 2, at rest
         r1_w13_y2 = r1_w13_u2
@@ -1289,7 +1556,7 @@ class Monitor:
         x.r1_w13_s2 = c.rest * r1_w13_u2
 
         # khepera.bg:17: r1_w13: input of stage 1
-        r1_w13_u1 = r1_w13_y2 - c.r1_w13_v1_m__1__motor * r1_w13_m__1__motor_speed_2
+        r1_w13_u1 = r1_w13_y2 + r1_w13_d3 + 4.0 * r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 1, at rest
         r1_w13_y1 = r1_w13_u1
@@ -1298,7 +1565,7 @@ class Monitor:
         x.r1_w13_s1 = c.rest * r1_w13_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do
-        r1_w13 = r1_w13_y1
+        r1_w13 = r1_w13_y1 - r1_w13_e2
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
         r.r1 = (
@@ -1319,32 +1586,56 @@ class Monitor:
         )
         x.r1_w1_m__1__motor_speed = r1_w1_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w1: encoders, order 1
+        r1_w1_n1 = -c.r1_w1_w1_m__1__motor * r1_w1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w1: error of order 1
+        r1_w1_e1 = c.bend1 * r1_w1_n1
+
+        # khepera.bg:17: r1_w1: encoders, order 2
+        r1_w1_n2 = -c.r1_w1_w2_m__1__motor * r1_w1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = r1_w1_n1 + r1_w1_n2
+
+        # khepera.bg:17: r1_w1: degree 2
+        r1_w1_d2 = r1_w1_n2 - r1_w1_e1
+
+        # khepera.bg:17: r1_w1: input of stage 4
+        r1_w1_u4 = r1_w1_n1 + r1_w1_d2 + r1_w1_e1 - r1_w1_d1
+
+        # khepera.bg:17: r1_w1: stage 4
+        r1_w1_y4 = x.r1_w1_s4 + c.b * r1_w1_u4
+
+        # khepera.bg:17: r1_w1: stage 4: memory
+        x.r1_w1_s4 = c.a * r1_w1_y4 + c.b * r1_w1_u4
+
         # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = c.r1_w1_v3_m__1__motor * r1_w1_m__1__motor_speed_2
+        r1_w1_u3 = r1_w1_y4 + r1_w1_d1 - 2.0 * r1_w1_d2 - 3.0 * r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 3
-        r1_w1_y3 = x.r1_w1_s3 + c.b0 * r1_w1_u3
+        r1_w1_y3 = x.r1_w1_s3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: stage 3: memory
-        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b1 * r1_w1_u3
+        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = r1_w1_y3 - c.r1_w1_v2_m__1__motor * r1_w1_m__1__motor_speed_2
+        r1_w1_u2 = r1_w1_y3 + r1_w1_d2 + 3.0 * r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 2
-        r1_w1_y2 = x.r1_w1_s2 + c.b0 * r1_w1_u2
+        r1_w1_y2 = x.r1_w1_s2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b1 * r1_w1_u2
+        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 1
-        r1_w1_y1 = x.r1_w1_s1 + c.b0 * r1_w1_u1
+        r1_w1_y1 = x.r1_w1_s1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b1 * r1_w1_u1
+        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].fe can do
         r1_w1 = r1_w1_y1
@@ -1355,35 +1646,59 @@ class Monitor:
         )
         x.r1_w2_m__1__motor_speed = r1_w2_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w2: encoders, order 2
+        r1_w2_n2 = -c.r1_w2_w2_m__1__motor * r1_w2_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w2: error of order 2
+        r1_w2_e2 = c.bend1 * r1_w2_n2
+
+        # khepera.bg:17: r1_w2: encoders, order 3
+        r1_w2_n3 = -c.r1_w2_w3_m__1__motor * r1_w2_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w2: degree 2
+        r1_w2_d2 = r1_w2_n2 + r1_w2_n3
+
+        # khepera.bg:17: r1_w2: degree 3
+        r1_w2_d3 = r1_w2_n3 - r1_w2_e2
+
+        # khepera.bg:17: r1_w2: input of stage 4
+        r1_w2_u4 = r1_w2_d2 - r1_w2_n2 - r1_w2_d3 - r1_w2_e2
+
+        # khepera.bg:17: r1_w2: stage 4
+        r1_w2_y4 = x.r1_w2_s4 + c.b * r1_w2_u4
+
+        # khepera.bg:17: r1_w2: stage 4: memory
+        x.r1_w2_s4 = c.a * r1_w2_y4 + c.b * r1_w2_u4
+
         # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = c.r1_w2_v3_m__1__motor * r1_w2_m__1__motor_speed_2
+        r1_w2_u3 = r1_w2_y4 + r1_w2_n2 + 3.0 * r1_w2_d3 + 4.0 * r1_w2_e2 - 2.0 * r1_w2_d2
 
         # khepera.bg:17: r1_w2: stage 3
-        r1_w2_y3 = x.r1_w2_s3 + c.b0 * r1_w2_u3
+        r1_w2_y3 = x.r1_w2_s3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: stage 3: memory
-        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b1 * r1_w2_u3
+        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = r1_w2_y3 + c.r1_w2_v2_m__1__motor * r1_w2_m__1__motor_speed_2
+        r1_w2_u2 = r1_w2_y3 + r1_w2_d2 - 3.0 * r1_w2_d3 - 6.0 * r1_w2_e2
 
         # khepera.bg:17: r1_w2: stage 2
-        r1_w2_y2 = x.r1_w2_s2 + c.b0 * r1_w2_u2
+        r1_w2_y2 = x.r1_w2_s2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: stage 2: memory
-        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b1 * r1_w2_u2
+        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = r1_w2_y2 - c.r1_w2_v1_m__1__motor * r1_w2_m__1__motor_speed_2
+        r1_w2_u1 = r1_w2_y2 + r1_w2_d3 + 4.0 * r1_w2_e2
 
         # khepera.bg:17: r1_w2: stage 1
-        r1_w2_y1 = x.r1_w2_s1 + c.b0 * r1_w2_u1
+        r1_w2_y1 = x.r1_w2_s1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1_w2: stage 1: memory
-        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b1 * r1_w2_u1
+        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].Js can do
-        r1_w2 = r1_w2_y1
+        r1_w2 = r1_w2_y1 - r1_w2_e2
 
         # khepera.bg:17: filtered speed of m[1].motor
         r1_w3_m__1__motor_speed_2 = (
@@ -1391,32 +1706,56 @@ class Monitor:
         )
         x.r1_w3_m__1__motor_speed = r1_w3_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w3: encoders, order 1
+        r1_w3_n1 = -c.r1_w3_w1_m__1__motor * r1_w3_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w3: error of order 1
+        r1_w3_e1 = c.bend1 * r1_w3_n1
+
+        # khepera.bg:17: r1_w3: encoders, order 2
+        r1_w3_n2 = -c.r1_w3_w2_m__1__motor * r1_w3_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w3: degree 1
+        r1_w3_d1 = r1_w3_n1 + r1_w3_n2
+
+        # khepera.bg:17: r1_w3: degree 2
+        r1_w3_d2 = r1_w3_n2 - r1_w3_e1
+
+        # khepera.bg:17: r1_w3: input of stage 4
+        r1_w3_u4 = r1_w3_n1 + r1_w3_d2 + r1_w3_e1 - r1_w3_d1
+
+        # khepera.bg:17: r1_w3: stage 4
+        r1_w3_y4 = x.r1_w3_s4 + c.b * r1_w3_u4
+
+        # khepera.bg:17: r1_w3: stage 4: memory
+        x.r1_w3_s4 = c.a * r1_w3_y4 + c.b * r1_w3_u4
+
         # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = c.r1_w3_v3_m__1__motor * r1_w3_m__1__motor_speed_2
+        r1_w3_u3 = r1_w3_y4 + r1_w3_d1 - 2.0 * r1_w3_d2 - 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 3
-        r1_w3_y3 = x.r1_w3_s3 + c.b0 * r1_w3_u3
+        r1_w3_y3 = x.r1_w3_s3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: stage 3: memory
-        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b1 * r1_w3_u3
+        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = r1_w3_y3 - c.r1_w3_v2_m__1__motor * r1_w3_m__1__motor_speed_2
+        r1_w3_u2 = r1_w3_y3 + r1_w3_d2 + 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 2
-        r1_w3_y2 = x.r1_w3_s2 + c.b0 * r1_w3_u2
+        r1_w3_y2 = x.r1_w3_s2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: stage 2: memory
-        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b1 * r1_w3_u2
+        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = r1_w3_y2
+        r1_w3_u1 = r1_w3_y2 - r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 1
-        r1_w3_y1 = x.r1_w3_s1 + c.b0 * r1_w3_u1
+        r1_w3_y1 = x.r1_w3_s1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1_w3: stage 1: memory
-        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b1 * r1_w3_u1
+        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].fs can do
         r1_w3 = r1_w3_y1
@@ -1427,41 +1766,62 @@ class Monitor:
         )
         x.r1_w4_m__1__motor_speed = r1_w4_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w4: encoders, order 1
+        r1_w4_n1 = -c.r1_w4_w1_m__1__motor * r1_w4_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w4: error of order 1
+        r1_w4_e1 = c.bend1 * r1_w4_n1
+
+        # khepera.bg:17: r1_w4: encoders, order 2
+        r1_w4_n2 = -c.r1_w4_w2_m__1__motor * r1_w4_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = r1_w4_n1 + r1_w4_n2
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend2 * r1_w4_g0
+
+        # khepera.bg:17: r1_w4: degree 2
+        r1_w4_d2 = r1_w4_n2 - r1_w4_e1 - r1_w4_e0
+
         # khepera.bg:17: r1_w4: input of stage 4
-        r1_w4_u4 = -c.r1_w4_v4_Fx__1 * s.Fx__1
+        r1_w4_u4 = r1_w4_g0 + r1_w4_n1 + r1_w4_d2 + r1_w4_e1 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 4
-        r1_w4_y4 = x.r1_w4_s4 + c.b0 * r1_w4_u4
+        r1_w4_y4 = x.r1_w4_s4 + c.b * r1_w4_u4
 
         # khepera.bg:17: r1_w4: stage 4: memory
-        x.r1_w4_s4 = c.a * r1_w4_y4 + c.b1 * r1_w4_u4
+        x.r1_w4_s4 = c.a * r1_w4_y4 + c.b * r1_w4_u4
 
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = r1_w4_y4 + c.r1_w4_v3_m__1__motor * r1_w4_m__1__motor_speed_2
+        r1_w4_u3 = r1_w4_y4 + r1_w4_d1 - 2.0 * r1_w4_d2 - 3.0 * r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 3
-        r1_w4_y3 = x.r1_w4_s3 + c.b0 * r1_w4_u3
+        r1_w4_y3 = x.r1_w4_s3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: stage 3: memory
-        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b1 * r1_w4_u3
+        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = r1_w4_y3 - c.r1_w4_v2_m__1__motor * r1_w4_m__1__motor_speed_2
+        r1_w4_u2 = r1_w4_y3 + r1_w4_d2 + 3.0 * r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 2
-        r1_w4_y2 = x.r1_w4_s2 + c.b0 * r1_w4_u2
+        r1_w4_y2 = x.r1_w4_s2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: stage 2: memory
-        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b1 * r1_w4_u2
+        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 1
-        r1_w4_y1 = x.r1_w4_s1 + c.b0 * r1_w4_u1
+        r1_w4_y1 = x.r1_w4_s1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1_w4: stage 1: memory
-        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b1 * r1_w4_u1
+        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].el.Re can do
         r1_w4 = r1_w4_y1
@@ -1472,47 +1832,80 @@ class Monitor:
         )
         x.r1_w5_m__1__motor_speed = r1_w5_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w5: encoders, order 1
+        r1_w5_n1 = c.r1_w5_w1_m__1__motor * r1_w5_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w5: error of order 1
+        r1_w5_e1 = c.bend2 * r1_w5_n1
+
+        # khepera.bg:17: r1_w5: encoders, order 2
+        r1_w5_n2 = c.r1_w5_w2_m__1__motor * r1_w5_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w5: error of order 2
+        r1_w5_e2 = c.bend1 * r1_w5_n2
+
+        # khepera.bg:17: r1_w5: encoders, order 3
+        r1_w5_n3 = c.r1_w5_w3_m__1__motor * r1_w5_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w5: terms of order 0
+        r1_w5_g0 = c.r1_w5_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w5: terms of order 1
+        r1_w5_g1 = c.r1_w5_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w5: degree 1
+        r1_w5_d1 = r1_w5_g1 + r1_w5_n1 + r1_w5_n2
+
+        # khepera.bg:17: r1_w5: error of order 0
+        r1_w5_e0 = c.bend3 * r1_w5_g0
+
+        # khepera.bg:17: r1_w5: degree 2
+        r1_w5_d2 = r1_w5_n2 + r1_w5_n3 - r1_w5_e1 - r1_w5_e0
+
+        # khepera.bg:17: r1_w5: error of order 1
+        r1_w5_e1_2 = c.bend2 * r1_w5_g1
+
+        # khepera.bg:17: r1_w5: degree 3
+        r1_w5_d3 = r1_w5_n3 - r1_w5_e1 - r1_w5_e2 - r1_w5_e1_2
+
         # khepera.bg:17: r1_w5: input of stage 4
-        r1_w5_u4 = c.r1_w5_v4_Fx__1 * s.Fx__1
+        r1_w5_u4 = r1_w5_g0 + r1_w5_n1 + r1_w5_d2 - r1_w5_d1 - r1_w5_d3 - r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 4
-        r1_w5_y4 = x.r1_w5_s4 + c.b0 * r1_w5_u4
+        r1_w5_y4 = x.r1_w5_s4 + c.b * r1_w5_u4
 
         # khepera.bg:17: r1_w5: stage 4: memory
-        x.r1_w5_s4 = c.a * r1_w5_y4 + c.b1 * r1_w5_u4
+        x.r1_w5_s4 = c.a * r1_w5_y4 + c.b * r1_w5_u4
 
         # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = (
-            r1_w5_y4 + c.r1_w5_v3_m__1__motor * r1_w5_m__1__motor_speed_2
-            + c.r1_w5_v3_Fx__1 * s.Fx__1
-        )
+        r1_w5_u3 = r1_w5_y4 + r1_w5_d1 + 3.0 * r1_w5_d3 + 4.0 * r1_w5_e2 - 2.0 * r1_w5_d2
 
         # khepera.bg:17: r1_w5: stage 3
-        r1_w5_y3 = x.r1_w5_s3 + c.b0 * r1_w5_u3
+        r1_w5_y3 = x.r1_w5_s3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: stage 3: memory
-        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b1 * r1_w5_u3
+        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
-        r1_w5_u2 = r1_w5_y3 + c.r1_w5_v2_m__1__motor * r1_w5_m__1__motor_speed_2
+        r1_w5_u2 = r1_w5_y3 + r1_w5_d2 - 3.0 * r1_w5_d3 - 6.0 * r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 2
-        r1_w5_y2 = x.r1_w5_s2 + c.b0 * r1_w5_u2
+        r1_w5_y2 = x.r1_w5_s2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: stage 2: memory
-        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b1 * r1_w5_u2
+        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
-        r1_w5_u1 = r1_w5_y2 + c.r1_w5_v1_m__1__motor * r1_w5_m__1__motor_speed_2
+        r1_w5_u1 = r1_w5_y2 + r1_w5_d3 + 4.0 * r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 1
-        r1_w5_y1 = x.r1_w5_s1 + c.b0 * r1_w5_u1
+        r1_w5_y1 = x.r1_w5_s1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1_w5: stage 1: memory
-        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b1 * r1_w5_u1
+        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].el.k can do
-        r1_w5 = r1_w5_y1
+        r1_w5 = r1_w5_y1 - r1_w5_e2
 
         # khepera.bg:17: filtered speed of m[1].motor
         r1_w6_m__1__motor_speed_2 = (
@@ -1520,32 +1913,44 @@ class Monitor:
         )
         x.r1_w6_m__1__motor_speed = r1_w6_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w6: encoders, order 1
+        r1_w6_n1 = -c.r1_w6_w1_m__1__motor * r1_w6_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w6: input of stage 4
+        r1_w6_u4 = r1_w6_n1 - r1_w6_n1
+
+        # khepera.bg:17: r1_w6: stage 4
+        r1_w6_y4 = x.r1_w6_s4 + c.b * r1_w6_u4
+
+        # khepera.bg:17: r1_w6: stage 4: memory
+        x.r1_w6_s4 = c.a * r1_w6_y4 + c.b * r1_w6_u4
+
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = -c.r1_w6_v3_m__1__motor * r1_w6_m__1__motor_speed_2
+        r1_w6_u3 = r1_w6_y4 + r1_w6_n1
 
         # khepera.bg:17: r1_w6: stage 3
-        r1_w6_y3 = x.r1_w6_s3 + c.b0 * r1_w6_u3
+        r1_w6_y3 = x.r1_w6_s3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: stage 3: memory
-        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b1 * r1_w6_u3
+        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: input of stage 2
         r1_w6_u2 = r1_w6_y3
 
         # khepera.bg:17: r1_w6: stage 2
-        r1_w6_y2 = x.r1_w6_s2 + c.b0 * r1_w6_u2
+        r1_w6_y2 = x.r1_w6_s2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: stage 2: memory
-        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b1 * r1_w6_u2
+        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: input of stage 1
         r1_w6_u1 = r1_w6_y2
 
         # khepera.bg:17: r1_w6: stage 1
-        r1_w6_y1 = x.r1_w6_s1 + c.b0 * r1_w6_u1
+        r1_w6_y1 = x.r1_w6_s1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1_w6: stage 1: memory
-        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b1 * r1_w6_u1
+        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].fe and m[1].el.Re can do together
         r1_w6 = r1_w6_y1
@@ -1556,32 +1961,56 @@ class Monitor:
         )
         x.r1_w7_m__1__motor_speed = r1_w7_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w7: encoders, order 1
+        r1_w7_n1 = c.r1_w7_w1_m__1__motor * r1_w7_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w7: error of order 1
+        r1_w7_e1 = c.bend1 * r1_w7_n1
+
+        # khepera.bg:17: r1_w7: encoders, order 2
+        r1_w7_n2 = c.r1_w7_w2_m__1__motor * r1_w7_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w7: degree 1
+        r1_w7_d1 = r1_w7_n1 + r1_w7_n2
+
+        # khepera.bg:17: r1_w7: degree 2
+        r1_w7_d2 = r1_w7_n2 - r1_w7_e1
+
+        # khepera.bg:17: r1_w7: input of stage 4
+        r1_w7_u4 = r1_w7_n1 + r1_w7_d2 + r1_w7_e1 - r1_w7_d1
+
+        # khepera.bg:17: r1_w7: stage 4
+        r1_w7_y4 = x.r1_w7_s4 + c.b * r1_w7_u4
+
+        # khepera.bg:17: r1_w7: stage 4: memory
+        x.r1_w7_s4 = c.a * r1_w7_y4 + c.b * r1_w7_u4
+
         # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = c.r1_w7_v3_m__1__motor * r1_w7_m__1__motor_speed_2
+        r1_w7_u3 = r1_w7_y4 + r1_w7_d1 - 2.0 * r1_w7_d2 - 3.0 * r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 3
-        r1_w7_y3 = x.r1_w7_s3 + c.b0 * r1_w7_u3
+        r1_w7_y3 = x.r1_w7_s3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: stage 3: memory
-        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b1 * r1_w7_u3
+        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: input of stage 2
-        r1_w7_u2 = r1_w7_y3 + c.r1_w7_v2_m__1__motor * r1_w7_m__1__motor_speed_2
+        r1_w7_u2 = r1_w7_y3 + r1_w7_d2 + 3.0 * r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 2
-        r1_w7_y2 = x.r1_w7_s2 + c.b0 * r1_w7_u2
+        r1_w7_y2 = x.r1_w7_s2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: stage 2: memory
-        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b1 * r1_w7_u2
+        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: input of stage 1
-        r1_w7_u1 = r1_w7_y2
+        r1_w7_u1 = r1_w7_y2 - r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 1
-        r1_w7_y1 = x.r1_w7_s1 + c.b0 * r1_w7_u1
+        r1_w7_y1 = x.r1_w7_s1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1_w7: stage 1: memory
-        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b1 * r1_w7_u1
+        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].fe and m[1].el.k can do together
         r1_w7 = r1_w7_y1
@@ -1592,32 +2021,44 @@ class Monitor:
         )
         x.r1_w8_m__1__motor_speed = r1_w8_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w8: encoders, order 2
+        r1_w8_n2 = -c.r1_w8_w2_m__1__motor * r1_w8_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w8: input of stage 4
+        r1_w8_u4 = r1_w8_n2 - r1_w8_n2
+
+        # khepera.bg:17: r1_w8: stage 4
+        r1_w8_y4 = x.r1_w8_s4 + c.b * r1_w8_u4
+
+        # khepera.bg:17: r1_w8: stage 4: memory
+        x.r1_w8_s4 = c.a * r1_w8_y4 + c.b * r1_w8_u4
+
         # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = c.r1_w8_v2_m__1__motor * r1_w8_m__1__motor_speed_2
+        r1_w8_u3 = r1_w8_y4 + r1_w8_n2 - 2.0 * r1_w8_n2
 
         # khepera.bg:17: r1_w8: stage 3
-        r1_w8_y3 = x.r1_w8_s3 + c.b0 * r1_w8_u3
+        r1_w8_y3 = x.r1_w8_s3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: stage 3: memory
-        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b1 * r1_w8_u3
+        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
-        r1_w8_u2 = r1_w8_y3 - c.r1_w8_v2_m__1__motor * r1_w8_m__1__motor_speed_2
+        r1_w8_u2 = r1_w8_y3 + r1_w8_n2
 
         # khepera.bg:17: r1_w8: stage 2
-        r1_w8_y2 = x.r1_w8_s2 + c.b0 * r1_w8_u2
+        r1_w8_y2 = x.r1_w8_s2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: stage 2: memory
-        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b1 * r1_w8_u2
+        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: input of stage 1
         r1_w8_u1 = r1_w8_y2
 
         # khepera.bg:17: r1_w8: stage 1
-        r1_w8_y1 = x.r1_w8_s1 + c.b0 * r1_w8_u1
+        r1_w8_y1 = x.r1_w8_s1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1_w8: stage 1: memory
-        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b1 * r1_w8_u1
+        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.Re can do together
         r1_w8 = r1_w8_y1
@@ -1628,35 +2069,59 @@ class Monitor:
         )
         x.r1_w9_m__1__motor_speed = r1_w9_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w9: encoders, order 2
+        r1_w9_n2 = c.r1_w9_w2_m__1__motor * r1_w9_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w9: error of order 2
+        r1_w9_e2 = c.bend1 * r1_w9_n2
+
+        # khepera.bg:17: r1_w9: encoders, order 3
+        r1_w9_n3 = c.r1_w9_w3_m__1__motor * r1_w9_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w9: degree 2
+        r1_w9_d2 = r1_w9_n2 + r1_w9_n3
+
+        # khepera.bg:17: r1_w9: degree 3
+        r1_w9_d3 = r1_w9_n3 - r1_w9_e2
+
+        # khepera.bg:17: r1_w9: input of stage 4
+        r1_w9_u4 = r1_w9_d2 - r1_w9_n2 - r1_w9_d3 - r1_w9_e2
+
+        # khepera.bg:17: r1_w9: stage 4
+        r1_w9_y4 = x.r1_w9_s4 + c.b * r1_w9_u4
+
+        # khepera.bg:17: r1_w9: stage 4: memory
+        x.r1_w9_s4 = c.a * r1_w9_y4 + c.b * r1_w9_u4
+
         # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = c.r1_w9_v3_m__1__motor * r1_w9_m__1__motor_speed_2
+        r1_w9_u3 = r1_w9_y4 + r1_w9_n2 + 3.0 * r1_w9_d3 + 4.0 * r1_w9_e2 - 2.0 * r1_w9_d2
 
         # khepera.bg:17: r1_w9: stage 3
-        r1_w9_y3 = x.r1_w9_s3 + c.b0 * r1_w9_u3
+        r1_w9_y3 = x.r1_w9_s3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: stage 3: memory
-        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b1 * r1_w9_u3
+        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = r1_w9_y3 + c.r1_w9_v2_m__1__motor * r1_w9_m__1__motor_speed_2
+        r1_w9_u2 = r1_w9_y3 + r1_w9_d2 - 3.0 * r1_w9_d3 - 6.0 * r1_w9_e2
 
         # khepera.bg:17: r1_w9: stage 2
-        r1_w9_y2 = x.r1_w9_s2 + c.b0 * r1_w9_u2
+        r1_w9_y2 = x.r1_w9_s2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: stage 2: memory
-        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b1 * r1_w9_u2
+        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = r1_w9_y2 + c.r1_w9_v1_m__1__motor * r1_w9_m__1__motor_speed_2
+        r1_w9_u1 = r1_w9_y2 + r1_w9_d3 + 4.0 * r1_w9_e2
 
         # khepera.bg:17: r1_w9: stage 1
-        r1_w9_y1 = x.r1_w9_s1 + c.b0 * r1_w9_u1
+        r1_w9_y1 = x.r1_w9_s1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1_w9: stage 1: memory
-        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b1 * r1_w9_u1
+        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.k can do together
-        r1_w9 = r1_w9_y1
+        r1_w9 = r1_w9_y1 - r1_w9_e2
 
         # khepera.bg:17: filtered speed of m[1].motor
         r1_w10_m__1__motor_speed_2 = (
@@ -1664,32 +2129,44 @@ class Monitor:
         )
         x.r1_w10_m__1__motor_speed = r1_w10_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w10: encoders, order 1
+        r1_w10_n1 = -c.r1_w10_w1_m__1__motor * r1_w10_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w10: input of stage 4
+        r1_w10_u4 = r1_w10_n1 - r1_w10_n1
+
+        # khepera.bg:17: r1_w10: stage 4
+        r1_w10_y4 = x.r1_w10_s4 + c.b * r1_w10_u4
+
+        # khepera.bg:17: r1_w10: stage 4: memory
+        x.r1_w10_s4 = c.a * r1_w10_y4 + c.b * r1_w10_u4
+
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = -c.r1_w10_v3_m__1__motor * r1_w10_m__1__motor_speed_2
+        r1_w10_u3 = r1_w10_y4 + r1_w10_n1
 
         # khepera.bg:17: r1_w10: stage 3
-        r1_w10_y3 = x.r1_w10_s3 + c.b0 * r1_w10_u3
+        r1_w10_y3 = x.r1_w10_s3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: stage 3: memory
-        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b1 * r1_w10_u3
+        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: input of stage 2
         r1_w10_u2 = r1_w10_y3
 
         # khepera.bg:17: r1_w10: stage 2
-        r1_w10_y2 = x.r1_w10_s2 + c.b0 * r1_w10_u2
+        r1_w10_y2 = x.r1_w10_s2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: stage 2: memory
-        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b1 * r1_w10_u2
+        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: input of stage 1
         r1_w10_u1 = r1_w10_y2
 
         # khepera.bg:17: r1_w10: stage 1
-        r1_w10_y1 = x.r1_w10_s1 + c.b0 * r1_w10_u1
+        r1_w10_y1 = x.r1_w10_s1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1_w10: stage 1: memory
-        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b1 * r1_w10_u1
+        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].fs and m[1].el.Re can do together
         r1_w10 = r1_w10_y1
@@ -1700,32 +2177,56 @@ class Monitor:
         )
         x.r1_w11_m__1__motor_speed = r1_w11_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w11: encoders, order 1
+        r1_w11_n1 = c.r1_w11_w1_m__1__motor * r1_w11_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w11: error of order 1
+        r1_w11_e1 = c.bend1 * r1_w11_n1
+
+        # khepera.bg:17: r1_w11: encoders, order 2
+        r1_w11_n2 = c.r1_w11_w2_m__1__motor * r1_w11_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w11: degree 1
+        r1_w11_d1 = r1_w11_n1 + r1_w11_n2
+
+        # khepera.bg:17: r1_w11: degree 2
+        r1_w11_d2 = r1_w11_n2 - r1_w11_e1
+
+        # khepera.bg:17: r1_w11: input of stage 4
+        r1_w11_u4 = r1_w11_n1 + r1_w11_d2 + r1_w11_e1 - r1_w11_d1
+
+        # khepera.bg:17: r1_w11: stage 4
+        r1_w11_y4 = x.r1_w11_s4 + c.b * r1_w11_u4
+
+        # khepera.bg:17: r1_w11: stage 4: memory
+        x.r1_w11_s4 = c.a * r1_w11_y4 + c.b * r1_w11_u4
+
         # khepera.bg:17: r1_w11: input of stage 3
-        r1_w11_u3 = c.r1_w11_v3_m__1__motor * r1_w11_m__1__motor_speed_2
+        r1_w11_u3 = r1_w11_y4 + r1_w11_d1 - 2.0 * r1_w11_d2 - 3.0 * r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 3
-        r1_w11_y3 = x.r1_w11_s3 + c.b0 * r1_w11_u3
+        r1_w11_y3 = x.r1_w11_s3 + c.b * r1_w11_u3
 
         # khepera.bg:17: r1_w11: stage 3: memory
-        x.r1_w11_s3 = c.a * r1_w11_y3 + c.b1 * r1_w11_u3
+        x.r1_w11_s3 = c.a * r1_w11_y3 + c.b * r1_w11_u3
 
         # khepera.bg:17: r1_w11: input of stage 2
-        r1_w11_u2 = r1_w11_y3 + c.r1_w11_v2_m__1__motor * r1_w11_m__1__motor_speed_2
+        r1_w11_u2 = r1_w11_y3 + r1_w11_d2 + 3.0 * r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 2
-        r1_w11_y2 = x.r1_w11_s2 + c.b0 * r1_w11_u2
+        r1_w11_y2 = x.r1_w11_s2 + c.b * r1_w11_u2
 
         # khepera.bg:17: r1_w11: stage 2: memory
-        x.r1_w11_s2 = c.a * r1_w11_y2 + c.b1 * r1_w11_u2
+        x.r1_w11_s2 = c.a * r1_w11_y2 + c.b * r1_w11_u2
 
         # khepera.bg:17: r1_w11: input of stage 1
-        r1_w11_u1 = r1_w11_y2
+        r1_w11_u1 = r1_w11_y2 - r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 1
-        r1_w11_y1 = x.r1_w11_s1 + c.b0 * r1_w11_u1
+        r1_w11_y1 = x.r1_w11_s1 + c.b * r1_w11_u1
 
         # khepera.bg:17: r1_w11: stage 1: memory
-        x.r1_w11_s1 = c.a * r1_w11_y1 + c.b1 * r1_w11_u1
+        x.r1_w11_s1 = c.a * r1_w11_y1 + c.b * r1_w11_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].fs and m[1].el.k can do together
         r1_w11 = r1_w11_y1
@@ -1736,41 +2237,62 @@ class Monitor:
         )
         x.r1_w12_m__1__motor_speed = r1_w12_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w12: encoders, order 1
+        r1_w12_n1 = c.r1_w12_w1_m__1__motor * r1_w12_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w12: error of order 1
+        r1_w12_e1 = c.bend1 * r1_w12_n1
+
+        # khepera.bg:17: r1_w12: encoders, order 2
+        r1_w12_n2 = c.r1_w12_w2_m__1__motor * r1_w12_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w12: terms of order 0
+        r1_w12_g0 = c.r1_w12_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w12: degree 1
+        r1_w12_d1 = r1_w12_n1 + r1_w12_n2
+
+        # khepera.bg:17: r1_w12: error of order 0
+        r1_w12_e0 = c.bend2 * r1_w12_g0
+
+        # khepera.bg:17: r1_w12: degree 2
+        r1_w12_d2 = r1_w12_n2 - r1_w12_e1 - r1_w12_e0
+
         # khepera.bg:17: r1_w12: input of stage 4
-        r1_w12_u4 = c.r1_w12_v4_Fx__1 * s.Fx__1
+        r1_w12_u4 = r1_w12_g0 + r1_w12_n1 + r1_w12_d2 + r1_w12_e1 - r1_w12_d1
 
         # khepera.bg:17: r1_w12: stage 4
-        r1_w12_y4 = x.r1_w12_s4 + c.b0 * r1_w12_u4
+        r1_w12_y4 = x.r1_w12_s4 + c.b * r1_w12_u4
 
         # khepera.bg:17: r1_w12: stage 4: memory
-        x.r1_w12_s4 = c.a * r1_w12_y4 + c.b1 * r1_w12_u4
+        x.r1_w12_s4 = c.a * r1_w12_y4 + c.b * r1_w12_u4
 
         # khepera.bg:17: r1_w12: input of stage 3
-        r1_w12_u3 = r1_w12_y4 + c.r1_w12_v3_m__1__motor * r1_w12_m__1__motor_speed_2
+        r1_w12_u3 = r1_w12_y4 + r1_w12_d1 - 2.0 * r1_w12_d2 - 3.0 * r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 3
-        r1_w12_y3 = x.r1_w12_s3 + c.b0 * r1_w12_u3
+        r1_w12_y3 = x.r1_w12_s3 + c.b * r1_w12_u3
 
         # khepera.bg:17: r1_w12: stage 3: memory
-        x.r1_w12_s3 = c.a * r1_w12_y3 + c.b1 * r1_w12_u3
+        x.r1_w12_s3 = c.a * r1_w12_y3 + c.b * r1_w12_u3
 
         # khepera.bg:17: r1_w12: input of stage 2
-        r1_w12_u2 = r1_w12_y3 + c.r1_w12_v2_m__1__motor * r1_w12_m__1__motor_speed_2
+        r1_w12_u2 = r1_w12_y3 + r1_w12_d2 + 3.0 * r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 2
-        r1_w12_y2 = x.r1_w12_s2 + c.b0 * r1_w12_u2
+        r1_w12_y2 = x.r1_w12_s2 + c.b * r1_w12_u2
 
         # khepera.bg:17: r1_w12: stage 2: memory
-        x.r1_w12_s2 = c.a * r1_w12_y2 + c.b1 * r1_w12_u2
+        x.r1_w12_s2 = c.a * r1_w12_y2 + c.b * r1_w12_u2
 
         # khepera.bg:17: r1_w12: input of stage 1
-        r1_w12_u1 = r1_w12_y2
+        r1_w12_u1 = r1_w12_y2 - r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 1
-        r1_w12_y1 = x.r1_w12_s1 + c.b0 * r1_w12_u1
+        r1_w12_y1 = x.r1_w12_s1 + c.b * r1_w12_u1
 
         # khepera.bg:17: r1_w12: stage 1: memory
-        x.r1_w12_s1 = c.a * r1_w12_y1 + c.b1 * r1_w12_u1
+        x.r1_w12_s1 = c.a * r1_w12_y1 + c.b * r1_w12_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].el.k can do together
         r1_w12 = r1_w12_y1
@@ -1781,47 +2303,80 @@ class Monitor:
         )
         x.r1_w13_m__1__motor_speed = r1_w13_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w13: encoders, order 1
+        r1_w13_n1 = -c.r1_w13_w1_m__1__motor * r1_w13_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w13: error of order 1
+        r1_w13_e1 = c.bend2 * r1_w13_n1
+
+        # khepera.bg:17: r1_w13: encoders, order 2
+        r1_w13_n2 = c.r1_w13_w2_m__1__motor * r1_w13_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w13: error of order 2
+        r1_w13_e2 = c.bend1 * r1_w13_n2
+
+        # khepera.bg:17: r1_w13: encoders, order 3
+        r1_w13_n3 = -c.r1_w13_w3_m__1__motor * r1_w13_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w13: terms of order 0
+        r1_w13_g0 = -c.r1_w13_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w13: terms of order 1
+        r1_w13_g1 = -c.r1_w13_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w13: degree 1
+        r1_w13_d1 = r1_w13_g1 + r1_w13_n1 + r1_w13_n2
+
+        # khepera.bg:17: r1_w13: error of order 0
+        r1_w13_e0 = c.bend3 * r1_w13_g0
+
+        # khepera.bg:17: r1_w13: degree 2
+        r1_w13_d2 = r1_w13_n2 + r1_w13_n3 - r1_w13_e1 - r1_w13_e0
+
+        # khepera.bg:17: r1_w13: error of order 1
+        r1_w13_e1_2 = c.bend2 * r1_w13_g1
+
+        # khepera.bg:17: r1_w13: degree 3
+        r1_w13_d3 = r1_w13_n3 - r1_w13_e1 - r1_w13_e2 - r1_w13_e1_2
+
         # khepera.bg:17: r1_w13: input of stage 4
-        r1_w13_u4 = c.r1_w13_v4_Fx__1 * s.Fx__1
+        r1_w13_u4 = r1_w13_g0 + r1_w13_n1 + r1_w13_d2 - r1_w13_d1 - r1_w13_d3 - r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 4
-        r1_w13_y4 = x.r1_w13_s4 + c.b0 * r1_w13_u4
+        r1_w13_y4 = x.r1_w13_s4 + c.b * r1_w13_u4
 
         # khepera.bg:17: r1_w13: stage 4: memory
-        x.r1_w13_s4 = c.a * r1_w13_y4 + c.b1 * r1_w13_u4
+        x.r1_w13_s4 = c.a * r1_w13_y4 + c.b * r1_w13_u4
 
         # khepera.bg:17: r1_w13: input of stage 3
-        r1_w13_u3 = (
-            r1_w13_y4 - c.r1_w13_v3_m__1__motor * r1_w13_m__1__motor_speed_2
-            - c.r1_w13_v3_Fx__1 * s.Fx__1
-        )
+        r1_w13_u3 = r1_w13_y4 + r1_w13_d1 + 3.0 * r1_w13_d3 + 4.0 * r1_w13_e2 - 2.0 * r1_w13_d2
 
         # khepera.bg:17: r1_w13: stage 3
-        r1_w13_y3 = x.r1_w13_s3 + c.b0 * r1_w13_u3
+        r1_w13_y3 = x.r1_w13_s3 + c.b * r1_w13_u3
 
         # khepera.bg:17: r1_w13: stage 3: memory
-        x.r1_w13_s3 = c.a * r1_w13_y3 + c.b1 * r1_w13_u3
+        x.r1_w13_s3 = c.a * r1_w13_y3 + c.b * r1_w13_u3
 
         # khepera.bg:17: r1_w13: input of stage 2
-        r1_w13_u2 = r1_w13_y3 + c.r1_w13_v2_m__1__motor * r1_w13_m__1__motor_speed_2
+        r1_w13_u2 = r1_w13_y3 + r1_w13_d2 - 3.0 * r1_w13_d3 - 6.0 * r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 2
-        r1_w13_y2 = x.r1_w13_s2 + c.b0 * r1_w13_u2
+        r1_w13_y2 = x.r1_w13_s2 + c.b * r1_w13_u2
 
         # khepera.bg:17: r1_w13: stage 2: memory
-        x.r1_w13_s2 = c.a * r1_w13_y2 + c.b1 * r1_w13_u2
+        x.r1_w13_s2 = c.a * r1_w13_y2 + c.b * r1_w13_u2
 
         # khepera.bg:17: r1_w13: input of stage 1
-        r1_w13_u1 = r1_w13_y2 - c.r1_w13_v1_m__1__motor * r1_w13_m__1__motor_speed_2
+        r1_w13_u1 = r1_w13_y2 + r1_w13_d3 + 4.0 * r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 1
-        r1_w13_y1 = x.r1_w13_s1 + c.b0 * r1_w13_u1
+        r1_w13_y1 = x.r1_w13_s1 + c.b * r1_w13_u1
 
         # khepera.bg:17: r1_w13: stage 1: memory
-        x.r1_w13_s1 = c.a * r1_w13_y1 + c.b1 * r1_w13_u1
+        x.r1_w13_s1 = c.a * r1_w13_y1 + c.b * r1_w13_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do
-        r1_w13 = r1_w13_y1
+        r1_w13 = r1_w13_y1 - r1_w13_e2
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
         r.r1 = (
@@ -1857,8 +2412,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w1_m__2__motor_speed = r2_w1_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w1: encoders, order 1
+        r2_w1_n1 = -c.r2_w1_w1_m__2__motor * r2_w1_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w1: error of order 1
+        r2_w1_e1 = c.bend1 * r2_w1_n1
+
+        # khepera.bg:17: r2_w1: encoders, order 2
+        r2_w1_n2 = -c.r2_w1_w2_m__2__motor * r2_w1_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w1: degree 1
+        r2_w1_d1 = r2_w1_n1 + r2_w1_n2
+
+        # khepera.bg:17: r2_w1: degree 2
+        r2_w1_d2 = r2_w1_n2 - r2_w1_e1
+
+        # khepera.bg:17: r2_w1: input of stage 4
+        r2_w1_u4 = r2_w1_n1 + r2_w1_d2 + r2_w1_e1 - r2_w1_d1
+
+        # khepera.bg:17: r2_w1: stage 4, at rest
+        r2_w1_y4 = r2_w1_u4
+
+        # khepera.bg:17: r2_w1: stage 4: memory
+        x.r2_w1_s4 = c.rest * r2_w1_u4
+
         # khepera.bg:17: r2_w1: input of stage 3
-        r2_w1_u3 = c.r2_w1_v3_m__2__motor * r2_w1_m__2__motor_speed_2
+        r2_w1_u3 = r2_w1_y4 + r2_w1_d1 - 2.0 * r2_w1_d2 - 3.0 * r2_w1_e1
 
         # khepera.bg:17: r2_w1: stage 3, at rest
         r2_w1_y3 = r2_w1_u3
@@ -1867,7 +2446,7 @@ class Monitor:
         x.r2_w1_s3 = c.rest * r2_w1_u3
 
         # khepera.bg:17: r2_w1: input of stage 2
-        r2_w1_u2 = r2_w1_y3 - c.r2_w1_v2_m__2__motor * r2_w1_m__2__motor_speed_2
+        r2_w1_u2 = r2_w1_y3 + r2_w1_d2 + 3.0 * r2_w1_e1
 
         # khepera.bg:17: r2_w1: stage 2, at rest
         r2_w1_y2 = r2_w1_u2
@@ -1876,7 +2455,7 @@ class Monitor:
         x.r2_w1_s2 = c.rest * r2_w1_u2
 
         # khepera.bg:17: r2_w1: input of stage 1
-        r2_w1_u1 = r2_w1_y2
+        r2_w1_u1 = r2_w1_y2 - r2_w1_e1
 
         # khepera.bg:17: r2_w1: stage 1, at rest
         r2_w1_y1 = r2_w1_u1
@@ -1893,8 +2472,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w2_m__2__motor_speed = r2_w2_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w2: encoders, order 2
+        r2_w2_n2 = -c.r2_w2_w2_m__2__motor * r2_w2_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w2: error of order 2
+        r2_w2_e2 = c.bend1 * r2_w2_n2
+
+        # khepera.bg:17: r2_w2: encoders, order 3
+        r2_w2_n3 = -c.r2_w2_w3_m__2__motor * r2_w2_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w2: degree 2
+        r2_w2_d2 = r2_w2_n2 + r2_w2_n3
+
+        # khepera.bg:17: r2_w2: degree 3
+        r2_w2_d3 = r2_w2_n3 - r2_w2_e2
+
+        # khepera.bg:17: r2_w2: input of stage 4
+        r2_w2_u4 = r2_w2_d2 - r2_w2_n2 - r2_w2_d3 - r2_w2_e2
+
+        # khepera.bg:17: r2_w2: stage 4, at rest
+        r2_w2_y4 = r2_w2_u4
+
+        # khepera.bg:17: r2_w2: stage 4: memory
+        x.r2_w2_s4 = c.rest * r2_w2_u4
+
         # khepera.bg:17: r2_w2: input of stage 3
-        r2_w2_u3 = c.r2_w2_v3_m__2__motor * r2_w2_m__2__motor_speed_2
+        r2_w2_u3 = r2_w2_y4 + r2_w2_n2 + 3.0 * r2_w2_d3 + 4.0 * r2_w2_e2 - 2.0 * r2_w2_d2
 
         # khepera.bg:17: r2_w2: stage 3, at rest
         r2_w2_y3 = r2_w2_u3
@@ -1903,7 +2506,7 @@ class Monitor:
         x.r2_w2_s3 = c.rest * r2_w2_u3
 
         # khepera.bg:17: r2_w2: input of stage 2
-        r2_w2_u2 = r2_w2_y3 + c.r2_w2_v2_m__2__motor * r2_w2_m__2__motor_speed_2
+        r2_w2_u2 = r2_w2_y3 + r2_w2_d2 - 3.0 * r2_w2_d3 - 6.0 * r2_w2_e2
 
         # khepera.bg:17: r2_w2: stage 2, at rest
         r2_w2_y2 = r2_w2_u2
@@ -1912,7 +2515,7 @@ class Monitor:
         x.r2_w2_s2 = c.rest * r2_w2_u2
 
         # khepera.bg:17: r2_w2: input of stage 1
-        r2_w2_u1 = r2_w2_y2 - c.r2_w2_v1_m__2__motor * r2_w2_m__2__motor_speed_2
+        r2_w2_u1 = r2_w2_y2 + r2_w2_d3 + 4.0 * r2_w2_e2
 
         # khepera.bg:17: r2_w2: stage 1, at rest
         r2_w2_y1 = r2_w2_u1
@@ -1921,7 +2524,7 @@ class Monitor:
         x.r2_w2_s1 = c.rest * r2_w2_u1
 
         # khepera.bg:17: r2: what the tolerance of m[2].Js can do
-        r2_w2 = r2_w2_y1
+        r2_w2 = r2_w2_y1 - r2_w2_e2
 
         # khepera.bg:17: filtered speed of m[2].motor, at rest
         r2_w3_m__2__motor_speed_2 = 0.0
@@ -1929,8 +2532,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w3_m__2__motor_speed = r2_w3_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w3: encoders, order 1
+        r2_w3_n1 = -c.r2_w3_w1_m__2__motor * r2_w3_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w3: error of order 1
+        r2_w3_e1 = c.bend1 * r2_w3_n1
+
+        # khepera.bg:17: r2_w3: encoders, order 2
+        r2_w3_n2 = -c.r2_w3_w2_m__2__motor * r2_w3_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w3: degree 1
+        r2_w3_d1 = r2_w3_n1 + r2_w3_n2
+
+        # khepera.bg:17: r2_w3: degree 2
+        r2_w3_d2 = r2_w3_n2 - r2_w3_e1
+
+        # khepera.bg:17: r2_w3: input of stage 4
+        r2_w3_u4 = r2_w3_n1 + r2_w3_d2 + r2_w3_e1 - r2_w3_d1
+
+        # khepera.bg:17: r2_w3: stage 4, at rest
+        r2_w3_y4 = r2_w3_u4
+
+        # khepera.bg:17: r2_w3: stage 4: memory
+        x.r2_w3_s4 = c.rest * r2_w3_u4
+
         # khepera.bg:17: r2_w3: input of stage 3
-        r2_w3_u3 = c.r2_w3_v3_m__2__motor * r2_w3_m__2__motor_speed_2
+        r2_w3_u3 = r2_w3_y4 + r2_w3_d1 - 2.0 * r2_w3_d2 - 3.0 * r2_w3_e1
 
         # khepera.bg:17: r2_w3: stage 3, at rest
         r2_w3_y3 = r2_w3_u3
@@ -1939,7 +2566,7 @@ class Monitor:
         x.r2_w3_s3 = c.rest * r2_w3_u3
 
         # khepera.bg:17: r2_w3: input of stage 2
-        r2_w3_u2 = r2_w3_y3 - c.r2_w3_v2_m__2__motor * r2_w3_m__2__motor_speed_2
+        r2_w3_u2 = r2_w3_y3 + r2_w3_d2 + 3.0 * r2_w3_e1
 
         # khepera.bg:17: r2_w3: stage 2, at rest
         r2_w3_y2 = r2_w3_u2
@@ -1948,7 +2575,7 @@ class Monitor:
         x.r2_w3_s2 = c.rest * r2_w3_u2
 
         # khepera.bg:17: r2_w3: input of stage 1
-        r2_w3_u1 = r2_w3_y2
+        r2_w3_u1 = r2_w3_y2 - r2_w3_e1
 
         # khepera.bg:17: r2_w3: stage 1, at rest
         r2_w3_y1 = r2_w3_u1
@@ -1965,8 +2592,29 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w4_m__2__motor_speed = r2_w4_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w4: encoders, order 1
+        r2_w4_n1 = -c.r2_w4_w1_m__2__motor * r2_w4_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w4: error of order 1
+        r2_w4_e1 = c.bend1 * r2_w4_n1
+
+        # khepera.bg:17: r2_w4: encoders, order 2
+        r2_w4_n2 = -c.r2_w4_w2_m__2__motor * r2_w4_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w4: terms of order 0
+        r2_w4_g0 = -c.r2_w4_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w4: degree 1
+        r2_w4_d1 = r2_w4_n1 + r2_w4_n2
+
+        # khepera.bg:17: r2_w4: error of order 0
+        r2_w4_e0 = c.bend2 * r2_w4_g0
+
+        # khepera.bg:17: r2_w4: degree 2
+        r2_w4_d2 = r2_w4_n2 - r2_w4_e1 - r2_w4_e0
+
         # khepera.bg:17: r2_w4: input of stage 4
-        r2_w4_u4 = -c.r2_w4_v4_Fx__2 * s.Fx__2
+        r2_w4_u4 = r2_w4_g0 + r2_w4_n1 + r2_w4_d2 + r2_w4_e1 - r2_w4_d1
 
         # khepera.bg:17: r2_w4: stage 4, at rest
         r2_w4_y4 = r2_w4_u4
@@ -1975,7 +2623,7 @@ class Monitor:
         x.r2_w4_s4 = c.rest * r2_w4_u4
 
         # khepera.bg:17: r2_w4: input of stage 3
-        r2_w4_u3 = r2_w4_y4 + c.r2_w4_v3_m__2__motor * r2_w4_m__2__motor_speed_2
+        r2_w4_u3 = r2_w4_y4 + r2_w4_d1 - 2.0 * r2_w4_d2 - 3.0 * r2_w4_e1
 
         # khepera.bg:17: r2_w4: stage 3, at rest
         r2_w4_y3 = r2_w4_u3
@@ -1984,7 +2632,7 @@ class Monitor:
         x.r2_w4_s3 = c.rest * r2_w4_u3
 
         # khepera.bg:17: r2_w4: input of stage 2
-        r2_w4_u2 = r2_w4_y3 - c.r2_w4_v2_m__2__motor * r2_w4_m__2__motor_speed_2
+        r2_w4_u2 = r2_w4_y3 + r2_w4_d2 + 3.0 * r2_w4_e1
 
         # khepera.bg:17: r2_w4: stage 2, at rest
         r2_w4_y2 = r2_w4_u2
@@ -1993,7 +2641,7 @@ class Monitor:
         x.r2_w4_s2 = c.rest * r2_w4_u2
 
         # khepera.bg:17: r2_w4: input of stage 1
-        r2_w4_u1 = r2_w4_y2
+        r2_w4_u1 = r2_w4_y2 - r2_w4_e1
 
         # khepera.bg:17: r2_w4: stage 1, at rest
         r2_w4_y1 = r2_w4_u1
@@ -2010,8 +2658,44 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w5_m__2__motor_speed = r2_w5_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w5: encoders, order 1
+        r2_w5_n1 = c.r2_w5_w1_m__2__motor * r2_w5_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w5: error of order 1
+        r2_w5_e1 = c.bend2 * r2_w5_n1
+
+        # khepera.bg:17: r2_w5: encoders, order 2
+        r2_w5_n2 = c.r2_w5_w2_m__2__motor * r2_w5_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w5: error of order 2
+        r2_w5_e2 = c.bend1 * r2_w5_n2
+
+        # khepera.bg:17: r2_w5: encoders, order 3
+        r2_w5_n3 = c.r2_w5_w3_m__2__motor * r2_w5_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w5: terms of order 0
+        r2_w5_g0 = c.r2_w5_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w5: terms of order 1
+        r2_w5_g1 = c.r2_w5_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w5: degree 1
+        r2_w5_d1 = r2_w5_g1 + r2_w5_n1 + r2_w5_n2
+
+        # khepera.bg:17: r2_w5: error of order 0
+        r2_w5_e0 = c.bend3 * r2_w5_g0
+
+        # khepera.bg:17: r2_w5: degree 2
+        r2_w5_d2 = r2_w5_n2 + r2_w5_n3 - r2_w5_e1 - r2_w5_e0
+
+        # khepera.bg:17: r2_w5: error of order 1
+        r2_w5_e1_2 = c.bend2 * r2_w5_g1
+
+        # khepera.bg:17: r2_w5: degree 3
+        r2_w5_d3 = r2_w5_n3 - r2_w5_e1 - r2_w5_e2 - r2_w5_e1_2
+
         # khepera.bg:17: r2_w5: input of stage 4
-        r2_w5_u4 = c.r2_w5_v4_Fx__2 * s.Fx__2
+        r2_w5_u4 = r2_w5_g0 + r2_w5_n1 + r2_w5_d2 - r2_w5_d1 - r2_w5_d3 - r2_w5_e2
 
         # khepera.bg:17: r2_w5: stage 4, at rest
         r2_w5_y4 = r2_w5_u4
@@ -2020,10 +2704,7 @@ class Monitor:
         x.r2_w5_s4 = c.rest * r2_w5_u4
 
         # khepera.bg:17: r2_w5: input of stage 3
-        r2_w5_u3 = (
-            r2_w5_y4 + c.r2_w5_v3_m__2__motor * r2_w5_m__2__motor_speed_2
-            + c.r2_w5_v3_Fx__2 * s.Fx__2
-        )
+        r2_w5_u3 = r2_w5_y4 + r2_w5_d1 + 3.0 * r2_w5_d3 + 4.0 * r2_w5_e2 - 2.0 * r2_w5_d2
 
         # khepera.bg:17: r2_w5: stage 3, at rest
         r2_w5_y3 = r2_w5_u3
@@ -2032,7 +2713,7 @@ class Monitor:
         x.r2_w5_s3 = c.rest * r2_w5_u3
 
         # khepera.bg:17: r2_w5: input of stage 2
-        r2_w5_u2 = r2_w5_y3 + c.r2_w5_v2_m__2__motor * r2_w5_m__2__motor_speed_2
+        r2_w5_u2 = r2_w5_y3 + r2_w5_d2 - 3.0 * r2_w5_d3 - 6.0 * r2_w5_e2
 
         # khepera.bg:17: r2_w5: stage 2, at rest
         r2_w5_y2 = r2_w5_u2
@@ -2041,7 +2722,7 @@ class Monitor:
         x.r2_w5_s2 = c.rest * r2_w5_u2
 
         # khepera.bg:17: r2_w5: input of stage 1
-        r2_w5_u1 = r2_w5_y2 + c.r2_w5_v1_m__2__motor * r2_w5_m__2__motor_speed_2
+        r2_w5_u1 = r2_w5_y2 + r2_w5_d3 + 4.0 * r2_w5_e2
 
         # khepera.bg:17: r2_w5: stage 1, at rest
         r2_w5_y1 = r2_w5_u1
@@ -2050,7 +2731,7 @@ class Monitor:
         x.r2_w5_s1 = c.rest * r2_w5_u1
 
         # khepera.bg:17: r2: what the tolerance of m[2].el.k can do
-        r2_w5 = r2_w5_y1
+        r2_w5 = r2_w5_y1 - r2_w5_e2
 
         # khepera.bg:17: filtered speed of m[2].motor, at rest
         r2_w6_m__2__motor_speed_2 = 0.0
@@ -2058,8 +2739,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w6_m__2__motor_speed = r2_w6_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w6: encoders, order 1
+        r2_w6_n1 = -c.r2_w6_w1_m__2__motor * r2_w6_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w6: input of stage 4
+        r2_w6_u4 = r2_w6_n1 - r2_w6_n1
+
+        # khepera.bg:17: r2_w6: stage 4, at rest
+        r2_w6_y4 = r2_w6_u4
+
+        # khepera.bg:17: r2_w6: stage 4: memory
+        x.r2_w6_s4 = c.rest * r2_w6_u4
+
         # khepera.bg:17: r2_w6: input of stage 3
-        r2_w6_u3 = -c.r2_w6_v3_m__2__motor * r2_w6_m__2__motor_speed_2
+        r2_w6_u3 = r2_w6_y4 + r2_w6_n1
 
         # khepera.bg:17: r2_w6: stage 3, at rest
         r2_w6_y3 = r2_w6_u3
@@ -2094,8 +2787,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w7_m__2__motor_speed = r2_w7_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w7: encoders, order 1
+        r2_w7_n1 = c.r2_w7_w1_m__2__motor * r2_w7_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w7: error of order 1
+        r2_w7_e1 = c.bend1 * r2_w7_n1
+
+        # khepera.bg:17: r2_w7: encoders, order 2
+        r2_w7_n2 = c.r2_w7_w2_m__2__motor * r2_w7_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w7: degree 1
+        r2_w7_d1 = r2_w7_n1 + r2_w7_n2
+
+        # khepera.bg:17: r2_w7: degree 2
+        r2_w7_d2 = r2_w7_n2 - r2_w7_e1
+
+        # khepera.bg:17: r2_w7: input of stage 4
+        r2_w7_u4 = r2_w7_n1 + r2_w7_d2 + r2_w7_e1 - r2_w7_d1
+
+        # khepera.bg:17: r2_w7: stage 4, at rest
+        r2_w7_y4 = r2_w7_u4
+
+        # khepera.bg:17: r2_w7: stage 4: memory
+        x.r2_w7_s4 = c.rest * r2_w7_u4
+
         # khepera.bg:17: r2_w7: input of stage 3
-        r2_w7_u3 = c.r2_w7_v3_m__2__motor * r2_w7_m__2__motor_speed_2
+        r2_w7_u3 = r2_w7_y4 + r2_w7_d1 - 2.0 * r2_w7_d2 - 3.0 * r2_w7_e1
 
         # khepera.bg:17: r2_w7: stage 3, at rest
         r2_w7_y3 = r2_w7_u3
@@ -2104,7 +2821,7 @@ class Monitor:
         x.r2_w7_s3 = c.rest * r2_w7_u3
 
         # khepera.bg:17: r2_w7: input of stage 2
-        r2_w7_u2 = r2_w7_y3 + c.r2_w7_v2_m__2__motor * r2_w7_m__2__motor_speed_2
+        r2_w7_u2 = r2_w7_y3 + r2_w7_d2 + 3.0 * r2_w7_e1
 
         # khepera.bg:17: r2_w7: stage 2, at rest
         r2_w7_y2 = r2_w7_u2
@@ -2113,7 +2830,7 @@ class Monitor:
         x.r2_w7_s2 = c.rest * r2_w7_u2
 
         # khepera.bg:17: r2_w7: input of stage 1
-        r2_w7_u1 = r2_w7_y2
+        r2_w7_u1 = r2_w7_y2 - r2_w7_e1
 
         # khepera.bg:17: r2_w7: stage 1, at rest
         r2_w7_y1 = r2_w7_u1
@@ -2130,8 +2847,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w8_m__2__motor_speed = r2_w8_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w8: encoders, order 2
+        r2_w8_n2 = -c.r2_w8_w2_m__2__motor * r2_w8_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w8: input of stage 4
+        r2_w8_u4 = r2_w8_n2 - r2_w8_n2
+
+        # khepera.bg:17: r2_w8: stage 4, at rest
+        r2_w8_y4 = r2_w8_u4
+
+        # khepera.bg:17: r2_w8: stage 4: memory
+        x.r2_w8_s4 = c.rest * r2_w8_u4
+
         # khepera.bg:17: r2_w8: input of stage 3
-        r2_w8_u3 = c.r2_w8_v2_m__2__motor * r2_w8_m__2__motor_speed_2
+        r2_w8_u3 = r2_w8_y4 + r2_w8_n2 - 2.0 * r2_w8_n2
 
         # khepera.bg:17: r2_w8: stage 3, at rest
         r2_w8_y3 = r2_w8_u3
@@ -2140,7 +2869,7 @@ class Monitor:
         x.r2_w8_s3 = c.rest * r2_w8_u3
 
         # khepera.bg:17: r2_w8: input of stage 2
-        r2_w8_u2 = r2_w8_y3 - c.r2_w8_v2_m__2__motor * r2_w8_m__2__motor_speed_2
+        r2_w8_u2 = r2_w8_y3 + r2_w8_n2
 
         # khepera.bg:17: r2_w8: stage 2, at rest
         r2_w8_y2 = r2_w8_u2
@@ -2166,8 +2895,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w9_m__2__motor_speed = r2_w9_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w9: encoders, order 2
+        r2_w9_n2 = c.r2_w9_w2_m__2__motor * r2_w9_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w9: error of order 2
+        r2_w9_e2 = c.bend1 * r2_w9_n2
+
+        # khepera.bg:17: r2_w9: encoders, order 3
+        r2_w9_n3 = c.r2_w9_w3_m__2__motor * r2_w9_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w9: degree 2
+        r2_w9_d2 = r2_w9_n2 + r2_w9_n3
+
+        # khepera.bg:17: r2_w9: degree 3
+        r2_w9_d3 = r2_w9_n3 - r2_w9_e2
+
+        # khepera.bg:17: r2_w9: input of stage 4
+        r2_w9_u4 = r2_w9_d2 - r2_w9_n2 - r2_w9_d3 - r2_w9_e2
+
+        # khepera.bg:17: r2_w9: stage 4, at rest
+        r2_w9_y4 = r2_w9_u4
+
+        # khepera.bg:17: r2_w9: stage 4: memory
+        x.r2_w9_s4 = c.rest * r2_w9_u4
+
         # khepera.bg:17: r2_w9: input of stage 3
-        r2_w9_u3 = c.r2_w9_v3_m__2__motor * r2_w9_m__2__motor_speed_2
+        r2_w9_u3 = r2_w9_y4 + r2_w9_n2 + 3.0 * r2_w9_d3 + 4.0 * r2_w9_e2 - 2.0 * r2_w9_d2
 
         # khepera.bg:17: r2_w9: stage 3, at rest
         r2_w9_y3 = r2_w9_u3
@@ -2176,7 +2929,7 @@ class Monitor:
         x.r2_w9_s3 = c.rest * r2_w9_u3
 
         # khepera.bg:17: r2_w9: input of stage 2
-        r2_w9_u2 = r2_w9_y3 + c.r2_w9_v2_m__2__motor * r2_w9_m__2__motor_speed_2
+        r2_w9_u2 = r2_w9_y3 + r2_w9_d2 - 3.0 * r2_w9_d3 - 6.0 * r2_w9_e2
 
         # khepera.bg:17: r2_w9: stage 2, at rest
         r2_w9_y2 = r2_w9_u2
@@ -2185,7 +2938,7 @@ class Monitor:
         x.r2_w9_s2 = c.rest * r2_w9_u2
 
         # khepera.bg:17: r2_w9: input of stage 1
-        r2_w9_u1 = r2_w9_y2 + c.r2_w9_v1_m__2__motor * r2_w9_m__2__motor_speed_2
+        r2_w9_u1 = r2_w9_y2 + r2_w9_d3 + 4.0 * r2_w9_e2
 
         # khepera.bg:17: r2_w9: stage 1, at rest
         r2_w9_y1 = r2_w9_u1
@@ -2194,7 +2947,7 @@ class Monitor:
         x.r2_w9_s1 = c.rest * r2_w9_u1
 
         # khepera.bg:17: r2: what the tolerances of m[2].Js and m[2].el.k can do together
-        r2_w9 = r2_w9_y1
+        r2_w9 = r2_w9_y1 - r2_w9_e2
 
         # khepera.bg:17: filtered speed of m[2].motor, at rest
         r2_w10_m__2__motor_speed_2 = 0.0
@@ -2202,8 +2955,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w10_m__2__motor_speed = r2_w10_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w10: encoders, order 1
+        r2_w10_n1 = -c.r2_w10_w1_m__2__motor * r2_w10_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w10: input of stage 4
+        r2_w10_u4 = r2_w10_n1 - r2_w10_n1
+
+        # khepera.bg:17: r2_w10: stage 4, at rest
+        r2_w10_y4 = r2_w10_u4
+
+        # khepera.bg:17: r2_w10: stage 4: memory
+        x.r2_w10_s4 = c.rest * r2_w10_u4
+
         # khepera.bg:17: r2_w10: input of stage 3
-        r2_w10_u3 = -c.r2_w10_v3_m__2__motor * r2_w10_m__2__motor_speed_2
+        r2_w10_u3 = r2_w10_y4 + r2_w10_n1
 
         # khepera.bg:17: r2_w10: stage 3, at rest
         r2_w10_y3 = r2_w10_u3
@@ -2238,8 +3003,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w11_m__2__motor_speed = r2_w11_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w11: encoders, order 1
+        r2_w11_n1 = c.r2_w11_w1_m__2__motor * r2_w11_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w11: error of order 1
+        r2_w11_e1 = c.bend1 * r2_w11_n1
+
+        # khepera.bg:17: r2_w11: encoders, order 2
+        r2_w11_n2 = c.r2_w11_w2_m__2__motor * r2_w11_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w11: degree 1
+        r2_w11_d1 = r2_w11_n1 + r2_w11_n2
+
+        # khepera.bg:17: r2_w11: degree 2
+        r2_w11_d2 = r2_w11_n2 - r2_w11_e1
+
+        # khepera.bg:17: r2_w11: input of stage 4
+        r2_w11_u4 = r2_w11_n1 + r2_w11_d2 + r2_w11_e1 - r2_w11_d1
+
+        # khepera.bg:17: r2_w11: stage 4, at rest
+        r2_w11_y4 = r2_w11_u4
+
+        # khepera.bg:17: r2_w11: stage 4: memory
+        x.r2_w11_s4 = c.rest * r2_w11_u4
+
         # khepera.bg:17: r2_w11: input of stage 3
-        r2_w11_u3 = c.r2_w11_v3_m__2__motor * r2_w11_m__2__motor_speed_2
+        r2_w11_u3 = r2_w11_y4 + r2_w11_d1 - 2.0 * r2_w11_d2 - 3.0 * r2_w11_e1
 
         # khepera.bg:17: r2_w11: stage 3, at rest
         r2_w11_y3 = r2_w11_u3
@@ -2248,7 +3037,7 @@ class Monitor:
         x.r2_w11_s3 = c.rest * r2_w11_u3
 
         # khepera.bg:17: r2_w11: input of stage 2
-        r2_w11_u2 = r2_w11_y3 + c.r2_w11_v2_m__2__motor * r2_w11_m__2__motor_speed_2
+        r2_w11_u2 = r2_w11_y3 + r2_w11_d2 + 3.0 * r2_w11_e1
 
         # khepera.bg:17: r2_w11: stage 2, at rest
         r2_w11_y2 = r2_w11_u2
@@ -2257,7 +3046,7 @@ class Monitor:
         x.r2_w11_s2 = c.rest * r2_w11_u2
 
         # khepera.bg:17: r2_w11: input of stage 1
-        r2_w11_u1 = r2_w11_y2
+        r2_w11_u1 = r2_w11_y2 - r2_w11_e1
 
         # khepera.bg:17: r2_w11: stage 1, at rest
         r2_w11_y1 = r2_w11_u1
@@ -2274,8 +3063,29 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w12_m__2__motor_speed = r2_w12_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w12: encoders, order 1
+        r2_w12_n1 = c.r2_w12_w1_m__2__motor * r2_w12_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w12: error of order 1
+        r2_w12_e1 = c.bend1 * r2_w12_n1
+
+        # khepera.bg:17: r2_w12: encoders, order 2
+        r2_w12_n2 = c.r2_w12_w2_m__2__motor * r2_w12_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w12: terms of order 0
+        r2_w12_g0 = c.r2_w12_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w12: degree 1
+        r2_w12_d1 = r2_w12_n1 + r2_w12_n2
+
+        # khepera.bg:17: r2_w12: error of order 0
+        r2_w12_e0 = c.bend2 * r2_w12_g0
+
+        # khepera.bg:17: r2_w12: degree 2
+        r2_w12_d2 = r2_w12_n2 - r2_w12_e1 - r2_w12_e0
+
         # khepera.bg:17: r2_w12: input of stage 4
-        r2_w12_u4 = c.r2_w12_v4_Fx__2 * s.Fx__2
+        r2_w12_u4 = r2_w12_g0 + r2_w12_n1 + r2_w12_d2 + r2_w12_e1 - r2_w12_d1
 
         # khepera.bg:17: r2_w12: stage 4, at rest
         r2_w12_y4 = r2_w12_u4
@@ -2284,7 +3094,7 @@ class Monitor:
         x.r2_w12_s4 = c.rest * r2_w12_u4
 
         # khepera.bg:17: r2_w12: input of stage 3
-        r2_w12_u3 = r2_w12_y4 + c.r2_w12_v3_m__2__motor * r2_w12_m__2__motor_speed_2
+        r2_w12_u3 = r2_w12_y4 + r2_w12_d1 - 2.0 * r2_w12_d2 - 3.0 * r2_w12_e1
 
         # khepera.bg:17: r2_w12: stage 3, at rest
         r2_w12_y3 = r2_w12_u3
@@ -2293,7 +3103,7 @@ class Monitor:
         x.r2_w12_s3 = c.rest * r2_w12_u3
 
         # khepera.bg:17: r2_w12: input of stage 2
-        r2_w12_u2 = r2_w12_y3 + c.r2_w12_v2_m__2__motor * r2_w12_m__2__motor_speed_2
+        r2_w12_u2 = r2_w12_y3 + r2_w12_d2 + 3.0 * r2_w12_e1
 
         # khepera.bg:17: r2_w12: stage 2, at rest
         r2_w12_y2 = r2_w12_u2
@@ -2302,7 +3112,7 @@ class Monitor:
         x.r2_w12_s2 = c.rest * r2_w12_u2
 
         # khepera.bg:17: r2_w12: input of stage 1
-        r2_w12_u1 = r2_w12_y2
+        r2_w12_u1 = r2_w12_y2 - r2_w12_e1
 
         # khepera.bg:17: r2_w12: stage 1, at rest
         r2_w12_y1 = r2_w12_u1
@@ -2319,8 +3129,44 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r2_w13_m__2__motor_speed = r2_w13_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w13: encoders, order 1
+        r2_w13_n1 = -c.r2_w13_w1_m__2__motor * r2_w13_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w13: error of order 1
+        r2_w13_e1 = c.bend2 * r2_w13_n1
+
+        # khepera.bg:17: r2_w13: encoders, order 2
+        r2_w13_n2 = c.r2_w13_w2_m__2__motor * r2_w13_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w13: error of order 2
+        r2_w13_e2 = c.bend1 * r2_w13_n2
+
+        # khepera.bg:17: r2_w13: encoders, order 3
+        r2_w13_n3 = -c.r2_w13_w3_m__2__motor * r2_w13_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w13: terms of order 0
+        r2_w13_g0 = -c.r2_w13_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w13: terms of order 1
+        r2_w13_g1 = -c.r2_w13_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w13: degree 1
+        r2_w13_d1 = r2_w13_g1 + r2_w13_n1 + r2_w13_n2
+
+        # khepera.bg:17: r2_w13: error of order 0
+        r2_w13_e0 = c.bend3 * r2_w13_g0
+
+        # khepera.bg:17: r2_w13: degree 2
+        r2_w13_d2 = r2_w13_n2 + r2_w13_n3 - r2_w13_e1 - r2_w13_e0
+
+        # khepera.bg:17: r2_w13: error of order 1
+        r2_w13_e1_2 = c.bend2 * r2_w13_g1
+
+        # khepera.bg:17: r2_w13: degree 3
+        r2_w13_d3 = r2_w13_n3 - r2_w13_e1 - r2_w13_e2 - r2_w13_e1_2
+
         # khepera.bg:17: r2_w13: input of stage 4
-        r2_w13_u4 = c.r2_w13_v4_Fx__2 * s.Fx__2
+        r2_w13_u4 = r2_w13_g0 + r2_w13_n1 + r2_w13_d2 - r2_w13_d1 - r2_w13_d3 - r2_w13_e2
 
         # khepera.bg:17: r2_w13: stage 4, at rest
         r2_w13_y4 = r2_w13_u4
@@ -2329,10 +3175,7 @@ class Monitor:
         x.r2_w13_s4 = c.rest * r2_w13_u4
 
         # khepera.bg:17: r2_w13: input of stage 3
-        r2_w13_u3 = (
-            r2_w13_y4 - c.r2_w13_v3_m__2__motor * r2_w13_m__2__motor_speed_2
-            - c.r2_w13_v3_Fx__2 * s.Fx__2
-        )
+        r2_w13_u3 = r2_w13_y4 + r2_w13_d1 + 3.0 * r2_w13_d3 + 4.0 * r2_w13_e2 - 2.0 * r2_w13_d2
 
         # khepera.bg:17: r2_w13: stage 3, at rest
         r2_w13_y3 = r2_w13_u3
@@ -2341,7 +3184,7 @@ class Monitor:
         x.r2_w13_s3 = c.rest * r2_w13_u3
 
         # khepera.bg:17: r2_w13: input of stage 2
-        r2_w13_u2 = r2_w13_y3 + c.r2_w13_v2_m__2__motor * r2_w13_m__2__motor_speed_2
+        r2_w13_u2 = r2_w13_y3 + r2_w13_d2 - 3.0 * r2_w13_d3 - 6.0 * r2_w13_e2
 
         # khepera.bg:17: r2_w13: stage 2, at rest
         r2_w13_y2 = r2_w13_u2
@@ -2350,7 +3193,7 @@ class Monitor:
         x.r2_w13_s2 = c.rest * r2_w13_u2
 
         # khepera.bg:17: r2_w13: input of stage 1
-        r2_w13_u1 = r2_w13_y2 - c.r2_w13_v1_m__2__motor * r2_w13_m__2__motor_speed_2
+        r2_w13_u1 = r2_w13_y2 + r2_w13_d3 + 4.0 * r2_w13_e2
 
         # khepera.bg:17: r2_w13: stage 1, at rest
         r2_w13_y1 = r2_w13_u1
@@ -2359,7 +3202,7 @@ class Monitor:
         x.r2_w13_s1 = c.rest * r2_w13_u1
 
         # khepera.bg:17: r2: second order of what the tolerance of m[2].el.k can do
-        r2_w13 = r2_w13_y1
+        r2_w13 = r2_w13_y1 - r2_w13_e2
 
         # khepera.bg:17: r2: how far r2 can be from zero if no parameter is out of tolerance
         r.r2 = (
@@ -2380,32 +3223,56 @@ class Monitor:
         )
         x.r2_w1_m__2__motor_speed = r2_w1_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w1: encoders, order 1
+        r2_w1_n1 = -c.r2_w1_w1_m__2__motor * r2_w1_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w1: error of order 1
+        r2_w1_e1 = c.bend1 * r2_w1_n1
+
+        # khepera.bg:17: r2_w1: encoders, order 2
+        r2_w1_n2 = -c.r2_w1_w2_m__2__motor * r2_w1_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w1: degree 1
+        r2_w1_d1 = r2_w1_n1 + r2_w1_n2
+
+        # khepera.bg:17: r2_w1: degree 2
+        r2_w1_d2 = r2_w1_n2 - r2_w1_e1
+
+        # khepera.bg:17: r2_w1: input of stage 4
+        r2_w1_u4 = r2_w1_n1 + r2_w1_d2 + r2_w1_e1 - r2_w1_d1
+
+        # khepera.bg:17: r2_w1: stage 4
+        r2_w1_y4 = x.r2_w1_s4 + c.b * r2_w1_u4
+
+        # khepera.bg:17: r2_w1: stage 4: memory
+        x.r2_w1_s4 = c.a * r2_w1_y4 + c.b * r2_w1_u4
+
         # khepera.bg:17: r2_w1: input of stage 3
-        r2_w1_u3 = c.r2_w1_v3_m__2__motor * r2_w1_m__2__motor_speed_2
+        r2_w1_u3 = r2_w1_y4 + r2_w1_d1 - 2.0 * r2_w1_d2 - 3.0 * r2_w1_e1
 
         # khepera.bg:17: r2_w1: stage 3
-        r2_w1_y3 = x.r2_w1_s3 + c.b0 * r2_w1_u3
+        r2_w1_y3 = x.r2_w1_s3 + c.b * r2_w1_u3
 
         # khepera.bg:17: r2_w1: stage 3: memory
-        x.r2_w1_s3 = c.a * r2_w1_y3 + c.b1 * r2_w1_u3
+        x.r2_w1_s3 = c.a * r2_w1_y3 + c.b * r2_w1_u3
 
         # khepera.bg:17: r2_w1: input of stage 2
-        r2_w1_u2 = r2_w1_y3 - c.r2_w1_v2_m__2__motor * r2_w1_m__2__motor_speed_2
+        r2_w1_u2 = r2_w1_y3 + r2_w1_d2 + 3.0 * r2_w1_e1
 
         # khepera.bg:17: r2_w1: stage 2
-        r2_w1_y2 = x.r2_w1_s2 + c.b0 * r2_w1_u2
+        r2_w1_y2 = x.r2_w1_s2 + c.b * r2_w1_u2
 
         # khepera.bg:17: r2_w1: stage 2: memory
-        x.r2_w1_s2 = c.a * r2_w1_y2 + c.b1 * r2_w1_u2
+        x.r2_w1_s2 = c.a * r2_w1_y2 + c.b * r2_w1_u2
 
         # khepera.bg:17: r2_w1: input of stage 1
-        r2_w1_u1 = r2_w1_y2
+        r2_w1_u1 = r2_w1_y2 - r2_w1_e1
 
         # khepera.bg:17: r2_w1: stage 1
-        r2_w1_y1 = x.r2_w1_s1 + c.b0 * r2_w1_u1
+        r2_w1_y1 = x.r2_w1_s1 + c.b * r2_w1_u1
 
         # khepera.bg:17: r2_w1: stage 1: memory
-        x.r2_w1_s1 = c.a * r2_w1_y1 + c.b1 * r2_w1_u1
+        x.r2_w1_s1 = c.a * r2_w1_y1 + c.b * r2_w1_u1
 
         # khepera.bg:17: r2: what the tolerance of m[2].fe can do
         r2_w1 = r2_w1_y1
@@ -2416,35 +3283,59 @@ class Monitor:
         )
         x.r2_w2_m__2__motor_speed = r2_w2_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w2: encoders, order 2
+        r2_w2_n2 = -c.r2_w2_w2_m__2__motor * r2_w2_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w2: error of order 2
+        r2_w2_e2 = c.bend1 * r2_w2_n2
+
+        # khepera.bg:17: r2_w2: encoders, order 3
+        r2_w2_n3 = -c.r2_w2_w3_m__2__motor * r2_w2_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w2: degree 2
+        r2_w2_d2 = r2_w2_n2 + r2_w2_n3
+
+        # khepera.bg:17: r2_w2: degree 3
+        r2_w2_d3 = r2_w2_n3 - r2_w2_e2
+
+        # khepera.bg:17: r2_w2: input of stage 4
+        r2_w2_u4 = r2_w2_d2 - r2_w2_n2 - r2_w2_d3 - r2_w2_e2
+
+        # khepera.bg:17: r2_w2: stage 4
+        r2_w2_y4 = x.r2_w2_s4 + c.b * r2_w2_u4
+
+        # khepera.bg:17: r2_w2: stage 4: memory
+        x.r2_w2_s4 = c.a * r2_w2_y4 + c.b * r2_w2_u4
+
         # khepera.bg:17: r2_w2: input of stage 3
-        r2_w2_u3 = c.r2_w2_v3_m__2__motor * r2_w2_m__2__motor_speed_2
+        r2_w2_u3 = r2_w2_y4 + r2_w2_n2 + 3.0 * r2_w2_d3 + 4.0 * r2_w2_e2 - 2.0 * r2_w2_d2
 
         # khepera.bg:17: r2_w2: stage 3
-        r2_w2_y3 = x.r2_w2_s3 + c.b0 * r2_w2_u3
+        r2_w2_y3 = x.r2_w2_s3 + c.b * r2_w2_u3
 
         # khepera.bg:17: r2_w2: stage 3: memory
-        x.r2_w2_s3 = c.a * r2_w2_y3 + c.b1 * r2_w2_u3
+        x.r2_w2_s3 = c.a * r2_w2_y3 + c.b * r2_w2_u3
 
         # khepera.bg:17: r2_w2: input of stage 2
-        r2_w2_u2 = r2_w2_y3 + c.r2_w2_v2_m__2__motor * r2_w2_m__2__motor_speed_2
+        r2_w2_u2 = r2_w2_y3 + r2_w2_d2 - 3.0 * r2_w2_d3 - 6.0 * r2_w2_e2
 
         # khepera.bg:17: r2_w2: stage 2
-        r2_w2_y2 = x.r2_w2_s2 + c.b0 * r2_w2_u2
+        r2_w2_y2 = x.r2_w2_s2 + c.b * r2_w2_u2
 
         # khepera.bg:17: r2_w2: stage 2: memory
-        x.r2_w2_s2 = c.a * r2_w2_y2 + c.b1 * r2_w2_u2
+        x.r2_w2_s2 = c.a * r2_w2_y2 + c.b * r2_w2_u2
 
         # khepera.bg:17: r2_w2: input of stage 1
-        r2_w2_u1 = r2_w2_y2 - c.r2_w2_v1_m__2__motor * r2_w2_m__2__motor_speed_2
+        r2_w2_u1 = r2_w2_y2 + r2_w2_d3 + 4.0 * r2_w2_e2
 
         # khepera.bg:17: r2_w2: stage 1
-        r2_w2_y1 = x.r2_w2_s1 + c.b0 * r2_w2_u1
+        r2_w2_y1 = x.r2_w2_s1 + c.b * r2_w2_u1
 
         # khepera.bg:17: r2_w2: stage 1: memory
-        x.r2_w2_s1 = c.a * r2_w2_y1 + c.b1 * r2_w2_u1
+        x.r2_w2_s1 = c.a * r2_w2_y1 + c.b * r2_w2_u1
 
         # khepera.bg:17: r2: what the tolerance of m[2].Js can do
-        r2_w2 = r2_w2_y1
+        r2_w2 = r2_w2_y1 - r2_w2_e2
 
         # khepera.bg:17: filtered speed of m[2].motor
         r2_w3_m__2__motor_speed_2 = (
@@ -2452,32 +3343,56 @@ class Monitor:
         )
         x.r2_w3_m__2__motor_speed = r2_w3_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w3: encoders, order 1
+        r2_w3_n1 = -c.r2_w3_w1_m__2__motor * r2_w3_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w3: error of order 1
+        r2_w3_e1 = c.bend1 * r2_w3_n1
+
+        # khepera.bg:17: r2_w3: encoders, order 2
+        r2_w3_n2 = -c.r2_w3_w2_m__2__motor * r2_w3_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w3: degree 1
+        r2_w3_d1 = r2_w3_n1 + r2_w3_n2
+
+        # khepera.bg:17: r2_w3: degree 2
+        r2_w3_d2 = r2_w3_n2 - r2_w3_e1
+
+        # khepera.bg:17: r2_w3: input of stage 4
+        r2_w3_u4 = r2_w3_n1 + r2_w3_d2 + r2_w3_e1 - r2_w3_d1
+
+        # khepera.bg:17: r2_w3: stage 4
+        r2_w3_y4 = x.r2_w3_s4 + c.b * r2_w3_u4
+
+        # khepera.bg:17: r2_w3: stage 4: memory
+        x.r2_w3_s4 = c.a * r2_w3_y4 + c.b * r2_w3_u4
+
         # khepera.bg:17: r2_w3: input of stage 3
-        r2_w3_u3 = c.r2_w3_v3_m__2__motor * r2_w3_m__2__motor_speed_2
+        r2_w3_u3 = r2_w3_y4 + r2_w3_d1 - 2.0 * r2_w3_d2 - 3.0 * r2_w3_e1
 
         # khepera.bg:17: r2_w3: stage 3
-        r2_w3_y3 = x.r2_w3_s3 + c.b0 * r2_w3_u3
+        r2_w3_y3 = x.r2_w3_s3 + c.b * r2_w3_u3
 
         # khepera.bg:17: r2_w3: stage 3: memory
-        x.r2_w3_s3 = c.a * r2_w3_y3 + c.b1 * r2_w3_u3
+        x.r2_w3_s3 = c.a * r2_w3_y3 + c.b * r2_w3_u3
 
         # khepera.bg:17: r2_w3: input of stage 2
-        r2_w3_u2 = r2_w3_y3 - c.r2_w3_v2_m__2__motor * r2_w3_m__2__motor_speed_2
+        r2_w3_u2 = r2_w3_y3 + r2_w3_d2 + 3.0 * r2_w3_e1
 
         # khepera.bg:17: r2_w3: stage 2
-        r2_w3_y2 = x.r2_w3_s2 + c.b0 * r2_w3_u2
+        r2_w3_y2 = x.r2_w3_s2 + c.b * r2_w3_u2
 
         # khepera.bg:17: r2_w3: stage 2: memory
-        x.r2_w3_s2 = c.a * r2_w3_y2 + c.b1 * r2_w3_u2
+        x.r2_w3_s2 = c.a * r2_w3_y2 + c.b * r2_w3_u2
 
         # khepera.bg:17: r2_w3: input of stage 1
-        r2_w3_u1 = r2_w3_y2
+        r2_w3_u1 = r2_w3_y2 - r2_w3_e1
 
         # khepera.bg:17: r2_w3: stage 1
-        r2_w3_y1 = x.r2_w3_s1 + c.b0 * r2_w3_u1
+        r2_w3_y1 = x.r2_w3_s1 + c.b * r2_w3_u1
 
         # khepera.bg:17: r2_w3: stage 1: memory
-        x.r2_w3_s1 = c.a * r2_w3_y1 + c.b1 * r2_w3_u1
+        x.r2_w3_s1 = c.a * r2_w3_y1 + c.b * r2_w3_u1
 
         # khepera.bg:17: r2: what the tolerance of m[2].fs can do
         r2_w3 = r2_w3_y1
@@ -2488,41 +3403,62 @@ class Monitor:
         )
         x.r2_w4_m__2__motor_speed = r2_w4_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w4: encoders, order 1
+        r2_w4_n1 = -c.r2_w4_w1_m__2__motor * r2_w4_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w4: error of order 1
+        r2_w4_e1 = c.bend1 * r2_w4_n1
+
+        # khepera.bg:17: r2_w4: encoders, order 2
+        r2_w4_n2 = -c.r2_w4_w2_m__2__motor * r2_w4_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w4: terms of order 0
+        r2_w4_g0 = -c.r2_w4_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w4: degree 1
+        r2_w4_d1 = r2_w4_n1 + r2_w4_n2
+
+        # khepera.bg:17: r2_w4: error of order 0
+        r2_w4_e0 = c.bend2 * r2_w4_g0
+
+        # khepera.bg:17: r2_w4: degree 2
+        r2_w4_d2 = r2_w4_n2 - r2_w4_e1 - r2_w4_e0
+
         # khepera.bg:17: r2_w4: input of stage 4
-        r2_w4_u4 = -c.r2_w4_v4_Fx__2 * s.Fx__2
+        r2_w4_u4 = r2_w4_g0 + r2_w4_n1 + r2_w4_d2 + r2_w4_e1 - r2_w4_d1
 
         # khepera.bg:17: r2_w4: stage 4
-        r2_w4_y4 = x.r2_w4_s4 + c.b0 * r2_w4_u4
+        r2_w4_y4 = x.r2_w4_s4 + c.b * r2_w4_u4
 
         # khepera.bg:17: r2_w4: stage 4: memory
-        x.r2_w4_s4 = c.a * r2_w4_y4 + c.b1 * r2_w4_u4
+        x.r2_w4_s4 = c.a * r2_w4_y4 + c.b * r2_w4_u4
 
         # khepera.bg:17: r2_w4: input of stage 3
-        r2_w4_u3 = r2_w4_y4 + c.r2_w4_v3_m__2__motor * r2_w4_m__2__motor_speed_2
+        r2_w4_u3 = r2_w4_y4 + r2_w4_d1 - 2.0 * r2_w4_d2 - 3.0 * r2_w4_e1
 
         # khepera.bg:17: r2_w4: stage 3
-        r2_w4_y3 = x.r2_w4_s3 + c.b0 * r2_w4_u3
+        r2_w4_y3 = x.r2_w4_s3 + c.b * r2_w4_u3
 
         # khepera.bg:17: r2_w4: stage 3: memory
-        x.r2_w4_s3 = c.a * r2_w4_y3 + c.b1 * r2_w4_u3
+        x.r2_w4_s3 = c.a * r2_w4_y3 + c.b * r2_w4_u3
 
         # khepera.bg:17: r2_w4: input of stage 2
-        r2_w4_u2 = r2_w4_y3 - c.r2_w4_v2_m__2__motor * r2_w4_m__2__motor_speed_2
+        r2_w4_u2 = r2_w4_y3 + r2_w4_d2 + 3.0 * r2_w4_e1
 
         # khepera.bg:17: r2_w4: stage 2
-        r2_w4_y2 = x.r2_w4_s2 + c.b0 * r2_w4_u2
+        r2_w4_y2 = x.r2_w4_s2 + c.b * r2_w4_u2
 
         # khepera.bg:17: r2_w4: stage 2: memory
-        x.r2_w4_s2 = c.a * r2_w4_y2 + c.b1 * r2_w4_u2
+        x.r2_w4_s2 = c.a * r2_w4_y2 + c.b * r2_w4_u2
 
         # khepera.bg:17: r2_w4: input of stage 1
-        r2_w4_u1 = r2_w4_y2
+        r2_w4_u1 = r2_w4_y2 - r2_w4_e1
 
         # khepera.bg:17: r2_w4: stage 1
-        r2_w4_y1 = x.r2_w4_s1 + c.b0 * r2_w4_u1
+        r2_w4_y1 = x.r2_w4_s1 + c.b * r2_w4_u1
 
         # khepera.bg:17: r2_w4: stage 1: memory
-        x.r2_w4_s1 = c.a * r2_w4_y1 + c.b1 * r2_w4_u1
+        x.r2_w4_s1 = c.a * r2_w4_y1 + c.b * r2_w4_u1
 
         # khepera.bg:17: r2: what the tolerance of m[2].el.Re can do
         r2_w4 = r2_w4_y1
@@ -2533,47 +3469,80 @@ class Monitor:
         )
         x.r2_w5_m__2__motor_speed = r2_w5_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w5: encoders, order 1
+        r2_w5_n1 = c.r2_w5_w1_m__2__motor * r2_w5_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w5: error of order 1
+        r2_w5_e1 = c.bend2 * r2_w5_n1
+
+        # khepera.bg:17: r2_w5: encoders, order 2
+        r2_w5_n2 = c.r2_w5_w2_m__2__motor * r2_w5_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w5: error of order 2
+        r2_w5_e2 = c.bend1 * r2_w5_n2
+
+        # khepera.bg:17: r2_w5: encoders, order 3
+        r2_w5_n3 = c.r2_w5_w3_m__2__motor * r2_w5_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w5: terms of order 0
+        r2_w5_g0 = c.r2_w5_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w5: terms of order 1
+        r2_w5_g1 = c.r2_w5_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w5: degree 1
+        r2_w5_d1 = r2_w5_g1 + r2_w5_n1 + r2_w5_n2
+
+        # khepera.bg:17: r2_w5: error of order 0
+        r2_w5_e0 = c.bend3 * r2_w5_g0
+
+        # khepera.bg:17: r2_w5: degree 2
+        r2_w5_d2 = r2_w5_n2 + r2_w5_n3 - r2_w5_e1 - r2_w5_e0
+
+        # khepera.bg:17: r2_w5: error of order 1
+        r2_w5_e1_2 = c.bend2 * r2_w5_g1
+
+        # khepera.bg:17: r2_w5: degree 3
+        r2_w5_d3 = r2_w5_n3 - r2_w5_e1 - r2_w5_e2 - r2_w5_e1_2
+
         # khepera.bg:17: r2_w5: input of stage 4
-        r2_w5_u4 = c.r2_w5_v4_Fx__2 * s.Fx__2
+        r2_w5_u4 = r2_w5_g0 + r2_w5_n1 + r2_w5_d2 - r2_w5_d1 - r2_w5_d3 - r2_w5_e2
 
         # khepera.bg:17: r2_w5: stage 4
-        r2_w5_y4 = x.r2_w5_s4 + c.b0 * r2_w5_u4
+        r2_w5_y4 = x.r2_w5_s4 + c.b * r2_w5_u4
 
         # khepera.bg:17: r2_w5: stage 4: memory
-        x.r2_w5_s4 = c.a * r2_w5_y4 + c.b1 * r2_w5_u4
+        x.r2_w5_s4 = c.a * r2_w5_y4 + c.b * r2_w5_u4
 
         # khepera.bg:17: r2_w5: input of stage 3
-        r2_w5_u3 = (
-            r2_w5_y4 + c.r2_w5_v3_m__2__motor * r2_w5_m__2__motor_speed_2
-            + c.r2_w5_v3_Fx__2 * s.Fx__2
-        )
+        r2_w5_u3 = r2_w5_y4 + r2_w5_d1 + 3.0 * r2_w5_d3 + 4.0 * r2_w5_e2 - 2.0 * r2_w5_d2
 
         # khepera.bg:17: r2_w5: stage 3
-        r2_w5_y3 = x.r2_w5_s3 + c.b0 * r2_w5_u3
+        r2_w5_y3 = x.r2_w5_s3 + c.b * r2_w5_u3
 
         # khepera.bg:17: r2_w5: stage 3: memory
-        x.r2_w5_s3 = c.a * r2_w5_y3 + c.b1 * r2_w5_u3
+        x.r2_w5_s3 = c.a * r2_w5_y3 + c.b * r2_w5_u3
 
         # khepera.bg:17: r2_w5: input of stage 2
-        r2_w5_u2 = r2_w5_y3 + c.r2_w5_v2_m__2__motor * r2_w5_m__2__motor_speed_2
+        r2_w5_u2 = r2_w5_y3 + r2_w5_d2 - 3.0 * r2_w5_d3 - 6.0 * r2_w5_e2
 
         # khepera.bg:17: r2_w5: stage 2
-        r2_w5_y2 = x.r2_w5_s2 + c.b0 * r2_w5_u2
+        r2_w5_y2 = x.r2_w5_s2 + c.b * r2_w5_u2
 
         # khepera.bg:17: r2_w5: stage 2: memory
-        x.r2_w5_s2 = c.a * r2_w5_y2 + c.b1 * r2_w5_u2
+        x.r2_w5_s2 = c.a * r2_w5_y2 + c.b * r2_w5_u2
 
         # khepera.bg:17: r2_w5: input of stage 1
-        r2_w5_u1 = r2_w5_y2 + c.r2_w5_v1_m__2__motor * r2_w5_m__2__motor_speed_2
+        r2_w5_u1 = r2_w5_y2 + r2_w5_d3 + 4.0 * r2_w5_e2
 
         # khepera.bg:17: r2_w5: stage 1
-        r2_w5_y1 = x.r2_w5_s1 + c.b0 * r2_w5_u1
+        r2_w5_y1 = x.r2_w5_s1 + c.b * r2_w5_u1
 
         # khepera.bg:17: r2_w5: stage 1: memory
-        x.r2_w5_s1 = c.a * r2_w5_y1 + c.b1 * r2_w5_u1
+        x.r2_w5_s1 = c.a * r2_w5_y1 + c.b * r2_w5_u1
 
         # khepera.bg:17: r2: what the tolerance of m[2].el.k can do
-        r2_w5 = r2_w5_y1
+        r2_w5 = r2_w5_y1 - r2_w5_e2
 
         # khepera.bg:17: filtered speed of m[2].motor
         r2_w6_m__2__motor_speed_2 = (
@@ -2581,32 +3550,44 @@ class Monitor:
         )
         x.r2_w6_m__2__motor_speed = r2_w6_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w6: encoders, order 1
+        r2_w6_n1 = -c.r2_w6_w1_m__2__motor * r2_w6_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w6: input of stage 4
+        r2_w6_u4 = r2_w6_n1 - r2_w6_n1
+
+        # khepera.bg:17: r2_w6: stage 4
+        r2_w6_y4 = x.r2_w6_s4 + c.b * r2_w6_u4
+
+        # khepera.bg:17: r2_w6: stage 4: memory
+        x.r2_w6_s4 = c.a * r2_w6_y4 + c.b * r2_w6_u4
+
         # khepera.bg:17: r2_w6: input of stage 3
-        r2_w6_u3 = -c.r2_w6_v3_m__2__motor * r2_w6_m__2__motor_speed_2
+        r2_w6_u3 = r2_w6_y4 + r2_w6_n1
 
         # khepera.bg:17: r2_w6: stage 3
-        r2_w6_y3 = x.r2_w6_s3 + c.b0 * r2_w6_u3
+        r2_w6_y3 = x.r2_w6_s3 + c.b * r2_w6_u3
 
         # khepera.bg:17: r2_w6: stage 3: memory
-        x.r2_w6_s3 = c.a * r2_w6_y3 + c.b1 * r2_w6_u3
+        x.r2_w6_s3 = c.a * r2_w6_y3 + c.b * r2_w6_u3
 
         # khepera.bg:17: r2_w6: input of stage 2
         r2_w6_u2 = r2_w6_y3
 
         # khepera.bg:17: r2_w6: stage 2
-        r2_w6_y2 = x.r2_w6_s2 + c.b0 * r2_w6_u2
+        r2_w6_y2 = x.r2_w6_s2 + c.b * r2_w6_u2
 
         # khepera.bg:17: r2_w6: stage 2: memory
-        x.r2_w6_s2 = c.a * r2_w6_y2 + c.b1 * r2_w6_u2
+        x.r2_w6_s2 = c.a * r2_w6_y2 + c.b * r2_w6_u2
 
         # khepera.bg:17: r2_w6: input of stage 1
         r2_w6_u1 = r2_w6_y2
 
         # khepera.bg:17: r2_w6: stage 1
-        r2_w6_y1 = x.r2_w6_s1 + c.b0 * r2_w6_u1
+        r2_w6_y1 = x.r2_w6_s1 + c.b * r2_w6_u1
 
         # khepera.bg:17: r2_w6: stage 1: memory
-        x.r2_w6_s1 = c.a * r2_w6_y1 + c.b1 * r2_w6_u1
+        x.r2_w6_s1 = c.a * r2_w6_y1 + c.b * r2_w6_u1
 
         # khepera.bg:17: r2: what the tolerances of m[2].fe and m[2].el.Re can do together
         r2_w6 = r2_w6_y1
@@ -2617,32 +3598,56 @@ class Monitor:
         )
         x.r2_w7_m__2__motor_speed = r2_w7_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w7: encoders, order 1
+        r2_w7_n1 = c.r2_w7_w1_m__2__motor * r2_w7_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w7: error of order 1
+        r2_w7_e1 = c.bend1 * r2_w7_n1
+
+        # khepera.bg:17: r2_w7: encoders, order 2
+        r2_w7_n2 = c.r2_w7_w2_m__2__motor * r2_w7_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w7: degree 1
+        r2_w7_d1 = r2_w7_n1 + r2_w7_n2
+
+        # khepera.bg:17: r2_w7: degree 2
+        r2_w7_d2 = r2_w7_n2 - r2_w7_e1
+
+        # khepera.bg:17: r2_w7: input of stage 4
+        r2_w7_u4 = r2_w7_n1 + r2_w7_d2 + r2_w7_e1 - r2_w7_d1
+
+        # khepera.bg:17: r2_w7: stage 4
+        r2_w7_y4 = x.r2_w7_s4 + c.b * r2_w7_u4
+
+        # khepera.bg:17: r2_w7: stage 4: memory
+        x.r2_w7_s4 = c.a * r2_w7_y4 + c.b * r2_w7_u4
+
         # khepera.bg:17: r2_w7: input of stage 3
-        r2_w7_u3 = c.r2_w7_v3_m__2__motor * r2_w7_m__2__motor_speed_2
+        r2_w7_u3 = r2_w7_y4 + r2_w7_d1 - 2.0 * r2_w7_d2 - 3.0 * r2_w7_e1
 
         # khepera.bg:17: r2_w7: stage 3
-        r2_w7_y3 = x.r2_w7_s3 + c.b0 * r2_w7_u3
+        r2_w7_y3 = x.r2_w7_s3 + c.b * r2_w7_u3
 
         # khepera.bg:17: r2_w7: stage 3: memory
-        x.r2_w7_s3 = c.a * r2_w7_y3 + c.b1 * r2_w7_u3
+        x.r2_w7_s3 = c.a * r2_w7_y3 + c.b * r2_w7_u3
 
         # khepera.bg:17: r2_w7: input of stage 2
-        r2_w7_u2 = r2_w7_y3 + c.r2_w7_v2_m__2__motor * r2_w7_m__2__motor_speed_2
+        r2_w7_u2 = r2_w7_y3 + r2_w7_d2 + 3.0 * r2_w7_e1
 
         # khepera.bg:17: r2_w7: stage 2
-        r2_w7_y2 = x.r2_w7_s2 + c.b0 * r2_w7_u2
+        r2_w7_y2 = x.r2_w7_s2 + c.b * r2_w7_u2
 
         # khepera.bg:17: r2_w7: stage 2: memory
-        x.r2_w7_s2 = c.a * r2_w7_y2 + c.b1 * r2_w7_u2
+        x.r2_w7_s2 = c.a * r2_w7_y2 + c.b * r2_w7_u2
 
         # khepera.bg:17: r2_w7: input of stage 1
-        r2_w7_u1 = r2_w7_y2
+        r2_w7_u1 = r2_w7_y2 - r2_w7_e1
 
         # khepera.bg:17: r2_w7: stage 1
-        r2_w7_y1 = x.r2_w7_s1 + c.b0 * r2_w7_u1
+        r2_w7_y1 = x.r2_w7_s1 + c.b * r2_w7_u1
 
         # khepera.bg:17: r2_w7: stage 1: memory
-        x.r2_w7_s1 = c.a * r2_w7_y1 + c.b1 * r2_w7_u1
+        x.r2_w7_s1 = c.a * r2_w7_y1 + c.b * r2_w7_u1
 
         # khepera.bg:17: r2: what the tolerances of m[2].fe and m[2].el.k can do together
         r2_w7 = r2_w7_y1
@@ -2653,32 +3658,44 @@ class Monitor:
         )
         x.r2_w8_m__2__motor_speed = r2_w8_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w8: encoders, order 2
+        r2_w8_n2 = -c.r2_w8_w2_m__2__motor * r2_w8_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w8: input of stage 4
+        r2_w8_u4 = r2_w8_n2 - r2_w8_n2
+
+        # khepera.bg:17: r2_w8: stage 4
+        r2_w8_y4 = x.r2_w8_s4 + c.b * r2_w8_u4
+
+        # khepera.bg:17: r2_w8: stage 4: memory
+        x.r2_w8_s4 = c.a * r2_w8_y4 + c.b * r2_w8_u4
+
         # khepera.bg:17: r2_w8: input of stage 3
-        r2_w8_u3 = c.r2_w8_v2_m__2__motor * r2_w8_m__2__motor_speed_2
+        r2_w8_u3 = r2_w8_y4 + r2_w8_n2 - 2.0 * r2_w8_n2
 
         # khepera.bg:17: r2_w8: stage 3
-        r2_w8_y3 = x.r2_w8_s3 + c.b0 * r2_w8_u3
+        r2_w8_y3 = x.r2_w8_s3 + c.b * r2_w8_u3
 
         # khepera.bg:17: r2_w8: stage 3: memory
-        x.r2_w8_s3 = c.a * r2_w8_y3 + c.b1 * r2_w8_u3
+        x.r2_w8_s3 = c.a * r2_w8_y3 + c.b * r2_w8_u3
 
         # khepera.bg:17: r2_w8: input of stage 2
-        r2_w8_u2 = r2_w8_y3 - c.r2_w8_v2_m__2__motor * r2_w8_m__2__motor_speed_2
+        r2_w8_u2 = r2_w8_y3 + r2_w8_n2
 
         # khepera.bg:17: r2_w8: stage 2
-        r2_w8_y2 = x.r2_w8_s2 + c.b0 * r2_w8_u2
+        r2_w8_y2 = x.r2_w8_s2 + c.b * r2_w8_u2
 
         # khepera.bg:17: r2_w8: stage 2: memory
-        x.r2_w8_s2 = c.a * r2_w8_y2 + c.b1 * r2_w8_u2
+        x.r2_w8_s2 = c.a * r2_w8_y2 + c.b * r2_w8_u2
 
         # khepera.bg:17: r2_w8: input of stage 1
         r2_w8_u1 = r2_w8_y2
 
         # khepera.bg:17: r2_w8: stage 1
-        r2_w8_y1 = x.r2_w8_s1 + c.b0 * r2_w8_u1
+        r2_w8_y1 = x.r2_w8_s1 + c.b * r2_w8_u1
 
         # khepera.bg:17: r2_w8: stage 1: memory
-        x.r2_w8_s1 = c.a * r2_w8_y1 + c.b1 * r2_w8_u1
+        x.r2_w8_s1 = c.a * r2_w8_y1 + c.b * r2_w8_u1
 
         # khepera.bg:17: r2: what the tolerances of m[2].Js and m[2].el.Re can do together
         r2_w8 = r2_w8_y1
@@ -2689,35 +3706,59 @@ class Monitor:
         )
         x.r2_w9_m__2__motor_speed = r2_w9_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w9: encoders, order 2
+        r2_w9_n2 = c.r2_w9_w2_m__2__motor * r2_w9_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w9: error of order 2
+        r2_w9_e2 = c.bend1 * r2_w9_n2
+
+        # khepera.bg:17: r2_w9: encoders, order 3
+        r2_w9_n3 = c.r2_w9_w3_m__2__motor * r2_w9_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w9: degree 2
+        r2_w9_d2 = r2_w9_n2 + r2_w9_n3
+
+        # khepera.bg:17: r2_w9: degree 3
+        r2_w9_d3 = r2_w9_n3 - r2_w9_e2
+
+        # khepera.bg:17: r2_w9: input of stage 4
+        r2_w9_u4 = r2_w9_d2 - r2_w9_n2 - r2_w9_d3 - r2_w9_e2
+
+        # khepera.bg:17: r2_w9: stage 4
+        r2_w9_y4 = x.r2_w9_s4 + c.b * r2_w9_u4
+
+        # khepera.bg:17: r2_w9: stage 4: memory
+        x.r2_w9_s4 = c.a * r2_w9_y4 + c.b * r2_w9_u4
+
         # khepera.bg:17: r2_w9: input of stage 3
-        r2_w9_u3 = c.r2_w9_v3_m__2__motor * r2_w9_m__2__motor_speed_2
+        r2_w9_u3 = r2_w9_y4 + r2_w9_n2 + 3.0 * r2_w9_d3 + 4.0 * r2_w9_e2 - 2.0 * r2_w9_d2
 
         # khepera.bg:17: r2_w9: stage 3
-        r2_w9_y3 = x.r2_w9_s3 + c.b0 * r2_w9_u3
+        r2_w9_y3 = x.r2_w9_s3 + c.b * r2_w9_u3
 
         # khepera.bg:17: r2_w9: stage 3: memory
-        x.r2_w9_s3 = c.a * r2_w9_y3 + c.b1 * r2_w9_u3
+        x.r2_w9_s3 = c.a * r2_w9_y3 + c.b * r2_w9_u3
 
         # khepera.bg:17: r2_w9: input of stage 2
-        r2_w9_u2 = r2_w9_y3 + c.r2_w9_v2_m__2__motor * r2_w9_m__2__motor_speed_2
+        r2_w9_u2 = r2_w9_y3 + r2_w9_d2 - 3.0 * r2_w9_d3 - 6.0 * r2_w9_e2
 
         # khepera.bg:17: r2_w9: stage 2
-        r2_w9_y2 = x.r2_w9_s2 + c.b0 * r2_w9_u2
+        r2_w9_y2 = x.r2_w9_s2 + c.b * r2_w9_u2
 
         # khepera.bg:17: r2_w9: stage 2: memory
-        x.r2_w9_s2 = c.a * r2_w9_y2 + c.b1 * r2_w9_u2
+        x.r2_w9_s2 = c.a * r2_w9_y2 + c.b * r2_w9_u2
 
         # khepera.bg:17: r2_w9: input of stage 1
-        r2_w9_u1 = r2_w9_y2 + c.r2_w9_v1_m__2__motor * r2_w9_m__2__motor_speed_2
+        r2_w9_u1 = r2_w9_y2 + r2_w9_d3 + 4.0 * r2_w9_e2
 
         # khepera.bg:17: r2_w9: stage 1
-        r2_w9_y1 = x.r2_w9_s1 + c.b0 * r2_w9_u1
+        r2_w9_y1 = x.r2_w9_s1 + c.b * r2_w9_u1
 
         # khepera.bg:17: r2_w9: stage 1: memory
-        x.r2_w9_s1 = c.a * r2_w9_y1 + c.b1 * r2_w9_u1
+        x.r2_w9_s1 = c.a * r2_w9_y1 + c.b * r2_w9_u1
 
         # khepera.bg:17: r2: what the tolerances of m[2].Js and m[2].el.k can do together
-        r2_w9 = r2_w9_y1
+        r2_w9 = r2_w9_y1 - r2_w9_e2
 
         # khepera.bg:17: filtered speed of m[2].motor
         r2_w10_m__2__motor_speed_2 = (
@@ -2725,32 +3766,44 @@ class Monitor:
         )
         x.r2_w10_m__2__motor_speed = r2_w10_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w10: encoders, order 1
+        r2_w10_n1 = -c.r2_w10_w1_m__2__motor * r2_w10_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w10: input of stage 4
+        r2_w10_u4 = r2_w10_n1 - r2_w10_n1
+
+        # khepera.bg:17: r2_w10: stage 4
+        r2_w10_y4 = x.r2_w10_s4 + c.b * r2_w10_u4
+
+        # khepera.bg:17: r2_w10: stage 4: memory
+        x.r2_w10_s4 = c.a * r2_w10_y4 + c.b * r2_w10_u4
+
         # khepera.bg:17: r2_w10: input of stage 3
-        r2_w10_u3 = -c.r2_w10_v3_m__2__motor * r2_w10_m__2__motor_speed_2
+        r2_w10_u3 = r2_w10_y4 + r2_w10_n1
 
         # khepera.bg:17: r2_w10: stage 3
-        r2_w10_y3 = x.r2_w10_s3 + c.b0 * r2_w10_u3
+        r2_w10_y3 = x.r2_w10_s3 + c.b * r2_w10_u3
 
         # khepera.bg:17: r2_w10: stage 3: memory
-        x.r2_w10_s3 = c.a * r2_w10_y3 + c.b1 * r2_w10_u3
+        x.r2_w10_s3 = c.a * r2_w10_y3 + c.b * r2_w10_u3
 
         # khepera.bg:17: r2_w10: input of stage 2
         r2_w10_u2 = r2_w10_y3
 
         # khepera.bg:17: r2_w10: stage 2
-        r2_w10_y2 = x.r2_w10_s2 + c.b0 * r2_w10_u2
+        r2_w10_y2 = x.r2_w10_s2 + c.b * r2_w10_u2
 
         # khepera.bg:17: r2_w10: stage 2: memory
-        x.r2_w10_s2 = c.a * r2_w10_y2 + c.b1 * r2_w10_u2
+        x.r2_w10_s2 = c.a * r2_w10_y2 + c.b * r2_w10_u2
 
         # khepera.bg:17: r2_w10: input of stage 1
         r2_w10_u1 = r2_w10_y2
 
         # khepera.bg:17: r2_w10: stage 1
-        r2_w10_y1 = x.r2_w10_s1 + c.b0 * r2_w10_u1
+        r2_w10_y1 = x.r2_w10_s1 + c.b * r2_w10_u1
 
         # khepera.bg:17: r2_w10: stage 1: memory
-        x.r2_w10_s1 = c.a * r2_w10_y1 + c.b1 * r2_w10_u1
+        x.r2_w10_s1 = c.a * r2_w10_y1 + c.b * r2_w10_u1
 
         # khepera.bg:17: r2: what the tolerances of m[2].fs and m[2].el.Re can do together
         r2_w10 = r2_w10_y1
@@ -2761,32 +3814,56 @@ class Monitor:
         )
         x.r2_w11_m__2__motor_speed = r2_w11_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w11: encoders, order 1
+        r2_w11_n1 = c.r2_w11_w1_m__2__motor * r2_w11_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w11: error of order 1
+        r2_w11_e1 = c.bend1 * r2_w11_n1
+
+        # khepera.bg:17: r2_w11: encoders, order 2
+        r2_w11_n2 = c.r2_w11_w2_m__2__motor * r2_w11_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w11: degree 1
+        r2_w11_d1 = r2_w11_n1 + r2_w11_n2
+
+        # khepera.bg:17: r2_w11: degree 2
+        r2_w11_d2 = r2_w11_n2 - r2_w11_e1
+
+        # khepera.bg:17: r2_w11: input of stage 4
+        r2_w11_u4 = r2_w11_n1 + r2_w11_d2 + r2_w11_e1 - r2_w11_d1
+
+        # khepera.bg:17: r2_w11: stage 4
+        r2_w11_y4 = x.r2_w11_s4 + c.b * r2_w11_u4
+
+        # khepera.bg:17: r2_w11: stage 4: memory
+        x.r2_w11_s4 = c.a * r2_w11_y4 + c.b * r2_w11_u4
+
         # khepera.bg:17: r2_w11: input of stage 3
-        r2_w11_u3 = c.r2_w11_v3_m__2__motor * r2_w11_m__2__motor_speed_2
+        r2_w11_u3 = r2_w11_y4 + r2_w11_d1 - 2.0 * r2_w11_d2 - 3.0 * r2_w11_e1
 
         # khepera.bg:17: r2_w11: stage 3
-        r2_w11_y3 = x.r2_w11_s3 + c.b0 * r2_w11_u3
+        r2_w11_y3 = x.r2_w11_s3 + c.b * r2_w11_u3
 
         # khepera.bg:17: r2_w11: stage 3: memory
-        x.r2_w11_s3 = c.a * r2_w11_y3 + c.b1 * r2_w11_u3
+        x.r2_w11_s3 = c.a * r2_w11_y3 + c.b * r2_w11_u3
 
         # khepera.bg:17: r2_w11: input of stage 2
-        r2_w11_u2 = r2_w11_y3 + c.r2_w11_v2_m__2__motor * r2_w11_m__2__motor_speed_2
+        r2_w11_u2 = r2_w11_y3 + r2_w11_d2 + 3.0 * r2_w11_e1
 
         # khepera.bg:17: r2_w11: stage 2
-        r2_w11_y2 = x.r2_w11_s2 + c.b0 * r2_w11_u2
+        r2_w11_y2 = x.r2_w11_s2 + c.b * r2_w11_u2
 
         # khepera.bg:17: r2_w11: stage 2: memory
-        x.r2_w11_s2 = c.a * r2_w11_y2 + c.b1 * r2_w11_u2
+        x.r2_w11_s2 = c.a * r2_w11_y2 + c.b * r2_w11_u2
 
         # khepera.bg:17: r2_w11: input of stage 1
-        r2_w11_u1 = r2_w11_y2
+        r2_w11_u1 = r2_w11_y2 - r2_w11_e1
 
         # khepera.bg:17: r2_w11: stage 1
-        r2_w11_y1 = x.r2_w11_s1 + c.b0 * r2_w11_u1
+        r2_w11_y1 = x.r2_w11_s1 + c.b * r2_w11_u1
 
         # khepera.bg:17: r2_w11: stage 1: memory
-        x.r2_w11_s1 = c.a * r2_w11_y1 + c.b1 * r2_w11_u1
+        x.r2_w11_s1 = c.a * r2_w11_y1 + c.b * r2_w11_u1
 
         # khepera.bg:17: r2: what the tolerances of m[2].fs and m[2].el.k can do together
         r2_w11 = r2_w11_y1
@@ -2797,41 +3874,62 @@ class Monitor:
         )
         x.r2_w12_m__2__motor_speed = r2_w12_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w12: encoders, order 1
+        r2_w12_n1 = c.r2_w12_w1_m__2__motor * r2_w12_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w12: error of order 1
+        r2_w12_e1 = c.bend1 * r2_w12_n1
+
+        # khepera.bg:17: r2_w12: encoders, order 2
+        r2_w12_n2 = c.r2_w12_w2_m__2__motor * r2_w12_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w12: terms of order 0
+        r2_w12_g0 = c.r2_w12_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w12: degree 1
+        r2_w12_d1 = r2_w12_n1 + r2_w12_n2
+
+        # khepera.bg:17: r2_w12: error of order 0
+        r2_w12_e0 = c.bend2 * r2_w12_g0
+
+        # khepera.bg:17: r2_w12: degree 2
+        r2_w12_d2 = r2_w12_n2 - r2_w12_e1 - r2_w12_e0
+
         # khepera.bg:17: r2_w12: input of stage 4
-        r2_w12_u4 = c.r2_w12_v4_Fx__2 * s.Fx__2
+        r2_w12_u4 = r2_w12_g0 + r2_w12_n1 + r2_w12_d2 + r2_w12_e1 - r2_w12_d1
 
         # khepera.bg:17: r2_w12: stage 4
-        r2_w12_y4 = x.r2_w12_s4 + c.b0 * r2_w12_u4
+        r2_w12_y4 = x.r2_w12_s4 + c.b * r2_w12_u4
 
         # khepera.bg:17: r2_w12: stage 4: memory
-        x.r2_w12_s4 = c.a * r2_w12_y4 + c.b1 * r2_w12_u4
+        x.r2_w12_s4 = c.a * r2_w12_y4 + c.b * r2_w12_u4
 
         # khepera.bg:17: r2_w12: input of stage 3
-        r2_w12_u3 = r2_w12_y4 + c.r2_w12_v3_m__2__motor * r2_w12_m__2__motor_speed_2
+        r2_w12_u3 = r2_w12_y4 + r2_w12_d1 - 2.0 * r2_w12_d2 - 3.0 * r2_w12_e1
 
         # khepera.bg:17: r2_w12: stage 3
-        r2_w12_y3 = x.r2_w12_s3 + c.b0 * r2_w12_u3
+        r2_w12_y3 = x.r2_w12_s3 + c.b * r2_w12_u3
 
         # khepera.bg:17: r2_w12: stage 3: memory
-        x.r2_w12_s3 = c.a * r2_w12_y3 + c.b1 * r2_w12_u3
+        x.r2_w12_s3 = c.a * r2_w12_y3 + c.b * r2_w12_u3
 
         # khepera.bg:17: r2_w12: input of stage 2
-        r2_w12_u2 = r2_w12_y3 + c.r2_w12_v2_m__2__motor * r2_w12_m__2__motor_speed_2
+        r2_w12_u2 = r2_w12_y3 + r2_w12_d2 + 3.0 * r2_w12_e1
 
         # khepera.bg:17: r2_w12: stage 2
-        r2_w12_y2 = x.r2_w12_s2 + c.b0 * r2_w12_u2
+        r2_w12_y2 = x.r2_w12_s2 + c.b * r2_w12_u2
 
         # khepera.bg:17: r2_w12: stage 2: memory
-        x.r2_w12_s2 = c.a * r2_w12_y2 + c.b1 * r2_w12_u2
+        x.r2_w12_s2 = c.a * r2_w12_y2 + c.b * r2_w12_u2
 
         # khepera.bg:17: r2_w12: input of stage 1
-        r2_w12_u1 = r2_w12_y2
+        r2_w12_u1 = r2_w12_y2 - r2_w12_e1
 
         # khepera.bg:17: r2_w12: stage 1
-        r2_w12_y1 = x.r2_w12_s1 + c.b0 * r2_w12_u1
+        r2_w12_y1 = x.r2_w12_s1 + c.b * r2_w12_u1
 
         # khepera.bg:17: r2_w12: stage 1: memory
-        x.r2_w12_s1 = c.a * r2_w12_y1 + c.b1 * r2_w12_u1
+        x.r2_w12_s1 = c.a * r2_w12_y1 + c.b * r2_w12_u1
 
         # khepera.bg:17: r2: what the tolerances of m[2].el.Re and m[2].el.k can do together
         r2_w12 = r2_w12_y1
@@ -2842,47 +3940,80 @@ class Monitor:
         )
         x.r2_w13_m__2__motor_speed = r2_w13_m__2__motor_speed_2
 
+        # khepera.bg:17: r2_w13: encoders, order 1
+        r2_w13_n1 = -c.r2_w13_w1_m__2__motor * r2_w13_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w13: error of order 1
+        r2_w13_e1 = c.bend2 * r2_w13_n1
+
+        # khepera.bg:17: r2_w13: encoders, order 2
+        r2_w13_n2 = c.r2_w13_w2_m__2__motor * r2_w13_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w13: error of order 2
+        r2_w13_e2 = c.bend1 * r2_w13_n2
+
+        # khepera.bg:17: r2_w13: encoders, order 3
+        r2_w13_n3 = -c.r2_w13_w3_m__2__motor * r2_w13_m__2__motor_speed_2
+
+        # khepera.bg:17: r2_w13: terms of order 0
+        r2_w13_g0 = -c.r2_w13_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w13: terms of order 1
+        r2_w13_g1 = -c.r2_w13_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r2_w13: degree 1
+        r2_w13_d1 = r2_w13_g1 + r2_w13_n1 + r2_w13_n2
+
+        # khepera.bg:17: r2_w13: error of order 0
+        r2_w13_e0 = c.bend3 * r2_w13_g0
+
+        # khepera.bg:17: r2_w13: degree 2
+        r2_w13_d2 = r2_w13_n2 + r2_w13_n3 - r2_w13_e1 - r2_w13_e0
+
+        # khepera.bg:17: r2_w13: error of order 1
+        r2_w13_e1_2 = c.bend2 * r2_w13_g1
+
+        # khepera.bg:17: r2_w13: degree 3
+        r2_w13_d3 = r2_w13_n3 - r2_w13_e1 - r2_w13_e2 - r2_w13_e1_2
+
         # khepera.bg:17: r2_w13: input of stage 4
-        r2_w13_u4 = c.r2_w13_v4_Fx__2 * s.Fx__2
+        r2_w13_u4 = r2_w13_g0 + r2_w13_n1 + r2_w13_d2 - r2_w13_d1 - r2_w13_d3 - r2_w13_e2
 
         # khepera.bg:17: r2_w13: stage 4
-        r2_w13_y4 = x.r2_w13_s4 + c.b0 * r2_w13_u4
+        r2_w13_y4 = x.r2_w13_s4 + c.b * r2_w13_u4
 
         # khepera.bg:17: r2_w13: stage 4: memory
-        x.r2_w13_s4 = c.a * r2_w13_y4 + c.b1 * r2_w13_u4
+        x.r2_w13_s4 = c.a * r2_w13_y4 + c.b * r2_w13_u4
 
         # khepera.bg:17: r2_w13: input of stage 3
-        r2_w13_u3 = (
-            r2_w13_y4 - c.r2_w13_v3_m__2__motor * r2_w13_m__2__motor_speed_2
-            - c.r2_w13_v3_Fx__2 * s.Fx__2
-        )
+        r2_w13_u3 = r2_w13_y4 + r2_w13_d1 + 3.0 * r2_w13_d3 + 4.0 * r2_w13_e2 - 2.0 * r2_w13_d2
 
         # khepera.bg:17: r2_w13: stage 3
-        r2_w13_y3 = x.r2_w13_s3 + c.b0 * r2_w13_u3
+        r2_w13_y3 = x.r2_w13_s3 + c.b * r2_w13_u3
 
         # khepera.bg:17: r2_w13: stage 3: memory
-        x.r2_w13_s3 = c.a * r2_w13_y3 + c.b1 * r2_w13_u3
+        x.r2_w13_s3 = c.a * r2_w13_y3 + c.b * r2_w13_u3
 
         # khepera.bg:17: r2_w13: input of stage 2
-        r2_w13_u2 = r2_w13_y3 + c.r2_w13_v2_m__2__motor * r2_w13_m__2__motor_speed_2
+        r2_w13_u2 = r2_w13_y3 + r2_w13_d2 - 3.0 * r2_w13_d3 - 6.0 * r2_w13_e2
 
         # khepera.bg:17: r2_w13: stage 2
-        r2_w13_y2 = x.r2_w13_s2 + c.b0 * r2_w13_u2
+        r2_w13_y2 = x.r2_w13_s2 + c.b * r2_w13_u2
 
         # khepera.bg:17: r2_w13: stage 2: memory
-        x.r2_w13_s2 = c.a * r2_w13_y2 + c.b1 * r2_w13_u2
+        x.r2_w13_s2 = c.a * r2_w13_y2 + c.b * r2_w13_u2
 
         # khepera.bg:17: r2_w13: input of stage 1
-        r2_w13_u1 = r2_w13_y2 - c.r2_w13_v1_m__2__motor * r2_w13_m__2__motor_speed_2
+        r2_w13_u1 = r2_w13_y2 + r2_w13_d3 + 4.0 * r2_w13_e2
 
         # khepera.bg:17: r2_w13: stage 1
-        r2_w13_y1 = x.r2_w13_s1 + c.b0 * r2_w13_u1
+        r2_w13_y1 = x.r2_w13_s1 + c.b * r2_w13_u1
 
         # khepera.bg:17: r2_w13: stage 1: memory
-        x.r2_w13_s1 = c.a * r2_w13_y1 + c.b1 * r2_w13_u1
+        x.r2_w13_s1 = c.a * r2_w13_y1 + c.b * r2_w13_u1
 
         # khepera.bg:17: r2: second order of what the tolerance of m[2].el.k can do
-        r2_w13 = r2_w13_y1
+        r2_w13 = r2_w13_y1 - r2_w13_e2
 
         # khepera.bg:17: r2: how far r2 can be from zero if no parameter is out of tolerance
         r.r2 = (
@@ -2931,23 +4062,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[2] = 0
             r.r3 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

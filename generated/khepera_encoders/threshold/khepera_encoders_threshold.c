@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 /* Takes a count; the difference to the one before is right also when the counter runs over. */
@@ -125,6 +96,15 @@ static void compute_coefficients(khepera_encoders_threshold_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: m[1].fe*m[1].el.Re/m[1].el.k */
     const real t = p->m__1__fe * p->m__1__el__Re / p->m__1__el__k;
 
@@ -149,279 +129,229 @@ static void compute_coefficients(khepera_encoders_threshold_monitor *monitor,
     /* khepera_encoders.bg:31: m[2].K*m[2].tau0*m[2].A */
     const real t_8 = p->m__2__K * p->m__2__tau0 * p->m__2__A;
 
-    /* exp(-x) */
-    const real t_9 = exponential(-x_);
+    /* 1 - pole */
+    const real t_9 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_10 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_9) / x_;
+    /* 1 - (1 - pole)/2 */
+    const real t_10 = REAL(1.0) - REAL(0.5) * t_9;
 
-    /* 1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - ( ... */
-    const real t_11 = REAL(1.0) - t_10;
+    /* turn^2 */
+    const real t_11 = turn * turn;
 
-    /* bandwidth*(1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040) ... */
-    const real t_12 = bandwidth * t_11;
+    /* (1 - (1 - pole)/2)*w */
+    const real t_12 = t_10 * w;
 
-    /* khepera.bg:17: m[1].Je*m[1].el.L*bandwidth^2/m[1].el.k */
-    const real t_13 = p->m__1__Je * p->m__1__el__L * bandwidth * bandwidth / p->m__1__el__k;
+    /* khepera.bg:17: m[1].Je*m[1].el.L*w^2/m[1].el.k */
+    const real t_13 = p->m__1__Je * p->m__1__el__L * w * w / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].R*m[1].el.L*bandwidth/(m[1].el.k*m[1].ge.N) */
-    const real t_14 = p->m__1__R * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N;
+    /* khepera.bg:17: m[1].R*m[1].el.L*w/(m[1].el.k*m[1].ge.N) */
+    const real t_14 = p->m__1__R * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
 
-    /* khepera.bg:17: m[1].Js*m[1].el.L*bandwidth^2/(m[1].el.k*m[1].ge.N) */
-    const real t_15 = p->m__1__Js * p->m__1__el__L * bandwidth * bandwidth / p->m__1__el__k
-            / p->m__1__ge__N;
+    /* khepera.bg:17: m[1].Js*m[1].el.L*w^2/(m[1].el.k*m[1].ge.N) */
+    const real t_15 = p->m__1__Js * p->m__1__el__L * w * w / p->m__1__el__k / p->m__1__ge__N;
 
-    /* khepera.bg:17: m[2].Je*m[2].el.L*bandwidth^2/m[2].el.k */
-    const real t_16 = p->m__2__Je * p->m__2__el__L * bandwidth * bandwidth / p->m__2__el__k;
+    /* khepera.bg:17: m[2].Je*m[2].el.L*w^2/m[2].el.k */
+    const real t_16 = p->m__2__Je * p->m__2__el__L * w * w / p->m__2__el__k;
 
-    /* khepera.bg:17: m[2].R*m[2].el.L*bandwidth/(m[2].el.k*m[2].ge.N) */
-    const real t_17 = p->m__2__R * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N;
+    /* khepera.bg:17: m[2].R*m[2].el.L*w/(m[2].el.k*m[2].ge.N) */
+    const real t_17 = p->m__2__R * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
 
-    /* khepera.bg:17: m[2].Js*m[2].el.L*bandwidth^2/(m[2].el.k*m[2].ge.N) */
-    const real t_18 = p->m__2__Js * p->m__2__el__L * bandwidth * bandwidth / p->m__2__el__k
-            / p->m__2__ge__N;
+    /* khepera.bg:17: m[2].Js*m[2].el.L*w^2/(m[2].el.k*m[2].ge.N) */
+    const real t_18 = p->m__2__Js * p->m__2__el__L * w * w / p->m__2__el__k / p->m__2__ge__N;
 
-    /* khepera.bg:17: m[1].fe*m[1].el.L*bandwidth/m[1].el.k */
-    const real t_19 = p->m__1__fe * p->m__1__el__L * bandwidth / p->m__1__el__k;
+    /* khepera.bg:17: m[1].fe*m[1].el.L*w/m[1].el.k */
+    const real t_19 = p->m__1__fe * p->m__1__el__L * w / p->m__1__el__k;
 
-    /* khepera.bg:17: m[1].Js*m[1].el.Re*bandwidth/(m[1].el.k*m[1].ge.N) */
-    const real t_20 = p->m__1__Js * p->m__1__el__Re * bandwidth / p->m__1__el__k / p->m__1__ge__N;
+    /* khepera.bg:17: m[1].Js*m[1].el.Re*w/(m[1].el.k*m[1].ge.N) */
+    const real t_20 = p->m__1__Js * p->m__1__el__Re * w / p->m__1__el__k / p->m__1__ge__N;
 
-    /* khepera.bg:17: m[1].fs*m[1].el.L*bandwidth/(m[1].el.k*m[1].ge.N) */
-    const real t_21 = p->m__1__fs * p->m__1__el__L * bandwidth / p->m__1__el__k / p->m__1__ge__N;
+    /* khepera.bg:17: m[1].fs*m[1].el.L*w/(m[1].el.k*m[1].ge.N) */
+    const real t_21 = p->m__1__fs * p->m__1__el__L * w / p->m__1__el__k / p->m__1__ge__N;
 
-    /* khepera.bg:17: m[1].Je*m[1].el.Re*bandwidth/m[1].el.k */
-    const real t_22 = p->m__1__Je * p->m__1__el__Re * bandwidth / p->m__1__el__k;
-
-    /* khepera.bg:17: m[1].el.k*bandwidth*(m[1].Je*m[1].el.Re/m[1].el.k^2 +
-     * m[1].fe*m[1].el.L/m[1].el.k^2) */
-    const real t_23 = p->m__1__el__k * bandwidth
-            * (p->m__1__Je * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
-            + p->m__1__fe * p->m__1__el__L / p->m__1__el__k / p->m__1__el__k);
-
-    /* khepera.bg:17: m[1].el.k*bandwidth*(m[1].Js*m[1].el.Re/(m[1].el.k^2*m[1].ge.N) +
-     * m[1].fs*m[1].el.L/(m ... */
-    const real t_24 = p->m__1__el__k * bandwidth
-            * (p->m__1__Js * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k / p->m__1__ge__N
-            + p->m__1__fs * p->m__1__el__L / p->m__1__el__k / p->m__1__el__k / p->m__1__ge__N);
-
-    /* khepera.bg:17: m[1].el.k^2*bandwidth*(-2*m[1].fe*m[1].el.L/m[1].el.k^3 -
-     * 2*m[1].Je*m[1].el.Re/m[1].el ... */
-    const real t_25 = p->m__1__el__k * p->m__1__el__k * bandwidth
-            * (-REAL(2.0) * p->m__1__fe * p->m__1__el__L / p->m__1__el__k / p->m__1__el__k
-                / p->m__1__el__k
-            - REAL(2.0) * p->m__1__Je * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
-                / p->m__1__el__k);
-
-    /* khepera.bg:17: m[1].el.k^2*bandwidth*(-2*m[1].fs*m[1].el.L/(m[1].el.k^3*m[1].ge.N) -
-     * 2*m[1].Js*m[1].e ... */
-    const real t_26 = p->m__1__el__k * p->m__1__el__k * bandwidth
-            * (-REAL(2.0) * p->m__1__fs * p->m__1__el__L / p->m__1__el__k / p->m__1__el__k
-                / p->m__1__el__k / p->m__1__ge__N
-            - REAL(2.0) * p->m__1__Js * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
-                / p->m__1__el__k / p->m__1__ge__N);
+    /* khepera.bg:17: m[1].Je*m[1].el.Re*w/m[1].el.k */
+    const real t_22 = p->m__1__Je * p->m__1__el__Re * w / p->m__1__el__k;
 
     /* khepera_encoders.bg:31: m[1].K*m[1].tau0^2*m[1].A */
-    const real t_27 = p->m__1__K * p->m__1__tau0 * p->m__1__tau0 * p->m__1__A;
+    const real t_23 = p->m__1__K * p->m__1__tau0 * p->m__1__tau0 * p->m__1__A;
 
     /* khepera_encoders.bg:31: m[1].K*m[1].tau0^3*m[1].A */
-    const real t_28 = p->m__1__K * p->m__1__tau0 * p->m__1__tau0 * p->m__1__tau0 * p->m__1__A;
+    const real t_24 = p->m__1__K * p->m__1__tau0 * p->m__1__tau0 * p->m__1__tau0 * p->m__1__A;
 
-    /* khepera.bg:17: m[2].fe*m[2].el.L*bandwidth/m[2].el.k */
-    const real t_29 = p->m__2__fe * p->m__2__el__L * bandwidth / p->m__2__el__k;
+    /* khepera.bg:17: m[2].fe*m[2].el.L*w/m[2].el.k */
+    const real t_25 = p->m__2__fe * p->m__2__el__L * w / p->m__2__el__k;
 
-    /* khepera.bg:17: m[2].Js*m[2].el.Re*bandwidth/(m[2].el.k*m[2].ge.N) */
-    const real t_30 = p->m__2__Js * p->m__2__el__Re * bandwidth / p->m__2__el__k / p->m__2__ge__N;
+    /* khepera.bg:17: m[2].Js*m[2].el.Re*w/(m[2].el.k*m[2].ge.N) */
+    const real t_26 = p->m__2__Js * p->m__2__el__Re * w / p->m__2__el__k / p->m__2__ge__N;
 
-    /* khepera.bg:17: m[2].fs*m[2].el.L*bandwidth/(m[2].el.k*m[2].ge.N) */
-    const real t_31 = p->m__2__fs * p->m__2__el__L * bandwidth / p->m__2__el__k / p->m__2__ge__N;
+    /* khepera.bg:17: m[2].fs*m[2].el.L*w/(m[2].el.k*m[2].ge.N) */
+    const real t_27 = p->m__2__fs * p->m__2__el__L * w / p->m__2__el__k / p->m__2__ge__N;
 
-    /* khepera.bg:17: m[2].Je*m[2].el.Re*bandwidth/m[2].el.k */
-    const real t_32 = p->m__2__Je * p->m__2__el__Re * bandwidth / p->m__2__el__k;
-
-    /* khepera.bg:17: m[2].el.k*bandwidth*(m[2].Je*m[2].el.Re/m[2].el.k^2 +
-     * m[2].fe*m[2].el.L/m[2].el.k^2) */
-    const real t_33 = p->m__2__el__k * bandwidth
-            * (p->m__2__Je * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
-            + p->m__2__fe * p->m__2__el__L / p->m__2__el__k / p->m__2__el__k);
-
-    /* khepera.bg:17: m[2].el.k*bandwidth*(m[2].Js*m[2].el.Re/(m[2].el.k^2*m[2].ge.N) +
-     * m[2].fs*m[2].el.L/(m ... */
-    const real t_34 = p->m__2__el__k * bandwidth
-            * (p->m__2__Js * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k / p->m__2__ge__N
-            + p->m__2__fs * p->m__2__el__L / p->m__2__el__k / p->m__2__el__k / p->m__2__ge__N);
-
-    /* khepera.bg:17: m[2].el.k^2*bandwidth*(-2*m[2].fe*m[2].el.L/m[2].el.k^3 -
-     * 2*m[2].Je*m[2].el.Re/m[2].el ... */
-    const real t_35 = p->m__2__el__k * p->m__2__el__k * bandwidth
-            * (-REAL(2.0) * p->m__2__fe * p->m__2__el__L / p->m__2__el__k / p->m__2__el__k
-                / p->m__2__el__k
-            - REAL(2.0) * p->m__2__Je * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
-                / p->m__2__el__k);
-
-    /* khepera.bg:17: m[2].el.k^2*bandwidth*(-2*m[2].fs*m[2].el.L/(m[2].el.k^3*m[2].ge.N) -
-     * 2*m[2].Js*m[2].e ... */
-    const real t_36 = p->m__2__el__k * p->m__2__el__k * bandwidth
-            * (-REAL(2.0) * p->m__2__fs * p->m__2__el__L / p->m__2__el__k / p->m__2__el__k
-                / p->m__2__el__k / p->m__2__ge__N
-            - REAL(2.0) * p->m__2__Js * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
-                / p->m__2__el__k / p->m__2__ge__N);
+    /* khepera.bg:17: m[2].Je*m[2].el.Re*w/m[2].el.k */
+    const real t_28 = p->m__2__Je * p->m__2__el__Re * w / p->m__2__el__k;
 
     /* khepera_encoders.bg:31: m[2].K*m[2].tau0^2*m[2].A */
-    const real t_37 = p->m__2__K * p->m__2__tau0 * p->m__2__tau0 * p->m__2__A;
+    const real t_29 = p->m__2__K * p->m__2__tau0 * p->m__2__tau0 * p->m__2__A;
 
     /* khepera_encoders.bg:31: m[2].K*m[2].tau0^3*m[2].A */
-    const real t_38 = p->m__2__K * p->m__2__tau0 * p->m__2__tau0 * p->m__2__tau0 * p->m__2__A;
+    const real t_30 = p->m__2__K * p->m__2__tau0 * p->m__2__tau0 * p->m__2__tau0 * p->m__2__A;
 
-    /* khepera.bg:114: R_L^2*bandwidth */
-    const real t_39 = p->R_L * p->R_L * bandwidth;
+    /* khepera.bg:114: R_L^2*w */
+    const real t_31 = p->R_L * p->R_L * w;
+
+    /* khepera.bg:17: r1_w1: factor of m[1].motor' */
+    c->r1_w1_w1_m__1__motor = t / REAL(10.0);
 
     /* speed of m[1].motor for one count */
     c->m__1__motor_gain = REAL(0.0015339807878856412) * t_12;
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_9;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* khepera.bg:17: r1_w1: factor of m[1].motor in stage 2 */
-    c->r1_w1_v2_m__1__motor = t_19 / REAL(10.0);
+    /* khepera.bg:17: r1_w1: factor of m[1].motor'' */
+    c->r1_w1_w2_m__1__motor = t_19 / REAL(10.0);
 
-    /* khepera.bg:17: r1_w1: factor of m[1].motor in stage 3 */
-    c->r1_w1_v3_m__1__motor = t_19 / REAL(10.0) - t / REAL(10.0);
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_11 / REAL(12.0);
 
-    /* filter: weight of the new sample */
-    c->b0 = t_10;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_9;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_9 - t_10;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = t_10;
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = t_11;
+    /* khepera.bg:17: r1_w2: factor of m[1].wheel'' */
+    c->r1_w2_w2_m__1__wheel = t_20 / REAL(50.0);
 
     /* speed of m[1].wheel for one count */
     c->m__1__wheel_gain = REAL(9.587379924285257e-05) * t_12;
 
-    /* khepera.bg:17: r1_w2: factor of m[1].wheel in stage 1 */
-    c->r1_w2_v1_m__1__wheel = t_15 / REAL(50.0);
+    /* khepera.bg:17: r1_w2: factor of m[1].wheel''' */
+    c->r1_w2_w3_m__1__wheel = t_15 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w2: factor of m[1].wheel in stage 2 */
-    c->r1_w2_v2_m__1__wheel = t_15 / REAL(25.0) - t_20 / REAL(50.0);
+    /* khepera.bg:17: r1_w3: factor of m[1].wheel' */
+    c->r1_w3_w1_m__1__wheel = t_3 / REAL(10.0);
 
-    /* khepera.bg:17: r1_w2: factor of m[1].wheel in stage 3 */
-    c->r1_w2_v3_m__1__wheel = t_20 / REAL(50.0) - t_15 / REAL(50.0);
+    /* khepera.bg:17: r1_w3: factor of m[1].wheel'' */
+    c->r1_w3_w2_m__1__wheel = t_21 / REAL(10.0);
 
-    /* khepera.bg:17: r1_w3: factor of m[1].wheel in stage 2 */
-    c->r1_w3_v2_m__1__wheel = t_21 / REAL(10.0);
+    /* khepera.bg:17: r1_w4: factor of m[1].wheel' */
+    c->r1_w4_w1_m__1__wheel = t_3 / REAL(20.0);
 
-    /* khepera.bg:17: r1_w3: factor of m[1].wheel in stage 3 */
-    c->r1_w3_v3_m__1__wheel = t_21 / REAL(10.0) - t_3 / REAL(10.0);
+    /* khepera.bg:17: r1_w4: factor of m[1].wheel'' */
+    c->r1_w4_w2_m__1__wheel = t_20 / REAL(20.0);
 
-    /* khepera.bg:17: r1_w4: factor of m[1].wheel in stage 2 */
-    c->r1_w4_v2_m__1__wheel = t_20 / REAL(20.0);
+    /* khepera.bg:17: r1_w4: factor of Fx[1] */
+    c->r1_w4_Fx__1 = t_2 / REAL(20.0);
 
-    /* khepera.bg:17: r1_w4: factor of m[1].wheel in stage 3 */
-    c->r1_w4_v3_m__1__wheel = t_20 / REAL(20.0) - t_3 / REAL(20.0);
+    /* khepera.bg:17: r1_w4: factor of m[1].motor' */
+    c->r1_w4_w1_m__1__motor = t / REAL(20.0);
 
-    /* khepera.bg:17: r1_w4: factor of Fx[1] in stage 4 */
-    c->r1_w4_v4_Fx__1 = t_2 / REAL(20.0);
+    /* khepera.bg:17: r1_w4: factor of m[1].motor'' */
+    c->r1_w4_w2_m__1__motor = t_22 / REAL(20.0);
 
-    /* khepera.bg:17: r1_w4: factor of m[1].motor in stage 2 */
-    c->r1_w4_v2_m__1__motor = t_22 / REAL(20.0);
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_11 / REAL(6.0);
 
-    /* khepera.bg:17: r1_w4: factor of m[1].motor in stage 3 */
-    c->r1_w4_v3_m__1__motor = t_22 / REAL(20.0) - t / REAL(20.0);
+    /* khepera.bg:17: r1_w5: factor of m[1].motor' */
+    c->r1_w5_w1_m__1__motor = p->m__1__el__k
+            * (p->m__1__fe * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
+            - REAL(1.0)) / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of m[1].motor in stage 1 */
-    c->r1_w5_v1_m__1__motor = t_13 / REAL(50.0);
+    /* khepera.bg:17: r1_w5: factor of m[1].motor'' */
+    c->r1_w5_w2_m__1__motor = p->m__1__el__k * w
+            * (p->m__1__Je * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
+            + p->m__1__fe * p->m__1__el__L / p->m__1__el__k / p->m__1__el__k) / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of m[1].motor in stage 2 */
-    c->r1_w5_v2_m__1__motor = t_23 / REAL(50.0) - t_13 / REAL(25.0);
+    /* khepera.bg:17: r1_w5: factor of m[1].motor''' */
+    c->r1_w5_w3_m__1__motor = t_13 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of m[1].motor in stage 3 */
-    c->r1_w5_v3_m__1__motor = t_13 / REAL(50.0)
-        + p->m__1__el__k * (p->m__1__fe * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
-            - REAL(1.0)) / REAL(50.0)
-        - t_23 / REAL(50.0);
+    /* khepera.bg:17: r1_w5: factor of m[1].wheel' */
+    c->r1_w5_w1_m__1__wheel = t_3 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of m[1].wheel in stage 2 */
-    c->r1_w5_v2_m__1__wheel = t_24 / REAL(50.0) - t_15 / REAL(25.0);
+    /* khepera.bg:17: r1_w5: factor of m[1].wheel'' */
+    c->r1_w5_w2_m__1__wheel = p->m__1__el__k * w
+            * (p->m__1__Js * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k / p->m__1__ge__N
+            + p->m__1__fs * p->m__1__el__L / p->m__1__el__k / p->m__1__el__k / p->m__1__ge__N)
+            / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of m[1].wheel in stage 3 */
-    c->r1_w5_v3_m__1__wheel = t_3 / REAL(50.0) + t_15 / REAL(50.0) - t_24 / REAL(50.0);
+    /* khepera.bg:17: r1_w5: factor of Fx[1] */
+    c->r1_w5_Fx__1 = t_2 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of Fx[1] in stage 3 */
-    c->r1_w5_v3_Fx__1 = t_14 / REAL(50.0);
+    /* khepera.bg:17: r1_w5: factor of Fx[1]' */
+    c->r1_w5_w1_Fx__1 = t_14 / REAL(50.0);
 
-    /* khepera.bg:17: r1_w5: factor of Fx[1] in stage 4 */
-    c->r1_w5_v4_Fx__1 = t_2 / REAL(50.0) - t_14 / REAL(50.0);
+    /* filter: 3 * (w*sample_time)^2/12 */
+    c->bend3 = REAL(0.25) * t_11;
 
-    /* khepera.bg:17: r1_w6: factor of m[1].motor in stage 3 */
-    c->r1_w6_v3_m__1__motor = t / REAL(142.0);
+    /* khepera.bg:17: r1_w6: factor of m[1].motor' */
+    c->r1_w6_w1_m__1__motor = t / REAL(142.0);
 
-    /* khepera.bg:17: r1_w7: factor of m[1].motor in stage 2 */
-    c->r1_w7_v2_m__1__motor = t_19 / REAL(355.0);
+    /* khepera.bg:17: r1_w7: factor of m[1].motor' */
+    c->r1_w7_w1_m__1__motor = t / REAL(355.0);
 
-    /* khepera.bg:17: r1_w7: factor of m[1].motor in stage 3 */
-    c->r1_w7_v3_m__1__motor = t / REAL(355.0) - t_19 / REAL(355.0);
+    /* khepera.bg:17: r1_w7: factor of m[1].motor'' */
+    c->r1_w7_w2_m__1__motor = t_19 / REAL(355.0);
 
-    /* khepera.bg:17: r1_w8: factor of m[1].wheel in stage 2 */
-    c->r1_w8_v2_m__1__wheel = t_20 / REAL(710.0);
+    /* khepera.bg:17: r1_w8: factor of m[1].wheel'' */
+    c->r1_w8_w2_m__1__wheel = t_20 / REAL(710.0);
 
-    /* khepera.bg:17: r1_w9: factor of m[1].wheel in stage 1 */
-    c->r1_w9_v1_m__1__wheel = t_15 / REAL(1775.0);
+    /* khepera.bg:17: r1_w9: factor of m[1].wheel'' */
+    c->r1_w9_w2_m__1__wheel = t_20 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w9: factor of m[1].wheel in stage 2 */
-    c->r1_w9_v2_m__1__wheel = t_20 / REAL(1775.0) - REAL(2.0) * t_15 / REAL(1775.0);
+    /* khepera.bg:17: r1_w9: factor of m[1].wheel''' */
+    c->r1_w9_w3_m__1__wheel = t_15 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w9: factor of m[1].wheel in stage 3 */
-    c->r1_w9_v3_m__1__wheel = t_15 / REAL(1775.0) - t_20 / REAL(1775.0);
+    /* khepera.bg:17: r1_w10: factor of m[1].wheel' */
+    c->r1_w10_w1_m__1__wheel = t_3 / REAL(142.0);
 
-    /* khepera.bg:17: r1_w10: factor of m[1].wheel in stage 3 */
-    c->r1_w10_v3_m__1__wheel = t_3 / REAL(142.0);
+    /* khepera.bg:17: r1_w11: factor of m[1].wheel' */
+    c->r1_w11_w1_m__1__wheel = t_3 / REAL(355.0);
 
-    /* khepera.bg:17: r1_w11: factor of m[1].wheel in stage 2 */
-    c->r1_w11_v2_m__1__wheel = t_21 / REAL(355.0);
+    /* khepera.bg:17: r1_w11: factor of m[1].wheel'' */
+    c->r1_w11_w2_m__1__wheel = t_21 / REAL(355.0);
 
-    /* khepera.bg:17: r1_w11: factor of m[1].wheel in stage 3 */
-    c->r1_w11_v3_m__1__wheel = t_3 / REAL(355.0) - t_21 / REAL(355.0);
+    /* khepera.bg:17: r1_w12: factor of m[1].motor' */
+    c->r1_w12_w1_m__1__motor = t / REAL(710.0);
 
-    /* khepera.bg:17: r1_w12: factor of m[1].motor in stage 2 */
-    c->r1_w12_v2_m__1__motor = t_22 / REAL(710.0);
+    /* khepera.bg:17: r1_w12: factor of m[1].motor'' */
+    c->r1_w12_w2_m__1__motor = t_22 / REAL(710.0);
 
-    /* khepera.bg:17: r1_w12: factor of m[1].motor in stage 3 */
-    c->r1_w12_v3_m__1__motor = t / REAL(710.0) - t_22 / REAL(710.0);
+    /* khepera.bg:17: r1_w12: factor of m[1].wheel' */
+    c->r1_w12_w1_m__1__wheel = t_3 / REAL(710.0);
 
-    /* khepera.bg:17: r1_w12: factor of m[1].wheel in stage 3 */
-    c->r1_w12_v3_m__1__wheel = t_3 / REAL(710.0) - t_20 / REAL(710.0);
+    /* khepera.bg:17: r1_w12: factor of Fx[1] */
+    c->r1_w12_Fx__1 = t_2 / REAL(710.0);
 
-    /* khepera.bg:17: r1_w12: factor of Fx[1] in stage 4 */
-    c->r1_w12_v4_Fx__1 = t_2 / REAL(710.0);
+    /* khepera.bg:17: r1_w13: factor of m[1].motor' */
+    c->r1_w13_w1_m__1__motor = t / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w13: factor of m[1].motor in stage 1 */
-    c->r1_w13_v1_m__1__motor = t_13 / REAL(1775.0);
+    /* khepera.bg:17: r1_w13: factor of m[1].motor'' */
+    c->r1_w13_w2_m__1__motor = p->m__1__el__k * p->m__1__el__k * w
+            * (-REAL(2.0) * p->m__1__fe * p->m__1__el__L / p->m__1__el__k / p->m__1__el__k
+                / p->m__1__el__k
+            - REAL(2.0) * p->m__1__Je * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
+                / p->m__1__el__k)
+            / REAL(3550.0);
 
-    /* khepera.bg:17: r1_w13: factor of m[1].motor in stage 2 */
-    c->r1_w13_v2_m__1__motor = REAL(2.0) * t_13 / REAL(1775.0) + t_25 / REAL(3550.0);
+    /* khepera.bg:17: r1_w13: factor of m[1].motor''' */
+    c->r1_w13_w3_m__1__motor = t_13 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w13: factor of m[1].motor in stage 3 */
-    c->r1_w13_v3_m__1__motor = t / REAL(1775.0) + t_13 / REAL(1775.0) + t_25 / REAL(3550.0);
+    /* khepera.bg:17: r1_w13: factor of m[1].wheel' */
+    c->r1_w13_w1_m__1__wheel = t_3 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w13: factor of m[1].wheel in stage 2 */
-    c->r1_w13_v2_m__1__wheel = REAL(2.0) * t_15 / REAL(1775.0) + t_26 / REAL(3550.0);
+    /* khepera.bg:17: r1_w13: factor of m[1].wheel'' */
+    c->r1_w13_w2_m__1__wheel = p->m__1__el__k * p->m__1__el__k * w
+            * (-REAL(2.0) * p->m__1__fs * p->m__1__el__L / p->m__1__el__k / p->m__1__el__k
+                / p->m__1__el__k / p->m__1__ge__N
+            - REAL(2.0) * p->m__1__Js * p->m__1__el__Re / p->m__1__el__k / p->m__1__el__k
+                / p->m__1__el__k / p->m__1__ge__N)
+            / REAL(3550.0);
 
-    /* khepera.bg:17: r1_w13: factor of m[1].wheel in stage 3 */
-    c->r1_w13_v3_m__1__wheel = t_3 / REAL(1775.0) + t_15 / REAL(1775.0) + t_26 / REAL(3550.0);
+    /* khepera.bg:17: r1_w13: factor of Fx[1] */
+    c->r1_w13_Fx__1 = t_2 / REAL(1775.0);
 
-    /* khepera.bg:17: r1_w13: factor of Fx[1] in stage 3 */
-    c->r1_w13_v3_Fx__1 = t_14 / REAL(1775.0);
-
-    /* khepera.bg:17: r1_w13: factor of Fx[1] in stage 4 */
-    c->r1_w13_v4_Fx__1 = t_14 / REAL(1775.0) - t_2 / REAL(1775.0);
+    /* khepera.bg:17: r1_w13: factor of Fx[1]' */
+    c->r1_w13_w1_Fx__1 = t_14 / REAL(1775.0);
 
     /* khepera_encoders.bg:31: m[1].wheel.int.x0 */
     c->m__1__wheel__int__x0 = REAL(0.0);
@@ -435,15 +365,15 @@ static void compute_coefficients(khepera_encoders_threshold_monitor *monitor,
     /* khepera_encoders.bg:31: m[1].ge.N/(4*m[1].tau0) */
     c->g_2 = REAL(0.25) * p->m__1__ge__N / p->m__1__tau0;
 
-    /* khepera_encoders.bg:31: r2_w1: factor of Int(D(m[1].motor)) in stage 3 */
-    c->r2_w1_v3_integral = p->m__1__K / REAL(20.0);
+    /* khepera_encoders.bg:31: r2_w1: factor of Int(D(m[1].motor)) */
+    c->r2_w1_integral = p->m__1__K / REAL(20.0);
 
-    /* khepera_encoders.bg:31: r2_w1: factor of Int(D(m[1].wheel)) in stage 3 */
-    c->r2_w1_v3_integral_2 = p->m__1__K * p->m__1__ge__N / REAL(20.0);
+    /* khepera_encoders.bg:31: r2_w1: factor of Int(D(m[1].wheel)) */
+    c->r2_w1_integral_2 = p->m__1__K * p->m__1__ge__N / REAL(20.0);
 
     /* khepera_encoders.bg:31: r2_w1: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
-     * m[1].ge.N*Int(D( ... in stage 3 */
-    c->r2_w1_v3_tanh = t_4 / REAL(20.0);
+     * m[1].ge.N*Int(D( ... */
+    c->r2_w1_tanh = t_4 / REAL(20.0);
 
     /* khepera_encoders.bg:31: 1/(4*m[1].tau0^2) */
     c->g_3 = REAL(0.25) / p->m__1__tau0 / p->m__1__tau0;
@@ -452,22 +382,22 @@ static void compute_coefficients(khepera_encoders_threshold_monitor *monitor,
     c->g_4 = REAL(0.25) * p->m__1__ge__N / p->m__1__tau0 / p->m__1__tau0;
 
     /* khepera_encoders.bg:31: r2_w2: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) -
-     * Int(D(m[ ... in stage 3 */
-    c->r2_w2_v3_product = t_27 / REAL(20.0);
+     * Int(D(m[ ... */
+    c->r2_w2_product = t_23 / REAL(20.0);
 
-    /* khepera_encoders.bg:31: r2_w3: factor of m[1].wheel in stage 1 */
-    c->r2_w3_v1_m__1__wheel = p->m__1__Js * bandwidth / REAL(50.0) / p->m__1__ge__N;
+    /* khepera_encoders.bg:31: r2_w3: factor of m[1].wheel'' */
+    c->r2_w3_w2_m__1__wheel = p->m__1__Js * w / REAL(50.0) / p->m__1__ge__N;
 
-    /* khepera_encoders.bg:31: r2_w4: factor of m[1].wheel in stage 2 */
-    c->r2_w4_v2_m__1__wheel = p->m__1__fs / REAL(10.0) / p->m__1__ge__N;
+    /* khepera_encoders.bg:31: r2_w4: factor of m[1].wheel' */
+    c->r2_w4_w1_m__1__wheel = p->m__1__fs / REAL(10.0) / p->m__1__ge__N;
 
     /* khepera_encoders.bg:31: r2_w5: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
-     * m[1].ge.N*Int(D( ... in stage 3 */
-    c->r2_w5_v3_tanh = t_4 / REAL(360.0);
+     * m[1].ge.N*Int(D( ... */
+    c->r2_w5_tanh = t_4 / REAL(360.0);
 
     /* khepera_encoders.bg:31: r2_w5: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) -
-     * Int(D(m[ ... in stage 3 */
-    c->r2_w5_v3_product = t_27 / REAL(360.0);
+     * Int(D(m[ ... */
+    c->r2_w5_product = t_23 / REAL(360.0);
 
     /* khepera_encoders.bg:31: 1/(2*m[1].tau0^3) */
     c->g_5 = REAL(0.5) / p->m__1__tau0 / p->m__1__tau0 / p->m__1__tau0;
@@ -476,135 +406,143 @@ static void compute_coefficients(khepera_encoders_threshold_monitor *monitor,
     c->g_6 = REAL(0.5) * p->m__1__ge__N / p->m__1__tau0 / p->m__1__tau0 / p->m__1__tau0;
 
     /* khepera_encoders.bg:31: r2_w6: factor of (1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
-     * m[1].ge.N*I ... in stage 3 */
-    c->r2_w6_v3_product = t_28 / REAL(720.0);
+     * m[1].ge.N*I ... */
+    c->r2_w6_product = t_24 / REAL(720.0);
 
     /* khepera_encoders.bg:31: r2_w6: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
-     * m[1].ge.N*Int(D( ... in stage 3 */
-    c->r2_w6_v3_product_2 = t_28 / REAL(360.0);
+     * m[1].ge.N*Int(D( ... */
+    c->r2_w6_product_2 = t_24 / REAL(360.0);
 
-    /* khepera.bg:17: r3_w1: factor of m[2].motor in stage 2 */
-    c->r3_w1_v2_m__2__motor = t_29 / REAL(10.0);
+    /* khepera.bg:17: r3_w1: factor of m[2].motor' */
+    c->r3_w1_w1_m__2__motor = t_5 / REAL(10.0);
 
-    /* khepera.bg:17: r3_w1: factor of m[2].motor in stage 3 */
-    c->r3_w1_v3_m__2__motor = t_29 / REAL(10.0) - t_5 / REAL(10.0);
+    /* khepera.bg:17: r3_w1: factor of m[2].motor'' */
+    c->r3_w1_w2_m__2__motor = t_25 / REAL(10.0);
 
-    /* khepera.bg:17: r3_w2: factor of m[2].wheel in stage 1 */
-    c->r3_w2_v1_m__2__wheel = t_18 / REAL(50.0);
+    /* khepera.bg:17: r3_w2: factor of m[2].wheel'' */
+    c->r3_w2_w2_m__2__wheel = t_26 / REAL(50.0);
 
-    /* khepera.bg:17: r3_w2: factor of m[2].wheel in stage 2 */
-    c->r3_w2_v2_m__2__wheel = t_18 / REAL(25.0) - t_30 / REAL(50.0);
+    /* khepera.bg:17: r3_w2: factor of m[2].wheel''' */
+    c->r3_w2_w3_m__2__wheel = t_18 / REAL(50.0);
 
-    /* khepera.bg:17: r3_w2: factor of m[2].wheel in stage 3 */
-    c->r3_w2_v3_m__2__wheel = t_30 / REAL(50.0) - t_18 / REAL(50.0);
+    /* khepera.bg:17: r3_w3: factor of m[2].wheel' */
+    c->r3_w3_w1_m__2__wheel = t_7 / REAL(10.0);
 
-    /* khepera.bg:17: r3_w3: factor of m[2].wheel in stage 2 */
-    c->r3_w3_v2_m__2__wheel = t_31 / REAL(10.0);
+    /* khepera.bg:17: r3_w3: factor of m[2].wheel'' */
+    c->r3_w3_w2_m__2__wheel = t_27 / REAL(10.0);
 
-    /* khepera.bg:17: r3_w3: factor of m[2].wheel in stage 3 */
-    c->r3_w3_v3_m__2__wheel = t_31 / REAL(10.0) - t_7 / REAL(10.0);
+    /* khepera.bg:17: r3_w4: factor of m[2].wheel' */
+    c->r3_w4_w1_m__2__wheel = t_7 / REAL(20.0);
 
-    /* khepera.bg:17: r3_w4: factor of m[2].wheel in stage 2 */
-    c->r3_w4_v2_m__2__wheel = t_30 / REAL(20.0);
+    /* khepera.bg:17: r3_w4: factor of m[2].wheel'' */
+    c->r3_w4_w2_m__2__wheel = t_26 / REAL(20.0);
 
-    /* khepera.bg:17: r3_w4: factor of m[2].wheel in stage 3 */
-    c->r3_w4_v3_m__2__wheel = t_30 / REAL(20.0) - t_7 / REAL(20.0);
+    /* khepera.bg:17: r3_w4: factor of Fx[2] */
+    c->r3_w4_Fx__2 = t_6 / REAL(20.0);
 
-    /* khepera.bg:17: r3_w4: factor of Fx[2] in stage 4 */
-    c->r3_w4_v4_Fx__2 = t_6 / REAL(20.0);
+    /* khepera.bg:17: r3_w4: factor of m[2].motor' */
+    c->r3_w4_w1_m__2__motor = t_5 / REAL(20.0);
 
-    /* khepera.bg:17: r3_w4: factor of m[2].motor in stage 2 */
-    c->r3_w4_v2_m__2__motor = t_32 / REAL(20.0);
+    /* khepera.bg:17: r3_w4: factor of m[2].motor'' */
+    c->r3_w4_w2_m__2__motor = t_28 / REAL(20.0);
 
-    /* khepera.bg:17: r3_w4: factor of m[2].motor in stage 3 */
-    c->r3_w4_v3_m__2__motor = t_32 / REAL(20.0) - t_5 / REAL(20.0);
+    /* khepera.bg:17: r3_w5: factor of m[2].motor' */
+    c->r3_w5_w1_m__2__motor = p->m__2__el__k
+            * (p->m__2__fe * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
+            - REAL(1.0)) / REAL(50.0);
 
-    /* khepera.bg:17: r3_w5: factor of m[2].motor in stage 1 */
-    c->r3_w5_v1_m__2__motor = t_16 / REAL(50.0);
+    /* khepera.bg:17: r3_w5: factor of m[2].motor'' */
+    c->r3_w5_w2_m__2__motor = p->m__2__el__k * w
+            * (p->m__2__Je * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
+            + p->m__2__fe * p->m__2__el__L / p->m__2__el__k / p->m__2__el__k) / REAL(50.0);
 
-    /* khepera.bg:17: r3_w5: factor of m[2].motor in stage 2 */
-    c->r3_w5_v2_m__2__motor = t_33 / REAL(50.0) - t_16 / REAL(25.0);
+    /* khepera.bg:17: r3_w5: factor of m[2].motor''' */
+    c->r3_w5_w3_m__2__motor = t_16 / REAL(50.0);
 
-    /* khepera.bg:17: r3_w5: factor of m[2].motor in stage 3 */
-    c->r3_w5_v3_m__2__motor = t_16 / REAL(50.0)
-        + p->m__2__el__k * (p->m__2__fe * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
-            - REAL(1.0)) / REAL(50.0)
-        - t_33 / REAL(50.0);
+    /* khepera.bg:17: r3_w5: factor of m[2].wheel' */
+    c->r3_w5_w1_m__2__wheel = t_7 / REAL(50.0);
 
-    /* khepera.bg:17: r3_w5: factor of m[2].wheel in stage 2 */
-    c->r3_w5_v2_m__2__wheel = t_34 / REAL(50.0) - t_18 / REAL(25.0);
+    /* khepera.bg:17: r3_w5: factor of m[2].wheel'' */
+    c->r3_w5_w2_m__2__wheel = p->m__2__el__k * w
+            * (p->m__2__Js * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k / p->m__2__ge__N
+            + p->m__2__fs * p->m__2__el__L / p->m__2__el__k / p->m__2__el__k / p->m__2__ge__N)
+            / REAL(50.0);
 
-    /* khepera.bg:17: r3_w5: factor of m[2].wheel in stage 3 */
-    c->r3_w5_v3_m__2__wheel = t_7 / REAL(50.0) + t_18 / REAL(50.0) - t_34 / REAL(50.0);
+    /* khepera.bg:17: r3_w5: factor of Fx[2] */
+    c->r3_w5_Fx__2 = t_6 / REAL(50.0);
 
-    /* khepera.bg:17: r3_w5: factor of Fx[2] in stage 3 */
-    c->r3_w5_v3_Fx__2 = t_17 / REAL(50.0);
+    /* khepera.bg:17: r3_w5: factor of Fx[2]' */
+    c->r3_w5_w1_Fx__2 = t_17 / REAL(50.0);
 
-    /* khepera.bg:17: r3_w5: factor of Fx[2] in stage 4 */
-    c->r3_w5_v4_Fx__2 = t_6 / REAL(50.0) - t_17 / REAL(50.0);
+    /* khepera.bg:17: r3_w6: factor of m[2].motor' */
+    c->r3_w6_w1_m__2__motor = t_5 / REAL(142.0);
 
-    /* khepera.bg:17: r3_w6: factor of m[2].motor in stage 3 */
-    c->r3_w6_v3_m__2__motor = t_5 / REAL(142.0);
+    /* khepera.bg:17: r3_w7: factor of m[2].motor' */
+    c->r3_w7_w1_m__2__motor = t_5 / REAL(355.0);
 
-    /* khepera.bg:17: r3_w7: factor of m[2].motor in stage 2 */
-    c->r3_w7_v2_m__2__motor = t_29 / REAL(355.0);
+    /* khepera.bg:17: r3_w7: factor of m[2].motor'' */
+    c->r3_w7_w2_m__2__motor = t_25 / REAL(355.0);
 
-    /* khepera.bg:17: r3_w7: factor of m[2].motor in stage 3 */
-    c->r3_w7_v3_m__2__motor = t_5 / REAL(355.0) - t_29 / REAL(355.0);
+    /* khepera.bg:17: r3_w8: factor of m[2].wheel'' */
+    c->r3_w8_w2_m__2__wheel = t_26 / REAL(710.0);
 
-    /* khepera.bg:17: r3_w8: factor of m[2].wheel in stage 2 */
-    c->r3_w8_v2_m__2__wheel = t_30 / REAL(710.0);
+    /* khepera.bg:17: r3_w9: factor of m[2].wheel'' */
+    c->r3_w9_w2_m__2__wheel = t_26 / REAL(1775.0);
 
-    /* khepera.bg:17: r3_w9: factor of m[2].wheel in stage 1 */
-    c->r3_w9_v1_m__2__wheel = t_18 / REAL(1775.0);
+    /* khepera.bg:17: r3_w9: factor of m[2].wheel''' */
+    c->r3_w9_w3_m__2__wheel = t_18 / REAL(1775.0);
 
-    /* khepera.bg:17: r3_w9: factor of m[2].wheel in stage 2 */
-    c->r3_w9_v2_m__2__wheel = t_30 / REAL(1775.0) - REAL(2.0) * t_18 / REAL(1775.0);
+    /* khepera.bg:17: r3_w10: factor of m[2].wheel' */
+    c->r3_w10_w1_m__2__wheel = t_7 / REAL(142.0);
 
-    /* khepera.bg:17: r3_w9: factor of m[2].wheel in stage 3 */
-    c->r3_w9_v3_m__2__wheel = t_18 / REAL(1775.0) - t_30 / REAL(1775.0);
+    /* khepera.bg:17: r3_w11: factor of m[2].wheel' */
+    c->r3_w11_w1_m__2__wheel = t_7 / REAL(355.0);
 
-    /* khepera.bg:17: r3_w10: factor of m[2].wheel in stage 3 */
-    c->r3_w10_v3_m__2__wheel = t_7 / REAL(142.0);
+    /* khepera.bg:17: r3_w11: factor of m[2].wheel'' */
+    c->r3_w11_w2_m__2__wheel = t_27 / REAL(355.0);
 
-    /* khepera.bg:17: r3_w11: factor of m[2].wheel in stage 2 */
-    c->r3_w11_v2_m__2__wheel = t_31 / REAL(355.0);
+    /* khepera.bg:17: r3_w12: factor of m[2].motor' */
+    c->r3_w12_w1_m__2__motor = t_5 / REAL(710.0);
 
-    /* khepera.bg:17: r3_w11: factor of m[2].wheel in stage 3 */
-    c->r3_w11_v3_m__2__wheel = t_7 / REAL(355.0) - t_31 / REAL(355.0);
+    /* khepera.bg:17: r3_w12: factor of m[2].motor'' */
+    c->r3_w12_w2_m__2__motor = t_28 / REAL(710.0);
 
-    /* khepera.bg:17: r3_w12: factor of m[2].motor in stage 2 */
-    c->r3_w12_v2_m__2__motor = t_32 / REAL(710.0);
+    /* khepera.bg:17: r3_w12: factor of m[2].wheel' */
+    c->r3_w12_w1_m__2__wheel = t_7 / REAL(710.0);
 
-    /* khepera.bg:17: r3_w12: factor of m[2].motor in stage 3 */
-    c->r3_w12_v3_m__2__motor = t_5 / REAL(710.0) - t_32 / REAL(710.0);
+    /* khepera.bg:17: r3_w12: factor of Fx[2] */
+    c->r3_w12_Fx__2 = t_6 / REAL(710.0);
 
-    /* khepera.bg:17: r3_w12: factor of m[2].wheel in stage 3 */
-    c->r3_w12_v3_m__2__wheel = t_7 / REAL(710.0) - t_30 / REAL(710.0);
+    /* khepera.bg:17: r3_w13: factor of m[2].motor' */
+    c->r3_w13_w1_m__2__motor = t_5 / REAL(1775.0);
 
-    /* khepera.bg:17: r3_w12: factor of Fx[2] in stage 4 */
-    c->r3_w12_v4_Fx__2 = t_6 / REAL(710.0);
+    /* khepera.bg:17: r3_w13: factor of m[2].motor'' */
+    c->r3_w13_w2_m__2__motor = p->m__2__el__k * p->m__2__el__k * w
+            * (-REAL(2.0) * p->m__2__fe * p->m__2__el__L / p->m__2__el__k / p->m__2__el__k
+                / p->m__2__el__k
+            - REAL(2.0) * p->m__2__Je * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
+                / p->m__2__el__k)
+            / REAL(3550.0);
 
-    /* khepera.bg:17: r3_w13: factor of m[2].motor in stage 1 */
-    c->r3_w13_v1_m__2__motor = t_16 / REAL(1775.0);
+    /* khepera.bg:17: r3_w13: factor of m[2].motor''' */
+    c->r3_w13_w3_m__2__motor = t_16 / REAL(1775.0);
 
-    /* khepera.bg:17: r3_w13: factor of m[2].motor in stage 2 */
-    c->r3_w13_v2_m__2__motor = REAL(2.0) * t_16 / REAL(1775.0) + t_35 / REAL(3550.0);
+    /* khepera.bg:17: r3_w13: factor of m[2].wheel' */
+    c->r3_w13_w1_m__2__wheel = t_7 / REAL(1775.0);
 
-    /* khepera.bg:17: r3_w13: factor of m[2].motor in stage 3 */
-    c->r3_w13_v3_m__2__motor = t_5 / REAL(1775.0) + t_16 / REAL(1775.0) + t_35 / REAL(3550.0);
+    /* khepera.bg:17: r3_w13: factor of m[2].wheel'' */
+    c->r3_w13_w2_m__2__wheel = p->m__2__el__k * p->m__2__el__k * w
+            * (-REAL(2.0) * p->m__2__fs * p->m__2__el__L / p->m__2__el__k / p->m__2__el__k
+                / p->m__2__el__k / p->m__2__ge__N
+            - REAL(2.0) * p->m__2__Js * p->m__2__el__Re / p->m__2__el__k / p->m__2__el__k
+                / p->m__2__el__k / p->m__2__ge__N)
+            / REAL(3550.0);
 
-    /* khepera.bg:17: r3_w13: factor of m[2].wheel in stage 2 */
-    c->r3_w13_v2_m__2__wheel = REAL(2.0) * t_18 / REAL(1775.0) + t_36 / REAL(3550.0);
+    /* khepera.bg:17: r3_w13: factor of Fx[2] */
+    c->r3_w13_Fx__2 = t_6 / REAL(1775.0);
 
-    /* khepera.bg:17: r3_w13: factor of m[2].wheel in stage 3 */
-    c->r3_w13_v3_m__2__wheel = t_7 / REAL(1775.0) + t_18 / REAL(1775.0) + t_36 / REAL(3550.0);
-
-    /* khepera.bg:17: r3_w13: factor of Fx[2] in stage 3 */
-    c->r3_w13_v3_Fx__2 = t_17 / REAL(1775.0);
-
-    /* khepera.bg:17: r3_w13: factor of Fx[2] in stage 4 */
-    c->r3_w13_v4_Fx__2 = t_17 / REAL(1775.0) - t_6 / REAL(1775.0);
+    /* khepera.bg:17: r3_w13: factor of Fx[2]' */
+    c->r3_w13_w1_Fx__2 = t_17 / REAL(1775.0);
 
     /* khepera_encoders.bg:31: m[2].wheel.int.x0 */
     c->m__2__wheel__int__x0 = REAL(0.0);
@@ -618,15 +556,15 @@ static void compute_coefficients(khepera_encoders_threshold_monitor *monitor,
     /* khepera_encoders.bg:31: m[2].ge.N/(4*m[2].tau0) */
     c->g_8 = REAL(0.25) * p->m__2__ge__N / p->m__2__tau0;
 
-    /* khepera_encoders.bg:31: r4_w1: factor of Int(D(m[2].motor)) in stage 3 */
-    c->r4_w1_v3_integral = p->m__2__K / REAL(20.0);
+    /* khepera_encoders.bg:31: r4_w1: factor of Int(D(m[2].motor)) */
+    c->r4_w1_integral = p->m__2__K / REAL(20.0);
 
-    /* khepera_encoders.bg:31: r4_w1: factor of Int(D(m[2].wheel)) in stage 3 */
-    c->r4_w1_v3_integral_2 = p->m__2__K * p->m__2__ge__N / REAL(20.0);
+    /* khepera_encoders.bg:31: r4_w1: factor of Int(D(m[2].wheel)) */
+    c->r4_w1_integral_2 = p->m__2__K * p->m__2__ge__N / REAL(20.0);
 
     /* khepera_encoders.bg:31: r4_w1: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
-     * m[2].ge.N*Int(D( ... in stage 3 */
-    c->r4_w1_v3_tanh = t_8 / REAL(20.0);
+     * m[2].ge.N*Int(D( ... */
+    c->r4_w1_tanh = t_8 / REAL(20.0);
 
     /* khepera_encoders.bg:31: 1/(4*m[2].tau0^2) */
     c->g_9 = REAL(0.25) / p->m__2__tau0 / p->m__2__tau0;
@@ -635,22 +573,22 @@ static void compute_coefficients(khepera_encoders_threshold_monitor *monitor,
     c->g_10 = REAL(0.25) * p->m__2__ge__N / p->m__2__tau0 / p->m__2__tau0;
 
     /* khepera_encoders.bg:31: r4_w2: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) -
-     * Int(D(m[ ... in stage 3 */
-    c->r4_w2_v3_product = t_37 / REAL(20.0);
+     * Int(D(m[ ... */
+    c->r4_w2_product = t_29 / REAL(20.0);
 
-    /* khepera_encoders.bg:31: r4_w3: factor of m[2].wheel in stage 1 */
-    c->r4_w3_v1_m__2__wheel = p->m__2__Js * bandwidth / REAL(50.0) / p->m__2__ge__N;
+    /* khepera_encoders.bg:31: r4_w3: factor of m[2].wheel'' */
+    c->r4_w3_w2_m__2__wheel = p->m__2__Js * w / REAL(50.0) / p->m__2__ge__N;
 
-    /* khepera_encoders.bg:31: r4_w4: factor of m[2].wheel in stage 2 */
-    c->r4_w4_v2_m__2__wheel = p->m__2__fs / REAL(10.0) / p->m__2__ge__N;
+    /* khepera_encoders.bg:31: r4_w4: factor of m[2].wheel' */
+    c->r4_w4_w1_m__2__wheel = p->m__2__fs / REAL(10.0) / p->m__2__ge__N;
 
     /* khepera_encoders.bg:31: r4_w5: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
-     * m[2].ge.N*Int(D( ... in stage 3 */
-    c->r4_w5_v3_tanh = t_8 / REAL(360.0);
+     * m[2].ge.N*Int(D( ... */
+    c->r4_w5_tanh = t_8 / REAL(360.0);
 
     /* khepera_encoders.bg:31: r4_w5: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) -
-     * Int(D(m[ ... in stage 3 */
-    c->r4_w5_v3_product = t_37 / REAL(360.0);
+     * Int(D(m[ ... */
+    c->r4_w5_product = t_29 / REAL(360.0);
 
     /* khepera_encoders.bg:31: 1/(2*m[2].tau0^3) */
     c->g_11 = REAL(0.5) / p->m__2__tau0 / p->m__2__tau0 / p->m__2__tau0;
@@ -659,21 +597,21 @@ static void compute_coefficients(khepera_encoders_threshold_monitor *monitor,
     c->g_12 = REAL(0.5) * p->m__2__ge__N / p->m__2__tau0 / p->m__2__tau0 / p->m__2__tau0;
 
     /* khepera_encoders.bg:31: r4_w6: factor of (1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
-     * m[2].ge.N*I ... in stage 3 */
-    c->r4_w6_v3_product = t_38 / REAL(720.0);
+     * m[2].ge.N*I ... */
+    c->r4_w6_product = t_30 / REAL(720.0);
 
     /* khepera_encoders.bg:31: r4_w6: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
-     * m[2].ge.N*Int(D( ... in stage 3 */
-    c->r4_w6_v3_product_2 = t_38 / REAL(360.0);
+     * m[2].ge.N*Int(D( ... */
+    c->r4_w6_product_2 = t_30 / REAL(360.0);
 
-    /* khepera.bg:114: r5_w1: factor of load in stage 1 */
-    c->r5_w1_v1_load = REAL(11.0) * t_39 / REAL(1000000000000.0);
+    /* khepera.bg:114: r5_w1: factor of load */
+    c->r5_w1_load = p->R_L / REAL(10.0);
 
-    /* khepera.bg:114: r5_w1: factor of load in stage 2 */
-    c->r5_w1_v2_load = REAL(11.0) * t_39 / REAL(1000000000000.0) - p->R_L / REAL(10.0);
+    /* khepera.bg:114: r5_w1: factor of load' */
+    c->r5_w1_w1_load = REAL(11.0) * t_31 / REAL(1000000000000.0);
 
-    /* khepera.bg:114: r5_w2: factor of load in stage 1 */
-    c->r5_w2_v1_load = REAL(11.0) * t_39 / REAL(20000000000000.0);
+    /* khepera.bg:114: r5_w2: factor of load' */
+    c->r5_w2_w1_load = REAL(11.0) * t_31 / REAL(20000000000000.0);
 }
 
 static bool parameters_are_finite(const khepera_encoders_threshold_parameters *p)
@@ -687,63 +625,58 @@ static bool parameters_are_finite(const khepera_encoders_threshold_parameters *p
 
 static bool coefficients_are_finite(const khepera_encoders_threshold_monitor *monitor)
 {
-    return finite_number(monitor->c.m__1__motor_gain + monitor->c.a
-            + monitor->c.r1_w1_v2_m__1__motor + monitor->c.r1_w1_v3_m__1__motor + monitor->c.b0
-            + monitor->c.b1 + monitor->c.rest + monitor->c.m__1__wheel_gain
-            + monitor->c.r1_w2_v1_m__1__wheel + monitor->c.r1_w2_v2_m__1__wheel
-            + monitor->c.r1_w2_v3_m__1__wheel + monitor->c.r1_w3_v2_m__1__wheel
-            + monitor->c.r1_w3_v3_m__1__wheel + monitor->c.r1_w4_v2_m__1__wheel
-            + monitor->c.r1_w4_v3_m__1__wheel + monitor->c.r1_w4_v4_Fx__1
-            + monitor->c.r1_w4_v2_m__1__motor + monitor->c.r1_w4_v3_m__1__motor
-            + monitor->c.r1_w5_v1_m__1__motor + monitor->c.r1_w5_v2_m__1__motor
-            + monitor->c.r1_w5_v3_m__1__motor + monitor->c.r1_w5_v2_m__1__wheel
-            + monitor->c.r1_w5_v3_m__1__wheel + monitor->c.r1_w5_v3_Fx__1
-            + monitor->c.r1_w5_v4_Fx__1 + monitor->c.r1_w6_v3_m__1__motor
-            + monitor->c.r1_w7_v2_m__1__motor + monitor->c.r1_w7_v3_m__1__motor
-            + monitor->c.r1_w8_v2_m__1__wheel + monitor->c.r1_w9_v1_m__1__wheel
-            + monitor->c.r1_w9_v2_m__1__wheel + monitor->c.r1_w9_v3_m__1__wheel
-            + monitor->c.r1_w10_v3_m__1__wheel + monitor->c.r1_w11_v2_m__1__wheel
-            + monitor->c.r1_w11_v3_m__1__wheel + monitor->c.r1_w12_v2_m__1__motor
-            + monitor->c.r1_w12_v3_m__1__motor + monitor->c.r1_w12_v3_m__1__wheel
-            + monitor->c.r1_w12_v4_Fx__1 + monitor->c.r1_w13_v1_m__1__motor
-            + monitor->c.r1_w13_v2_m__1__motor + monitor->c.r1_w13_v3_m__1__motor
-            + monitor->c.r1_w13_v2_m__1__wheel + monitor->c.r1_w13_v3_m__1__wheel
-            + monitor->c.r1_w13_v3_Fx__1 + monitor->c.r1_w13_v4_Fx__1
-            + monitor->c.m__1__wheel__int__x0 + monitor->c.m__1__motor__int__x0 + monitor->c.g
-            + monitor->c.g_2 + monitor->c.r2_w1_v3_integral + monitor->c.r2_w1_v3_integral_2
-            + monitor->c.r2_w1_v3_tanh + monitor->c.g_3 + monitor->c.g_4
-            + monitor->c.r2_w2_v3_product + monitor->c.r2_w3_v1_m__1__wheel
-            + monitor->c.r2_w4_v2_m__1__wheel + monitor->c.r2_w5_v3_tanh
-            + monitor->c.r2_w5_v3_product + monitor->c.g_5 + monitor->c.g_6
-            + monitor->c.r2_w6_v3_product + monitor->c.r2_w6_v3_product_2
-            + monitor->c.r3_w1_v2_m__2__motor + monitor->c.r3_w1_v3_m__2__motor
-            + monitor->c.r3_w2_v1_m__2__wheel + monitor->c.r3_w2_v2_m__2__wheel
-            + monitor->c.r3_w2_v3_m__2__wheel + monitor->c.r3_w3_v2_m__2__wheel
-            + monitor->c.r3_w3_v3_m__2__wheel + monitor->c.r3_w4_v2_m__2__wheel
-            + monitor->c.r3_w4_v3_m__2__wheel + monitor->c.r3_w4_v4_Fx__2
-            + monitor->c.r3_w4_v2_m__2__motor + monitor->c.r3_w4_v3_m__2__motor
-            + monitor->c.r3_w5_v1_m__2__motor + monitor->c.r3_w5_v2_m__2__motor
-            + monitor->c.r3_w5_v3_m__2__motor + monitor->c.r3_w5_v2_m__2__wheel
-            + monitor->c.r3_w5_v3_m__2__wheel + monitor->c.r3_w5_v3_Fx__2
-            + monitor->c.r3_w5_v4_Fx__2 + monitor->c.r3_w6_v3_m__2__motor
-            + monitor->c.r3_w7_v2_m__2__motor + monitor->c.r3_w7_v3_m__2__motor
-            + monitor->c.r3_w8_v2_m__2__wheel + monitor->c.r3_w9_v1_m__2__wheel
-            + monitor->c.r3_w9_v2_m__2__wheel + monitor->c.r3_w9_v3_m__2__wheel
-            + monitor->c.r3_w10_v3_m__2__wheel + monitor->c.r3_w11_v2_m__2__wheel
-            + monitor->c.r3_w11_v3_m__2__wheel + monitor->c.r3_w12_v2_m__2__motor
-            + monitor->c.r3_w12_v3_m__2__motor + monitor->c.r3_w12_v3_m__2__wheel
-            + monitor->c.r3_w12_v4_Fx__2 + monitor->c.r3_w13_v1_m__2__motor
-            + monitor->c.r3_w13_v2_m__2__motor + monitor->c.r3_w13_v3_m__2__motor
-            + monitor->c.r3_w13_v2_m__2__wheel + monitor->c.r3_w13_v3_m__2__wheel
-            + monitor->c.r3_w13_v3_Fx__2 + monitor->c.r3_w13_v4_Fx__2
-            + monitor->c.m__2__wheel__int__x0 + monitor->c.m__2__motor__int__x0 + monitor->c.g_7
-            + monitor->c.g_8 + monitor->c.r4_w1_v3_integral + monitor->c.r4_w1_v3_integral_2
-            + monitor->c.r4_w1_v3_tanh + monitor->c.g_9 + monitor->c.g_10
-            + monitor->c.r4_w2_v3_product + monitor->c.r4_w3_v1_m__2__wheel
-            + monitor->c.r4_w4_v2_m__2__wheel + monitor->c.r4_w5_v3_tanh
-            + monitor->c.r4_w5_v3_product + monitor->c.g_11 + monitor->c.g_12
-            + monitor->c.r4_w6_v3_product + monitor->c.r4_w6_v3_product_2 + monitor->c.r5_w1_v1_load
-            + monitor->c.r5_w1_v2_load + monitor->c.r5_w2_v1_load);
+    return finite_number(monitor->c.r1_w1_w1_m__1__motor + monitor->c.m__1__motor_gain
+            + monitor->c.a + monitor->c.r1_w1_w2_m__1__motor + monitor->c.bend1 + monitor->c.b
+            + monitor->c.rest + monitor->c.r1_w2_w2_m__1__wheel + monitor->c.m__1__wheel_gain
+            + monitor->c.r1_w2_w3_m__1__wheel + monitor->c.r1_w3_w1_m__1__wheel
+            + monitor->c.r1_w3_w2_m__1__wheel + monitor->c.r1_w4_w1_m__1__wheel
+            + monitor->c.r1_w4_w2_m__1__wheel + monitor->c.r1_w4_Fx__1
+            + monitor->c.r1_w4_w1_m__1__motor + monitor->c.r1_w4_w2_m__1__motor + monitor->c.bend2
+            + monitor->c.r1_w5_w1_m__1__motor + monitor->c.r1_w5_w2_m__1__motor
+            + monitor->c.r1_w5_w3_m__1__motor + monitor->c.r1_w5_w1_m__1__wheel
+            + monitor->c.r1_w5_w2_m__1__wheel + monitor->c.r1_w5_Fx__1 + monitor->c.r1_w5_w1_Fx__1
+            + monitor->c.bend3 + monitor->c.r1_w6_w1_m__1__motor + monitor->c.r1_w7_w1_m__1__motor
+            + monitor->c.r1_w7_w2_m__1__motor + monitor->c.r1_w8_w2_m__1__wheel
+            + monitor->c.r1_w9_w2_m__1__wheel + monitor->c.r1_w9_w3_m__1__wheel
+            + monitor->c.r1_w10_w1_m__1__wheel + monitor->c.r1_w11_w1_m__1__wheel
+            + monitor->c.r1_w11_w2_m__1__wheel + monitor->c.r1_w12_w1_m__1__motor
+            + monitor->c.r1_w12_w2_m__1__motor + monitor->c.r1_w12_w1_m__1__wheel
+            + monitor->c.r1_w12_Fx__1 + monitor->c.r1_w13_w1_m__1__motor
+            + monitor->c.r1_w13_w2_m__1__motor + monitor->c.r1_w13_w3_m__1__motor
+            + monitor->c.r1_w13_w1_m__1__wheel + monitor->c.r1_w13_w2_m__1__wheel
+            + monitor->c.r1_w13_Fx__1 + monitor->c.r1_w13_w1_Fx__1 + monitor->c.m__1__wheel__int__x0
+            + monitor->c.m__1__motor__int__x0 + monitor->c.g + monitor->c.g_2
+            + monitor->c.r2_w1_integral + monitor->c.r2_w1_integral_2 + monitor->c.r2_w1_tanh
+            + monitor->c.g_3 + monitor->c.g_4 + monitor->c.r2_w2_product
+            + monitor->c.r2_w3_w2_m__1__wheel + monitor->c.r2_w4_w1_m__1__wheel
+            + monitor->c.r2_w5_tanh + monitor->c.r2_w5_product + monitor->c.g_5 + monitor->c.g_6
+            + monitor->c.r2_w6_product + monitor->c.r2_w6_product_2
+            + monitor->c.r3_w1_w1_m__2__motor + monitor->c.r3_w1_w2_m__2__motor
+            + monitor->c.r3_w2_w2_m__2__wheel + monitor->c.r3_w2_w3_m__2__wheel
+            + monitor->c.r3_w3_w1_m__2__wheel + monitor->c.r3_w3_w2_m__2__wheel
+            + monitor->c.r3_w4_w1_m__2__wheel + monitor->c.r3_w4_w2_m__2__wheel
+            + monitor->c.r3_w4_Fx__2 + monitor->c.r3_w4_w1_m__2__motor
+            + monitor->c.r3_w4_w2_m__2__motor + monitor->c.r3_w5_w1_m__2__motor
+            + monitor->c.r3_w5_w2_m__2__motor + monitor->c.r3_w5_w3_m__2__motor
+            + monitor->c.r3_w5_w1_m__2__wheel + monitor->c.r3_w5_w2_m__2__wheel
+            + monitor->c.r3_w5_Fx__2 + monitor->c.r3_w5_w1_Fx__2 + monitor->c.r3_w6_w1_m__2__motor
+            + monitor->c.r3_w7_w1_m__2__motor + monitor->c.r3_w7_w2_m__2__motor
+            + monitor->c.r3_w8_w2_m__2__wheel + monitor->c.r3_w9_w2_m__2__wheel
+            + monitor->c.r3_w9_w3_m__2__wheel + monitor->c.r3_w10_w1_m__2__wheel
+            + monitor->c.r3_w11_w1_m__2__wheel + monitor->c.r3_w11_w2_m__2__wheel
+            + monitor->c.r3_w12_w1_m__2__motor + monitor->c.r3_w12_w2_m__2__motor
+            + monitor->c.r3_w12_w1_m__2__wheel + monitor->c.r3_w12_Fx__2
+            + monitor->c.r3_w13_w1_m__2__motor + monitor->c.r3_w13_w2_m__2__motor
+            + monitor->c.r3_w13_w3_m__2__motor + monitor->c.r3_w13_w1_m__2__wheel
+            + monitor->c.r3_w13_w2_m__2__wheel + monitor->c.r3_w13_Fx__2
+            + monitor->c.r3_w13_w1_Fx__2 + monitor->c.m__2__wheel__int__x0
+            + monitor->c.m__2__motor__int__x0 + monitor->c.g_7 + monitor->c.g_8
+            + monitor->c.r4_w1_integral + monitor->c.r4_w1_integral_2 + monitor->c.r4_w1_tanh
+            + monitor->c.g_9 + monitor->c.g_10 + monitor->c.r4_w2_product
+            + monitor->c.r4_w3_w2_m__2__wheel + monitor->c.r4_w4_w1_m__2__wheel
+            + monitor->c.r4_w5_tanh + monitor->c.r4_w5_product + monitor->c.g_11 + monitor->c.g_12
+            + monitor->c.r4_w6_product + monitor->c.r4_w6_product_2 + monitor->c.r5_w1_load
+            + monitor->c.r5_w1_w1_load + monitor->c.r5_w2_w1_load);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -839,8 +772,32 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w1_m__1__motor_speed = r1_w1_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w1: encoders, order 1 */
+    const real r1_w1_n1 = -c->r1_w1_w1_m__1__motor * r1_w1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w1: error of order 1 */
+    const real r1_w1_e1 = c->bend1 * r1_w1_n1;
+
+    /* khepera.bg:17: r1_w1: encoders, order 2 */
+    const real r1_w1_n2 = -c->r1_w1_w2_m__1__motor * r1_w1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = r1_w1_n1 + r1_w1_n2;
+
+    /* khepera.bg:17: r1_w1: degree 2 */
+    const real r1_w1_d2 = r1_w1_n2 - r1_w1_e1;
+
+    /* khepera.bg:17: r1_w1: input of stage 4 */
+    const real r1_w1_u4 = r1_w1_n1 + r1_w1_d2 + r1_w1_e1 - r1_w1_d1;
+
+    /* khepera.bg:17: r1_w1: stage 4, at rest */
+    const real r1_w1_y4 = r1_w1_u4;
+
+    /* khepera.bg:17: r1_w1: stage 4: memory */
+    x->r1_w1_s4 = c->rest * r1_w1_u4;
+
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_m__1__motor * r1_w1_m__1__motor_speed_2;
+    const real r1_w1_u3 = r1_w1_y4 + r1_w1_d1 - REAL(2.0) * r1_w1_d2 - REAL(3.0) * r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 3, at rest */
     const real r1_w1_y3 = r1_w1_u3;
@@ -849,7 +806,7 @@ static void start_r1(
     x->r1_w1_s3 = c->rest * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_m__1__motor * r1_w1_m__1__motor_speed_2;
+    const real r1_w1_u2 = r1_w1_y3 + r1_w1_d2 + REAL(3.0) * r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 2, at rest */
     const real r1_w1_y2 = r1_w1_u2;
@@ -858,7 +815,7 @@ static void start_r1(
     x->r1_w1_s2 = c->rest * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 1, at rest */
     const real r1_w1_y1 = r1_w1_u1;
@@ -875,8 +832,33 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].wheel */
     x->r1_w2_m__1__wheel_speed = r1_w2_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w2: encoders, order 2 */
+    const real r1_w2_n2 = -c->r1_w2_w2_m__1__wheel * r1_w2_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w2: error of order 2 */
+    const real r1_w2_e2 = c->bend1 * r1_w2_n2;
+
+    /* khepera.bg:17: r1_w2: encoders, order 3 */
+    const real r1_w2_n3 = -c->r1_w2_w3_m__1__wheel * r1_w2_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w2: degree 2 */
+    const real r1_w2_d2 = r1_w2_n2 + r1_w2_n3;
+
+    /* khepera.bg:17: r1_w2: degree 3 */
+    const real r1_w2_d3 = r1_w2_n3 - r1_w2_e2;
+
+    /* khepera.bg:17: r1_w2: input of stage 4 */
+    const real r1_w2_u4 = r1_w2_d2 - r1_w2_n2 - r1_w2_d3 - r1_w2_e2;
+
+    /* khepera.bg:17: r1_w2: stage 4, at rest */
+    const real r1_w2_y4 = r1_w2_u4;
+
+    /* khepera.bg:17: r1_w2: stage 4: memory */
+    x->r1_w2_s4 = c->rest * r1_w2_u4;
+
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_m__1__wheel * r1_w2_m__1__wheel_speed_2;
+    const real r1_w2_u3 = r1_w2_y4 + r1_w2_n2 + REAL(3.0) * r1_w2_d3 + REAL(4.0) * r1_w2_e2
+        - REAL(2.0) * r1_w2_d2;
 
     /* khepera.bg:17: r1_w2: stage 3, at rest */
     const real r1_w2_y3 = r1_w2_u3;
@@ -885,7 +867,7 @@ static void start_r1(
     x->r1_w2_s3 = c->rest * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 + c->r1_w2_v2_m__1__wheel * r1_w2_m__1__wheel_speed_2;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_d2 - REAL(3.0) * r1_w2_d3 - REAL(6.0) * r1_w2_e2;
 
     /* khepera.bg:17: r1_w2: stage 2, at rest */
     const real r1_w2_y2 = r1_w2_u2;
@@ -894,7 +876,7 @@ static void start_r1(
     x->r1_w2_s2 = c->rest * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2 - c->r1_w2_v1_m__1__wheel * r1_w2_m__1__wheel_speed_2;
+    const real r1_w2_u1 = r1_w2_y2 + r1_w2_d3 + REAL(4.0) * r1_w2_e2;
 
     /* khepera.bg:17: r1_w2: stage 1, at rest */
     const real r1_w2_y1 = r1_w2_u1;
@@ -903,7 +885,7 @@ static void start_r1(
     x->r1_w2_s1 = c->rest * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].Js can do */
-    const real r1_w2 = r1_w2_y1;
+    const real r1_w2 = r1_w2_y1 - r1_w2_e2;
 
     /* khepera.bg:17: filtered speed of m[1].wheel, at rest */
     const real r1_w3_m__1__wheel_speed_2 = REAL(0.0);
@@ -911,8 +893,32 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].wheel */
     x->r1_w3_m__1__wheel_speed = r1_w3_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w3: encoders, order 1 */
+    const real r1_w3_n1 = -c->r1_w3_w1_m__1__wheel * r1_w3_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w3: error of order 1 */
+    const real r1_w3_e1 = c->bend1 * r1_w3_n1;
+
+    /* khepera.bg:17: r1_w3: encoders, order 2 */
+    const real r1_w3_n2 = -c->r1_w3_w2_m__1__wheel * r1_w3_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w3: degree 1 */
+    const real r1_w3_d1 = r1_w3_n1 + r1_w3_n2;
+
+    /* khepera.bg:17: r1_w3: degree 2 */
+    const real r1_w3_d2 = r1_w3_n2 - r1_w3_e1;
+
+    /* khepera.bg:17: r1_w3: input of stage 4 */
+    const real r1_w3_u4 = r1_w3_n1 + r1_w3_d2 + r1_w3_e1 - r1_w3_d1;
+
+    /* khepera.bg:17: r1_w3: stage 4, at rest */
+    const real r1_w3_y4 = r1_w3_u4;
+
+    /* khepera.bg:17: r1_w3: stage 4: memory */
+    x->r1_w3_s4 = c->rest * r1_w3_u4;
+
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_m__1__wheel * r1_w3_m__1__wheel_speed_2;
+    const real r1_w3_u3 = r1_w3_y4 + r1_w3_d1 - REAL(2.0) * r1_w3_d2 - REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 3, at rest */
     const real r1_w3_y3 = r1_w3_u3;
@@ -921,7 +927,7 @@ static void start_r1(
     x->r1_w3_s3 = c->rest * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 - c->r1_w3_v2_m__1__wheel * r1_w3_m__1__wheel_speed_2;
+    const real r1_w3_u2 = r1_w3_y3 + r1_w3_d2 + REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 2, at rest */
     const real r1_w3_y2 = r1_w3_u2;
@@ -930,7 +936,7 @@ static void start_r1(
     x->r1_w3_s2 = c->rest * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2;
+    const real r1_w3_u1 = r1_w3_y2 - r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 1, at rest */
     const real r1_w3_y1 = r1_w3_u1;
@@ -953,8 +959,31 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w4_m__1__motor_speed = r1_w4_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w4: encoders, order 1 */
+    const real r1_w4_n1 = -c->r1_w4_w1_m__1__wheel * r1_w4_m__1__wheel_speed_2
+        - c->r1_w4_w1_m__1__motor * r1_w4_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w4: error of order 1 */
+    const real r1_w4_e1 = c->bend1 * r1_w4_n1;
+
+    /* khepera.bg:17: r1_w4: encoders, order 2 */
+    const real r1_w4_n2 = -c->r1_w4_w2_m__1__wheel * r1_w4_m__1__wheel_speed_2
+        - c->r1_w4_w2_m__1__motor * r1_w4_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = r1_w4_n1 + r1_w4_n2;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend2 * r1_w4_g0;
+
+    /* khepera.bg:17: r1_w4: degree 2 */
+    const real r1_w4_d2 = r1_w4_n2 - r1_w4_e1 - r1_w4_e0;
+
     /* khepera.bg:17: r1_w4: input of stage 4 */
-    const real r1_w4_u4 = -c->r1_w4_v4_Fx__1 * s->Fx__1;
+    const real r1_w4_u4 = r1_w4_g0 + r1_w4_n1 + r1_w4_d2 + r1_w4_e1 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 4, at rest */
     const real r1_w4_y4 = r1_w4_u4;
@@ -963,8 +992,7 @@ static void start_r1(
     x->r1_w4_s4 = c->rest * r1_w4_u4;
 
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = r1_w4_y4 + c->r1_w4_v3_m__1__wheel * r1_w4_m__1__wheel_speed_2
-        + c->r1_w4_v3_m__1__motor * r1_w4_m__1__motor_speed_2;
+    const real r1_w4_u3 = r1_w4_y4 + r1_w4_d1 - REAL(2.0) * r1_w4_d2 - REAL(3.0) * r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 3, at rest */
     const real r1_w4_y3 = r1_w4_u3;
@@ -973,8 +1001,7 @@ static void start_r1(
     x->r1_w4_s3 = c->rest * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_m__1__wheel * r1_w4_m__1__wheel_speed_2
-        - c->r1_w4_v2_m__1__motor * r1_w4_m__1__motor_speed_2;
+    const real r1_w4_u2 = r1_w4_y3 + r1_w4_d2 + REAL(3.0) * r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 2, at rest */
     const real r1_w4_y2 = r1_w4_u2;
@@ -983,7 +1010,7 @@ static void start_r1(
     x->r1_w4_s2 = c->rest * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 1, at rest */
     const real r1_w4_y1 = r1_w4_u1;
@@ -1006,8 +1033,47 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].wheel */
     x->r1_w5_m__1__wheel_speed = r1_w5_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w5: encoders, order 1 */
+    const real r1_w5_n1 = c->r1_w5_w1_m__1__motor * r1_w5_m__1__motor_speed_2
+        + c->r1_w5_w1_m__1__wheel * r1_w5_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w5: error of order 1 */
+    const real r1_w5_e1 = c->bend2 * r1_w5_n1;
+
+    /* khepera.bg:17: r1_w5: encoders, order 2 */
+    const real r1_w5_n2 = c->r1_w5_w2_m__1__motor * r1_w5_m__1__motor_speed_2
+        + c->r1_w5_w2_m__1__wheel * r1_w5_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w5: error of order 2 */
+    const real r1_w5_e2 = c->bend1 * r1_w5_n2;
+
+    /* khepera.bg:17: r1_w5: encoders, order 3 */
+    const real r1_w5_n3 = c->r1_w5_w3_m__1__motor * r1_w5_m__1__motor_speed_2
+        + c->r1_w2_w3_m__1__wheel * r1_w5_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w5: terms of order 0 */
+    const real r1_w5_g0 = c->r1_w5_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w5: terms of order 1 */
+    const real r1_w5_g1 = c->r1_w5_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w5: degree 1 */
+    const real r1_w5_d1 = r1_w5_g1 + r1_w5_n1 + r1_w5_n2;
+
+    /* khepera.bg:17: r1_w5: error of order 0 */
+    const real r1_w5_e0 = c->bend3 * r1_w5_g0;
+
+    /* khepera.bg:17: r1_w5: degree 2 */
+    const real r1_w5_d2 = r1_w5_n2 + r1_w5_n3 - r1_w5_e1 - r1_w5_e0;
+
+    /* khepera.bg:17: r1_w5: error of order 1 */
+    const real r1_w5_e1_2 = c->bend2 * r1_w5_g1;
+
+    /* khepera.bg:17: r1_w5: degree 3 */
+    const real r1_w5_d3 = r1_w5_n3 - r1_w5_e1 - r1_w5_e2 - r1_w5_e1_2;
+
     /* khepera.bg:17: r1_w5: input of stage 4 */
-    const real r1_w5_u4 = c->r1_w5_v4_Fx__1 * s->Fx__1;
+    const real r1_w5_u4 = r1_w5_g0 + r1_w5_n1 + r1_w5_d2 - r1_w5_d1 - r1_w5_d3 - r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 4, at rest */
     const real r1_w5_y4 = r1_w5_u4;
@@ -1016,8 +1082,8 @@ static void start_r1(
     x->r1_w5_s4 = c->rest * r1_w5_u4;
 
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = r1_w5_y4 + c->r1_w5_v3_m__1__motor * r1_w5_m__1__motor_speed_2
-        + c->r1_w5_v3_m__1__wheel * r1_w5_m__1__wheel_speed_2 + c->r1_w5_v3_Fx__1 * s->Fx__1;
+    const real r1_w5_u3 = r1_w5_y4 + r1_w5_d1 + REAL(3.0) * r1_w5_d3 + REAL(4.0) * r1_w5_e2
+        - REAL(2.0) * r1_w5_d2;
 
     /* khepera.bg:17: r1_w5: stage 3, at rest */
     const real r1_w5_y3 = r1_w5_u3;
@@ -1026,8 +1092,7 @@ static void start_r1(
     x->r1_w5_s3 = c->rest * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
-    const real r1_w5_u2 = r1_w5_y3 + c->r1_w5_v2_m__1__motor * r1_w5_m__1__motor_speed_2
-        + c->r1_w5_v2_m__1__wheel * r1_w5_m__1__wheel_speed_2;
+    const real r1_w5_u2 = r1_w5_y3 + r1_w5_d2 - REAL(3.0) * r1_w5_d3 - REAL(6.0) * r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 2, at rest */
     const real r1_w5_y2 = r1_w5_u2;
@@ -1036,8 +1101,7 @@ static void start_r1(
     x->r1_w5_s2 = c->rest * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
-    const real r1_w5_u1 = r1_w5_y2 + c->r1_w5_v1_m__1__motor * r1_w5_m__1__motor_speed_2
-        + c->r1_w2_v1_m__1__wheel * r1_w5_m__1__wheel_speed_2;
+    const real r1_w5_u1 = r1_w5_y2 + r1_w5_d3 + REAL(4.0) * r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 1, at rest */
     const real r1_w5_y1 = r1_w5_u1;
@@ -1046,7 +1110,7 @@ static void start_r1(
     x->r1_w5_s1 = c->rest * r1_w5_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].el.k can do */
-    const real r1_w5 = r1_w5_y1;
+    const real r1_w5 = r1_w5_y1 - r1_w5_e2;
 
     /* khepera.bg:17: filtered speed of m[1].motor, at rest */
     const real r1_w6_m__1__motor_speed_2 = REAL(0.0);
@@ -1054,8 +1118,20 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w6_m__1__motor_speed = r1_w6_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w6: encoders, order 1 */
+    const real r1_w6_n1 = -c->r1_w6_w1_m__1__motor * r1_w6_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w6: input of stage 4 */
+    const real r1_w6_u4 = r1_w6_n1 - r1_w6_n1;
+
+    /* khepera.bg:17: r1_w6: stage 4, at rest */
+    const real r1_w6_y4 = r1_w6_u4;
+
+    /* khepera.bg:17: r1_w6: stage 4: memory */
+    x->r1_w6_s4 = c->rest * r1_w6_u4;
+
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = -c->r1_w6_v3_m__1__motor * r1_w6_m__1__motor_speed_2;
+    const real r1_w6_u3 = r1_w6_y4 + r1_w6_n1;
 
     /* khepera.bg:17: r1_w6: stage 3, at rest */
     const real r1_w6_y3 = r1_w6_u3;
@@ -1090,8 +1166,32 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].motor */
     x->r1_w7_m__1__motor_speed = r1_w7_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w7: encoders, order 1 */
+    const real r1_w7_n1 = c->r1_w7_w1_m__1__motor * r1_w7_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w7: error of order 1 */
+    const real r1_w7_e1 = c->bend1 * r1_w7_n1;
+
+    /* khepera.bg:17: r1_w7: encoders, order 2 */
+    const real r1_w7_n2 = c->r1_w7_w2_m__1__motor * r1_w7_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w7: degree 1 */
+    const real r1_w7_d1 = r1_w7_n1 + r1_w7_n2;
+
+    /* khepera.bg:17: r1_w7: degree 2 */
+    const real r1_w7_d2 = r1_w7_n2 - r1_w7_e1;
+
+    /* khepera.bg:17: r1_w7: input of stage 4 */
+    const real r1_w7_u4 = r1_w7_n1 + r1_w7_d2 + r1_w7_e1 - r1_w7_d1;
+
+    /* khepera.bg:17: r1_w7: stage 4, at rest */
+    const real r1_w7_y4 = r1_w7_u4;
+
+    /* khepera.bg:17: r1_w7: stage 4: memory */
+    x->r1_w7_s4 = c->rest * r1_w7_u4;
+
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = c->r1_w7_v3_m__1__motor * r1_w7_m__1__motor_speed_2;
+    const real r1_w7_u3 = r1_w7_y4 + r1_w7_d1 - REAL(2.0) * r1_w7_d2 - REAL(3.0) * r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 3, at rest */
     const real r1_w7_y3 = r1_w7_u3;
@@ -1100,7 +1200,7 @@ static void start_r1(
     x->r1_w7_s3 = c->rest * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: input of stage 2 */
-    const real r1_w7_u2 = r1_w7_y3 + c->r1_w7_v2_m__1__motor * r1_w7_m__1__motor_speed_2;
+    const real r1_w7_u2 = r1_w7_y3 + r1_w7_d2 + REAL(3.0) * r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 2, at rest */
     const real r1_w7_y2 = r1_w7_u2;
@@ -1109,7 +1209,7 @@ static void start_r1(
     x->r1_w7_s2 = c->rest * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: input of stage 1 */
-    const real r1_w7_u1 = r1_w7_y2;
+    const real r1_w7_u1 = r1_w7_y2 - r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 1, at rest */
     const real r1_w7_y1 = r1_w7_u1;
@@ -1126,8 +1226,20 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].wheel */
     x->r1_w8_m__1__wheel_speed = r1_w8_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w8: encoders, order 2 */
+    const real r1_w8_n2 = -c->r1_w8_w2_m__1__wheel * r1_w8_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w8: input of stage 4 */
+    const real r1_w8_u4 = r1_w8_n2 - r1_w8_n2;
+
+    /* khepera.bg:17: r1_w8: stage 4, at rest */
+    const real r1_w8_y4 = r1_w8_u4;
+
+    /* khepera.bg:17: r1_w8: stage 4: memory */
+    x->r1_w8_s4 = c->rest * r1_w8_u4;
+
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = c->r1_w8_v2_m__1__wheel * r1_w8_m__1__wheel_speed_2;
+    const real r1_w8_u3 = r1_w8_y4 + r1_w8_n2 - REAL(2.0) * r1_w8_n2;
 
     /* khepera.bg:17: r1_w8: stage 3, at rest */
     const real r1_w8_y3 = r1_w8_u3;
@@ -1136,7 +1248,7 @@ static void start_r1(
     x->r1_w8_s3 = c->rest * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
-    const real r1_w8_u2 = r1_w8_y3 - c->r1_w8_v2_m__1__wheel * r1_w8_m__1__wheel_speed_2;
+    const real r1_w8_u2 = r1_w8_y3 + r1_w8_n2;
 
     /* khepera.bg:17: r1_w8: stage 2, at rest */
     const real r1_w8_y2 = r1_w8_u2;
@@ -1162,8 +1274,33 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].wheel */
     x->r1_w9_m__1__wheel_speed = r1_w9_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w9: encoders, order 2 */
+    const real r1_w9_n2 = c->r1_w9_w2_m__1__wheel * r1_w9_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w9: error of order 2 */
+    const real r1_w9_e2 = c->bend1 * r1_w9_n2;
+
+    /* khepera.bg:17: r1_w9: encoders, order 3 */
+    const real r1_w9_n3 = c->r1_w9_w3_m__1__wheel * r1_w9_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w9: degree 2 */
+    const real r1_w9_d2 = r1_w9_n2 + r1_w9_n3;
+
+    /* khepera.bg:17: r1_w9: degree 3 */
+    const real r1_w9_d3 = r1_w9_n3 - r1_w9_e2;
+
+    /* khepera.bg:17: r1_w9: input of stage 4 */
+    const real r1_w9_u4 = r1_w9_d2 - r1_w9_n2 - r1_w9_d3 - r1_w9_e2;
+
+    /* khepera.bg:17: r1_w9: stage 4, at rest */
+    const real r1_w9_y4 = r1_w9_u4;
+
+    /* khepera.bg:17: r1_w9: stage 4: memory */
+    x->r1_w9_s4 = c->rest * r1_w9_u4;
+
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_m__1__wheel * r1_w9_m__1__wheel_speed_2;
+    const real r1_w9_u3 = r1_w9_y4 + r1_w9_n2 + REAL(3.0) * r1_w9_d3 + REAL(4.0) * r1_w9_e2
+        - REAL(2.0) * r1_w9_d2;
 
     /* khepera.bg:17: r1_w9: stage 3, at rest */
     const real r1_w9_y3 = r1_w9_u3;
@@ -1172,7 +1309,7 @@ static void start_r1(
     x->r1_w9_s3 = c->rest * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_m__1__wheel * r1_w9_m__1__wheel_speed_2;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_d2 - REAL(3.0) * r1_w9_d3 - REAL(6.0) * r1_w9_e2;
 
     /* khepera.bg:17: r1_w9: stage 2, at rest */
     const real r1_w9_y2 = r1_w9_u2;
@@ -1181,7 +1318,7 @@ static void start_r1(
     x->r1_w9_s2 = c->rest * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2 + c->r1_w9_v1_m__1__wheel * r1_w9_m__1__wheel_speed_2;
+    const real r1_w9_u1 = r1_w9_y2 + r1_w9_d3 + REAL(4.0) * r1_w9_e2;
 
     /* khepera.bg:17: r1_w9: stage 1, at rest */
     const real r1_w9_y1 = r1_w9_u1;
@@ -1190,7 +1327,7 @@ static void start_r1(
     x->r1_w9_s1 = c->rest * r1_w9_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.k can do together */
-    const real r1_w9 = r1_w9_y1;
+    const real r1_w9 = r1_w9_y1 - r1_w9_e2;
 
     /* khepera.bg:17: filtered speed of m[1].wheel, at rest */
     const real r1_w10_m__1__wheel_speed_2 = REAL(0.0);
@@ -1198,8 +1335,20 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].wheel */
     x->r1_w10_m__1__wheel_speed = r1_w10_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w10: encoders, order 1 */
+    const real r1_w10_n1 = -c->r1_w10_w1_m__1__wheel * r1_w10_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w10: input of stage 4 */
+    const real r1_w10_u4 = r1_w10_n1 - r1_w10_n1;
+
+    /* khepera.bg:17: r1_w10: stage 4, at rest */
+    const real r1_w10_y4 = r1_w10_u4;
+
+    /* khepera.bg:17: r1_w10: stage 4: memory */
+    x->r1_w10_s4 = c->rest * r1_w10_u4;
+
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = -c->r1_w10_v3_m__1__wheel * r1_w10_m__1__wheel_speed_2;
+    const real r1_w10_u3 = r1_w10_y4 + r1_w10_n1;
 
     /* khepera.bg:17: r1_w10: stage 3, at rest */
     const real r1_w10_y3 = r1_w10_u3;
@@ -1234,8 +1383,32 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].wheel */
     x->r1_w11_m__1__wheel_speed = r1_w11_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w11: encoders, order 1 */
+    const real r1_w11_n1 = c->r1_w11_w1_m__1__wheel * r1_w11_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w11: error of order 1 */
+    const real r1_w11_e1 = c->bend1 * r1_w11_n1;
+
+    /* khepera.bg:17: r1_w11: encoders, order 2 */
+    const real r1_w11_n2 = c->r1_w11_w2_m__1__wheel * r1_w11_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w11: degree 1 */
+    const real r1_w11_d1 = r1_w11_n1 + r1_w11_n2;
+
+    /* khepera.bg:17: r1_w11: degree 2 */
+    const real r1_w11_d2 = r1_w11_n2 - r1_w11_e1;
+
+    /* khepera.bg:17: r1_w11: input of stage 4 */
+    const real r1_w11_u4 = r1_w11_n1 + r1_w11_d2 + r1_w11_e1 - r1_w11_d1;
+
+    /* khepera.bg:17: r1_w11: stage 4, at rest */
+    const real r1_w11_y4 = r1_w11_u4;
+
+    /* khepera.bg:17: r1_w11: stage 4: memory */
+    x->r1_w11_s4 = c->rest * r1_w11_u4;
+
     /* khepera.bg:17: r1_w11: input of stage 3 */
-    const real r1_w11_u3 = c->r1_w11_v3_m__1__wheel * r1_w11_m__1__wheel_speed_2;
+    const real r1_w11_u3 = r1_w11_y4 + r1_w11_d1 - REAL(2.0) * r1_w11_d2 - REAL(3.0) * r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 3, at rest */
     const real r1_w11_y3 = r1_w11_u3;
@@ -1244,7 +1417,7 @@ static void start_r1(
     x->r1_w11_s3 = c->rest * r1_w11_u3;
 
     /* khepera.bg:17: r1_w11: input of stage 2 */
-    const real r1_w11_u2 = r1_w11_y3 + c->r1_w11_v2_m__1__wheel * r1_w11_m__1__wheel_speed_2;
+    const real r1_w11_u2 = r1_w11_y3 + r1_w11_d2 + REAL(3.0) * r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 2, at rest */
     const real r1_w11_y2 = r1_w11_u2;
@@ -1253,7 +1426,7 @@ static void start_r1(
     x->r1_w11_s2 = c->rest * r1_w11_u2;
 
     /* khepera.bg:17: r1_w11: input of stage 1 */
-    const real r1_w11_u1 = r1_w11_y2;
+    const real r1_w11_u1 = r1_w11_y2 - r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 1, at rest */
     const real r1_w11_y1 = r1_w11_u1;
@@ -1276,8 +1449,31 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].wheel */
     x->r1_w12_m__1__wheel_speed = r1_w12_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w12: encoders, order 1 */
+    const real r1_w12_n1 = c->r1_w12_w1_m__1__motor * r1_w12_m__1__motor_speed_2
+        + c->r1_w12_w1_m__1__wheel * r1_w12_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w12: error of order 1 */
+    const real r1_w12_e1 = c->bend1 * r1_w12_n1;
+
+    /* khepera.bg:17: r1_w12: encoders, order 2 */
+    const real r1_w12_n2 = c->r1_w12_w2_m__1__motor * r1_w12_m__1__motor_speed_2
+        + c->r1_w8_w2_m__1__wheel * r1_w12_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w12: terms of order 0 */
+    const real r1_w12_g0 = c->r1_w12_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w12: degree 1 */
+    const real r1_w12_d1 = r1_w12_n1 + r1_w12_n2;
+
+    /* khepera.bg:17: r1_w12: error of order 0 */
+    const real r1_w12_e0 = c->bend2 * r1_w12_g0;
+
+    /* khepera.bg:17: r1_w12: degree 2 */
+    const real r1_w12_d2 = r1_w12_n2 - r1_w12_e1 - r1_w12_e0;
+
     /* khepera.bg:17: r1_w12: input of stage 4 */
-    const real r1_w12_u4 = c->r1_w12_v4_Fx__1 * s->Fx__1;
+    const real r1_w12_u4 = r1_w12_g0 + r1_w12_n1 + r1_w12_d2 + r1_w12_e1 - r1_w12_d1;
 
     /* khepera.bg:17: r1_w12: stage 4, at rest */
     const real r1_w12_y4 = r1_w12_u4;
@@ -1286,8 +1482,7 @@ static void start_r1(
     x->r1_w12_s4 = c->rest * r1_w12_u4;
 
     /* khepera.bg:17: r1_w12: input of stage 3 */
-    const real r1_w12_u3 = r1_w12_y4 + c->r1_w12_v3_m__1__motor * r1_w12_m__1__motor_speed_2
-        + c->r1_w12_v3_m__1__wheel * r1_w12_m__1__wheel_speed_2;
+    const real r1_w12_u3 = r1_w12_y4 + r1_w12_d1 - REAL(2.0) * r1_w12_d2 - REAL(3.0) * r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 3, at rest */
     const real r1_w12_y3 = r1_w12_u3;
@@ -1296,8 +1491,7 @@ static void start_r1(
     x->r1_w12_s3 = c->rest * r1_w12_u3;
 
     /* khepera.bg:17: r1_w12: input of stage 2 */
-    const real r1_w12_u2 = r1_w12_y3 + c->r1_w12_v2_m__1__motor * r1_w12_m__1__motor_speed_2
-        + c->r1_w8_v2_m__1__wheel * r1_w12_m__1__wheel_speed_2;
+    const real r1_w12_u2 = r1_w12_y3 + r1_w12_d2 + REAL(3.0) * r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 2, at rest */
     const real r1_w12_y2 = r1_w12_u2;
@@ -1306,7 +1500,7 @@ static void start_r1(
     x->r1_w12_s2 = c->rest * r1_w12_u2;
 
     /* khepera.bg:17: r1_w12: input of stage 1 */
-    const real r1_w12_u1 = r1_w12_y2;
+    const real r1_w12_u1 = r1_w12_y2 - r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 1, at rest */
     const real r1_w12_y1 = r1_w12_u1;
@@ -1329,8 +1523,47 @@ static void start_r1(
     /* khepera.bg:17: filtered speed of m[1].wheel */
     x->r1_w13_m__1__wheel_speed = r1_w13_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w13: encoders, order 1 */
+    const real r1_w13_n1 = -c->r1_w13_w1_m__1__motor * r1_w13_m__1__motor_speed_2
+        - c->r1_w13_w1_m__1__wheel * r1_w13_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w13: error of order 1 */
+    const real r1_w13_e1 = c->bend2 * r1_w13_n1;
+
+    /* khepera.bg:17: r1_w13: encoders, order 2 */
+    const real r1_w13_n2 = c->r1_w13_w2_m__1__motor * r1_w13_m__1__motor_speed_2
+        + c->r1_w13_w2_m__1__wheel * r1_w13_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w13: error of order 2 */
+    const real r1_w13_e2 = c->bend1 * r1_w13_n2;
+
+    /* khepera.bg:17: r1_w13: encoders, order 3 */
+    const real r1_w13_n3 = -c->r1_w13_w3_m__1__motor * r1_w13_m__1__motor_speed_2
+        - c->r1_w9_w3_m__1__wheel * r1_w13_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w13: terms of order 0 */
+    const real r1_w13_g0 = -c->r1_w13_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w13: terms of order 1 */
+    const real r1_w13_g1 = -c->r1_w13_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w13: degree 1 */
+    const real r1_w13_d1 = r1_w13_g1 + r1_w13_n1 + r1_w13_n2;
+
+    /* khepera.bg:17: r1_w13: error of order 0 */
+    const real r1_w13_e0 = c->bend3 * r1_w13_g0;
+
+    /* khepera.bg:17: r1_w13: degree 2 */
+    const real r1_w13_d2 = r1_w13_n2 + r1_w13_n3 - r1_w13_e1 - r1_w13_e0;
+
+    /* khepera.bg:17: r1_w13: error of order 1 */
+    const real r1_w13_e1_2 = c->bend2 * r1_w13_g1;
+
+    /* khepera.bg:17: r1_w13: degree 3 */
+    const real r1_w13_d3 = r1_w13_n3 - r1_w13_e1 - r1_w13_e2 - r1_w13_e1_2;
+
     /* khepera.bg:17: r1_w13: input of stage 4 */
-    const real r1_w13_u4 = c->r1_w13_v4_Fx__1 * s->Fx__1;
+    const real r1_w13_u4 = r1_w13_g0 + r1_w13_n1 + r1_w13_d2 - r1_w13_d1 - r1_w13_d3 - r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 4, at rest */
     const real r1_w13_y4 = r1_w13_u4;
@@ -1339,8 +1572,8 @@ static void start_r1(
     x->r1_w13_s4 = c->rest * r1_w13_u4;
 
     /* khepera.bg:17: r1_w13: input of stage 3 */
-    const real r1_w13_u3 = r1_w13_y4 - c->r1_w13_v3_m__1__motor * r1_w13_m__1__motor_speed_2
-        - c->r1_w13_v3_m__1__wheel * r1_w13_m__1__wheel_speed_2 - c->r1_w13_v3_Fx__1 * s->Fx__1;
+    const real r1_w13_u3 = r1_w13_y4 + r1_w13_d1 + REAL(3.0) * r1_w13_d3 + REAL(4.0) * r1_w13_e2
+        - REAL(2.0) * r1_w13_d2;
 
     /* khepera.bg:17: r1_w13: stage 3, at rest */
     const real r1_w13_y3 = r1_w13_u3;
@@ -1349,8 +1582,7 @@ static void start_r1(
     x->r1_w13_s3 = c->rest * r1_w13_u3;
 
     /* khepera.bg:17: r1_w13: input of stage 2 */
-    const real r1_w13_u2 = r1_w13_y3 + c->r1_w13_v2_m__1__motor * r1_w13_m__1__motor_speed_2
-        + c->r1_w13_v2_m__1__wheel * r1_w13_m__1__wheel_speed_2;
+    const real r1_w13_u2 = r1_w13_y3 + r1_w13_d2 - REAL(3.0) * r1_w13_d3 - REAL(6.0) * r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 2, at rest */
     const real r1_w13_y2 = r1_w13_u2;
@@ -1359,8 +1591,7 @@ static void start_r1(
     x->r1_w13_s2 = c->rest * r1_w13_u2;
 
     /* khepera.bg:17: r1_w13: input of stage 1 */
-    const real r1_w13_u1 = r1_w13_y2 - c->r1_w13_v1_m__1__motor * r1_w13_m__1__motor_speed_2
-        - c->r1_w9_v1_m__1__wheel * r1_w13_m__1__wheel_speed_2;
+    const real r1_w13_u1 = r1_w13_y2 + r1_w13_d3 + REAL(4.0) * r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 1, at rest */
     const real r1_w13_y1 = r1_w13_u1;
@@ -1369,7 +1600,7 @@ static void start_r1(
     x->r1_w13_s1 = c->rest * r1_w13_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do */
-    const real r1_w13 = r1_w13_y1;
+    const real r1_w13 = r1_w13_y1 - r1_w13_e2;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
     r[KHEPERA_ENCODERS_THRESHOLD_R1] = MATH(fabs)(r1_w1) + MATH(fabs)(r1_w2) + MATH(fabs)(r1_w3)
@@ -1394,32 +1625,56 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor_r1.increment;
     x->r1_w1_m__1__motor_speed = r1_w1_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w1: encoders, order 1 */
+    const real r1_w1_n1 = -c->r1_w1_w1_m__1__motor * r1_w1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w1: error of order 1 */
+    const real r1_w1_e1 = c->bend1 * r1_w1_n1;
+
+    /* khepera.bg:17: r1_w1: encoders, order 2 */
+    const real r1_w1_n2 = -c->r1_w1_w2_m__1__motor * r1_w1_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = r1_w1_n1 + r1_w1_n2;
+
+    /* khepera.bg:17: r1_w1: degree 2 */
+    const real r1_w1_d2 = r1_w1_n2 - r1_w1_e1;
+
+    /* khepera.bg:17: r1_w1: input of stage 4 */
+    const real r1_w1_u4 = r1_w1_n1 + r1_w1_d2 + r1_w1_e1 - r1_w1_d1;
+
+    /* khepera.bg:17: r1_w1: stage 4 */
+    const real r1_w1_y4 = x->r1_w1_s4 + c->b * r1_w1_u4;
+
+    /* khepera.bg:17: r1_w1: stage 4: memory */
+    x->r1_w1_s4 = c->a * r1_w1_y4 + c->b * r1_w1_u4;
+
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_m__1__motor * r1_w1_m__1__motor_speed_2;
+    const real r1_w1_u3 = r1_w1_y4 + r1_w1_d1 - REAL(2.0) * r1_w1_d2 - REAL(3.0) * r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 3 */
-    const real r1_w1_y3 = x->r1_w1_s3 + c->b0 * r1_w1_u3;
+    const real r1_w1_y3 = x->r1_w1_s3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: stage 3: memory */
-    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b1 * r1_w1_u3;
+    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_m__1__motor * r1_w1_m__1__motor_speed_2;
+    const real r1_w1_u2 = r1_w1_y3 + r1_w1_d2 + REAL(3.0) * r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 2 */
-    const real r1_w1_y2 = x->r1_w1_s2 + c->b0 * r1_w1_u2;
+    const real r1_w1_y2 = x->r1_w1_s2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: stage 2: memory */
-    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b1 * r1_w1_u2;
+    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e1;
 
     /* khepera.bg:17: r1_w1: stage 1 */
-    const real r1_w1_y1 = x->r1_w1_s1 + c->b0 * r1_w1_u1;
+    const real r1_w1_y1 = x->r1_w1_s1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1_w1: stage 1: memory */
-    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b1 * r1_w1_u1;
+    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].fe can do */
     const real r1_w1 = r1_w1_y1;
@@ -1429,67 +1684,116 @@ static void next_r1(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w2_m__1__wheel_speed = r1_w2_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w2: encoders, order 2 */
+    const real r1_w2_n2 = -c->r1_w2_w2_m__1__wheel * r1_w2_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w2: error of order 2 */
+    const real r1_w2_e2 = c->bend1 * r1_w2_n2;
+
+    /* khepera.bg:17: r1_w2: encoders, order 3 */
+    const real r1_w2_n3 = -c->r1_w2_w3_m__1__wheel * r1_w2_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w2: degree 2 */
+    const real r1_w2_d2 = r1_w2_n2 + r1_w2_n3;
+
+    /* khepera.bg:17: r1_w2: degree 3 */
+    const real r1_w2_d3 = r1_w2_n3 - r1_w2_e2;
+
+    /* khepera.bg:17: r1_w2: input of stage 4 */
+    const real r1_w2_u4 = r1_w2_d2 - r1_w2_n2 - r1_w2_d3 - r1_w2_e2;
+
+    /* khepera.bg:17: r1_w2: stage 4 */
+    const real r1_w2_y4 = x->r1_w2_s4 + c->b * r1_w2_u4;
+
+    /* khepera.bg:17: r1_w2: stage 4: memory */
+    x->r1_w2_s4 = c->a * r1_w2_y4 + c->b * r1_w2_u4;
+
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_m__1__wheel * r1_w2_m__1__wheel_speed_2;
+    const real r1_w2_u3 = r1_w2_y4 + r1_w2_n2 + REAL(3.0) * r1_w2_d3 + REAL(4.0) * r1_w2_e2
+        - REAL(2.0) * r1_w2_d2;
 
     /* khepera.bg:17: r1_w2: stage 3 */
-    const real r1_w2_y3 = x->r1_w2_s3 + c->b0 * r1_w2_u3;
+    const real r1_w2_y3 = x->r1_w2_s3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: stage 3: memory */
-    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b1 * r1_w2_u3;
+    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 + c->r1_w2_v2_m__1__wheel * r1_w2_m__1__wheel_speed_2;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_d2 - REAL(3.0) * r1_w2_d3 - REAL(6.0) * r1_w2_e2;
 
     /* khepera.bg:17: r1_w2: stage 2 */
-    const real r1_w2_y2 = x->r1_w2_s2 + c->b0 * r1_w2_u2;
+    const real r1_w2_y2 = x->r1_w2_s2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: stage 2: memory */
-    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b1 * r1_w2_u2;
+    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2 - c->r1_w2_v1_m__1__wheel * r1_w2_m__1__wheel_speed_2;
+    const real r1_w2_u1 = r1_w2_y2 + r1_w2_d3 + REAL(4.0) * r1_w2_e2;
 
     /* khepera.bg:17: r1_w2: stage 1 */
-    const real r1_w2_y1 = x->r1_w2_s1 + c->b0 * r1_w2_u1;
+    const real r1_w2_y1 = x->r1_w2_s1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1_w2: stage 1: memory */
-    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b1 * r1_w2_u1;
+    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].Js can do */
-    const real r1_w2 = r1_w2_y1;
+    const real r1_w2 = r1_w2_y1 - r1_w2_e2;
 
     /* khepera.bg:17: filtered speed of m[1].wheel */
     const real r1_w3_m__1__wheel_speed_2 = c->a * x->r1_w3_m__1__wheel_speed
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w3_m__1__wheel_speed = r1_w3_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w3: encoders, order 1 */
+    const real r1_w3_n1 = -c->r1_w3_w1_m__1__wheel * r1_w3_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w3: error of order 1 */
+    const real r1_w3_e1 = c->bend1 * r1_w3_n1;
+
+    /* khepera.bg:17: r1_w3: encoders, order 2 */
+    const real r1_w3_n2 = -c->r1_w3_w2_m__1__wheel * r1_w3_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w3: degree 1 */
+    const real r1_w3_d1 = r1_w3_n1 + r1_w3_n2;
+
+    /* khepera.bg:17: r1_w3: degree 2 */
+    const real r1_w3_d2 = r1_w3_n2 - r1_w3_e1;
+
+    /* khepera.bg:17: r1_w3: input of stage 4 */
+    const real r1_w3_u4 = r1_w3_n1 + r1_w3_d2 + r1_w3_e1 - r1_w3_d1;
+
+    /* khepera.bg:17: r1_w3: stage 4 */
+    const real r1_w3_y4 = x->r1_w3_s4 + c->b * r1_w3_u4;
+
+    /* khepera.bg:17: r1_w3: stage 4: memory */
+    x->r1_w3_s4 = c->a * r1_w3_y4 + c->b * r1_w3_u4;
+
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_m__1__wheel * r1_w3_m__1__wheel_speed_2;
+    const real r1_w3_u3 = r1_w3_y4 + r1_w3_d1 - REAL(2.0) * r1_w3_d2 - REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 3 */
-    const real r1_w3_y3 = x->r1_w3_s3 + c->b0 * r1_w3_u3;
+    const real r1_w3_y3 = x->r1_w3_s3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: stage 3: memory */
-    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b1 * r1_w3_u3;
+    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 - c->r1_w3_v2_m__1__wheel * r1_w3_m__1__wheel_speed_2;
+    const real r1_w3_u2 = r1_w3_y3 + r1_w3_d2 + REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 2 */
-    const real r1_w3_y2 = x->r1_w3_s2 + c->b0 * r1_w3_u2;
+    const real r1_w3_y2 = x->r1_w3_s2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: stage 2: memory */
-    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b1 * r1_w3_u2;
+    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2;
+    const real r1_w3_u1 = r1_w3_y2 - r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 1 */
-    const real r1_w3_y1 = x->r1_w3_s1 + c->b0 * r1_w3_u1;
+    const real r1_w3_y1 = x->r1_w3_s1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1_w3: stage 1: memory */
-    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b1 * r1_w3_u1;
+    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].fs can do */
     const real r1_w3 = r1_w3_y1;
@@ -1504,43 +1808,64 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor_r1.increment;
     x->r1_w4_m__1__motor_speed = r1_w4_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w4: encoders, order 1 */
+    const real r1_w4_n1 = -c->r1_w4_w1_m__1__wheel * r1_w4_m__1__wheel_speed_2
+        - c->r1_w4_w1_m__1__motor * r1_w4_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w4: error of order 1 */
+    const real r1_w4_e1 = c->bend1 * r1_w4_n1;
+
+    /* khepera.bg:17: r1_w4: encoders, order 2 */
+    const real r1_w4_n2 = -c->r1_w4_w2_m__1__wheel * r1_w4_m__1__wheel_speed_2
+        - c->r1_w4_w2_m__1__motor * r1_w4_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = r1_w4_n1 + r1_w4_n2;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend2 * r1_w4_g0;
+
+    /* khepera.bg:17: r1_w4: degree 2 */
+    const real r1_w4_d2 = r1_w4_n2 - r1_w4_e1 - r1_w4_e0;
+
     /* khepera.bg:17: r1_w4: input of stage 4 */
-    const real r1_w4_u4 = -c->r1_w4_v4_Fx__1 * s->Fx__1;
+    const real r1_w4_u4 = r1_w4_g0 + r1_w4_n1 + r1_w4_d2 + r1_w4_e1 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 4 */
-    const real r1_w4_y4 = x->r1_w4_s4 + c->b0 * r1_w4_u4;
+    const real r1_w4_y4 = x->r1_w4_s4 + c->b * r1_w4_u4;
 
     /* khepera.bg:17: r1_w4: stage 4: memory */
-    x->r1_w4_s4 = c->a * r1_w4_y4 + c->b1 * r1_w4_u4;
+    x->r1_w4_s4 = c->a * r1_w4_y4 + c->b * r1_w4_u4;
 
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = r1_w4_y4 + c->r1_w4_v3_m__1__wheel * r1_w4_m__1__wheel_speed_2
-        + c->r1_w4_v3_m__1__motor * r1_w4_m__1__motor_speed_2;
+    const real r1_w4_u3 = r1_w4_y4 + r1_w4_d1 - REAL(2.0) * r1_w4_d2 - REAL(3.0) * r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 3 */
-    const real r1_w4_y3 = x->r1_w4_s3 + c->b0 * r1_w4_u3;
+    const real r1_w4_y3 = x->r1_w4_s3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: stage 3: memory */
-    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b1 * r1_w4_u3;
+    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_m__1__wheel * r1_w4_m__1__wheel_speed_2
-        - c->r1_w4_v2_m__1__motor * r1_w4_m__1__motor_speed_2;
+    const real r1_w4_u2 = r1_w4_y3 + r1_w4_d2 + REAL(3.0) * r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 2 */
-    const real r1_w4_y2 = x->r1_w4_s2 + c->b0 * r1_w4_u2;
+    const real r1_w4_y2 = x->r1_w4_s2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: stage 2: memory */
-    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b1 * r1_w4_u2;
+    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e1;
 
     /* khepera.bg:17: r1_w4: stage 1 */
-    const real r1_w4_y1 = x->r1_w4_s1 + c->b0 * r1_w4_u1;
+    const real r1_w4_y1 = x->r1_w4_s1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1_w4: stage 1: memory */
-    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b1 * r1_w4_u1;
+    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].el.Re can do */
     const real r1_w4 = r1_w4_y1;
@@ -1555,79 +1880,128 @@ static void next_r1(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w5_m__1__wheel_speed = r1_w5_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w5: encoders, order 1 */
+    const real r1_w5_n1 = c->r1_w5_w1_m__1__motor * r1_w5_m__1__motor_speed_2
+        + c->r1_w5_w1_m__1__wheel * r1_w5_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w5: error of order 1 */
+    const real r1_w5_e1 = c->bend2 * r1_w5_n1;
+
+    /* khepera.bg:17: r1_w5: encoders, order 2 */
+    const real r1_w5_n2 = c->r1_w5_w2_m__1__motor * r1_w5_m__1__motor_speed_2
+        + c->r1_w5_w2_m__1__wheel * r1_w5_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w5: error of order 2 */
+    const real r1_w5_e2 = c->bend1 * r1_w5_n2;
+
+    /* khepera.bg:17: r1_w5: encoders, order 3 */
+    const real r1_w5_n3 = c->r1_w5_w3_m__1__motor * r1_w5_m__1__motor_speed_2
+        + c->r1_w2_w3_m__1__wheel * r1_w5_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w5: terms of order 0 */
+    const real r1_w5_g0 = c->r1_w5_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w5: terms of order 1 */
+    const real r1_w5_g1 = c->r1_w5_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w5: degree 1 */
+    const real r1_w5_d1 = r1_w5_g1 + r1_w5_n1 + r1_w5_n2;
+
+    /* khepera.bg:17: r1_w5: error of order 0 */
+    const real r1_w5_e0 = c->bend3 * r1_w5_g0;
+
+    /* khepera.bg:17: r1_w5: degree 2 */
+    const real r1_w5_d2 = r1_w5_n2 + r1_w5_n3 - r1_w5_e1 - r1_w5_e0;
+
+    /* khepera.bg:17: r1_w5: error of order 1 */
+    const real r1_w5_e1_2 = c->bend2 * r1_w5_g1;
+
+    /* khepera.bg:17: r1_w5: degree 3 */
+    const real r1_w5_d3 = r1_w5_n3 - r1_w5_e1 - r1_w5_e2 - r1_w5_e1_2;
+
     /* khepera.bg:17: r1_w5: input of stage 4 */
-    const real r1_w5_u4 = c->r1_w5_v4_Fx__1 * s->Fx__1;
+    const real r1_w5_u4 = r1_w5_g0 + r1_w5_n1 + r1_w5_d2 - r1_w5_d1 - r1_w5_d3 - r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 4 */
-    const real r1_w5_y4 = x->r1_w5_s4 + c->b0 * r1_w5_u4;
+    const real r1_w5_y4 = x->r1_w5_s4 + c->b * r1_w5_u4;
 
     /* khepera.bg:17: r1_w5: stage 4: memory */
-    x->r1_w5_s4 = c->a * r1_w5_y4 + c->b1 * r1_w5_u4;
+    x->r1_w5_s4 = c->a * r1_w5_y4 + c->b * r1_w5_u4;
 
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = r1_w5_y4 + c->r1_w5_v3_m__1__motor * r1_w5_m__1__motor_speed_2
-        + c->r1_w5_v3_m__1__wheel * r1_w5_m__1__wheel_speed_2 + c->r1_w5_v3_Fx__1 * s->Fx__1;
+    const real r1_w5_u3 = r1_w5_y4 + r1_w5_d1 + REAL(3.0) * r1_w5_d3 + REAL(4.0) * r1_w5_e2
+        - REAL(2.0) * r1_w5_d2;
 
     /* khepera.bg:17: r1_w5: stage 3 */
-    const real r1_w5_y3 = x->r1_w5_s3 + c->b0 * r1_w5_u3;
+    const real r1_w5_y3 = x->r1_w5_s3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: stage 3: memory */
-    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b1 * r1_w5_u3;
+    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
-    const real r1_w5_u2 = r1_w5_y3 + c->r1_w5_v2_m__1__motor * r1_w5_m__1__motor_speed_2
-        + c->r1_w5_v2_m__1__wheel * r1_w5_m__1__wheel_speed_2;
+    const real r1_w5_u2 = r1_w5_y3 + r1_w5_d2 - REAL(3.0) * r1_w5_d3 - REAL(6.0) * r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 2 */
-    const real r1_w5_y2 = x->r1_w5_s2 + c->b0 * r1_w5_u2;
+    const real r1_w5_y2 = x->r1_w5_s2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: stage 2: memory */
-    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b1 * r1_w5_u2;
+    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
-    const real r1_w5_u1 = r1_w5_y2 + c->r1_w5_v1_m__1__motor * r1_w5_m__1__motor_speed_2
-        + c->r1_w2_v1_m__1__wheel * r1_w5_m__1__wheel_speed_2;
+    const real r1_w5_u1 = r1_w5_y2 + r1_w5_d3 + REAL(4.0) * r1_w5_e2;
 
     /* khepera.bg:17: r1_w5: stage 1 */
-    const real r1_w5_y1 = x->r1_w5_s1 + c->b0 * r1_w5_u1;
+    const real r1_w5_y1 = x->r1_w5_s1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1_w5: stage 1: memory */
-    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
+    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1: what the tolerance of m[1].el.k can do */
-    const real r1_w5 = r1_w5_y1;
+    const real r1_w5 = r1_w5_y1 - r1_w5_e2;
 
     /* khepera.bg:17: filtered speed of m[1].motor */
     const real r1_w6_m__1__motor_speed_2 = c->a * x->r1_w6_m__1__motor_speed
         + c->m__1__motor_gain * (real)e->m__1__motor_r1.increment;
     x->r1_w6_m__1__motor_speed = r1_w6_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w6: encoders, order 1 */
+    const real r1_w6_n1 = -c->r1_w6_w1_m__1__motor * r1_w6_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w6: input of stage 4 */
+    const real r1_w6_u4 = r1_w6_n1 - r1_w6_n1;
+
+    /* khepera.bg:17: r1_w6: stage 4 */
+    const real r1_w6_y4 = x->r1_w6_s4 + c->b * r1_w6_u4;
+
+    /* khepera.bg:17: r1_w6: stage 4: memory */
+    x->r1_w6_s4 = c->a * r1_w6_y4 + c->b * r1_w6_u4;
+
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = -c->r1_w6_v3_m__1__motor * r1_w6_m__1__motor_speed_2;
+    const real r1_w6_u3 = r1_w6_y4 + r1_w6_n1;
 
     /* khepera.bg:17: r1_w6: stage 3 */
-    const real r1_w6_y3 = x->r1_w6_s3 + c->b0 * r1_w6_u3;
+    const real r1_w6_y3 = x->r1_w6_s3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: stage 3: memory */
-    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b1 * r1_w6_u3;
+    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: input of stage 2 */
     const real r1_w6_u2 = r1_w6_y3;
 
     /* khepera.bg:17: r1_w6: stage 2 */
-    const real r1_w6_y2 = x->r1_w6_s2 + c->b0 * r1_w6_u2;
+    const real r1_w6_y2 = x->r1_w6_s2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: stage 2: memory */
-    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b1 * r1_w6_u2;
+    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: input of stage 1 */
     const real r1_w6_u1 = r1_w6_y2;
 
     /* khepera.bg:17: r1_w6: stage 1 */
-    const real r1_w6_y1 = x->r1_w6_s1 + c->b0 * r1_w6_u1;
+    const real r1_w6_y1 = x->r1_w6_s1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1_w6: stage 1: memory */
-    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
+    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].fe and m[1].el.Re can do together */
     const real r1_w6 = r1_w6_y1;
@@ -1637,32 +2011,56 @@ static void next_r1(
         + c->m__1__motor_gain * (real)e->m__1__motor_r1.increment;
     x->r1_w7_m__1__motor_speed = r1_w7_m__1__motor_speed_2;
 
+    /* khepera.bg:17: r1_w7: encoders, order 1 */
+    const real r1_w7_n1 = c->r1_w7_w1_m__1__motor * r1_w7_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w7: error of order 1 */
+    const real r1_w7_e1 = c->bend1 * r1_w7_n1;
+
+    /* khepera.bg:17: r1_w7: encoders, order 2 */
+    const real r1_w7_n2 = c->r1_w7_w2_m__1__motor * r1_w7_m__1__motor_speed_2;
+
+    /* khepera.bg:17: r1_w7: degree 1 */
+    const real r1_w7_d1 = r1_w7_n1 + r1_w7_n2;
+
+    /* khepera.bg:17: r1_w7: degree 2 */
+    const real r1_w7_d2 = r1_w7_n2 - r1_w7_e1;
+
+    /* khepera.bg:17: r1_w7: input of stage 4 */
+    const real r1_w7_u4 = r1_w7_n1 + r1_w7_d2 + r1_w7_e1 - r1_w7_d1;
+
+    /* khepera.bg:17: r1_w7: stage 4 */
+    const real r1_w7_y4 = x->r1_w7_s4 + c->b * r1_w7_u4;
+
+    /* khepera.bg:17: r1_w7: stage 4: memory */
+    x->r1_w7_s4 = c->a * r1_w7_y4 + c->b * r1_w7_u4;
+
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = c->r1_w7_v3_m__1__motor * r1_w7_m__1__motor_speed_2;
+    const real r1_w7_u3 = r1_w7_y4 + r1_w7_d1 - REAL(2.0) * r1_w7_d2 - REAL(3.0) * r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 3 */
-    const real r1_w7_y3 = x->r1_w7_s3 + c->b0 * r1_w7_u3;
+    const real r1_w7_y3 = x->r1_w7_s3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: stage 3: memory */
-    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b1 * r1_w7_u3;
+    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: input of stage 2 */
-    const real r1_w7_u2 = r1_w7_y3 + c->r1_w7_v2_m__1__motor * r1_w7_m__1__motor_speed_2;
+    const real r1_w7_u2 = r1_w7_y3 + r1_w7_d2 + REAL(3.0) * r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 2 */
-    const real r1_w7_y2 = x->r1_w7_s2 + c->b0 * r1_w7_u2;
+    const real r1_w7_y2 = x->r1_w7_s2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: stage 2: memory */
-    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b1 * r1_w7_u2;
+    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: input of stage 1 */
-    const real r1_w7_u1 = r1_w7_y2;
+    const real r1_w7_u1 = r1_w7_y2 - r1_w7_e1;
 
     /* khepera.bg:17: r1_w7: stage 1 */
-    const real r1_w7_y1 = x->r1_w7_s1 + c->b0 * r1_w7_u1;
+    const real r1_w7_y1 = x->r1_w7_s1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1_w7: stage 1: memory */
-    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
+    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].fe and m[1].el.k can do together */
     const real r1_w7 = r1_w7_y1;
@@ -1672,32 +2070,44 @@ static void next_r1(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w8_m__1__wheel_speed = r1_w8_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w8: encoders, order 2 */
+    const real r1_w8_n2 = -c->r1_w8_w2_m__1__wheel * r1_w8_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w8: input of stage 4 */
+    const real r1_w8_u4 = r1_w8_n2 - r1_w8_n2;
+
+    /* khepera.bg:17: r1_w8: stage 4 */
+    const real r1_w8_y4 = x->r1_w8_s4 + c->b * r1_w8_u4;
+
+    /* khepera.bg:17: r1_w8: stage 4: memory */
+    x->r1_w8_s4 = c->a * r1_w8_y4 + c->b * r1_w8_u4;
+
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = c->r1_w8_v2_m__1__wheel * r1_w8_m__1__wheel_speed_2;
+    const real r1_w8_u3 = r1_w8_y4 + r1_w8_n2 - REAL(2.0) * r1_w8_n2;
 
     /* khepera.bg:17: r1_w8: stage 3 */
-    const real r1_w8_y3 = x->r1_w8_s3 + c->b0 * r1_w8_u3;
+    const real r1_w8_y3 = x->r1_w8_s3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: stage 3: memory */
-    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b1 * r1_w8_u3;
+    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
-    const real r1_w8_u2 = r1_w8_y3 - c->r1_w8_v2_m__1__wheel * r1_w8_m__1__wheel_speed_2;
+    const real r1_w8_u2 = r1_w8_y3 + r1_w8_n2;
 
     /* khepera.bg:17: r1_w8: stage 2 */
-    const real r1_w8_y2 = x->r1_w8_s2 + c->b0 * r1_w8_u2;
+    const real r1_w8_y2 = x->r1_w8_s2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: stage 2: memory */
-    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b1 * r1_w8_u2;
+    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: input of stage 1 */
     const real r1_w8_u1 = r1_w8_y2;
 
     /* khepera.bg:17: r1_w8: stage 1 */
-    const real r1_w8_y1 = x->r1_w8_s1 + c->b0 * r1_w8_u1;
+    const real r1_w8_y1 = x->r1_w8_s1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1_w8: stage 1: memory */
-    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
+    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.Re can do together */
     const real r1_w8 = r1_w8_y1;
@@ -1707,67 +2117,104 @@ static void next_r1(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w9_m__1__wheel_speed = r1_w9_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w9: encoders, order 2 */
+    const real r1_w9_n2 = c->r1_w9_w2_m__1__wheel * r1_w9_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w9: error of order 2 */
+    const real r1_w9_e2 = c->bend1 * r1_w9_n2;
+
+    /* khepera.bg:17: r1_w9: encoders, order 3 */
+    const real r1_w9_n3 = c->r1_w9_w3_m__1__wheel * r1_w9_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w9: degree 2 */
+    const real r1_w9_d2 = r1_w9_n2 + r1_w9_n3;
+
+    /* khepera.bg:17: r1_w9: degree 3 */
+    const real r1_w9_d3 = r1_w9_n3 - r1_w9_e2;
+
+    /* khepera.bg:17: r1_w9: input of stage 4 */
+    const real r1_w9_u4 = r1_w9_d2 - r1_w9_n2 - r1_w9_d3 - r1_w9_e2;
+
+    /* khepera.bg:17: r1_w9: stage 4 */
+    const real r1_w9_y4 = x->r1_w9_s4 + c->b * r1_w9_u4;
+
+    /* khepera.bg:17: r1_w9: stage 4: memory */
+    x->r1_w9_s4 = c->a * r1_w9_y4 + c->b * r1_w9_u4;
+
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_m__1__wheel * r1_w9_m__1__wheel_speed_2;
+    const real r1_w9_u3 = r1_w9_y4 + r1_w9_n2 + REAL(3.0) * r1_w9_d3 + REAL(4.0) * r1_w9_e2
+        - REAL(2.0) * r1_w9_d2;
 
     /* khepera.bg:17: r1_w9: stage 3 */
-    const real r1_w9_y3 = x->r1_w9_s3 + c->b0 * r1_w9_u3;
+    const real r1_w9_y3 = x->r1_w9_s3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: stage 3: memory */
-    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b1 * r1_w9_u3;
+    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_m__1__wheel * r1_w9_m__1__wheel_speed_2;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_d2 - REAL(3.0) * r1_w9_d3 - REAL(6.0) * r1_w9_e2;
 
     /* khepera.bg:17: r1_w9: stage 2 */
-    const real r1_w9_y2 = x->r1_w9_s2 + c->b0 * r1_w9_u2;
+    const real r1_w9_y2 = x->r1_w9_s2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: stage 2: memory */
-    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b1 * r1_w9_u2;
+    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2 + c->r1_w9_v1_m__1__wheel * r1_w9_m__1__wheel_speed_2;
+    const real r1_w9_u1 = r1_w9_y2 + r1_w9_d3 + REAL(4.0) * r1_w9_e2;
 
     /* khepera.bg:17: r1_w9: stage 1 */
-    const real r1_w9_y1 = x->r1_w9_s1 + c->b0 * r1_w9_u1;
+    const real r1_w9_y1 = x->r1_w9_s1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1_w9: stage 1: memory */
-    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
+    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.k can do together */
-    const real r1_w9 = r1_w9_y1;
+    const real r1_w9 = r1_w9_y1 - r1_w9_e2;
 
     /* khepera.bg:17: filtered speed of m[1].wheel */
     const real r1_w10_m__1__wheel_speed_2 = c->a * x->r1_w10_m__1__wheel_speed
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w10_m__1__wheel_speed = r1_w10_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w10: encoders, order 1 */
+    const real r1_w10_n1 = -c->r1_w10_w1_m__1__wheel * r1_w10_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w10: input of stage 4 */
+    const real r1_w10_u4 = r1_w10_n1 - r1_w10_n1;
+
+    /* khepera.bg:17: r1_w10: stage 4 */
+    const real r1_w10_y4 = x->r1_w10_s4 + c->b * r1_w10_u4;
+
+    /* khepera.bg:17: r1_w10: stage 4: memory */
+    x->r1_w10_s4 = c->a * r1_w10_y4 + c->b * r1_w10_u4;
+
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = -c->r1_w10_v3_m__1__wheel * r1_w10_m__1__wheel_speed_2;
+    const real r1_w10_u3 = r1_w10_y4 + r1_w10_n1;
 
     /* khepera.bg:17: r1_w10: stage 3 */
-    const real r1_w10_y3 = x->r1_w10_s3 + c->b0 * r1_w10_u3;
+    const real r1_w10_y3 = x->r1_w10_s3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: stage 3: memory */
-    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b1 * r1_w10_u3;
+    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: input of stage 2 */
     const real r1_w10_u2 = r1_w10_y3;
 
     /* khepera.bg:17: r1_w10: stage 2 */
-    const real r1_w10_y2 = x->r1_w10_s2 + c->b0 * r1_w10_u2;
+    const real r1_w10_y2 = x->r1_w10_s2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: stage 2: memory */
-    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b1 * r1_w10_u2;
+    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: input of stage 1 */
     const real r1_w10_u1 = r1_w10_y2;
 
     /* khepera.bg:17: r1_w10: stage 1 */
-    const real r1_w10_y1 = x->r1_w10_s1 + c->b0 * r1_w10_u1;
+    const real r1_w10_y1 = x->r1_w10_s1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1_w10: stage 1: memory */
-    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
+    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].fs and m[1].el.Re can do together */
     const real r1_w10 = r1_w10_y1;
@@ -1777,32 +2224,56 @@ static void next_r1(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w11_m__1__wheel_speed = r1_w11_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w11: encoders, order 1 */
+    const real r1_w11_n1 = c->r1_w11_w1_m__1__wheel * r1_w11_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w11: error of order 1 */
+    const real r1_w11_e1 = c->bend1 * r1_w11_n1;
+
+    /* khepera.bg:17: r1_w11: encoders, order 2 */
+    const real r1_w11_n2 = c->r1_w11_w2_m__1__wheel * r1_w11_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w11: degree 1 */
+    const real r1_w11_d1 = r1_w11_n1 + r1_w11_n2;
+
+    /* khepera.bg:17: r1_w11: degree 2 */
+    const real r1_w11_d2 = r1_w11_n2 - r1_w11_e1;
+
+    /* khepera.bg:17: r1_w11: input of stage 4 */
+    const real r1_w11_u4 = r1_w11_n1 + r1_w11_d2 + r1_w11_e1 - r1_w11_d1;
+
+    /* khepera.bg:17: r1_w11: stage 4 */
+    const real r1_w11_y4 = x->r1_w11_s4 + c->b * r1_w11_u4;
+
+    /* khepera.bg:17: r1_w11: stage 4: memory */
+    x->r1_w11_s4 = c->a * r1_w11_y4 + c->b * r1_w11_u4;
+
     /* khepera.bg:17: r1_w11: input of stage 3 */
-    const real r1_w11_u3 = c->r1_w11_v3_m__1__wheel * r1_w11_m__1__wheel_speed_2;
+    const real r1_w11_u3 = r1_w11_y4 + r1_w11_d1 - REAL(2.0) * r1_w11_d2 - REAL(3.0) * r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 3 */
-    const real r1_w11_y3 = x->r1_w11_s3 + c->b0 * r1_w11_u3;
+    const real r1_w11_y3 = x->r1_w11_s3 + c->b * r1_w11_u3;
 
     /* khepera.bg:17: r1_w11: stage 3: memory */
-    x->r1_w11_s3 = c->a * r1_w11_y3 + c->b1 * r1_w11_u3;
+    x->r1_w11_s3 = c->a * r1_w11_y3 + c->b * r1_w11_u3;
 
     /* khepera.bg:17: r1_w11: input of stage 2 */
-    const real r1_w11_u2 = r1_w11_y3 + c->r1_w11_v2_m__1__wheel * r1_w11_m__1__wheel_speed_2;
+    const real r1_w11_u2 = r1_w11_y3 + r1_w11_d2 + REAL(3.0) * r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 2 */
-    const real r1_w11_y2 = x->r1_w11_s2 + c->b0 * r1_w11_u2;
+    const real r1_w11_y2 = x->r1_w11_s2 + c->b * r1_w11_u2;
 
     /* khepera.bg:17: r1_w11: stage 2: memory */
-    x->r1_w11_s2 = c->a * r1_w11_y2 + c->b1 * r1_w11_u2;
+    x->r1_w11_s2 = c->a * r1_w11_y2 + c->b * r1_w11_u2;
 
     /* khepera.bg:17: r1_w11: input of stage 1 */
-    const real r1_w11_u1 = r1_w11_y2;
+    const real r1_w11_u1 = r1_w11_y2 - r1_w11_e1;
 
     /* khepera.bg:17: r1_w11: stage 1 */
-    const real r1_w11_y1 = x->r1_w11_s1 + c->b0 * r1_w11_u1;
+    const real r1_w11_y1 = x->r1_w11_s1 + c->b * r1_w11_u1;
 
     /* khepera.bg:17: r1_w11: stage 1: memory */
-    x->r1_w11_s1 = c->a * r1_w11_y1 + c->b1 * r1_w11_u1;
+    x->r1_w11_s1 = c->a * r1_w11_y1 + c->b * r1_w11_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].fs and m[1].el.k can do together */
     const real r1_w11 = r1_w11_y1;
@@ -1817,43 +2288,64 @@ static void next_r1(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w12_m__1__wheel_speed = r1_w12_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w12: encoders, order 1 */
+    const real r1_w12_n1 = c->r1_w12_w1_m__1__motor * r1_w12_m__1__motor_speed_2
+        + c->r1_w12_w1_m__1__wheel * r1_w12_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w12: error of order 1 */
+    const real r1_w12_e1 = c->bend1 * r1_w12_n1;
+
+    /* khepera.bg:17: r1_w12: encoders, order 2 */
+    const real r1_w12_n2 = c->r1_w12_w2_m__1__motor * r1_w12_m__1__motor_speed_2
+        + c->r1_w8_w2_m__1__wheel * r1_w12_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w12: terms of order 0 */
+    const real r1_w12_g0 = c->r1_w12_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w12: degree 1 */
+    const real r1_w12_d1 = r1_w12_n1 + r1_w12_n2;
+
+    /* khepera.bg:17: r1_w12: error of order 0 */
+    const real r1_w12_e0 = c->bend2 * r1_w12_g0;
+
+    /* khepera.bg:17: r1_w12: degree 2 */
+    const real r1_w12_d2 = r1_w12_n2 - r1_w12_e1 - r1_w12_e0;
+
     /* khepera.bg:17: r1_w12: input of stage 4 */
-    const real r1_w12_u4 = c->r1_w12_v4_Fx__1 * s->Fx__1;
+    const real r1_w12_u4 = r1_w12_g0 + r1_w12_n1 + r1_w12_d2 + r1_w12_e1 - r1_w12_d1;
 
     /* khepera.bg:17: r1_w12: stage 4 */
-    const real r1_w12_y4 = x->r1_w12_s4 + c->b0 * r1_w12_u4;
+    const real r1_w12_y4 = x->r1_w12_s4 + c->b * r1_w12_u4;
 
     /* khepera.bg:17: r1_w12: stage 4: memory */
-    x->r1_w12_s4 = c->a * r1_w12_y4 + c->b1 * r1_w12_u4;
+    x->r1_w12_s4 = c->a * r1_w12_y4 + c->b * r1_w12_u4;
 
     /* khepera.bg:17: r1_w12: input of stage 3 */
-    const real r1_w12_u3 = r1_w12_y4 + c->r1_w12_v3_m__1__motor * r1_w12_m__1__motor_speed_2
-        + c->r1_w12_v3_m__1__wheel * r1_w12_m__1__wheel_speed_2;
+    const real r1_w12_u3 = r1_w12_y4 + r1_w12_d1 - REAL(2.0) * r1_w12_d2 - REAL(3.0) * r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 3 */
-    const real r1_w12_y3 = x->r1_w12_s3 + c->b0 * r1_w12_u3;
+    const real r1_w12_y3 = x->r1_w12_s3 + c->b * r1_w12_u3;
 
     /* khepera.bg:17: r1_w12: stage 3: memory */
-    x->r1_w12_s3 = c->a * r1_w12_y3 + c->b1 * r1_w12_u3;
+    x->r1_w12_s3 = c->a * r1_w12_y3 + c->b * r1_w12_u3;
 
     /* khepera.bg:17: r1_w12: input of stage 2 */
-    const real r1_w12_u2 = r1_w12_y3 + c->r1_w12_v2_m__1__motor * r1_w12_m__1__motor_speed_2
-        + c->r1_w8_v2_m__1__wheel * r1_w12_m__1__wheel_speed_2;
+    const real r1_w12_u2 = r1_w12_y3 + r1_w12_d2 + REAL(3.0) * r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 2 */
-    const real r1_w12_y2 = x->r1_w12_s2 + c->b0 * r1_w12_u2;
+    const real r1_w12_y2 = x->r1_w12_s2 + c->b * r1_w12_u2;
 
     /* khepera.bg:17: r1_w12: stage 2: memory */
-    x->r1_w12_s2 = c->a * r1_w12_y2 + c->b1 * r1_w12_u2;
+    x->r1_w12_s2 = c->a * r1_w12_y2 + c->b * r1_w12_u2;
 
     /* khepera.bg:17: r1_w12: input of stage 1 */
-    const real r1_w12_u1 = r1_w12_y2;
+    const real r1_w12_u1 = r1_w12_y2 - r1_w12_e1;
 
     /* khepera.bg:17: r1_w12: stage 1 */
-    const real r1_w12_y1 = x->r1_w12_s1 + c->b0 * r1_w12_u1;
+    const real r1_w12_y1 = x->r1_w12_s1 + c->b * r1_w12_u1;
 
     /* khepera.bg:17: r1_w12: stage 1: memory */
-    x->r1_w12_s1 = c->a * r1_w12_y1 + c->b1 * r1_w12_u1;
+    x->r1_w12_s1 = c->a * r1_w12_y1 + c->b * r1_w12_u1;
 
     /* khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].el.k can do together */
     const real r1_w12 = r1_w12_y1;
@@ -1868,47 +2360,84 @@ static void next_r1(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r1.increment;
     x->r1_w13_m__1__wheel_speed = r1_w13_m__1__wheel_speed_2;
 
+    /* khepera.bg:17: r1_w13: encoders, order 1 */
+    const real r1_w13_n1 = -c->r1_w13_w1_m__1__motor * r1_w13_m__1__motor_speed_2
+        - c->r1_w13_w1_m__1__wheel * r1_w13_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w13: error of order 1 */
+    const real r1_w13_e1 = c->bend2 * r1_w13_n1;
+
+    /* khepera.bg:17: r1_w13: encoders, order 2 */
+    const real r1_w13_n2 = c->r1_w13_w2_m__1__motor * r1_w13_m__1__motor_speed_2
+        + c->r1_w13_w2_m__1__wheel * r1_w13_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w13: error of order 2 */
+    const real r1_w13_e2 = c->bend1 * r1_w13_n2;
+
+    /* khepera.bg:17: r1_w13: encoders, order 3 */
+    const real r1_w13_n3 = -c->r1_w13_w3_m__1__motor * r1_w13_m__1__motor_speed_2
+        - c->r1_w9_w3_m__1__wheel * r1_w13_m__1__wheel_speed_2;
+
+    /* khepera.bg:17: r1_w13: terms of order 0 */
+    const real r1_w13_g0 = -c->r1_w13_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w13: terms of order 1 */
+    const real r1_w13_g1 = -c->r1_w13_w1_Fx__1 * s->Fx__1;
+
+    /* khepera.bg:17: r1_w13: degree 1 */
+    const real r1_w13_d1 = r1_w13_g1 + r1_w13_n1 + r1_w13_n2;
+
+    /* khepera.bg:17: r1_w13: error of order 0 */
+    const real r1_w13_e0 = c->bend3 * r1_w13_g0;
+
+    /* khepera.bg:17: r1_w13: degree 2 */
+    const real r1_w13_d2 = r1_w13_n2 + r1_w13_n3 - r1_w13_e1 - r1_w13_e0;
+
+    /* khepera.bg:17: r1_w13: error of order 1 */
+    const real r1_w13_e1_2 = c->bend2 * r1_w13_g1;
+
+    /* khepera.bg:17: r1_w13: degree 3 */
+    const real r1_w13_d3 = r1_w13_n3 - r1_w13_e1 - r1_w13_e2 - r1_w13_e1_2;
+
     /* khepera.bg:17: r1_w13: input of stage 4 */
-    const real r1_w13_u4 = c->r1_w13_v4_Fx__1 * s->Fx__1;
+    const real r1_w13_u4 = r1_w13_g0 + r1_w13_n1 + r1_w13_d2 - r1_w13_d1 - r1_w13_d3 - r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 4 */
-    const real r1_w13_y4 = x->r1_w13_s4 + c->b0 * r1_w13_u4;
+    const real r1_w13_y4 = x->r1_w13_s4 + c->b * r1_w13_u4;
 
     /* khepera.bg:17: r1_w13: stage 4: memory */
-    x->r1_w13_s4 = c->a * r1_w13_y4 + c->b1 * r1_w13_u4;
+    x->r1_w13_s4 = c->a * r1_w13_y4 + c->b * r1_w13_u4;
 
     /* khepera.bg:17: r1_w13: input of stage 3 */
-    const real r1_w13_u3 = r1_w13_y4 - c->r1_w13_v3_m__1__motor * r1_w13_m__1__motor_speed_2
-        - c->r1_w13_v3_m__1__wheel * r1_w13_m__1__wheel_speed_2 - c->r1_w13_v3_Fx__1 * s->Fx__1;
+    const real r1_w13_u3 = r1_w13_y4 + r1_w13_d1 + REAL(3.0) * r1_w13_d3 + REAL(4.0) * r1_w13_e2
+        - REAL(2.0) * r1_w13_d2;
 
     /* khepera.bg:17: r1_w13: stage 3 */
-    const real r1_w13_y3 = x->r1_w13_s3 + c->b0 * r1_w13_u3;
+    const real r1_w13_y3 = x->r1_w13_s3 + c->b * r1_w13_u3;
 
     /* khepera.bg:17: r1_w13: stage 3: memory */
-    x->r1_w13_s3 = c->a * r1_w13_y3 + c->b1 * r1_w13_u3;
+    x->r1_w13_s3 = c->a * r1_w13_y3 + c->b * r1_w13_u3;
 
     /* khepera.bg:17: r1_w13: input of stage 2 */
-    const real r1_w13_u2 = r1_w13_y3 + c->r1_w13_v2_m__1__motor * r1_w13_m__1__motor_speed_2
-        + c->r1_w13_v2_m__1__wheel * r1_w13_m__1__wheel_speed_2;
+    const real r1_w13_u2 = r1_w13_y3 + r1_w13_d2 - REAL(3.0) * r1_w13_d3 - REAL(6.0) * r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 2 */
-    const real r1_w13_y2 = x->r1_w13_s2 + c->b0 * r1_w13_u2;
+    const real r1_w13_y2 = x->r1_w13_s2 + c->b * r1_w13_u2;
 
     /* khepera.bg:17: r1_w13: stage 2: memory */
-    x->r1_w13_s2 = c->a * r1_w13_y2 + c->b1 * r1_w13_u2;
+    x->r1_w13_s2 = c->a * r1_w13_y2 + c->b * r1_w13_u2;
 
     /* khepera.bg:17: r1_w13: input of stage 1 */
-    const real r1_w13_u1 = r1_w13_y2 - c->r1_w13_v1_m__1__motor * r1_w13_m__1__motor_speed_2
-        - c->r1_w9_v1_m__1__wheel * r1_w13_m__1__wheel_speed_2;
+    const real r1_w13_u1 = r1_w13_y2 + r1_w13_d3 + REAL(4.0) * r1_w13_e2;
 
     /* khepera.bg:17: r1_w13: stage 1 */
-    const real r1_w13_y1 = x->r1_w13_s1 + c->b0 * r1_w13_u1;
+    const real r1_w13_y1 = x->r1_w13_s1 + c->b * r1_w13_u1;
 
     /* khepera.bg:17: r1_w13: stage 1: memory */
-    x->r1_w13_s1 = c->a * r1_w13_y1 + c->b1 * r1_w13_u1;
+    x->r1_w13_s1 = c->a * r1_w13_y1 + c->b * r1_w13_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do */
-    const real r1_w13 = r1_w13_y1;
+    const real r1_w13 = r1_w13_y1 - r1_w13_e2;
 
     /* khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance */
     r[KHEPERA_ENCODERS_THRESHOLD_R1] = MATH(fabs)(r1_w1) + MATH(fabs)(r1_w2) + MATH(fabs)(r1_w3)
@@ -1971,8 +2500,8 @@ static void start_r2(
     const real r2_w1_tanh = MATH(tanh)(c->g * r2_w1_change_2 - c->g_2 * r2_w1_change);
 
     /* khepera_encoders.bg:31: r2_w1: input of stage 3 */
-    const real r2_w1_u3 = c->r2_w1_v3_integral_2 * r2_w1_change
-        - c->r2_w1_v3_integral * r2_w1_change_2 - c->r2_w1_v3_tanh * r2_w1_tanh;
+    const real r2_w1_u3 = c->r2_w1_integral_2 * r2_w1_change - c->r2_w1_integral * r2_w1_change_2
+        - c->r2_w1_tanh * r2_w1_tanh;
 
     /* khepera_encoders.bg:31: r2_w1: stage 3, at rest */
     const real r2_w1_y3 = r2_w1_u3;
@@ -2026,7 +2555,7 @@ static void start_r2(
             - r2_w2_t * r2_w2_t);
 
     /* khepera_encoders.bg:31: r2_w2: input of stage 3 */
-    const real r2_w2_u3 = -c->r2_w1_v3_tanh * r2_w2_t - c->r2_w2_v3_product * r2_w2_product;
+    const real r2_w2_u3 = -c->r2_w1_tanh * r2_w2_t - c->r2_w2_product * r2_w2_product;
 
     /* khepera_encoders.bg:31: r2_w2: stage 3, at rest */
     const real r2_w2_y3 = r2_w2_u3;
@@ -2061,8 +2590,20 @@ static void start_r2(
     /* khepera_encoders.bg:31: filtered speed of m[1].wheel */
     x->r2_w3_m__1__wheel_speed = r2_w3_m__1__wheel_speed_2;
 
+    /* khepera_encoders.bg:31: r2_w3: encoders, order 2 */
+    const real r2_w3_n2 = c->r2_w3_w2_m__1__wheel * r2_w3_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2_w3: input of stage 3 */
+    const real r2_w3_u3 = r2_w3_n2 - r2_w3_n2;
+
+    /* khepera_encoders.bg:31: r2_w3: stage 3, at rest */
+    const real r2_w3_y3 = r2_w3_u3;
+
+    /* khepera_encoders.bg:31: r2_w3: stage 3: memory */
+    x->r2_w3_s3 = c->rest * r2_w3_u3;
+
     /* khepera_encoders.bg:31: r2_w3: input of stage 2 */
-    const real r2_w3_u2 = -c->r2_w3_v1_m__1__wheel * r2_w3_m__1__wheel_speed_2;
+    const real r2_w3_u2 = r2_w3_y3 + r2_w3_n2 - REAL(2.0) * r2_w3_n2;
 
     /* khepera_encoders.bg:31: r2_w3: stage 2, at rest */
     const real r2_w3_y2 = r2_w3_u2;
@@ -2071,7 +2612,7 @@ static void start_r2(
     x->r2_w3_s2 = c->rest * r2_w3_u2;
 
     /* khepera_encoders.bg:31: r2_w3: input of stage 1 */
-    const real r2_w3_u1 = r2_w3_y2 + c->r2_w3_v1_m__1__wheel * r2_w3_m__1__wheel_speed_2;
+    const real r2_w3_u1 = r2_w3_y2 + r2_w3_n2;
 
     /* khepera_encoders.bg:31: r2_w3: stage 1, at rest */
     const real r2_w3_y1 = r2_w3_u1;
@@ -2088,8 +2629,20 @@ static void start_r2(
     /* khepera_encoders.bg:31: filtered speed of m[1].wheel */
     x->r2_w4_m__1__wheel_speed = r2_w4_m__1__wheel_speed_2;
 
+    /* khepera_encoders.bg:31: r2_w4: encoders, order 1 */
+    const real r2_w4_n1 = c->r2_w4_w1_m__1__wheel * r2_w4_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2_w4: input of stage 3 */
+    const real r2_w4_u3 = r2_w4_n1 - r2_w4_n1;
+
+    /* khepera_encoders.bg:31: r2_w4: stage 3, at rest */
+    const real r2_w4_y3 = r2_w4_u3;
+
+    /* khepera_encoders.bg:31: r2_w4: stage 3: memory */
+    x->r2_w4_s3 = c->rest * r2_w4_u3;
+
     /* khepera_encoders.bg:31: r2_w4: input of stage 2 */
-    const real r2_w4_u2 = c->r2_w4_v2_m__1__wheel * r2_w4_m__1__wheel_speed_2;
+    const real r2_w4_u2 = r2_w4_y3 + r2_w4_n1;
 
     /* khepera_encoders.bg:31: r2_w4: stage 2, at rest */
     const real r2_w4_y2 = r2_w4_u2;
@@ -2134,7 +2687,7 @@ static void start_r2(
             - r2_w5_t * r2_w5_t);
 
     /* khepera_encoders.bg:31: r2_w5: input of stage 3 */
-    const real r2_w5_u3 = -c->r2_w5_v3_tanh * r2_w5_t - c->r2_w5_v3_product * r2_w5_product;
+    const real r2_w5_u3 = -c->r2_w5_tanh * r2_w5_t - c->r2_w5_product * r2_w5_product;
 
     /* khepera_encoders.bg:31: r2_w5: stage 3, at rest */
     const real r2_w5_y3 = r2_w5_u3;
@@ -2201,8 +2754,8 @@ static void start_r2(
     const real r2_w6_product_3 = r2_w6_t * r2_w6_t_2 * r2_w6_t_2 * r2_w6_t_3;
 
     /* khepera_encoders.bg:31: r2_w6: input of stage 3 */
-    const real r2_w6_u3 = c->r2_w6_v3_product_2 * r2_w6_product_3
-        - c->r2_w5_v3_product * r2_w6_product - c->r2_w6_v3_product * r2_w6_product_2;
+    const real r2_w6_u3 = c->r2_w6_product_2 * r2_w6_product_3 - c->r2_w5_product * r2_w6_product
+        - c->r2_w6_product * r2_w6_product_2;
 
     /* khepera_encoders.bg:31: r2_w6: stage 3, at rest */
     const real r2_w6_y3 = r2_w6_u3;
@@ -2266,32 +2819,32 @@ static void next_r2(
     const real r2_w1_tanh = MATH(tanh)(c->g * r2_w1_change_2 - c->g_2 * r2_w1_change);
 
     /* khepera_encoders.bg:31: r2_w1: input of stage 3 */
-    const real r2_w1_u3 = c->r2_w1_v3_integral_2 * r2_w1_change
-        - c->r2_w1_v3_integral * r2_w1_change_2 - c->r2_w1_v3_tanh * r2_w1_tanh;
+    const real r2_w1_u3 = c->r2_w1_integral_2 * r2_w1_change - c->r2_w1_integral * r2_w1_change_2
+        - c->r2_w1_tanh * r2_w1_tanh;
 
     /* khepera_encoders.bg:31: r2_w1: stage 3 */
-    const real r2_w1_y3 = x->r2_w1_s3 + c->b0 * r2_w1_u3;
+    const real r2_w1_y3 = x->r2_w1_s3 + c->b * r2_w1_u3;
 
     /* khepera_encoders.bg:31: r2_w1: stage 3: memory */
-    x->r2_w1_s3 = c->a * r2_w1_y3 + c->b1 * r2_w1_u3;
+    x->r2_w1_s3 = c->a * r2_w1_y3 + c->b * r2_w1_u3;
 
     /* khepera_encoders.bg:31: r2_w1: input of stage 2 */
     const real r2_w1_u2 = r2_w1_y3;
 
     /* khepera_encoders.bg:31: r2_w1: stage 2 */
-    const real r2_w1_y2 = x->r2_w1_s2 + c->b0 * r2_w1_u2;
+    const real r2_w1_y2 = x->r2_w1_s2 + c->b * r2_w1_u2;
 
     /* khepera_encoders.bg:31: r2_w1: stage 2: memory */
-    x->r2_w1_s2 = c->a * r2_w1_y2 + c->b1 * r2_w1_u2;
+    x->r2_w1_s2 = c->a * r2_w1_y2 + c->b * r2_w1_u2;
 
     /* khepera_encoders.bg:31: r2_w1: input of stage 1 */
     const real r2_w1_u1 = r2_w1_y2;
 
     /* khepera_encoders.bg:31: r2_w1: stage 1 */
-    const real r2_w1_y1 = x->r2_w1_s1 + c->b0 * r2_w1_u1;
+    const real r2_w1_y1 = x->r2_w1_s1 + c->b * r2_w1_u1;
 
     /* khepera_encoders.bg:31: r2_w1: stage 1: memory */
-    x->r2_w1_s1 = c->a * r2_w1_y1 + c->b1 * r2_w1_u1;
+    x->r2_w1_s1 = c->a * r2_w1_y1 + c->b * r2_w1_u1;
 
     /* khepera_encoders.bg:31: r2: what the tolerance of m[1].K can do */
     const real r2_w1 = r2_w1_y1;
@@ -2319,31 +2872,31 @@ static void next_r2(
             - r2_w2_t * r2_w2_t);
 
     /* khepera_encoders.bg:31: r2_w2: input of stage 3 */
-    const real r2_w2_u3 = -c->r2_w1_v3_tanh * r2_w2_t - c->r2_w2_v3_product * r2_w2_product;
+    const real r2_w2_u3 = -c->r2_w1_tanh * r2_w2_t - c->r2_w2_product * r2_w2_product;
 
     /* khepera_encoders.bg:31: r2_w2: stage 3 */
-    const real r2_w2_y3 = x->r2_w2_s3 + c->b0 * r2_w2_u3;
+    const real r2_w2_y3 = x->r2_w2_s3 + c->b * r2_w2_u3;
 
     /* khepera_encoders.bg:31: r2_w2: stage 3: memory */
-    x->r2_w2_s3 = c->a * r2_w2_y3 + c->b1 * r2_w2_u3;
+    x->r2_w2_s3 = c->a * r2_w2_y3 + c->b * r2_w2_u3;
 
     /* khepera_encoders.bg:31: r2_w2: input of stage 2 */
     const real r2_w2_u2 = r2_w2_y3;
 
     /* khepera_encoders.bg:31: r2_w2: stage 2 */
-    const real r2_w2_y2 = x->r2_w2_s2 + c->b0 * r2_w2_u2;
+    const real r2_w2_y2 = x->r2_w2_s2 + c->b * r2_w2_u2;
 
     /* khepera_encoders.bg:31: r2_w2: stage 2: memory */
-    x->r2_w2_s2 = c->a * r2_w2_y2 + c->b1 * r2_w2_u2;
+    x->r2_w2_s2 = c->a * r2_w2_y2 + c->b * r2_w2_u2;
 
     /* khepera_encoders.bg:31: r2_w2: input of stage 1 */
     const real r2_w2_u1 = r2_w2_y2;
 
     /* khepera_encoders.bg:31: r2_w2: stage 1 */
-    const real r2_w2_y1 = x->r2_w2_s1 + c->b0 * r2_w2_u1;
+    const real r2_w2_y1 = x->r2_w2_s1 + c->b * r2_w2_u1;
 
     /* khepera_encoders.bg:31: r2_w2: stage 1: memory */
-    x->r2_w2_s1 = c->a * r2_w2_y1 + c->b1 * r2_w2_u1;
+    x->r2_w2_s1 = c->a * r2_w2_y1 + c->b * r2_w2_u1;
 
     /* khepera_encoders.bg:31: r2: what the tolerance of m[1].tau0 can do */
     const real r2_w2 = r2_w2_y1;
@@ -2353,23 +2906,35 @@ static void next_r2(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r2.increment;
     x->r2_w3_m__1__wheel_speed = r2_w3_m__1__wheel_speed_2;
 
+    /* khepera_encoders.bg:31: r2_w3: encoders, order 2 */
+    const real r2_w3_n2 = c->r2_w3_w2_m__1__wheel * r2_w3_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2_w3: input of stage 3 */
+    const real r2_w3_u3 = r2_w3_n2 - r2_w3_n2;
+
+    /* khepera_encoders.bg:31: r2_w3: stage 3 */
+    const real r2_w3_y3 = x->r2_w3_s3 + c->b * r2_w3_u3;
+
+    /* khepera_encoders.bg:31: r2_w3: stage 3: memory */
+    x->r2_w3_s3 = c->a * r2_w3_y3 + c->b * r2_w3_u3;
+
     /* khepera_encoders.bg:31: r2_w3: input of stage 2 */
-    const real r2_w3_u2 = -c->r2_w3_v1_m__1__wheel * r2_w3_m__1__wheel_speed_2;
+    const real r2_w3_u2 = r2_w3_y3 + r2_w3_n2 - REAL(2.0) * r2_w3_n2;
 
     /* khepera_encoders.bg:31: r2_w3: stage 2 */
-    const real r2_w3_y2 = x->r2_w3_s2 + c->b0 * r2_w3_u2;
+    const real r2_w3_y2 = x->r2_w3_s2 + c->b * r2_w3_u2;
 
     /* khepera_encoders.bg:31: r2_w3: stage 2: memory */
-    x->r2_w3_s2 = c->a * r2_w3_y2 + c->b1 * r2_w3_u2;
+    x->r2_w3_s2 = c->a * r2_w3_y2 + c->b * r2_w3_u2;
 
     /* khepera_encoders.bg:31: r2_w3: input of stage 1 */
-    const real r2_w3_u1 = r2_w3_y2 + c->r2_w3_v1_m__1__wheel * r2_w3_m__1__wheel_speed_2;
+    const real r2_w3_u1 = r2_w3_y2 + r2_w3_n2;
 
     /* khepera_encoders.bg:31: r2_w3: stage 1 */
-    const real r2_w3_y1 = x->r2_w3_s1 + c->b0 * r2_w3_u1;
+    const real r2_w3_y1 = x->r2_w3_s1 + c->b * r2_w3_u1;
 
     /* khepera_encoders.bg:31: r2_w3: stage 1: memory */
-    x->r2_w3_s1 = c->a * r2_w3_y1 + c->b1 * r2_w3_u1;
+    x->r2_w3_s1 = c->a * r2_w3_y1 + c->b * r2_w3_u1;
 
     /* khepera_encoders.bg:31: r2: what the tolerance of m[1].Js can do */
     const real r2_w3 = r2_w3_y1;
@@ -2379,23 +2944,35 @@ static void next_r2(
         + c->m__1__wheel_gain * (real)e->m__1__wheel_r2.increment;
     x->r2_w4_m__1__wheel_speed = r2_w4_m__1__wheel_speed_2;
 
+    /* khepera_encoders.bg:31: r2_w4: encoders, order 1 */
+    const real r2_w4_n1 = c->r2_w4_w1_m__1__wheel * r2_w4_m__1__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r2_w4: input of stage 3 */
+    const real r2_w4_u3 = r2_w4_n1 - r2_w4_n1;
+
+    /* khepera_encoders.bg:31: r2_w4: stage 3 */
+    const real r2_w4_y3 = x->r2_w4_s3 + c->b * r2_w4_u3;
+
+    /* khepera_encoders.bg:31: r2_w4: stage 3: memory */
+    x->r2_w4_s3 = c->a * r2_w4_y3 + c->b * r2_w4_u3;
+
     /* khepera_encoders.bg:31: r2_w4: input of stage 2 */
-    const real r2_w4_u2 = c->r2_w4_v2_m__1__wheel * r2_w4_m__1__wheel_speed_2;
+    const real r2_w4_u2 = r2_w4_y3 + r2_w4_n1;
 
     /* khepera_encoders.bg:31: r2_w4: stage 2 */
-    const real r2_w4_y2 = x->r2_w4_s2 + c->b0 * r2_w4_u2;
+    const real r2_w4_y2 = x->r2_w4_s2 + c->b * r2_w4_u2;
 
     /* khepera_encoders.bg:31: r2_w4: stage 2: memory */
-    x->r2_w4_s2 = c->a * r2_w4_y2 + c->b1 * r2_w4_u2;
+    x->r2_w4_s2 = c->a * r2_w4_y2 + c->b * r2_w4_u2;
 
     /* khepera_encoders.bg:31: r2_w4: input of stage 1 */
     const real r2_w4_u1 = r2_w4_y2;
 
     /* khepera_encoders.bg:31: r2_w4: stage 1 */
-    const real r2_w4_y1 = x->r2_w4_s1 + c->b0 * r2_w4_u1;
+    const real r2_w4_y1 = x->r2_w4_s1 + c->b * r2_w4_u1;
 
     /* khepera_encoders.bg:31: r2_w4: stage 1: memory */
-    x->r2_w4_s1 = c->a * r2_w4_y1 + c->b1 * r2_w4_u1;
+    x->r2_w4_s1 = c->a * r2_w4_y1 + c->b * r2_w4_u1;
 
     /* khepera_encoders.bg:31: r2: what the tolerance of m[1].fs can do */
     const real r2_w4 = r2_w4_y1;
@@ -2423,31 +3000,31 @@ static void next_r2(
             - r2_w5_t * r2_w5_t);
 
     /* khepera_encoders.bg:31: r2_w5: input of stage 3 */
-    const real r2_w5_u3 = -c->r2_w5_v3_tanh * r2_w5_t - c->r2_w5_v3_product * r2_w5_product;
+    const real r2_w5_u3 = -c->r2_w5_tanh * r2_w5_t - c->r2_w5_product * r2_w5_product;
 
     /* khepera_encoders.bg:31: r2_w5: stage 3 */
-    const real r2_w5_y3 = x->r2_w5_s3 + c->b0 * r2_w5_u3;
+    const real r2_w5_y3 = x->r2_w5_s3 + c->b * r2_w5_u3;
 
     /* khepera_encoders.bg:31: r2_w5: stage 3: memory */
-    x->r2_w5_s3 = c->a * r2_w5_y3 + c->b1 * r2_w5_u3;
+    x->r2_w5_s3 = c->a * r2_w5_y3 + c->b * r2_w5_u3;
 
     /* khepera_encoders.bg:31: r2_w5: input of stage 2 */
     const real r2_w5_u2 = r2_w5_y3;
 
     /* khepera_encoders.bg:31: r2_w5: stage 2 */
-    const real r2_w5_y2 = x->r2_w5_s2 + c->b0 * r2_w5_u2;
+    const real r2_w5_y2 = x->r2_w5_s2 + c->b * r2_w5_u2;
 
     /* khepera_encoders.bg:31: r2_w5: stage 2: memory */
-    x->r2_w5_s2 = c->a * r2_w5_y2 + c->b1 * r2_w5_u2;
+    x->r2_w5_s2 = c->a * r2_w5_y2 + c->b * r2_w5_u2;
 
     /* khepera_encoders.bg:31: r2_w5: input of stage 1 */
     const real r2_w5_u1 = r2_w5_y2;
 
     /* khepera_encoders.bg:31: r2_w5: stage 1 */
-    const real r2_w5_y1 = x->r2_w5_s1 + c->b0 * r2_w5_u1;
+    const real r2_w5_y1 = x->r2_w5_s1 + c->b * r2_w5_u1;
 
     /* khepera_encoders.bg:31: r2_w5: stage 1: memory */
-    x->r2_w5_s1 = c->a * r2_w5_y1 + c->b1 * r2_w5_u1;
+    x->r2_w5_s1 = c->a * r2_w5_y1 + c->b * r2_w5_u1;
 
     /* khepera_encoders.bg:31: r2: what the tolerances of m[1].K and m[1].tau0 can do together */
     const real r2_w5 = r2_w5_y1;
@@ -2488,32 +3065,32 @@ static void next_r2(
     const real r2_w6_product_3 = r2_w6_t * r2_w6_t_2 * r2_w6_t_2 * r2_w6_t_3;
 
     /* khepera_encoders.bg:31: r2_w6: input of stage 3 */
-    const real r2_w6_u3 = c->r2_w6_v3_product_2 * r2_w6_product_3
-        - c->r2_w5_v3_product * r2_w6_product - c->r2_w6_v3_product * r2_w6_product_2;
+    const real r2_w6_u3 = c->r2_w6_product_2 * r2_w6_product_3 - c->r2_w5_product * r2_w6_product
+        - c->r2_w6_product * r2_w6_product_2;
 
     /* khepera_encoders.bg:31: r2_w6: stage 3 */
-    const real r2_w6_y3 = x->r2_w6_s3 + c->b0 * r2_w6_u3;
+    const real r2_w6_y3 = x->r2_w6_s3 + c->b * r2_w6_u3;
 
     /* khepera_encoders.bg:31: r2_w6: stage 3: memory */
-    x->r2_w6_s3 = c->a * r2_w6_y3 + c->b1 * r2_w6_u3;
+    x->r2_w6_s3 = c->a * r2_w6_y3 + c->b * r2_w6_u3;
 
     /* khepera_encoders.bg:31: r2_w6: input of stage 2 */
     const real r2_w6_u2 = r2_w6_y3;
 
     /* khepera_encoders.bg:31: r2_w6: stage 2 */
-    const real r2_w6_y2 = x->r2_w6_s2 + c->b0 * r2_w6_u2;
+    const real r2_w6_y2 = x->r2_w6_s2 + c->b * r2_w6_u2;
 
     /* khepera_encoders.bg:31: r2_w6: stage 2: memory */
-    x->r2_w6_s2 = c->a * r2_w6_y2 + c->b1 * r2_w6_u2;
+    x->r2_w6_s2 = c->a * r2_w6_y2 + c->b * r2_w6_u2;
 
     /* khepera_encoders.bg:31: r2_w6: input of stage 1 */
     const real r2_w6_u1 = r2_w6_y2;
 
     /* khepera_encoders.bg:31: r2_w6: stage 1 */
-    const real r2_w6_y1 = x->r2_w6_s1 + c->b0 * r2_w6_u1;
+    const real r2_w6_y1 = x->r2_w6_s1 + c->b * r2_w6_u1;
 
     /* khepera_encoders.bg:31: r2_w6: stage 1: memory */
-    x->r2_w6_s1 = c->a * r2_w6_y1 + c->b1 * r2_w6_u1;
+    x->r2_w6_s1 = c->a * r2_w6_y1 + c->b * r2_w6_u1;
 
     /* khepera_encoders.bg:31: r2: second order of what the tolerance of m[1].tau0 can do */
     const real r2_w6 = r2_w6_y1;
@@ -2563,8 +3140,32 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r3_w1_m__2__motor_speed = r3_w1_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r3_w1: encoders, order 1 */
+    const real r3_w1_n1 = -c->r3_w1_w1_m__2__motor * r3_w1_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w1: error of order 1 */
+    const real r3_w1_e1 = c->bend1 * r3_w1_n1;
+
+    /* khepera.bg:17: r3_w1: encoders, order 2 */
+    const real r3_w1_n2 = -c->r3_w1_w2_m__2__motor * r3_w1_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w1: degree 1 */
+    const real r3_w1_d1 = r3_w1_n1 + r3_w1_n2;
+
+    /* khepera.bg:17: r3_w1: degree 2 */
+    const real r3_w1_d2 = r3_w1_n2 - r3_w1_e1;
+
+    /* khepera.bg:17: r3_w1: input of stage 4 */
+    const real r3_w1_u4 = r3_w1_n1 + r3_w1_d2 + r3_w1_e1 - r3_w1_d1;
+
+    /* khepera.bg:17: r3_w1: stage 4, at rest */
+    const real r3_w1_y4 = r3_w1_u4;
+
+    /* khepera.bg:17: r3_w1: stage 4: memory */
+    x->r3_w1_s4 = c->rest * r3_w1_u4;
+
     /* khepera.bg:17: r3_w1: input of stage 3 */
-    const real r3_w1_u3 = c->r3_w1_v3_m__2__motor * r3_w1_m__2__motor_speed_2;
+    const real r3_w1_u3 = r3_w1_y4 + r3_w1_d1 - REAL(2.0) * r3_w1_d2 - REAL(3.0) * r3_w1_e1;
 
     /* khepera.bg:17: r3_w1: stage 3, at rest */
     const real r3_w1_y3 = r3_w1_u3;
@@ -2573,7 +3174,7 @@ static void start_r3(
     x->r3_w1_s3 = c->rest * r3_w1_u3;
 
     /* khepera.bg:17: r3_w1: input of stage 2 */
-    const real r3_w1_u2 = r3_w1_y3 - c->r3_w1_v2_m__2__motor * r3_w1_m__2__motor_speed_2;
+    const real r3_w1_u2 = r3_w1_y3 + r3_w1_d2 + REAL(3.0) * r3_w1_e1;
 
     /* khepera.bg:17: r3_w1: stage 2, at rest */
     const real r3_w1_y2 = r3_w1_u2;
@@ -2582,7 +3183,7 @@ static void start_r3(
     x->r3_w1_s2 = c->rest * r3_w1_u2;
 
     /* khepera.bg:17: r3_w1: input of stage 1 */
-    const real r3_w1_u1 = r3_w1_y2;
+    const real r3_w1_u1 = r3_w1_y2 - r3_w1_e1;
 
     /* khepera.bg:17: r3_w1: stage 1, at rest */
     const real r3_w1_y1 = r3_w1_u1;
@@ -2599,8 +3200,33 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].wheel */
     x->r3_w2_m__2__wheel_speed = r3_w2_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w2: encoders, order 2 */
+    const real r3_w2_n2 = -c->r3_w2_w2_m__2__wheel * r3_w2_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w2: error of order 2 */
+    const real r3_w2_e2 = c->bend1 * r3_w2_n2;
+
+    /* khepera.bg:17: r3_w2: encoders, order 3 */
+    const real r3_w2_n3 = -c->r3_w2_w3_m__2__wheel * r3_w2_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w2: degree 2 */
+    const real r3_w2_d2 = r3_w2_n2 + r3_w2_n3;
+
+    /* khepera.bg:17: r3_w2: degree 3 */
+    const real r3_w2_d3 = r3_w2_n3 - r3_w2_e2;
+
+    /* khepera.bg:17: r3_w2: input of stage 4 */
+    const real r3_w2_u4 = r3_w2_d2 - r3_w2_n2 - r3_w2_d3 - r3_w2_e2;
+
+    /* khepera.bg:17: r3_w2: stage 4, at rest */
+    const real r3_w2_y4 = r3_w2_u4;
+
+    /* khepera.bg:17: r3_w2: stage 4: memory */
+    x->r3_w2_s4 = c->rest * r3_w2_u4;
+
     /* khepera.bg:17: r3_w2: input of stage 3 */
-    const real r3_w2_u3 = c->r3_w2_v3_m__2__wheel * r3_w2_m__2__wheel_speed_2;
+    const real r3_w2_u3 = r3_w2_y4 + r3_w2_n2 + REAL(3.0) * r3_w2_d3 + REAL(4.0) * r3_w2_e2
+        - REAL(2.0) * r3_w2_d2;
 
     /* khepera.bg:17: r3_w2: stage 3, at rest */
     const real r3_w2_y3 = r3_w2_u3;
@@ -2609,7 +3235,7 @@ static void start_r3(
     x->r3_w2_s3 = c->rest * r3_w2_u3;
 
     /* khepera.bg:17: r3_w2: input of stage 2 */
-    const real r3_w2_u2 = r3_w2_y3 + c->r3_w2_v2_m__2__wheel * r3_w2_m__2__wheel_speed_2;
+    const real r3_w2_u2 = r3_w2_y3 + r3_w2_d2 - REAL(3.0) * r3_w2_d3 - REAL(6.0) * r3_w2_e2;
 
     /* khepera.bg:17: r3_w2: stage 2, at rest */
     const real r3_w2_y2 = r3_w2_u2;
@@ -2618,7 +3244,7 @@ static void start_r3(
     x->r3_w2_s2 = c->rest * r3_w2_u2;
 
     /* khepera.bg:17: r3_w2: input of stage 1 */
-    const real r3_w2_u1 = r3_w2_y2 - c->r3_w2_v1_m__2__wheel * r3_w2_m__2__wheel_speed_2;
+    const real r3_w2_u1 = r3_w2_y2 + r3_w2_d3 + REAL(4.0) * r3_w2_e2;
 
     /* khepera.bg:17: r3_w2: stage 1, at rest */
     const real r3_w2_y1 = r3_w2_u1;
@@ -2627,7 +3253,7 @@ static void start_r3(
     x->r3_w2_s1 = c->rest * r3_w2_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].Js can do */
-    const real r3_w2 = r3_w2_y1;
+    const real r3_w2 = r3_w2_y1 - r3_w2_e2;
 
     /* khepera.bg:17: filtered speed of m[2].wheel, at rest */
     const real r3_w3_m__2__wheel_speed_2 = REAL(0.0);
@@ -2635,8 +3261,32 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].wheel */
     x->r3_w3_m__2__wheel_speed = r3_w3_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w3: encoders, order 1 */
+    const real r3_w3_n1 = -c->r3_w3_w1_m__2__wheel * r3_w3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w3: error of order 1 */
+    const real r3_w3_e1 = c->bend1 * r3_w3_n1;
+
+    /* khepera.bg:17: r3_w3: encoders, order 2 */
+    const real r3_w3_n2 = -c->r3_w3_w2_m__2__wheel * r3_w3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w3: degree 1 */
+    const real r3_w3_d1 = r3_w3_n1 + r3_w3_n2;
+
+    /* khepera.bg:17: r3_w3: degree 2 */
+    const real r3_w3_d2 = r3_w3_n2 - r3_w3_e1;
+
+    /* khepera.bg:17: r3_w3: input of stage 4 */
+    const real r3_w3_u4 = r3_w3_n1 + r3_w3_d2 + r3_w3_e1 - r3_w3_d1;
+
+    /* khepera.bg:17: r3_w3: stage 4, at rest */
+    const real r3_w3_y4 = r3_w3_u4;
+
+    /* khepera.bg:17: r3_w3: stage 4: memory */
+    x->r3_w3_s4 = c->rest * r3_w3_u4;
+
     /* khepera.bg:17: r3_w3: input of stage 3 */
-    const real r3_w3_u3 = c->r3_w3_v3_m__2__wheel * r3_w3_m__2__wheel_speed_2;
+    const real r3_w3_u3 = r3_w3_y4 + r3_w3_d1 - REAL(2.0) * r3_w3_d2 - REAL(3.0) * r3_w3_e1;
 
     /* khepera.bg:17: r3_w3: stage 3, at rest */
     const real r3_w3_y3 = r3_w3_u3;
@@ -2645,7 +3295,7 @@ static void start_r3(
     x->r3_w3_s3 = c->rest * r3_w3_u3;
 
     /* khepera.bg:17: r3_w3: input of stage 2 */
-    const real r3_w3_u2 = r3_w3_y3 - c->r3_w3_v2_m__2__wheel * r3_w3_m__2__wheel_speed_2;
+    const real r3_w3_u2 = r3_w3_y3 + r3_w3_d2 + REAL(3.0) * r3_w3_e1;
 
     /* khepera.bg:17: r3_w3: stage 2, at rest */
     const real r3_w3_y2 = r3_w3_u2;
@@ -2654,7 +3304,7 @@ static void start_r3(
     x->r3_w3_s2 = c->rest * r3_w3_u2;
 
     /* khepera.bg:17: r3_w3: input of stage 1 */
-    const real r3_w3_u1 = r3_w3_y2;
+    const real r3_w3_u1 = r3_w3_y2 - r3_w3_e1;
 
     /* khepera.bg:17: r3_w3: stage 1, at rest */
     const real r3_w3_y1 = r3_w3_u1;
@@ -2677,8 +3327,31 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r3_w4_m__2__motor_speed = r3_w4_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r3_w4: encoders, order 1 */
+    const real r3_w4_n1 = -c->r3_w4_w1_m__2__wheel * r3_w4_m__2__wheel_speed_2
+        - c->r3_w4_w1_m__2__motor * r3_w4_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w4: error of order 1 */
+    const real r3_w4_e1 = c->bend1 * r3_w4_n1;
+
+    /* khepera.bg:17: r3_w4: encoders, order 2 */
+    const real r3_w4_n2 = -c->r3_w4_w2_m__2__wheel * r3_w4_m__2__wheel_speed_2
+        - c->r3_w4_w2_m__2__motor * r3_w4_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w4: terms of order 0 */
+    const real r3_w4_g0 = -c->r3_w4_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w4: degree 1 */
+    const real r3_w4_d1 = r3_w4_n1 + r3_w4_n2;
+
+    /* khepera.bg:17: r3_w4: error of order 0 */
+    const real r3_w4_e0 = c->bend2 * r3_w4_g0;
+
+    /* khepera.bg:17: r3_w4: degree 2 */
+    const real r3_w4_d2 = r3_w4_n2 - r3_w4_e1 - r3_w4_e0;
+
     /* khepera.bg:17: r3_w4: input of stage 4 */
-    const real r3_w4_u4 = -c->r3_w4_v4_Fx__2 * s->Fx__2;
+    const real r3_w4_u4 = r3_w4_g0 + r3_w4_n1 + r3_w4_d2 + r3_w4_e1 - r3_w4_d1;
 
     /* khepera.bg:17: r3_w4: stage 4, at rest */
     const real r3_w4_y4 = r3_w4_u4;
@@ -2687,8 +3360,7 @@ static void start_r3(
     x->r3_w4_s4 = c->rest * r3_w4_u4;
 
     /* khepera.bg:17: r3_w4: input of stage 3 */
-    const real r3_w4_u3 = r3_w4_y4 + c->r3_w4_v3_m__2__wheel * r3_w4_m__2__wheel_speed_2
-        + c->r3_w4_v3_m__2__motor * r3_w4_m__2__motor_speed_2;
+    const real r3_w4_u3 = r3_w4_y4 + r3_w4_d1 - REAL(2.0) * r3_w4_d2 - REAL(3.0) * r3_w4_e1;
 
     /* khepera.bg:17: r3_w4: stage 3, at rest */
     const real r3_w4_y3 = r3_w4_u3;
@@ -2697,8 +3369,7 @@ static void start_r3(
     x->r3_w4_s3 = c->rest * r3_w4_u3;
 
     /* khepera.bg:17: r3_w4: input of stage 2 */
-    const real r3_w4_u2 = r3_w4_y3 - c->r3_w4_v2_m__2__wheel * r3_w4_m__2__wheel_speed_2
-        - c->r3_w4_v2_m__2__motor * r3_w4_m__2__motor_speed_2;
+    const real r3_w4_u2 = r3_w4_y3 + r3_w4_d2 + REAL(3.0) * r3_w4_e1;
 
     /* khepera.bg:17: r3_w4: stage 2, at rest */
     const real r3_w4_y2 = r3_w4_u2;
@@ -2707,7 +3378,7 @@ static void start_r3(
     x->r3_w4_s2 = c->rest * r3_w4_u2;
 
     /* khepera.bg:17: r3_w4: input of stage 1 */
-    const real r3_w4_u1 = r3_w4_y2;
+    const real r3_w4_u1 = r3_w4_y2 - r3_w4_e1;
 
     /* khepera.bg:17: r3_w4: stage 1, at rest */
     const real r3_w4_y1 = r3_w4_u1;
@@ -2730,8 +3401,47 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].wheel */
     x->r3_w5_m__2__wheel_speed = r3_w5_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w5: encoders, order 1 */
+    const real r3_w5_n1 = c->r3_w5_w1_m__2__motor * r3_w5_m__2__motor_speed_2
+        + c->r3_w5_w1_m__2__wheel * r3_w5_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w5: error of order 1 */
+    const real r3_w5_e1 = c->bend2 * r3_w5_n1;
+
+    /* khepera.bg:17: r3_w5: encoders, order 2 */
+    const real r3_w5_n2 = c->r3_w5_w2_m__2__motor * r3_w5_m__2__motor_speed_2
+        + c->r3_w5_w2_m__2__wheel * r3_w5_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w5: error of order 2 */
+    const real r3_w5_e2 = c->bend1 * r3_w5_n2;
+
+    /* khepera.bg:17: r3_w5: encoders, order 3 */
+    const real r3_w5_n3 = c->r3_w5_w3_m__2__motor * r3_w5_m__2__motor_speed_2
+        + c->r3_w2_w3_m__2__wheel * r3_w5_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w5: terms of order 0 */
+    const real r3_w5_g0 = c->r3_w5_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w5: terms of order 1 */
+    const real r3_w5_g1 = c->r3_w5_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w5: degree 1 */
+    const real r3_w5_d1 = r3_w5_g1 + r3_w5_n1 + r3_w5_n2;
+
+    /* khepera.bg:17: r3_w5: error of order 0 */
+    const real r3_w5_e0 = c->bend3 * r3_w5_g0;
+
+    /* khepera.bg:17: r3_w5: degree 2 */
+    const real r3_w5_d2 = r3_w5_n2 + r3_w5_n3 - r3_w5_e1 - r3_w5_e0;
+
+    /* khepera.bg:17: r3_w5: error of order 1 */
+    const real r3_w5_e1_2 = c->bend2 * r3_w5_g1;
+
+    /* khepera.bg:17: r3_w5: degree 3 */
+    const real r3_w5_d3 = r3_w5_n3 - r3_w5_e1 - r3_w5_e2 - r3_w5_e1_2;
+
     /* khepera.bg:17: r3_w5: input of stage 4 */
-    const real r3_w5_u4 = c->r3_w5_v4_Fx__2 * s->Fx__2;
+    const real r3_w5_u4 = r3_w5_g0 + r3_w5_n1 + r3_w5_d2 - r3_w5_d1 - r3_w5_d3 - r3_w5_e2;
 
     /* khepera.bg:17: r3_w5: stage 4, at rest */
     const real r3_w5_y4 = r3_w5_u4;
@@ -2740,8 +3450,8 @@ static void start_r3(
     x->r3_w5_s4 = c->rest * r3_w5_u4;
 
     /* khepera.bg:17: r3_w5: input of stage 3 */
-    const real r3_w5_u3 = r3_w5_y4 + c->r3_w5_v3_m__2__motor * r3_w5_m__2__motor_speed_2
-        + c->r3_w5_v3_m__2__wheel * r3_w5_m__2__wheel_speed_2 + c->r3_w5_v3_Fx__2 * s->Fx__2;
+    const real r3_w5_u3 = r3_w5_y4 + r3_w5_d1 + REAL(3.0) * r3_w5_d3 + REAL(4.0) * r3_w5_e2
+        - REAL(2.0) * r3_w5_d2;
 
     /* khepera.bg:17: r3_w5: stage 3, at rest */
     const real r3_w5_y3 = r3_w5_u3;
@@ -2750,8 +3460,7 @@ static void start_r3(
     x->r3_w5_s3 = c->rest * r3_w5_u3;
 
     /* khepera.bg:17: r3_w5: input of stage 2 */
-    const real r3_w5_u2 = r3_w5_y3 + c->r3_w5_v2_m__2__motor * r3_w5_m__2__motor_speed_2
-        + c->r3_w5_v2_m__2__wheel * r3_w5_m__2__wheel_speed_2;
+    const real r3_w5_u2 = r3_w5_y3 + r3_w5_d2 - REAL(3.0) * r3_w5_d3 - REAL(6.0) * r3_w5_e2;
 
     /* khepera.bg:17: r3_w5: stage 2, at rest */
     const real r3_w5_y2 = r3_w5_u2;
@@ -2760,8 +3469,7 @@ static void start_r3(
     x->r3_w5_s2 = c->rest * r3_w5_u2;
 
     /* khepera.bg:17: r3_w5: input of stage 1 */
-    const real r3_w5_u1 = r3_w5_y2 + c->r3_w5_v1_m__2__motor * r3_w5_m__2__motor_speed_2
-        + c->r3_w2_v1_m__2__wheel * r3_w5_m__2__wheel_speed_2;
+    const real r3_w5_u1 = r3_w5_y2 + r3_w5_d3 + REAL(4.0) * r3_w5_e2;
 
     /* khepera.bg:17: r3_w5: stage 1, at rest */
     const real r3_w5_y1 = r3_w5_u1;
@@ -2770,7 +3478,7 @@ static void start_r3(
     x->r3_w5_s1 = c->rest * r3_w5_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].el.k can do */
-    const real r3_w5 = r3_w5_y1;
+    const real r3_w5 = r3_w5_y1 - r3_w5_e2;
 
     /* khepera.bg:17: filtered speed of m[2].motor, at rest */
     const real r3_w6_m__2__motor_speed_2 = REAL(0.0);
@@ -2778,8 +3486,20 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r3_w6_m__2__motor_speed = r3_w6_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r3_w6: encoders, order 1 */
+    const real r3_w6_n1 = -c->r3_w6_w1_m__2__motor * r3_w6_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w6: input of stage 4 */
+    const real r3_w6_u4 = r3_w6_n1 - r3_w6_n1;
+
+    /* khepera.bg:17: r3_w6: stage 4, at rest */
+    const real r3_w6_y4 = r3_w6_u4;
+
+    /* khepera.bg:17: r3_w6: stage 4: memory */
+    x->r3_w6_s4 = c->rest * r3_w6_u4;
+
     /* khepera.bg:17: r3_w6: input of stage 3 */
-    const real r3_w6_u3 = -c->r3_w6_v3_m__2__motor * r3_w6_m__2__motor_speed_2;
+    const real r3_w6_u3 = r3_w6_y4 + r3_w6_n1;
 
     /* khepera.bg:17: r3_w6: stage 3, at rest */
     const real r3_w6_y3 = r3_w6_u3;
@@ -2814,8 +3534,32 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].motor */
     x->r3_w7_m__2__motor_speed = r3_w7_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r3_w7: encoders, order 1 */
+    const real r3_w7_n1 = c->r3_w7_w1_m__2__motor * r3_w7_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w7: error of order 1 */
+    const real r3_w7_e1 = c->bend1 * r3_w7_n1;
+
+    /* khepera.bg:17: r3_w7: encoders, order 2 */
+    const real r3_w7_n2 = c->r3_w7_w2_m__2__motor * r3_w7_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w7: degree 1 */
+    const real r3_w7_d1 = r3_w7_n1 + r3_w7_n2;
+
+    /* khepera.bg:17: r3_w7: degree 2 */
+    const real r3_w7_d2 = r3_w7_n2 - r3_w7_e1;
+
+    /* khepera.bg:17: r3_w7: input of stage 4 */
+    const real r3_w7_u4 = r3_w7_n1 + r3_w7_d2 + r3_w7_e1 - r3_w7_d1;
+
+    /* khepera.bg:17: r3_w7: stage 4, at rest */
+    const real r3_w7_y4 = r3_w7_u4;
+
+    /* khepera.bg:17: r3_w7: stage 4: memory */
+    x->r3_w7_s4 = c->rest * r3_w7_u4;
+
     /* khepera.bg:17: r3_w7: input of stage 3 */
-    const real r3_w7_u3 = c->r3_w7_v3_m__2__motor * r3_w7_m__2__motor_speed_2;
+    const real r3_w7_u3 = r3_w7_y4 + r3_w7_d1 - REAL(2.0) * r3_w7_d2 - REAL(3.0) * r3_w7_e1;
 
     /* khepera.bg:17: r3_w7: stage 3, at rest */
     const real r3_w7_y3 = r3_w7_u3;
@@ -2824,7 +3568,7 @@ static void start_r3(
     x->r3_w7_s3 = c->rest * r3_w7_u3;
 
     /* khepera.bg:17: r3_w7: input of stage 2 */
-    const real r3_w7_u2 = r3_w7_y3 + c->r3_w7_v2_m__2__motor * r3_w7_m__2__motor_speed_2;
+    const real r3_w7_u2 = r3_w7_y3 + r3_w7_d2 + REAL(3.0) * r3_w7_e1;
 
     /* khepera.bg:17: r3_w7: stage 2, at rest */
     const real r3_w7_y2 = r3_w7_u2;
@@ -2833,7 +3577,7 @@ static void start_r3(
     x->r3_w7_s2 = c->rest * r3_w7_u2;
 
     /* khepera.bg:17: r3_w7: input of stage 1 */
-    const real r3_w7_u1 = r3_w7_y2;
+    const real r3_w7_u1 = r3_w7_y2 - r3_w7_e1;
 
     /* khepera.bg:17: r3_w7: stage 1, at rest */
     const real r3_w7_y1 = r3_w7_u1;
@@ -2850,8 +3594,20 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].wheel */
     x->r3_w8_m__2__wheel_speed = r3_w8_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w8: encoders, order 2 */
+    const real r3_w8_n2 = -c->r3_w8_w2_m__2__wheel * r3_w8_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w8: input of stage 4 */
+    const real r3_w8_u4 = r3_w8_n2 - r3_w8_n2;
+
+    /* khepera.bg:17: r3_w8: stage 4, at rest */
+    const real r3_w8_y4 = r3_w8_u4;
+
+    /* khepera.bg:17: r3_w8: stage 4: memory */
+    x->r3_w8_s4 = c->rest * r3_w8_u4;
+
     /* khepera.bg:17: r3_w8: input of stage 3 */
-    const real r3_w8_u3 = c->r3_w8_v2_m__2__wheel * r3_w8_m__2__wheel_speed_2;
+    const real r3_w8_u3 = r3_w8_y4 + r3_w8_n2 - REAL(2.0) * r3_w8_n2;
 
     /* khepera.bg:17: r3_w8: stage 3, at rest */
     const real r3_w8_y3 = r3_w8_u3;
@@ -2860,7 +3616,7 @@ static void start_r3(
     x->r3_w8_s3 = c->rest * r3_w8_u3;
 
     /* khepera.bg:17: r3_w8: input of stage 2 */
-    const real r3_w8_u2 = r3_w8_y3 - c->r3_w8_v2_m__2__wheel * r3_w8_m__2__wheel_speed_2;
+    const real r3_w8_u2 = r3_w8_y3 + r3_w8_n2;
 
     /* khepera.bg:17: r3_w8: stage 2, at rest */
     const real r3_w8_y2 = r3_w8_u2;
@@ -2886,8 +3642,33 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].wheel */
     x->r3_w9_m__2__wheel_speed = r3_w9_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w9: encoders, order 2 */
+    const real r3_w9_n2 = c->r3_w9_w2_m__2__wheel * r3_w9_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w9: error of order 2 */
+    const real r3_w9_e2 = c->bend1 * r3_w9_n2;
+
+    /* khepera.bg:17: r3_w9: encoders, order 3 */
+    const real r3_w9_n3 = c->r3_w9_w3_m__2__wheel * r3_w9_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w9: degree 2 */
+    const real r3_w9_d2 = r3_w9_n2 + r3_w9_n3;
+
+    /* khepera.bg:17: r3_w9: degree 3 */
+    const real r3_w9_d3 = r3_w9_n3 - r3_w9_e2;
+
+    /* khepera.bg:17: r3_w9: input of stage 4 */
+    const real r3_w9_u4 = r3_w9_d2 - r3_w9_n2 - r3_w9_d3 - r3_w9_e2;
+
+    /* khepera.bg:17: r3_w9: stage 4, at rest */
+    const real r3_w9_y4 = r3_w9_u4;
+
+    /* khepera.bg:17: r3_w9: stage 4: memory */
+    x->r3_w9_s4 = c->rest * r3_w9_u4;
+
     /* khepera.bg:17: r3_w9: input of stage 3 */
-    const real r3_w9_u3 = c->r3_w9_v3_m__2__wheel * r3_w9_m__2__wheel_speed_2;
+    const real r3_w9_u3 = r3_w9_y4 + r3_w9_n2 + REAL(3.0) * r3_w9_d3 + REAL(4.0) * r3_w9_e2
+        - REAL(2.0) * r3_w9_d2;
 
     /* khepera.bg:17: r3_w9: stage 3, at rest */
     const real r3_w9_y3 = r3_w9_u3;
@@ -2896,7 +3677,7 @@ static void start_r3(
     x->r3_w9_s3 = c->rest * r3_w9_u3;
 
     /* khepera.bg:17: r3_w9: input of stage 2 */
-    const real r3_w9_u2 = r3_w9_y3 + c->r3_w9_v2_m__2__wheel * r3_w9_m__2__wheel_speed_2;
+    const real r3_w9_u2 = r3_w9_y3 + r3_w9_d2 - REAL(3.0) * r3_w9_d3 - REAL(6.0) * r3_w9_e2;
 
     /* khepera.bg:17: r3_w9: stage 2, at rest */
     const real r3_w9_y2 = r3_w9_u2;
@@ -2905,7 +3686,7 @@ static void start_r3(
     x->r3_w9_s2 = c->rest * r3_w9_u2;
 
     /* khepera.bg:17: r3_w9: input of stage 1 */
-    const real r3_w9_u1 = r3_w9_y2 + c->r3_w9_v1_m__2__wheel * r3_w9_m__2__wheel_speed_2;
+    const real r3_w9_u1 = r3_w9_y2 + r3_w9_d3 + REAL(4.0) * r3_w9_e2;
 
     /* khepera.bg:17: r3_w9: stage 1, at rest */
     const real r3_w9_y1 = r3_w9_u1;
@@ -2914,7 +3695,7 @@ static void start_r3(
     x->r3_w9_s1 = c->rest * r3_w9_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].Js and m[2].el.k can do together */
-    const real r3_w9 = r3_w9_y1;
+    const real r3_w9 = r3_w9_y1 - r3_w9_e2;
 
     /* khepera.bg:17: filtered speed of m[2].wheel, at rest */
     const real r3_w10_m__2__wheel_speed_2 = REAL(0.0);
@@ -2922,8 +3703,20 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].wheel */
     x->r3_w10_m__2__wheel_speed = r3_w10_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w10: encoders, order 1 */
+    const real r3_w10_n1 = -c->r3_w10_w1_m__2__wheel * r3_w10_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w10: input of stage 4 */
+    const real r3_w10_u4 = r3_w10_n1 - r3_w10_n1;
+
+    /* khepera.bg:17: r3_w10: stage 4, at rest */
+    const real r3_w10_y4 = r3_w10_u4;
+
+    /* khepera.bg:17: r3_w10: stage 4: memory */
+    x->r3_w10_s4 = c->rest * r3_w10_u4;
+
     /* khepera.bg:17: r3_w10: input of stage 3 */
-    const real r3_w10_u3 = -c->r3_w10_v3_m__2__wheel * r3_w10_m__2__wheel_speed_2;
+    const real r3_w10_u3 = r3_w10_y4 + r3_w10_n1;
 
     /* khepera.bg:17: r3_w10: stage 3, at rest */
     const real r3_w10_y3 = r3_w10_u3;
@@ -2958,8 +3751,32 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].wheel */
     x->r3_w11_m__2__wheel_speed = r3_w11_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w11: encoders, order 1 */
+    const real r3_w11_n1 = c->r3_w11_w1_m__2__wheel * r3_w11_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w11: error of order 1 */
+    const real r3_w11_e1 = c->bend1 * r3_w11_n1;
+
+    /* khepera.bg:17: r3_w11: encoders, order 2 */
+    const real r3_w11_n2 = c->r3_w11_w2_m__2__wheel * r3_w11_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w11: degree 1 */
+    const real r3_w11_d1 = r3_w11_n1 + r3_w11_n2;
+
+    /* khepera.bg:17: r3_w11: degree 2 */
+    const real r3_w11_d2 = r3_w11_n2 - r3_w11_e1;
+
+    /* khepera.bg:17: r3_w11: input of stage 4 */
+    const real r3_w11_u4 = r3_w11_n1 + r3_w11_d2 + r3_w11_e1 - r3_w11_d1;
+
+    /* khepera.bg:17: r3_w11: stage 4, at rest */
+    const real r3_w11_y4 = r3_w11_u4;
+
+    /* khepera.bg:17: r3_w11: stage 4: memory */
+    x->r3_w11_s4 = c->rest * r3_w11_u4;
+
     /* khepera.bg:17: r3_w11: input of stage 3 */
-    const real r3_w11_u3 = c->r3_w11_v3_m__2__wheel * r3_w11_m__2__wheel_speed_2;
+    const real r3_w11_u3 = r3_w11_y4 + r3_w11_d1 - REAL(2.0) * r3_w11_d2 - REAL(3.0) * r3_w11_e1;
 
     /* khepera.bg:17: r3_w11: stage 3, at rest */
     const real r3_w11_y3 = r3_w11_u3;
@@ -2968,7 +3785,7 @@ static void start_r3(
     x->r3_w11_s3 = c->rest * r3_w11_u3;
 
     /* khepera.bg:17: r3_w11: input of stage 2 */
-    const real r3_w11_u2 = r3_w11_y3 + c->r3_w11_v2_m__2__wheel * r3_w11_m__2__wheel_speed_2;
+    const real r3_w11_u2 = r3_w11_y3 + r3_w11_d2 + REAL(3.0) * r3_w11_e1;
 
     /* khepera.bg:17: r3_w11: stage 2, at rest */
     const real r3_w11_y2 = r3_w11_u2;
@@ -2977,7 +3794,7 @@ static void start_r3(
     x->r3_w11_s2 = c->rest * r3_w11_u2;
 
     /* khepera.bg:17: r3_w11: input of stage 1 */
-    const real r3_w11_u1 = r3_w11_y2;
+    const real r3_w11_u1 = r3_w11_y2 - r3_w11_e1;
 
     /* khepera.bg:17: r3_w11: stage 1, at rest */
     const real r3_w11_y1 = r3_w11_u1;
@@ -3000,8 +3817,31 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].wheel */
     x->r3_w12_m__2__wheel_speed = r3_w12_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w12: encoders, order 1 */
+    const real r3_w12_n1 = c->r3_w12_w1_m__2__motor * r3_w12_m__2__motor_speed_2
+        + c->r3_w12_w1_m__2__wheel * r3_w12_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w12: error of order 1 */
+    const real r3_w12_e1 = c->bend1 * r3_w12_n1;
+
+    /* khepera.bg:17: r3_w12: encoders, order 2 */
+    const real r3_w12_n2 = c->r3_w12_w2_m__2__motor * r3_w12_m__2__motor_speed_2
+        + c->r3_w8_w2_m__2__wheel * r3_w12_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w12: terms of order 0 */
+    const real r3_w12_g0 = c->r3_w12_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w12: degree 1 */
+    const real r3_w12_d1 = r3_w12_n1 + r3_w12_n2;
+
+    /* khepera.bg:17: r3_w12: error of order 0 */
+    const real r3_w12_e0 = c->bend2 * r3_w12_g0;
+
+    /* khepera.bg:17: r3_w12: degree 2 */
+    const real r3_w12_d2 = r3_w12_n2 - r3_w12_e1 - r3_w12_e0;
+
     /* khepera.bg:17: r3_w12: input of stage 4 */
-    const real r3_w12_u4 = c->r3_w12_v4_Fx__2 * s->Fx__2;
+    const real r3_w12_u4 = r3_w12_g0 + r3_w12_n1 + r3_w12_d2 + r3_w12_e1 - r3_w12_d1;
 
     /* khepera.bg:17: r3_w12: stage 4, at rest */
     const real r3_w12_y4 = r3_w12_u4;
@@ -3010,8 +3850,7 @@ static void start_r3(
     x->r3_w12_s4 = c->rest * r3_w12_u4;
 
     /* khepera.bg:17: r3_w12: input of stage 3 */
-    const real r3_w12_u3 = r3_w12_y4 + c->r3_w12_v3_m__2__motor * r3_w12_m__2__motor_speed_2
-        + c->r3_w12_v3_m__2__wheel * r3_w12_m__2__wheel_speed_2;
+    const real r3_w12_u3 = r3_w12_y4 + r3_w12_d1 - REAL(2.0) * r3_w12_d2 - REAL(3.0) * r3_w12_e1;
 
     /* khepera.bg:17: r3_w12: stage 3, at rest */
     const real r3_w12_y3 = r3_w12_u3;
@@ -3020,8 +3859,7 @@ static void start_r3(
     x->r3_w12_s3 = c->rest * r3_w12_u3;
 
     /* khepera.bg:17: r3_w12: input of stage 2 */
-    const real r3_w12_u2 = r3_w12_y3 + c->r3_w12_v2_m__2__motor * r3_w12_m__2__motor_speed_2
-        + c->r3_w8_v2_m__2__wheel * r3_w12_m__2__wheel_speed_2;
+    const real r3_w12_u2 = r3_w12_y3 + r3_w12_d2 + REAL(3.0) * r3_w12_e1;
 
     /* khepera.bg:17: r3_w12: stage 2, at rest */
     const real r3_w12_y2 = r3_w12_u2;
@@ -3030,7 +3868,7 @@ static void start_r3(
     x->r3_w12_s2 = c->rest * r3_w12_u2;
 
     /* khepera.bg:17: r3_w12: input of stage 1 */
-    const real r3_w12_u1 = r3_w12_y2;
+    const real r3_w12_u1 = r3_w12_y2 - r3_w12_e1;
 
     /* khepera.bg:17: r3_w12: stage 1, at rest */
     const real r3_w12_y1 = r3_w12_u1;
@@ -3053,8 +3891,47 @@ static void start_r3(
     /* khepera.bg:17: filtered speed of m[2].wheel */
     x->r3_w13_m__2__wheel_speed = r3_w13_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w13: encoders, order 1 */
+    const real r3_w13_n1 = -c->r3_w13_w1_m__2__motor * r3_w13_m__2__motor_speed_2
+        - c->r3_w13_w1_m__2__wheel * r3_w13_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w13: error of order 1 */
+    const real r3_w13_e1 = c->bend2 * r3_w13_n1;
+
+    /* khepera.bg:17: r3_w13: encoders, order 2 */
+    const real r3_w13_n2 = c->r3_w13_w2_m__2__motor * r3_w13_m__2__motor_speed_2
+        + c->r3_w13_w2_m__2__wheel * r3_w13_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w13: error of order 2 */
+    const real r3_w13_e2 = c->bend1 * r3_w13_n2;
+
+    /* khepera.bg:17: r3_w13: encoders, order 3 */
+    const real r3_w13_n3 = -c->r3_w13_w3_m__2__motor * r3_w13_m__2__motor_speed_2
+        - c->r3_w9_w3_m__2__wheel * r3_w13_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w13: terms of order 0 */
+    const real r3_w13_g0 = -c->r3_w13_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w13: terms of order 1 */
+    const real r3_w13_g1 = -c->r3_w13_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w13: degree 1 */
+    const real r3_w13_d1 = r3_w13_g1 + r3_w13_n1 + r3_w13_n2;
+
+    /* khepera.bg:17: r3_w13: error of order 0 */
+    const real r3_w13_e0 = c->bend3 * r3_w13_g0;
+
+    /* khepera.bg:17: r3_w13: degree 2 */
+    const real r3_w13_d2 = r3_w13_n2 + r3_w13_n3 - r3_w13_e1 - r3_w13_e0;
+
+    /* khepera.bg:17: r3_w13: error of order 1 */
+    const real r3_w13_e1_2 = c->bend2 * r3_w13_g1;
+
+    /* khepera.bg:17: r3_w13: degree 3 */
+    const real r3_w13_d3 = r3_w13_n3 - r3_w13_e1 - r3_w13_e2 - r3_w13_e1_2;
+
     /* khepera.bg:17: r3_w13: input of stage 4 */
-    const real r3_w13_u4 = c->r3_w13_v4_Fx__2 * s->Fx__2;
+    const real r3_w13_u4 = r3_w13_g0 + r3_w13_n1 + r3_w13_d2 - r3_w13_d1 - r3_w13_d3 - r3_w13_e2;
 
     /* khepera.bg:17: r3_w13: stage 4, at rest */
     const real r3_w13_y4 = r3_w13_u4;
@@ -3063,8 +3940,8 @@ static void start_r3(
     x->r3_w13_s4 = c->rest * r3_w13_u4;
 
     /* khepera.bg:17: r3_w13: input of stage 3 */
-    const real r3_w13_u3 = r3_w13_y4 - c->r3_w13_v3_m__2__motor * r3_w13_m__2__motor_speed_2
-        - c->r3_w13_v3_m__2__wheel * r3_w13_m__2__wheel_speed_2 - c->r3_w13_v3_Fx__2 * s->Fx__2;
+    const real r3_w13_u3 = r3_w13_y4 + r3_w13_d1 + REAL(3.0) * r3_w13_d3 + REAL(4.0) * r3_w13_e2
+        - REAL(2.0) * r3_w13_d2;
 
     /* khepera.bg:17: r3_w13: stage 3, at rest */
     const real r3_w13_y3 = r3_w13_u3;
@@ -3073,8 +3950,7 @@ static void start_r3(
     x->r3_w13_s3 = c->rest * r3_w13_u3;
 
     /* khepera.bg:17: r3_w13: input of stage 2 */
-    const real r3_w13_u2 = r3_w13_y3 + c->r3_w13_v2_m__2__motor * r3_w13_m__2__motor_speed_2
-        + c->r3_w13_v2_m__2__wheel * r3_w13_m__2__wheel_speed_2;
+    const real r3_w13_u2 = r3_w13_y3 + r3_w13_d2 - REAL(3.0) * r3_w13_d3 - REAL(6.0) * r3_w13_e2;
 
     /* khepera.bg:17: r3_w13: stage 2, at rest */
     const real r3_w13_y2 = r3_w13_u2;
@@ -3083,8 +3959,7 @@ static void start_r3(
     x->r3_w13_s2 = c->rest * r3_w13_u2;
 
     /* khepera.bg:17: r3_w13: input of stage 1 */
-    const real r3_w13_u1 = r3_w13_y2 - c->r3_w13_v1_m__2__motor * r3_w13_m__2__motor_speed_2
-        - c->r3_w9_v1_m__2__wheel * r3_w13_m__2__wheel_speed_2;
+    const real r3_w13_u1 = r3_w13_y2 + r3_w13_d3 + REAL(4.0) * r3_w13_e2;
 
     /* khepera.bg:17: r3_w13: stage 1, at rest */
     const real r3_w13_y1 = r3_w13_u1;
@@ -3093,7 +3968,7 @@ static void start_r3(
     x->r3_w13_s1 = c->rest * r3_w13_u1;
 
     /* khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do */
-    const real r3_w13 = r3_w13_y1;
+    const real r3_w13 = r3_w13_y1 - r3_w13_e2;
 
     /* khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
     r[KHEPERA_ENCODERS_THRESHOLD_R3] = MATH(fabs)(r3_w1) + MATH(fabs)(r3_w2) + MATH(fabs)(r3_w3)
@@ -3118,32 +3993,56 @@ static void next_r3(
         + c->m__1__motor_gain * (real)e->m__2__motor_r3.increment;
     x->r3_w1_m__2__motor_speed = r3_w1_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r3_w1: encoders, order 1 */
+    const real r3_w1_n1 = -c->r3_w1_w1_m__2__motor * r3_w1_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w1: error of order 1 */
+    const real r3_w1_e1 = c->bend1 * r3_w1_n1;
+
+    /* khepera.bg:17: r3_w1: encoders, order 2 */
+    const real r3_w1_n2 = -c->r3_w1_w2_m__2__motor * r3_w1_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w1: degree 1 */
+    const real r3_w1_d1 = r3_w1_n1 + r3_w1_n2;
+
+    /* khepera.bg:17: r3_w1: degree 2 */
+    const real r3_w1_d2 = r3_w1_n2 - r3_w1_e1;
+
+    /* khepera.bg:17: r3_w1: input of stage 4 */
+    const real r3_w1_u4 = r3_w1_n1 + r3_w1_d2 + r3_w1_e1 - r3_w1_d1;
+
+    /* khepera.bg:17: r3_w1: stage 4 */
+    const real r3_w1_y4 = x->r3_w1_s4 + c->b * r3_w1_u4;
+
+    /* khepera.bg:17: r3_w1: stage 4: memory */
+    x->r3_w1_s4 = c->a * r3_w1_y4 + c->b * r3_w1_u4;
+
     /* khepera.bg:17: r3_w1: input of stage 3 */
-    const real r3_w1_u3 = c->r3_w1_v3_m__2__motor * r3_w1_m__2__motor_speed_2;
+    const real r3_w1_u3 = r3_w1_y4 + r3_w1_d1 - REAL(2.0) * r3_w1_d2 - REAL(3.0) * r3_w1_e1;
 
     /* khepera.bg:17: r3_w1: stage 3 */
-    const real r3_w1_y3 = x->r3_w1_s3 + c->b0 * r3_w1_u3;
+    const real r3_w1_y3 = x->r3_w1_s3 + c->b * r3_w1_u3;
 
     /* khepera.bg:17: r3_w1: stage 3: memory */
-    x->r3_w1_s3 = c->a * r3_w1_y3 + c->b1 * r3_w1_u3;
+    x->r3_w1_s3 = c->a * r3_w1_y3 + c->b * r3_w1_u3;
 
     /* khepera.bg:17: r3_w1: input of stage 2 */
-    const real r3_w1_u2 = r3_w1_y3 - c->r3_w1_v2_m__2__motor * r3_w1_m__2__motor_speed_2;
+    const real r3_w1_u2 = r3_w1_y3 + r3_w1_d2 + REAL(3.0) * r3_w1_e1;
 
     /* khepera.bg:17: r3_w1: stage 2 */
-    const real r3_w1_y2 = x->r3_w1_s2 + c->b0 * r3_w1_u2;
+    const real r3_w1_y2 = x->r3_w1_s2 + c->b * r3_w1_u2;
 
     /* khepera.bg:17: r3_w1: stage 2: memory */
-    x->r3_w1_s2 = c->a * r3_w1_y2 + c->b1 * r3_w1_u2;
+    x->r3_w1_s2 = c->a * r3_w1_y2 + c->b * r3_w1_u2;
 
     /* khepera.bg:17: r3_w1: input of stage 1 */
-    const real r3_w1_u1 = r3_w1_y2;
+    const real r3_w1_u1 = r3_w1_y2 - r3_w1_e1;
 
     /* khepera.bg:17: r3_w1: stage 1 */
-    const real r3_w1_y1 = x->r3_w1_s1 + c->b0 * r3_w1_u1;
+    const real r3_w1_y1 = x->r3_w1_s1 + c->b * r3_w1_u1;
 
     /* khepera.bg:17: r3_w1: stage 1: memory */
-    x->r3_w1_s1 = c->a * r3_w1_y1 + c->b1 * r3_w1_u1;
+    x->r3_w1_s1 = c->a * r3_w1_y1 + c->b * r3_w1_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].fe can do */
     const real r3_w1 = r3_w1_y1;
@@ -3153,67 +4052,116 @@ static void next_r3(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w2_m__2__wheel_speed = r3_w2_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w2: encoders, order 2 */
+    const real r3_w2_n2 = -c->r3_w2_w2_m__2__wheel * r3_w2_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w2: error of order 2 */
+    const real r3_w2_e2 = c->bend1 * r3_w2_n2;
+
+    /* khepera.bg:17: r3_w2: encoders, order 3 */
+    const real r3_w2_n3 = -c->r3_w2_w3_m__2__wheel * r3_w2_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w2: degree 2 */
+    const real r3_w2_d2 = r3_w2_n2 + r3_w2_n3;
+
+    /* khepera.bg:17: r3_w2: degree 3 */
+    const real r3_w2_d3 = r3_w2_n3 - r3_w2_e2;
+
+    /* khepera.bg:17: r3_w2: input of stage 4 */
+    const real r3_w2_u4 = r3_w2_d2 - r3_w2_n2 - r3_w2_d3 - r3_w2_e2;
+
+    /* khepera.bg:17: r3_w2: stage 4 */
+    const real r3_w2_y4 = x->r3_w2_s4 + c->b * r3_w2_u4;
+
+    /* khepera.bg:17: r3_w2: stage 4: memory */
+    x->r3_w2_s4 = c->a * r3_w2_y4 + c->b * r3_w2_u4;
+
     /* khepera.bg:17: r3_w2: input of stage 3 */
-    const real r3_w2_u3 = c->r3_w2_v3_m__2__wheel * r3_w2_m__2__wheel_speed_2;
+    const real r3_w2_u3 = r3_w2_y4 + r3_w2_n2 + REAL(3.0) * r3_w2_d3 + REAL(4.0) * r3_w2_e2
+        - REAL(2.0) * r3_w2_d2;
 
     /* khepera.bg:17: r3_w2: stage 3 */
-    const real r3_w2_y3 = x->r3_w2_s3 + c->b0 * r3_w2_u3;
+    const real r3_w2_y3 = x->r3_w2_s3 + c->b * r3_w2_u3;
 
     /* khepera.bg:17: r3_w2: stage 3: memory */
-    x->r3_w2_s3 = c->a * r3_w2_y3 + c->b1 * r3_w2_u3;
+    x->r3_w2_s3 = c->a * r3_w2_y3 + c->b * r3_w2_u3;
 
     /* khepera.bg:17: r3_w2: input of stage 2 */
-    const real r3_w2_u2 = r3_w2_y3 + c->r3_w2_v2_m__2__wheel * r3_w2_m__2__wheel_speed_2;
+    const real r3_w2_u2 = r3_w2_y3 + r3_w2_d2 - REAL(3.0) * r3_w2_d3 - REAL(6.0) * r3_w2_e2;
 
     /* khepera.bg:17: r3_w2: stage 2 */
-    const real r3_w2_y2 = x->r3_w2_s2 + c->b0 * r3_w2_u2;
+    const real r3_w2_y2 = x->r3_w2_s2 + c->b * r3_w2_u2;
 
     /* khepera.bg:17: r3_w2: stage 2: memory */
-    x->r3_w2_s2 = c->a * r3_w2_y2 + c->b1 * r3_w2_u2;
+    x->r3_w2_s2 = c->a * r3_w2_y2 + c->b * r3_w2_u2;
 
     /* khepera.bg:17: r3_w2: input of stage 1 */
-    const real r3_w2_u1 = r3_w2_y2 - c->r3_w2_v1_m__2__wheel * r3_w2_m__2__wheel_speed_2;
+    const real r3_w2_u1 = r3_w2_y2 + r3_w2_d3 + REAL(4.0) * r3_w2_e2;
 
     /* khepera.bg:17: r3_w2: stage 1 */
-    const real r3_w2_y1 = x->r3_w2_s1 + c->b0 * r3_w2_u1;
+    const real r3_w2_y1 = x->r3_w2_s1 + c->b * r3_w2_u1;
 
     /* khepera.bg:17: r3_w2: stage 1: memory */
-    x->r3_w2_s1 = c->a * r3_w2_y1 + c->b1 * r3_w2_u1;
+    x->r3_w2_s1 = c->a * r3_w2_y1 + c->b * r3_w2_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].Js can do */
-    const real r3_w2 = r3_w2_y1;
+    const real r3_w2 = r3_w2_y1 - r3_w2_e2;
 
     /* khepera.bg:17: filtered speed of m[2].wheel */
     const real r3_w3_m__2__wheel_speed_2 = c->a * x->r3_w3_m__2__wheel_speed
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w3_m__2__wheel_speed = r3_w3_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w3: encoders, order 1 */
+    const real r3_w3_n1 = -c->r3_w3_w1_m__2__wheel * r3_w3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w3: error of order 1 */
+    const real r3_w3_e1 = c->bend1 * r3_w3_n1;
+
+    /* khepera.bg:17: r3_w3: encoders, order 2 */
+    const real r3_w3_n2 = -c->r3_w3_w2_m__2__wheel * r3_w3_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w3: degree 1 */
+    const real r3_w3_d1 = r3_w3_n1 + r3_w3_n2;
+
+    /* khepera.bg:17: r3_w3: degree 2 */
+    const real r3_w3_d2 = r3_w3_n2 - r3_w3_e1;
+
+    /* khepera.bg:17: r3_w3: input of stage 4 */
+    const real r3_w3_u4 = r3_w3_n1 + r3_w3_d2 + r3_w3_e1 - r3_w3_d1;
+
+    /* khepera.bg:17: r3_w3: stage 4 */
+    const real r3_w3_y4 = x->r3_w3_s4 + c->b * r3_w3_u4;
+
+    /* khepera.bg:17: r3_w3: stage 4: memory */
+    x->r3_w3_s4 = c->a * r3_w3_y4 + c->b * r3_w3_u4;
+
     /* khepera.bg:17: r3_w3: input of stage 3 */
-    const real r3_w3_u3 = c->r3_w3_v3_m__2__wheel * r3_w3_m__2__wheel_speed_2;
+    const real r3_w3_u3 = r3_w3_y4 + r3_w3_d1 - REAL(2.0) * r3_w3_d2 - REAL(3.0) * r3_w3_e1;
 
     /* khepera.bg:17: r3_w3: stage 3 */
-    const real r3_w3_y3 = x->r3_w3_s3 + c->b0 * r3_w3_u3;
+    const real r3_w3_y3 = x->r3_w3_s3 + c->b * r3_w3_u3;
 
     /* khepera.bg:17: r3_w3: stage 3: memory */
-    x->r3_w3_s3 = c->a * r3_w3_y3 + c->b1 * r3_w3_u3;
+    x->r3_w3_s3 = c->a * r3_w3_y3 + c->b * r3_w3_u3;
 
     /* khepera.bg:17: r3_w3: input of stage 2 */
-    const real r3_w3_u2 = r3_w3_y3 - c->r3_w3_v2_m__2__wheel * r3_w3_m__2__wheel_speed_2;
+    const real r3_w3_u2 = r3_w3_y3 + r3_w3_d2 + REAL(3.0) * r3_w3_e1;
 
     /* khepera.bg:17: r3_w3: stage 2 */
-    const real r3_w3_y2 = x->r3_w3_s2 + c->b0 * r3_w3_u2;
+    const real r3_w3_y2 = x->r3_w3_s2 + c->b * r3_w3_u2;
 
     /* khepera.bg:17: r3_w3: stage 2: memory */
-    x->r3_w3_s2 = c->a * r3_w3_y2 + c->b1 * r3_w3_u2;
+    x->r3_w3_s2 = c->a * r3_w3_y2 + c->b * r3_w3_u2;
 
     /* khepera.bg:17: r3_w3: input of stage 1 */
-    const real r3_w3_u1 = r3_w3_y2;
+    const real r3_w3_u1 = r3_w3_y2 - r3_w3_e1;
 
     /* khepera.bg:17: r3_w3: stage 1 */
-    const real r3_w3_y1 = x->r3_w3_s1 + c->b0 * r3_w3_u1;
+    const real r3_w3_y1 = x->r3_w3_s1 + c->b * r3_w3_u1;
 
     /* khepera.bg:17: r3_w3: stage 1: memory */
-    x->r3_w3_s1 = c->a * r3_w3_y1 + c->b1 * r3_w3_u1;
+    x->r3_w3_s1 = c->a * r3_w3_y1 + c->b * r3_w3_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].fs can do */
     const real r3_w3 = r3_w3_y1;
@@ -3228,43 +4176,64 @@ static void next_r3(
         + c->m__1__motor_gain * (real)e->m__2__motor_r3.increment;
     x->r3_w4_m__2__motor_speed = r3_w4_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r3_w4: encoders, order 1 */
+    const real r3_w4_n1 = -c->r3_w4_w1_m__2__wheel * r3_w4_m__2__wheel_speed_2
+        - c->r3_w4_w1_m__2__motor * r3_w4_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w4: error of order 1 */
+    const real r3_w4_e1 = c->bend1 * r3_w4_n1;
+
+    /* khepera.bg:17: r3_w4: encoders, order 2 */
+    const real r3_w4_n2 = -c->r3_w4_w2_m__2__wheel * r3_w4_m__2__wheel_speed_2
+        - c->r3_w4_w2_m__2__motor * r3_w4_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w4: terms of order 0 */
+    const real r3_w4_g0 = -c->r3_w4_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w4: degree 1 */
+    const real r3_w4_d1 = r3_w4_n1 + r3_w4_n2;
+
+    /* khepera.bg:17: r3_w4: error of order 0 */
+    const real r3_w4_e0 = c->bend2 * r3_w4_g0;
+
+    /* khepera.bg:17: r3_w4: degree 2 */
+    const real r3_w4_d2 = r3_w4_n2 - r3_w4_e1 - r3_w4_e0;
+
     /* khepera.bg:17: r3_w4: input of stage 4 */
-    const real r3_w4_u4 = -c->r3_w4_v4_Fx__2 * s->Fx__2;
+    const real r3_w4_u4 = r3_w4_g0 + r3_w4_n1 + r3_w4_d2 + r3_w4_e1 - r3_w4_d1;
 
     /* khepera.bg:17: r3_w4: stage 4 */
-    const real r3_w4_y4 = x->r3_w4_s4 + c->b0 * r3_w4_u4;
+    const real r3_w4_y4 = x->r3_w4_s4 + c->b * r3_w4_u4;
 
     /* khepera.bg:17: r3_w4: stage 4: memory */
-    x->r3_w4_s4 = c->a * r3_w4_y4 + c->b1 * r3_w4_u4;
+    x->r3_w4_s4 = c->a * r3_w4_y4 + c->b * r3_w4_u4;
 
     /* khepera.bg:17: r3_w4: input of stage 3 */
-    const real r3_w4_u3 = r3_w4_y4 + c->r3_w4_v3_m__2__wheel * r3_w4_m__2__wheel_speed_2
-        + c->r3_w4_v3_m__2__motor * r3_w4_m__2__motor_speed_2;
+    const real r3_w4_u3 = r3_w4_y4 + r3_w4_d1 - REAL(2.0) * r3_w4_d2 - REAL(3.0) * r3_w4_e1;
 
     /* khepera.bg:17: r3_w4: stage 3 */
-    const real r3_w4_y3 = x->r3_w4_s3 + c->b0 * r3_w4_u3;
+    const real r3_w4_y3 = x->r3_w4_s3 + c->b * r3_w4_u3;
 
     /* khepera.bg:17: r3_w4: stage 3: memory */
-    x->r3_w4_s3 = c->a * r3_w4_y3 + c->b1 * r3_w4_u3;
+    x->r3_w4_s3 = c->a * r3_w4_y3 + c->b * r3_w4_u3;
 
     /* khepera.bg:17: r3_w4: input of stage 2 */
-    const real r3_w4_u2 = r3_w4_y3 - c->r3_w4_v2_m__2__wheel * r3_w4_m__2__wheel_speed_2
-        - c->r3_w4_v2_m__2__motor * r3_w4_m__2__motor_speed_2;
+    const real r3_w4_u2 = r3_w4_y3 + r3_w4_d2 + REAL(3.0) * r3_w4_e1;
 
     /* khepera.bg:17: r3_w4: stage 2 */
-    const real r3_w4_y2 = x->r3_w4_s2 + c->b0 * r3_w4_u2;
+    const real r3_w4_y2 = x->r3_w4_s2 + c->b * r3_w4_u2;
 
     /* khepera.bg:17: r3_w4: stage 2: memory */
-    x->r3_w4_s2 = c->a * r3_w4_y2 + c->b1 * r3_w4_u2;
+    x->r3_w4_s2 = c->a * r3_w4_y2 + c->b * r3_w4_u2;
 
     /* khepera.bg:17: r3_w4: input of stage 1 */
-    const real r3_w4_u1 = r3_w4_y2;
+    const real r3_w4_u1 = r3_w4_y2 - r3_w4_e1;
 
     /* khepera.bg:17: r3_w4: stage 1 */
-    const real r3_w4_y1 = x->r3_w4_s1 + c->b0 * r3_w4_u1;
+    const real r3_w4_y1 = x->r3_w4_s1 + c->b * r3_w4_u1;
 
     /* khepera.bg:17: r3_w4: stage 1: memory */
-    x->r3_w4_s1 = c->a * r3_w4_y1 + c->b1 * r3_w4_u1;
+    x->r3_w4_s1 = c->a * r3_w4_y1 + c->b * r3_w4_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].el.Re can do */
     const real r3_w4 = r3_w4_y1;
@@ -3279,79 +4248,128 @@ static void next_r3(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w5_m__2__wheel_speed = r3_w5_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w5: encoders, order 1 */
+    const real r3_w5_n1 = c->r3_w5_w1_m__2__motor * r3_w5_m__2__motor_speed_2
+        + c->r3_w5_w1_m__2__wheel * r3_w5_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w5: error of order 1 */
+    const real r3_w5_e1 = c->bend2 * r3_w5_n1;
+
+    /* khepera.bg:17: r3_w5: encoders, order 2 */
+    const real r3_w5_n2 = c->r3_w5_w2_m__2__motor * r3_w5_m__2__motor_speed_2
+        + c->r3_w5_w2_m__2__wheel * r3_w5_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w5: error of order 2 */
+    const real r3_w5_e2 = c->bend1 * r3_w5_n2;
+
+    /* khepera.bg:17: r3_w5: encoders, order 3 */
+    const real r3_w5_n3 = c->r3_w5_w3_m__2__motor * r3_w5_m__2__motor_speed_2
+        + c->r3_w2_w3_m__2__wheel * r3_w5_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w5: terms of order 0 */
+    const real r3_w5_g0 = c->r3_w5_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w5: terms of order 1 */
+    const real r3_w5_g1 = c->r3_w5_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w5: degree 1 */
+    const real r3_w5_d1 = r3_w5_g1 + r3_w5_n1 + r3_w5_n2;
+
+    /* khepera.bg:17: r3_w5: error of order 0 */
+    const real r3_w5_e0 = c->bend3 * r3_w5_g0;
+
+    /* khepera.bg:17: r3_w5: degree 2 */
+    const real r3_w5_d2 = r3_w5_n2 + r3_w5_n3 - r3_w5_e1 - r3_w5_e0;
+
+    /* khepera.bg:17: r3_w5: error of order 1 */
+    const real r3_w5_e1_2 = c->bend2 * r3_w5_g1;
+
+    /* khepera.bg:17: r3_w5: degree 3 */
+    const real r3_w5_d3 = r3_w5_n3 - r3_w5_e1 - r3_w5_e2 - r3_w5_e1_2;
+
     /* khepera.bg:17: r3_w5: input of stage 4 */
-    const real r3_w5_u4 = c->r3_w5_v4_Fx__2 * s->Fx__2;
+    const real r3_w5_u4 = r3_w5_g0 + r3_w5_n1 + r3_w5_d2 - r3_w5_d1 - r3_w5_d3 - r3_w5_e2;
 
     /* khepera.bg:17: r3_w5: stage 4 */
-    const real r3_w5_y4 = x->r3_w5_s4 + c->b0 * r3_w5_u4;
+    const real r3_w5_y4 = x->r3_w5_s4 + c->b * r3_w5_u4;
 
     /* khepera.bg:17: r3_w5: stage 4: memory */
-    x->r3_w5_s4 = c->a * r3_w5_y4 + c->b1 * r3_w5_u4;
+    x->r3_w5_s4 = c->a * r3_w5_y4 + c->b * r3_w5_u4;
 
     /* khepera.bg:17: r3_w5: input of stage 3 */
-    const real r3_w5_u3 = r3_w5_y4 + c->r3_w5_v3_m__2__motor * r3_w5_m__2__motor_speed_2
-        + c->r3_w5_v3_m__2__wheel * r3_w5_m__2__wheel_speed_2 + c->r3_w5_v3_Fx__2 * s->Fx__2;
+    const real r3_w5_u3 = r3_w5_y4 + r3_w5_d1 + REAL(3.0) * r3_w5_d3 + REAL(4.0) * r3_w5_e2
+        - REAL(2.0) * r3_w5_d2;
 
     /* khepera.bg:17: r3_w5: stage 3 */
-    const real r3_w5_y3 = x->r3_w5_s3 + c->b0 * r3_w5_u3;
+    const real r3_w5_y3 = x->r3_w5_s3 + c->b * r3_w5_u3;
 
     /* khepera.bg:17: r3_w5: stage 3: memory */
-    x->r3_w5_s3 = c->a * r3_w5_y3 + c->b1 * r3_w5_u3;
+    x->r3_w5_s3 = c->a * r3_w5_y3 + c->b * r3_w5_u3;
 
     /* khepera.bg:17: r3_w5: input of stage 2 */
-    const real r3_w5_u2 = r3_w5_y3 + c->r3_w5_v2_m__2__motor * r3_w5_m__2__motor_speed_2
-        + c->r3_w5_v2_m__2__wheel * r3_w5_m__2__wheel_speed_2;
+    const real r3_w5_u2 = r3_w5_y3 + r3_w5_d2 - REAL(3.0) * r3_w5_d3 - REAL(6.0) * r3_w5_e2;
 
     /* khepera.bg:17: r3_w5: stage 2 */
-    const real r3_w5_y2 = x->r3_w5_s2 + c->b0 * r3_w5_u2;
+    const real r3_w5_y2 = x->r3_w5_s2 + c->b * r3_w5_u2;
 
     /* khepera.bg:17: r3_w5: stage 2: memory */
-    x->r3_w5_s2 = c->a * r3_w5_y2 + c->b1 * r3_w5_u2;
+    x->r3_w5_s2 = c->a * r3_w5_y2 + c->b * r3_w5_u2;
 
     /* khepera.bg:17: r3_w5: input of stage 1 */
-    const real r3_w5_u1 = r3_w5_y2 + c->r3_w5_v1_m__2__motor * r3_w5_m__2__motor_speed_2
-        + c->r3_w2_v1_m__2__wheel * r3_w5_m__2__wheel_speed_2;
+    const real r3_w5_u1 = r3_w5_y2 + r3_w5_d3 + REAL(4.0) * r3_w5_e2;
 
     /* khepera.bg:17: r3_w5: stage 1 */
-    const real r3_w5_y1 = x->r3_w5_s1 + c->b0 * r3_w5_u1;
+    const real r3_w5_y1 = x->r3_w5_s1 + c->b * r3_w5_u1;
 
     /* khepera.bg:17: r3_w5: stage 1: memory */
-    x->r3_w5_s1 = c->a * r3_w5_y1 + c->b1 * r3_w5_u1;
+    x->r3_w5_s1 = c->a * r3_w5_y1 + c->b * r3_w5_u1;
 
     /* khepera.bg:17: r3: what the tolerance of m[2].el.k can do */
-    const real r3_w5 = r3_w5_y1;
+    const real r3_w5 = r3_w5_y1 - r3_w5_e2;
 
     /* khepera.bg:17: filtered speed of m[2].motor */
     const real r3_w6_m__2__motor_speed_2 = c->a * x->r3_w6_m__2__motor_speed
         + c->m__1__motor_gain * (real)e->m__2__motor_r3.increment;
     x->r3_w6_m__2__motor_speed = r3_w6_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r3_w6: encoders, order 1 */
+    const real r3_w6_n1 = -c->r3_w6_w1_m__2__motor * r3_w6_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w6: input of stage 4 */
+    const real r3_w6_u4 = r3_w6_n1 - r3_w6_n1;
+
+    /* khepera.bg:17: r3_w6: stage 4 */
+    const real r3_w6_y4 = x->r3_w6_s4 + c->b * r3_w6_u4;
+
+    /* khepera.bg:17: r3_w6: stage 4: memory */
+    x->r3_w6_s4 = c->a * r3_w6_y4 + c->b * r3_w6_u4;
+
     /* khepera.bg:17: r3_w6: input of stage 3 */
-    const real r3_w6_u3 = -c->r3_w6_v3_m__2__motor * r3_w6_m__2__motor_speed_2;
+    const real r3_w6_u3 = r3_w6_y4 + r3_w6_n1;
 
     /* khepera.bg:17: r3_w6: stage 3 */
-    const real r3_w6_y3 = x->r3_w6_s3 + c->b0 * r3_w6_u3;
+    const real r3_w6_y3 = x->r3_w6_s3 + c->b * r3_w6_u3;
 
     /* khepera.bg:17: r3_w6: stage 3: memory */
-    x->r3_w6_s3 = c->a * r3_w6_y3 + c->b1 * r3_w6_u3;
+    x->r3_w6_s3 = c->a * r3_w6_y3 + c->b * r3_w6_u3;
 
     /* khepera.bg:17: r3_w6: input of stage 2 */
     const real r3_w6_u2 = r3_w6_y3;
 
     /* khepera.bg:17: r3_w6: stage 2 */
-    const real r3_w6_y2 = x->r3_w6_s2 + c->b0 * r3_w6_u2;
+    const real r3_w6_y2 = x->r3_w6_s2 + c->b * r3_w6_u2;
 
     /* khepera.bg:17: r3_w6: stage 2: memory */
-    x->r3_w6_s2 = c->a * r3_w6_y2 + c->b1 * r3_w6_u2;
+    x->r3_w6_s2 = c->a * r3_w6_y2 + c->b * r3_w6_u2;
 
     /* khepera.bg:17: r3_w6: input of stage 1 */
     const real r3_w6_u1 = r3_w6_y2;
 
     /* khepera.bg:17: r3_w6: stage 1 */
-    const real r3_w6_y1 = x->r3_w6_s1 + c->b0 * r3_w6_u1;
+    const real r3_w6_y1 = x->r3_w6_s1 + c->b * r3_w6_u1;
 
     /* khepera.bg:17: r3_w6: stage 1: memory */
-    x->r3_w6_s1 = c->a * r3_w6_y1 + c->b1 * r3_w6_u1;
+    x->r3_w6_s1 = c->a * r3_w6_y1 + c->b * r3_w6_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].fe and m[2].el.Re can do together */
     const real r3_w6 = r3_w6_y1;
@@ -3361,32 +4379,56 @@ static void next_r3(
         + c->m__1__motor_gain * (real)e->m__2__motor_r3.increment;
     x->r3_w7_m__2__motor_speed = r3_w7_m__2__motor_speed_2;
 
+    /* khepera.bg:17: r3_w7: encoders, order 1 */
+    const real r3_w7_n1 = c->r3_w7_w1_m__2__motor * r3_w7_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w7: error of order 1 */
+    const real r3_w7_e1 = c->bend1 * r3_w7_n1;
+
+    /* khepera.bg:17: r3_w7: encoders, order 2 */
+    const real r3_w7_n2 = c->r3_w7_w2_m__2__motor * r3_w7_m__2__motor_speed_2;
+
+    /* khepera.bg:17: r3_w7: degree 1 */
+    const real r3_w7_d1 = r3_w7_n1 + r3_w7_n2;
+
+    /* khepera.bg:17: r3_w7: degree 2 */
+    const real r3_w7_d2 = r3_w7_n2 - r3_w7_e1;
+
+    /* khepera.bg:17: r3_w7: input of stage 4 */
+    const real r3_w7_u4 = r3_w7_n1 + r3_w7_d2 + r3_w7_e1 - r3_w7_d1;
+
+    /* khepera.bg:17: r3_w7: stage 4 */
+    const real r3_w7_y4 = x->r3_w7_s4 + c->b * r3_w7_u4;
+
+    /* khepera.bg:17: r3_w7: stage 4: memory */
+    x->r3_w7_s4 = c->a * r3_w7_y4 + c->b * r3_w7_u4;
+
     /* khepera.bg:17: r3_w7: input of stage 3 */
-    const real r3_w7_u3 = c->r3_w7_v3_m__2__motor * r3_w7_m__2__motor_speed_2;
+    const real r3_w7_u3 = r3_w7_y4 + r3_w7_d1 - REAL(2.0) * r3_w7_d2 - REAL(3.0) * r3_w7_e1;
 
     /* khepera.bg:17: r3_w7: stage 3 */
-    const real r3_w7_y3 = x->r3_w7_s3 + c->b0 * r3_w7_u3;
+    const real r3_w7_y3 = x->r3_w7_s3 + c->b * r3_w7_u3;
 
     /* khepera.bg:17: r3_w7: stage 3: memory */
-    x->r3_w7_s3 = c->a * r3_w7_y3 + c->b1 * r3_w7_u3;
+    x->r3_w7_s3 = c->a * r3_w7_y3 + c->b * r3_w7_u3;
 
     /* khepera.bg:17: r3_w7: input of stage 2 */
-    const real r3_w7_u2 = r3_w7_y3 + c->r3_w7_v2_m__2__motor * r3_w7_m__2__motor_speed_2;
+    const real r3_w7_u2 = r3_w7_y3 + r3_w7_d2 + REAL(3.0) * r3_w7_e1;
 
     /* khepera.bg:17: r3_w7: stage 2 */
-    const real r3_w7_y2 = x->r3_w7_s2 + c->b0 * r3_w7_u2;
+    const real r3_w7_y2 = x->r3_w7_s2 + c->b * r3_w7_u2;
 
     /* khepera.bg:17: r3_w7: stage 2: memory */
-    x->r3_w7_s2 = c->a * r3_w7_y2 + c->b1 * r3_w7_u2;
+    x->r3_w7_s2 = c->a * r3_w7_y2 + c->b * r3_w7_u2;
 
     /* khepera.bg:17: r3_w7: input of stage 1 */
-    const real r3_w7_u1 = r3_w7_y2;
+    const real r3_w7_u1 = r3_w7_y2 - r3_w7_e1;
 
     /* khepera.bg:17: r3_w7: stage 1 */
-    const real r3_w7_y1 = x->r3_w7_s1 + c->b0 * r3_w7_u1;
+    const real r3_w7_y1 = x->r3_w7_s1 + c->b * r3_w7_u1;
 
     /* khepera.bg:17: r3_w7: stage 1: memory */
-    x->r3_w7_s1 = c->a * r3_w7_y1 + c->b1 * r3_w7_u1;
+    x->r3_w7_s1 = c->a * r3_w7_y1 + c->b * r3_w7_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].fe and m[2].el.k can do together */
     const real r3_w7 = r3_w7_y1;
@@ -3396,32 +4438,44 @@ static void next_r3(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w8_m__2__wheel_speed = r3_w8_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w8: encoders, order 2 */
+    const real r3_w8_n2 = -c->r3_w8_w2_m__2__wheel * r3_w8_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w8: input of stage 4 */
+    const real r3_w8_u4 = r3_w8_n2 - r3_w8_n2;
+
+    /* khepera.bg:17: r3_w8: stage 4 */
+    const real r3_w8_y4 = x->r3_w8_s4 + c->b * r3_w8_u4;
+
+    /* khepera.bg:17: r3_w8: stage 4: memory */
+    x->r3_w8_s4 = c->a * r3_w8_y4 + c->b * r3_w8_u4;
+
     /* khepera.bg:17: r3_w8: input of stage 3 */
-    const real r3_w8_u3 = c->r3_w8_v2_m__2__wheel * r3_w8_m__2__wheel_speed_2;
+    const real r3_w8_u3 = r3_w8_y4 + r3_w8_n2 - REAL(2.0) * r3_w8_n2;
 
     /* khepera.bg:17: r3_w8: stage 3 */
-    const real r3_w8_y3 = x->r3_w8_s3 + c->b0 * r3_w8_u3;
+    const real r3_w8_y3 = x->r3_w8_s3 + c->b * r3_w8_u3;
 
     /* khepera.bg:17: r3_w8: stage 3: memory */
-    x->r3_w8_s3 = c->a * r3_w8_y3 + c->b1 * r3_w8_u3;
+    x->r3_w8_s3 = c->a * r3_w8_y3 + c->b * r3_w8_u3;
 
     /* khepera.bg:17: r3_w8: input of stage 2 */
-    const real r3_w8_u2 = r3_w8_y3 - c->r3_w8_v2_m__2__wheel * r3_w8_m__2__wheel_speed_2;
+    const real r3_w8_u2 = r3_w8_y3 + r3_w8_n2;
 
     /* khepera.bg:17: r3_w8: stage 2 */
-    const real r3_w8_y2 = x->r3_w8_s2 + c->b0 * r3_w8_u2;
+    const real r3_w8_y2 = x->r3_w8_s2 + c->b * r3_w8_u2;
 
     /* khepera.bg:17: r3_w8: stage 2: memory */
-    x->r3_w8_s2 = c->a * r3_w8_y2 + c->b1 * r3_w8_u2;
+    x->r3_w8_s2 = c->a * r3_w8_y2 + c->b * r3_w8_u2;
 
     /* khepera.bg:17: r3_w8: input of stage 1 */
     const real r3_w8_u1 = r3_w8_y2;
 
     /* khepera.bg:17: r3_w8: stage 1 */
-    const real r3_w8_y1 = x->r3_w8_s1 + c->b0 * r3_w8_u1;
+    const real r3_w8_y1 = x->r3_w8_s1 + c->b * r3_w8_u1;
 
     /* khepera.bg:17: r3_w8: stage 1: memory */
-    x->r3_w8_s1 = c->a * r3_w8_y1 + c->b1 * r3_w8_u1;
+    x->r3_w8_s1 = c->a * r3_w8_y1 + c->b * r3_w8_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].Js and m[2].el.Re can do together */
     const real r3_w8 = r3_w8_y1;
@@ -3431,67 +4485,104 @@ static void next_r3(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w9_m__2__wheel_speed = r3_w9_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w9: encoders, order 2 */
+    const real r3_w9_n2 = c->r3_w9_w2_m__2__wheel * r3_w9_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w9: error of order 2 */
+    const real r3_w9_e2 = c->bend1 * r3_w9_n2;
+
+    /* khepera.bg:17: r3_w9: encoders, order 3 */
+    const real r3_w9_n3 = c->r3_w9_w3_m__2__wheel * r3_w9_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w9: degree 2 */
+    const real r3_w9_d2 = r3_w9_n2 + r3_w9_n3;
+
+    /* khepera.bg:17: r3_w9: degree 3 */
+    const real r3_w9_d3 = r3_w9_n3 - r3_w9_e2;
+
+    /* khepera.bg:17: r3_w9: input of stage 4 */
+    const real r3_w9_u4 = r3_w9_d2 - r3_w9_n2 - r3_w9_d3 - r3_w9_e2;
+
+    /* khepera.bg:17: r3_w9: stage 4 */
+    const real r3_w9_y4 = x->r3_w9_s4 + c->b * r3_w9_u4;
+
+    /* khepera.bg:17: r3_w9: stage 4: memory */
+    x->r3_w9_s4 = c->a * r3_w9_y4 + c->b * r3_w9_u4;
+
     /* khepera.bg:17: r3_w9: input of stage 3 */
-    const real r3_w9_u3 = c->r3_w9_v3_m__2__wheel * r3_w9_m__2__wheel_speed_2;
+    const real r3_w9_u3 = r3_w9_y4 + r3_w9_n2 + REAL(3.0) * r3_w9_d3 + REAL(4.0) * r3_w9_e2
+        - REAL(2.0) * r3_w9_d2;
 
     /* khepera.bg:17: r3_w9: stage 3 */
-    const real r3_w9_y3 = x->r3_w9_s3 + c->b0 * r3_w9_u3;
+    const real r3_w9_y3 = x->r3_w9_s3 + c->b * r3_w9_u3;
 
     /* khepera.bg:17: r3_w9: stage 3: memory */
-    x->r3_w9_s3 = c->a * r3_w9_y3 + c->b1 * r3_w9_u3;
+    x->r3_w9_s3 = c->a * r3_w9_y3 + c->b * r3_w9_u3;
 
     /* khepera.bg:17: r3_w9: input of stage 2 */
-    const real r3_w9_u2 = r3_w9_y3 + c->r3_w9_v2_m__2__wheel * r3_w9_m__2__wheel_speed_2;
+    const real r3_w9_u2 = r3_w9_y3 + r3_w9_d2 - REAL(3.0) * r3_w9_d3 - REAL(6.0) * r3_w9_e2;
 
     /* khepera.bg:17: r3_w9: stage 2 */
-    const real r3_w9_y2 = x->r3_w9_s2 + c->b0 * r3_w9_u2;
+    const real r3_w9_y2 = x->r3_w9_s2 + c->b * r3_w9_u2;
 
     /* khepera.bg:17: r3_w9: stage 2: memory */
-    x->r3_w9_s2 = c->a * r3_w9_y2 + c->b1 * r3_w9_u2;
+    x->r3_w9_s2 = c->a * r3_w9_y2 + c->b * r3_w9_u2;
 
     /* khepera.bg:17: r3_w9: input of stage 1 */
-    const real r3_w9_u1 = r3_w9_y2 + c->r3_w9_v1_m__2__wheel * r3_w9_m__2__wheel_speed_2;
+    const real r3_w9_u1 = r3_w9_y2 + r3_w9_d3 + REAL(4.0) * r3_w9_e2;
 
     /* khepera.bg:17: r3_w9: stage 1 */
-    const real r3_w9_y1 = x->r3_w9_s1 + c->b0 * r3_w9_u1;
+    const real r3_w9_y1 = x->r3_w9_s1 + c->b * r3_w9_u1;
 
     /* khepera.bg:17: r3_w9: stage 1: memory */
-    x->r3_w9_s1 = c->a * r3_w9_y1 + c->b1 * r3_w9_u1;
+    x->r3_w9_s1 = c->a * r3_w9_y1 + c->b * r3_w9_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].Js and m[2].el.k can do together */
-    const real r3_w9 = r3_w9_y1;
+    const real r3_w9 = r3_w9_y1 - r3_w9_e2;
 
     /* khepera.bg:17: filtered speed of m[2].wheel */
     const real r3_w10_m__2__wheel_speed_2 = c->a * x->r3_w10_m__2__wheel_speed
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w10_m__2__wheel_speed = r3_w10_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w10: encoders, order 1 */
+    const real r3_w10_n1 = -c->r3_w10_w1_m__2__wheel * r3_w10_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w10: input of stage 4 */
+    const real r3_w10_u4 = r3_w10_n1 - r3_w10_n1;
+
+    /* khepera.bg:17: r3_w10: stage 4 */
+    const real r3_w10_y4 = x->r3_w10_s4 + c->b * r3_w10_u4;
+
+    /* khepera.bg:17: r3_w10: stage 4: memory */
+    x->r3_w10_s4 = c->a * r3_w10_y4 + c->b * r3_w10_u4;
+
     /* khepera.bg:17: r3_w10: input of stage 3 */
-    const real r3_w10_u3 = -c->r3_w10_v3_m__2__wheel * r3_w10_m__2__wheel_speed_2;
+    const real r3_w10_u3 = r3_w10_y4 + r3_w10_n1;
 
     /* khepera.bg:17: r3_w10: stage 3 */
-    const real r3_w10_y3 = x->r3_w10_s3 + c->b0 * r3_w10_u3;
+    const real r3_w10_y3 = x->r3_w10_s3 + c->b * r3_w10_u3;
 
     /* khepera.bg:17: r3_w10: stage 3: memory */
-    x->r3_w10_s3 = c->a * r3_w10_y3 + c->b1 * r3_w10_u3;
+    x->r3_w10_s3 = c->a * r3_w10_y3 + c->b * r3_w10_u3;
 
     /* khepera.bg:17: r3_w10: input of stage 2 */
     const real r3_w10_u2 = r3_w10_y3;
 
     /* khepera.bg:17: r3_w10: stage 2 */
-    const real r3_w10_y2 = x->r3_w10_s2 + c->b0 * r3_w10_u2;
+    const real r3_w10_y2 = x->r3_w10_s2 + c->b * r3_w10_u2;
 
     /* khepera.bg:17: r3_w10: stage 2: memory */
-    x->r3_w10_s2 = c->a * r3_w10_y2 + c->b1 * r3_w10_u2;
+    x->r3_w10_s2 = c->a * r3_w10_y2 + c->b * r3_w10_u2;
 
     /* khepera.bg:17: r3_w10: input of stage 1 */
     const real r3_w10_u1 = r3_w10_y2;
 
     /* khepera.bg:17: r3_w10: stage 1 */
-    const real r3_w10_y1 = x->r3_w10_s1 + c->b0 * r3_w10_u1;
+    const real r3_w10_y1 = x->r3_w10_s1 + c->b * r3_w10_u1;
 
     /* khepera.bg:17: r3_w10: stage 1: memory */
-    x->r3_w10_s1 = c->a * r3_w10_y1 + c->b1 * r3_w10_u1;
+    x->r3_w10_s1 = c->a * r3_w10_y1 + c->b * r3_w10_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].fs and m[2].el.Re can do together */
     const real r3_w10 = r3_w10_y1;
@@ -3501,32 +4592,56 @@ static void next_r3(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w11_m__2__wheel_speed = r3_w11_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w11: encoders, order 1 */
+    const real r3_w11_n1 = c->r3_w11_w1_m__2__wheel * r3_w11_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w11: error of order 1 */
+    const real r3_w11_e1 = c->bend1 * r3_w11_n1;
+
+    /* khepera.bg:17: r3_w11: encoders, order 2 */
+    const real r3_w11_n2 = c->r3_w11_w2_m__2__wheel * r3_w11_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w11: degree 1 */
+    const real r3_w11_d1 = r3_w11_n1 + r3_w11_n2;
+
+    /* khepera.bg:17: r3_w11: degree 2 */
+    const real r3_w11_d2 = r3_w11_n2 - r3_w11_e1;
+
+    /* khepera.bg:17: r3_w11: input of stage 4 */
+    const real r3_w11_u4 = r3_w11_n1 + r3_w11_d2 + r3_w11_e1 - r3_w11_d1;
+
+    /* khepera.bg:17: r3_w11: stage 4 */
+    const real r3_w11_y4 = x->r3_w11_s4 + c->b * r3_w11_u4;
+
+    /* khepera.bg:17: r3_w11: stage 4: memory */
+    x->r3_w11_s4 = c->a * r3_w11_y4 + c->b * r3_w11_u4;
+
     /* khepera.bg:17: r3_w11: input of stage 3 */
-    const real r3_w11_u3 = c->r3_w11_v3_m__2__wheel * r3_w11_m__2__wheel_speed_2;
+    const real r3_w11_u3 = r3_w11_y4 + r3_w11_d1 - REAL(2.0) * r3_w11_d2 - REAL(3.0) * r3_w11_e1;
 
     /* khepera.bg:17: r3_w11: stage 3 */
-    const real r3_w11_y3 = x->r3_w11_s3 + c->b0 * r3_w11_u3;
+    const real r3_w11_y3 = x->r3_w11_s3 + c->b * r3_w11_u3;
 
     /* khepera.bg:17: r3_w11: stage 3: memory */
-    x->r3_w11_s3 = c->a * r3_w11_y3 + c->b1 * r3_w11_u3;
+    x->r3_w11_s3 = c->a * r3_w11_y3 + c->b * r3_w11_u3;
 
     /* khepera.bg:17: r3_w11: input of stage 2 */
-    const real r3_w11_u2 = r3_w11_y3 + c->r3_w11_v2_m__2__wheel * r3_w11_m__2__wheel_speed_2;
+    const real r3_w11_u2 = r3_w11_y3 + r3_w11_d2 + REAL(3.0) * r3_w11_e1;
 
     /* khepera.bg:17: r3_w11: stage 2 */
-    const real r3_w11_y2 = x->r3_w11_s2 + c->b0 * r3_w11_u2;
+    const real r3_w11_y2 = x->r3_w11_s2 + c->b * r3_w11_u2;
 
     /* khepera.bg:17: r3_w11: stage 2: memory */
-    x->r3_w11_s2 = c->a * r3_w11_y2 + c->b1 * r3_w11_u2;
+    x->r3_w11_s2 = c->a * r3_w11_y2 + c->b * r3_w11_u2;
 
     /* khepera.bg:17: r3_w11: input of stage 1 */
-    const real r3_w11_u1 = r3_w11_y2;
+    const real r3_w11_u1 = r3_w11_y2 - r3_w11_e1;
 
     /* khepera.bg:17: r3_w11: stage 1 */
-    const real r3_w11_y1 = x->r3_w11_s1 + c->b0 * r3_w11_u1;
+    const real r3_w11_y1 = x->r3_w11_s1 + c->b * r3_w11_u1;
 
     /* khepera.bg:17: r3_w11: stage 1: memory */
-    x->r3_w11_s1 = c->a * r3_w11_y1 + c->b1 * r3_w11_u1;
+    x->r3_w11_s1 = c->a * r3_w11_y1 + c->b * r3_w11_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].fs and m[2].el.k can do together */
     const real r3_w11 = r3_w11_y1;
@@ -3541,43 +4656,64 @@ static void next_r3(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w12_m__2__wheel_speed = r3_w12_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w12: encoders, order 1 */
+    const real r3_w12_n1 = c->r3_w12_w1_m__2__motor * r3_w12_m__2__motor_speed_2
+        + c->r3_w12_w1_m__2__wheel * r3_w12_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w12: error of order 1 */
+    const real r3_w12_e1 = c->bend1 * r3_w12_n1;
+
+    /* khepera.bg:17: r3_w12: encoders, order 2 */
+    const real r3_w12_n2 = c->r3_w12_w2_m__2__motor * r3_w12_m__2__motor_speed_2
+        + c->r3_w8_w2_m__2__wheel * r3_w12_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w12: terms of order 0 */
+    const real r3_w12_g0 = c->r3_w12_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w12: degree 1 */
+    const real r3_w12_d1 = r3_w12_n1 + r3_w12_n2;
+
+    /* khepera.bg:17: r3_w12: error of order 0 */
+    const real r3_w12_e0 = c->bend2 * r3_w12_g0;
+
+    /* khepera.bg:17: r3_w12: degree 2 */
+    const real r3_w12_d2 = r3_w12_n2 - r3_w12_e1 - r3_w12_e0;
+
     /* khepera.bg:17: r3_w12: input of stage 4 */
-    const real r3_w12_u4 = c->r3_w12_v4_Fx__2 * s->Fx__2;
+    const real r3_w12_u4 = r3_w12_g0 + r3_w12_n1 + r3_w12_d2 + r3_w12_e1 - r3_w12_d1;
 
     /* khepera.bg:17: r3_w12: stage 4 */
-    const real r3_w12_y4 = x->r3_w12_s4 + c->b0 * r3_w12_u4;
+    const real r3_w12_y4 = x->r3_w12_s4 + c->b * r3_w12_u4;
 
     /* khepera.bg:17: r3_w12: stage 4: memory */
-    x->r3_w12_s4 = c->a * r3_w12_y4 + c->b1 * r3_w12_u4;
+    x->r3_w12_s4 = c->a * r3_w12_y4 + c->b * r3_w12_u4;
 
     /* khepera.bg:17: r3_w12: input of stage 3 */
-    const real r3_w12_u3 = r3_w12_y4 + c->r3_w12_v3_m__2__motor * r3_w12_m__2__motor_speed_2
-        + c->r3_w12_v3_m__2__wheel * r3_w12_m__2__wheel_speed_2;
+    const real r3_w12_u3 = r3_w12_y4 + r3_w12_d1 - REAL(2.0) * r3_w12_d2 - REAL(3.0) * r3_w12_e1;
 
     /* khepera.bg:17: r3_w12: stage 3 */
-    const real r3_w12_y3 = x->r3_w12_s3 + c->b0 * r3_w12_u3;
+    const real r3_w12_y3 = x->r3_w12_s3 + c->b * r3_w12_u3;
 
     /* khepera.bg:17: r3_w12: stage 3: memory */
-    x->r3_w12_s3 = c->a * r3_w12_y3 + c->b1 * r3_w12_u3;
+    x->r3_w12_s3 = c->a * r3_w12_y3 + c->b * r3_w12_u3;
 
     /* khepera.bg:17: r3_w12: input of stage 2 */
-    const real r3_w12_u2 = r3_w12_y3 + c->r3_w12_v2_m__2__motor * r3_w12_m__2__motor_speed_2
-        + c->r3_w8_v2_m__2__wheel * r3_w12_m__2__wheel_speed_2;
+    const real r3_w12_u2 = r3_w12_y3 + r3_w12_d2 + REAL(3.0) * r3_w12_e1;
 
     /* khepera.bg:17: r3_w12: stage 2 */
-    const real r3_w12_y2 = x->r3_w12_s2 + c->b0 * r3_w12_u2;
+    const real r3_w12_y2 = x->r3_w12_s2 + c->b * r3_w12_u2;
 
     /* khepera.bg:17: r3_w12: stage 2: memory */
-    x->r3_w12_s2 = c->a * r3_w12_y2 + c->b1 * r3_w12_u2;
+    x->r3_w12_s2 = c->a * r3_w12_y2 + c->b * r3_w12_u2;
 
     /* khepera.bg:17: r3_w12: input of stage 1 */
-    const real r3_w12_u1 = r3_w12_y2;
+    const real r3_w12_u1 = r3_w12_y2 - r3_w12_e1;
 
     /* khepera.bg:17: r3_w12: stage 1 */
-    const real r3_w12_y1 = x->r3_w12_s1 + c->b0 * r3_w12_u1;
+    const real r3_w12_y1 = x->r3_w12_s1 + c->b * r3_w12_u1;
 
     /* khepera.bg:17: r3_w12: stage 1: memory */
-    x->r3_w12_s1 = c->a * r3_w12_y1 + c->b1 * r3_w12_u1;
+    x->r3_w12_s1 = c->a * r3_w12_y1 + c->b * r3_w12_u1;
 
     /* khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].el.k can do together */
     const real r3_w12 = r3_w12_y1;
@@ -3592,47 +4728,84 @@ static void next_r3(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r3.increment;
     x->r3_w13_m__2__wheel_speed = r3_w13_m__2__wheel_speed_2;
 
+    /* khepera.bg:17: r3_w13: encoders, order 1 */
+    const real r3_w13_n1 = -c->r3_w13_w1_m__2__motor * r3_w13_m__2__motor_speed_2
+        - c->r3_w13_w1_m__2__wheel * r3_w13_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w13: error of order 1 */
+    const real r3_w13_e1 = c->bend2 * r3_w13_n1;
+
+    /* khepera.bg:17: r3_w13: encoders, order 2 */
+    const real r3_w13_n2 = c->r3_w13_w2_m__2__motor * r3_w13_m__2__motor_speed_2
+        + c->r3_w13_w2_m__2__wheel * r3_w13_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w13: error of order 2 */
+    const real r3_w13_e2 = c->bend1 * r3_w13_n2;
+
+    /* khepera.bg:17: r3_w13: encoders, order 3 */
+    const real r3_w13_n3 = -c->r3_w13_w3_m__2__motor * r3_w13_m__2__motor_speed_2
+        - c->r3_w9_w3_m__2__wheel * r3_w13_m__2__wheel_speed_2;
+
+    /* khepera.bg:17: r3_w13: terms of order 0 */
+    const real r3_w13_g0 = -c->r3_w13_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w13: terms of order 1 */
+    const real r3_w13_g1 = -c->r3_w13_w1_Fx__2 * s->Fx__2;
+
+    /* khepera.bg:17: r3_w13: degree 1 */
+    const real r3_w13_d1 = r3_w13_g1 + r3_w13_n1 + r3_w13_n2;
+
+    /* khepera.bg:17: r3_w13: error of order 0 */
+    const real r3_w13_e0 = c->bend3 * r3_w13_g0;
+
+    /* khepera.bg:17: r3_w13: degree 2 */
+    const real r3_w13_d2 = r3_w13_n2 + r3_w13_n3 - r3_w13_e1 - r3_w13_e0;
+
+    /* khepera.bg:17: r3_w13: error of order 1 */
+    const real r3_w13_e1_2 = c->bend2 * r3_w13_g1;
+
+    /* khepera.bg:17: r3_w13: degree 3 */
+    const real r3_w13_d3 = r3_w13_n3 - r3_w13_e1 - r3_w13_e2 - r3_w13_e1_2;
+
     /* khepera.bg:17: r3_w13: input of stage 4 */
-    const real r3_w13_u4 = c->r3_w13_v4_Fx__2 * s->Fx__2;
+    const real r3_w13_u4 = r3_w13_g0 + r3_w13_n1 + r3_w13_d2 - r3_w13_d1 - r3_w13_d3 - r3_w13_e2;
 
     /* khepera.bg:17: r3_w13: stage 4 */
-    const real r3_w13_y4 = x->r3_w13_s4 + c->b0 * r3_w13_u4;
+    const real r3_w13_y4 = x->r3_w13_s4 + c->b * r3_w13_u4;
 
     /* khepera.bg:17: r3_w13: stage 4: memory */
-    x->r3_w13_s4 = c->a * r3_w13_y4 + c->b1 * r3_w13_u4;
+    x->r3_w13_s4 = c->a * r3_w13_y4 + c->b * r3_w13_u4;
 
     /* khepera.bg:17: r3_w13: input of stage 3 */
-    const real r3_w13_u3 = r3_w13_y4 - c->r3_w13_v3_m__2__motor * r3_w13_m__2__motor_speed_2
-        - c->r3_w13_v3_m__2__wheel * r3_w13_m__2__wheel_speed_2 - c->r3_w13_v3_Fx__2 * s->Fx__2;
+    const real r3_w13_u3 = r3_w13_y4 + r3_w13_d1 + REAL(3.0) * r3_w13_d3 + REAL(4.0) * r3_w13_e2
+        - REAL(2.0) * r3_w13_d2;
 
     /* khepera.bg:17: r3_w13: stage 3 */
-    const real r3_w13_y3 = x->r3_w13_s3 + c->b0 * r3_w13_u3;
+    const real r3_w13_y3 = x->r3_w13_s3 + c->b * r3_w13_u3;
 
     /* khepera.bg:17: r3_w13: stage 3: memory */
-    x->r3_w13_s3 = c->a * r3_w13_y3 + c->b1 * r3_w13_u3;
+    x->r3_w13_s3 = c->a * r3_w13_y3 + c->b * r3_w13_u3;
 
     /* khepera.bg:17: r3_w13: input of stage 2 */
-    const real r3_w13_u2 = r3_w13_y3 + c->r3_w13_v2_m__2__motor * r3_w13_m__2__motor_speed_2
-        + c->r3_w13_v2_m__2__wheel * r3_w13_m__2__wheel_speed_2;
+    const real r3_w13_u2 = r3_w13_y3 + r3_w13_d2 - REAL(3.0) * r3_w13_d3 - REAL(6.0) * r3_w13_e2;
 
     /* khepera.bg:17: r3_w13: stage 2 */
-    const real r3_w13_y2 = x->r3_w13_s2 + c->b0 * r3_w13_u2;
+    const real r3_w13_y2 = x->r3_w13_s2 + c->b * r3_w13_u2;
 
     /* khepera.bg:17: r3_w13: stage 2: memory */
-    x->r3_w13_s2 = c->a * r3_w13_y2 + c->b1 * r3_w13_u2;
+    x->r3_w13_s2 = c->a * r3_w13_y2 + c->b * r3_w13_u2;
 
     /* khepera.bg:17: r3_w13: input of stage 1 */
-    const real r3_w13_u1 = r3_w13_y2 - c->r3_w13_v1_m__2__motor * r3_w13_m__2__motor_speed_2
-        - c->r3_w9_v1_m__2__wheel * r3_w13_m__2__wheel_speed_2;
+    const real r3_w13_u1 = r3_w13_y2 + r3_w13_d3 + REAL(4.0) * r3_w13_e2;
 
     /* khepera.bg:17: r3_w13: stage 1 */
-    const real r3_w13_y1 = x->r3_w13_s1 + c->b0 * r3_w13_u1;
+    const real r3_w13_y1 = x->r3_w13_s1 + c->b * r3_w13_u1;
 
     /* khepera.bg:17: r3_w13: stage 1: memory */
-    x->r3_w13_s1 = c->a * r3_w13_y1 + c->b1 * r3_w13_u1;
+    x->r3_w13_s1 = c->a * r3_w13_y1 + c->b * r3_w13_u1;
 
     /* khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do */
-    const real r3_w13 = r3_w13_y1;
+    const real r3_w13 = r3_w13_y1 - r3_w13_e2;
 
     /* khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance */
     r[KHEPERA_ENCODERS_THRESHOLD_R3] = MATH(fabs)(r3_w1) + MATH(fabs)(r3_w2) + MATH(fabs)(r3_w3)
@@ -3695,8 +4868,8 @@ static void start_r4(
     const real r4_w1_tanh = MATH(tanh)(c->g_7 * r4_w1_change_2 - c->g_8 * r4_w1_change);
 
     /* khepera_encoders.bg:31: r4_w1: input of stage 3 */
-    const real r4_w1_u3 = c->r4_w1_v3_integral_2 * r4_w1_change
-        - c->r4_w1_v3_integral * r4_w1_change_2 - c->r4_w1_v3_tanh * r4_w1_tanh;
+    const real r4_w1_u3 = c->r4_w1_integral_2 * r4_w1_change - c->r4_w1_integral * r4_w1_change_2
+        - c->r4_w1_tanh * r4_w1_tanh;
 
     /* khepera_encoders.bg:31: r4_w1: stage 3, at rest */
     const real r4_w1_y3 = r4_w1_u3;
@@ -3750,7 +4923,7 @@ static void start_r4(
             - r4_w2_t * r4_w2_t);
 
     /* khepera_encoders.bg:31: r4_w2: input of stage 3 */
-    const real r4_w2_u3 = -c->r4_w1_v3_tanh * r4_w2_t - c->r4_w2_v3_product * r4_w2_product;
+    const real r4_w2_u3 = -c->r4_w1_tanh * r4_w2_t - c->r4_w2_product * r4_w2_product;
 
     /* khepera_encoders.bg:31: r4_w2: stage 3, at rest */
     const real r4_w2_y3 = r4_w2_u3;
@@ -3785,8 +4958,20 @@ static void start_r4(
     /* khepera_encoders.bg:31: filtered speed of m[2].wheel */
     x->r4_w3_m__2__wheel_speed = r4_w3_m__2__wheel_speed_2;
 
+    /* khepera_encoders.bg:31: r4_w3: encoders, order 2 */
+    const real r4_w3_n2 = c->r4_w3_w2_m__2__wheel * r4_w3_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4_w3: input of stage 3 */
+    const real r4_w3_u3 = r4_w3_n2 - r4_w3_n2;
+
+    /* khepera_encoders.bg:31: r4_w3: stage 3, at rest */
+    const real r4_w3_y3 = r4_w3_u3;
+
+    /* khepera_encoders.bg:31: r4_w3: stage 3: memory */
+    x->r4_w3_s3 = c->rest * r4_w3_u3;
+
     /* khepera_encoders.bg:31: r4_w3: input of stage 2 */
-    const real r4_w3_u2 = -c->r4_w3_v1_m__2__wheel * r4_w3_m__2__wheel_speed_2;
+    const real r4_w3_u2 = r4_w3_y3 + r4_w3_n2 - REAL(2.0) * r4_w3_n2;
 
     /* khepera_encoders.bg:31: r4_w3: stage 2, at rest */
     const real r4_w3_y2 = r4_w3_u2;
@@ -3795,7 +4980,7 @@ static void start_r4(
     x->r4_w3_s2 = c->rest * r4_w3_u2;
 
     /* khepera_encoders.bg:31: r4_w3: input of stage 1 */
-    const real r4_w3_u1 = r4_w3_y2 + c->r4_w3_v1_m__2__wheel * r4_w3_m__2__wheel_speed_2;
+    const real r4_w3_u1 = r4_w3_y2 + r4_w3_n2;
 
     /* khepera_encoders.bg:31: r4_w3: stage 1, at rest */
     const real r4_w3_y1 = r4_w3_u1;
@@ -3812,8 +4997,20 @@ static void start_r4(
     /* khepera_encoders.bg:31: filtered speed of m[2].wheel */
     x->r4_w4_m__2__wheel_speed = r4_w4_m__2__wheel_speed_2;
 
+    /* khepera_encoders.bg:31: r4_w4: encoders, order 1 */
+    const real r4_w4_n1 = c->r4_w4_w1_m__2__wheel * r4_w4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4_w4: input of stage 3 */
+    const real r4_w4_u3 = r4_w4_n1 - r4_w4_n1;
+
+    /* khepera_encoders.bg:31: r4_w4: stage 3, at rest */
+    const real r4_w4_y3 = r4_w4_u3;
+
+    /* khepera_encoders.bg:31: r4_w4: stage 3: memory */
+    x->r4_w4_s3 = c->rest * r4_w4_u3;
+
     /* khepera_encoders.bg:31: r4_w4: input of stage 2 */
-    const real r4_w4_u2 = c->r4_w4_v2_m__2__wheel * r4_w4_m__2__wheel_speed_2;
+    const real r4_w4_u2 = r4_w4_y3 + r4_w4_n1;
 
     /* khepera_encoders.bg:31: r4_w4: stage 2, at rest */
     const real r4_w4_y2 = r4_w4_u2;
@@ -3858,7 +5055,7 @@ static void start_r4(
             - r4_w5_t * r4_w5_t);
 
     /* khepera_encoders.bg:31: r4_w5: input of stage 3 */
-    const real r4_w5_u3 = -c->r4_w5_v3_tanh * r4_w5_t - c->r4_w5_v3_product * r4_w5_product;
+    const real r4_w5_u3 = -c->r4_w5_tanh * r4_w5_t - c->r4_w5_product * r4_w5_product;
 
     /* khepera_encoders.bg:31: r4_w5: stage 3, at rest */
     const real r4_w5_y3 = r4_w5_u3;
@@ -3925,8 +5122,8 @@ static void start_r4(
     const real r4_w6_product_3 = r4_w6_t * r4_w6_t_2 * r4_w6_t_2 * r4_w6_t_3;
 
     /* khepera_encoders.bg:31: r4_w6: input of stage 3 */
-    const real r4_w6_u3 = c->r4_w6_v3_product_2 * r4_w6_product_3
-        - c->r4_w5_v3_product * r4_w6_product - c->r4_w6_v3_product * r4_w6_product_2;
+    const real r4_w6_u3 = c->r4_w6_product_2 * r4_w6_product_3 - c->r4_w5_product * r4_w6_product
+        - c->r4_w6_product * r4_w6_product_2;
 
     /* khepera_encoders.bg:31: r4_w6: stage 3, at rest */
     const real r4_w6_y3 = r4_w6_u3;
@@ -3990,32 +5187,32 @@ static void next_r4(
     const real r4_w1_tanh = MATH(tanh)(c->g_7 * r4_w1_change_2 - c->g_8 * r4_w1_change);
 
     /* khepera_encoders.bg:31: r4_w1: input of stage 3 */
-    const real r4_w1_u3 = c->r4_w1_v3_integral_2 * r4_w1_change
-        - c->r4_w1_v3_integral * r4_w1_change_2 - c->r4_w1_v3_tanh * r4_w1_tanh;
+    const real r4_w1_u3 = c->r4_w1_integral_2 * r4_w1_change - c->r4_w1_integral * r4_w1_change_2
+        - c->r4_w1_tanh * r4_w1_tanh;
 
     /* khepera_encoders.bg:31: r4_w1: stage 3 */
-    const real r4_w1_y3 = x->r4_w1_s3 + c->b0 * r4_w1_u3;
+    const real r4_w1_y3 = x->r4_w1_s3 + c->b * r4_w1_u3;
 
     /* khepera_encoders.bg:31: r4_w1: stage 3: memory */
-    x->r4_w1_s3 = c->a * r4_w1_y3 + c->b1 * r4_w1_u3;
+    x->r4_w1_s3 = c->a * r4_w1_y3 + c->b * r4_w1_u3;
 
     /* khepera_encoders.bg:31: r4_w1: input of stage 2 */
     const real r4_w1_u2 = r4_w1_y3;
 
     /* khepera_encoders.bg:31: r4_w1: stage 2 */
-    const real r4_w1_y2 = x->r4_w1_s2 + c->b0 * r4_w1_u2;
+    const real r4_w1_y2 = x->r4_w1_s2 + c->b * r4_w1_u2;
 
     /* khepera_encoders.bg:31: r4_w1: stage 2: memory */
-    x->r4_w1_s2 = c->a * r4_w1_y2 + c->b1 * r4_w1_u2;
+    x->r4_w1_s2 = c->a * r4_w1_y2 + c->b * r4_w1_u2;
 
     /* khepera_encoders.bg:31: r4_w1: input of stage 1 */
     const real r4_w1_u1 = r4_w1_y2;
 
     /* khepera_encoders.bg:31: r4_w1: stage 1 */
-    const real r4_w1_y1 = x->r4_w1_s1 + c->b0 * r4_w1_u1;
+    const real r4_w1_y1 = x->r4_w1_s1 + c->b * r4_w1_u1;
 
     /* khepera_encoders.bg:31: r4_w1: stage 1: memory */
-    x->r4_w1_s1 = c->a * r4_w1_y1 + c->b1 * r4_w1_u1;
+    x->r4_w1_s1 = c->a * r4_w1_y1 + c->b * r4_w1_u1;
 
     /* khepera_encoders.bg:31: r4: what the tolerance of m[2].K can do */
     const real r4_w1 = r4_w1_y1;
@@ -4043,31 +5240,31 @@ static void next_r4(
             - r4_w2_t * r4_w2_t);
 
     /* khepera_encoders.bg:31: r4_w2: input of stage 3 */
-    const real r4_w2_u3 = -c->r4_w1_v3_tanh * r4_w2_t - c->r4_w2_v3_product * r4_w2_product;
+    const real r4_w2_u3 = -c->r4_w1_tanh * r4_w2_t - c->r4_w2_product * r4_w2_product;
 
     /* khepera_encoders.bg:31: r4_w2: stage 3 */
-    const real r4_w2_y3 = x->r4_w2_s3 + c->b0 * r4_w2_u3;
+    const real r4_w2_y3 = x->r4_w2_s3 + c->b * r4_w2_u3;
 
     /* khepera_encoders.bg:31: r4_w2: stage 3: memory */
-    x->r4_w2_s3 = c->a * r4_w2_y3 + c->b1 * r4_w2_u3;
+    x->r4_w2_s3 = c->a * r4_w2_y3 + c->b * r4_w2_u3;
 
     /* khepera_encoders.bg:31: r4_w2: input of stage 2 */
     const real r4_w2_u2 = r4_w2_y3;
 
     /* khepera_encoders.bg:31: r4_w2: stage 2 */
-    const real r4_w2_y2 = x->r4_w2_s2 + c->b0 * r4_w2_u2;
+    const real r4_w2_y2 = x->r4_w2_s2 + c->b * r4_w2_u2;
 
     /* khepera_encoders.bg:31: r4_w2: stage 2: memory */
-    x->r4_w2_s2 = c->a * r4_w2_y2 + c->b1 * r4_w2_u2;
+    x->r4_w2_s2 = c->a * r4_w2_y2 + c->b * r4_w2_u2;
 
     /* khepera_encoders.bg:31: r4_w2: input of stage 1 */
     const real r4_w2_u1 = r4_w2_y2;
 
     /* khepera_encoders.bg:31: r4_w2: stage 1 */
-    const real r4_w2_y1 = x->r4_w2_s1 + c->b0 * r4_w2_u1;
+    const real r4_w2_y1 = x->r4_w2_s1 + c->b * r4_w2_u1;
 
     /* khepera_encoders.bg:31: r4_w2: stage 1: memory */
-    x->r4_w2_s1 = c->a * r4_w2_y1 + c->b1 * r4_w2_u1;
+    x->r4_w2_s1 = c->a * r4_w2_y1 + c->b * r4_w2_u1;
 
     /* khepera_encoders.bg:31: r4: what the tolerance of m[2].tau0 can do */
     const real r4_w2 = r4_w2_y1;
@@ -4077,23 +5274,35 @@ static void next_r4(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r4.increment;
     x->r4_w3_m__2__wheel_speed = r4_w3_m__2__wheel_speed_2;
 
+    /* khepera_encoders.bg:31: r4_w3: encoders, order 2 */
+    const real r4_w3_n2 = c->r4_w3_w2_m__2__wheel * r4_w3_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4_w3: input of stage 3 */
+    const real r4_w3_u3 = r4_w3_n2 - r4_w3_n2;
+
+    /* khepera_encoders.bg:31: r4_w3: stage 3 */
+    const real r4_w3_y3 = x->r4_w3_s3 + c->b * r4_w3_u3;
+
+    /* khepera_encoders.bg:31: r4_w3: stage 3: memory */
+    x->r4_w3_s3 = c->a * r4_w3_y3 + c->b * r4_w3_u3;
+
     /* khepera_encoders.bg:31: r4_w3: input of stage 2 */
-    const real r4_w3_u2 = -c->r4_w3_v1_m__2__wheel * r4_w3_m__2__wheel_speed_2;
+    const real r4_w3_u2 = r4_w3_y3 + r4_w3_n2 - REAL(2.0) * r4_w3_n2;
 
     /* khepera_encoders.bg:31: r4_w3: stage 2 */
-    const real r4_w3_y2 = x->r4_w3_s2 + c->b0 * r4_w3_u2;
+    const real r4_w3_y2 = x->r4_w3_s2 + c->b * r4_w3_u2;
 
     /* khepera_encoders.bg:31: r4_w3: stage 2: memory */
-    x->r4_w3_s2 = c->a * r4_w3_y2 + c->b1 * r4_w3_u2;
+    x->r4_w3_s2 = c->a * r4_w3_y2 + c->b * r4_w3_u2;
 
     /* khepera_encoders.bg:31: r4_w3: input of stage 1 */
-    const real r4_w3_u1 = r4_w3_y2 + c->r4_w3_v1_m__2__wheel * r4_w3_m__2__wheel_speed_2;
+    const real r4_w3_u1 = r4_w3_y2 + r4_w3_n2;
 
     /* khepera_encoders.bg:31: r4_w3: stage 1 */
-    const real r4_w3_y1 = x->r4_w3_s1 + c->b0 * r4_w3_u1;
+    const real r4_w3_y1 = x->r4_w3_s1 + c->b * r4_w3_u1;
 
     /* khepera_encoders.bg:31: r4_w3: stage 1: memory */
-    x->r4_w3_s1 = c->a * r4_w3_y1 + c->b1 * r4_w3_u1;
+    x->r4_w3_s1 = c->a * r4_w3_y1 + c->b * r4_w3_u1;
 
     /* khepera_encoders.bg:31: r4: what the tolerance of m[2].Js can do */
     const real r4_w3 = r4_w3_y1;
@@ -4103,23 +5312,35 @@ static void next_r4(
         + c->m__1__wheel_gain * (real)e->m__2__wheel_r4.increment;
     x->r4_w4_m__2__wheel_speed = r4_w4_m__2__wheel_speed_2;
 
+    /* khepera_encoders.bg:31: r4_w4: encoders, order 1 */
+    const real r4_w4_n1 = c->r4_w4_w1_m__2__wheel * r4_w4_m__2__wheel_speed_2;
+
+    /* khepera_encoders.bg:31: r4_w4: input of stage 3 */
+    const real r4_w4_u3 = r4_w4_n1 - r4_w4_n1;
+
+    /* khepera_encoders.bg:31: r4_w4: stage 3 */
+    const real r4_w4_y3 = x->r4_w4_s3 + c->b * r4_w4_u3;
+
+    /* khepera_encoders.bg:31: r4_w4: stage 3: memory */
+    x->r4_w4_s3 = c->a * r4_w4_y3 + c->b * r4_w4_u3;
+
     /* khepera_encoders.bg:31: r4_w4: input of stage 2 */
-    const real r4_w4_u2 = c->r4_w4_v2_m__2__wheel * r4_w4_m__2__wheel_speed_2;
+    const real r4_w4_u2 = r4_w4_y3 + r4_w4_n1;
 
     /* khepera_encoders.bg:31: r4_w4: stage 2 */
-    const real r4_w4_y2 = x->r4_w4_s2 + c->b0 * r4_w4_u2;
+    const real r4_w4_y2 = x->r4_w4_s2 + c->b * r4_w4_u2;
 
     /* khepera_encoders.bg:31: r4_w4: stage 2: memory */
-    x->r4_w4_s2 = c->a * r4_w4_y2 + c->b1 * r4_w4_u2;
+    x->r4_w4_s2 = c->a * r4_w4_y2 + c->b * r4_w4_u2;
 
     /* khepera_encoders.bg:31: r4_w4: input of stage 1 */
     const real r4_w4_u1 = r4_w4_y2;
 
     /* khepera_encoders.bg:31: r4_w4: stage 1 */
-    const real r4_w4_y1 = x->r4_w4_s1 + c->b0 * r4_w4_u1;
+    const real r4_w4_y1 = x->r4_w4_s1 + c->b * r4_w4_u1;
 
     /* khepera_encoders.bg:31: r4_w4: stage 1: memory */
-    x->r4_w4_s1 = c->a * r4_w4_y1 + c->b1 * r4_w4_u1;
+    x->r4_w4_s1 = c->a * r4_w4_y1 + c->b * r4_w4_u1;
 
     /* khepera_encoders.bg:31: r4: what the tolerance of m[2].fs can do */
     const real r4_w4 = r4_w4_y1;
@@ -4147,31 +5368,31 @@ static void next_r4(
             - r4_w5_t * r4_w5_t);
 
     /* khepera_encoders.bg:31: r4_w5: input of stage 3 */
-    const real r4_w5_u3 = -c->r4_w5_v3_tanh * r4_w5_t - c->r4_w5_v3_product * r4_w5_product;
+    const real r4_w5_u3 = -c->r4_w5_tanh * r4_w5_t - c->r4_w5_product * r4_w5_product;
 
     /* khepera_encoders.bg:31: r4_w5: stage 3 */
-    const real r4_w5_y3 = x->r4_w5_s3 + c->b0 * r4_w5_u3;
+    const real r4_w5_y3 = x->r4_w5_s3 + c->b * r4_w5_u3;
 
     /* khepera_encoders.bg:31: r4_w5: stage 3: memory */
-    x->r4_w5_s3 = c->a * r4_w5_y3 + c->b1 * r4_w5_u3;
+    x->r4_w5_s3 = c->a * r4_w5_y3 + c->b * r4_w5_u3;
 
     /* khepera_encoders.bg:31: r4_w5: input of stage 2 */
     const real r4_w5_u2 = r4_w5_y3;
 
     /* khepera_encoders.bg:31: r4_w5: stage 2 */
-    const real r4_w5_y2 = x->r4_w5_s2 + c->b0 * r4_w5_u2;
+    const real r4_w5_y2 = x->r4_w5_s2 + c->b * r4_w5_u2;
 
     /* khepera_encoders.bg:31: r4_w5: stage 2: memory */
-    x->r4_w5_s2 = c->a * r4_w5_y2 + c->b1 * r4_w5_u2;
+    x->r4_w5_s2 = c->a * r4_w5_y2 + c->b * r4_w5_u2;
 
     /* khepera_encoders.bg:31: r4_w5: input of stage 1 */
     const real r4_w5_u1 = r4_w5_y2;
 
     /* khepera_encoders.bg:31: r4_w5: stage 1 */
-    const real r4_w5_y1 = x->r4_w5_s1 + c->b0 * r4_w5_u1;
+    const real r4_w5_y1 = x->r4_w5_s1 + c->b * r4_w5_u1;
 
     /* khepera_encoders.bg:31: r4_w5: stage 1: memory */
-    x->r4_w5_s1 = c->a * r4_w5_y1 + c->b1 * r4_w5_u1;
+    x->r4_w5_s1 = c->a * r4_w5_y1 + c->b * r4_w5_u1;
 
     /* khepera_encoders.bg:31: r4: what the tolerances of m[2].K and m[2].tau0 can do together */
     const real r4_w5 = r4_w5_y1;
@@ -4212,32 +5433,32 @@ static void next_r4(
     const real r4_w6_product_3 = r4_w6_t * r4_w6_t_2 * r4_w6_t_2 * r4_w6_t_3;
 
     /* khepera_encoders.bg:31: r4_w6: input of stage 3 */
-    const real r4_w6_u3 = c->r4_w6_v3_product_2 * r4_w6_product_3
-        - c->r4_w5_v3_product * r4_w6_product - c->r4_w6_v3_product * r4_w6_product_2;
+    const real r4_w6_u3 = c->r4_w6_product_2 * r4_w6_product_3 - c->r4_w5_product * r4_w6_product
+        - c->r4_w6_product * r4_w6_product_2;
 
     /* khepera_encoders.bg:31: r4_w6: stage 3 */
-    const real r4_w6_y3 = x->r4_w6_s3 + c->b0 * r4_w6_u3;
+    const real r4_w6_y3 = x->r4_w6_s3 + c->b * r4_w6_u3;
 
     /* khepera_encoders.bg:31: r4_w6: stage 3: memory */
-    x->r4_w6_s3 = c->a * r4_w6_y3 + c->b1 * r4_w6_u3;
+    x->r4_w6_s3 = c->a * r4_w6_y3 + c->b * r4_w6_u3;
 
     /* khepera_encoders.bg:31: r4_w6: input of stage 2 */
     const real r4_w6_u2 = r4_w6_y3;
 
     /* khepera_encoders.bg:31: r4_w6: stage 2 */
-    const real r4_w6_y2 = x->r4_w6_s2 + c->b0 * r4_w6_u2;
+    const real r4_w6_y2 = x->r4_w6_s2 + c->b * r4_w6_u2;
 
     /* khepera_encoders.bg:31: r4_w6: stage 2: memory */
-    x->r4_w6_s2 = c->a * r4_w6_y2 + c->b1 * r4_w6_u2;
+    x->r4_w6_s2 = c->a * r4_w6_y2 + c->b * r4_w6_u2;
 
     /* khepera_encoders.bg:31: r4_w6: input of stage 1 */
     const real r4_w6_u1 = r4_w6_y2;
 
     /* khepera_encoders.bg:31: r4_w6: stage 1 */
-    const real r4_w6_y1 = x->r4_w6_s1 + c->b0 * r4_w6_u1;
+    const real r4_w6_y1 = x->r4_w6_s1 + c->b * r4_w6_u1;
 
     /* khepera_encoders.bg:31: r4_w6: stage 1: memory */
-    x->r4_w6_s1 = c->a * r4_w6_y1 + c->b1 * r4_w6_u1;
+    x->r4_w6_s1 = c->a * r4_w6_y1 + c->b * r4_w6_u1;
 
     /* khepera_encoders.bg:31: r4: second order of what the tolerance of m[2].tau0 can do */
     const real r4_w6 = r4_w6_y1;
@@ -4278,8 +5499,17 @@ static void start_r5(
     const khepera_encoders_threshold_coefficients *c = &monitor->c;
     khepera_encoders_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:114: r5_w1: terms of order 0 */
+    const real r5_w1_g0 = -c->r5_w1_load * s->load;
+
+    /* khepera.bg:114: r5_w1: degree 1 */
+    const real r5_w1_d1 = c->r5_w1_w1_load * s->load;
+
+    /* khepera.bg:114: r5_w1: error of order 0 */
+    const real r5_w1_e0 = c->bend1 * r5_w1_g0;
+
     /* khepera.bg:114: r5_w1: input of stage 2 */
-    const real r5_w1_u2 = c->r5_w1_v2_load * s->load;
+    const real r5_w1_u2 = r5_w1_g0 + r5_w1_d1 - r5_w1_e0;
 
     /* khepera.bg:114: r5_w1: stage 2, at rest */
     const real r5_w1_y2 = r5_w1_u2;
@@ -4288,7 +5518,7 @@ static void start_r5(
     x->r5_w1_s2 = c->rest * r5_w1_u2;
 
     /* khepera.bg:114: r5_w1: input of stage 1 */
-    const real r5_w1_u1 = r5_w1_y2 - c->r5_w1_v1_load * s->load;
+    const real r5_w1_u1 = r5_w1_y2 + REAL(2.0) * r5_w1_e0 - r5_w1_d1;
 
     /* khepera.bg:114: r5_w1: stage 1, at rest */
     const real r5_w1_y1 = r5_w1_u1;
@@ -4297,10 +5527,13 @@ static void start_r5(
     x->r5_w1_s1 = c->rest * r5_w1_u1;
 
     /* khepera.bg:114: r5: what the tolerance of R_L can do */
-    const real r5_w1 = r5_w1_y1;
+    const real r5_w1 = r5_w1_y1 - r5_w1_e0;
+
+    /* khepera.bg:114: r5_w2: degree 1 */
+    const real r5_w2_d1 = c->r5_w2_w1_load * s->load;
 
     /* khepera.bg:114: r5_w2: input of stage 2 */
-    const real r5_w2_u2 = c->r5_w2_v1_load * s->load;
+    const real r5_w2_u2 = r5_w2_d1;
 
     /* khepera.bg:114: r5_w2: stage 2, at rest */
     const real r5_w2_y2 = r5_w2_u2;
@@ -4309,7 +5542,7 @@ static void start_r5(
     x->r5_w2_s2 = c->rest * r5_w2_u2;
 
     /* khepera.bg:114: r5_w2: input of stage 1 */
-    const real r5_w2_u1 = r5_w2_y2 - c->r5_w2_v1_load * s->load;
+    const real r5_w2_u1 = r5_w2_y2 - r5_w2_d1;
 
     /* khepera.bg:114: r5_w2: stage 1, at rest */
     const real r5_w2_y1 = r5_w2_u1;
@@ -4331,44 +5564,56 @@ static void next_r5(
     const khepera_encoders_threshold_coefficients *c = &monitor->c;
     khepera_encoders_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:114: r5_w1: terms of order 0 */
+    const real r5_w1_g0 = -c->r5_w1_load * s->load;
+
+    /* khepera.bg:114: r5_w1: degree 1 */
+    const real r5_w1_d1 = c->r5_w1_w1_load * s->load;
+
+    /* khepera.bg:114: r5_w1: error of order 0 */
+    const real r5_w1_e0 = c->bend1 * r5_w1_g0;
+
     /* khepera.bg:114: r5_w1: input of stage 2 */
-    const real r5_w1_u2 = c->r5_w1_v2_load * s->load;
+    const real r5_w1_u2 = r5_w1_g0 + r5_w1_d1 - r5_w1_e0;
 
     /* khepera.bg:114: r5_w1: stage 2 */
-    const real r5_w1_y2 = x->r5_w1_s2 + c->b0 * r5_w1_u2;
+    const real r5_w1_y2 = x->r5_w1_s2 + c->b * r5_w1_u2;
 
     /* khepera.bg:114: r5_w1: stage 2: memory */
-    x->r5_w1_s2 = c->a * r5_w1_y2 + c->b1 * r5_w1_u2;
+    x->r5_w1_s2 = c->a * r5_w1_y2 + c->b * r5_w1_u2;
 
     /* khepera.bg:114: r5_w1: input of stage 1 */
-    const real r5_w1_u1 = r5_w1_y2 - c->r5_w1_v1_load * s->load;
+    const real r5_w1_u1 = r5_w1_y2 + REAL(2.0) * r5_w1_e0 - r5_w1_d1;
 
     /* khepera.bg:114: r5_w1: stage 1 */
-    const real r5_w1_y1 = x->r5_w1_s1 + c->b0 * r5_w1_u1;
+    const real r5_w1_y1 = x->r5_w1_s1 + c->b * r5_w1_u1;
 
     /* khepera.bg:114: r5_w1: stage 1: memory */
-    x->r5_w1_s1 = c->a * r5_w1_y1 + c->b1 * r5_w1_u1;
+    x->r5_w1_s1 = c->a * r5_w1_y1 + c->b * r5_w1_u1;
 
     /* khepera.bg:114: r5: what the tolerance of R_L can do */
-    const real r5_w1 = r5_w1_y1;
+    const real r5_w1 = r5_w1_y1 - r5_w1_e0;
+
+    /* khepera.bg:114: r5_w2: degree 1 */
+    const real r5_w2_d1 = c->r5_w2_w1_load * s->load;
 
     /* khepera.bg:114: r5_w2: input of stage 2 */
-    const real r5_w2_u2 = c->r5_w2_v1_load * s->load;
+    const real r5_w2_u2 = r5_w2_d1;
 
     /* khepera.bg:114: r5_w2: stage 2 */
-    const real r5_w2_y2 = x->r5_w2_s2 + c->b0 * r5_w2_u2;
+    const real r5_w2_y2 = x->r5_w2_s2 + c->b * r5_w2_u2;
 
     /* khepera.bg:114: r5_w2: stage 2: memory */
-    x->r5_w2_s2 = c->a * r5_w2_y2 + c->b1 * r5_w2_u2;
+    x->r5_w2_s2 = c->a * r5_w2_y2 + c->b * r5_w2_u2;
 
     /* khepera.bg:114: r5_w2: input of stage 1 */
-    const real r5_w2_u1 = r5_w2_y2 - c->r5_w2_v1_load * s->load;
+    const real r5_w2_u1 = r5_w2_y2 - r5_w2_d1;
 
     /* khepera.bg:114: r5_w2: stage 1 */
-    const real r5_w2_y1 = x->r5_w2_s1 + c->b0 * r5_w2_u1;
+    const real r5_w2_y1 = x->r5_w2_s1 + c->b * r5_w2_u1;
 
     /* khepera.bg:114: r5_w2: stage 1: memory */
-    x->r5_w2_s1 = c->a * r5_w2_y1 + c->b1 * r5_w2_u1;
+    x->r5_w2_s1 = c->a * r5_w2_y1 + c->b * r5_w2_u1;
 
     /* khepera.bg:114: r5: second order of what the tolerance of R_L can do */
     const real r5_w2 = r5_w2_y1;

@@ -32,7 +32,7 @@ typedef double khepera_encoders_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_ENCODERS_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(khepera_encoders_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_ENCODERS_THRESHOLD_DIGEST "ec3d6589b42432b3"
+#define KHEPERA_ENCODERS_THRESHOLD_DIGEST "6877f380ac7985e4"
 
 /* What the code was made for: arguments of khepera_encoders_threshold_configure, in s, rad/s and s. */
 #define KHEPERA_ENCODERS_THRESHOLD_SAMPLE_TIME KHEPERA_ENCODERS_THRESHOLD_CONSTANT(0.001)
@@ -142,233 +142,164 @@ typedef struct khepera_encoders_threshold_encoder {
 
 /* What configure computes from the parameters. */
 typedef struct khepera_encoders_threshold_coefficients {
-    khepera_encoders_threshold_real m__1__motor_gain;      /* speed of m[1].motor for one count */
-    khepera_encoders_threshold_real a;                     /* filter: exp(-bandwidth*sample_time) */
-    /* r1_w1: factor of m[1].motor in stage 2 */
-    khepera_encoders_threshold_real r1_w1_v2_m__1__motor;
-    /* r1_w1: factor of m[1].motor in stage 3 */
-    khepera_encoders_threshold_real r1_w1_v3_m__1__motor;
-    khepera_encoders_threshold_real b0;                    /* filter: weight of the new sample */
-    khepera_encoders_threshold_real b1;                    /* filter: weight of the sample before */
-    /* filter: 1 - b0, the memory of a constant 1 */
+    khepera_encoders_threshold_real r1_w1_w1_m__1__motor;   /* r1_w1: factor of m[1].motor' */
+    khepera_encoders_threshold_real m__1__motor_gain;       /* speed of m[1].motor for one count */
+    /* filter: what is left of a memory a sample later */
+    khepera_encoders_threshold_real a;
+    khepera_encoders_threshold_real r1_w1_w2_m__1__motor;   /* r1_w1: factor of m[1].motor'' */
+    khepera_encoders_threshold_real bend1;                  /* filter: 1 * (w*sample_time)^2/12 */
+    /* filter: weight of a sample, new and a sample later */
+    khepera_encoders_threshold_real b;
+    /* filter: 1 - b, the memory of a constant 1 */
     khepera_encoders_threshold_real rest;
-    khepera_encoders_threshold_real m__1__wheel_gain;      /* speed of m[1].wheel for one count */
-    /* r1_w2: factor of m[1].wheel in stage 1 */
-    khepera_encoders_threshold_real r1_w2_v1_m__1__wheel;
-    /* r1_w2: factor of m[1].wheel in stage 2 */
-    khepera_encoders_threshold_real r1_w2_v2_m__1__wheel;
-    /* r1_w2: factor of m[1].wheel in stage 3 */
-    khepera_encoders_threshold_real r1_w2_v3_m__1__wheel;
-    /* r1_w3: factor of m[1].wheel in stage 2 */
-    khepera_encoders_threshold_real r1_w3_v2_m__1__wheel;
-    /* r1_w3: factor of m[1].wheel in stage 3 */
-    khepera_encoders_threshold_real r1_w3_v3_m__1__wheel;
-    /* r1_w4: factor of m[1].wheel in stage 2 */
-    khepera_encoders_threshold_real r1_w4_v2_m__1__wheel;
-    /* r1_w4: factor of m[1].wheel in stage 3 */
-    khepera_encoders_threshold_real r1_w4_v3_m__1__wheel;
-    khepera_encoders_threshold_real r1_w4_v4_Fx__1;        /* r1_w4: factor of Fx[1] in stage 4 */
-    /* r1_w4: factor of m[1].motor in stage 2 */
-    khepera_encoders_threshold_real r1_w4_v2_m__1__motor;
-    /* r1_w4: factor of m[1].motor in stage 3 */
-    khepera_encoders_threshold_real r1_w4_v3_m__1__motor;
-    /* r1_w5: factor of m[1].motor in stage 1 */
-    khepera_encoders_threshold_real r1_w5_v1_m__1__motor;
-    /* r1_w5: factor of m[1].motor in stage 2 */
-    khepera_encoders_threshold_real r1_w5_v2_m__1__motor;
-    /* r1_w5: factor of m[1].motor in stage 3 */
-    khepera_encoders_threshold_real r1_w5_v3_m__1__motor;
-    /* r1_w5: factor of m[1].wheel in stage 2 */
-    khepera_encoders_threshold_real r1_w5_v2_m__1__wheel;
-    /* r1_w5: factor of m[1].wheel in stage 3 */
-    khepera_encoders_threshold_real r1_w5_v3_m__1__wheel;
-    khepera_encoders_threshold_real r1_w5_v3_Fx__1;        /* r1_w5: factor of Fx[1] in stage 3 */
-    khepera_encoders_threshold_real r1_w5_v4_Fx__1;        /* r1_w5: factor of Fx[1] in stage 4 */
-    /* r1_w6: factor of m[1].motor in stage 3 */
-    khepera_encoders_threshold_real r1_w6_v3_m__1__motor;
-    /* r1_w7: factor of m[1].motor in stage 2 */
-    khepera_encoders_threshold_real r1_w7_v2_m__1__motor;
-    /* r1_w7: factor of m[1].motor in stage 3 */
-    khepera_encoders_threshold_real r1_w7_v3_m__1__motor;
-    /* r1_w8: factor of m[1].wheel in stage 2 */
-    khepera_encoders_threshold_real r1_w8_v2_m__1__wheel;
-    /* r1_w9: factor of m[1].wheel in stage 1 */
-    khepera_encoders_threshold_real r1_w9_v1_m__1__wheel;
-    /* r1_w9: factor of m[1].wheel in stage 2 */
-    khepera_encoders_threshold_real r1_w9_v2_m__1__wheel;
-    /* r1_w9: factor of m[1].wheel in stage 3 */
-    khepera_encoders_threshold_real r1_w9_v3_m__1__wheel;
-    /* r1_w10: factor of m[1].wheel in stage 3 */
-    khepera_encoders_threshold_real r1_w10_v3_m__1__wheel;
-    /* r1_w11: factor of m[1].wheel in stage 2 */
-    khepera_encoders_threshold_real r1_w11_v2_m__1__wheel;
-    /* r1_w11: factor of m[1].wheel in stage 3 */
-    khepera_encoders_threshold_real r1_w11_v3_m__1__wheel;
-    /* r1_w12: factor of m[1].motor in stage 2 */
-    khepera_encoders_threshold_real r1_w12_v2_m__1__motor;
-    /* r1_w12: factor of m[1].motor in stage 3 */
-    khepera_encoders_threshold_real r1_w12_v3_m__1__motor;
-    /* r1_w12: factor of m[1].wheel in stage 3 */
-    khepera_encoders_threshold_real r1_w12_v3_m__1__wheel;
-    khepera_encoders_threshold_real r1_w12_v4_Fx__1;       /* r1_w12: factor of Fx[1] in stage 4 */
-    /* r1_w13: factor of m[1].motor in stage 1 */
-    khepera_encoders_threshold_real r1_w13_v1_m__1__motor;
-    /* r1_w13: factor of m[1].motor in stage 2 */
-    khepera_encoders_threshold_real r1_w13_v2_m__1__motor;
-    /* r1_w13: factor of m[1].motor in stage 3 */
-    khepera_encoders_threshold_real r1_w13_v3_m__1__motor;
-    /* r1_w13: factor of m[1].wheel in stage 2 */
-    khepera_encoders_threshold_real r1_w13_v2_m__1__wheel;
-    /* r1_w13: factor of m[1].wheel in stage 3 */
-    khepera_encoders_threshold_real r1_w13_v3_m__1__wheel;
-    khepera_encoders_threshold_real r1_w13_v3_Fx__1;       /* r1_w13: factor of Fx[1] in stage 3 */
-    khepera_encoders_threshold_real r1_w13_v4_Fx__1;       /* r1_w13: factor of Fx[1] in stage 4 */
-    khepera_encoders_threshold_real m__1__wheel__int__x0;  /* m[1].wheel.int.x0 */
-    khepera_encoders_threshold_real m__1__motor__int__x0;  /* m[1].motor.int.x0 */
-    khepera_encoders_threshold_real g;                     /* 1/(4*m[1].tau0) */
-    khepera_encoders_threshold_real g_2;                   /* m[1].ge.N/(4*m[1].tau0) */
-    /* r2_w1: factor of Int(D(m[1].motor)) in stage 3 */
-    khepera_encoders_threshold_real r2_w1_v3_integral;
-    /* r2_w1: factor of Int(D(m[1].wheel)) in stage 3 */
-    khepera_encoders_threshold_real r2_w1_v3_integral_2;
-    /* r2_w1: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... in stage 3 */
-    khepera_encoders_threshold_real r2_w1_v3_tanh;
-    khepera_encoders_threshold_real g_3;                   /* 1/(4*m[1].tau0^2) */
-    khepera_encoders_threshold_real g_4;                   /* m[1].ge.N/(4*m[1].tau0^2) */
-    /* r2_w2: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) - Int(D(m[ ... in stage 3 */
-    khepera_encoders_threshold_real r2_w2_v3_product;
-    /* r2_w3: factor of m[1].wheel in stage 1 */
-    khepera_encoders_threshold_real r2_w3_v1_m__1__wheel;
-    /* r2_w4: factor of m[1].wheel in stage 2 */
-    khepera_encoders_threshold_real r2_w4_v2_m__1__wheel;
-    /* r2_w5: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... in stage 3 */
-    khepera_encoders_threshold_real r2_w5_v3_tanh;
-    /* r2_w5: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) - Int(D(m[ ... in stage 3 */
-    khepera_encoders_threshold_real r2_w5_v3_product;
-    khepera_encoders_threshold_real g_5;                   /* 1/(2*m[1].tau0^3) */
-    khepera_encoders_threshold_real g_6;                   /* m[1].ge.N/(2*m[1].tau0^3) */
-    /* r2_w6: factor of (1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*I ... in stage 3 */
-    khepera_encoders_threshold_real r2_w6_v3_product;
-    /* r2_w6: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... in stage 3 */
-    khepera_encoders_threshold_real r2_w6_v3_product_2;
-    /* r3_w1: factor of m[2].motor in stage 2 */
-    khepera_encoders_threshold_real r3_w1_v2_m__2__motor;
-    /* r3_w1: factor of m[2].motor in stage 3 */
-    khepera_encoders_threshold_real r3_w1_v3_m__2__motor;
-    /* r3_w2: factor of m[2].wheel in stage 1 */
-    khepera_encoders_threshold_real r3_w2_v1_m__2__wheel;
-    /* r3_w2: factor of m[2].wheel in stage 2 */
-    khepera_encoders_threshold_real r3_w2_v2_m__2__wheel;
-    /* r3_w2: factor of m[2].wheel in stage 3 */
-    khepera_encoders_threshold_real r3_w2_v3_m__2__wheel;
-    /* r3_w3: factor of m[2].wheel in stage 2 */
-    khepera_encoders_threshold_real r3_w3_v2_m__2__wheel;
-    /* r3_w3: factor of m[2].wheel in stage 3 */
-    khepera_encoders_threshold_real r3_w3_v3_m__2__wheel;
-    /* r3_w4: factor of m[2].wheel in stage 2 */
-    khepera_encoders_threshold_real r3_w4_v2_m__2__wheel;
-    /* r3_w4: factor of m[2].wheel in stage 3 */
-    khepera_encoders_threshold_real r3_w4_v3_m__2__wheel;
-    khepera_encoders_threshold_real r3_w4_v4_Fx__2;        /* r3_w4: factor of Fx[2] in stage 4 */
-    /* r3_w4: factor of m[2].motor in stage 2 */
-    khepera_encoders_threshold_real r3_w4_v2_m__2__motor;
-    /* r3_w4: factor of m[2].motor in stage 3 */
-    khepera_encoders_threshold_real r3_w4_v3_m__2__motor;
-    /* r3_w5: factor of m[2].motor in stage 1 */
-    khepera_encoders_threshold_real r3_w5_v1_m__2__motor;
-    /* r3_w5: factor of m[2].motor in stage 2 */
-    khepera_encoders_threshold_real r3_w5_v2_m__2__motor;
-    /* r3_w5: factor of m[2].motor in stage 3 */
-    khepera_encoders_threshold_real r3_w5_v3_m__2__motor;
-    /* r3_w5: factor of m[2].wheel in stage 2 */
-    khepera_encoders_threshold_real r3_w5_v2_m__2__wheel;
-    /* r3_w5: factor of m[2].wheel in stage 3 */
-    khepera_encoders_threshold_real r3_w5_v3_m__2__wheel;
-    khepera_encoders_threshold_real r3_w5_v3_Fx__2;        /* r3_w5: factor of Fx[2] in stage 3 */
-    khepera_encoders_threshold_real r3_w5_v4_Fx__2;        /* r3_w5: factor of Fx[2] in stage 4 */
-    /* r3_w6: factor of m[2].motor in stage 3 */
-    khepera_encoders_threshold_real r3_w6_v3_m__2__motor;
-    /* r3_w7: factor of m[2].motor in stage 2 */
-    khepera_encoders_threshold_real r3_w7_v2_m__2__motor;
-    /* r3_w7: factor of m[2].motor in stage 3 */
-    khepera_encoders_threshold_real r3_w7_v3_m__2__motor;
-    /* r3_w8: factor of m[2].wheel in stage 2 */
-    khepera_encoders_threshold_real r3_w8_v2_m__2__wheel;
-    /* r3_w9: factor of m[2].wheel in stage 1 */
-    khepera_encoders_threshold_real r3_w9_v1_m__2__wheel;
-    /* r3_w9: factor of m[2].wheel in stage 2 */
-    khepera_encoders_threshold_real r3_w9_v2_m__2__wheel;
-    /* r3_w9: factor of m[2].wheel in stage 3 */
-    khepera_encoders_threshold_real r3_w9_v3_m__2__wheel;
-    /* r3_w10: factor of m[2].wheel in stage 3 */
-    khepera_encoders_threshold_real r3_w10_v3_m__2__wheel;
-    /* r3_w11: factor of m[2].wheel in stage 2 */
-    khepera_encoders_threshold_real r3_w11_v2_m__2__wheel;
-    /* r3_w11: factor of m[2].wheel in stage 3 */
-    khepera_encoders_threshold_real r3_w11_v3_m__2__wheel;
-    /* r3_w12: factor of m[2].motor in stage 2 */
-    khepera_encoders_threshold_real r3_w12_v2_m__2__motor;
-    /* r3_w12: factor of m[2].motor in stage 3 */
-    khepera_encoders_threshold_real r3_w12_v3_m__2__motor;
-    /* r3_w12: factor of m[2].wheel in stage 3 */
-    khepera_encoders_threshold_real r3_w12_v3_m__2__wheel;
-    khepera_encoders_threshold_real r3_w12_v4_Fx__2;       /* r3_w12: factor of Fx[2] in stage 4 */
-    /* r3_w13: factor of m[2].motor in stage 1 */
-    khepera_encoders_threshold_real r3_w13_v1_m__2__motor;
-    /* r3_w13: factor of m[2].motor in stage 2 */
-    khepera_encoders_threshold_real r3_w13_v2_m__2__motor;
-    /* r3_w13: factor of m[2].motor in stage 3 */
-    khepera_encoders_threshold_real r3_w13_v3_m__2__motor;
-    /* r3_w13: factor of m[2].wheel in stage 2 */
-    khepera_encoders_threshold_real r3_w13_v2_m__2__wheel;
-    /* r3_w13: factor of m[2].wheel in stage 3 */
-    khepera_encoders_threshold_real r3_w13_v3_m__2__wheel;
-    khepera_encoders_threshold_real r3_w13_v3_Fx__2;       /* r3_w13: factor of Fx[2] in stage 3 */
-    khepera_encoders_threshold_real r3_w13_v4_Fx__2;       /* r3_w13: factor of Fx[2] in stage 4 */
-    khepera_encoders_threshold_real m__2__wheel__int__x0;  /* m[2].wheel.int.x0 */
-    khepera_encoders_threshold_real m__2__motor__int__x0;  /* m[2].motor.int.x0 */
-    khepera_encoders_threshold_real g_7;                   /* 1/(4*m[2].tau0) */
-    khepera_encoders_threshold_real g_8;                   /* m[2].ge.N/(4*m[2].tau0) */
-    /* r4_w1: factor of Int(D(m[2].motor)) in stage 3 */
-    khepera_encoders_threshold_real r4_w1_v3_integral;
-    /* r4_w1: factor of Int(D(m[2].wheel)) in stage 3 */
-    khepera_encoders_threshold_real r4_w1_v3_integral_2;
-    /* r4_w1: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... in stage 3 */
-    khepera_encoders_threshold_real r4_w1_v3_tanh;
-    khepera_encoders_threshold_real g_9;                   /* 1/(4*m[2].tau0^2) */
-    khepera_encoders_threshold_real g_10;                  /* m[2].ge.N/(4*m[2].tau0^2) */
-    /* r4_w2: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) - Int(D(m[ ... in stage 3 */
-    khepera_encoders_threshold_real r4_w2_v3_product;
-    /* r4_w3: factor of m[2].wheel in stage 1 */
-    khepera_encoders_threshold_real r4_w3_v1_m__2__wheel;
-    /* r4_w4: factor of m[2].wheel in stage 2 */
-    khepera_encoders_threshold_real r4_w4_v2_m__2__wheel;
-    /* r4_w5: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... in stage 3 */
-    khepera_encoders_threshold_real r4_w5_v3_tanh;
-    /* r4_w5: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) - Int(D(m[ ... in stage 3 */
-    khepera_encoders_threshold_real r4_w5_v3_product;
-    khepera_encoders_threshold_real g_11;                  /* 1/(2*m[2].tau0^3) */
-    khepera_encoders_threshold_real g_12;                  /* m[2].ge.N/(2*m[2].tau0^3) */
-    /* r4_w6: factor of (1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*I ... in stage 3 */
-    khepera_encoders_threshold_real r4_w6_v3_product;
-    /* r4_w6: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... in stage 3 */
-    khepera_encoders_threshold_real r4_w6_v3_product_2;
-    khepera_encoders_threshold_real r5_w1_v1_load;         /* r5_w1: factor of load in stage 1 */
-    khepera_encoders_threshold_real r5_w1_v2_load;         /* r5_w1: factor of load in stage 2 */
-    khepera_encoders_threshold_real r5_w2_v1_load;         /* r5_w2: factor of load in stage 1 */
+    khepera_encoders_threshold_real r1_w2_w2_m__1__wheel;   /* r1_w2: factor of m[1].wheel'' */
+    khepera_encoders_threshold_real m__1__wheel_gain;       /* speed of m[1].wheel for one count */
+    khepera_encoders_threshold_real r1_w2_w3_m__1__wheel;   /* r1_w2: factor of m[1].wheel''' */
+    khepera_encoders_threshold_real r1_w3_w1_m__1__wheel;   /* r1_w3: factor of m[1].wheel' */
+    khepera_encoders_threshold_real r1_w3_w2_m__1__wheel;   /* r1_w3: factor of m[1].wheel'' */
+    khepera_encoders_threshold_real r1_w4_w1_m__1__wheel;   /* r1_w4: factor of m[1].wheel' */
+    khepera_encoders_threshold_real r1_w4_w2_m__1__wheel;   /* r1_w4: factor of m[1].wheel'' */
+    khepera_encoders_threshold_real r1_w4_Fx__1;            /* r1_w4: factor of Fx[1] */
+    khepera_encoders_threshold_real r1_w4_w1_m__1__motor;   /* r1_w4: factor of m[1].motor' */
+    khepera_encoders_threshold_real r1_w4_w2_m__1__motor;   /* r1_w4: factor of m[1].motor'' */
+    khepera_encoders_threshold_real bend2;                  /* filter: 2 * (w*sample_time)^2/12 */
+    khepera_encoders_threshold_real r1_w5_w1_m__1__motor;   /* r1_w5: factor of m[1].motor' */
+    khepera_encoders_threshold_real r1_w5_w2_m__1__motor;   /* r1_w5: factor of m[1].motor'' */
+    khepera_encoders_threshold_real r1_w5_w3_m__1__motor;   /* r1_w5: factor of m[1].motor''' */
+    khepera_encoders_threshold_real r1_w5_w1_m__1__wheel;   /* r1_w5: factor of m[1].wheel' */
+    khepera_encoders_threshold_real r1_w5_w2_m__1__wheel;   /* r1_w5: factor of m[1].wheel'' */
+    khepera_encoders_threshold_real r1_w5_Fx__1;            /* r1_w5: factor of Fx[1] */
+    khepera_encoders_threshold_real r1_w5_w1_Fx__1;         /* r1_w5: factor of Fx[1]' */
+    khepera_encoders_threshold_real bend3;                  /* filter: 3 * (w*sample_time)^2/12 */
+    khepera_encoders_threshold_real r1_w6_w1_m__1__motor;   /* r1_w6: factor of m[1].motor' */
+    khepera_encoders_threshold_real r1_w7_w1_m__1__motor;   /* r1_w7: factor of m[1].motor' */
+    khepera_encoders_threshold_real r1_w7_w2_m__1__motor;   /* r1_w7: factor of m[1].motor'' */
+    khepera_encoders_threshold_real r1_w8_w2_m__1__wheel;   /* r1_w8: factor of m[1].wheel'' */
+    khepera_encoders_threshold_real r1_w9_w2_m__1__wheel;   /* r1_w9: factor of m[1].wheel'' */
+    khepera_encoders_threshold_real r1_w9_w3_m__1__wheel;   /* r1_w9: factor of m[1].wheel''' */
+    khepera_encoders_threshold_real r1_w10_w1_m__1__wheel;  /* r1_w10: factor of m[1].wheel' */
+    khepera_encoders_threshold_real r1_w11_w1_m__1__wheel;  /* r1_w11: factor of m[1].wheel' */
+    khepera_encoders_threshold_real r1_w11_w2_m__1__wheel;  /* r1_w11: factor of m[1].wheel'' */
+    khepera_encoders_threshold_real r1_w12_w1_m__1__motor;  /* r1_w12: factor of m[1].motor' */
+    khepera_encoders_threshold_real r1_w12_w2_m__1__motor;  /* r1_w12: factor of m[1].motor'' */
+    khepera_encoders_threshold_real r1_w12_w1_m__1__wheel;  /* r1_w12: factor of m[1].wheel' */
+    khepera_encoders_threshold_real r1_w12_Fx__1;           /* r1_w12: factor of Fx[1] */
+    khepera_encoders_threshold_real r1_w13_w1_m__1__motor;  /* r1_w13: factor of m[1].motor' */
+    khepera_encoders_threshold_real r1_w13_w2_m__1__motor;  /* r1_w13: factor of m[1].motor'' */
+    khepera_encoders_threshold_real r1_w13_w3_m__1__motor;  /* r1_w13: factor of m[1].motor''' */
+    khepera_encoders_threshold_real r1_w13_w1_m__1__wheel;  /* r1_w13: factor of m[1].wheel' */
+    khepera_encoders_threshold_real r1_w13_w2_m__1__wheel;  /* r1_w13: factor of m[1].wheel'' */
+    khepera_encoders_threshold_real r1_w13_Fx__1;           /* r1_w13: factor of Fx[1] */
+    khepera_encoders_threshold_real r1_w13_w1_Fx__1;        /* r1_w13: factor of Fx[1]' */
+    khepera_encoders_threshold_real m__1__wheel__int__x0;   /* m[1].wheel.int.x0 */
+    khepera_encoders_threshold_real m__1__motor__int__x0;   /* m[1].motor.int.x0 */
+    khepera_encoders_threshold_real g;                      /* 1/(4*m[1].tau0) */
+    khepera_encoders_threshold_real g_2;                    /* m[1].ge.N/(4*m[1].tau0) */
+    /* r2_w1: factor of Int(D(m[1].motor)) */
+    khepera_encoders_threshold_real r2_w1_integral;
+    /* r2_w1: factor of Int(D(m[1].wheel)) */
+    khepera_encoders_threshold_real r2_w1_integral_2;
+    /* r2_w1: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... */
+    khepera_encoders_threshold_real r2_w1_tanh;
+    khepera_encoders_threshold_real g_3;                    /* 1/(4*m[1].tau0^2) */
+    khepera_encoders_threshold_real g_4;                    /* m[1].ge.N/(4*m[1].tau0^2) */
+    /* r2_w2: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) - Int(D(m[ ... */
+    khepera_encoders_threshold_real r2_w2_product;
+    khepera_encoders_threshold_real r2_w3_w2_m__1__wheel;   /* r2_w3: factor of m[1].wheel'' */
+    khepera_encoders_threshold_real r2_w4_w1_m__1__wheel;   /* r2_w4: factor of m[1].wheel' */
+    /* r2_w5: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... */
+    khepera_encoders_threshold_real r2_w5_tanh;
+    /* r2_w5: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) - Int(D(m[ ... */
+    khepera_encoders_threshold_real r2_w5_product;
+    khepera_encoders_threshold_real g_5;                    /* 1/(2*m[1].tau0^3) */
+    khepera_encoders_threshold_real g_6;                    /* m[1].ge.N/(2*m[1].tau0^3) */
+    /* r2_w6: factor of (1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*I ... */
+    khepera_encoders_threshold_real r2_w6_product;
+    /* r2_w6: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... */
+    khepera_encoders_threshold_real r2_w6_product_2;
+    khepera_encoders_threshold_real r3_w1_w1_m__2__motor;   /* r3_w1: factor of m[2].motor' */
+    khepera_encoders_threshold_real r3_w1_w2_m__2__motor;   /* r3_w1: factor of m[2].motor'' */
+    khepera_encoders_threshold_real r3_w2_w2_m__2__wheel;   /* r3_w2: factor of m[2].wheel'' */
+    khepera_encoders_threshold_real r3_w2_w3_m__2__wheel;   /* r3_w2: factor of m[2].wheel''' */
+    khepera_encoders_threshold_real r3_w3_w1_m__2__wheel;   /* r3_w3: factor of m[2].wheel' */
+    khepera_encoders_threshold_real r3_w3_w2_m__2__wheel;   /* r3_w3: factor of m[2].wheel'' */
+    khepera_encoders_threshold_real r3_w4_w1_m__2__wheel;   /* r3_w4: factor of m[2].wheel' */
+    khepera_encoders_threshold_real r3_w4_w2_m__2__wheel;   /* r3_w4: factor of m[2].wheel'' */
+    khepera_encoders_threshold_real r3_w4_Fx__2;            /* r3_w4: factor of Fx[2] */
+    khepera_encoders_threshold_real r3_w4_w1_m__2__motor;   /* r3_w4: factor of m[2].motor' */
+    khepera_encoders_threshold_real r3_w4_w2_m__2__motor;   /* r3_w4: factor of m[2].motor'' */
+    khepera_encoders_threshold_real r3_w5_w1_m__2__motor;   /* r3_w5: factor of m[2].motor' */
+    khepera_encoders_threshold_real r3_w5_w2_m__2__motor;   /* r3_w5: factor of m[2].motor'' */
+    khepera_encoders_threshold_real r3_w5_w3_m__2__motor;   /* r3_w5: factor of m[2].motor''' */
+    khepera_encoders_threshold_real r3_w5_w1_m__2__wheel;   /* r3_w5: factor of m[2].wheel' */
+    khepera_encoders_threshold_real r3_w5_w2_m__2__wheel;   /* r3_w5: factor of m[2].wheel'' */
+    khepera_encoders_threshold_real r3_w5_Fx__2;            /* r3_w5: factor of Fx[2] */
+    khepera_encoders_threshold_real r3_w5_w1_Fx__2;         /* r3_w5: factor of Fx[2]' */
+    khepera_encoders_threshold_real r3_w6_w1_m__2__motor;   /* r3_w6: factor of m[2].motor' */
+    khepera_encoders_threshold_real r3_w7_w1_m__2__motor;   /* r3_w7: factor of m[2].motor' */
+    khepera_encoders_threshold_real r3_w7_w2_m__2__motor;   /* r3_w7: factor of m[2].motor'' */
+    khepera_encoders_threshold_real r3_w8_w2_m__2__wheel;   /* r3_w8: factor of m[2].wheel'' */
+    khepera_encoders_threshold_real r3_w9_w2_m__2__wheel;   /* r3_w9: factor of m[2].wheel'' */
+    khepera_encoders_threshold_real r3_w9_w3_m__2__wheel;   /* r3_w9: factor of m[2].wheel''' */
+    khepera_encoders_threshold_real r3_w10_w1_m__2__wheel;  /* r3_w10: factor of m[2].wheel' */
+    khepera_encoders_threshold_real r3_w11_w1_m__2__wheel;  /* r3_w11: factor of m[2].wheel' */
+    khepera_encoders_threshold_real r3_w11_w2_m__2__wheel;  /* r3_w11: factor of m[2].wheel'' */
+    khepera_encoders_threshold_real r3_w12_w1_m__2__motor;  /* r3_w12: factor of m[2].motor' */
+    khepera_encoders_threshold_real r3_w12_w2_m__2__motor;  /* r3_w12: factor of m[2].motor'' */
+    khepera_encoders_threshold_real r3_w12_w1_m__2__wheel;  /* r3_w12: factor of m[2].wheel' */
+    khepera_encoders_threshold_real r3_w12_Fx__2;           /* r3_w12: factor of Fx[2] */
+    khepera_encoders_threshold_real r3_w13_w1_m__2__motor;  /* r3_w13: factor of m[2].motor' */
+    khepera_encoders_threshold_real r3_w13_w2_m__2__motor;  /* r3_w13: factor of m[2].motor'' */
+    khepera_encoders_threshold_real r3_w13_w3_m__2__motor;  /* r3_w13: factor of m[2].motor''' */
+    khepera_encoders_threshold_real r3_w13_w1_m__2__wheel;  /* r3_w13: factor of m[2].wheel' */
+    khepera_encoders_threshold_real r3_w13_w2_m__2__wheel;  /* r3_w13: factor of m[2].wheel'' */
+    khepera_encoders_threshold_real r3_w13_Fx__2;           /* r3_w13: factor of Fx[2] */
+    khepera_encoders_threshold_real r3_w13_w1_Fx__2;        /* r3_w13: factor of Fx[2]' */
+    khepera_encoders_threshold_real m__2__wheel__int__x0;   /* m[2].wheel.int.x0 */
+    khepera_encoders_threshold_real m__2__motor__int__x0;   /* m[2].motor.int.x0 */
+    khepera_encoders_threshold_real g_7;                    /* 1/(4*m[2].tau0) */
+    khepera_encoders_threshold_real g_8;                    /* m[2].ge.N/(4*m[2].tau0) */
+    /* r4_w1: factor of Int(D(m[2].motor)) */
+    khepera_encoders_threshold_real r4_w1_integral;
+    /* r4_w1: factor of Int(D(m[2].wheel)) */
+    khepera_encoders_threshold_real r4_w1_integral_2;
+    /* r4_w1: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... */
+    khepera_encoders_threshold_real r4_w1_tanh;
+    khepera_encoders_threshold_real g_9;                    /* 1/(4*m[2].tau0^2) */
+    khepera_encoders_threshold_real g_10;                   /* m[2].ge.N/(4*m[2].tau0^2) */
+    /* r4_w2: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) - Int(D(m[ ... */
+    khepera_encoders_threshold_real r4_w2_product;
+    khepera_encoders_threshold_real r4_w3_w2_m__2__wheel;   /* r4_w3: factor of m[2].wheel'' */
+    khepera_encoders_threshold_real r4_w4_w1_m__2__wheel;   /* r4_w4: factor of m[2].wheel' */
+    /* r4_w5: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... */
+    khepera_encoders_threshold_real r4_w5_tanh;
+    /* r4_w5: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) - Int(D(m[ ... */
+    khepera_encoders_threshold_real r4_w5_product;
+    khepera_encoders_threshold_real g_11;                   /* 1/(2*m[2].tau0^3) */
+    khepera_encoders_threshold_real g_12;                   /* m[2].ge.N/(2*m[2].tau0^3) */
+    /* r4_w6: factor of (1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*I ... */
+    khepera_encoders_threshold_real r4_w6_product;
+    /* r4_w6: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... */
+    khepera_encoders_threshold_real r4_w6_product_2;
+    khepera_encoders_threshold_real r5_w1_load;             /* r5_w1: factor of load */
+    khepera_encoders_threshold_real r5_w1_w1_load;          /* r5_w1: factor of load' */
+    khepera_encoders_threshold_real r5_w2_w1_load;          /* r5_w2: factor of load' */
 } khepera_encoders_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */
 typedef struct khepera_encoders_threshold_memory {
     khepera_encoders_threshold_real r1_w1_m__1__motor_speed;   /* filtered speed of m[1].motor */
+    khepera_encoders_threshold_real r1_w1_s4;                  /* memory of r1_w1: stage 4 */
     khepera_encoders_threshold_real r1_w1_s3;                  /* memory of r1_w1: stage 3 */
     khepera_encoders_threshold_real r1_w1_s2;                  /* memory of r1_w1: stage 2 */
     khepera_encoders_threshold_real r1_w1_s1;                  /* memory of r1_w1: stage 1 */
     khepera_encoders_threshold_real r1_w2_m__1__wheel_speed;   /* filtered speed of m[1].wheel */
+    khepera_encoders_threshold_real r1_w2_s4;                  /* memory of r1_w2: stage 4 */
     khepera_encoders_threshold_real r1_w2_s3;                  /* memory of r1_w2: stage 3 */
     khepera_encoders_threshold_real r1_w2_s2;                  /* memory of r1_w2: stage 2 */
     khepera_encoders_threshold_real r1_w2_s1;                  /* memory of r1_w2: stage 1 */
     khepera_encoders_threshold_real r1_w3_m__1__wheel_speed;   /* filtered speed of m[1].wheel */
+    khepera_encoders_threshold_real r1_w3_s4;                  /* memory of r1_w3: stage 4 */
     khepera_encoders_threshold_real r1_w3_s3;                  /* memory of r1_w3: stage 3 */
     khepera_encoders_threshold_real r1_w3_s2;                  /* memory of r1_w3: stage 2 */
     khepera_encoders_threshold_real r1_w3_s1;                  /* memory of r1_w3: stage 1 */
@@ -385,26 +316,32 @@ typedef struct khepera_encoders_threshold_memory {
     khepera_encoders_threshold_real r1_w5_s2;                  /* memory of r1_w5: stage 2 */
     khepera_encoders_threshold_real r1_w5_s1;                  /* memory of r1_w5: stage 1 */
     khepera_encoders_threshold_real r1_w6_m__1__motor_speed;   /* filtered speed of m[1].motor */
+    khepera_encoders_threshold_real r1_w6_s4;                  /* memory of r1_w6: stage 4 */
     khepera_encoders_threshold_real r1_w6_s3;                  /* memory of r1_w6: stage 3 */
     khepera_encoders_threshold_real r1_w6_s2;                  /* memory of r1_w6: stage 2 */
     khepera_encoders_threshold_real r1_w6_s1;                  /* memory of r1_w6: stage 1 */
     khepera_encoders_threshold_real r1_w7_m__1__motor_speed;   /* filtered speed of m[1].motor */
+    khepera_encoders_threshold_real r1_w7_s4;                  /* memory of r1_w7: stage 4 */
     khepera_encoders_threshold_real r1_w7_s3;                  /* memory of r1_w7: stage 3 */
     khepera_encoders_threshold_real r1_w7_s2;                  /* memory of r1_w7: stage 2 */
     khepera_encoders_threshold_real r1_w7_s1;                  /* memory of r1_w7: stage 1 */
     khepera_encoders_threshold_real r1_w8_m__1__wheel_speed;   /* filtered speed of m[1].wheel */
+    khepera_encoders_threshold_real r1_w8_s4;                  /* memory of r1_w8: stage 4 */
     khepera_encoders_threshold_real r1_w8_s3;                  /* memory of r1_w8: stage 3 */
     khepera_encoders_threshold_real r1_w8_s2;                  /* memory of r1_w8: stage 2 */
     khepera_encoders_threshold_real r1_w8_s1;                  /* memory of r1_w8: stage 1 */
     khepera_encoders_threshold_real r1_w9_m__1__wheel_speed;   /* filtered speed of m[1].wheel */
+    khepera_encoders_threshold_real r1_w9_s4;                  /* memory of r1_w9: stage 4 */
     khepera_encoders_threshold_real r1_w9_s3;                  /* memory of r1_w9: stage 3 */
     khepera_encoders_threshold_real r1_w9_s2;                  /* memory of r1_w9: stage 2 */
     khepera_encoders_threshold_real r1_w9_s1;                  /* memory of r1_w9: stage 1 */
     khepera_encoders_threshold_real r1_w10_m__1__wheel_speed;  /* filtered speed of m[1].wheel */
+    khepera_encoders_threshold_real r1_w10_s4;                 /* memory of r1_w10: stage 4 */
     khepera_encoders_threshold_real r1_w10_s3;                 /* memory of r1_w10: stage 3 */
     khepera_encoders_threshold_real r1_w10_s2;                 /* memory of r1_w10: stage 2 */
     khepera_encoders_threshold_real r1_w10_s1;                 /* memory of r1_w10: stage 1 */
     khepera_encoders_threshold_real r1_w11_m__1__wheel_speed;  /* filtered speed of m[1].wheel */
+    khepera_encoders_threshold_real r1_w11_s4;                 /* memory of r1_w11: stage 4 */
     khepera_encoders_threshold_real r1_w11_s3;                 /* memory of r1_w11: stage 3 */
     khepera_encoders_threshold_real r1_w11_s2;                 /* memory of r1_w11: stage 2 */
     khepera_encoders_threshold_real r1_w11_s1;                 /* memory of r1_w11: stage 1 */
@@ -435,9 +372,11 @@ typedef struct khepera_encoders_threshold_memory {
     khepera_encoders_threshold_real r2_w2_s2;                  /* memory of r2_w2: stage 2 */
     khepera_encoders_threshold_real r2_w2_s1;                  /* memory of r2_w2: stage 1 */
     khepera_encoders_threshold_real r2_w3_m__1__wheel_speed;   /* filtered speed of m[1].wheel */
+    khepera_encoders_threshold_real r2_w3_s3;                  /* memory of r2_w3: stage 3 */
     khepera_encoders_threshold_real r2_w3_s2;                  /* memory of r2_w3: stage 2 */
     khepera_encoders_threshold_real r2_w3_s1;                  /* memory of r2_w3: stage 1 */
     khepera_encoders_threshold_real r2_w4_m__1__wheel_speed;   /* filtered speed of m[1].wheel */
+    khepera_encoders_threshold_real r2_w4_s3;                  /* memory of r2_w4: stage 3 */
     khepera_encoders_threshold_real r2_w4_s2;                  /* memory of r2_w4: stage 2 */
     khepera_encoders_threshold_real r2_w4_s1;                  /* memory of r2_w4: stage 1 */
     /* memory of change of D(m[1].wheel) */
@@ -455,14 +394,17 @@ typedef struct khepera_encoders_threshold_memory {
     khepera_encoders_threshold_real r2_w6_s2;                  /* memory of r2_w6: stage 2 */
     khepera_encoders_threshold_real r2_w6_s1;                  /* memory of r2_w6: stage 1 */
     khepera_encoders_threshold_real r3_w1_m__2__motor_speed;   /* filtered speed of m[2].motor */
+    khepera_encoders_threshold_real r3_w1_s4;                  /* memory of r3_w1: stage 4 */
     khepera_encoders_threshold_real r3_w1_s3;                  /* memory of r3_w1: stage 3 */
     khepera_encoders_threshold_real r3_w1_s2;                  /* memory of r3_w1: stage 2 */
     khepera_encoders_threshold_real r3_w1_s1;                  /* memory of r3_w1: stage 1 */
     khepera_encoders_threshold_real r3_w2_m__2__wheel_speed;   /* filtered speed of m[2].wheel */
+    khepera_encoders_threshold_real r3_w2_s4;                  /* memory of r3_w2: stage 4 */
     khepera_encoders_threshold_real r3_w2_s3;                  /* memory of r3_w2: stage 3 */
     khepera_encoders_threshold_real r3_w2_s2;                  /* memory of r3_w2: stage 2 */
     khepera_encoders_threshold_real r3_w2_s1;                  /* memory of r3_w2: stage 1 */
     khepera_encoders_threshold_real r3_w3_m__2__wheel_speed;   /* filtered speed of m[2].wheel */
+    khepera_encoders_threshold_real r3_w3_s4;                  /* memory of r3_w3: stage 4 */
     khepera_encoders_threshold_real r3_w3_s3;                  /* memory of r3_w3: stage 3 */
     khepera_encoders_threshold_real r3_w3_s2;                  /* memory of r3_w3: stage 2 */
     khepera_encoders_threshold_real r3_w3_s1;                  /* memory of r3_w3: stage 1 */
@@ -479,26 +421,32 @@ typedef struct khepera_encoders_threshold_memory {
     khepera_encoders_threshold_real r3_w5_s2;                  /* memory of r3_w5: stage 2 */
     khepera_encoders_threshold_real r3_w5_s1;                  /* memory of r3_w5: stage 1 */
     khepera_encoders_threshold_real r3_w6_m__2__motor_speed;   /* filtered speed of m[2].motor */
+    khepera_encoders_threshold_real r3_w6_s4;                  /* memory of r3_w6: stage 4 */
     khepera_encoders_threshold_real r3_w6_s3;                  /* memory of r3_w6: stage 3 */
     khepera_encoders_threshold_real r3_w6_s2;                  /* memory of r3_w6: stage 2 */
     khepera_encoders_threshold_real r3_w6_s1;                  /* memory of r3_w6: stage 1 */
     khepera_encoders_threshold_real r3_w7_m__2__motor_speed;   /* filtered speed of m[2].motor */
+    khepera_encoders_threshold_real r3_w7_s4;                  /* memory of r3_w7: stage 4 */
     khepera_encoders_threshold_real r3_w7_s3;                  /* memory of r3_w7: stage 3 */
     khepera_encoders_threshold_real r3_w7_s2;                  /* memory of r3_w7: stage 2 */
     khepera_encoders_threshold_real r3_w7_s1;                  /* memory of r3_w7: stage 1 */
     khepera_encoders_threshold_real r3_w8_m__2__wheel_speed;   /* filtered speed of m[2].wheel */
+    khepera_encoders_threshold_real r3_w8_s4;                  /* memory of r3_w8: stage 4 */
     khepera_encoders_threshold_real r3_w8_s3;                  /* memory of r3_w8: stage 3 */
     khepera_encoders_threshold_real r3_w8_s2;                  /* memory of r3_w8: stage 2 */
     khepera_encoders_threshold_real r3_w8_s1;                  /* memory of r3_w8: stage 1 */
     khepera_encoders_threshold_real r3_w9_m__2__wheel_speed;   /* filtered speed of m[2].wheel */
+    khepera_encoders_threshold_real r3_w9_s4;                  /* memory of r3_w9: stage 4 */
     khepera_encoders_threshold_real r3_w9_s3;                  /* memory of r3_w9: stage 3 */
     khepera_encoders_threshold_real r3_w9_s2;                  /* memory of r3_w9: stage 2 */
     khepera_encoders_threshold_real r3_w9_s1;                  /* memory of r3_w9: stage 1 */
     khepera_encoders_threshold_real r3_w10_m__2__wheel_speed;  /* filtered speed of m[2].wheel */
+    khepera_encoders_threshold_real r3_w10_s4;                 /* memory of r3_w10: stage 4 */
     khepera_encoders_threshold_real r3_w10_s3;                 /* memory of r3_w10: stage 3 */
     khepera_encoders_threshold_real r3_w10_s2;                 /* memory of r3_w10: stage 2 */
     khepera_encoders_threshold_real r3_w10_s1;                 /* memory of r3_w10: stage 1 */
     khepera_encoders_threshold_real r3_w11_m__2__wheel_speed;  /* filtered speed of m[2].wheel */
+    khepera_encoders_threshold_real r3_w11_s4;                 /* memory of r3_w11: stage 4 */
     khepera_encoders_threshold_real r3_w11_s3;                 /* memory of r3_w11: stage 3 */
     khepera_encoders_threshold_real r3_w11_s2;                 /* memory of r3_w11: stage 2 */
     khepera_encoders_threshold_real r3_w11_s1;                 /* memory of r3_w11: stage 1 */
@@ -529,9 +477,11 @@ typedef struct khepera_encoders_threshold_memory {
     khepera_encoders_threshold_real r4_w2_s2;                  /* memory of r4_w2: stage 2 */
     khepera_encoders_threshold_real r4_w2_s1;                  /* memory of r4_w2: stage 1 */
     khepera_encoders_threshold_real r4_w3_m__2__wheel_speed;   /* filtered speed of m[2].wheel */
+    khepera_encoders_threshold_real r4_w3_s3;                  /* memory of r4_w3: stage 3 */
     khepera_encoders_threshold_real r4_w3_s2;                  /* memory of r4_w3: stage 2 */
     khepera_encoders_threshold_real r4_w3_s1;                  /* memory of r4_w3: stage 1 */
     khepera_encoders_threshold_real r4_w4_m__2__wheel_speed;   /* filtered speed of m[2].wheel */
+    khepera_encoders_threshold_real r4_w4_s3;                  /* memory of r4_w4: stage 3 */
     khepera_encoders_threshold_real r4_w4_s2;                  /* memory of r4_w4: stage 2 */
     khepera_encoders_threshold_real r4_w4_s1;                  /* memory of r4_w4: stage 1 */
     /* memory of change of D(m[2].wheel) */

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "ec3d6589b42432b3"
+DIGEST = "6877f380ac7985e4"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -144,157 +144,158 @@ class Encoders:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
+    r1_w1_w1_m__1__motor: float   # r1_w1: factor of m[1].motor'
     m__1__motor_gain: float       # speed of m[1].motor for one count
-    a: float                      # filter: exp(-bandwidth*sample_time)
-    r1_w1_v2_m__1__motor: float   # r1_w1: factor of m[1].motor in stage 2
-    r1_w1_v3_m__1__motor: float   # r1_w1: factor of m[1].motor in stage 3
-    b0: float                     # filter: weight of the new sample
-    b1: float                     # filter: weight of the sample before
-    rest: float                   # filter: 1 - b0, the memory of a constant 1
+    a: float                      # filter: what is left of a memory a sample later
+    r1_w1_w2_m__1__motor: float   # r1_w1: factor of m[1].motor''
+    bend1: float                  # filter: 1 * (w*sample_time)^2/12
+    b: float                      # filter: weight of a sample, new and a sample later
+    rest: float                   # filter: 1 - b, the memory of a constant 1
+    r1_w2_w2_m__1__wheel: float   # r1_w2: factor of m[1].wheel''
     m__1__wheel_gain: float       # speed of m[1].wheel for one count
-    r1_w2_v1_m__1__wheel: float   # r1_w2: factor of m[1].wheel in stage 1
-    r1_w2_v2_m__1__wheel: float   # r1_w2: factor of m[1].wheel in stage 2
-    r1_w2_v3_m__1__wheel: float   # r1_w2: factor of m[1].wheel in stage 3
-    r1_w3_v2_m__1__wheel: float   # r1_w3: factor of m[1].wheel in stage 2
-    r1_w3_v3_m__1__wheel: float   # r1_w3: factor of m[1].wheel in stage 3
-    r1_w4_v2_m__1__wheel: float   # r1_w4: factor of m[1].wheel in stage 2
-    r1_w4_v3_m__1__wheel: float   # r1_w4: factor of m[1].wheel in stage 3
-    r1_w4_v4_Fx__1: float         # r1_w4: factor of Fx[1] in stage 4
-    r1_w4_v2_m__1__motor: float   # r1_w4: factor of m[1].motor in stage 2
-    r1_w4_v3_m__1__motor: float   # r1_w4: factor of m[1].motor in stage 3
-    r1_w5_v1_m__1__motor: float   # r1_w5: factor of m[1].motor in stage 1
-    r1_w5_v2_m__1__motor: float   # r1_w5: factor of m[1].motor in stage 2
-    r1_w5_v3_m__1__motor: float   # r1_w5: factor of m[1].motor in stage 3
-    r1_w5_v2_m__1__wheel: float   # r1_w5: factor of m[1].wheel in stage 2
-    r1_w5_v3_m__1__wheel: float   # r1_w5: factor of m[1].wheel in stage 3
-    r1_w5_v3_Fx__1: float         # r1_w5: factor of Fx[1] in stage 3
-    r1_w5_v4_Fx__1: float         # r1_w5: factor of Fx[1] in stage 4
-    r1_w6_v3_m__1__motor: float   # r1_w6: factor of m[1].motor in stage 3
-    r1_w7_v2_m__1__motor: float   # r1_w7: factor of m[1].motor in stage 2
-    r1_w7_v3_m__1__motor: float   # r1_w7: factor of m[1].motor in stage 3
-    r1_w8_v2_m__1__wheel: float   # r1_w8: factor of m[1].wheel in stage 2
-    r1_w9_v1_m__1__wheel: float   # r1_w9: factor of m[1].wheel in stage 1
-    r1_w9_v2_m__1__wheel: float   # r1_w9: factor of m[1].wheel in stage 2
-    r1_w9_v3_m__1__wheel: float   # r1_w9: factor of m[1].wheel in stage 3
-    r1_w10_v3_m__1__wheel: float  # r1_w10: factor of m[1].wheel in stage 3
-    r1_w11_v2_m__1__wheel: float  # r1_w11: factor of m[1].wheel in stage 2
-    r1_w11_v3_m__1__wheel: float  # r1_w11: factor of m[1].wheel in stage 3
-    r1_w12_v2_m__1__motor: float  # r1_w12: factor of m[1].motor in stage 2
-    r1_w12_v3_m__1__motor: float  # r1_w12: factor of m[1].motor in stage 3
-    r1_w12_v3_m__1__wheel: float  # r1_w12: factor of m[1].wheel in stage 3
-    r1_w12_v4_Fx__1: float        # r1_w12: factor of Fx[1] in stage 4
-    r1_w13_v1_m__1__motor: float  # r1_w13: factor of m[1].motor in stage 1
-    r1_w13_v2_m__1__motor: float  # r1_w13: factor of m[1].motor in stage 2
-    r1_w13_v3_m__1__motor: float  # r1_w13: factor of m[1].motor in stage 3
-    r1_w13_v2_m__1__wheel: float  # r1_w13: factor of m[1].wheel in stage 2
-    r1_w13_v3_m__1__wheel: float  # r1_w13: factor of m[1].wheel in stage 3
-    r1_w13_v3_Fx__1: float        # r1_w13: factor of Fx[1] in stage 3
-    r1_w13_v4_Fx__1: float        # r1_w13: factor of Fx[1] in stage 4
+    r1_w2_w3_m__1__wheel: float   # r1_w2: factor of m[1].wheel'''
+    r1_w3_w1_m__1__wheel: float   # r1_w3: factor of m[1].wheel'
+    r1_w3_w2_m__1__wheel: float   # r1_w3: factor of m[1].wheel''
+    r1_w4_w1_m__1__wheel: float   # r1_w4: factor of m[1].wheel'
+    r1_w4_w2_m__1__wheel: float   # r1_w4: factor of m[1].wheel''
+    r1_w4_Fx__1: float            # r1_w4: factor of Fx[1]
+    r1_w4_w1_m__1__motor: float   # r1_w4: factor of m[1].motor'
+    r1_w4_w2_m__1__motor: float   # r1_w4: factor of m[1].motor''
+    bend2: float                  # filter: 2 * (w*sample_time)^2/12
+    r1_w5_w1_m__1__motor: float   # r1_w5: factor of m[1].motor'
+    r1_w5_w2_m__1__motor: float   # r1_w5: factor of m[1].motor''
+    r1_w5_w3_m__1__motor: float   # r1_w5: factor of m[1].motor'''
+    r1_w5_w1_m__1__wheel: float   # r1_w5: factor of m[1].wheel'
+    r1_w5_w2_m__1__wheel: float   # r1_w5: factor of m[1].wheel''
+    r1_w5_Fx__1: float            # r1_w5: factor of Fx[1]
+    r1_w5_w1_Fx__1: float         # r1_w5: factor of Fx[1]'
+    bend3: float                  # filter: 3 * (w*sample_time)^2/12
+    r1_w6_w1_m__1__motor: float   # r1_w6: factor of m[1].motor'
+    r1_w7_w1_m__1__motor: float   # r1_w7: factor of m[1].motor'
+    r1_w7_w2_m__1__motor: float   # r1_w7: factor of m[1].motor''
+    r1_w8_w2_m__1__wheel: float   # r1_w8: factor of m[1].wheel''
+    r1_w9_w2_m__1__wheel: float   # r1_w9: factor of m[1].wheel''
+    r1_w9_w3_m__1__wheel: float   # r1_w9: factor of m[1].wheel'''
+    r1_w10_w1_m__1__wheel: float  # r1_w10: factor of m[1].wheel'
+    r1_w11_w1_m__1__wheel: float  # r1_w11: factor of m[1].wheel'
+    r1_w11_w2_m__1__wheel: float  # r1_w11: factor of m[1].wheel''
+    r1_w12_w1_m__1__motor: float  # r1_w12: factor of m[1].motor'
+    r1_w12_w2_m__1__motor: float  # r1_w12: factor of m[1].motor''
+    r1_w12_w1_m__1__wheel: float  # r1_w12: factor of m[1].wheel'
+    r1_w12_Fx__1: float           # r1_w12: factor of Fx[1]
+    r1_w13_w1_m__1__motor: float  # r1_w13: factor of m[1].motor'
+    r1_w13_w2_m__1__motor: float  # r1_w13: factor of m[1].motor''
+    r1_w13_w3_m__1__motor: float  # r1_w13: factor of m[1].motor'''
+    r1_w13_w1_m__1__wheel: float  # r1_w13: factor of m[1].wheel'
+    r1_w13_w2_m__1__wheel: float  # r1_w13: factor of m[1].wheel''
+    r1_w13_Fx__1: float           # r1_w13: factor of Fx[1]
+    r1_w13_w1_Fx__1: float        # r1_w13: factor of Fx[1]'
     m__1__wheel__int__x0: float   # m[1].wheel.int.x0
     m__1__motor__int__x0: float   # m[1].motor.int.x0
     g: float                      # 1/(4*m[1].tau0)
     g_2: float                    # m[1].ge.N/(4*m[1].tau0)
-    r2_w1_v3_integral: float      # r2_w1: factor of Int(D(m[1].motor)) in stage 3
-    r2_w1_v3_integral_2: float    # r2_w1: factor of Int(D(m[1].wheel)) in stage 3
-    # r2_w1: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... in stage 3
-    r2_w1_v3_tanh: float
+    r2_w1_integral: float         # r2_w1: factor of Int(D(m[1].motor))
+    r2_w1_integral_2: float       # r2_w1: factor of Int(D(m[1].wheel))
+    # r2_w1: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ...
+    r2_w1_tanh: float
     g_3: float                    # 1/(4*m[1].tau0^2)
     g_4: float                    # m[1].ge.N/(4*m[1].tau0^2)
-    # r2_w2: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) - Int(D(m[ ... in stage 3
-    r2_w2_v3_product: float
-    r2_w3_v1_m__1__wheel: float   # r2_w3: factor of m[1].wheel in stage 1
-    r2_w4_v2_m__1__wheel: float   # r2_w4: factor of m[1].wheel in stage 2
-    # r2_w5: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... in stage 3
-    r2_w5_v3_tanh: float
-    # r2_w5: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) - Int(D(m[ ... in stage 3
-    r2_w5_v3_product: float
+    # r2_w2: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) - Int(D(m[ ...
+    r2_w2_product: float
+    r2_w3_w2_m__1__wheel: float   # r2_w3: factor of m[1].wheel''
+    r2_w4_w1_m__1__wheel: float   # r2_w4: factor of m[1].wheel'
+    # r2_w5: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ...
+    r2_w5_tanh: float
+    # r2_w5: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) - Int(D(m[ ...
+    r2_w5_product: float
     g_5: float                    # 1/(2*m[1].tau0^3)
     g_6: float                    # m[1].ge.N/(2*m[1].tau0^3)
-    # r2_w6: factor of (1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*I ... in stage 3
-    r2_w6_v3_product: float
-    # r2_w6: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ... in stage 3
-    r2_w6_v3_product_2: float
-    r3_w1_v2_m__2__motor: float   # r3_w1: factor of m[2].motor in stage 2
-    r3_w1_v3_m__2__motor: float   # r3_w1: factor of m[2].motor in stage 3
-    r3_w2_v1_m__2__wheel: float   # r3_w2: factor of m[2].wheel in stage 1
-    r3_w2_v2_m__2__wheel: float   # r3_w2: factor of m[2].wheel in stage 2
-    r3_w2_v3_m__2__wheel: float   # r3_w2: factor of m[2].wheel in stage 3
-    r3_w3_v2_m__2__wheel: float   # r3_w3: factor of m[2].wheel in stage 2
-    r3_w3_v3_m__2__wheel: float   # r3_w3: factor of m[2].wheel in stage 3
-    r3_w4_v2_m__2__wheel: float   # r3_w4: factor of m[2].wheel in stage 2
-    r3_w4_v3_m__2__wheel: float   # r3_w4: factor of m[2].wheel in stage 3
-    r3_w4_v4_Fx__2: float         # r3_w4: factor of Fx[2] in stage 4
-    r3_w4_v2_m__2__motor: float   # r3_w4: factor of m[2].motor in stage 2
-    r3_w4_v3_m__2__motor: float   # r3_w4: factor of m[2].motor in stage 3
-    r3_w5_v1_m__2__motor: float   # r3_w5: factor of m[2].motor in stage 1
-    r3_w5_v2_m__2__motor: float   # r3_w5: factor of m[2].motor in stage 2
-    r3_w5_v3_m__2__motor: float   # r3_w5: factor of m[2].motor in stage 3
-    r3_w5_v2_m__2__wheel: float   # r3_w5: factor of m[2].wheel in stage 2
-    r3_w5_v3_m__2__wheel: float   # r3_w5: factor of m[2].wheel in stage 3
-    r3_w5_v3_Fx__2: float         # r3_w5: factor of Fx[2] in stage 3
-    r3_w5_v4_Fx__2: float         # r3_w5: factor of Fx[2] in stage 4
-    r3_w6_v3_m__2__motor: float   # r3_w6: factor of m[2].motor in stage 3
-    r3_w7_v2_m__2__motor: float   # r3_w7: factor of m[2].motor in stage 2
-    r3_w7_v3_m__2__motor: float   # r3_w7: factor of m[2].motor in stage 3
-    r3_w8_v2_m__2__wheel: float   # r3_w8: factor of m[2].wheel in stage 2
-    r3_w9_v1_m__2__wheel: float   # r3_w9: factor of m[2].wheel in stage 1
-    r3_w9_v2_m__2__wheel: float   # r3_w9: factor of m[2].wheel in stage 2
-    r3_w9_v3_m__2__wheel: float   # r3_w9: factor of m[2].wheel in stage 3
-    r3_w10_v3_m__2__wheel: float  # r3_w10: factor of m[2].wheel in stage 3
-    r3_w11_v2_m__2__wheel: float  # r3_w11: factor of m[2].wheel in stage 2
-    r3_w11_v3_m__2__wheel: float  # r3_w11: factor of m[2].wheel in stage 3
-    r3_w12_v2_m__2__motor: float  # r3_w12: factor of m[2].motor in stage 2
-    r3_w12_v3_m__2__motor: float  # r3_w12: factor of m[2].motor in stage 3
-    r3_w12_v3_m__2__wheel: float  # r3_w12: factor of m[2].wheel in stage 3
-    r3_w12_v4_Fx__2: float        # r3_w12: factor of Fx[2] in stage 4
-    r3_w13_v1_m__2__motor: float  # r3_w13: factor of m[2].motor in stage 1
-    r3_w13_v2_m__2__motor: float  # r3_w13: factor of m[2].motor in stage 2
-    r3_w13_v3_m__2__motor: float  # r3_w13: factor of m[2].motor in stage 3
-    r3_w13_v2_m__2__wheel: float  # r3_w13: factor of m[2].wheel in stage 2
-    r3_w13_v3_m__2__wheel: float  # r3_w13: factor of m[2].wheel in stage 3
-    r3_w13_v3_Fx__2: float        # r3_w13: factor of Fx[2] in stage 3
-    r3_w13_v4_Fx__2: float        # r3_w13: factor of Fx[2] in stage 4
+    # r2_w6: factor of (1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*I ...
+    r2_w6_product: float
+    # r2_w6: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) - m[1].ge.N*Int(D( ...
+    r2_w6_product_2: float
+    r3_w1_w1_m__2__motor: float   # r3_w1: factor of m[2].motor'
+    r3_w1_w2_m__2__motor: float   # r3_w1: factor of m[2].motor''
+    r3_w2_w2_m__2__wheel: float   # r3_w2: factor of m[2].wheel''
+    r3_w2_w3_m__2__wheel: float   # r3_w2: factor of m[2].wheel'''
+    r3_w3_w1_m__2__wheel: float   # r3_w3: factor of m[2].wheel'
+    r3_w3_w2_m__2__wheel: float   # r3_w3: factor of m[2].wheel''
+    r3_w4_w1_m__2__wheel: float   # r3_w4: factor of m[2].wheel'
+    r3_w4_w2_m__2__wheel: float   # r3_w4: factor of m[2].wheel''
+    r3_w4_Fx__2: float            # r3_w4: factor of Fx[2]
+    r3_w4_w1_m__2__motor: float   # r3_w4: factor of m[2].motor'
+    r3_w4_w2_m__2__motor: float   # r3_w4: factor of m[2].motor''
+    r3_w5_w1_m__2__motor: float   # r3_w5: factor of m[2].motor'
+    r3_w5_w2_m__2__motor: float   # r3_w5: factor of m[2].motor''
+    r3_w5_w3_m__2__motor: float   # r3_w5: factor of m[2].motor'''
+    r3_w5_w1_m__2__wheel: float   # r3_w5: factor of m[2].wheel'
+    r3_w5_w2_m__2__wheel: float   # r3_w5: factor of m[2].wheel''
+    r3_w5_Fx__2: float            # r3_w5: factor of Fx[2]
+    r3_w5_w1_Fx__2: float         # r3_w5: factor of Fx[2]'
+    r3_w6_w1_m__2__motor: float   # r3_w6: factor of m[2].motor'
+    r3_w7_w1_m__2__motor: float   # r3_w7: factor of m[2].motor'
+    r3_w7_w2_m__2__motor: float   # r3_w7: factor of m[2].motor''
+    r3_w8_w2_m__2__wheel: float   # r3_w8: factor of m[2].wheel''
+    r3_w9_w2_m__2__wheel: float   # r3_w9: factor of m[2].wheel''
+    r3_w9_w3_m__2__wheel: float   # r3_w9: factor of m[2].wheel'''
+    r3_w10_w1_m__2__wheel: float  # r3_w10: factor of m[2].wheel'
+    r3_w11_w1_m__2__wheel: float  # r3_w11: factor of m[2].wheel'
+    r3_w11_w2_m__2__wheel: float  # r3_w11: factor of m[2].wheel''
+    r3_w12_w1_m__2__motor: float  # r3_w12: factor of m[2].motor'
+    r3_w12_w2_m__2__motor: float  # r3_w12: factor of m[2].motor''
+    r3_w12_w1_m__2__wheel: float  # r3_w12: factor of m[2].wheel'
+    r3_w12_Fx__2: float           # r3_w12: factor of Fx[2]
+    r3_w13_w1_m__2__motor: float  # r3_w13: factor of m[2].motor'
+    r3_w13_w2_m__2__motor: float  # r3_w13: factor of m[2].motor''
+    r3_w13_w3_m__2__motor: float  # r3_w13: factor of m[2].motor'''
+    r3_w13_w1_m__2__wheel: float  # r3_w13: factor of m[2].wheel'
+    r3_w13_w2_m__2__wheel: float  # r3_w13: factor of m[2].wheel''
+    r3_w13_Fx__2: float           # r3_w13: factor of Fx[2]
+    r3_w13_w1_Fx__2: float        # r3_w13: factor of Fx[2]'
     m__2__wheel__int__x0: float   # m[2].wheel.int.x0
     m__2__motor__int__x0: float   # m[2].motor.int.x0
     g_7: float                    # 1/(4*m[2].tau0)
     g_8: float                    # m[2].ge.N/(4*m[2].tau0)
-    r4_w1_v3_integral: float      # r4_w1: factor of Int(D(m[2].motor)) in stage 3
-    r4_w1_v3_integral_2: float    # r4_w1: factor of Int(D(m[2].wheel)) in stage 3
-    # r4_w1: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... in stage 3
-    r4_w1_v3_tanh: float
+    r4_w1_integral: float         # r4_w1: factor of Int(D(m[2].motor))
+    r4_w1_integral_2: float       # r4_w1: factor of Int(D(m[2].wheel))
+    # r4_w1: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ...
+    r4_w1_tanh: float
     g_9: float                    # 1/(4*m[2].tau0^2)
     g_10: float                   # m[2].ge.N/(4*m[2].tau0^2)
-    # r4_w2: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) - Int(D(m[ ... in stage 3
-    r4_w2_v3_product: float
-    r4_w3_v1_m__2__wheel: float   # r4_w3: factor of m[2].wheel in stage 1
-    r4_w4_v2_m__2__wheel: float   # r4_w4: factor of m[2].wheel in stage 2
-    # r4_w5: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... in stage 3
-    r4_w5_v3_tanh: float
-    # r4_w5: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) - Int(D(m[ ... in stage 3
-    r4_w5_v3_product: float
+    # r4_w2: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) - Int(D(m[ ...
+    r4_w2_product: float
+    r4_w3_w2_m__2__wheel: float   # r4_w3: factor of m[2].wheel''
+    r4_w4_w1_m__2__wheel: float   # r4_w4: factor of m[2].wheel'
+    # r4_w5: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ...
+    r4_w5_tanh: float
+    # r4_w5: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) - Int(D(m[ ...
+    r4_w5_product: float
     g_11: float                   # 1/(2*m[2].tau0^3)
     g_12: float                   # m[2].ge.N/(2*m[2].tau0^3)
-    # r4_w6: factor of (1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*I ... in stage 3
-    r4_w6_v3_product: float
-    # r4_w6: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ... in stage 3
-    r4_w6_v3_product_2: float
-    r5_w1_v1_load: float          # r5_w1: factor of load in stage 1
-    r5_w1_v2_load: float          # r5_w1: factor of load in stage 2
-    r5_w2_v1_load: float          # r5_w2: factor of load in stage 1
+    # r4_w6: factor of (1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*I ...
+    r4_w6_product: float
+    # r4_w6: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) - m[2].ge.N*Int(D( ...
+    r4_w6_product_2: float
+    r5_w1_load: float             # r5_w1: factor of load
+    r5_w1_w1_load: float          # r5_w1: factor of load'
+    r5_w2_w1_load: float          # r5_w2: factor of load'
 
 
 class Memory:
     """What the filters remember from sample to sample."""
 
     r1_w1_m__1__motor_speed: float   # filtered speed of m[1].motor
+    r1_w1_s4: float                  # memory of r1_w1: stage 4
     r1_w1_s3: float                  # memory of r1_w1: stage 3
     r1_w1_s2: float                  # memory of r1_w1: stage 2
     r1_w1_s1: float                  # memory of r1_w1: stage 1
     r1_w2_m__1__wheel_speed: float   # filtered speed of m[1].wheel
+    r1_w2_s4: float                  # memory of r1_w2: stage 4
     r1_w2_s3: float                  # memory of r1_w2: stage 3
     r1_w2_s2: float                  # memory of r1_w2: stage 2
     r1_w2_s1: float                  # memory of r1_w2: stage 1
     r1_w3_m__1__wheel_speed: float   # filtered speed of m[1].wheel
+    r1_w3_s4: float                  # memory of r1_w3: stage 4
     r1_w3_s3: float                  # memory of r1_w3: stage 3
     r1_w3_s2: float                  # memory of r1_w3: stage 2
     r1_w3_s1: float                  # memory of r1_w3: stage 1
@@ -311,26 +312,32 @@ class Memory:
     r1_w5_s2: float                  # memory of r1_w5: stage 2
     r1_w5_s1: float                  # memory of r1_w5: stage 1
     r1_w6_m__1__motor_speed: float   # filtered speed of m[1].motor
+    r1_w6_s4: float                  # memory of r1_w6: stage 4
     r1_w6_s3: float                  # memory of r1_w6: stage 3
     r1_w6_s2: float                  # memory of r1_w6: stage 2
     r1_w6_s1: float                  # memory of r1_w6: stage 1
     r1_w7_m__1__motor_speed: float   # filtered speed of m[1].motor
+    r1_w7_s4: float                  # memory of r1_w7: stage 4
     r1_w7_s3: float                  # memory of r1_w7: stage 3
     r1_w7_s2: float                  # memory of r1_w7: stage 2
     r1_w7_s1: float                  # memory of r1_w7: stage 1
     r1_w8_m__1__wheel_speed: float   # filtered speed of m[1].wheel
+    r1_w8_s4: float                  # memory of r1_w8: stage 4
     r1_w8_s3: float                  # memory of r1_w8: stage 3
     r1_w8_s2: float                  # memory of r1_w8: stage 2
     r1_w8_s1: float                  # memory of r1_w8: stage 1
     r1_w9_m__1__wheel_speed: float   # filtered speed of m[1].wheel
+    r1_w9_s4: float                  # memory of r1_w9: stage 4
     r1_w9_s3: float                  # memory of r1_w9: stage 3
     r1_w9_s2: float                  # memory of r1_w9: stage 2
     r1_w9_s1: float                  # memory of r1_w9: stage 1
     r1_w10_m__1__wheel_speed: float  # filtered speed of m[1].wheel
+    r1_w10_s4: float                 # memory of r1_w10: stage 4
     r1_w10_s3: float                 # memory of r1_w10: stage 3
     r1_w10_s2: float                 # memory of r1_w10: stage 2
     r1_w10_s1: float                 # memory of r1_w10: stage 1
     r1_w11_m__1__wheel_speed: float  # filtered speed of m[1].wheel
+    r1_w11_s4: float                 # memory of r1_w11: stage 4
     r1_w11_s3: float                 # memory of r1_w11: stage 3
     r1_w11_s2: float                 # memory of r1_w11: stage 2
     r1_w11_s1: float                 # memory of r1_w11: stage 1
@@ -357,9 +364,11 @@ class Memory:
     r2_w2_s2: float                  # memory of r2_w2: stage 2
     r2_w2_s1: float                  # memory of r2_w2: stage 1
     r2_w3_m__1__wheel_speed: float   # filtered speed of m[1].wheel
+    r2_w3_s3: float                  # memory of r2_w3: stage 3
     r2_w3_s2: float                  # memory of r2_w3: stage 2
     r2_w3_s1: float                  # memory of r2_w3: stage 1
     r2_w4_m__1__wheel_speed: float   # filtered speed of m[1].wheel
+    r2_w4_s3: float                  # memory of r2_w4: stage 3
     r2_w4_s2: float                  # memory of r2_w4: stage 2
     r2_w4_s1: float                  # memory of r2_w4: stage 1
     r2_w5_start: float               # memory of change of D(m[1].wheel)
@@ -373,14 +382,17 @@ class Memory:
     r2_w6_s2: float                  # memory of r2_w6: stage 2
     r2_w6_s1: float                  # memory of r2_w6: stage 1
     r3_w1_m__2__motor_speed: float   # filtered speed of m[2].motor
+    r3_w1_s4: float                  # memory of r3_w1: stage 4
     r3_w1_s3: float                  # memory of r3_w1: stage 3
     r3_w1_s2: float                  # memory of r3_w1: stage 2
     r3_w1_s1: float                  # memory of r3_w1: stage 1
     r3_w2_m__2__wheel_speed: float   # filtered speed of m[2].wheel
+    r3_w2_s4: float                  # memory of r3_w2: stage 4
     r3_w2_s3: float                  # memory of r3_w2: stage 3
     r3_w2_s2: float                  # memory of r3_w2: stage 2
     r3_w2_s1: float                  # memory of r3_w2: stage 1
     r3_w3_m__2__wheel_speed: float   # filtered speed of m[2].wheel
+    r3_w3_s4: float                  # memory of r3_w3: stage 4
     r3_w3_s3: float                  # memory of r3_w3: stage 3
     r3_w3_s2: float                  # memory of r3_w3: stage 2
     r3_w3_s1: float                  # memory of r3_w3: stage 1
@@ -397,26 +409,32 @@ class Memory:
     r3_w5_s2: float                  # memory of r3_w5: stage 2
     r3_w5_s1: float                  # memory of r3_w5: stage 1
     r3_w6_m__2__motor_speed: float   # filtered speed of m[2].motor
+    r3_w6_s4: float                  # memory of r3_w6: stage 4
     r3_w6_s3: float                  # memory of r3_w6: stage 3
     r3_w6_s2: float                  # memory of r3_w6: stage 2
     r3_w6_s1: float                  # memory of r3_w6: stage 1
     r3_w7_m__2__motor_speed: float   # filtered speed of m[2].motor
+    r3_w7_s4: float                  # memory of r3_w7: stage 4
     r3_w7_s3: float                  # memory of r3_w7: stage 3
     r3_w7_s2: float                  # memory of r3_w7: stage 2
     r3_w7_s1: float                  # memory of r3_w7: stage 1
     r3_w8_m__2__wheel_speed: float   # filtered speed of m[2].wheel
+    r3_w8_s4: float                  # memory of r3_w8: stage 4
     r3_w8_s3: float                  # memory of r3_w8: stage 3
     r3_w8_s2: float                  # memory of r3_w8: stage 2
     r3_w8_s1: float                  # memory of r3_w8: stage 1
     r3_w9_m__2__wheel_speed: float   # filtered speed of m[2].wheel
+    r3_w9_s4: float                  # memory of r3_w9: stage 4
     r3_w9_s3: float                  # memory of r3_w9: stage 3
     r3_w9_s2: float                  # memory of r3_w9: stage 2
     r3_w9_s1: float                  # memory of r3_w9: stage 1
     r3_w10_m__2__wheel_speed: float  # filtered speed of m[2].wheel
+    r3_w10_s4: float                 # memory of r3_w10: stage 4
     r3_w10_s3: float                 # memory of r3_w10: stage 3
     r3_w10_s2: float                 # memory of r3_w10: stage 2
     r3_w10_s1: float                 # memory of r3_w10: stage 1
     r3_w11_m__2__wheel_speed: float  # filtered speed of m[2].wheel
+    r3_w11_s4: float                 # memory of r3_w11: stage 4
     r3_w11_s3: float                 # memory of r3_w11: stage 3
     r3_w11_s2: float                 # memory of r3_w11: stage 2
     r3_w11_s1: float                 # memory of r3_w11: stage 1
@@ -443,9 +461,11 @@ class Memory:
     r4_w2_s2: float                  # memory of r4_w2: stage 2
     r4_w2_s1: float                  # memory of r4_w2: stage 1
     r4_w3_m__2__wheel_speed: float   # filtered speed of m[2].wheel
+    r4_w3_s3: float                  # memory of r4_w3: stage 3
     r4_w3_s2: float                  # memory of r4_w3: stage 2
     r4_w3_s1: float                  # memory of r4_w3: stage 1
     r4_w4_m__2__wheel_speed: float   # filtered speed of m[2].wheel
+    r4_w4_s3: float                  # memory of r4_w4: stage 3
     r4_w4_s2: float                  # memory of r4_w4: stage 2
     r4_w4_s1: float                  # memory of r4_w4: stage 1
     r4_w5_start: float               # memory of change of D(m[2].wheel)
@@ -500,60 +520,57 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.m__1__motor_gain + self._c.a + self._c.r1_w1_v2_m__1__motor
-                    + self._c.r1_w1_v3_m__1__motor + self._c.b0 + self._c.b1 + self._c.rest
-                    + self._c.m__1__wheel_gain + self._c.r1_w2_v1_m__1__wheel
-                    + self._c.r1_w2_v2_m__1__wheel + self._c.r1_w2_v3_m__1__wheel
-                    + self._c.r1_w3_v2_m__1__wheel + self._c.r1_w3_v3_m__1__wheel
-                    + self._c.r1_w4_v2_m__1__wheel + self._c.r1_w4_v3_m__1__wheel
-                    + self._c.r1_w4_v4_Fx__1 + self._c.r1_w4_v2_m__1__motor
-                    + self._c.r1_w4_v3_m__1__motor + self._c.r1_w5_v1_m__1__motor
-                    + self._c.r1_w5_v2_m__1__motor + self._c.r1_w5_v3_m__1__motor
-                    + self._c.r1_w5_v2_m__1__wheel + self._c.r1_w5_v3_m__1__wheel
-                    + self._c.r1_w5_v3_Fx__1 + self._c.r1_w5_v4_Fx__1 + self._c.r1_w6_v3_m__1__motor
-                    + self._c.r1_w7_v2_m__1__motor + self._c.r1_w7_v3_m__1__motor
-                    + self._c.r1_w8_v2_m__1__wheel + self._c.r1_w9_v1_m__1__wheel
-                    + self._c.r1_w9_v2_m__1__wheel + self._c.r1_w9_v3_m__1__wheel
-                    + self._c.r1_w10_v3_m__1__wheel + self._c.r1_w11_v2_m__1__wheel
-                    + self._c.r1_w11_v3_m__1__wheel + self._c.r1_w12_v2_m__1__motor
-                    + self._c.r1_w12_v3_m__1__motor + self._c.r1_w12_v3_m__1__wheel
-                    + self._c.r1_w12_v4_Fx__1 + self._c.r1_w13_v1_m__1__motor
-                    + self._c.r1_w13_v2_m__1__motor + self._c.r1_w13_v3_m__1__motor
-                    + self._c.r1_w13_v2_m__1__wheel + self._c.r1_w13_v3_m__1__wheel
-                    + self._c.r1_w13_v3_Fx__1 + self._c.r1_w13_v4_Fx__1
-                    + self._c.m__1__wheel__int__x0 + self._c.m__1__motor__int__x0 + self._c.g
-                    + self._c.g_2 + self._c.r2_w1_v3_integral + self._c.r2_w1_v3_integral_2
-                    + self._c.r2_w1_v3_tanh + self._c.g_3 + self._c.g_4 + self._c.r2_w2_v3_product
-                    + self._c.r2_w3_v1_m__1__wheel + self._c.r2_w4_v2_m__1__wheel
-                    + self._c.r2_w5_v3_tanh + self._c.r2_w5_v3_product + self._c.g_5 + self._c.g_6
-                    + self._c.r2_w6_v3_product + self._c.r2_w6_v3_product_2
-                    + self._c.r3_w1_v2_m__2__motor + self._c.r3_w1_v3_m__2__motor
-                    + self._c.r3_w2_v1_m__2__wheel + self._c.r3_w2_v2_m__2__wheel
-                    + self._c.r3_w2_v3_m__2__wheel + self._c.r3_w3_v2_m__2__wheel
-                    + self._c.r3_w3_v3_m__2__wheel + self._c.r3_w4_v2_m__2__wheel
-                    + self._c.r3_w4_v3_m__2__wheel + self._c.r3_w4_v4_Fx__2
-                    + self._c.r3_w4_v2_m__2__motor + self._c.r3_w4_v3_m__2__motor
-                    + self._c.r3_w5_v1_m__2__motor + self._c.r3_w5_v2_m__2__motor
-                    + self._c.r3_w5_v3_m__2__motor + self._c.r3_w5_v2_m__2__wheel
-                    + self._c.r3_w5_v3_m__2__wheel + self._c.r3_w5_v3_Fx__2 + self._c.r3_w5_v4_Fx__2
-                    + self._c.r3_w6_v3_m__2__motor + self._c.r3_w7_v2_m__2__motor
-                    + self._c.r3_w7_v3_m__2__motor + self._c.r3_w8_v2_m__2__wheel
-                    + self._c.r3_w9_v1_m__2__wheel + self._c.r3_w9_v2_m__2__wheel
-                    + self._c.r3_w9_v3_m__2__wheel + self._c.r3_w10_v3_m__2__wheel
-                    + self._c.r3_w11_v2_m__2__wheel + self._c.r3_w11_v3_m__2__wheel
-                    + self._c.r3_w12_v2_m__2__motor + self._c.r3_w12_v3_m__2__motor
-                    + self._c.r3_w12_v3_m__2__wheel + self._c.r3_w12_v4_Fx__2
-                    + self._c.r3_w13_v1_m__2__motor + self._c.r3_w13_v2_m__2__motor
-                    + self._c.r3_w13_v3_m__2__motor + self._c.r3_w13_v2_m__2__wheel
-                    + self._c.r3_w13_v3_m__2__wheel + self._c.r3_w13_v3_Fx__2
-                    + self._c.r3_w13_v4_Fx__2 + self._c.m__2__wheel__int__x0
+                    self._c.r1_w1_w1_m__1__motor + self._c.m__1__motor_gain + self._c.a
+                    + self._c.r1_w1_w2_m__1__motor + self._c.bend1 + self._c.b + self._c.rest
+                    + self._c.r1_w2_w2_m__1__wheel + self._c.m__1__wheel_gain
+                    + self._c.r1_w2_w3_m__1__wheel + self._c.r1_w3_w1_m__1__wheel
+                    + self._c.r1_w3_w2_m__1__wheel + self._c.r1_w4_w1_m__1__wheel
+                    + self._c.r1_w4_w2_m__1__wheel + self._c.r1_w4_Fx__1
+                    + self._c.r1_w4_w1_m__1__motor + self._c.r1_w4_w2_m__1__motor + self._c.bend2
+                    + self._c.r1_w5_w1_m__1__motor + self._c.r1_w5_w2_m__1__motor
+                    + self._c.r1_w5_w3_m__1__motor + self._c.r1_w5_w1_m__1__wheel
+                    + self._c.r1_w5_w2_m__1__wheel + self._c.r1_w5_Fx__1 + self._c.r1_w5_w1_Fx__1
+                    + self._c.bend3 + self._c.r1_w6_w1_m__1__motor + self._c.r1_w7_w1_m__1__motor
+                    + self._c.r1_w7_w2_m__1__motor + self._c.r1_w8_w2_m__1__wheel
+                    + self._c.r1_w9_w2_m__1__wheel + self._c.r1_w9_w3_m__1__wheel
+                    + self._c.r1_w10_w1_m__1__wheel + self._c.r1_w11_w1_m__1__wheel
+                    + self._c.r1_w11_w2_m__1__wheel + self._c.r1_w12_w1_m__1__motor
+                    + self._c.r1_w12_w2_m__1__motor + self._c.r1_w12_w1_m__1__wheel
+                    + self._c.r1_w12_Fx__1 + self._c.r1_w13_w1_m__1__motor
+                    + self._c.r1_w13_w2_m__1__motor + self._c.r1_w13_w3_m__1__motor
+                    + self._c.r1_w13_w1_m__1__wheel + self._c.r1_w13_w2_m__1__wheel
+                    + self._c.r1_w13_Fx__1 + self._c.r1_w13_w1_Fx__1 + self._c.m__1__wheel__int__x0
+                    + self._c.m__1__motor__int__x0 + self._c.g + self._c.g_2
+                    + self._c.r2_w1_integral + self._c.r2_w1_integral_2 + self._c.r2_w1_tanh
+                    + self._c.g_3 + self._c.g_4 + self._c.r2_w2_product
+                    + self._c.r2_w3_w2_m__1__wheel + self._c.r2_w4_w1_m__1__wheel
+                    + self._c.r2_w5_tanh + self._c.r2_w5_product + self._c.g_5 + self._c.g_6
+                    + self._c.r2_w6_product + self._c.r2_w6_product_2 + self._c.r3_w1_w1_m__2__motor
+                    + self._c.r3_w1_w2_m__2__motor + self._c.r3_w2_w2_m__2__wheel
+                    + self._c.r3_w2_w3_m__2__wheel + self._c.r3_w3_w1_m__2__wheel
+                    + self._c.r3_w3_w2_m__2__wheel + self._c.r3_w4_w1_m__2__wheel
+                    + self._c.r3_w4_w2_m__2__wheel + self._c.r3_w4_Fx__2
+                    + self._c.r3_w4_w1_m__2__motor + self._c.r3_w4_w2_m__2__motor
+                    + self._c.r3_w5_w1_m__2__motor + self._c.r3_w5_w2_m__2__motor
+                    + self._c.r3_w5_w3_m__2__motor + self._c.r3_w5_w1_m__2__wheel
+                    + self._c.r3_w5_w2_m__2__wheel + self._c.r3_w5_Fx__2 + self._c.r3_w5_w1_Fx__2
+                    + self._c.r3_w6_w1_m__2__motor + self._c.r3_w7_w1_m__2__motor
+                    + self._c.r3_w7_w2_m__2__motor + self._c.r3_w8_w2_m__2__wheel
+                    + self._c.r3_w9_w2_m__2__wheel + self._c.r3_w9_w3_m__2__wheel
+                    + self._c.r3_w10_w1_m__2__wheel + self._c.r3_w11_w1_m__2__wheel
+                    + self._c.r3_w11_w2_m__2__wheel + self._c.r3_w12_w1_m__2__motor
+                    + self._c.r3_w12_w2_m__2__motor + self._c.r3_w12_w1_m__2__wheel
+                    + self._c.r3_w12_Fx__2 + self._c.r3_w13_w1_m__2__motor
+                    + self._c.r3_w13_w2_m__2__motor + self._c.r3_w13_w3_m__2__motor
+                    + self._c.r3_w13_w1_m__2__wheel + self._c.r3_w13_w2_m__2__wheel
+                    + self._c.r3_w13_Fx__2 + self._c.r3_w13_w1_Fx__2 + self._c.m__2__wheel__int__x0
                     + self._c.m__2__motor__int__x0 + self._c.g_7 + self._c.g_8
-                    + self._c.r4_w1_v3_integral + self._c.r4_w1_v3_integral_2
-                    + self._c.r4_w1_v3_tanh + self._c.g_9 + self._c.g_10 + self._c.r4_w2_v3_product
-                    + self._c.r4_w3_v1_m__2__wheel + self._c.r4_w4_v2_m__2__wheel
-                    + self._c.r4_w5_v3_tanh + self._c.r4_w5_v3_product + self._c.g_11 + self._c.g_12
-                    + self._c.r4_w6_v3_product + self._c.r4_w6_v3_product_2 + self._c.r5_w1_v1_load
-                    + self._c.r5_w1_v2_load + self._c.r5_w2_v1_load
+                    + self._c.r4_w1_integral + self._c.r4_w1_integral_2 + self._c.r4_w1_tanh
+                    + self._c.g_9 + self._c.g_10 + self._c.r4_w2_product
+                    + self._c.r4_w3_w2_m__2__wheel + self._c.r4_w4_w1_m__2__wheel
+                    + self._c.r4_w5_tanh + self._c.r4_w5_product + self._c.g_11 + self._c.g_12
+                    + self._c.r4_w6_product + self._c.r4_w6_product_2 + self._c.r5_w1_load
+                    + self._c.r5_w1_w1_load + self._c.r5_w2_w1_load
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -615,6 +632,15 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: m[1].fe*m[1].el.Re/m[1].el.k
         t = p.m__1__fe * p.m__1__el__Re / p.m__1__el__k
 
@@ -639,290 +665,234 @@ class Monitor:
         # khepera_encoders.bg:31: m[2].K*m[2].tau0*m[2].A
         t_8 = p.m__2__K * p.m__2__tau0 * p.m__2__A
 
-        # exp(-x)
-        t_9 = _exponential(-x_)
+        # 1 - pole
+        t_9 = 1.0 - pole
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_10 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_9) / x_
-        )
+        # 1 - (1 - pole)/2
+        t_10 = 1.0 - 0.5 * t_9
 
-        # 1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (
-        # ...
-        t_11 = 1.0 - t_10
+        # turn^2
+        t_11 = turn * turn
 
-        # bandwidth*(1 - if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040)
-        # ...
-        t_12 = bandwidth * t_11
+        # (1 - (1 - pole)/2)*w
+        t_12 = t_10 * w
 
-        # khepera.bg:17: m[1].Je*m[1].el.L*bandwidth^2/m[1].el.k
-        t_13 = p.m__1__Je * p.m__1__el__L * bandwidth * bandwidth / p.m__1__el__k
+        # khepera.bg:17: m[1].Je*m[1].el.L*w^2/m[1].el.k
+        t_13 = p.m__1__Je * p.m__1__el__L * w * w / p.m__1__el__k
 
-        # khepera.bg:17: m[1].R*m[1].el.L*bandwidth/(m[1].el.k*m[1].ge.N)
-        t_14 = p.m__1__R * p.m__1__el__L * bandwidth / p.m__1__el__k / p.m__1__ge__N
+        # khepera.bg:17: m[1].R*m[1].el.L*w/(m[1].el.k*m[1].ge.N)
+        t_14 = p.m__1__R * p.m__1__el__L * w / p.m__1__el__k / p.m__1__ge__N
 
-        # khepera.bg:17: m[1].Js*m[1].el.L*bandwidth^2/(m[1].el.k*m[1].ge.N)
-        t_15 = p.m__1__Js * p.m__1__el__L * bandwidth * bandwidth / p.m__1__el__k / p.m__1__ge__N
+        # khepera.bg:17: m[1].Js*m[1].el.L*w^2/(m[1].el.k*m[1].ge.N)
+        t_15 = p.m__1__Js * p.m__1__el__L * w * w / p.m__1__el__k / p.m__1__ge__N
 
-        # khepera.bg:17: m[2].Je*m[2].el.L*bandwidth^2/m[2].el.k
-        t_16 = p.m__2__Je * p.m__2__el__L * bandwidth * bandwidth / p.m__2__el__k
+        # khepera.bg:17: m[2].Je*m[2].el.L*w^2/m[2].el.k
+        t_16 = p.m__2__Je * p.m__2__el__L * w * w / p.m__2__el__k
 
-        # khepera.bg:17: m[2].R*m[2].el.L*bandwidth/(m[2].el.k*m[2].ge.N)
-        t_17 = p.m__2__R * p.m__2__el__L * bandwidth / p.m__2__el__k / p.m__2__ge__N
+        # khepera.bg:17: m[2].R*m[2].el.L*w/(m[2].el.k*m[2].ge.N)
+        t_17 = p.m__2__R * p.m__2__el__L * w / p.m__2__el__k / p.m__2__ge__N
 
-        # khepera.bg:17: m[2].Js*m[2].el.L*bandwidth^2/(m[2].el.k*m[2].ge.N)
-        t_18 = p.m__2__Js * p.m__2__el__L * bandwidth * bandwidth / p.m__2__el__k / p.m__2__ge__N
+        # khepera.bg:17: m[2].Js*m[2].el.L*w^2/(m[2].el.k*m[2].ge.N)
+        t_18 = p.m__2__Js * p.m__2__el__L * w * w / p.m__2__el__k / p.m__2__ge__N
 
-        # khepera.bg:17: m[1].fe*m[1].el.L*bandwidth/m[1].el.k
-        t_19 = p.m__1__fe * p.m__1__el__L * bandwidth / p.m__1__el__k
+        # khepera.bg:17: m[1].fe*m[1].el.L*w/m[1].el.k
+        t_19 = p.m__1__fe * p.m__1__el__L * w / p.m__1__el__k
 
-        # khepera.bg:17: m[1].Js*m[1].el.Re*bandwidth/(m[1].el.k*m[1].ge.N)
-        t_20 = p.m__1__Js * p.m__1__el__Re * bandwidth / p.m__1__el__k / p.m__1__ge__N
+        # khepera.bg:17: m[1].Js*m[1].el.Re*w/(m[1].el.k*m[1].ge.N)
+        t_20 = p.m__1__Js * p.m__1__el__Re * w / p.m__1__el__k / p.m__1__ge__N
 
-        # khepera.bg:17: m[1].fs*m[1].el.L*bandwidth/(m[1].el.k*m[1].ge.N)
-        t_21 = p.m__1__fs * p.m__1__el__L * bandwidth / p.m__1__el__k / p.m__1__ge__N
+        # khepera.bg:17: m[1].fs*m[1].el.L*w/(m[1].el.k*m[1].ge.N)
+        t_21 = p.m__1__fs * p.m__1__el__L * w / p.m__1__el__k / p.m__1__ge__N
 
-        # khepera.bg:17: m[1].Je*m[1].el.Re*bandwidth/m[1].el.k
-        t_22 = p.m__1__Je * p.m__1__el__Re * bandwidth / p.m__1__el__k
-
-        # khepera.bg:17: m[1].el.k*bandwidth*(m[1].Je*m[1].el.Re/m[1].el.k^2 +
-        # m[1].fe*m[1].el.L/m[1].el.k^2)
-        t_23 = (
-            p.m__1__el__k * bandwidth * (p.m__1__Je * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k
-                + p.m__1__fe * p.m__1__el__L / p.m__1__el__k / p.m__1__el__k)
-        )
-
-        # khepera.bg:17: m[1].el.k*bandwidth*(m[1].Js*m[1].el.Re/(m[1].el.k^2*m[1].ge.N) +
-        # m[1].fs*m[1].el.L/(m ...
-        t_24 = (
-            p.m__1__el__k * bandwidth
-                * (p.m__1__Js * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k / p.m__1__ge__N
-                + p.m__1__fs * p.m__1__el__L / p.m__1__el__k / p.m__1__el__k / p.m__1__ge__N)
-        )
-
-        # khepera.bg:17: m[1].el.k^2*bandwidth*(-2*m[1].fe*m[1].el.L/m[1].el.k^3 -
-        # 2*m[1].Je*m[1].el.Re/m[1].el ...
-        t_25 = (
-            p.m__1__el__k * p.m__1__el__k * bandwidth
-                * (-2.0 * p.m__1__fe * p.m__1__el__L / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
-                - 2.0 * p.m__1__Je * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k)
-        )
-
-        # khepera.bg:17: m[1].el.k^2*bandwidth*(-2*m[1].fs*m[1].el.L/(m[1].el.k^3*m[1].ge.N) -
-        # 2*m[1].Js*m[1].e ...
-        t_26 = (
-            p.m__1__el__k * p.m__1__el__k * bandwidth
-                * (-2.0 * p.m__1__fs * p.m__1__el__L / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
-                    / p.m__1__ge__N
-                - 2.0 * p.m__1__Js * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
-                    / p.m__1__ge__N)
-        )
+        # khepera.bg:17: m[1].Je*m[1].el.Re*w/m[1].el.k
+        t_22 = p.m__1__Je * p.m__1__el__Re * w / p.m__1__el__k
 
         # khepera_encoders.bg:31: m[1].K*m[1].tau0^2*m[1].A
-        t_27 = p.m__1__K * p.m__1__tau0 * p.m__1__tau0 * p.m__1__A
+        t_23 = p.m__1__K * p.m__1__tau0 * p.m__1__tau0 * p.m__1__A
 
         # khepera_encoders.bg:31: m[1].K*m[1].tau0^3*m[1].A
-        t_28 = p.m__1__K * p.m__1__tau0 * p.m__1__tau0 * p.m__1__tau0 * p.m__1__A
+        t_24 = p.m__1__K * p.m__1__tau0 * p.m__1__tau0 * p.m__1__tau0 * p.m__1__A
 
-        # khepera.bg:17: m[2].fe*m[2].el.L*bandwidth/m[2].el.k
-        t_29 = p.m__2__fe * p.m__2__el__L * bandwidth / p.m__2__el__k
+        # khepera.bg:17: m[2].fe*m[2].el.L*w/m[2].el.k
+        t_25 = p.m__2__fe * p.m__2__el__L * w / p.m__2__el__k
 
-        # khepera.bg:17: m[2].Js*m[2].el.Re*bandwidth/(m[2].el.k*m[2].ge.N)
-        t_30 = p.m__2__Js * p.m__2__el__Re * bandwidth / p.m__2__el__k / p.m__2__ge__N
+        # khepera.bg:17: m[2].Js*m[2].el.Re*w/(m[2].el.k*m[2].ge.N)
+        t_26 = p.m__2__Js * p.m__2__el__Re * w / p.m__2__el__k / p.m__2__ge__N
 
-        # khepera.bg:17: m[2].fs*m[2].el.L*bandwidth/(m[2].el.k*m[2].ge.N)
-        t_31 = p.m__2__fs * p.m__2__el__L * bandwidth / p.m__2__el__k / p.m__2__ge__N
+        # khepera.bg:17: m[2].fs*m[2].el.L*w/(m[2].el.k*m[2].ge.N)
+        t_27 = p.m__2__fs * p.m__2__el__L * w / p.m__2__el__k / p.m__2__ge__N
 
-        # khepera.bg:17: m[2].Je*m[2].el.Re*bandwidth/m[2].el.k
-        t_32 = p.m__2__Je * p.m__2__el__Re * bandwidth / p.m__2__el__k
-
-        # khepera.bg:17: m[2].el.k*bandwidth*(m[2].Je*m[2].el.Re/m[2].el.k^2 +
-        # m[2].fe*m[2].el.L/m[2].el.k^2)
-        t_33 = (
-            p.m__2__el__k * bandwidth * (p.m__2__Je * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k
-                + p.m__2__fe * p.m__2__el__L / p.m__2__el__k / p.m__2__el__k)
-        )
-
-        # khepera.bg:17: m[2].el.k*bandwidth*(m[2].Js*m[2].el.Re/(m[2].el.k^2*m[2].ge.N) +
-        # m[2].fs*m[2].el.L/(m ...
-        t_34 = (
-            p.m__2__el__k * bandwidth
-                * (p.m__2__Js * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k / p.m__2__ge__N
-                + p.m__2__fs * p.m__2__el__L / p.m__2__el__k / p.m__2__el__k / p.m__2__ge__N)
-        )
-
-        # khepera.bg:17: m[2].el.k^2*bandwidth*(-2*m[2].fe*m[2].el.L/m[2].el.k^3 -
-        # 2*m[2].Je*m[2].el.Re/m[2].el ...
-        t_35 = (
-            p.m__2__el__k * p.m__2__el__k * bandwidth
-                * (-2.0 * p.m__2__fe * p.m__2__el__L / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
-                - 2.0 * p.m__2__Je * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k)
-        )
-
-        # khepera.bg:17: m[2].el.k^2*bandwidth*(-2*m[2].fs*m[2].el.L/(m[2].el.k^3*m[2].ge.N) -
-        # 2*m[2].Js*m[2].e ...
-        t_36 = (
-            p.m__2__el__k * p.m__2__el__k * bandwidth
-                * (-2.0 * p.m__2__fs * p.m__2__el__L / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
-                    / p.m__2__ge__N
-                - 2.0 * p.m__2__Js * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
-                    / p.m__2__ge__N)
-        )
+        # khepera.bg:17: m[2].Je*m[2].el.Re*w/m[2].el.k
+        t_28 = p.m__2__Je * p.m__2__el__Re * w / p.m__2__el__k
 
         # khepera_encoders.bg:31: m[2].K*m[2].tau0^2*m[2].A
-        t_37 = p.m__2__K * p.m__2__tau0 * p.m__2__tau0 * p.m__2__A
+        t_29 = p.m__2__K * p.m__2__tau0 * p.m__2__tau0 * p.m__2__A
 
         # khepera_encoders.bg:31: m[2].K*m[2].tau0^3*m[2].A
-        t_38 = p.m__2__K * p.m__2__tau0 * p.m__2__tau0 * p.m__2__tau0 * p.m__2__A
+        t_30 = p.m__2__K * p.m__2__tau0 * p.m__2__tau0 * p.m__2__tau0 * p.m__2__A
 
-        # khepera.bg:114: R_L^2*bandwidth
-        t_39 = p.R_L * p.R_L * bandwidth
+        # khepera.bg:114: R_L^2*w
+        t_31 = p.R_L * p.R_L * w
+
+        # khepera.bg:17: r1_w1: factor of m[1].motor'
+        c.r1_w1_w1_m__1__motor = t / 10.0
 
         # speed of m[1].motor for one count
         c.m__1__motor_gain = 0.0015339807878856412 * t_12
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_9
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # khepera.bg:17: r1_w1: factor of m[1].motor in stage 2
-        c.r1_w1_v2_m__1__motor = t_19 / 10.0
+        # khepera.bg:17: r1_w1: factor of m[1].motor''
+        c.r1_w1_w2_m__1__motor = t_19 / 10.0
 
-        # khepera.bg:17: r1_w1: factor of m[1].motor in stage 3
-        c.r1_w1_v3_m__1__motor = t_19 / 10.0 - t / 10.0
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_11 / 12.0
 
-        # filter: weight of the new sample
-        c.b0 = t_10
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_9
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_9 - t_10
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = t_10
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = t_11
+        # khepera.bg:17: r1_w2: factor of m[1].wheel''
+        c.r1_w2_w2_m__1__wheel = t_20 / 50.0
 
         # speed of m[1].wheel for one count
         c.m__1__wheel_gain = 9.587379924285257e-05 * t_12
 
-        # khepera.bg:17: r1_w2: factor of m[1].wheel in stage 1
-        c.r1_w2_v1_m__1__wheel = t_15 / 50.0
+        # khepera.bg:17: r1_w2: factor of m[1].wheel'''
+        c.r1_w2_w3_m__1__wheel = t_15 / 50.0
 
-        # khepera.bg:17: r1_w2: factor of m[1].wheel in stage 2
-        c.r1_w2_v2_m__1__wheel = t_15 / 25.0 - t_20 / 50.0
+        # khepera.bg:17: r1_w3: factor of m[1].wheel'
+        c.r1_w3_w1_m__1__wheel = t_3 / 10.0
 
-        # khepera.bg:17: r1_w2: factor of m[1].wheel in stage 3
-        c.r1_w2_v3_m__1__wheel = t_20 / 50.0 - t_15 / 50.0
+        # khepera.bg:17: r1_w3: factor of m[1].wheel''
+        c.r1_w3_w2_m__1__wheel = t_21 / 10.0
 
-        # khepera.bg:17: r1_w3: factor of m[1].wheel in stage 2
-        c.r1_w3_v2_m__1__wheel = t_21 / 10.0
+        # khepera.bg:17: r1_w4: factor of m[1].wheel'
+        c.r1_w4_w1_m__1__wheel = t_3 / 20.0
 
-        # khepera.bg:17: r1_w3: factor of m[1].wheel in stage 3
-        c.r1_w3_v3_m__1__wheel = t_21 / 10.0 - t_3 / 10.0
+        # khepera.bg:17: r1_w4: factor of m[1].wheel''
+        c.r1_w4_w2_m__1__wheel = t_20 / 20.0
 
-        # khepera.bg:17: r1_w4: factor of m[1].wheel in stage 2
-        c.r1_w4_v2_m__1__wheel = t_20 / 20.0
+        # khepera.bg:17: r1_w4: factor of Fx[1]
+        c.r1_w4_Fx__1 = t_2 / 20.0
 
-        # khepera.bg:17: r1_w4: factor of m[1].wheel in stage 3
-        c.r1_w4_v3_m__1__wheel = t_20 / 20.0 - t_3 / 20.0
+        # khepera.bg:17: r1_w4: factor of m[1].motor'
+        c.r1_w4_w1_m__1__motor = t / 20.0
 
-        # khepera.bg:17: r1_w4: factor of Fx[1] in stage 4
-        c.r1_w4_v4_Fx__1 = t_2 / 20.0
+        # khepera.bg:17: r1_w4: factor of m[1].motor''
+        c.r1_w4_w2_m__1__motor = t_22 / 20.0
 
-        # khepera.bg:17: r1_w4: factor of m[1].motor in stage 2
-        c.r1_w4_v2_m__1__motor = t_22 / 20.0
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_11 / 6.0
 
-        # khepera.bg:17: r1_w4: factor of m[1].motor in stage 3
-        c.r1_w4_v3_m__1__motor = t_22 / 20.0 - t / 20.0
-
-        # khepera.bg:17: r1_w5: factor of m[1].motor in stage 1
-        c.r1_w5_v1_m__1__motor = t_13 / 50.0
-
-        # khepera.bg:17: r1_w5: factor of m[1].motor in stage 2
-        c.r1_w5_v2_m__1__motor = t_23 / 50.0 - t_13 / 25.0
-
-        # khepera.bg:17: r1_w5: factor of m[1].motor in stage 3
-        c.r1_w5_v3_m__1__motor = (
-            t_13 / 50.0
-            + p.m__1__el__k * (p.m__1__fe * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k
+        # khepera.bg:17: r1_w5: factor of m[1].motor'
+        c.r1_w5_w1_m__1__motor = (
+            p.m__1__el__k * (p.m__1__fe * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k
                 - 1.0) / 50.0
-            - t_23 / 50.0
         )
 
-        # khepera.bg:17: r1_w5: factor of m[1].wheel in stage 2
-        c.r1_w5_v2_m__1__wheel = t_24 / 50.0 - t_15 / 25.0
+        # khepera.bg:17: r1_w5: factor of m[1].motor''
+        c.r1_w5_w2_m__1__motor = (
+            p.m__1__el__k * w * (p.m__1__Je * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k
+                + p.m__1__fe * p.m__1__el__L / p.m__1__el__k / p.m__1__el__k) / 50.0
+        )
 
-        # khepera.bg:17: r1_w5: factor of m[1].wheel in stage 3
-        c.r1_w5_v3_m__1__wheel = t_3 / 50.0 + t_15 / 50.0 - t_24 / 50.0
+        # khepera.bg:17: r1_w5: factor of m[1].motor'''
+        c.r1_w5_w3_m__1__motor = t_13 / 50.0
 
-        # khepera.bg:17: r1_w5: factor of Fx[1] in stage 3
-        c.r1_w5_v3_Fx__1 = t_14 / 50.0
+        # khepera.bg:17: r1_w5: factor of m[1].wheel'
+        c.r1_w5_w1_m__1__wheel = t_3 / 50.0
 
-        # khepera.bg:17: r1_w5: factor of Fx[1] in stage 4
-        c.r1_w5_v4_Fx__1 = t_2 / 50.0 - t_14 / 50.0
+        # khepera.bg:17: r1_w5: factor of m[1].wheel''
+        c.r1_w5_w2_m__1__wheel = (
+            p.m__1__el__k * w
+                * (p.m__1__Js * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k / p.m__1__ge__N
+                + p.m__1__fs * p.m__1__el__L / p.m__1__el__k / p.m__1__el__k / p.m__1__ge__N) / 50.0
+        )
 
-        # khepera.bg:17: r1_w6: factor of m[1].motor in stage 3
-        c.r1_w6_v3_m__1__motor = t / 142.0
+        # khepera.bg:17: r1_w5: factor of Fx[1]
+        c.r1_w5_Fx__1 = t_2 / 50.0
 
-        # khepera.bg:17: r1_w7: factor of m[1].motor in stage 2
-        c.r1_w7_v2_m__1__motor = t_19 / 355.0
+        # khepera.bg:17: r1_w5: factor of Fx[1]'
+        c.r1_w5_w1_Fx__1 = t_14 / 50.0
 
-        # khepera.bg:17: r1_w7: factor of m[1].motor in stage 3
-        c.r1_w7_v3_m__1__motor = t / 355.0 - t_19 / 355.0
+        # filter: 3 * (w*sample_time)^2/12
+        c.bend3 = 0.25 * t_11
 
-        # khepera.bg:17: r1_w8: factor of m[1].wheel in stage 2
-        c.r1_w8_v2_m__1__wheel = t_20 / 710.0
+        # khepera.bg:17: r1_w6: factor of m[1].motor'
+        c.r1_w6_w1_m__1__motor = t / 142.0
 
-        # khepera.bg:17: r1_w9: factor of m[1].wheel in stage 1
-        c.r1_w9_v1_m__1__wheel = t_15 / 1775.0
+        # khepera.bg:17: r1_w7: factor of m[1].motor'
+        c.r1_w7_w1_m__1__motor = t / 355.0
 
-        # khepera.bg:17: r1_w9: factor of m[1].wheel in stage 2
-        c.r1_w9_v2_m__1__wheel = t_20 / 1775.0 - 2.0 * t_15 / 1775.0
+        # khepera.bg:17: r1_w7: factor of m[1].motor''
+        c.r1_w7_w2_m__1__motor = t_19 / 355.0
 
-        # khepera.bg:17: r1_w9: factor of m[1].wheel in stage 3
-        c.r1_w9_v3_m__1__wheel = t_15 / 1775.0 - t_20 / 1775.0
+        # khepera.bg:17: r1_w8: factor of m[1].wheel''
+        c.r1_w8_w2_m__1__wheel = t_20 / 710.0
 
-        # khepera.bg:17: r1_w10: factor of m[1].wheel in stage 3
-        c.r1_w10_v3_m__1__wheel = t_3 / 142.0
+        # khepera.bg:17: r1_w9: factor of m[1].wheel''
+        c.r1_w9_w2_m__1__wheel = t_20 / 1775.0
 
-        # khepera.bg:17: r1_w11: factor of m[1].wheel in stage 2
-        c.r1_w11_v2_m__1__wheel = t_21 / 355.0
+        # khepera.bg:17: r1_w9: factor of m[1].wheel'''
+        c.r1_w9_w3_m__1__wheel = t_15 / 1775.0
 
-        # khepera.bg:17: r1_w11: factor of m[1].wheel in stage 3
-        c.r1_w11_v3_m__1__wheel = t_3 / 355.0 - t_21 / 355.0
+        # khepera.bg:17: r1_w10: factor of m[1].wheel'
+        c.r1_w10_w1_m__1__wheel = t_3 / 142.0
 
-        # khepera.bg:17: r1_w12: factor of m[1].motor in stage 2
-        c.r1_w12_v2_m__1__motor = t_22 / 710.0
+        # khepera.bg:17: r1_w11: factor of m[1].wheel'
+        c.r1_w11_w1_m__1__wheel = t_3 / 355.0
 
-        # khepera.bg:17: r1_w12: factor of m[1].motor in stage 3
-        c.r1_w12_v3_m__1__motor = t / 710.0 - t_22 / 710.0
+        # khepera.bg:17: r1_w11: factor of m[1].wheel''
+        c.r1_w11_w2_m__1__wheel = t_21 / 355.0
 
-        # khepera.bg:17: r1_w12: factor of m[1].wheel in stage 3
-        c.r1_w12_v3_m__1__wheel = t_3 / 710.0 - t_20 / 710.0
+        # khepera.bg:17: r1_w12: factor of m[1].motor'
+        c.r1_w12_w1_m__1__motor = t / 710.0
 
-        # khepera.bg:17: r1_w12: factor of Fx[1] in stage 4
-        c.r1_w12_v4_Fx__1 = t_2 / 710.0
+        # khepera.bg:17: r1_w12: factor of m[1].motor''
+        c.r1_w12_w2_m__1__motor = t_22 / 710.0
 
-        # khepera.bg:17: r1_w13: factor of m[1].motor in stage 1
-        c.r1_w13_v1_m__1__motor = t_13 / 1775.0
+        # khepera.bg:17: r1_w12: factor of m[1].wheel'
+        c.r1_w12_w1_m__1__wheel = t_3 / 710.0
 
-        # khepera.bg:17: r1_w13: factor of m[1].motor in stage 2
-        c.r1_w13_v2_m__1__motor = 2.0 * t_13 / 1775.0 + t_25 / 3550.0
+        # khepera.bg:17: r1_w12: factor of Fx[1]
+        c.r1_w12_Fx__1 = t_2 / 710.0
 
-        # khepera.bg:17: r1_w13: factor of m[1].motor in stage 3
-        c.r1_w13_v3_m__1__motor = t / 1775.0 + t_13 / 1775.0 + t_25 / 3550.0
+        # khepera.bg:17: r1_w13: factor of m[1].motor'
+        c.r1_w13_w1_m__1__motor = t / 1775.0
 
-        # khepera.bg:17: r1_w13: factor of m[1].wheel in stage 2
-        c.r1_w13_v2_m__1__wheel = 2.0 * t_15 / 1775.0 + t_26 / 3550.0
+        # khepera.bg:17: r1_w13: factor of m[1].motor''
+        c.r1_w13_w2_m__1__motor = (
+            p.m__1__el__k * p.m__1__el__k * w
+                * (-2.0 * p.m__1__fe * p.m__1__el__L / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
+                - 2.0 * p.m__1__Je * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k)
+                / 3550.0
+        )
 
-        # khepera.bg:17: r1_w13: factor of m[1].wheel in stage 3
-        c.r1_w13_v3_m__1__wheel = t_3 / 1775.0 + t_15 / 1775.0 + t_26 / 3550.0
+        # khepera.bg:17: r1_w13: factor of m[1].motor'''
+        c.r1_w13_w3_m__1__motor = t_13 / 1775.0
 
-        # khepera.bg:17: r1_w13: factor of Fx[1] in stage 3
-        c.r1_w13_v3_Fx__1 = t_14 / 1775.0
+        # khepera.bg:17: r1_w13: factor of m[1].wheel'
+        c.r1_w13_w1_m__1__wheel = t_3 / 1775.0
 
-        # khepera.bg:17: r1_w13: factor of Fx[1] in stage 4
-        c.r1_w13_v4_Fx__1 = t_14 / 1775.0 - t_2 / 1775.0
+        # khepera.bg:17: r1_w13: factor of m[1].wheel''
+        c.r1_w13_w2_m__1__wheel = (
+            p.m__1__el__k * p.m__1__el__k * w
+                * (-2.0 * p.m__1__fs * p.m__1__el__L / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
+                    / p.m__1__ge__N
+                - 2.0 * p.m__1__Js * p.m__1__el__Re / p.m__1__el__k / p.m__1__el__k / p.m__1__el__k
+                    / p.m__1__ge__N)
+                / 3550.0
+        )
+
+        # khepera.bg:17: r1_w13: factor of Fx[1]
+        c.r1_w13_Fx__1 = t_2 / 1775.0
+
+        # khepera.bg:17: r1_w13: factor of Fx[1]'
+        c.r1_w13_w1_Fx__1 = t_14 / 1775.0
 
         # khepera_encoders.bg:31: m[1].wheel.int.x0
         c.m__1__wheel__int__x0 = 0.0
@@ -936,15 +906,15 @@ class Monitor:
         # khepera_encoders.bg:31: m[1].ge.N/(4*m[1].tau0)
         c.g_2 = 0.25 * p.m__1__ge__N / p.m__1__tau0
 
-        # khepera_encoders.bg:31: r2_w1: factor of Int(D(m[1].motor)) in stage 3
-        c.r2_w1_v3_integral = p.m__1__K / 20.0
+        # khepera_encoders.bg:31: r2_w1: factor of Int(D(m[1].motor))
+        c.r2_w1_integral = p.m__1__K / 20.0
 
-        # khepera_encoders.bg:31: r2_w1: factor of Int(D(m[1].wheel)) in stage 3
-        c.r2_w1_v3_integral_2 = p.m__1__K * p.m__1__ge__N / 20.0
+        # khepera_encoders.bg:31: r2_w1: factor of Int(D(m[1].wheel))
+        c.r2_w1_integral_2 = p.m__1__K * p.m__1__ge__N / 20.0
 
         # khepera_encoders.bg:31: r2_w1: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
-        # m[1].ge.N*Int(D( ... in stage 3
-        c.r2_w1_v3_tanh = t_4 / 20.0
+        # m[1].ge.N*Int(D( ...
+        c.r2_w1_tanh = t_4 / 20.0
 
         # khepera_encoders.bg:31: 1/(4*m[1].tau0^2)
         c.g_3 = 0.25 / p.m__1__tau0 / p.m__1__tau0
@@ -953,22 +923,22 @@ class Monitor:
         c.g_4 = 0.25 * p.m__1__ge__N / p.m__1__tau0 / p.m__1__tau0
 
         # khepera_encoders.bg:31: r2_w2: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) -
-        # Int(D(m[ ... in stage 3
-        c.r2_w2_v3_product = t_27 / 20.0
+        # Int(D(m[ ...
+        c.r2_w2_product = t_23 / 20.0
 
-        # khepera_encoders.bg:31: r2_w3: factor of m[1].wheel in stage 1
-        c.r2_w3_v1_m__1__wheel = p.m__1__Js * bandwidth / 50.0 / p.m__1__ge__N
+        # khepera_encoders.bg:31: r2_w3: factor of m[1].wheel''
+        c.r2_w3_w2_m__1__wheel = p.m__1__Js * w / 50.0 / p.m__1__ge__N
 
-        # khepera_encoders.bg:31: r2_w4: factor of m[1].wheel in stage 2
-        c.r2_w4_v2_m__1__wheel = p.m__1__fs / 10.0 / p.m__1__ge__N
+        # khepera_encoders.bg:31: r2_w4: factor of m[1].wheel'
+        c.r2_w4_w1_m__1__wheel = p.m__1__fs / 10.0 / p.m__1__ge__N
 
         # khepera_encoders.bg:31: r2_w5: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
-        # m[1].ge.N*Int(D( ... in stage 3
-        c.r2_w5_v3_tanh = t_4 / 360.0
+        # m[1].ge.N*Int(D( ...
+        c.r2_w5_tanh = t_4 / 360.0
 
         # khepera_encoders.bg:31: r2_w5: factor of (m[1].ge.N*Int(D(m[1].wheel))/(4*m[1].tau0^2) -
-        # Int(D(m[ ... in stage 3
-        c.r2_w5_v3_product = t_27 / 360.0
+        # Int(D(m[ ...
+        c.r2_w5_product = t_23 / 360.0
 
         # khepera_encoders.bg:31: 1/(2*m[1].tau0^3)
         c.g_5 = 0.5 / p.m__1__tau0 / p.m__1__tau0 / p.m__1__tau0
@@ -977,137 +947,148 @@ class Monitor:
         c.g_6 = 0.5 * p.m__1__ge__N / p.m__1__tau0 / p.m__1__tau0 / p.m__1__tau0
 
         # khepera_encoders.bg:31: r2_w6: factor of (1 - tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
-        # m[1].ge.N*I ... in stage 3
-        c.r2_w6_v3_product = t_28 / 720.0
+        # m[1].ge.N*I ...
+        c.r2_w6_product = t_24 / 720.0
 
         # khepera_encoders.bg:31: r2_w6: factor of tanh(Int(D(m[1].motor))/(4*m[1].tau0) -
-        # m[1].ge.N*Int(D( ... in stage 3
-        c.r2_w6_v3_product_2 = t_28 / 360.0
+        # m[1].ge.N*Int(D( ...
+        c.r2_w6_product_2 = t_24 / 360.0
 
-        # khepera.bg:17: r3_w1: factor of m[2].motor in stage 2
-        c.r3_w1_v2_m__2__motor = t_29 / 10.0
+        # khepera.bg:17: r3_w1: factor of m[2].motor'
+        c.r3_w1_w1_m__2__motor = t_5 / 10.0
 
-        # khepera.bg:17: r3_w1: factor of m[2].motor in stage 3
-        c.r3_w1_v3_m__2__motor = t_29 / 10.0 - t_5 / 10.0
+        # khepera.bg:17: r3_w1: factor of m[2].motor''
+        c.r3_w1_w2_m__2__motor = t_25 / 10.0
 
-        # khepera.bg:17: r3_w2: factor of m[2].wheel in stage 1
-        c.r3_w2_v1_m__2__wheel = t_18 / 50.0
+        # khepera.bg:17: r3_w2: factor of m[2].wheel''
+        c.r3_w2_w2_m__2__wheel = t_26 / 50.0
 
-        # khepera.bg:17: r3_w2: factor of m[2].wheel in stage 2
-        c.r3_w2_v2_m__2__wheel = t_18 / 25.0 - t_30 / 50.0
+        # khepera.bg:17: r3_w2: factor of m[2].wheel'''
+        c.r3_w2_w3_m__2__wheel = t_18 / 50.0
 
-        # khepera.bg:17: r3_w2: factor of m[2].wheel in stage 3
-        c.r3_w2_v3_m__2__wheel = t_30 / 50.0 - t_18 / 50.0
+        # khepera.bg:17: r3_w3: factor of m[2].wheel'
+        c.r3_w3_w1_m__2__wheel = t_7 / 10.0
 
-        # khepera.bg:17: r3_w3: factor of m[2].wheel in stage 2
-        c.r3_w3_v2_m__2__wheel = t_31 / 10.0
+        # khepera.bg:17: r3_w3: factor of m[2].wheel''
+        c.r3_w3_w2_m__2__wheel = t_27 / 10.0
 
-        # khepera.bg:17: r3_w3: factor of m[2].wheel in stage 3
-        c.r3_w3_v3_m__2__wheel = t_31 / 10.0 - t_7 / 10.0
+        # khepera.bg:17: r3_w4: factor of m[2].wheel'
+        c.r3_w4_w1_m__2__wheel = t_7 / 20.0
 
-        # khepera.bg:17: r3_w4: factor of m[2].wheel in stage 2
-        c.r3_w4_v2_m__2__wheel = t_30 / 20.0
+        # khepera.bg:17: r3_w4: factor of m[2].wheel''
+        c.r3_w4_w2_m__2__wheel = t_26 / 20.0
 
-        # khepera.bg:17: r3_w4: factor of m[2].wheel in stage 3
-        c.r3_w4_v3_m__2__wheel = t_30 / 20.0 - t_7 / 20.0
+        # khepera.bg:17: r3_w4: factor of Fx[2]
+        c.r3_w4_Fx__2 = t_6 / 20.0
 
-        # khepera.bg:17: r3_w4: factor of Fx[2] in stage 4
-        c.r3_w4_v4_Fx__2 = t_6 / 20.0
+        # khepera.bg:17: r3_w4: factor of m[2].motor'
+        c.r3_w4_w1_m__2__motor = t_5 / 20.0
 
-        # khepera.bg:17: r3_w4: factor of m[2].motor in stage 2
-        c.r3_w4_v2_m__2__motor = t_32 / 20.0
+        # khepera.bg:17: r3_w4: factor of m[2].motor''
+        c.r3_w4_w2_m__2__motor = t_28 / 20.0
 
-        # khepera.bg:17: r3_w4: factor of m[2].motor in stage 3
-        c.r3_w4_v3_m__2__motor = t_32 / 20.0 - t_5 / 20.0
-
-        # khepera.bg:17: r3_w5: factor of m[2].motor in stage 1
-        c.r3_w5_v1_m__2__motor = t_16 / 50.0
-
-        # khepera.bg:17: r3_w5: factor of m[2].motor in stage 2
-        c.r3_w5_v2_m__2__motor = t_33 / 50.0 - t_16 / 25.0
-
-        # khepera.bg:17: r3_w5: factor of m[2].motor in stage 3
-        c.r3_w5_v3_m__2__motor = (
-            t_16 / 50.0
-            + p.m__2__el__k * (p.m__2__fe * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k
+        # khepera.bg:17: r3_w5: factor of m[2].motor'
+        c.r3_w5_w1_m__2__motor = (
+            p.m__2__el__k * (p.m__2__fe * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k
                 - 1.0) / 50.0
-            - t_33 / 50.0
         )
 
-        # khepera.bg:17: r3_w5: factor of m[2].wheel in stage 2
-        c.r3_w5_v2_m__2__wheel = t_34 / 50.0 - t_18 / 25.0
+        # khepera.bg:17: r3_w5: factor of m[2].motor''
+        c.r3_w5_w2_m__2__motor = (
+            p.m__2__el__k * w * (p.m__2__Je * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k
+                + p.m__2__fe * p.m__2__el__L / p.m__2__el__k / p.m__2__el__k) / 50.0
+        )
 
-        # khepera.bg:17: r3_w5: factor of m[2].wheel in stage 3
-        c.r3_w5_v3_m__2__wheel = t_7 / 50.0 + t_18 / 50.0 - t_34 / 50.0
+        # khepera.bg:17: r3_w5: factor of m[2].motor'''
+        c.r3_w5_w3_m__2__motor = t_16 / 50.0
 
-        # khepera.bg:17: r3_w5: factor of Fx[2] in stage 3
-        c.r3_w5_v3_Fx__2 = t_17 / 50.0
+        # khepera.bg:17: r3_w5: factor of m[2].wheel'
+        c.r3_w5_w1_m__2__wheel = t_7 / 50.0
 
-        # khepera.bg:17: r3_w5: factor of Fx[2] in stage 4
-        c.r3_w5_v4_Fx__2 = t_6 / 50.0 - t_17 / 50.0
+        # khepera.bg:17: r3_w5: factor of m[2].wheel''
+        c.r3_w5_w2_m__2__wheel = (
+            p.m__2__el__k * w
+                * (p.m__2__Js * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k / p.m__2__ge__N
+                + p.m__2__fs * p.m__2__el__L / p.m__2__el__k / p.m__2__el__k / p.m__2__ge__N) / 50.0
+        )
 
-        # khepera.bg:17: r3_w6: factor of m[2].motor in stage 3
-        c.r3_w6_v3_m__2__motor = t_5 / 142.0
+        # khepera.bg:17: r3_w5: factor of Fx[2]
+        c.r3_w5_Fx__2 = t_6 / 50.0
 
-        # khepera.bg:17: r3_w7: factor of m[2].motor in stage 2
-        c.r3_w7_v2_m__2__motor = t_29 / 355.0
+        # khepera.bg:17: r3_w5: factor of Fx[2]'
+        c.r3_w5_w1_Fx__2 = t_17 / 50.0
 
-        # khepera.bg:17: r3_w7: factor of m[2].motor in stage 3
-        c.r3_w7_v3_m__2__motor = t_5 / 355.0 - t_29 / 355.0
+        # khepera.bg:17: r3_w6: factor of m[2].motor'
+        c.r3_w6_w1_m__2__motor = t_5 / 142.0
 
-        # khepera.bg:17: r3_w8: factor of m[2].wheel in stage 2
-        c.r3_w8_v2_m__2__wheel = t_30 / 710.0
+        # khepera.bg:17: r3_w7: factor of m[2].motor'
+        c.r3_w7_w1_m__2__motor = t_5 / 355.0
 
-        # khepera.bg:17: r3_w9: factor of m[2].wheel in stage 1
-        c.r3_w9_v1_m__2__wheel = t_18 / 1775.0
+        # khepera.bg:17: r3_w7: factor of m[2].motor''
+        c.r3_w7_w2_m__2__motor = t_25 / 355.0
 
-        # khepera.bg:17: r3_w9: factor of m[2].wheel in stage 2
-        c.r3_w9_v2_m__2__wheel = t_30 / 1775.0 - 2.0 * t_18 / 1775.0
+        # khepera.bg:17: r3_w8: factor of m[2].wheel''
+        c.r3_w8_w2_m__2__wheel = t_26 / 710.0
 
-        # khepera.bg:17: r3_w9: factor of m[2].wheel in stage 3
-        c.r3_w9_v3_m__2__wheel = t_18 / 1775.0 - t_30 / 1775.0
+        # khepera.bg:17: r3_w9: factor of m[2].wheel''
+        c.r3_w9_w2_m__2__wheel = t_26 / 1775.0
 
-        # khepera.bg:17: r3_w10: factor of m[2].wheel in stage 3
-        c.r3_w10_v3_m__2__wheel = t_7 / 142.0
+        # khepera.bg:17: r3_w9: factor of m[2].wheel'''
+        c.r3_w9_w3_m__2__wheel = t_18 / 1775.0
 
-        # khepera.bg:17: r3_w11: factor of m[2].wheel in stage 2
-        c.r3_w11_v2_m__2__wheel = t_31 / 355.0
+        # khepera.bg:17: r3_w10: factor of m[2].wheel'
+        c.r3_w10_w1_m__2__wheel = t_7 / 142.0
 
-        # khepera.bg:17: r3_w11: factor of m[2].wheel in stage 3
-        c.r3_w11_v3_m__2__wheel = t_7 / 355.0 - t_31 / 355.0
+        # khepera.bg:17: r3_w11: factor of m[2].wheel'
+        c.r3_w11_w1_m__2__wheel = t_7 / 355.0
 
-        # khepera.bg:17: r3_w12: factor of m[2].motor in stage 2
-        c.r3_w12_v2_m__2__motor = t_32 / 710.0
+        # khepera.bg:17: r3_w11: factor of m[2].wheel''
+        c.r3_w11_w2_m__2__wheel = t_27 / 355.0
 
-        # khepera.bg:17: r3_w12: factor of m[2].motor in stage 3
-        c.r3_w12_v3_m__2__motor = t_5 / 710.0 - t_32 / 710.0
+        # khepera.bg:17: r3_w12: factor of m[2].motor'
+        c.r3_w12_w1_m__2__motor = t_5 / 710.0
 
-        # khepera.bg:17: r3_w12: factor of m[2].wheel in stage 3
-        c.r3_w12_v3_m__2__wheel = t_7 / 710.0 - t_30 / 710.0
+        # khepera.bg:17: r3_w12: factor of m[2].motor''
+        c.r3_w12_w2_m__2__motor = t_28 / 710.0
 
-        # khepera.bg:17: r3_w12: factor of Fx[2] in stage 4
-        c.r3_w12_v4_Fx__2 = t_6 / 710.0
+        # khepera.bg:17: r3_w12: factor of m[2].wheel'
+        c.r3_w12_w1_m__2__wheel = t_7 / 710.0
 
-        # khepera.bg:17: r3_w13: factor of m[2].motor in stage 1
-        c.r3_w13_v1_m__2__motor = t_16 / 1775.0
+        # khepera.bg:17: r3_w12: factor of Fx[2]
+        c.r3_w12_Fx__2 = t_6 / 710.0
 
-        # khepera.bg:17: r3_w13: factor of m[2].motor in stage 2
-        c.r3_w13_v2_m__2__motor = 2.0 * t_16 / 1775.0 + t_35 / 3550.0
+        # khepera.bg:17: r3_w13: factor of m[2].motor'
+        c.r3_w13_w1_m__2__motor = t_5 / 1775.0
 
-        # khepera.bg:17: r3_w13: factor of m[2].motor in stage 3
-        c.r3_w13_v3_m__2__motor = t_5 / 1775.0 + t_16 / 1775.0 + t_35 / 3550.0
+        # khepera.bg:17: r3_w13: factor of m[2].motor''
+        c.r3_w13_w2_m__2__motor = (
+            p.m__2__el__k * p.m__2__el__k * w
+                * (-2.0 * p.m__2__fe * p.m__2__el__L / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
+                - 2.0 * p.m__2__Je * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k)
+                / 3550.0
+        )
 
-        # khepera.bg:17: r3_w13: factor of m[2].wheel in stage 2
-        c.r3_w13_v2_m__2__wheel = 2.0 * t_18 / 1775.0 + t_36 / 3550.0
+        # khepera.bg:17: r3_w13: factor of m[2].motor'''
+        c.r3_w13_w3_m__2__motor = t_16 / 1775.0
 
-        # khepera.bg:17: r3_w13: factor of m[2].wheel in stage 3
-        c.r3_w13_v3_m__2__wheel = t_7 / 1775.0 + t_18 / 1775.0 + t_36 / 3550.0
+        # khepera.bg:17: r3_w13: factor of m[2].wheel'
+        c.r3_w13_w1_m__2__wheel = t_7 / 1775.0
 
-        # khepera.bg:17: r3_w13: factor of Fx[2] in stage 3
-        c.r3_w13_v3_Fx__2 = t_17 / 1775.0
+        # khepera.bg:17: r3_w13: factor of m[2].wheel''
+        c.r3_w13_w2_m__2__wheel = (
+            p.m__2__el__k * p.m__2__el__k * w
+                * (-2.0 * p.m__2__fs * p.m__2__el__L / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
+                    / p.m__2__ge__N
+                - 2.0 * p.m__2__Js * p.m__2__el__Re / p.m__2__el__k / p.m__2__el__k / p.m__2__el__k
+                    / p.m__2__ge__N)
+                / 3550.0
+        )
 
-        # khepera.bg:17: r3_w13: factor of Fx[2] in stage 4
-        c.r3_w13_v4_Fx__2 = t_17 / 1775.0 - t_6 / 1775.0
+        # khepera.bg:17: r3_w13: factor of Fx[2]
+        c.r3_w13_Fx__2 = t_6 / 1775.0
+
+        # khepera.bg:17: r3_w13: factor of Fx[2]'
+        c.r3_w13_w1_Fx__2 = t_17 / 1775.0
 
         # khepera_encoders.bg:31: m[2].wheel.int.x0
         c.m__2__wheel__int__x0 = 0.0
@@ -1121,15 +1102,15 @@ class Monitor:
         # khepera_encoders.bg:31: m[2].ge.N/(4*m[2].tau0)
         c.g_8 = 0.25 * p.m__2__ge__N / p.m__2__tau0
 
-        # khepera_encoders.bg:31: r4_w1: factor of Int(D(m[2].motor)) in stage 3
-        c.r4_w1_v3_integral = p.m__2__K / 20.0
+        # khepera_encoders.bg:31: r4_w1: factor of Int(D(m[2].motor))
+        c.r4_w1_integral = p.m__2__K / 20.0
 
-        # khepera_encoders.bg:31: r4_w1: factor of Int(D(m[2].wheel)) in stage 3
-        c.r4_w1_v3_integral_2 = p.m__2__K * p.m__2__ge__N / 20.0
+        # khepera_encoders.bg:31: r4_w1: factor of Int(D(m[2].wheel))
+        c.r4_w1_integral_2 = p.m__2__K * p.m__2__ge__N / 20.0
 
         # khepera_encoders.bg:31: r4_w1: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
-        # m[2].ge.N*Int(D( ... in stage 3
-        c.r4_w1_v3_tanh = t_8 / 20.0
+        # m[2].ge.N*Int(D( ...
+        c.r4_w1_tanh = t_8 / 20.0
 
         # khepera_encoders.bg:31: 1/(4*m[2].tau0^2)
         c.g_9 = 0.25 / p.m__2__tau0 / p.m__2__tau0
@@ -1138,22 +1119,22 @@ class Monitor:
         c.g_10 = 0.25 * p.m__2__ge__N / p.m__2__tau0 / p.m__2__tau0
 
         # khepera_encoders.bg:31: r4_w2: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) -
-        # Int(D(m[ ... in stage 3
-        c.r4_w2_v3_product = t_37 / 20.0
+        # Int(D(m[ ...
+        c.r4_w2_product = t_29 / 20.0
 
-        # khepera_encoders.bg:31: r4_w3: factor of m[2].wheel in stage 1
-        c.r4_w3_v1_m__2__wheel = p.m__2__Js * bandwidth / 50.0 / p.m__2__ge__N
+        # khepera_encoders.bg:31: r4_w3: factor of m[2].wheel''
+        c.r4_w3_w2_m__2__wheel = p.m__2__Js * w / 50.0 / p.m__2__ge__N
 
-        # khepera_encoders.bg:31: r4_w4: factor of m[2].wheel in stage 2
-        c.r4_w4_v2_m__2__wheel = p.m__2__fs / 10.0 / p.m__2__ge__N
+        # khepera_encoders.bg:31: r4_w4: factor of m[2].wheel'
+        c.r4_w4_w1_m__2__wheel = p.m__2__fs / 10.0 / p.m__2__ge__N
 
         # khepera_encoders.bg:31: r4_w5: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
-        # m[2].ge.N*Int(D( ... in stage 3
-        c.r4_w5_v3_tanh = t_8 / 360.0
+        # m[2].ge.N*Int(D( ...
+        c.r4_w5_tanh = t_8 / 360.0
 
         # khepera_encoders.bg:31: r4_w5: factor of (m[2].ge.N*Int(D(m[2].wheel))/(4*m[2].tau0^2) -
-        # Int(D(m[ ... in stage 3
-        c.r4_w5_v3_product = t_37 / 360.0
+        # Int(D(m[ ...
+        c.r4_w5_product = t_29 / 360.0
 
         # khepera_encoders.bg:31: 1/(2*m[2].tau0^3)
         c.g_11 = 0.5 / p.m__2__tau0 / p.m__2__tau0 / p.m__2__tau0
@@ -1162,21 +1143,21 @@ class Monitor:
         c.g_12 = 0.5 * p.m__2__ge__N / p.m__2__tau0 / p.m__2__tau0 / p.m__2__tau0
 
         # khepera_encoders.bg:31: r4_w6: factor of (1 - tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
-        # m[2].ge.N*I ... in stage 3
-        c.r4_w6_v3_product = t_38 / 720.0
+        # m[2].ge.N*I ...
+        c.r4_w6_product = t_30 / 720.0
 
         # khepera_encoders.bg:31: r4_w6: factor of tanh(Int(D(m[2].motor))/(4*m[2].tau0) -
-        # m[2].ge.N*Int(D( ... in stage 3
-        c.r4_w6_v3_product_2 = t_38 / 360.0
+        # m[2].ge.N*Int(D( ...
+        c.r4_w6_product_2 = t_30 / 360.0
 
-        # khepera.bg:114: r5_w1: factor of load in stage 1
-        c.r5_w1_v1_load = 11.0 * t_39 / 1000000000000.0
+        # khepera.bg:114: r5_w1: factor of load
+        c.r5_w1_load = p.R_L / 10.0
 
-        # khepera.bg:114: r5_w1: factor of load in stage 2
-        c.r5_w1_v2_load = 11.0 * t_39 / 1000000000000.0 - p.R_L / 10.0
+        # khepera.bg:114: r5_w1: factor of load'
+        c.r5_w1_w1_load = 11.0 * t_31 / 1000000000000.0
 
-        # khepera.bg:114: r5_w2: factor of load in stage 1
-        c.r5_w2_v1_load = 11.0 * t_39 / 20000000000000.0
+        # khepera.bg:114: r5_w2: factor of load'
+        c.r5_w2_w1_load = 11.0 * t_31 / 20000000000000.0
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -1191,8 +1172,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w1_m__1__motor_speed = r1_w1_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w1: encoders, order 1
+        r1_w1_n1 = -c.r1_w1_w1_m__1__motor * r1_w1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w1: error of order 1
+        r1_w1_e1 = c.bend1 * r1_w1_n1
+
+        # khepera.bg:17: r1_w1: encoders, order 2
+        r1_w1_n2 = -c.r1_w1_w2_m__1__motor * r1_w1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = r1_w1_n1 + r1_w1_n2
+
+        # khepera.bg:17: r1_w1: degree 2
+        r1_w1_d2 = r1_w1_n2 - r1_w1_e1
+
+        # khepera.bg:17: r1_w1: input of stage 4
+        r1_w1_u4 = r1_w1_n1 + r1_w1_d2 + r1_w1_e1 - r1_w1_d1
+
+        # khepera.bg:17: r1_w1: stage 4, at rest
+        r1_w1_y4 = r1_w1_u4
+
+        # khepera.bg:17: r1_w1: stage 4: memory
+        x.r1_w1_s4 = c.rest * r1_w1_u4
+
         # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = c.r1_w1_v3_m__1__motor * r1_w1_m__1__motor_speed_2
+        r1_w1_u3 = r1_w1_y4 + r1_w1_d1 - 2.0 * r1_w1_d2 - 3.0 * r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 3, at rest
         r1_w1_y3 = r1_w1_u3
@@ -1201,7 +1206,7 @@ class Monitor:
         x.r1_w1_s3 = c.rest * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = r1_w1_y3 - c.r1_w1_v2_m__1__motor * r1_w1_m__1__motor_speed_2
+        r1_w1_u2 = r1_w1_y3 + r1_w1_d2 + 3.0 * r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 2, at rest
         r1_w1_y2 = r1_w1_u2
@@ -1210,7 +1215,7 @@ class Monitor:
         x.r1_w1_s2 = c.rest * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 1, at rest
         r1_w1_y1 = r1_w1_u1
@@ -1227,8 +1232,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].wheel
         x.r1_w2_m__1__wheel_speed = r1_w2_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w2: encoders, order 2
+        r1_w2_n2 = -c.r1_w2_w2_m__1__wheel * r1_w2_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w2: error of order 2
+        r1_w2_e2 = c.bend1 * r1_w2_n2
+
+        # khepera.bg:17: r1_w2: encoders, order 3
+        r1_w2_n3 = -c.r1_w2_w3_m__1__wheel * r1_w2_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w2: degree 2
+        r1_w2_d2 = r1_w2_n2 + r1_w2_n3
+
+        # khepera.bg:17: r1_w2: degree 3
+        r1_w2_d3 = r1_w2_n3 - r1_w2_e2
+
+        # khepera.bg:17: r1_w2: input of stage 4
+        r1_w2_u4 = r1_w2_d2 - r1_w2_n2 - r1_w2_d3 - r1_w2_e2
+
+        # khepera.bg:17: r1_w2: stage 4, at rest
+        r1_w2_y4 = r1_w2_u4
+
+        # khepera.bg:17: r1_w2: stage 4: memory
+        x.r1_w2_s4 = c.rest * r1_w2_u4
+
         # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = c.r1_w2_v3_m__1__wheel * r1_w2_m__1__wheel_speed_2
+        r1_w2_u3 = r1_w2_y4 + r1_w2_n2 + 3.0 * r1_w2_d3 + 4.0 * r1_w2_e2 - 2.0 * r1_w2_d2
 
         # khepera.bg:17: r1_w2: stage 3, at rest
         r1_w2_y3 = r1_w2_u3
@@ -1237,7 +1266,7 @@ class Monitor:
         x.r1_w2_s3 = c.rest * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = r1_w2_y3 + c.r1_w2_v2_m__1__wheel * r1_w2_m__1__wheel_speed_2
+        r1_w2_u2 = r1_w2_y3 + r1_w2_d2 - 3.0 * r1_w2_d3 - 6.0 * r1_w2_e2
 
         # khepera.bg:17: r1_w2: stage 2, at rest
         r1_w2_y2 = r1_w2_u2
@@ -1246,7 +1275,7 @@ class Monitor:
         x.r1_w2_s2 = c.rest * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = r1_w2_y2 - c.r1_w2_v1_m__1__wheel * r1_w2_m__1__wheel_speed_2
+        r1_w2_u1 = r1_w2_y2 + r1_w2_d3 + 4.0 * r1_w2_e2
 
         # khepera.bg:17: r1_w2: stage 1, at rest
         r1_w2_y1 = r1_w2_u1
@@ -1255,7 +1284,7 @@ class Monitor:
         x.r1_w2_s1 = c.rest * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].Js can do
-        r1_w2 = r1_w2_y1
+        r1_w2 = r1_w2_y1 - r1_w2_e2
 
         # khepera.bg:17: filtered speed of m[1].wheel, at rest
         r1_w3_m__1__wheel_speed_2 = 0.0
@@ -1263,8 +1292,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].wheel
         x.r1_w3_m__1__wheel_speed = r1_w3_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w3: encoders, order 1
+        r1_w3_n1 = -c.r1_w3_w1_m__1__wheel * r1_w3_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w3: error of order 1
+        r1_w3_e1 = c.bend1 * r1_w3_n1
+
+        # khepera.bg:17: r1_w3: encoders, order 2
+        r1_w3_n2 = -c.r1_w3_w2_m__1__wheel * r1_w3_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w3: degree 1
+        r1_w3_d1 = r1_w3_n1 + r1_w3_n2
+
+        # khepera.bg:17: r1_w3: degree 2
+        r1_w3_d2 = r1_w3_n2 - r1_w3_e1
+
+        # khepera.bg:17: r1_w3: input of stage 4
+        r1_w3_u4 = r1_w3_n1 + r1_w3_d2 + r1_w3_e1 - r1_w3_d1
+
+        # khepera.bg:17: r1_w3: stage 4, at rest
+        r1_w3_y4 = r1_w3_u4
+
+        # khepera.bg:17: r1_w3: stage 4: memory
+        x.r1_w3_s4 = c.rest * r1_w3_u4
+
         # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = c.r1_w3_v3_m__1__wheel * r1_w3_m__1__wheel_speed_2
+        r1_w3_u3 = r1_w3_y4 + r1_w3_d1 - 2.0 * r1_w3_d2 - 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 3, at rest
         r1_w3_y3 = r1_w3_u3
@@ -1273,7 +1326,7 @@ class Monitor:
         x.r1_w3_s3 = c.rest * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = r1_w3_y3 - c.r1_w3_v2_m__1__wheel * r1_w3_m__1__wheel_speed_2
+        r1_w3_u2 = r1_w3_y3 + r1_w3_d2 + 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 2, at rest
         r1_w3_y2 = r1_w3_u2
@@ -1282,7 +1335,7 @@ class Monitor:
         x.r1_w3_s2 = c.rest * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = r1_w3_y2
+        r1_w3_u1 = r1_w3_y2 - r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 1, at rest
         r1_w3_y1 = r1_w3_u1
@@ -1305,8 +1358,35 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w4_m__1__motor_speed = r1_w4_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w4: encoders, order 1
+        r1_w4_n1 = (
+            -c.r1_w4_w1_m__1__wheel * r1_w4_m__1__wheel_speed_2
+            - c.r1_w4_w1_m__1__motor * r1_w4_m__1__motor_speed_2
+        )
+
+        # khepera.bg:17: r1_w4: error of order 1
+        r1_w4_e1 = c.bend1 * r1_w4_n1
+
+        # khepera.bg:17: r1_w4: encoders, order 2
+        r1_w4_n2 = (
+            -c.r1_w4_w2_m__1__wheel * r1_w4_m__1__wheel_speed_2
+            - c.r1_w4_w2_m__1__motor * r1_w4_m__1__motor_speed_2
+        )
+
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = r1_w4_n1 + r1_w4_n2
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend2 * r1_w4_g0
+
+        # khepera.bg:17: r1_w4: degree 2
+        r1_w4_d2 = r1_w4_n2 - r1_w4_e1 - r1_w4_e0
+
         # khepera.bg:17: r1_w4: input of stage 4
-        r1_w4_u4 = -c.r1_w4_v4_Fx__1 * s.Fx__1
+        r1_w4_u4 = r1_w4_g0 + r1_w4_n1 + r1_w4_d2 + r1_w4_e1 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 4, at rest
         r1_w4_y4 = r1_w4_u4
@@ -1315,10 +1395,7 @@ class Monitor:
         x.r1_w4_s4 = c.rest * r1_w4_u4
 
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = (
-            r1_w4_y4 + c.r1_w4_v3_m__1__wheel * r1_w4_m__1__wheel_speed_2
-            + c.r1_w4_v3_m__1__motor * r1_w4_m__1__motor_speed_2
-        )
+        r1_w4_u3 = r1_w4_y4 + r1_w4_d1 - 2.0 * r1_w4_d2 - 3.0 * r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 3, at rest
         r1_w4_y3 = r1_w4_u3
@@ -1327,10 +1404,7 @@ class Monitor:
         x.r1_w4_s3 = c.rest * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = (
-            r1_w4_y3 - c.r1_w4_v2_m__1__wheel * r1_w4_m__1__wheel_speed_2
-            - c.r1_w4_v2_m__1__motor * r1_w4_m__1__motor_speed_2
-        )
+        r1_w4_u2 = r1_w4_y3 + r1_w4_d2 + 3.0 * r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 2, at rest
         r1_w4_y2 = r1_w4_u2
@@ -1339,7 +1413,7 @@ class Monitor:
         x.r1_w4_s2 = c.rest * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 1, at rest
         r1_w4_y1 = r1_w4_u1
@@ -1362,8 +1436,53 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].wheel
         x.r1_w5_m__1__wheel_speed = r1_w5_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w5: encoders, order 1
+        r1_w5_n1 = (
+            c.r1_w5_w1_m__1__motor * r1_w5_m__1__motor_speed_2
+            + c.r1_w5_w1_m__1__wheel * r1_w5_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w5: error of order 1
+        r1_w5_e1 = c.bend2 * r1_w5_n1
+
+        # khepera.bg:17: r1_w5: encoders, order 2
+        r1_w5_n2 = (
+            c.r1_w5_w2_m__1__motor * r1_w5_m__1__motor_speed_2
+            + c.r1_w5_w2_m__1__wheel * r1_w5_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w5: error of order 2
+        r1_w5_e2 = c.bend1 * r1_w5_n2
+
+        # khepera.bg:17: r1_w5: encoders, order 3
+        r1_w5_n3 = (
+            c.r1_w5_w3_m__1__motor * r1_w5_m__1__motor_speed_2
+            + c.r1_w2_w3_m__1__wheel * r1_w5_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w5: terms of order 0
+        r1_w5_g0 = c.r1_w5_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w5: terms of order 1
+        r1_w5_g1 = c.r1_w5_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w5: degree 1
+        r1_w5_d1 = r1_w5_g1 + r1_w5_n1 + r1_w5_n2
+
+        # khepera.bg:17: r1_w5: error of order 0
+        r1_w5_e0 = c.bend3 * r1_w5_g0
+
+        # khepera.bg:17: r1_w5: degree 2
+        r1_w5_d2 = r1_w5_n2 + r1_w5_n3 - r1_w5_e1 - r1_w5_e0
+
+        # khepera.bg:17: r1_w5: error of order 1
+        r1_w5_e1_2 = c.bend2 * r1_w5_g1
+
+        # khepera.bg:17: r1_w5: degree 3
+        r1_w5_d3 = r1_w5_n3 - r1_w5_e1 - r1_w5_e2 - r1_w5_e1_2
+
         # khepera.bg:17: r1_w5: input of stage 4
-        r1_w5_u4 = c.r1_w5_v4_Fx__1 * s.Fx__1
+        r1_w5_u4 = r1_w5_g0 + r1_w5_n1 + r1_w5_d2 - r1_w5_d1 - r1_w5_d3 - r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 4, at rest
         r1_w5_y4 = r1_w5_u4
@@ -1372,10 +1491,7 @@ class Monitor:
         x.r1_w5_s4 = c.rest * r1_w5_u4
 
         # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = (
-            r1_w5_y4 + c.r1_w5_v3_m__1__motor * r1_w5_m__1__motor_speed_2
-            + c.r1_w5_v3_m__1__wheel * r1_w5_m__1__wheel_speed_2 + c.r1_w5_v3_Fx__1 * s.Fx__1
-        )
+        r1_w5_u3 = r1_w5_y4 + r1_w5_d1 + 3.0 * r1_w5_d3 + 4.0 * r1_w5_e2 - 2.0 * r1_w5_d2
 
         # khepera.bg:17: r1_w5: stage 3, at rest
         r1_w5_y3 = r1_w5_u3
@@ -1384,10 +1500,7 @@ class Monitor:
         x.r1_w5_s3 = c.rest * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
-        r1_w5_u2 = (
-            r1_w5_y3 + c.r1_w5_v2_m__1__motor * r1_w5_m__1__motor_speed_2
-            + c.r1_w5_v2_m__1__wheel * r1_w5_m__1__wheel_speed_2
-        )
+        r1_w5_u2 = r1_w5_y3 + r1_w5_d2 - 3.0 * r1_w5_d3 - 6.0 * r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 2, at rest
         r1_w5_y2 = r1_w5_u2
@@ -1396,10 +1509,7 @@ class Monitor:
         x.r1_w5_s2 = c.rest * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
-        r1_w5_u1 = (
-            r1_w5_y2 + c.r1_w5_v1_m__1__motor * r1_w5_m__1__motor_speed_2
-            + c.r1_w2_v1_m__1__wheel * r1_w5_m__1__wheel_speed_2
-        )
+        r1_w5_u1 = r1_w5_y2 + r1_w5_d3 + 4.0 * r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 1, at rest
         r1_w5_y1 = r1_w5_u1
@@ -1408,7 +1518,7 @@ class Monitor:
         x.r1_w5_s1 = c.rest * r1_w5_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].el.k can do
-        r1_w5 = r1_w5_y1
+        r1_w5 = r1_w5_y1 - r1_w5_e2
 
         # khepera.bg:17: filtered speed of m[1].motor, at rest
         r1_w6_m__1__motor_speed_2 = 0.0
@@ -1416,8 +1526,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w6_m__1__motor_speed = r1_w6_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w6: encoders, order 1
+        r1_w6_n1 = -c.r1_w6_w1_m__1__motor * r1_w6_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w6: input of stage 4
+        r1_w6_u4 = r1_w6_n1 - r1_w6_n1
+
+        # khepera.bg:17: r1_w6: stage 4, at rest
+        r1_w6_y4 = r1_w6_u4
+
+        # khepera.bg:17: r1_w6: stage 4: memory
+        x.r1_w6_s4 = c.rest * r1_w6_u4
+
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = -c.r1_w6_v3_m__1__motor * r1_w6_m__1__motor_speed_2
+        r1_w6_u3 = r1_w6_y4 + r1_w6_n1
 
         # khepera.bg:17: r1_w6: stage 3, at rest
         r1_w6_y3 = r1_w6_u3
@@ -1452,8 +1574,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].motor
         x.r1_w7_m__1__motor_speed = r1_w7_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w7: encoders, order 1
+        r1_w7_n1 = c.r1_w7_w1_m__1__motor * r1_w7_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w7: error of order 1
+        r1_w7_e1 = c.bend1 * r1_w7_n1
+
+        # khepera.bg:17: r1_w7: encoders, order 2
+        r1_w7_n2 = c.r1_w7_w2_m__1__motor * r1_w7_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w7: degree 1
+        r1_w7_d1 = r1_w7_n1 + r1_w7_n2
+
+        # khepera.bg:17: r1_w7: degree 2
+        r1_w7_d2 = r1_w7_n2 - r1_w7_e1
+
+        # khepera.bg:17: r1_w7: input of stage 4
+        r1_w7_u4 = r1_w7_n1 + r1_w7_d2 + r1_w7_e1 - r1_w7_d1
+
+        # khepera.bg:17: r1_w7: stage 4, at rest
+        r1_w7_y4 = r1_w7_u4
+
+        # khepera.bg:17: r1_w7: stage 4: memory
+        x.r1_w7_s4 = c.rest * r1_w7_u4
+
         # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = c.r1_w7_v3_m__1__motor * r1_w7_m__1__motor_speed_2
+        r1_w7_u3 = r1_w7_y4 + r1_w7_d1 - 2.0 * r1_w7_d2 - 3.0 * r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 3, at rest
         r1_w7_y3 = r1_w7_u3
@@ -1462,7 +1608,7 @@ class Monitor:
         x.r1_w7_s3 = c.rest * r1_w7_u3
 
         # khepera.bg:17: r1_w7: input of stage 2
-        r1_w7_u2 = r1_w7_y3 + c.r1_w7_v2_m__1__motor * r1_w7_m__1__motor_speed_2
+        r1_w7_u2 = r1_w7_y3 + r1_w7_d2 + 3.0 * r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 2, at rest
         r1_w7_y2 = r1_w7_u2
@@ -1471,7 +1617,7 @@ class Monitor:
         x.r1_w7_s2 = c.rest * r1_w7_u2
 
         # khepera.bg:17: r1_w7: input of stage 1
-        r1_w7_u1 = r1_w7_y2
+        r1_w7_u1 = r1_w7_y2 - r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 1, at rest
         r1_w7_y1 = r1_w7_u1
@@ -1488,8 +1634,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].wheel
         x.r1_w8_m__1__wheel_speed = r1_w8_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w8: encoders, order 2
+        r1_w8_n2 = -c.r1_w8_w2_m__1__wheel * r1_w8_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w8: input of stage 4
+        r1_w8_u4 = r1_w8_n2 - r1_w8_n2
+
+        # khepera.bg:17: r1_w8: stage 4, at rest
+        r1_w8_y4 = r1_w8_u4
+
+        # khepera.bg:17: r1_w8: stage 4: memory
+        x.r1_w8_s4 = c.rest * r1_w8_u4
+
         # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = c.r1_w8_v2_m__1__wheel * r1_w8_m__1__wheel_speed_2
+        r1_w8_u3 = r1_w8_y4 + r1_w8_n2 - 2.0 * r1_w8_n2
 
         # khepera.bg:17: r1_w8: stage 3, at rest
         r1_w8_y3 = r1_w8_u3
@@ -1498,7 +1656,7 @@ class Monitor:
         x.r1_w8_s3 = c.rest * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
-        r1_w8_u2 = r1_w8_y3 - c.r1_w8_v2_m__1__wheel * r1_w8_m__1__wheel_speed_2
+        r1_w8_u2 = r1_w8_y3 + r1_w8_n2
 
         # khepera.bg:17: r1_w8: stage 2, at rest
         r1_w8_y2 = r1_w8_u2
@@ -1524,8 +1682,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].wheel
         x.r1_w9_m__1__wheel_speed = r1_w9_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w9: encoders, order 2
+        r1_w9_n2 = c.r1_w9_w2_m__1__wheel * r1_w9_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w9: error of order 2
+        r1_w9_e2 = c.bend1 * r1_w9_n2
+
+        # khepera.bg:17: r1_w9: encoders, order 3
+        r1_w9_n3 = c.r1_w9_w3_m__1__wheel * r1_w9_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w9: degree 2
+        r1_w9_d2 = r1_w9_n2 + r1_w9_n3
+
+        # khepera.bg:17: r1_w9: degree 3
+        r1_w9_d3 = r1_w9_n3 - r1_w9_e2
+
+        # khepera.bg:17: r1_w9: input of stage 4
+        r1_w9_u4 = r1_w9_d2 - r1_w9_n2 - r1_w9_d3 - r1_w9_e2
+
+        # khepera.bg:17: r1_w9: stage 4, at rest
+        r1_w9_y4 = r1_w9_u4
+
+        # khepera.bg:17: r1_w9: stage 4: memory
+        x.r1_w9_s4 = c.rest * r1_w9_u4
+
         # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = c.r1_w9_v3_m__1__wheel * r1_w9_m__1__wheel_speed_2
+        r1_w9_u3 = r1_w9_y4 + r1_w9_n2 + 3.0 * r1_w9_d3 + 4.0 * r1_w9_e2 - 2.0 * r1_w9_d2
 
         # khepera.bg:17: r1_w9: stage 3, at rest
         r1_w9_y3 = r1_w9_u3
@@ -1534,7 +1716,7 @@ class Monitor:
         x.r1_w9_s3 = c.rest * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = r1_w9_y3 + c.r1_w9_v2_m__1__wheel * r1_w9_m__1__wheel_speed_2
+        r1_w9_u2 = r1_w9_y3 + r1_w9_d2 - 3.0 * r1_w9_d3 - 6.0 * r1_w9_e2
 
         # khepera.bg:17: r1_w9: stage 2, at rest
         r1_w9_y2 = r1_w9_u2
@@ -1543,7 +1725,7 @@ class Monitor:
         x.r1_w9_s2 = c.rest * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = r1_w9_y2 + c.r1_w9_v1_m__1__wheel * r1_w9_m__1__wheel_speed_2
+        r1_w9_u1 = r1_w9_y2 + r1_w9_d3 + 4.0 * r1_w9_e2
 
         # khepera.bg:17: r1_w9: stage 1, at rest
         r1_w9_y1 = r1_w9_u1
@@ -1552,7 +1734,7 @@ class Monitor:
         x.r1_w9_s1 = c.rest * r1_w9_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.k can do together
-        r1_w9 = r1_w9_y1
+        r1_w9 = r1_w9_y1 - r1_w9_e2
 
         # khepera.bg:17: filtered speed of m[1].wheel, at rest
         r1_w10_m__1__wheel_speed_2 = 0.0
@@ -1560,8 +1742,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].wheel
         x.r1_w10_m__1__wheel_speed = r1_w10_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w10: encoders, order 1
+        r1_w10_n1 = -c.r1_w10_w1_m__1__wheel * r1_w10_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w10: input of stage 4
+        r1_w10_u4 = r1_w10_n1 - r1_w10_n1
+
+        # khepera.bg:17: r1_w10: stage 4, at rest
+        r1_w10_y4 = r1_w10_u4
+
+        # khepera.bg:17: r1_w10: stage 4: memory
+        x.r1_w10_s4 = c.rest * r1_w10_u4
+
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = -c.r1_w10_v3_m__1__wheel * r1_w10_m__1__wheel_speed_2
+        r1_w10_u3 = r1_w10_y4 + r1_w10_n1
 
         # khepera.bg:17: r1_w10: stage 3, at rest
         r1_w10_y3 = r1_w10_u3
@@ -1596,8 +1790,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].wheel
         x.r1_w11_m__1__wheel_speed = r1_w11_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w11: encoders, order 1
+        r1_w11_n1 = c.r1_w11_w1_m__1__wheel * r1_w11_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w11: error of order 1
+        r1_w11_e1 = c.bend1 * r1_w11_n1
+
+        # khepera.bg:17: r1_w11: encoders, order 2
+        r1_w11_n2 = c.r1_w11_w2_m__1__wheel * r1_w11_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w11: degree 1
+        r1_w11_d1 = r1_w11_n1 + r1_w11_n2
+
+        # khepera.bg:17: r1_w11: degree 2
+        r1_w11_d2 = r1_w11_n2 - r1_w11_e1
+
+        # khepera.bg:17: r1_w11: input of stage 4
+        r1_w11_u4 = r1_w11_n1 + r1_w11_d2 + r1_w11_e1 - r1_w11_d1
+
+        # khepera.bg:17: r1_w11: stage 4, at rest
+        r1_w11_y4 = r1_w11_u4
+
+        # khepera.bg:17: r1_w11: stage 4: memory
+        x.r1_w11_s4 = c.rest * r1_w11_u4
+
         # khepera.bg:17: r1_w11: input of stage 3
-        r1_w11_u3 = c.r1_w11_v3_m__1__wheel * r1_w11_m__1__wheel_speed_2
+        r1_w11_u3 = r1_w11_y4 + r1_w11_d1 - 2.0 * r1_w11_d2 - 3.0 * r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 3, at rest
         r1_w11_y3 = r1_w11_u3
@@ -1606,7 +1824,7 @@ class Monitor:
         x.r1_w11_s3 = c.rest * r1_w11_u3
 
         # khepera.bg:17: r1_w11: input of stage 2
-        r1_w11_u2 = r1_w11_y3 + c.r1_w11_v2_m__1__wheel * r1_w11_m__1__wheel_speed_2
+        r1_w11_u2 = r1_w11_y3 + r1_w11_d2 + 3.0 * r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 2, at rest
         r1_w11_y2 = r1_w11_u2
@@ -1615,7 +1833,7 @@ class Monitor:
         x.r1_w11_s2 = c.rest * r1_w11_u2
 
         # khepera.bg:17: r1_w11: input of stage 1
-        r1_w11_u1 = r1_w11_y2
+        r1_w11_u1 = r1_w11_y2 - r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 1, at rest
         r1_w11_y1 = r1_w11_u1
@@ -1638,8 +1856,35 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].wheel
         x.r1_w12_m__1__wheel_speed = r1_w12_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w12: encoders, order 1
+        r1_w12_n1 = (
+            c.r1_w12_w1_m__1__motor * r1_w12_m__1__motor_speed_2
+            + c.r1_w12_w1_m__1__wheel * r1_w12_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w12: error of order 1
+        r1_w12_e1 = c.bend1 * r1_w12_n1
+
+        # khepera.bg:17: r1_w12: encoders, order 2
+        r1_w12_n2 = (
+            c.r1_w12_w2_m__1__motor * r1_w12_m__1__motor_speed_2
+            + c.r1_w8_w2_m__1__wheel * r1_w12_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w12: terms of order 0
+        r1_w12_g0 = c.r1_w12_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w12: degree 1
+        r1_w12_d1 = r1_w12_n1 + r1_w12_n2
+
+        # khepera.bg:17: r1_w12: error of order 0
+        r1_w12_e0 = c.bend2 * r1_w12_g0
+
+        # khepera.bg:17: r1_w12: degree 2
+        r1_w12_d2 = r1_w12_n2 - r1_w12_e1 - r1_w12_e0
+
         # khepera.bg:17: r1_w12: input of stage 4
-        r1_w12_u4 = c.r1_w12_v4_Fx__1 * s.Fx__1
+        r1_w12_u4 = r1_w12_g0 + r1_w12_n1 + r1_w12_d2 + r1_w12_e1 - r1_w12_d1
 
         # khepera.bg:17: r1_w12: stage 4, at rest
         r1_w12_y4 = r1_w12_u4
@@ -1648,10 +1893,7 @@ class Monitor:
         x.r1_w12_s4 = c.rest * r1_w12_u4
 
         # khepera.bg:17: r1_w12: input of stage 3
-        r1_w12_u3 = (
-            r1_w12_y4 + c.r1_w12_v3_m__1__motor * r1_w12_m__1__motor_speed_2
-            + c.r1_w12_v3_m__1__wheel * r1_w12_m__1__wheel_speed_2
-        )
+        r1_w12_u3 = r1_w12_y4 + r1_w12_d1 - 2.0 * r1_w12_d2 - 3.0 * r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 3, at rest
         r1_w12_y3 = r1_w12_u3
@@ -1660,10 +1902,7 @@ class Monitor:
         x.r1_w12_s3 = c.rest * r1_w12_u3
 
         # khepera.bg:17: r1_w12: input of stage 2
-        r1_w12_u2 = (
-            r1_w12_y3 + c.r1_w12_v2_m__1__motor * r1_w12_m__1__motor_speed_2
-            + c.r1_w8_v2_m__1__wheel * r1_w12_m__1__wheel_speed_2
-        )
+        r1_w12_u2 = r1_w12_y3 + r1_w12_d2 + 3.0 * r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 2, at rest
         r1_w12_y2 = r1_w12_u2
@@ -1672,7 +1911,7 @@ class Monitor:
         x.r1_w12_s2 = c.rest * r1_w12_u2
 
         # khepera.bg:17: r1_w12: input of stage 1
-        r1_w12_u1 = r1_w12_y2
+        r1_w12_u1 = r1_w12_y2 - r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 1, at rest
         r1_w12_y1 = r1_w12_u1
@@ -1695,8 +1934,53 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[1].wheel
         x.r1_w13_m__1__wheel_speed = r1_w13_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w13: encoders, order 1
+        r1_w13_n1 = (
+            -c.r1_w13_w1_m__1__motor * r1_w13_m__1__motor_speed_2
+            - c.r1_w13_w1_m__1__wheel * r1_w13_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w13: error of order 1
+        r1_w13_e1 = c.bend2 * r1_w13_n1
+
+        # khepera.bg:17: r1_w13: encoders, order 2
+        r1_w13_n2 = (
+            c.r1_w13_w2_m__1__motor * r1_w13_m__1__motor_speed_2
+            + c.r1_w13_w2_m__1__wheel * r1_w13_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w13: error of order 2
+        r1_w13_e2 = c.bend1 * r1_w13_n2
+
+        # khepera.bg:17: r1_w13: encoders, order 3
+        r1_w13_n3 = (
+            -c.r1_w13_w3_m__1__motor * r1_w13_m__1__motor_speed_2
+            - c.r1_w9_w3_m__1__wheel * r1_w13_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w13: terms of order 0
+        r1_w13_g0 = -c.r1_w13_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w13: terms of order 1
+        r1_w13_g1 = -c.r1_w13_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w13: degree 1
+        r1_w13_d1 = r1_w13_g1 + r1_w13_n1 + r1_w13_n2
+
+        # khepera.bg:17: r1_w13: error of order 0
+        r1_w13_e0 = c.bend3 * r1_w13_g0
+
+        # khepera.bg:17: r1_w13: degree 2
+        r1_w13_d2 = r1_w13_n2 + r1_w13_n3 - r1_w13_e1 - r1_w13_e0
+
+        # khepera.bg:17: r1_w13: error of order 1
+        r1_w13_e1_2 = c.bend2 * r1_w13_g1
+
+        # khepera.bg:17: r1_w13: degree 3
+        r1_w13_d3 = r1_w13_n3 - r1_w13_e1 - r1_w13_e2 - r1_w13_e1_2
+
         # khepera.bg:17: r1_w13: input of stage 4
-        r1_w13_u4 = c.r1_w13_v4_Fx__1 * s.Fx__1
+        r1_w13_u4 = r1_w13_g0 + r1_w13_n1 + r1_w13_d2 - r1_w13_d1 - r1_w13_d3 - r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 4, at rest
         r1_w13_y4 = r1_w13_u4
@@ -1705,10 +1989,7 @@ class Monitor:
         x.r1_w13_s4 = c.rest * r1_w13_u4
 
         # khepera.bg:17: r1_w13: input of stage 3
-        r1_w13_u3 = (
-            r1_w13_y4 - c.r1_w13_v3_m__1__motor * r1_w13_m__1__motor_speed_2
-            - c.r1_w13_v3_m__1__wheel * r1_w13_m__1__wheel_speed_2 - c.r1_w13_v3_Fx__1 * s.Fx__1
-        )
+        r1_w13_u3 = r1_w13_y4 + r1_w13_d1 + 3.0 * r1_w13_d3 + 4.0 * r1_w13_e2 - 2.0 * r1_w13_d2
 
         # khepera.bg:17: r1_w13: stage 3, at rest
         r1_w13_y3 = r1_w13_u3
@@ -1717,10 +1998,7 @@ class Monitor:
         x.r1_w13_s3 = c.rest * r1_w13_u3
 
         # khepera.bg:17: r1_w13: input of stage 2
-        r1_w13_u2 = (
-            r1_w13_y3 + c.r1_w13_v2_m__1__motor * r1_w13_m__1__motor_speed_2
-            + c.r1_w13_v2_m__1__wheel * r1_w13_m__1__wheel_speed_2
-        )
+        r1_w13_u2 = r1_w13_y3 + r1_w13_d2 - 3.0 * r1_w13_d3 - 6.0 * r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 2, at rest
         r1_w13_y2 = r1_w13_u2
@@ -1729,10 +2007,7 @@ class Monitor:
         x.r1_w13_s2 = c.rest * r1_w13_u2
 
         # khepera.bg:17: r1_w13: input of stage 1
-        r1_w13_u1 = (
-            r1_w13_y2 - c.r1_w13_v1_m__1__motor * r1_w13_m__1__motor_speed_2
-            - c.r1_w9_v1_m__1__wheel * r1_w13_m__1__wheel_speed_2
-        )
+        r1_w13_u1 = r1_w13_y2 + r1_w13_d3 + 4.0 * r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 1, at rest
         r1_w13_y1 = r1_w13_u1
@@ -1741,7 +2016,7 @@ class Monitor:
         x.r1_w13_s1 = c.rest * r1_w13_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do
-        r1_w13 = r1_w13_y1
+        r1_w13 = r1_w13_y1 - r1_w13_e2
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
         r.r1 = (
@@ -1763,32 +2038,56 @@ class Monitor:
         )
         x.r1_w1_m__1__motor_speed = r1_w1_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w1: encoders, order 1
+        r1_w1_n1 = -c.r1_w1_w1_m__1__motor * r1_w1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w1: error of order 1
+        r1_w1_e1 = c.bend1 * r1_w1_n1
+
+        # khepera.bg:17: r1_w1: encoders, order 2
+        r1_w1_n2 = -c.r1_w1_w2_m__1__motor * r1_w1_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = r1_w1_n1 + r1_w1_n2
+
+        # khepera.bg:17: r1_w1: degree 2
+        r1_w1_d2 = r1_w1_n2 - r1_w1_e1
+
+        # khepera.bg:17: r1_w1: input of stage 4
+        r1_w1_u4 = r1_w1_n1 + r1_w1_d2 + r1_w1_e1 - r1_w1_d1
+
+        # khepera.bg:17: r1_w1: stage 4
+        r1_w1_y4 = x.r1_w1_s4 + c.b * r1_w1_u4
+
+        # khepera.bg:17: r1_w1: stage 4: memory
+        x.r1_w1_s4 = c.a * r1_w1_y4 + c.b * r1_w1_u4
+
         # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = c.r1_w1_v3_m__1__motor * r1_w1_m__1__motor_speed_2
+        r1_w1_u3 = r1_w1_y4 + r1_w1_d1 - 2.0 * r1_w1_d2 - 3.0 * r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 3
-        r1_w1_y3 = x.r1_w1_s3 + c.b0 * r1_w1_u3
+        r1_w1_y3 = x.r1_w1_s3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: stage 3: memory
-        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b1 * r1_w1_u3
+        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = r1_w1_y3 - c.r1_w1_v2_m__1__motor * r1_w1_m__1__motor_speed_2
+        r1_w1_u2 = r1_w1_y3 + r1_w1_d2 + 3.0 * r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 2
-        r1_w1_y2 = x.r1_w1_s2 + c.b0 * r1_w1_u2
+        r1_w1_y2 = x.r1_w1_s2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b1 * r1_w1_u2
+        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e1
 
         # khepera.bg:17: r1_w1: stage 1
-        r1_w1_y1 = x.r1_w1_s1 + c.b0 * r1_w1_u1
+        r1_w1_y1 = x.r1_w1_s1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b1 * r1_w1_u1
+        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].fe can do
         r1_w1 = r1_w1_y1
@@ -1799,35 +2098,59 @@ class Monitor:
         )
         x.r1_w2_m__1__wheel_speed = r1_w2_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w2: encoders, order 2
+        r1_w2_n2 = -c.r1_w2_w2_m__1__wheel * r1_w2_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w2: error of order 2
+        r1_w2_e2 = c.bend1 * r1_w2_n2
+
+        # khepera.bg:17: r1_w2: encoders, order 3
+        r1_w2_n3 = -c.r1_w2_w3_m__1__wheel * r1_w2_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w2: degree 2
+        r1_w2_d2 = r1_w2_n2 + r1_w2_n3
+
+        # khepera.bg:17: r1_w2: degree 3
+        r1_w2_d3 = r1_w2_n3 - r1_w2_e2
+
+        # khepera.bg:17: r1_w2: input of stage 4
+        r1_w2_u4 = r1_w2_d2 - r1_w2_n2 - r1_w2_d3 - r1_w2_e2
+
+        # khepera.bg:17: r1_w2: stage 4
+        r1_w2_y4 = x.r1_w2_s4 + c.b * r1_w2_u4
+
+        # khepera.bg:17: r1_w2: stage 4: memory
+        x.r1_w2_s4 = c.a * r1_w2_y4 + c.b * r1_w2_u4
+
         # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = c.r1_w2_v3_m__1__wheel * r1_w2_m__1__wheel_speed_2
+        r1_w2_u3 = r1_w2_y4 + r1_w2_n2 + 3.0 * r1_w2_d3 + 4.0 * r1_w2_e2 - 2.0 * r1_w2_d2
 
         # khepera.bg:17: r1_w2: stage 3
-        r1_w2_y3 = x.r1_w2_s3 + c.b0 * r1_w2_u3
+        r1_w2_y3 = x.r1_w2_s3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: stage 3: memory
-        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b1 * r1_w2_u3
+        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = r1_w2_y3 + c.r1_w2_v2_m__1__wheel * r1_w2_m__1__wheel_speed_2
+        r1_w2_u2 = r1_w2_y3 + r1_w2_d2 - 3.0 * r1_w2_d3 - 6.0 * r1_w2_e2
 
         # khepera.bg:17: r1_w2: stage 2
-        r1_w2_y2 = x.r1_w2_s2 + c.b0 * r1_w2_u2
+        r1_w2_y2 = x.r1_w2_s2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: stage 2: memory
-        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b1 * r1_w2_u2
+        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = r1_w2_y2 - c.r1_w2_v1_m__1__wheel * r1_w2_m__1__wheel_speed_2
+        r1_w2_u1 = r1_w2_y2 + r1_w2_d3 + 4.0 * r1_w2_e2
 
         # khepera.bg:17: r1_w2: stage 1
-        r1_w2_y1 = x.r1_w2_s1 + c.b0 * r1_w2_u1
+        r1_w2_y1 = x.r1_w2_s1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1_w2: stage 1: memory
-        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b1 * r1_w2_u1
+        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].Js can do
-        r1_w2 = r1_w2_y1
+        r1_w2 = r1_w2_y1 - r1_w2_e2
 
         # khepera.bg:17: filtered speed of m[1].wheel
         r1_w3_m__1__wheel_speed_2 = (
@@ -1835,32 +2158,56 @@ class Monitor:
         )
         x.r1_w3_m__1__wheel_speed = r1_w3_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w3: encoders, order 1
+        r1_w3_n1 = -c.r1_w3_w1_m__1__wheel * r1_w3_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w3: error of order 1
+        r1_w3_e1 = c.bend1 * r1_w3_n1
+
+        # khepera.bg:17: r1_w3: encoders, order 2
+        r1_w3_n2 = -c.r1_w3_w2_m__1__wheel * r1_w3_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w3: degree 1
+        r1_w3_d1 = r1_w3_n1 + r1_w3_n2
+
+        # khepera.bg:17: r1_w3: degree 2
+        r1_w3_d2 = r1_w3_n2 - r1_w3_e1
+
+        # khepera.bg:17: r1_w3: input of stage 4
+        r1_w3_u4 = r1_w3_n1 + r1_w3_d2 + r1_w3_e1 - r1_w3_d1
+
+        # khepera.bg:17: r1_w3: stage 4
+        r1_w3_y4 = x.r1_w3_s4 + c.b * r1_w3_u4
+
+        # khepera.bg:17: r1_w3: stage 4: memory
+        x.r1_w3_s4 = c.a * r1_w3_y4 + c.b * r1_w3_u4
+
         # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = c.r1_w3_v3_m__1__wheel * r1_w3_m__1__wheel_speed_2
+        r1_w3_u3 = r1_w3_y4 + r1_w3_d1 - 2.0 * r1_w3_d2 - 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 3
-        r1_w3_y3 = x.r1_w3_s3 + c.b0 * r1_w3_u3
+        r1_w3_y3 = x.r1_w3_s3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: stage 3: memory
-        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b1 * r1_w3_u3
+        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = r1_w3_y3 - c.r1_w3_v2_m__1__wheel * r1_w3_m__1__wheel_speed_2
+        r1_w3_u2 = r1_w3_y3 + r1_w3_d2 + 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 2
-        r1_w3_y2 = x.r1_w3_s2 + c.b0 * r1_w3_u2
+        r1_w3_y2 = x.r1_w3_s2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: stage 2: memory
-        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b1 * r1_w3_u2
+        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = r1_w3_y2
+        r1_w3_u1 = r1_w3_y2 - r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 1
-        r1_w3_y1 = x.r1_w3_s1 + c.b0 * r1_w3_u1
+        r1_w3_y1 = x.r1_w3_s1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1_w3: stage 1: memory
-        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b1 * r1_w3_u1
+        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].fs can do
         r1_w3 = r1_w3_y1
@@ -1877,47 +2224,68 @@ class Monitor:
         )
         x.r1_w4_m__1__motor_speed = r1_w4_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w4: encoders, order 1
+        r1_w4_n1 = (
+            -c.r1_w4_w1_m__1__wheel * r1_w4_m__1__wheel_speed_2
+            - c.r1_w4_w1_m__1__motor * r1_w4_m__1__motor_speed_2
+        )
+
+        # khepera.bg:17: r1_w4: error of order 1
+        r1_w4_e1 = c.bend1 * r1_w4_n1
+
+        # khepera.bg:17: r1_w4: encoders, order 2
+        r1_w4_n2 = (
+            -c.r1_w4_w2_m__1__wheel * r1_w4_m__1__wheel_speed_2
+            - c.r1_w4_w2_m__1__motor * r1_w4_m__1__motor_speed_2
+        )
+
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = r1_w4_n1 + r1_w4_n2
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend2 * r1_w4_g0
+
+        # khepera.bg:17: r1_w4: degree 2
+        r1_w4_d2 = r1_w4_n2 - r1_w4_e1 - r1_w4_e0
+
         # khepera.bg:17: r1_w4: input of stage 4
-        r1_w4_u4 = -c.r1_w4_v4_Fx__1 * s.Fx__1
+        r1_w4_u4 = r1_w4_g0 + r1_w4_n1 + r1_w4_d2 + r1_w4_e1 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 4
-        r1_w4_y4 = x.r1_w4_s4 + c.b0 * r1_w4_u4
+        r1_w4_y4 = x.r1_w4_s4 + c.b * r1_w4_u4
 
         # khepera.bg:17: r1_w4: stage 4: memory
-        x.r1_w4_s4 = c.a * r1_w4_y4 + c.b1 * r1_w4_u4
+        x.r1_w4_s4 = c.a * r1_w4_y4 + c.b * r1_w4_u4
 
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = (
-            r1_w4_y4 + c.r1_w4_v3_m__1__wheel * r1_w4_m__1__wheel_speed_2
-            + c.r1_w4_v3_m__1__motor * r1_w4_m__1__motor_speed_2
-        )
+        r1_w4_u3 = r1_w4_y4 + r1_w4_d1 - 2.0 * r1_w4_d2 - 3.0 * r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 3
-        r1_w4_y3 = x.r1_w4_s3 + c.b0 * r1_w4_u3
+        r1_w4_y3 = x.r1_w4_s3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: stage 3: memory
-        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b1 * r1_w4_u3
+        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = (
-            r1_w4_y3 - c.r1_w4_v2_m__1__wheel * r1_w4_m__1__wheel_speed_2
-            - c.r1_w4_v2_m__1__motor * r1_w4_m__1__motor_speed_2
-        )
+        r1_w4_u2 = r1_w4_y3 + r1_w4_d2 + 3.0 * r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 2
-        r1_w4_y2 = x.r1_w4_s2 + c.b0 * r1_w4_u2
+        r1_w4_y2 = x.r1_w4_s2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: stage 2: memory
-        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b1 * r1_w4_u2
+        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e1
 
         # khepera.bg:17: r1_w4: stage 1
-        r1_w4_y1 = x.r1_w4_s1 + c.b0 * r1_w4_u1
+        r1_w4_y1 = x.r1_w4_s1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1_w4: stage 1: memory
-        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b1 * r1_w4_u1
+        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].el.Re can do
         r1_w4 = r1_w4_y1
@@ -1934,53 +2302,89 @@ class Monitor:
         )
         x.r1_w5_m__1__wheel_speed = r1_w5_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w5: encoders, order 1
+        r1_w5_n1 = (
+            c.r1_w5_w1_m__1__motor * r1_w5_m__1__motor_speed_2
+            + c.r1_w5_w1_m__1__wheel * r1_w5_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w5: error of order 1
+        r1_w5_e1 = c.bend2 * r1_w5_n1
+
+        # khepera.bg:17: r1_w5: encoders, order 2
+        r1_w5_n2 = (
+            c.r1_w5_w2_m__1__motor * r1_w5_m__1__motor_speed_2
+            + c.r1_w5_w2_m__1__wheel * r1_w5_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w5: error of order 2
+        r1_w5_e2 = c.bend1 * r1_w5_n2
+
+        # khepera.bg:17: r1_w5: encoders, order 3
+        r1_w5_n3 = (
+            c.r1_w5_w3_m__1__motor * r1_w5_m__1__motor_speed_2
+            + c.r1_w2_w3_m__1__wheel * r1_w5_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w5: terms of order 0
+        r1_w5_g0 = c.r1_w5_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w5: terms of order 1
+        r1_w5_g1 = c.r1_w5_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w5: degree 1
+        r1_w5_d1 = r1_w5_g1 + r1_w5_n1 + r1_w5_n2
+
+        # khepera.bg:17: r1_w5: error of order 0
+        r1_w5_e0 = c.bend3 * r1_w5_g0
+
+        # khepera.bg:17: r1_w5: degree 2
+        r1_w5_d2 = r1_w5_n2 + r1_w5_n3 - r1_w5_e1 - r1_w5_e0
+
+        # khepera.bg:17: r1_w5: error of order 1
+        r1_w5_e1_2 = c.bend2 * r1_w5_g1
+
+        # khepera.bg:17: r1_w5: degree 3
+        r1_w5_d3 = r1_w5_n3 - r1_w5_e1 - r1_w5_e2 - r1_w5_e1_2
+
         # khepera.bg:17: r1_w5: input of stage 4
-        r1_w5_u4 = c.r1_w5_v4_Fx__1 * s.Fx__1
+        r1_w5_u4 = r1_w5_g0 + r1_w5_n1 + r1_w5_d2 - r1_w5_d1 - r1_w5_d3 - r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 4
-        r1_w5_y4 = x.r1_w5_s4 + c.b0 * r1_w5_u4
+        r1_w5_y4 = x.r1_w5_s4 + c.b * r1_w5_u4
 
         # khepera.bg:17: r1_w5: stage 4: memory
-        x.r1_w5_s4 = c.a * r1_w5_y4 + c.b1 * r1_w5_u4
+        x.r1_w5_s4 = c.a * r1_w5_y4 + c.b * r1_w5_u4
 
         # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = (
-            r1_w5_y4 + c.r1_w5_v3_m__1__motor * r1_w5_m__1__motor_speed_2
-            + c.r1_w5_v3_m__1__wheel * r1_w5_m__1__wheel_speed_2 + c.r1_w5_v3_Fx__1 * s.Fx__1
-        )
+        r1_w5_u3 = r1_w5_y4 + r1_w5_d1 + 3.0 * r1_w5_d3 + 4.0 * r1_w5_e2 - 2.0 * r1_w5_d2
 
         # khepera.bg:17: r1_w5: stage 3
-        r1_w5_y3 = x.r1_w5_s3 + c.b0 * r1_w5_u3
+        r1_w5_y3 = x.r1_w5_s3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: stage 3: memory
-        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b1 * r1_w5_u3
+        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
-        r1_w5_u2 = (
-            r1_w5_y3 + c.r1_w5_v2_m__1__motor * r1_w5_m__1__motor_speed_2
-            + c.r1_w5_v2_m__1__wheel * r1_w5_m__1__wheel_speed_2
-        )
+        r1_w5_u2 = r1_w5_y3 + r1_w5_d2 - 3.0 * r1_w5_d3 - 6.0 * r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 2
-        r1_w5_y2 = x.r1_w5_s2 + c.b0 * r1_w5_u2
+        r1_w5_y2 = x.r1_w5_s2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: stage 2: memory
-        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b1 * r1_w5_u2
+        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
-        r1_w5_u1 = (
-            r1_w5_y2 + c.r1_w5_v1_m__1__motor * r1_w5_m__1__motor_speed_2
-            + c.r1_w2_v1_m__1__wheel * r1_w5_m__1__wheel_speed_2
-        )
+        r1_w5_u1 = r1_w5_y2 + r1_w5_d3 + 4.0 * r1_w5_e2
 
         # khepera.bg:17: r1_w5: stage 1
-        r1_w5_y1 = x.r1_w5_s1 + c.b0 * r1_w5_u1
+        r1_w5_y1 = x.r1_w5_s1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1_w5: stage 1: memory
-        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b1 * r1_w5_u1
+        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1: what the tolerance of m[1].el.k can do
-        r1_w5 = r1_w5_y1
+        r1_w5 = r1_w5_y1 - r1_w5_e2
 
         # khepera.bg:17: filtered speed of m[1].motor
         r1_w6_m__1__motor_speed_2 = (
@@ -1988,32 +2392,44 @@ class Monitor:
         )
         x.r1_w6_m__1__motor_speed = r1_w6_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w6: encoders, order 1
+        r1_w6_n1 = -c.r1_w6_w1_m__1__motor * r1_w6_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w6: input of stage 4
+        r1_w6_u4 = r1_w6_n1 - r1_w6_n1
+
+        # khepera.bg:17: r1_w6: stage 4
+        r1_w6_y4 = x.r1_w6_s4 + c.b * r1_w6_u4
+
+        # khepera.bg:17: r1_w6: stage 4: memory
+        x.r1_w6_s4 = c.a * r1_w6_y4 + c.b * r1_w6_u4
+
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = -c.r1_w6_v3_m__1__motor * r1_w6_m__1__motor_speed_2
+        r1_w6_u3 = r1_w6_y4 + r1_w6_n1
 
         # khepera.bg:17: r1_w6: stage 3
-        r1_w6_y3 = x.r1_w6_s3 + c.b0 * r1_w6_u3
+        r1_w6_y3 = x.r1_w6_s3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: stage 3: memory
-        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b1 * r1_w6_u3
+        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: input of stage 2
         r1_w6_u2 = r1_w6_y3
 
         # khepera.bg:17: r1_w6: stage 2
-        r1_w6_y2 = x.r1_w6_s2 + c.b0 * r1_w6_u2
+        r1_w6_y2 = x.r1_w6_s2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: stage 2: memory
-        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b1 * r1_w6_u2
+        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: input of stage 1
         r1_w6_u1 = r1_w6_y2
 
         # khepera.bg:17: r1_w6: stage 1
-        r1_w6_y1 = x.r1_w6_s1 + c.b0 * r1_w6_u1
+        r1_w6_y1 = x.r1_w6_s1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1_w6: stage 1: memory
-        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b1 * r1_w6_u1
+        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].fe and m[1].el.Re can do together
         r1_w6 = r1_w6_y1
@@ -2024,32 +2440,56 @@ class Monitor:
         )
         x.r1_w7_m__1__motor_speed = r1_w7_m__1__motor_speed_2
 
+        # khepera.bg:17: r1_w7: encoders, order 1
+        r1_w7_n1 = c.r1_w7_w1_m__1__motor * r1_w7_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w7: error of order 1
+        r1_w7_e1 = c.bend1 * r1_w7_n1
+
+        # khepera.bg:17: r1_w7: encoders, order 2
+        r1_w7_n2 = c.r1_w7_w2_m__1__motor * r1_w7_m__1__motor_speed_2
+
+        # khepera.bg:17: r1_w7: degree 1
+        r1_w7_d1 = r1_w7_n1 + r1_w7_n2
+
+        # khepera.bg:17: r1_w7: degree 2
+        r1_w7_d2 = r1_w7_n2 - r1_w7_e1
+
+        # khepera.bg:17: r1_w7: input of stage 4
+        r1_w7_u4 = r1_w7_n1 + r1_w7_d2 + r1_w7_e1 - r1_w7_d1
+
+        # khepera.bg:17: r1_w7: stage 4
+        r1_w7_y4 = x.r1_w7_s4 + c.b * r1_w7_u4
+
+        # khepera.bg:17: r1_w7: stage 4: memory
+        x.r1_w7_s4 = c.a * r1_w7_y4 + c.b * r1_w7_u4
+
         # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = c.r1_w7_v3_m__1__motor * r1_w7_m__1__motor_speed_2
+        r1_w7_u3 = r1_w7_y4 + r1_w7_d1 - 2.0 * r1_w7_d2 - 3.0 * r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 3
-        r1_w7_y3 = x.r1_w7_s3 + c.b0 * r1_w7_u3
+        r1_w7_y3 = x.r1_w7_s3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: stage 3: memory
-        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b1 * r1_w7_u3
+        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: input of stage 2
-        r1_w7_u2 = r1_w7_y3 + c.r1_w7_v2_m__1__motor * r1_w7_m__1__motor_speed_2
+        r1_w7_u2 = r1_w7_y3 + r1_w7_d2 + 3.0 * r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 2
-        r1_w7_y2 = x.r1_w7_s2 + c.b0 * r1_w7_u2
+        r1_w7_y2 = x.r1_w7_s2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: stage 2: memory
-        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b1 * r1_w7_u2
+        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: input of stage 1
-        r1_w7_u1 = r1_w7_y2
+        r1_w7_u1 = r1_w7_y2 - r1_w7_e1
 
         # khepera.bg:17: r1_w7: stage 1
-        r1_w7_y1 = x.r1_w7_s1 + c.b0 * r1_w7_u1
+        r1_w7_y1 = x.r1_w7_s1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1_w7: stage 1: memory
-        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b1 * r1_w7_u1
+        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].fe and m[1].el.k can do together
         r1_w7 = r1_w7_y1
@@ -2060,32 +2500,44 @@ class Monitor:
         )
         x.r1_w8_m__1__wheel_speed = r1_w8_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w8: encoders, order 2
+        r1_w8_n2 = -c.r1_w8_w2_m__1__wheel * r1_w8_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w8: input of stage 4
+        r1_w8_u4 = r1_w8_n2 - r1_w8_n2
+
+        # khepera.bg:17: r1_w8: stage 4
+        r1_w8_y4 = x.r1_w8_s4 + c.b * r1_w8_u4
+
+        # khepera.bg:17: r1_w8: stage 4: memory
+        x.r1_w8_s4 = c.a * r1_w8_y4 + c.b * r1_w8_u4
+
         # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = c.r1_w8_v2_m__1__wheel * r1_w8_m__1__wheel_speed_2
+        r1_w8_u3 = r1_w8_y4 + r1_w8_n2 - 2.0 * r1_w8_n2
 
         # khepera.bg:17: r1_w8: stage 3
-        r1_w8_y3 = x.r1_w8_s3 + c.b0 * r1_w8_u3
+        r1_w8_y3 = x.r1_w8_s3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: stage 3: memory
-        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b1 * r1_w8_u3
+        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
-        r1_w8_u2 = r1_w8_y3 - c.r1_w8_v2_m__1__wheel * r1_w8_m__1__wheel_speed_2
+        r1_w8_u2 = r1_w8_y3 + r1_w8_n2
 
         # khepera.bg:17: r1_w8: stage 2
-        r1_w8_y2 = x.r1_w8_s2 + c.b0 * r1_w8_u2
+        r1_w8_y2 = x.r1_w8_s2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: stage 2: memory
-        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b1 * r1_w8_u2
+        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: input of stage 1
         r1_w8_u1 = r1_w8_y2
 
         # khepera.bg:17: r1_w8: stage 1
-        r1_w8_y1 = x.r1_w8_s1 + c.b0 * r1_w8_u1
+        r1_w8_y1 = x.r1_w8_s1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1_w8: stage 1: memory
-        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b1 * r1_w8_u1
+        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.Re can do together
         r1_w8 = r1_w8_y1
@@ -2096,35 +2548,59 @@ class Monitor:
         )
         x.r1_w9_m__1__wheel_speed = r1_w9_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w9: encoders, order 2
+        r1_w9_n2 = c.r1_w9_w2_m__1__wheel * r1_w9_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w9: error of order 2
+        r1_w9_e2 = c.bend1 * r1_w9_n2
+
+        # khepera.bg:17: r1_w9: encoders, order 3
+        r1_w9_n3 = c.r1_w9_w3_m__1__wheel * r1_w9_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w9: degree 2
+        r1_w9_d2 = r1_w9_n2 + r1_w9_n3
+
+        # khepera.bg:17: r1_w9: degree 3
+        r1_w9_d3 = r1_w9_n3 - r1_w9_e2
+
+        # khepera.bg:17: r1_w9: input of stage 4
+        r1_w9_u4 = r1_w9_d2 - r1_w9_n2 - r1_w9_d3 - r1_w9_e2
+
+        # khepera.bg:17: r1_w9: stage 4
+        r1_w9_y4 = x.r1_w9_s4 + c.b * r1_w9_u4
+
+        # khepera.bg:17: r1_w9: stage 4: memory
+        x.r1_w9_s4 = c.a * r1_w9_y4 + c.b * r1_w9_u4
+
         # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = c.r1_w9_v3_m__1__wheel * r1_w9_m__1__wheel_speed_2
+        r1_w9_u3 = r1_w9_y4 + r1_w9_n2 + 3.0 * r1_w9_d3 + 4.0 * r1_w9_e2 - 2.0 * r1_w9_d2
 
         # khepera.bg:17: r1_w9: stage 3
-        r1_w9_y3 = x.r1_w9_s3 + c.b0 * r1_w9_u3
+        r1_w9_y3 = x.r1_w9_s3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: stage 3: memory
-        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b1 * r1_w9_u3
+        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = r1_w9_y3 + c.r1_w9_v2_m__1__wheel * r1_w9_m__1__wheel_speed_2
+        r1_w9_u2 = r1_w9_y3 + r1_w9_d2 - 3.0 * r1_w9_d3 - 6.0 * r1_w9_e2
 
         # khepera.bg:17: r1_w9: stage 2
-        r1_w9_y2 = x.r1_w9_s2 + c.b0 * r1_w9_u2
+        r1_w9_y2 = x.r1_w9_s2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: stage 2: memory
-        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b1 * r1_w9_u2
+        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = r1_w9_y2 + c.r1_w9_v1_m__1__wheel * r1_w9_m__1__wheel_speed_2
+        r1_w9_u1 = r1_w9_y2 + r1_w9_d3 + 4.0 * r1_w9_e2
 
         # khepera.bg:17: r1_w9: stage 1
-        r1_w9_y1 = x.r1_w9_s1 + c.b0 * r1_w9_u1
+        r1_w9_y1 = x.r1_w9_s1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1_w9: stage 1: memory
-        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b1 * r1_w9_u1
+        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].Js and m[1].el.k can do together
-        r1_w9 = r1_w9_y1
+        r1_w9 = r1_w9_y1 - r1_w9_e2
 
         # khepera.bg:17: filtered speed of m[1].wheel
         r1_w10_m__1__wheel_speed_2 = (
@@ -2132,32 +2608,44 @@ class Monitor:
         )
         x.r1_w10_m__1__wheel_speed = r1_w10_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w10: encoders, order 1
+        r1_w10_n1 = -c.r1_w10_w1_m__1__wheel * r1_w10_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w10: input of stage 4
+        r1_w10_u4 = r1_w10_n1 - r1_w10_n1
+
+        # khepera.bg:17: r1_w10: stage 4
+        r1_w10_y4 = x.r1_w10_s4 + c.b * r1_w10_u4
+
+        # khepera.bg:17: r1_w10: stage 4: memory
+        x.r1_w10_s4 = c.a * r1_w10_y4 + c.b * r1_w10_u4
+
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = -c.r1_w10_v3_m__1__wheel * r1_w10_m__1__wheel_speed_2
+        r1_w10_u3 = r1_w10_y4 + r1_w10_n1
 
         # khepera.bg:17: r1_w10: stage 3
-        r1_w10_y3 = x.r1_w10_s3 + c.b0 * r1_w10_u3
+        r1_w10_y3 = x.r1_w10_s3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: stage 3: memory
-        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b1 * r1_w10_u3
+        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: input of stage 2
         r1_w10_u2 = r1_w10_y3
 
         # khepera.bg:17: r1_w10: stage 2
-        r1_w10_y2 = x.r1_w10_s2 + c.b0 * r1_w10_u2
+        r1_w10_y2 = x.r1_w10_s2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: stage 2: memory
-        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b1 * r1_w10_u2
+        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: input of stage 1
         r1_w10_u1 = r1_w10_y2
 
         # khepera.bg:17: r1_w10: stage 1
-        r1_w10_y1 = x.r1_w10_s1 + c.b0 * r1_w10_u1
+        r1_w10_y1 = x.r1_w10_s1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1_w10: stage 1: memory
-        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b1 * r1_w10_u1
+        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].fs and m[1].el.Re can do together
         r1_w10 = r1_w10_y1
@@ -2168,32 +2656,56 @@ class Monitor:
         )
         x.r1_w11_m__1__wheel_speed = r1_w11_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w11: encoders, order 1
+        r1_w11_n1 = c.r1_w11_w1_m__1__wheel * r1_w11_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w11: error of order 1
+        r1_w11_e1 = c.bend1 * r1_w11_n1
+
+        # khepera.bg:17: r1_w11: encoders, order 2
+        r1_w11_n2 = c.r1_w11_w2_m__1__wheel * r1_w11_m__1__wheel_speed_2
+
+        # khepera.bg:17: r1_w11: degree 1
+        r1_w11_d1 = r1_w11_n1 + r1_w11_n2
+
+        # khepera.bg:17: r1_w11: degree 2
+        r1_w11_d2 = r1_w11_n2 - r1_w11_e1
+
+        # khepera.bg:17: r1_w11: input of stage 4
+        r1_w11_u4 = r1_w11_n1 + r1_w11_d2 + r1_w11_e1 - r1_w11_d1
+
+        # khepera.bg:17: r1_w11: stage 4
+        r1_w11_y4 = x.r1_w11_s4 + c.b * r1_w11_u4
+
+        # khepera.bg:17: r1_w11: stage 4: memory
+        x.r1_w11_s4 = c.a * r1_w11_y4 + c.b * r1_w11_u4
+
         # khepera.bg:17: r1_w11: input of stage 3
-        r1_w11_u3 = c.r1_w11_v3_m__1__wheel * r1_w11_m__1__wheel_speed_2
+        r1_w11_u3 = r1_w11_y4 + r1_w11_d1 - 2.0 * r1_w11_d2 - 3.0 * r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 3
-        r1_w11_y3 = x.r1_w11_s3 + c.b0 * r1_w11_u3
+        r1_w11_y3 = x.r1_w11_s3 + c.b * r1_w11_u3
 
         # khepera.bg:17: r1_w11: stage 3: memory
-        x.r1_w11_s3 = c.a * r1_w11_y3 + c.b1 * r1_w11_u3
+        x.r1_w11_s3 = c.a * r1_w11_y3 + c.b * r1_w11_u3
 
         # khepera.bg:17: r1_w11: input of stage 2
-        r1_w11_u2 = r1_w11_y3 + c.r1_w11_v2_m__1__wheel * r1_w11_m__1__wheel_speed_2
+        r1_w11_u2 = r1_w11_y3 + r1_w11_d2 + 3.0 * r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 2
-        r1_w11_y2 = x.r1_w11_s2 + c.b0 * r1_w11_u2
+        r1_w11_y2 = x.r1_w11_s2 + c.b * r1_w11_u2
 
         # khepera.bg:17: r1_w11: stage 2: memory
-        x.r1_w11_s2 = c.a * r1_w11_y2 + c.b1 * r1_w11_u2
+        x.r1_w11_s2 = c.a * r1_w11_y2 + c.b * r1_w11_u2
 
         # khepera.bg:17: r1_w11: input of stage 1
-        r1_w11_u1 = r1_w11_y2
+        r1_w11_u1 = r1_w11_y2 - r1_w11_e1
 
         # khepera.bg:17: r1_w11: stage 1
-        r1_w11_y1 = x.r1_w11_s1 + c.b0 * r1_w11_u1
+        r1_w11_y1 = x.r1_w11_s1 + c.b * r1_w11_u1
 
         # khepera.bg:17: r1_w11: stage 1: memory
-        x.r1_w11_s1 = c.a * r1_w11_y1 + c.b1 * r1_w11_u1
+        x.r1_w11_s1 = c.a * r1_w11_y1 + c.b * r1_w11_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].fs and m[1].el.k can do together
         r1_w11 = r1_w11_y1
@@ -2210,47 +2722,68 @@ class Monitor:
         )
         x.r1_w12_m__1__wheel_speed = r1_w12_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w12: encoders, order 1
+        r1_w12_n1 = (
+            c.r1_w12_w1_m__1__motor * r1_w12_m__1__motor_speed_2
+            + c.r1_w12_w1_m__1__wheel * r1_w12_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w12: error of order 1
+        r1_w12_e1 = c.bend1 * r1_w12_n1
+
+        # khepera.bg:17: r1_w12: encoders, order 2
+        r1_w12_n2 = (
+            c.r1_w12_w2_m__1__motor * r1_w12_m__1__motor_speed_2
+            + c.r1_w8_w2_m__1__wheel * r1_w12_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w12: terms of order 0
+        r1_w12_g0 = c.r1_w12_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w12: degree 1
+        r1_w12_d1 = r1_w12_n1 + r1_w12_n2
+
+        # khepera.bg:17: r1_w12: error of order 0
+        r1_w12_e0 = c.bend2 * r1_w12_g0
+
+        # khepera.bg:17: r1_w12: degree 2
+        r1_w12_d2 = r1_w12_n2 - r1_w12_e1 - r1_w12_e0
+
         # khepera.bg:17: r1_w12: input of stage 4
-        r1_w12_u4 = c.r1_w12_v4_Fx__1 * s.Fx__1
+        r1_w12_u4 = r1_w12_g0 + r1_w12_n1 + r1_w12_d2 + r1_w12_e1 - r1_w12_d1
 
         # khepera.bg:17: r1_w12: stage 4
-        r1_w12_y4 = x.r1_w12_s4 + c.b0 * r1_w12_u4
+        r1_w12_y4 = x.r1_w12_s4 + c.b * r1_w12_u4
 
         # khepera.bg:17: r1_w12: stage 4: memory
-        x.r1_w12_s4 = c.a * r1_w12_y4 + c.b1 * r1_w12_u4
+        x.r1_w12_s4 = c.a * r1_w12_y4 + c.b * r1_w12_u4
 
         # khepera.bg:17: r1_w12: input of stage 3
-        r1_w12_u3 = (
-            r1_w12_y4 + c.r1_w12_v3_m__1__motor * r1_w12_m__1__motor_speed_2
-            + c.r1_w12_v3_m__1__wheel * r1_w12_m__1__wheel_speed_2
-        )
+        r1_w12_u3 = r1_w12_y4 + r1_w12_d1 - 2.0 * r1_w12_d2 - 3.0 * r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 3
-        r1_w12_y3 = x.r1_w12_s3 + c.b0 * r1_w12_u3
+        r1_w12_y3 = x.r1_w12_s3 + c.b * r1_w12_u3
 
         # khepera.bg:17: r1_w12: stage 3: memory
-        x.r1_w12_s3 = c.a * r1_w12_y3 + c.b1 * r1_w12_u3
+        x.r1_w12_s3 = c.a * r1_w12_y3 + c.b * r1_w12_u3
 
         # khepera.bg:17: r1_w12: input of stage 2
-        r1_w12_u2 = (
-            r1_w12_y3 + c.r1_w12_v2_m__1__motor * r1_w12_m__1__motor_speed_2
-            + c.r1_w8_v2_m__1__wheel * r1_w12_m__1__wheel_speed_2
-        )
+        r1_w12_u2 = r1_w12_y3 + r1_w12_d2 + 3.0 * r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 2
-        r1_w12_y2 = x.r1_w12_s2 + c.b0 * r1_w12_u2
+        r1_w12_y2 = x.r1_w12_s2 + c.b * r1_w12_u2
 
         # khepera.bg:17: r1_w12: stage 2: memory
-        x.r1_w12_s2 = c.a * r1_w12_y2 + c.b1 * r1_w12_u2
+        x.r1_w12_s2 = c.a * r1_w12_y2 + c.b * r1_w12_u2
 
         # khepera.bg:17: r1_w12: input of stage 1
-        r1_w12_u1 = r1_w12_y2
+        r1_w12_u1 = r1_w12_y2 - r1_w12_e1
 
         # khepera.bg:17: r1_w12: stage 1
-        r1_w12_y1 = x.r1_w12_s1 + c.b0 * r1_w12_u1
+        r1_w12_y1 = x.r1_w12_s1 + c.b * r1_w12_u1
 
         # khepera.bg:17: r1_w12: stage 1: memory
-        x.r1_w12_s1 = c.a * r1_w12_y1 + c.b1 * r1_w12_u1
+        x.r1_w12_s1 = c.a * r1_w12_y1 + c.b * r1_w12_u1
 
         # khepera.bg:17: r1: what the tolerances of m[1].el.Re and m[1].el.k can do together
         r1_w12 = r1_w12_y1
@@ -2267,53 +2800,89 @@ class Monitor:
         )
         x.r1_w13_m__1__wheel_speed = r1_w13_m__1__wheel_speed_2
 
+        # khepera.bg:17: r1_w13: encoders, order 1
+        r1_w13_n1 = (
+            -c.r1_w13_w1_m__1__motor * r1_w13_m__1__motor_speed_2
+            - c.r1_w13_w1_m__1__wheel * r1_w13_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w13: error of order 1
+        r1_w13_e1 = c.bend2 * r1_w13_n1
+
+        # khepera.bg:17: r1_w13: encoders, order 2
+        r1_w13_n2 = (
+            c.r1_w13_w2_m__1__motor * r1_w13_m__1__motor_speed_2
+            + c.r1_w13_w2_m__1__wheel * r1_w13_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w13: error of order 2
+        r1_w13_e2 = c.bend1 * r1_w13_n2
+
+        # khepera.bg:17: r1_w13: encoders, order 3
+        r1_w13_n3 = (
+            -c.r1_w13_w3_m__1__motor * r1_w13_m__1__motor_speed_2
+            - c.r1_w9_w3_m__1__wheel * r1_w13_m__1__wheel_speed_2
+        )
+
+        # khepera.bg:17: r1_w13: terms of order 0
+        r1_w13_g0 = -c.r1_w13_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w13: terms of order 1
+        r1_w13_g1 = -c.r1_w13_w1_Fx__1 * s.Fx__1
+
+        # khepera.bg:17: r1_w13: degree 1
+        r1_w13_d1 = r1_w13_g1 + r1_w13_n1 + r1_w13_n2
+
+        # khepera.bg:17: r1_w13: error of order 0
+        r1_w13_e0 = c.bend3 * r1_w13_g0
+
+        # khepera.bg:17: r1_w13: degree 2
+        r1_w13_d2 = r1_w13_n2 + r1_w13_n3 - r1_w13_e1 - r1_w13_e0
+
+        # khepera.bg:17: r1_w13: error of order 1
+        r1_w13_e1_2 = c.bend2 * r1_w13_g1
+
+        # khepera.bg:17: r1_w13: degree 3
+        r1_w13_d3 = r1_w13_n3 - r1_w13_e1 - r1_w13_e2 - r1_w13_e1_2
+
         # khepera.bg:17: r1_w13: input of stage 4
-        r1_w13_u4 = c.r1_w13_v4_Fx__1 * s.Fx__1
+        r1_w13_u4 = r1_w13_g0 + r1_w13_n1 + r1_w13_d2 - r1_w13_d1 - r1_w13_d3 - r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 4
-        r1_w13_y4 = x.r1_w13_s4 + c.b0 * r1_w13_u4
+        r1_w13_y4 = x.r1_w13_s4 + c.b * r1_w13_u4
 
         # khepera.bg:17: r1_w13: stage 4: memory
-        x.r1_w13_s4 = c.a * r1_w13_y4 + c.b1 * r1_w13_u4
+        x.r1_w13_s4 = c.a * r1_w13_y4 + c.b * r1_w13_u4
 
         # khepera.bg:17: r1_w13: input of stage 3
-        r1_w13_u3 = (
-            r1_w13_y4 - c.r1_w13_v3_m__1__motor * r1_w13_m__1__motor_speed_2
-            - c.r1_w13_v3_m__1__wheel * r1_w13_m__1__wheel_speed_2 - c.r1_w13_v3_Fx__1 * s.Fx__1
-        )
+        r1_w13_u3 = r1_w13_y4 + r1_w13_d1 + 3.0 * r1_w13_d3 + 4.0 * r1_w13_e2 - 2.0 * r1_w13_d2
 
         # khepera.bg:17: r1_w13: stage 3
-        r1_w13_y3 = x.r1_w13_s3 + c.b0 * r1_w13_u3
+        r1_w13_y3 = x.r1_w13_s3 + c.b * r1_w13_u3
 
         # khepera.bg:17: r1_w13: stage 3: memory
-        x.r1_w13_s3 = c.a * r1_w13_y3 + c.b1 * r1_w13_u3
+        x.r1_w13_s3 = c.a * r1_w13_y3 + c.b * r1_w13_u3
 
         # khepera.bg:17: r1_w13: input of stage 2
-        r1_w13_u2 = (
-            r1_w13_y3 + c.r1_w13_v2_m__1__motor * r1_w13_m__1__motor_speed_2
-            + c.r1_w13_v2_m__1__wheel * r1_w13_m__1__wheel_speed_2
-        )
+        r1_w13_u2 = r1_w13_y3 + r1_w13_d2 - 3.0 * r1_w13_d3 - 6.0 * r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 2
-        r1_w13_y2 = x.r1_w13_s2 + c.b0 * r1_w13_u2
+        r1_w13_y2 = x.r1_w13_s2 + c.b * r1_w13_u2
 
         # khepera.bg:17: r1_w13: stage 2: memory
-        x.r1_w13_s2 = c.a * r1_w13_y2 + c.b1 * r1_w13_u2
+        x.r1_w13_s2 = c.a * r1_w13_y2 + c.b * r1_w13_u2
 
         # khepera.bg:17: r1_w13: input of stage 1
-        r1_w13_u1 = (
-            r1_w13_y2 - c.r1_w13_v1_m__1__motor * r1_w13_m__1__motor_speed_2
-            - c.r1_w9_v1_m__1__wheel * r1_w13_m__1__wheel_speed_2
-        )
+        r1_w13_u1 = r1_w13_y2 + r1_w13_d3 + 4.0 * r1_w13_e2
 
         # khepera.bg:17: r1_w13: stage 1
-        r1_w13_y1 = x.r1_w13_s1 + c.b0 * r1_w13_u1
+        r1_w13_y1 = x.r1_w13_s1 + c.b * r1_w13_u1
 
         # khepera.bg:17: r1_w13: stage 1: memory
-        x.r1_w13_s1 = c.a * r1_w13_y1 + c.b1 * r1_w13_u1
+        x.r1_w13_s1 = c.a * r1_w13_y1 + c.b * r1_w13_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of m[1].el.k can do
-        r1_w13 = r1_w13_y1
+        r1_w13 = r1_w13_y1 - r1_w13_e2
 
         # khepera.bg:17: r1: how far r1 can be from zero if no parameter is out of tolerance
         r.r1 = (
@@ -2364,8 +2933,8 @@ class Monitor:
 
         # khepera_encoders.bg:31: r2_w1: input of stage 3
         r2_w1_u3 = (
-            c.r2_w1_v3_integral_2 * r2_w1_change - c.r2_w1_v3_integral * r2_w1_change_2
-            - c.r2_w1_v3_tanh * r2_w1_tanh
+            c.r2_w1_integral_2 * r2_w1_change - c.r2_w1_integral * r2_w1_change_2
+            - c.r2_w1_tanh * r2_w1_tanh
         )
 
         # khepera_encoders.bg:31: r2_w1: stage 3, at rest
@@ -2417,7 +2986,7 @@ class Monitor:
         r2_w2_product = (c.g_4 * r2_w2_change - c.g_3 * r2_w2_change_2) * (1.0 - r2_w2_t * r2_w2_t)
 
         # khepera_encoders.bg:31: r2_w2: input of stage 3
-        r2_w2_u3 = -c.r2_w1_v3_tanh * r2_w2_t - c.r2_w2_v3_product * r2_w2_product
+        r2_w2_u3 = -c.r2_w1_tanh * r2_w2_t - c.r2_w2_product * r2_w2_product
 
         # khepera_encoders.bg:31: r2_w2: stage 3, at rest
         r2_w2_y3 = r2_w2_u3
@@ -2452,8 +3021,20 @@ class Monitor:
         # khepera_encoders.bg:31: filtered speed of m[1].wheel
         x.r2_w3_m__1__wheel_speed = r2_w3_m__1__wheel_speed_2
 
+        # khepera_encoders.bg:31: r2_w3: encoders, order 2
+        r2_w3_n2 = c.r2_w3_w2_m__1__wheel * r2_w3_m__1__wheel_speed_2
+
+        # khepera_encoders.bg:31: r2_w3: input of stage 3
+        r2_w3_u3 = r2_w3_n2 - r2_w3_n2
+
+        # khepera_encoders.bg:31: r2_w3: stage 3, at rest
+        r2_w3_y3 = r2_w3_u3
+
+        # khepera_encoders.bg:31: r2_w3: stage 3: memory
+        x.r2_w3_s3 = c.rest * r2_w3_u3
+
         # khepera_encoders.bg:31: r2_w3: input of stage 2
-        r2_w3_u2 = -c.r2_w3_v1_m__1__wheel * r2_w3_m__1__wheel_speed_2
+        r2_w3_u2 = r2_w3_y3 + r2_w3_n2 - 2.0 * r2_w3_n2
 
         # khepera_encoders.bg:31: r2_w3: stage 2, at rest
         r2_w3_y2 = r2_w3_u2
@@ -2462,7 +3043,7 @@ class Monitor:
         x.r2_w3_s2 = c.rest * r2_w3_u2
 
         # khepera_encoders.bg:31: r2_w3: input of stage 1
-        r2_w3_u1 = r2_w3_y2 + c.r2_w3_v1_m__1__wheel * r2_w3_m__1__wheel_speed_2
+        r2_w3_u1 = r2_w3_y2 + r2_w3_n2
 
         # khepera_encoders.bg:31: r2_w3: stage 1, at rest
         r2_w3_y1 = r2_w3_u1
@@ -2479,8 +3060,20 @@ class Monitor:
         # khepera_encoders.bg:31: filtered speed of m[1].wheel
         x.r2_w4_m__1__wheel_speed = r2_w4_m__1__wheel_speed_2
 
+        # khepera_encoders.bg:31: r2_w4: encoders, order 1
+        r2_w4_n1 = c.r2_w4_w1_m__1__wheel * r2_w4_m__1__wheel_speed_2
+
+        # khepera_encoders.bg:31: r2_w4: input of stage 3
+        r2_w4_u3 = r2_w4_n1 - r2_w4_n1
+
+        # khepera_encoders.bg:31: r2_w4: stage 3, at rest
+        r2_w4_y3 = r2_w4_u3
+
+        # khepera_encoders.bg:31: r2_w4: stage 3: memory
+        x.r2_w4_s3 = c.rest * r2_w4_u3
+
         # khepera_encoders.bg:31: r2_w4: input of stage 2
-        r2_w4_u2 = c.r2_w4_v2_m__1__wheel * r2_w4_m__1__wheel_speed_2
+        r2_w4_u2 = r2_w4_y3 + r2_w4_n1
 
         # khepera_encoders.bg:31: r2_w4: stage 2, at rest
         r2_w4_y2 = r2_w4_u2
@@ -2522,7 +3115,7 @@ class Monitor:
         r2_w5_product = (c.g_4 * r2_w5_change - c.g_3 * r2_w5_change_2) * (1.0 - r2_w5_t * r2_w5_t)
 
         # khepera_encoders.bg:31: r2_w5: input of stage 3
-        r2_w5_u3 = -c.r2_w5_v3_tanh * r2_w5_t - c.r2_w5_v3_product * r2_w5_product
+        r2_w5_u3 = -c.r2_w5_tanh * r2_w5_t - c.r2_w5_product * r2_w5_product
 
         # khepera_encoders.bg:31: r2_w5: stage 3, at rest
         r2_w5_y3 = r2_w5_u3
@@ -2588,8 +3181,8 @@ class Monitor:
 
         # khepera_encoders.bg:31: r2_w6: input of stage 3
         r2_w6_u3 = (
-            c.r2_w6_v3_product_2 * r2_w6_product_3 - c.r2_w5_v3_product * r2_w6_product
-            - c.r2_w6_v3_product * r2_w6_product_2
+            c.r2_w6_product_2 * r2_w6_product_3 - c.r2_w5_product * r2_w6_product
+            - c.r2_w6_product * r2_w6_product_2
         )
 
         # khepera_encoders.bg:31: r2_w6: stage 3, at rest
@@ -2648,33 +3241,33 @@ class Monitor:
 
         # khepera_encoders.bg:31: r2_w1: input of stage 3
         r2_w1_u3 = (
-            c.r2_w1_v3_integral_2 * r2_w1_change - c.r2_w1_v3_integral * r2_w1_change_2
-            - c.r2_w1_v3_tanh * r2_w1_tanh
+            c.r2_w1_integral_2 * r2_w1_change - c.r2_w1_integral * r2_w1_change_2
+            - c.r2_w1_tanh * r2_w1_tanh
         )
 
         # khepera_encoders.bg:31: r2_w1: stage 3
-        r2_w1_y3 = x.r2_w1_s3 + c.b0 * r2_w1_u3
+        r2_w1_y3 = x.r2_w1_s3 + c.b * r2_w1_u3
 
         # khepera_encoders.bg:31: r2_w1: stage 3: memory
-        x.r2_w1_s3 = c.a * r2_w1_y3 + c.b1 * r2_w1_u3
+        x.r2_w1_s3 = c.a * r2_w1_y3 + c.b * r2_w1_u3
 
         # khepera_encoders.bg:31: r2_w1: input of stage 2
         r2_w1_u2 = r2_w1_y3
 
         # khepera_encoders.bg:31: r2_w1: stage 2
-        r2_w1_y2 = x.r2_w1_s2 + c.b0 * r2_w1_u2
+        r2_w1_y2 = x.r2_w1_s2 + c.b * r2_w1_u2
 
         # khepera_encoders.bg:31: r2_w1: stage 2: memory
-        x.r2_w1_s2 = c.a * r2_w1_y2 + c.b1 * r2_w1_u2
+        x.r2_w1_s2 = c.a * r2_w1_y2 + c.b * r2_w1_u2
 
         # khepera_encoders.bg:31: r2_w1: input of stage 1
         r2_w1_u1 = r2_w1_y2
 
         # khepera_encoders.bg:31: r2_w1: stage 1
-        r2_w1_y1 = x.r2_w1_s1 + c.b0 * r2_w1_u1
+        r2_w1_y1 = x.r2_w1_s1 + c.b * r2_w1_u1
 
         # khepera_encoders.bg:31: r2_w1: stage 1: memory
-        x.r2_w1_s1 = c.a * r2_w1_y1 + c.b1 * r2_w1_u1
+        x.r2_w1_s1 = c.a * r2_w1_y1 + c.b * r2_w1_u1
 
         # khepera_encoders.bg:31: r2: what the tolerance of m[1].K can do
         r2_w1 = r2_w1_y1
@@ -2699,31 +3292,31 @@ class Monitor:
         r2_w2_product = (c.g_4 * r2_w2_change - c.g_3 * r2_w2_change_2) * (1.0 - r2_w2_t * r2_w2_t)
 
         # khepera_encoders.bg:31: r2_w2: input of stage 3
-        r2_w2_u3 = -c.r2_w1_v3_tanh * r2_w2_t - c.r2_w2_v3_product * r2_w2_product
+        r2_w2_u3 = -c.r2_w1_tanh * r2_w2_t - c.r2_w2_product * r2_w2_product
 
         # khepera_encoders.bg:31: r2_w2: stage 3
-        r2_w2_y3 = x.r2_w2_s3 + c.b0 * r2_w2_u3
+        r2_w2_y3 = x.r2_w2_s3 + c.b * r2_w2_u3
 
         # khepera_encoders.bg:31: r2_w2: stage 3: memory
-        x.r2_w2_s3 = c.a * r2_w2_y3 + c.b1 * r2_w2_u3
+        x.r2_w2_s3 = c.a * r2_w2_y3 + c.b * r2_w2_u3
 
         # khepera_encoders.bg:31: r2_w2: input of stage 2
         r2_w2_u2 = r2_w2_y3
 
         # khepera_encoders.bg:31: r2_w2: stage 2
-        r2_w2_y2 = x.r2_w2_s2 + c.b0 * r2_w2_u2
+        r2_w2_y2 = x.r2_w2_s2 + c.b * r2_w2_u2
 
         # khepera_encoders.bg:31: r2_w2: stage 2: memory
-        x.r2_w2_s2 = c.a * r2_w2_y2 + c.b1 * r2_w2_u2
+        x.r2_w2_s2 = c.a * r2_w2_y2 + c.b * r2_w2_u2
 
         # khepera_encoders.bg:31: r2_w2: input of stage 1
         r2_w2_u1 = r2_w2_y2
 
         # khepera_encoders.bg:31: r2_w2: stage 1
-        r2_w2_y1 = x.r2_w2_s1 + c.b0 * r2_w2_u1
+        r2_w2_y1 = x.r2_w2_s1 + c.b * r2_w2_u1
 
         # khepera_encoders.bg:31: r2_w2: stage 1: memory
-        x.r2_w2_s1 = c.a * r2_w2_y1 + c.b1 * r2_w2_u1
+        x.r2_w2_s1 = c.a * r2_w2_y1 + c.b * r2_w2_u1
 
         # khepera_encoders.bg:31: r2: what the tolerance of m[1].tau0 can do
         r2_w2 = r2_w2_y1
@@ -2734,23 +3327,35 @@ class Monitor:
         )
         x.r2_w3_m__1__wheel_speed = r2_w3_m__1__wheel_speed_2
 
+        # khepera_encoders.bg:31: r2_w3: encoders, order 2
+        r2_w3_n2 = c.r2_w3_w2_m__1__wheel * r2_w3_m__1__wheel_speed_2
+
+        # khepera_encoders.bg:31: r2_w3: input of stage 3
+        r2_w3_u3 = r2_w3_n2 - r2_w3_n2
+
+        # khepera_encoders.bg:31: r2_w3: stage 3
+        r2_w3_y3 = x.r2_w3_s3 + c.b * r2_w3_u3
+
+        # khepera_encoders.bg:31: r2_w3: stage 3: memory
+        x.r2_w3_s3 = c.a * r2_w3_y3 + c.b * r2_w3_u3
+
         # khepera_encoders.bg:31: r2_w3: input of stage 2
-        r2_w3_u2 = -c.r2_w3_v1_m__1__wheel * r2_w3_m__1__wheel_speed_2
+        r2_w3_u2 = r2_w3_y3 + r2_w3_n2 - 2.0 * r2_w3_n2
 
         # khepera_encoders.bg:31: r2_w3: stage 2
-        r2_w3_y2 = x.r2_w3_s2 + c.b0 * r2_w3_u2
+        r2_w3_y2 = x.r2_w3_s2 + c.b * r2_w3_u2
 
         # khepera_encoders.bg:31: r2_w3: stage 2: memory
-        x.r2_w3_s2 = c.a * r2_w3_y2 + c.b1 * r2_w3_u2
+        x.r2_w3_s2 = c.a * r2_w3_y2 + c.b * r2_w3_u2
 
         # khepera_encoders.bg:31: r2_w3: input of stage 1
-        r2_w3_u1 = r2_w3_y2 + c.r2_w3_v1_m__1__wheel * r2_w3_m__1__wheel_speed_2
+        r2_w3_u1 = r2_w3_y2 + r2_w3_n2
 
         # khepera_encoders.bg:31: r2_w3: stage 1
-        r2_w3_y1 = x.r2_w3_s1 + c.b0 * r2_w3_u1
+        r2_w3_y1 = x.r2_w3_s1 + c.b * r2_w3_u1
 
         # khepera_encoders.bg:31: r2_w3: stage 1: memory
-        x.r2_w3_s1 = c.a * r2_w3_y1 + c.b1 * r2_w3_u1
+        x.r2_w3_s1 = c.a * r2_w3_y1 + c.b * r2_w3_u1
 
         # khepera_encoders.bg:31: r2: what the tolerance of m[1].Js can do
         r2_w3 = r2_w3_y1
@@ -2761,23 +3366,35 @@ class Monitor:
         )
         x.r2_w4_m__1__wheel_speed = r2_w4_m__1__wheel_speed_2
 
+        # khepera_encoders.bg:31: r2_w4: encoders, order 1
+        r2_w4_n1 = c.r2_w4_w1_m__1__wheel * r2_w4_m__1__wheel_speed_2
+
+        # khepera_encoders.bg:31: r2_w4: input of stage 3
+        r2_w4_u3 = r2_w4_n1 - r2_w4_n1
+
+        # khepera_encoders.bg:31: r2_w4: stage 3
+        r2_w4_y3 = x.r2_w4_s3 + c.b * r2_w4_u3
+
+        # khepera_encoders.bg:31: r2_w4: stage 3: memory
+        x.r2_w4_s3 = c.a * r2_w4_y3 + c.b * r2_w4_u3
+
         # khepera_encoders.bg:31: r2_w4: input of stage 2
-        r2_w4_u2 = c.r2_w4_v2_m__1__wheel * r2_w4_m__1__wheel_speed_2
+        r2_w4_u2 = r2_w4_y3 + r2_w4_n1
 
         # khepera_encoders.bg:31: r2_w4: stage 2
-        r2_w4_y2 = x.r2_w4_s2 + c.b0 * r2_w4_u2
+        r2_w4_y2 = x.r2_w4_s2 + c.b * r2_w4_u2
 
         # khepera_encoders.bg:31: r2_w4: stage 2: memory
-        x.r2_w4_s2 = c.a * r2_w4_y2 + c.b1 * r2_w4_u2
+        x.r2_w4_s2 = c.a * r2_w4_y2 + c.b * r2_w4_u2
 
         # khepera_encoders.bg:31: r2_w4: input of stage 1
         r2_w4_u1 = r2_w4_y2
 
         # khepera_encoders.bg:31: r2_w4: stage 1
-        r2_w4_y1 = x.r2_w4_s1 + c.b0 * r2_w4_u1
+        r2_w4_y1 = x.r2_w4_s1 + c.b * r2_w4_u1
 
         # khepera_encoders.bg:31: r2_w4: stage 1: memory
-        x.r2_w4_s1 = c.a * r2_w4_y1 + c.b1 * r2_w4_u1
+        x.r2_w4_s1 = c.a * r2_w4_y1 + c.b * r2_w4_u1
 
         # khepera_encoders.bg:31: r2: what the tolerance of m[1].fs can do
         r2_w4 = r2_w4_y1
@@ -2802,31 +3419,31 @@ class Monitor:
         r2_w5_product = (c.g_4 * r2_w5_change - c.g_3 * r2_w5_change_2) * (1.0 - r2_w5_t * r2_w5_t)
 
         # khepera_encoders.bg:31: r2_w5: input of stage 3
-        r2_w5_u3 = -c.r2_w5_v3_tanh * r2_w5_t - c.r2_w5_v3_product * r2_w5_product
+        r2_w5_u3 = -c.r2_w5_tanh * r2_w5_t - c.r2_w5_product * r2_w5_product
 
         # khepera_encoders.bg:31: r2_w5: stage 3
-        r2_w5_y3 = x.r2_w5_s3 + c.b0 * r2_w5_u3
+        r2_w5_y3 = x.r2_w5_s3 + c.b * r2_w5_u3
 
         # khepera_encoders.bg:31: r2_w5: stage 3: memory
-        x.r2_w5_s3 = c.a * r2_w5_y3 + c.b1 * r2_w5_u3
+        x.r2_w5_s3 = c.a * r2_w5_y3 + c.b * r2_w5_u3
 
         # khepera_encoders.bg:31: r2_w5: input of stage 2
         r2_w5_u2 = r2_w5_y3
 
         # khepera_encoders.bg:31: r2_w5: stage 2
-        r2_w5_y2 = x.r2_w5_s2 + c.b0 * r2_w5_u2
+        r2_w5_y2 = x.r2_w5_s2 + c.b * r2_w5_u2
 
         # khepera_encoders.bg:31: r2_w5: stage 2: memory
-        x.r2_w5_s2 = c.a * r2_w5_y2 + c.b1 * r2_w5_u2
+        x.r2_w5_s2 = c.a * r2_w5_y2 + c.b * r2_w5_u2
 
         # khepera_encoders.bg:31: r2_w5: input of stage 1
         r2_w5_u1 = r2_w5_y2
 
         # khepera_encoders.bg:31: r2_w5: stage 1
-        r2_w5_y1 = x.r2_w5_s1 + c.b0 * r2_w5_u1
+        r2_w5_y1 = x.r2_w5_s1 + c.b * r2_w5_u1
 
         # khepera_encoders.bg:31: r2_w5: stage 1: memory
-        x.r2_w5_s1 = c.a * r2_w5_y1 + c.b1 * r2_w5_u1
+        x.r2_w5_s1 = c.a * r2_w5_y1 + c.b * r2_w5_u1
 
         # khepera_encoders.bg:31: r2: what the tolerances of m[1].K and m[1].tau0 can do together
         r2_w5 = r2_w5_y1
@@ -2866,33 +3483,33 @@ class Monitor:
 
         # khepera_encoders.bg:31: r2_w6: input of stage 3
         r2_w6_u3 = (
-            c.r2_w6_v3_product_2 * r2_w6_product_3 - c.r2_w5_v3_product * r2_w6_product
-            - c.r2_w6_v3_product * r2_w6_product_2
+            c.r2_w6_product_2 * r2_w6_product_3 - c.r2_w5_product * r2_w6_product
+            - c.r2_w6_product * r2_w6_product_2
         )
 
         # khepera_encoders.bg:31: r2_w6: stage 3
-        r2_w6_y3 = x.r2_w6_s3 + c.b0 * r2_w6_u3
+        r2_w6_y3 = x.r2_w6_s3 + c.b * r2_w6_u3
 
         # khepera_encoders.bg:31: r2_w6: stage 3: memory
-        x.r2_w6_s3 = c.a * r2_w6_y3 + c.b1 * r2_w6_u3
+        x.r2_w6_s3 = c.a * r2_w6_y3 + c.b * r2_w6_u3
 
         # khepera_encoders.bg:31: r2_w6: input of stage 2
         r2_w6_u2 = r2_w6_y3
 
         # khepera_encoders.bg:31: r2_w6: stage 2
-        r2_w6_y2 = x.r2_w6_s2 + c.b0 * r2_w6_u2
+        r2_w6_y2 = x.r2_w6_s2 + c.b * r2_w6_u2
 
         # khepera_encoders.bg:31: r2_w6: stage 2: memory
-        x.r2_w6_s2 = c.a * r2_w6_y2 + c.b1 * r2_w6_u2
+        x.r2_w6_s2 = c.a * r2_w6_y2 + c.b * r2_w6_u2
 
         # khepera_encoders.bg:31: r2_w6: input of stage 1
         r2_w6_u1 = r2_w6_y2
 
         # khepera_encoders.bg:31: r2_w6: stage 1
-        r2_w6_y1 = x.r2_w6_s1 + c.b0 * r2_w6_u1
+        r2_w6_y1 = x.r2_w6_s1 + c.b * r2_w6_u1
 
         # khepera_encoders.bg:31: r2_w6: stage 1: memory
-        x.r2_w6_s1 = c.a * r2_w6_y1 + c.b1 * r2_w6_u1
+        x.r2_w6_s1 = c.a * r2_w6_y1 + c.b * r2_w6_u1
 
         # khepera_encoders.bg:31: r2: second order of what the tolerance of m[1].tau0 can do
         r2_w6 = r2_w6_y1
@@ -2930,8 +3547,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r3_w1_m__2__motor_speed = r3_w1_m__2__motor_speed_2
 
+        # khepera.bg:17: r3_w1: encoders, order 1
+        r3_w1_n1 = -c.r3_w1_w1_m__2__motor * r3_w1_m__2__motor_speed_2
+
+        # khepera.bg:17: r3_w1: error of order 1
+        r3_w1_e1 = c.bend1 * r3_w1_n1
+
+        # khepera.bg:17: r3_w1: encoders, order 2
+        r3_w1_n2 = -c.r3_w1_w2_m__2__motor * r3_w1_m__2__motor_speed_2
+
+        # khepera.bg:17: r3_w1: degree 1
+        r3_w1_d1 = r3_w1_n1 + r3_w1_n2
+
+        # khepera.bg:17: r3_w1: degree 2
+        r3_w1_d2 = r3_w1_n2 - r3_w1_e1
+
+        # khepera.bg:17: r3_w1: input of stage 4
+        r3_w1_u4 = r3_w1_n1 + r3_w1_d2 + r3_w1_e1 - r3_w1_d1
+
+        # khepera.bg:17: r3_w1: stage 4, at rest
+        r3_w1_y4 = r3_w1_u4
+
+        # khepera.bg:17: r3_w1: stage 4: memory
+        x.r3_w1_s4 = c.rest * r3_w1_u4
+
         # khepera.bg:17: r3_w1: input of stage 3
-        r3_w1_u3 = c.r3_w1_v3_m__2__motor * r3_w1_m__2__motor_speed_2
+        r3_w1_u3 = r3_w1_y4 + r3_w1_d1 - 2.0 * r3_w1_d2 - 3.0 * r3_w1_e1
 
         # khepera.bg:17: r3_w1: stage 3, at rest
         r3_w1_y3 = r3_w1_u3
@@ -2940,7 +3581,7 @@ class Monitor:
         x.r3_w1_s3 = c.rest * r3_w1_u3
 
         # khepera.bg:17: r3_w1: input of stage 2
-        r3_w1_u2 = r3_w1_y3 - c.r3_w1_v2_m__2__motor * r3_w1_m__2__motor_speed_2
+        r3_w1_u2 = r3_w1_y3 + r3_w1_d2 + 3.0 * r3_w1_e1
 
         # khepera.bg:17: r3_w1: stage 2, at rest
         r3_w1_y2 = r3_w1_u2
@@ -2949,7 +3590,7 @@ class Monitor:
         x.r3_w1_s2 = c.rest * r3_w1_u2
 
         # khepera.bg:17: r3_w1: input of stage 1
-        r3_w1_u1 = r3_w1_y2
+        r3_w1_u1 = r3_w1_y2 - r3_w1_e1
 
         # khepera.bg:17: r3_w1: stage 1, at rest
         r3_w1_y1 = r3_w1_u1
@@ -2966,8 +3607,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].wheel
         x.r3_w2_m__2__wheel_speed = r3_w2_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w2: encoders, order 2
+        r3_w2_n2 = -c.r3_w2_w2_m__2__wheel * r3_w2_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w2: error of order 2
+        r3_w2_e2 = c.bend1 * r3_w2_n2
+
+        # khepera.bg:17: r3_w2: encoders, order 3
+        r3_w2_n3 = -c.r3_w2_w3_m__2__wheel * r3_w2_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w2: degree 2
+        r3_w2_d2 = r3_w2_n2 + r3_w2_n3
+
+        # khepera.bg:17: r3_w2: degree 3
+        r3_w2_d3 = r3_w2_n3 - r3_w2_e2
+
+        # khepera.bg:17: r3_w2: input of stage 4
+        r3_w2_u4 = r3_w2_d2 - r3_w2_n2 - r3_w2_d3 - r3_w2_e2
+
+        # khepera.bg:17: r3_w2: stage 4, at rest
+        r3_w2_y4 = r3_w2_u4
+
+        # khepera.bg:17: r3_w2: stage 4: memory
+        x.r3_w2_s4 = c.rest * r3_w2_u4
+
         # khepera.bg:17: r3_w2: input of stage 3
-        r3_w2_u3 = c.r3_w2_v3_m__2__wheel * r3_w2_m__2__wheel_speed_2
+        r3_w2_u3 = r3_w2_y4 + r3_w2_n2 + 3.0 * r3_w2_d3 + 4.0 * r3_w2_e2 - 2.0 * r3_w2_d2
 
         # khepera.bg:17: r3_w2: stage 3, at rest
         r3_w2_y3 = r3_w2_u3
@@ -2976,7 +3641,7 @@ class Monitor:
         x.r3_w2_s3 = c.rest * r3_w2_u3
 
         # khepera.bg:17: r3_w2: input of stage 2
-        r3_w2_u2 = r3_w2_y3 + c.r3_w2_v2_m__2__wheel * r3_w2_m__2__wheel_speed_2
+        r3_w2_u2 = r3_w2_y3 + r3_w2_d2 - 3.0 * r3_w2_d3 - 6.0 * r3_w2_e2
 
         # khepera.bg:17: r3_w2: stage 2, at rest
         r3_w2_y2 = r3_w2_u2
@@ -2985,7 +3650,7 @@ class Monitor:
         x.r3_w2_s2 = c.rest * r3_w2_u2
 
         # khepera.bg:17: r3_w2: input of stage 1
-        r3_w2_u1 = r3_w2_y2 - c.r3_w2_v1_m__2__wheel * r3_w2_m__2__wheel_speed_2
+        r3_w2_u1 = r3_w2_y2 + r3_w2_d3 + 4.0 * r3_w2_e2
 
         # khepera.bg:17: r3_w2: stage 1, at rest
         r3_w2_y1 = r3_w2_u1
@@ -2994,7 +3659,7 @@ class Monitor:
         x.r3_w2_s1 = c.rest * r3_w2_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].Js can do
-        r3_w2 = r3_w2_y1
+        r3_w2 = r3_w2_y1 - r3_w2_e2
 
         # khepera.bg:17: filtered speed of m[2].wheel, at rest
         r3_w3_m__2__wheel_speed_2 = 0.0
@@ -3002,8 +3667,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].wheel
         x.r3_w3_m__2__wheel_speed = r3_w3_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w3: encoders, order 1
+        r3_w3_n1 = -c.r3_w3_w1_m__2__wheel * r3_w3_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w3: error of order 1
+        r3_w3_e1 = c.bend1 * r3_w3_n1
+
+        # khepera.bg:17: r3_w3: encoders, order 2
+        r3_w3_n2 = -c.r3_w3_w2_m__2__wheel * r3_w3_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w3: degree 1
+        r3_w3_d1 = r3_w3_n1 + r3_w3_n2
+
+        # khepera.bg:17: r3_w3: degree 2
+        r3_w3_d2 = r3_w3_n2 - r3_w3_e1
+
+        # khepera.bg:17: r3_w3: input of stage 4
+        r3_w3_u4 = r3_w3_n1 + r3_w3_d2 + r3_w3_e1 - r3_w3_d1
+
+        # khepera.bg:17: r3_w3: stage 4, at rest
+        r3_w3_y4 = r3_w3_u4
+
+        # khepera.bg:17: r3_w3: stage 4: memory
+        x.r3_w3_s4 = c.rest * r3_w3_u4
+
         # khepera.bg:17: r3_w3: input of stage 3
-        r3_w3_u3 = c.r3_w3_v3_m__2__wheel * r3_w3_m__2__wheel_speed_2
+        r3_w3_u3 = r3_w3_y4 + r3_w3_d1 - 2.0 * r3_w3_d2 - 3.0 * r3_w3_e1
 
         # khepera.bg:17: r3_w3: stage 3, at rest
         r3_w3_y3 = r3_w3_u3
@@ -3012,7 +3701,7 @@ class Monitor:
         x.r3_w3_s3 = c.rest * r3_w3_u3
 
         # khepera.bg:17: r3_w3: input of stage 2
-        r3_w3_u2 = r3_w3_y3 - c.r3_w3_v2_m__2__wheel * r3_w3_m__2__wheel_speed_2
+        r3_w3_u2 = r3_w3_y3 + r3_w3_d2 + 3.0 * r3_w3_e1
 
         # khepera.bg:17: r3_w3: stage 2, at rest
         r3_w3_y2 = r3_w3_u2
@@ -3021,7 +3710,7 @@ class Monitor:
         x.r3_w3_s2 = c.rest * r3_w3_u2
 
         # khepera.bg:17: r3_w3: input of stage 1
-        r3_w3_u1 = r3_w3_y2
+        r3_w3_u1 = r3_w3_y2 - r3_w3_e1
 
         # khepera.bg:17: r3_w3: stage 1, at rest
         r3_w3_y1 = r3_w3_u1
@@ -3044,8 +3733,35 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r3_w4_m__2__motor_speed = r3_w4_m__2__motor_speed_2
 
+        # khepera.bg:17: r3_w4: encoders, order 1
+        r3_w4_n1 = (
+            -c.r3_w4_w1_m__2__wheel * r3_w4_m__2__wheel_speed_2
+            - c.r3_w4_w1_m__2__motor * r3_w4_m__2__motor_speed_2
+        )
+
+        # khepera.bg:17: r3_w4: error of order 1
+        r3_w4_e1 = c.bend1 * r3_w4_n1
+
+        # khepera.bg:17: r3_w4: encoders, order 2
+        r3_w4_n2 = (
+            -c.r3_w4_w2_m__2__wheel * r3_w4_m__2__wheel_speed_2
+            - c.r3_w4_w2_m__2__motor * r3_w4_m__2__motor_speed_2
+        )
+
+        # khepera.bg:17: r3_w4: terms of order 0
+        r3_w4_g0 = -c.r3_w4_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w4: degree 1
+        r3_w4_d1 = r3_w4_n1 + r3_w4_n2
+
+        # khepera.bg:17: r3_w4: error of order 0
+        r3_w4_e0 = c.bend2 * r3_w4_g0
+
+        # khepera.bg:17: r3_w4: degree 2
+        r3_w4_d2 = r3_w4_n2 - r3_w4_e1 - r3_w4_e0
+
         # khepera.bg:17: r3_w4: input of stage 4
-        r3_w4_u4 = -c.r3_w4_v4_Fx__2 * s.Fx__2
+        r3_w4_u4 = r3_w4_g0 + r3_w4_n1 + r3_w4_d2 + r3_w4_e1 - r3_w4_d1
 
         # khepera.bg:17: r3_w4: stage 4, at rest
         r3_w4_y4 = r3_w4_u4
@@ -3054,10 +3770,7 @@ class Monitor:
         x.r3_w4_s4 = c.rest * r3_w4_u4
 
         # khepera.bg:17: r3_w4: input of stage 3
-        r3_w4_u3 = (
-            r3_w4_y4 + c.r3_w4_v3_m__2__wheel * r3_w4_m__2__wheel_speed_2
-            + c.r3_w4_v3_m__2__motor * r3_w4_m__2__motor_speed_2
-        )
+        r3_w4_u3 = r3_w4_y4 + r3_w4_d1 - 2.0 * r3_w4_d2 - 3.0 * r3_w4_e1
 
         # khepera.bg:17: r3_w4: stage 3, at rest
         r3_w4_y3 = r3_w4_u3
@@ -3066,10 +3779,7 @@ class Monitor:
         x.r3_w4_s3 = c.rest * r3_w4_u3
 
         # khepera.bg:17: r3_w4: input of stage 2
-        r3_w4_u2 = (
-            r3_w4_y3 - c.r3_w4_v2_m__2__wheel * r3_w4_m__2__wheel_speed_2
-            - c.r3_w4_v2_m__2__motor * r3_w4_m__2__motor_speed_2
-        )
+        r3_w4_u2 = r3_w4_y3 + r3_w4_d2 + 3.0 * r3_w4_e1
 
         # khepera.bg:17: r3_w4: stage 2, at rest
         r3_w4_y2 = r3_w4_u2
@@ -3078,7 +3788,7 @@ class Monitor:
         x.r3_w4_s2 = c.rest * r3_w4_u2
 
         # khepera.bg:17: r3_w4: input of stage 1
-        r3_w4_u1 = r3_w4_y2
+        r3_w4_u1 = r3_w4_y2 - r3_w4_e1
 
         # khepera.bg:17: r3_w4: stage 1, at rest
         r3_w4_y1 = r3_w4_u1
@@ -3101,8 +3811,53 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].wheel
         x.r3_w5_m__2__wheel_speed = r3_w5_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w5: encoders, order 1
+        r3_w5_n1 = (
+            c.r3_w5_w1_m__2__motor * r3_w5_m__2__motor_speed_2
+            + c.r3_w5_w1_m__2__wheel * r3_w5_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w5: error of order 1
+        r3_w5_e1 = c.bend2 * r3_w5_n1
+
+        # khepera.bg:17: r3_w5: encoders, order 2
+        r3_w5_n2 = (
+            c.r3_w5_w2_m__2__motor * r3_w5_m__2__motor_speed_2
+            + c.r3_w5_w2_m__2__wheel * r3_w5_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w5: error of order 2
+        r3_w5_e2 = c.bend1 * r3_w5_n2
+
+        # khepera.bg:17: r3_w5: encoders, order 3
+        r3_w5_n3 = (
+            c.r3_w5_w3_m__2__motor * r3_w5_m__2__motor_speed_2
+            + c.r3_w2_w3_m__2__wheel * r3_w5_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w5: terms of order 0
+        r3_w5_g0 = c.r3_w5_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w5: terms of order 1
+        r3_w5_g1 = c.r3_w5_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w5: degree 1
+        r3_w5_d1 = r3_w5_g1 + r3_w5_n1 + r3_w5_n2
+
+        # khepera.bg:17: r3_w5: error of order 0
+        r3_w5_e0 = c.bend3 * r3_w5_g0
+
+        # khepera.bg:17: r3_w5: degree 2
+        r3_w5_d2 = r3_w5_n2 + r3_w5_n3 - r3_w5_e1 - r3_w5_e0
+
+        # khepera.bg:17: r3_w5: error of order 1
+        r3_w5_e1_2 = c.bend2 * r3_w5_g1
+
+        # khepera.bg:17: r3_w5: degree 3
+        r3_w5_d3 = r3_w5_n3 - r3_w5_e1 - r3_w5_e2 - r3_w5_e1_2
+
         # khepera.bg:17: r3_w5: input of stage 4
-        r3_w5_u4 = c.r3_w5_v4_Fx__2 * s.Fx__2
+        r3_w5_u4 = r3_w5_g0 + r3_w5_n1 + r3_w5_d2 - r3_w5_d1 - r3_w5_d3 - r3_w5_e2
 
         # khepera.bg:17: r3_w5: stage 4, at rest
         r3_w5_y4 = r3_w5_u4
@@ -3111,10 +3866,7 @@ class Monitor:
         x.r3_w5_s4 = c.rest * r3_w5_u4
 
         # khepera.bg:17: r3_w5: input of stage 3
-        r3_w5_u3 = (
-            r3_w5_y4 + c.r3_w5_v3_m__2__motor * r3_w5_m__2__motor_speed_2
-            + c.r3_w5_v3_m__2__wheel * r3_w5_m__2__wheel_speed_2 + c.r3_w5_v3_Fx__2 * s.Fx__2
-        )
+        r3_w5_u3 = r3_w5_y4 + r3_w5_d1 + 3.0 * r3_w5_d3 + 4.0 * r3_w5_e2 - 2.0 * r3_w5_d2
 
         # khepera.bg:17: r3_w5: stage 3, at rest
         r3_w5_y3 = r3_w5_u3
@@ -3123,10 +3875,7 @@ class Monitor:
         x.r3_w5_s3 = c.rest * r3_w5_u3
 
         # khepera.bg:17: r3_w5: input of stage 2
-        r3_w5_u2 = (
-            r3_w5_y3 + c.r3_w5_v2_m__2__motor * r3_w5_m__2__motor_speed_2
-            + c.r3_w5_v2_m__2__wheel * r3_w5_m__2__wheel_speed_2
-        )
+        r3_w5_u2 = r3_w5_y3 + r3_w5_d2 - 3.0 * r3_w5_d3 - 6.0 * r3_w5_e2
 
         # khepera.bg:17: r3_w5: stage 2, at rest
         r3_w5_y2 = r3_w5_u2
@@ -3135,10 +3884,7 @@ class Monitor:
         x.r3_w5_s2 = c.rest * r3_w5_u2
 
         # khepera.bg:17: r3_w5: input of stage 1
-        r3_w5_u1 = (
-            r3_w5_y2 + c.r3_w5_v1_m__2__motor * r3_w5_m__2__motor_speed_2
-            + c.r3_w2_v1_m__2__wheel * r3_w5_m__2__wheel_speed_2
-        )
+        r3_w5_u1 = r3_w5_y2 + r3_w5_d3 + 4.0 * r3_w5_e2
 
         # khepera.bg:17: r3_w5: stage 1, at rest
         r3_w5_y1 = r3_w5_u1
@@ -3147,7 +3893,7 @@ class Monitor:
         x.r3_w5_s1 = c.rest * r3_w5_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].el.k can do
-        r3_w5 = r3_w5_y1
+        r3_w5 = r3_w5_y1 - r3_w5_e2
 
         # khepera.bg:17: filtered speed of m[2].motor, at rest
         r3_w6_m__2__motor_speed_2 = 0.0
@@ -3155,8 +3901,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r3_w6_m__2__motor_speed = r3_w6_m__2__motor_speed_2
 
+        # khepera.bg:17: r3_w6: encoders, order 1
+        r3_w6_n1 = -c.r3_w6_w1_m__2__motor * r3_w6_m__2__motor_speed_2
+
+        # khepera.bg:17: r3_w6: input of stage 4
+        r3_w6_u4 = r3_w6_n1 - r3_w6_n1
+
+        # khepera.bg:17: r3_w6: stage 4, at rest
+        r3_w6_y4 = r3_w6_u4
+
+        # khepera.bg:17: r3_w6: stage 4: memory
+        x.r3_w6_s4 = c.rest * r3_w6_u4
+
         # khepera.bg:17: r3_w6: input of stage 3
-        r3_w6_u3 = -c.r3_w6_v3_m__2__motor * r3_w6_m__2__motor_speed_2
+        r3_w6_u3 = r3_w6_y4 + r3_w6_n1
 
         # khepera.bg:17: r3_w6: stage 3, at rest
         r3_w6_y3 = r3_w6_u3
@@ -3191,8 +3949,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].motor
         x.r3_w7_m__2__motor_speed = r3_w7_m__2__motor_speed_2
 
+        # khepera.bg:17: r3_w7: encoders, order 1
+        r3_w7_n1 = c.r3_w7_w1_m__2__motor * r3_w7_m__2__motor_speed_2
+
+        # khepera.bg:17: r3_w7: error of order 1
+        r3_w7_e1 = c.bend1 * r3_w7_n1
+
+        # khepera.bg:17: r3_w7: encoders, order 2
+        r3_w7_n2 = c.r3_w7_w2_m__2__motor * r3_w7_m__2__motor_speed_2
+
+        # khepera.bg:17: r3_w7: degree 1
+        r3_w7_d1 = r3_w7_n1 + r3_w7_n2
+
+        # khepera.bg:17: r3_w7: degree 2
+        r3_w7_d2 = r3_w7_n2 - r3_w7_e1
+
+        # khepera.bg:17: r3_w7: input of stage 4
+        r3_w7_u4 = r3_w7_n1 + r3_w7_d2 + r3_w7_e1 - r3_w7_d1
+
+        # khepera.bg:17: r3_w7: stage 4, at rest
+        r3_w7_y4 = r3_w7_u4
+
+        # khepera.bg:17: r3_w7: stage 4: memory
+        x.r3_w7_s4 = c.rest * r3_w7_u4
+
         # khepera.bg:17: r3_w7: input of stage 3
-        r3_w7_u3 = c.r3_w7_v3_m__2__motor * r3_w7_m__2__motor_speed_2
+        r3_w7_u3 = r3_w7_y4 + r3_w7_d1 - 2.0 * r3_w7_d2 - 3.0 * r3_w7_e1
 
         # khepera.bg:17: r3_w7: stage 3, at rest
         r3_w7_y3 = r3_w7_u3
@@ -3201,7 +3983,7 @@ class Monitor:
         x.r3_w7_s3 = c.rest * r3_w7_u3
 
         # khepera.bg:17: r3_w7: input of stage 2
-        r3_w7_u2 = r3_w7_y3 + c.r3_w7_v2_m__2__motor * r3_w7_m__2__motor_speed_2
+        r3_w7_u2 = r3_w7_y3 + r3_w7_d2 + 3.0 * r3_w7_e1
 
         # khepera.bg:17: r3_w7: stage 2, at rest
         r3_w7_y2 = r3_w7_u2
@@ -3210,7 +3992,7 @@ class Monitor:
         x.r3_w7_s2 = c.rest * r3_w7_u2
 
         # khepera.bg:17: r3_w7: input of stage 1
-        r3_w7_u1 = r3_w7_y2
+        r3_w7_u1 = r3_w7_y2 - r3_w7_e1
 
         # khepera.bg:17: r3_w7: stage 1, at rest
         r3_w7_y1 = r3_w7_u1
@@ -3227,8 +4009,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].wheel
         x.r3_w8_m__2__wheel_speed = r3_w8_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w8: encoders, order 2
+        r3_w8_n2 = -c.r3_w8_w2_m__2__wheel * r3_w8_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w8: input of stage 4
+        r3_w8_u4 = r3_w8_n2 - r3_w8_n2
+
+        # khepera.bg:17: r3_w8: stage 4, at rest
+        r3_w8_y4 = r3_w8_u4
+
+        # khepera.bg:17: r3_w8: stage 4: memory
+        x.r3_w8_s4 = c.rest * r3_w8_u4
+
         # khepera.bg:17: r3_w8: input of stage 3
-        r3_w8_u3 = c.r3_w8_v2_m__2__wheel * r3_w8_m__2__wheel_speed_2
+        r3_w8_u3 = r3_w8_y4 + r3_w8_n2 - 2.0 * r3_w8_n2
 
         # khepera.bg:17: r3_w8: stage 3, at rest
         r3_w8_y3 = r3_w8_u3
@@ -3237,7 +4031,7 @@ class Monitor:
         x.r3_w8_s3 = c.rest * r3_w8_u3
 
         # khepera.bg:17: r3_w8: input of stage 2
-        r3_w8_u2 = r3_w8_y3 - c.r3_w8_v2_m__2__wheel * r3_w8_m__2__wheel_speed_2
+        r3_w8_u2 = r3_w8_y3 + r3_w8_n2
 
         # khepera.bg:17: r3_w8: stage 2, at rest
         r3_w8_y2 = r3_w8_u2
@@ -3263,8 +4057,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].wheel
         x.r3_w9_m__2__wheel_speed = r3_w9_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w9: encoders, order 2
+        r3_w9_n2 = c.r3_w9_w2_m__2__wheel * r3_w9_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w9: error of order 2
+        r3_w9_e2 = c.bend1 * r3_w9_n2
+
+        # khepera.bg:17: r3_w9: encoders, order 3
+        r3_w9_n3 = c.r3_w9_w3_m__2__wheel * r3_w9_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w9: degree 2
+        r3_w9_d2 = r3_w9_n2 + r3_w9_n3
+
+        # khepera.bg:17: r3_w9: degree 3
+        r3_w9_d3 = r3_w9_n3 - r3_w9_e2
+
+        # khepera.bg:17: r3_w9: input of stage 4
+        r3_w9_u4 = r3_w9_d2 - r3_w9_n2 - r3_w9_d3 - r3_w9_e2
+
+        # khepera.bg:17: r3_w9: stage 4, at rest
+        r3_w9_y4 = r3_w9_u4
+
+        # khepera.bg:17: r3_w9: stage 4: memory
+        x.r3_w9_s4 = c.rest * r3_w9_u4
+
         # khepera.bg:17: r3_w9: input of stage 3
-        r3_w9_u3 = c.r3_w9_v3_m__2__wheel * r3_w9_m__2__wheel_speed_2
+        r3_w9_u3 = r3_w9_y4 + r3_w9_n2 + 3.0 * r3_w9_d3 + 4.0 * r3_w9_e2 - 2.0 * r3_w9_d2
 
         # khepera.bg:17: r3_w9: stage 3, at rest
         r3_w9_y3 = r3_w9_u3
@@ -3273,7 +4091,7 @@ class Monitor:
         x.r3_w9_s3 = c.rest * r3_w9_u3
 
         # khepera.bg:17: r3_w9: input of stage 2
-        r3_w9_u2 = r3_w9_y3 + c.r3_w9_v2_m__2__wheel * r3_w9_m__2__wheel_speed_2
+        r3_w9_u2 = r3_w9_y3 + r3_w9_d2 - 3.0 * r3_w9_d3 - 6.0 * r3_w9_e2
 
         # khepera.bg:17: r3_w9: stage 2, at rest
         r3_w9_y2 = r3_w9_u2
@@ -3282,7 +4100,7 @@ class Monitor:
         x.r3_w9_s2 = c.rest * r3_w9_u2
 
         # khepera.bg:17: r3_w9: input of stage 1
-        r3_w9_u1 = r3_w9_y2 + c.r3_w9_v1_m__2__wheel * r3_w9_m__2__wheel_speed_2
+        r3_w9_u1 = r3_w9_y2 + r3_w9_d3 + 4.0 * r3_w9_e2
 
         # khepera.bg:17: r3_w9: stage 1, at rest
         r3_w9_y1 = r3_w9_u1
@@ -3291,7 +4109,7 @@ class Monitor:
         x.r3_w9_s1 = c.rest * r3_w9_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].Js and m[2].el.k can do together
-        r3_w9 = r3_w9_y1
+        r3_w9 = r3_w9_y1 - r3_w9_e2
 
         # khepera.bg:17: filtered speed of m[2].wheel, at rest
         r3_w10_m__2__wheel_speed_2 = 0.0
@@ -3299,8 +4117,20 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].wheel
         x.r3_w10_m__2__wheel_speed = r3_w10_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w10: encoders, order 1
+        r3_w10_n1 = -c.r3_w10_w1_m__2__wheel * r3_w10_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w10: input of stage 4
+        r3_w10_u4 = r3_w10_n1 - r3_w10_n1
+
+        # khepera.bg:17: r3_w10: stage 4, at rest
+        r3_w10_y4 = r3_w10_u4
+
+        # khepera.bg:17: r3_w10: stage 4: memory
+        x.r3_w10_s4 = c.rest * r3_w10_u4
+
         # khepera.bg:17: r3_w10: input of stage 3
-        r3_w10_u3 = -c.r3_w10_v3_m__2__wheel * r3_w10_m__2__wheel_speed_2
+        r3_w10_u3 = r3_w10_y4 + r3_w10_n1
 
         # khepera.bg:17: r3_w10: stage 3, at rest
         r3_w10_y3 = r3_w10_u3
@@ -3335,8 +4165,32 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].wheel
         x.r3_w11_m__2__wheel_speed = r3_w11_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w11: encoders, order 1
+        r3_w11_n1 = c.r3_w11_w1_m__2__wheel * r3_w11_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w11: error of order 1
+        r3_w11_e1 = c.bend1 * r3_w11_n1
+
+        # khepera.bg:17: r3_w11: encoders, order 2
+        r3_w11_n2 = c.r3_w11_w2_m__2__wheel * r3_w11_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w11: degree 1
+        r3_w11_d1 = r3_w11_n1 + r3_w11_n2
+
+        # khepera.bg:17: r3_w11: degree 2
+        r3_w11_d2 = r3_w11_n2 - r3_w11_e1
+
+        # khepera.bg:17: r3_w11: input of stage 4
+        r3_w11_u4 = r3_w11_n1 + r3_w11_d2 + r3_w11_e1 - r3_w11_d1
+
+        # khepera.bg:17: r3_w11: stage 4, at rest
+        r3_w11_y4 = r3_w11_u4
+
+        # khepera.bg:17: r3_w11: stage 4: memory
+        x.r3_w11_s4 = c.rest * r3_w11_u4
+
         # khepera.bg:17: r3_w11: input of stage 3
-        r3_w11_u3 = c.r3_w11_v3_m__2__wheel * r3_w11_m__2__wheel_speed_2
+        r3_w11_u3 = r3_w11_y4 + r3_w11_d1 - 2.0 * r3_w11_d2 - 3.0 * r3_w11_e1
 
         # khepera.bg:17: r3_w11: stage 3, at rest
         r3_w11_y3 = r3_w11_u3
@@ -3345,7 +4199,7 @@ class Monitor:
         x.r3_w11_s3 = c.rest * r3_w11_u3
 
         # khepera.bg:17: r3_w11: input of stage 2
-        r3_w11_u2 = r3_w11_y3 + c.r3_w11_v2_m__2__wheel * r3_w11_m__2__wheel_speed_2
+        r3_w11_u2 = r3_w11_y3 + r3_w11_d2 + 3.0 * r3_w11_e1
 
         # khepera.bg:17: r3_w11: stage 2, at rest
         r3_w11_y2 = r3_w11_u2
@@ -3354,7 +4208,7 @@ class Monitor:
         x.r3_w11_s2 = c.rest * r3_w11_u2
 
         # khepera.bg:17: r3_w11: input of stage 1
-        r3_w11_u1 = r3_w11_y2
+        r3_w11_u1 = r3_w11_y2 - r3_w11_e1
 
         # khepera.bg:17: r3_w11: stage 1, at rest
         r3_w11_y1 = r3_w11_u1
@@ -3377,8 +4231,35 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].wheel
         x.r3_w12_m__2__wheel_speed = r3_w12_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w12: encoders, order 1
+        r3_w12_n1 = (
+            c.r3_w12_w1_m__2__motor * r3_w12_m__2__motor_speed_2
+            + c.r3_w12_w1_m__2__wheel * r3_w12_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w12: error of order 1
+        r3_w12_e1 = c.bend1 * r3_w12_n1
+
+        # khepera.bg:17: r3_w12: encoders, order 2
+        r3_w12_n2 = (
+            c.r3_w12_w2_m__2__motor * r3_w12_m__2__motor_speed_2
+            + c.r3_w8_w2_m__2__wheel * r3_w12_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w12: terms of order 0
+        r3_w12_g0 = c.r3_w12_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w12: degree 1
+        r3_w12_d1 = r3_w12_n1 + r3_w12_n2
+
+        # khepera.bg:17: r3_w12: error of order 0
+        r3_w12_e0 = c.bend2 * r3_w12_g0
+
+        # khepera.bg:17: r3_w12: degree 2
+        r3_w12_d2 = r3_w12_n2 - r3_w12_e1 - r3_w12_e0
+
         # khepera.bg:17: r3_w12: input of stage 4
-        r3_w12_u4 = c.r3_w12_v4_Fx__2 * s.Fx__2
+        r3_w12_u4 = r3_w12_g0 + r3_w12_n1 + r3_w12_d2 + r3_w12_e1 - r3_w12_d1
 
         # khepera.bg:17: r3_w12: stage 4, at rest
         r3_w12_y4 = r3_w12_u4
@@ -3387,10 +4268,7 @@ class Monitor:
         x.r3_w12_s4 = c.rest * r3_w12_u4
 
         # khepera.bg:17: r3_w12: input of stage 3
-        r3_w12_u3 = (
-            r3_w12_y4 + c.r3_w12_v3_m__2__motor * r3_w12_m__2__motor_speed_2
-            + c.r3_w12_v3_m__2__wheel * r3_w12_m__2__wheel_speed_2
-        )
+        r3_w12_u3 = r3_w12_y4 + r3_w12_d1 - 2.0 * r3_w12_d2 - 3.0 * r3_w12_e1
 
         # khepera.bg:17: r3_w12: stage 3, at rest
         r3_w12_y3 = r3_w12_u3
@@ -3399,10 +4277,7 @@ class Monitor:
         x.r3_w12_s3 = c.rest * r3_w12_u3
 
         # khepera.bg:17: r3_w12: input of stage 2
-        r3_w12_u2 = (
-            r3_w12_y3 + c.r3_w12_v2_m__2__motor * r3_w12_m__2__motor_speed_2
-            + c.r3_w8_v2_m__2__wheel * r3_w12_m__2__wheel_speed_2
-        )
+        r3_w12_u2 = r3_w12_y3 + r3_w12_d2 + 3.0 * r3_w12_e1
 
         # khepera.bg:17: r3_w12: stage 2, at rest
         r3_w12_y2 = r3_w12_u2
@@ -3411,7 +4286,7 @@ class Monitor:
         x.r3_w12_s2 = c.rest * r3_w12_u2
 
         # khepera.bg:17: r3_w12: input of stage 1
-        r3_w12_u1 = r3_w12_y2
+        r3_w12_u1 = r3_w12_y2 - r3_w12_e1
 
         # khepera.bg:17: r3_w12: stage 1, at rest
         r3_w12_y1 = r3_w12_u1
@@ -3434,8 +4309,53 @@ class Monitor:
         # khepera.bg:17: filtered speed of m[2].wheel
         x.r3_w13_m__2__wheel_speed = r3_w13_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w13: encoders, order 1
+        r3_w13_n1 = (
+            -c.r3_w13_w1_m__2__motor * r3_w13_m__2__motor_speed_2
+            - c.r3_w13_w1_m__2__wheel * r3_w13_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w13: error of order 1
+        r3_w13_e1 = c.bend2 * r3_w13_n1
+
+        # khepera.bg:17: r3_w13: encoders, order 2
+        r3_w13_n2 = (
+            c.r3_w13_w2_m__2__motor * r3_w13_m__2__motor_speed_2
+            + c.r3_w13_w2_m__2__wheel * r3_w13_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w13: error of order 2
+        r3_w13_e2 = c.bend1 * r3_w13_n2
+
+        # khepera.bg:17: r3_w13: encoders, order 3
+        r3_w13_n3 = (
+            -c.r3_w13_w3_m__2__motor * r3_w13_m__2__motor_speed_2
+            - c.r3_w9_w3_m__2__wheel * r3_w13_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w13: terms of order 0
+        r3_w13_g0 = -c.r3_w13_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w13: terms of order 1
+        r3_w13_g1 = -c.r3_w13_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w13: degree 1
+        r3_w13_d1 = r3_w13_g1 + r3_w13_n1 + r3_w13_n2
+
+        # khepera.bg:17: r3_w13: error of order 0
+        r3_w13_e0 = c.bend3 * r3_w13_g0
+
+        # khepera.bg:17: r3_w13: degree 2
+        r3_w13_d2 = r3_w13_n2 + r3_w13_n3 - r3_w13_e1 - r3_w13_e0
+
+        # khepera.bg:17: r3_w13: error of order 1
+        r3_w13_e1_2 = c.bend2 * r3_w13_g1
+
+        # khepera.bg:17: r3_w13: degree 3
+        r3_w13_d3 = r3_w13_n3 - r3_w13_e1 - r3_w13_e2 - r3_w13_e1_2
+
         # khepera.bg:17: r3_w13: input of stage 4
-        r3_w13_u4 = c.r3_w13_v4_Fx__2 * s.Fx__2
+        r3_w13_u4 = r3_w13_g0 + r3_w13_n1 + r3_w13_d2 - r3_w13_d1 - r3_w13_d3 - r3_w13_e2
 
         # khepera.bg:17: r3_w13: stage 4, at rest
         r3_w13_y4 = r3_w13_u4
@@ -3444,10 +4364,7 @@ class Monitor:
         x.r3_w13_s4 = c.rest * r3_w13_u4
 
         # khepera.bg:17: r3_w13: input of stage 3
-        r3_w13_u3 = (
-            r3_w13_y4 - c.r3_w13_v3_m__2__motor * r3_w13_m__2__motor_speed_2
-            - c.r3_w13_v3_m__2__wheel * r3_w13_m__2__wheel_speed_2 - c.r3_w13_v3_Fx__2 * s.Fx__2
-        )
+        r3_w13_u3 = r3_w13_y4 + r3_w13_d1 + 3.0 * r3_w13_d3 + 4.0 * r3_w13_e2 - 2.0 * r3_w13_d2
 
         # khepera.bg:17: r3_w13: stage 3, at rest
         r3_w13_y3 = r3_w13_u3
@@ -3456,10 +4373,7 @@ class Monitor:
         x.r3_w13_s3 = c.rest * r3_w13_u3
 
         # khepera.bg:17: r3_w13: input of stage 2
-        r3_w13_u2 = (
-            r3_w13_y3 + c.r3_w13_v2_m__2__motor * r3_w13_m__2__motor_speed_2
-            + c.r3_w13_v2_m__2__wheel * r3_w13_m__2__wheel_speed_2
-        )
+        r3_w13_u2 = r3_w13_y3 + r3_w13_d2 - 3.0 * r3_w13_d3 - 6.0 * r3_w13_e2
 
         # khepera.bg:17: r3_w13: stage 2, at rest
         r3_w13_y2 = r3_w13_u2
@@ -3468,10 +4382,7 @@ class Monitor:
         x.r3_w13_s2 = c.rest * r3_w13_u2
 
         # khepera.bg:17: r3_w13: input of stage 1
-        r3_w13_u1 = (
-            r3_w13_y2 - c.r3_w13_v1_m__2__motor * r3_w13_m__2__motor_speed_2
-            - c.r3_w9_v1_m__2__wheel * r3_w13_m__2__wheel_speed_2
-        )
+        r3_w13_u1 = r3_w13_y2 + r3_w13_d3 + 4.0 * r3_w13_e2
 
         # khepera.bg:17: r3_w13: stage 1, at rest
         r3_w13_y1 = r3_w13_u1
@@ -3480,7 +4391,7 @@ class Monitor:
         x.r3_w13_s1 = c.rest * r3_w13_u1
 
         # khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do
-        r3_w13 = r3_w13_y1
+        r3_w13 = r3_w13_y1 - r3_w13_e2
 
         # khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance
         r.r3 = (
@@ -3502,32 +4413,56 @@ class Monitor:
         )
         x.r3_w1_m__2__motor_speed = r3_w1_m__2__motor_speed_2
 
+        # khepera.bg:17: r3_w1: encoders, order 1
+        r3_w1_n1 = -c.r3_w1_w1_m__2__motor * r3_w1_m__2__motor_speed_2
+
+        # khepera.bg:17: r3_w1: error of order 1
+        r3_w1_e1 = c.bend1 * r3_w1_n1
+
+        # khepera.bg:17: r3_w1: encoders, order 2
+        r3_w1_n2 = -c.r3_w1_w2_m__2__motor * r3_w1_m__2__motor_speed_2
+
+        # khepera.bg:17: r3_w1: degree 1
+        r3_w1_d1 = r3_w1_n1 + r3_w1_n2
+
+        # khepera.bg:17: r3_w1: degree 2
+        r3_w1_d2 = r3_w1_n2 - r3_w1_e1
+
+        # khepera.bg:17: r3_w1: input of stage 4
+        r3_w1_u4 = r3_w1_n1 + r3_w1_d2 + r3_w1_e1 - r3_w1_d1
+
+        # khepera.bg:17: r3_w1: stage 4
+        r3_w1_y4 = x.r3_w1_s4 + c.b * r3_w1_u4
+
+        # khepera.bg:17: r3_w1: stage 4: memory
+        x.r3_w1_s4 = c.a * r3_w1_y4 + c.b * r3_w1_u4
+
         # khepera.bg:17: r3_w1: input of stage 3
-        r3_w1_u3 = c.r3_w1_v3_m__2__motor * r3_w1_m__2__motor_speed_2
+        r3_w1_u3 = r3_w1_y4 + r3_w1_d1 - 2.0 * r3_w1_d2 - 3.0 * r3_w1_e1
 
         # khepera.bg:17: r3_w1: stage 3
-        r3_w1_y3 = x.r3_w1_s3 + c.b0 * r3_w1_u3
+        r3_w1_y3 = x.r3_w1_s3 + c.b * r3_w1_u3
 
         # khepera.bg:17: r3_w1: stage 3: memory
-        x.r3_w1_s3 = c.a * r3_w1_y3 + c.b1 * r3_w1_u3
+        x.r3_w1_s3 = c.a * r3_w1_y3 + c.b * r3_w1_u3
 
         # khepera.bg:17: r3_w1: input of stage 2
-        r3_w1_u2 = r3_w1_y3 - c.r3_w1_v2_m__2__motor * r3_w1_m__2__motor_speed_2
+        r3_w1_u2 = r3_w1_y3 + r3_w1_d2 + 3.0 * r3_w1_e1
 
         # khepera.bg:17: r3_w1: stage 2
-        r3_w1_y2 = x.r3_w1_s2 + c.b0 * r3_w1_u2
+        r3_w1_y2 = x.r3_w1_s2 + c.b * r3_w1_u2
 
         # khepera.bg:17: r3_w1: stage 2: memory
-        x.r3_w1_s2 = c.a * r3_w1_y2 + c.b1 * r3_w1_u2
+        x.r3_w1_s2 = c.a * r3_w1_y2 + c.b * r3_w1_u2
 
         # khepera.bg:17: r3_w1: input of stage 1
-        r3_w1_u1 = r3_w1_y2
+        r3_w1_u1 = r3_w1_y2 - r3_w1_e1
 
         # khepera.bg:17: r3_w1: stage 1
-        r3_w1_y1 = x.r3_w1_s1 + c.b0 * r3_w1_u1
+        r3_w1_y1 = x.r3_w1_s1 + c.b * r3_w1_u1
 
         # khepera.bg:17: r3_w1: stage 1: memory
-        x.r3_w1_s1 = c.a * r3_w1_y1 + c.b1 * r3_w1_u1
+        x.r3_w1_s1 = c.a * r3_w1_y1 + c.b * r3_w1_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].fe can do
         r3_w1 = r3_w1_y1
@@ -3538,35 +4473,59 @@ class Monitor:
         )
         x.r3_w2_m__2__wheel_speed = r3_w2_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w2: encoders, order 2
+        r3_w2_n2 = -c.r3_w2_w2_m__2__wheel * r3_w2_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w2: error of order 2
+        r3_w2_e2 = c.bend1 * r3_w2_n2
+
+        # khepera.bg:17: r3_w2: encoders, order 3
+        r3_w2_n3 = -c.r3_w2_w3_m__2__wheel * r3_w2_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w2: degree 2
+        r3_w2_d2 = r3_w2_n2 + r3_w2_n3
+
+        # khepera.bg:17: r3_w2: degree 3
+        r3_w2_d3 = r3_w2_n3 - r3_w2_e2
+
+        # khepera.bg:17: r3_w2: input of stage 4
+        r3_w2_u4 = r3_w2_d2 - r3_w2_n2 - r3_w2_d3 - r3_w2_e2
+
+        # khepera.bg:17: r3_w2: stage 4
+        r3_w2_y4 = x.r3_w2_s4 + c.b * r3_w2_u4
+
+        # khepera.bg:17: r3_w2: stage 4: memory
+        x.r3_w2_s4 = c.a * r3_w2_y4 + c.b * r3_w2_u4
+
         # khepera.bg:17: r3_w2: input of stage 3
-        r3_w2_u3 = c.r3_w2_v3_m__2__wheel * r3_w2_m__2__wheel_speed_2
+        r3_w2_u3 = r3_w2_y4 + r3_w2_n2 + 3.0 * r3_w2_d3 + 4.0 * r3_w2_e2 - 2.0 * r3_w2_d2
 
         # khepera.bg:17: r3_w2: stage 3
-        r3_w2_y3 = x.r3_w2_s3 + c.b0 * r3_w2_u3
+        r3_w2_y3 = x.r3_w2_s3 + c.b * r3_w2_u3
 
         # khepera.bg:17: r3_w2: stage 3: memory
-        x.r3_w2_s3 = c.a * r3_w2_y3 + c.b1 * r3_w2_u3
+        x.r3_w2_s3 = c.a * r3_w2_y3 + c.b * r3_w2_u3
 
         # khepera.bg:17: r3_w2: input of stage 2
-        r3_w2_u2 = r3_w2_y3 + c.r3_w2_v2_m__2__wheel * r3_w2_m__2__wheel_speed_2
+        r3_w2_u2 = r3_w2_y3 + r3_w2_d2 - 3.0 * r3_w2_d3 - 6.0 * r3_w2_e2
 
         # khepera.bg:17: r3_w2: stage 2
-        r3_w2_y2 = x.r3_w2_s2 + c.b0 * r3_w2_u2
+        r3_w2_y2 = x.r3_w2_s2 + c.b * r3_w2_u2
 
         # khepera.bg:17: r3_w2: stage 2: memory
-        x.r3_w2_s2 = c.a * r3_w2_y2 + c.b1 * r3_w2_u2
+        x.r3_w2_s2 = c.a * r3_w2_y2 + c.b * r3_w2_u2
 
         # khepera.bg:17: r3_w2: input of stage 1
-        r3_w2_u1 = r3_w2_y2 - c.r3_w2_v1_m__2__wheel * r3_w2_m__2__wheel_speed_2
+        r3_w2_u1 = r3_w2_y2 + r3_w2_d3 + 4.0 * r3_w2_e2
 
         # khepera.bg:17: r3_w2: stage 1
-        r3_w2_y1 = x.r3_w2_s1 + c.b0 * r3_w2_u1
+        r3_w2_y1 = x.r3_w2_s1 + c.b * r3_w2_u1
 
         # khepera.bg:17: r3_w2: stage 1: memory
-        x.r3_w2_s1 = c.a * r3_w2_y1 + c.b1 * r3_w2_u1
+        x.r3_w2_s1 = c.a * r3_w2_y1 + c.b * r3_w2_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].Js can do
-        r3_w2 = r3_w2_y1
+        r3_w2 = r3_w2_y1 - r3_w2_e2
 
         # khepera.bg:17: filtered speed of m[2].wheel
         r3_w3_m__2__wheel_speed_2 = (
@@ -3574,32 +4533,56 @@ class Monitor:
         )
         x.r3_w3_m__2__wheel_speed = r3_w3_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w3: encoders, order 1
+        r3_w3_n1 = -c.r3_w3_w1_m__2__wheel * r3_w3_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w3: error of order 1
+        r3_w3_e1 = c.bend1 * r3_w3_n1
+
+        # khepera.bg:17: r3_w3: encoders, order 2
+        r3_w3_n2 = -c.r3_w3_w2_m__2__wheel * r3_w3_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w3: degree 1
+        r3_w3_d1 = r3_w3_n1 + r3_w3_n2
+
+        # khepera.bg:17: r3_w3: degree 2
+        r3_w3_d2 = r3_w3_n2 - r3_w3_e1
+
+        # khepera.bg:17: r3_w3: input of stage 4
+        r3_w3_u4 = r3_w3_n1 + r3_w3_d2 + r3_w3_e1 - r3_w3_d1
+
+        # khepera.bg:17: r3_w3: stage 4
+        r3_w3_y4 = x.r3_w3_s4 + c.b * r3_w3_u4
+
+        # khepera.bg:17: r3_w3: stage 4: memory
+        x.r3_w3_s4 = c.a * r3_w3_y4 + c.b * r3_w3_u4
+
         # khepera.bg:17: r3_w3: input of stage 3
-        r3_w3_u3 = c.r3_w3_v3_m__2__wheel * r3_w3_m__2__wheel_speed_2
+        r3_w3_u3 = r3_w3_y4 + r3_w3_d1 - 2.0 * r3_w3_d2 - 3.0 * r3_w3_e1
 
         # khepera.bg:17: r3_w3: stage 3
-        r3_w3_y3 = x.r3_w3_s3 + c.b0 * r3_w3_u3
+        r3_w3_y3 = x.r3_w3_s3 + c.b * r3_w3_u3
 
         # khepera.bg:17: r3_w3: stage 3: memory
-        x.r3_w3_s3 = c.a * r3_w3_y3 + c.b1 * r3_w3_u3
+        x.r3_w3_s3 = c.a * r3_w3_y3 + c.b * r3_w3_u3
 
         # khepera.bg:17: r3_w3: input of stage 2
-        r3_w3_u2 = r3_w3_y3 - c.r3_w3_v2_m__2__wheel * r3_w3_m__2__wheel_speed_2
+        r3_w3_u2 = r3_w3_y3 + r3_w3_d2 + 3.0 * r3_w3_e1
 
         # khepera.bg:17: r3_w3: stage 2
-        r3_w3_y2 = x.r3_w3_s2 + c.b0 * r3_w3_u2
+        r3_w3_y2 = x.r3_w3_s2 + c.b * r3_w3_u2
 
         # khepera.bg:17: r3_w3: stage 2: memory
-        x.r3_w3_s2 = c.a * r3_w3_y2 + c.b1 * r3_w3_u2
+        x.r3_w3_s2 = c.a * r3_w3_y2 + c.b * r3_w3_u2
 
         # khepera.bg:17: r3_w3: input of stage 1
-        r3_w3_u1 = r3_w3_y2
+        r3_w3_u1 = r3_w3_y2 - r3_w3_e1
 
         # khepera.bg:17: r3_w3: stage 1
-        r3_w3_y1 = x.r3_w3_s1 + c.b0 * r3_w3_u1
+        r3_w3_y1 = x.r3_w3_s1 + c.b * r3_w3_u1
 
         # khepera.bg:17: r3_w3: stage 1: memory
-        x.r3_w3_s1 = c.a * r3_w3_y1 + c.b1 * r3_w3_u1
+        x.r3_w3_s1 = c.a * r3_w3_y1 + c.b * r3_w3_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].fs can do
         r3_w3 = r3_w3_y1
@@ -3616,47 +4599,68 @@ class Monitor:
         )
         x.r3_w4_m__2__motor_speed = r3_w4_m__2__motor_speed_2
 
+        # khepera.bg:17: r3_w4: encoders, order 1
+        r3_w4_n1 = (
+            -c.r3_w4_w1_m__2__wheel * r3_w4_m__2__wheel_speed_2
+            - c.r3_w4_w1_m__2__motor * r3_w4_m__2__motor_speed_2
+        )
+
+        # khepera.bg:17: r3_w4: error of order 1
+        r3_w4_e1 = c.bend1 * r3_w4_n1
+
+        # khepera.bg:17: r3_w4: encoders, order 2
+        r3_w4_n2 = (
+            -c.r3_w4_w2_m__2__wheel * r3_w4_m__2__wheel_speed_2
+            - c.r3_w4_w2_m__2__motor * r3_w4_m__2__motor_speed_2
+        )
+
+        # khepera.bg:17: r3_w4: terms of order 0
+        r3_w4_g0 = -c.r3_w4_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w4: degree 1
+        r3_w4_d1 = r3_w4_n1 + r3_w4_n2
+
+        # khepera.bg:17: r3_w4: error of order 0
+        r3_w4_e0 = c.bend2 * r3_w4_g0
+
+        # khepera.bg:17: r3_w4: degree 2
+        r3_w4_d2 = r3_w4_n2 - r3_w4_e1 - r3_w4_e0
+
         # khepera.bg:17: r3_w4: input of stage 4
-        r3_w4_u4 = -c.r3_w4_v4_Fx__2 * s.Fx__2
+        r3_w4_u4 = r3_w4_g0 + r3_w4_n1 + r3_w4_d2 + r3_w4_e1 - r3_w4_d1
 
         # khepera.bg:17: r3_w4: stage 4
-        r3_w4_y4 = x.r3_w4_s4 + c.b0 * r3_w4_u4
+        r3_w4_y4 = x.r3_w4_s4 + c.b * r3_w4_u4
 
         # khepera.bg:17: r3_w4: stage 4: memory
-        x.r3_w4_s4 = c.a * r3_w4_y4 + c.b1 * r3_w4_u4
+        x.r3_w4_s4 = c.a * r3_w4_y4 + c.b * r3_w4_u4
 
         # khepera.bg:17: r3_w4: input of stage 3
-        r3_w4_u3 = (
-            r3_w4_y4 + c.r3_w4_v3_m__2__wheel * r3_w4_m__2__wheel_speed_2
-            + c.r3_w4_v3_m__2__motor * r3_w4_m__2__motor_speed_2
-        )
+        r3_w4_u3 = r3_w4_y4 + r3_w4_d1 - 2.0 * r3_w4_d2 - 3.0 * r3_w4_e1
 
         # khepera.bg:17: r3_w4: stage 3
-        r3_w4_y3 = x.r3_w4_s3 + c.b0 * r3_w4_u3
+        r3_w4_y3 = x.r3_w4_s3 + c.b * r3_w4_u3
 
         # khepera.bg:17: r3_w4: stage 3: memory
-        x.r3_w4_s3 = c.a * r3_w4_y3 + c.b1 * r3_w4_u3
+        x.r3_w4_s3 = c.a * r3_w4_y3 + c.b * r3_w4_u3
 
         # khepera.bg:17: r3_w4: input of stage 2
-        r3_w4_u2 = (
-            r3_w4_y3 - c.r3_w4_v2_m__2__wheel * r3_w4_m__2__wheel_speed_2
-            - c.r3_w4_v2_m__2__motor * r3_w4_m__2__motor_speed_2
-        )
+        r3_w4_u2 = r3_w4_y3 + r3_w4_d2 + 3.0 * r3_w4_e1
 
         # khepera.bg:17: r3_w4: stage 2
-        r3_w4_y2 = x.r3_w4_s2 + c.b0 * r3_w4_u2
+        r3_w4_y2 = x.r3_w4_s2 + c.b * r3_w4_u2
 
         # khepera.bg:17: r3_w4: stage 2: memory
-        x.r3_w4_s2 = c.a * r3_w4_y2 + c.b1 * r3_w4_u2
+        x.r3_w4_s2 = c.a * r3_w4_y2 + c.b * r3_w4_u2
 
         # khepera.bg:17: r3_w4: input of stage 1
-        r3_w4_u1 = r3_w4_y2
+        r3_w4_u1 = r3_w4_y2 - r3_w4_e1
 
         # khepera.bg:17: r3_w4: stage 1
-        r3_w4_y1 = x.r3_w4_s1 + c.b0 * r3_w4_u1
+        r3_w4_y1 = x.r3_w4_s1 + c.b * r3_w4_u1
 
         # khepera.bg:17: r3_w4: stage 1: memory
-        x.r3_w4_s1 = c.a * r3_w4_y1 + c.b1 * r3_w4_u1
+        x.r3_w4_s1 = c.a * r3_w4_y1 + c.b * r3_w4_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].el.Re can do
         r3_w4 = r3_w4_y1
@@ -3673,53 +4677,89 @@ class Monitor:
         )
         x.r3_w5_m__2__wheel_speed = r3_w5_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w5: encoders, order 1
+        r3_w5_n1 = (
+            c.r3_w5_w1_m__2__motor * r3_w5_m__2__motor_speed_2
+            + c.r3_w5_w1_m__2__wheel * r3_w5_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w5: error of order 1
+        r3_w5_e1 = c.bend2 * r3_w5_n1
+
+        # khepera.bg:17: r3_w5: encoders, order 2
+        r3_w5_n2 = (
+            c.r3_w5_w2_m__2__motor * r3_w5_m__2__motor_speed_2
+            + c.r3_w5_w2_m__2__wheel * r3_w5_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w5: error of order 2
+        r3_w5_e2 = c.bend1 * r3_w5_n2
+
+        # khepera.bg:17: r3_w5: encoders, order 3
+        r3_w5_n3 = (
+            c.r3_w5_w3_m__2__motor * r3_w5_m__2__motor_speed_2
+            + c.r3_w2_w3_m__2__wheel * r3_w5_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w5: terms of order 0
+        r3_w5_g0 = c.r3_w5_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w5: terms of order 1
+        r3_w5_g1 = c.r3_w5_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w5: degree 1
+        r3_w5_d1 = r3_w5_g1 + r3_w5_n1 + r3_w5_n2
+
+        # khepera.bg:17: r3_w5: error of order 0
+        r3_w5_e0 = c.bend3 * r3_w5_g0
+
+        # khepera.bg:17: r3_w5: degree 2
+        r3_w5_d2 = r3_w5_n2 + r3_w5_n3 - r3_w5_e1 - r3_w5_e0
+
+        # khepera.bg:17: r3_w5: error of order 1
+        r3_w5_e1_2 = c.bend2 * r3_w5_g1
+
+        # khepera.bg:17: r3_w5: degree 3
+        r3_w5_d3 = r3_w5_n3 - r3_w5_e1 - r3_w5_e2 - r3_w5_e1_2
+
         # khepera.bg:17: r3_w5: input of stage 4
-        r3_w5_u4 = c.r3_w5_v4_Fx__2 * s.Fx__2
+        r3_w5_u4 = r3_w5_g0 + r3_w5_n1 + r3_w5_d2 - r3_w5_d1 - r3_w5_d3 - r3_w5_e2
 
         # khepera.bg:17: r3_w5: stage 4
-        r3_w5_y4 = x.r3_w5_s4 + c.b0 * r3_w5_u4
+        r3_w5_y4 = x.r3_w5_s4 + c.b * r3_w5_u4
 
         # khepera.bg:17: r3_w5: stage 4: memory
-        x.r3_w5_s4 = c.a * r3_w5_y4 + c.b1 * r3_w5_u4
+        x.r3_w5_s4 = c.a * r3_w5_y4 + c.b * r3_w5_u4
 
         # khepera.bg:17: r3_w5: input of stage 3
-        r3_w5_u3 = (
-            r3_w5_y4 + c.r3_w5_v3_m__2__motor * r3_w5_m__2__motor_speed_2
-            + c.r3_w5_v3_m__2__wheel * r3_w5_m__2__wheel_speed_2 + c.r3_w5_v3_Fx__2 * s.Fx__2
-        )
+        r3_w5_u3 = r3_w5_y4 + r3_w5_d1 + 3.0 * r3_w5_d3 + 4.0 * r3_w5_e2 - 2.0 * r3_w5_d2
 
         # khepera.bg:17: r3_w5: stage 3
-        r3_w5_y3 = x.r3_w5_s3 + c.b0 * r3_w5_u3
+        r3_w5_y3 = x.r3_w5_s3 + c.b * r3_w5_u3
 
         # khepera.bg:17: r3_w5: stage 3: memory
-        x.r3_w5_s3 = c.a * r3_w5_y3 + c.b1 * r3_w5_u3
+        x.r3_w5_s3 = c.a * r3_w5_y3 + c.b * r3_w5_u3
 
         # khepera.bg:17: r3_w5: input of stage 2
-        r3_w5_u2 = (
-            r3_w5_y3 + c.r3_w5_v2_m__2__motor * r3_w5_m__2__motor_speed_2
-            + c.r3_w5_v2_m__2__wheel * r3_w5_m__2__wheel_speed_2
-        )
+        r3_w5_u2 = r3_w5_y3 + r3_w5_d2 - 3.0 * r3_w5_d3 - 6.0 * r3_w5_e2
 
         # khepera.bg:17: r3_w5: stage 2
-        r3_w5_y2 = x.r3_w5_s2 + c.b0 * r3_w5_u2
+        r3_w5_y2 = x.r3_w5_s2 + c.b * r3_w5_u2
 
         # khepera.bg:17: r3_w5: stage 2: memory
-        x.r3_w5_s2 = c.a * r3_w5_y2 + c.b1 * r3_w5_u2
+        x.r3_w5_s2 = c.a * r3_w5_y2 + c.b * r3_w5_u2
 
         # khepera.bg:17: r3_w5: input of stage 1
-        r3_w5_u1 = (
-            r3_w5_y2 + c.r3_w5_v1_m__2__motor * r3_w5_m__2__motor_speed_2
-            + c.r3_w2_v1_m__2__wheel * r3_w5_m__2__wheel_speed_2
-        )
+        r3_w5_u1 = r3_w5_y2 + r3_w5_d3 + 4.0 * r3_w5_e2
 
         # khepera.bg:17: r3_w5: stage 1
-        r3_w5_y1 = x.r3_w5_s1 + c.b0 * r3_w5_u1
+        r3_w5_y1 = x.r3_w5_s1 + c.b * r3_w5_u1
 
         # khepera.bg:17: r3_w5: stage 1: memory
-        x.r3_w5_s1 = c.a * r3_w5_y1 + c.b1 * r3_w5_u1
+        x.r3_w5_s1 = c.a * r3_w5_y1 + c.b * r3_w5_u1
 
         # khepera.bg:17: r3: what the tolerance of m[2].el.k can do
-        r3_w5 = r3_w5_y1
+        r3_w5 = r3_w5_y1 - r3_w5_e2
 
         # khepera.bg:17: filtered speed of m[2].motor
         r3_w6_m__2__motor_speed_2 = (
@@ -3727,32 +4767,44 @@ class Monitor:
         )
         x.r3_w6_m__2__motor_speed = r3_w6_m__2__motor_speed_2
 
+        # khepera.bg:17: r3_w6: encoders, order 1
+        r3_w6_n1 = -c.r3_w6_w1_m__2__motor * r3_w6_m__2__motor_speed_2
+
+        # khepera.bg:17: r3_w6: input of stage 4
+        r3_w6_u4 = r3_w6_n1 - r3_w6_n1
+
+        # khepera.bg:17: r3_w6: stage 4
+        r3_w6_y4 = x.r3_w6_s4 + c.b * r3_w6_u4
+
+        # khepera.bg:17: r3_w6: stage 4: memory
+        x.r3_w6_s4 = c.a * r3_w6_y4 + c.b * r3_w6_u4
+
         # khepera.bg:17: r3_w6: input of stage 3
-        r3_w6_u3 = -c.r3_w6_v3_m__2__motor * r3_w6_m__2__motor_speed_2
+        r3_w6_u3 = r3_w6_y4 + r3_w6_n1
 
         # khepera.bg:17: r3_w6: stage 3
-        r3_w6_y3 = x.r3_w6_s3 + c.b0 * r3_w6_u3
+        r3_w6_y3 = x.r3_w6_s3 + c.b * r3_w6_u3
 
         # khepera.bg:17: r3_w6: stage 3: memory
-        x.r3_w6_s3 = c.a * r3_w6_y3 + c.b1 * r3_w6_u3
+        x.r3_w6_s3 = c.a * r3_w6_y3 + c.b * r3_w6_u3
 
         # khepera.bg:17: r3_w6: input of stage 2
         r3_w6_u2 = r3_w6_y3
 
         # khepera.bg:17: r3_w6: stage 2
-        r3_w6_y2 = x.r3_w6_s2 + c.b0 * r3_w6_u2
+        r3_w6_y2 = x.r3_w6_s2 + c.b * r3_w6_u2
 
         # khepera.bg:17: r3_w6: stage 2: memory
-        x.r3_w6_s2 = c.a * r3_w6_y2 + c.b1 * r3_w6_u2
+        x.r3_w6_s2 = c.a * r3_w6_y2 + c.b * r3_w6_u2
 
         # khepera.bg:17: r3_w6: input of stage 1
         r3_w6_u1 = r3_w6_y2
 
         # khepera.bg:17: r3_w6: stage 1
-        r3_w6_y1 = x.r3_w6_s1 + c.b0 * r3_w6_u1
+        r3_w6_y1 = x.r3_w6_s1 + c.b * r3_w6_u1
 
         # khepera.bg:17: r3_w6: stage 1: memory
-        x.r3_w6_s1 = c.a * r3_w6_y1 + c.b1 * r3_w6_u1
+        x.r3_w6_s1 = c.a * r3_w6_y1 + c.b * r3_w6_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].fe and m[2].el.Re can do together
         r3_w6 = r3_w6_y1
@@ -3763,32 +4815,56 @@ class Monitor:
         )
         x.r3_w7_m__2__motor_speed = r3_w7_m__2__motor_speed_2
 
+        # khepera.bg:17: r3_w7: encoders, order 1
+        r3_w7_n1 = c.r3_w7_w1_m__2__motor * r3_w7_m__2__motor_speed_2
+
+        # khepera.bg:17: r3_w7: error of order 1
+        r3_w7_e1 = c.bend1 * r3_w7_n1
+
+        # khepera.bg:17: r3_w7: encoders, order 2
+        r3_w7_n2 = c.r3_w7_w2_m__2__motor * r3_w7_m__2__motor_speed_2
+
+        # khepera.bg:17: r3_w7: degree 1
+        r3_w7_d1 = r3_w7_n1 + r3_w7_n2
+
+        # khepera.bg:17: r3_w7: degree 2
+        r3_w7_d2 = r3_w7_n2 - r3_w7_e1
+
+        # khepera.bg:17: r3_w7: input of stage 4
+        r3_w7_u4 = r3_w7_n1 + r3_w7_d2 + r3_w7_e1 - r3_w7_d1
+
+        # khepera.bg:17: r3_w7: stage 4
+        r3_w7_y4 = x.r3_w7_s4 + c.b * r3_w7_u4
+
+        # khepera.bg:17: r3_w7: stage 4: memory
+        x.r3_w7_s4 = c.a * r3_w7_y4 + c.b * r3_w7_u4
+
         # khepera.bg:17: r3_w7: input of stage 3
-        r3_w7_u3 = c.r3_w7_v3_m__2__motor * r3_w7_m__2__motor_speed_2
+        r3_w7_u3 = r3_w7_y4 + r3_w7_d1 - 2.0 * r3_w7_d2 - 3.0 * r3_w7_e1
 
         # khepera.bg:17: r3_w7: stage 3
-        r3_w7_y3 = x.r3_w7_s3 + c.b0 * r3_w7_u3
+        r3_w7_y3 = x.r3_w7_s3 + c.b * r3_w7_u3
 
         # khepera.bg:17: r3_w7: stage 3: memory
-        x.r3_w7_s3 = c.a * r3_w7_y3 + c.b1 * r3_w7_u3
+        x.r3_w7_s3 = c.a * r3_w7_y3 + c.b * r3_w7_u3
 
         # khepera.bg:17: r3_w7: input of stage 2
-        r3_w7_u2 = r3_w7_y3 + c.r3_w7_v2_m__2__motor * r3_w7_m__2__motor_speed_2
+        r3_w7_u2 = r3_w7_y3 + r3_w7_d2 + 3.0 * r3_w7_e1
 
         # khepera.bg:17: r3_w7: stage 2
-        r3_w7_y2 = x.r3_w7_s2 + c.b0 * r3_w7_u2
+        r3_w7_y2 = x.r3_w7_s2 + c.b * r3_w7_u2
 
         # khepera.bg:17: r3_w7: stage 2: memory
-        x.r3_w7_s2 = c.a * r3_w7_y2 + c.b1 * r3_w7_u2
+        x.r3_w7_s2 = c.a * r3_w7_y2 + c.b * r3_w7_u2
 
         # khepera.bg:17: r3_w7: input of stage 1
-        r3_w7_u1 = r3_w7_y2
+        r3_w7_u1 = r3_w7_y2 - r3_w7_e1
 
         # khepera.bg:17: r3_w7: stage 1
-        r3_w7_y1 = x.r3_w7_s1 + c.b0 * r3_w7_u1
+        r3_w7_y1 = x.r3_w7_s1 + c.b * r3_w7_u1
 
         # khepera.bg:17: r3_w7: stage 1: memory
-        x.r3_w7_s1 = c.a * r3_w7_y1 + c.b1 * r3_w7_u1
+        x.r3_w7_s1 = c.a * r3_w7_y1 + c.b * r3_w7_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].fe and m[2].el.k can do together
         r3_w7 = r3_w7_y1
@@ -3799,32 +4875,44 @@ class Monitor:
         )
         x.r3_w8_m__2__wheel_speed = r3_w8_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w8: encoders, order 2
+        r3_w8_n2 = -c.r3_w8_w2_m__2__wheel * r3_w8_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w8: input of stage 4
+        r3_w8_u4 = r3_w8_n2 - r3_w8_n2
+
+        # khepera.bg:17: r3_w8: stage 4
+        r3_w8_y4 = x.r3_w8_s4 + c.b * r3_w8_u4
+
+        # khepera.bg:17: r3_w8: stage 4: memory
+        x.r3_w8_s4 = c.a * r3_w8_y4 + c.b * r3_w8_u4
+
         # khepera.bg:17: r3_w8: input of stage 3
-        r3_w8_u3 = c.r3_w8_v2_m__2__wheel * r3_w8_m__2__wheel_speed_2
+        r3_w8_u3 = r3_w8_y4 + r3_w8_n2 - 2.0 * r3_w8_n2
 
         # khepera.bg:17: r3_w8: stage 3
-        r3_w8_y3 = x.r3_w8_s3 + c.b0 * r3_w8_u3
+        r3_w8_y3 = x.r3_w8_s3 + c.b * r3_w8_u3
 
         # khepera.bg:17: r3_w8: stage 3: memory
-        x.r3_w8_s3 = c.a * r3_w8_y3 + c.b1 * r3_w8_u3
+        x.r3_w8_s3 = c.a * r3_w8_y3 + c.b * r3_w8_u3
 
         # khepera.bg:17: r3_w8: input of stage 2
-        r3_w8_u2 = r3_w8_y3 - c.r3_w8_v2_m__2__wheel * r3_w8_m__2__wheel_speed_2
+        r3_w8_u2 = r3_w8_y3 + r3_w8_n2
 
         # khepera.bg:17: r3_w8: stage 2
-        r3_w8_y2 = x.r3_w8_s2 + c.b0 * r3_w8_u2
+        r3_w8_y2 = x.r3_w8_s2 + c.b * r3_w8_u2
 
         # khepera.bg:17: r3_w8: stage 2: memory
-        x.r3_w8_s2 = c.a * r3_w8_y2 + c.b1 * r3_w8_u2
+        x.r3_w8_s2 = c.a * r3_w8_y2 + c.b * r3_w8_u2
 
         # khepera.bg:17: r3_w8: input of stage 1
         r3_w8_u1 = r3_w8_y2
 
         # khepera.bg:17: r3_w8: stage 1
-        r3_w8_y1 = x.r3_w8_s1 + c.b0 * r3_w8_u1
+        r3_w8_y1 = x.r3_w8_s1 + c.b * r3_w8_u1
 
         # khepera.bg:17: r3_w8: stage 1: memory
-        x.r3_w8_s1 = c.a * r3_w8_y1 + c.b1 * r3_w8_u1
+        x.r3_w8_s1 = c.a * r3_w8_y1 + c.b * r3_w8_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].Js and m[2].el.Re can do together
         r3_w8 = r3_w8_y1
@@ -3835,35 +4923,59 @@ class Monitor:
         )
         x.r3_w9_m__2__wheel_speed = r3_w9_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w9: encoders, order 2
+        r3_w9_n2 = c.r3_w9_w2_m__2__wheel * r3_w9_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w9: error of order 2
+        r3_w9_e2 = c.bend1 * r3_w9_n2
+
+        # khepera.bg:17: r3_w9: encoders, order 3
+        r3_w9_n3 = c.r3_w9_w3_m__2__wheel * r3_w9_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w9: degree 2
+        r3_w9_d2 = r3_w9_n2 + r3_w9_n3
+
+        # khepera.bg:17: r3_w9: degree 3
+        r3_w9_d3 = r3_w9_n3 - r3_w9_e2
+
+        # khepera.bg:17: r3_w9: input of stage 4
+        r3_w9_u4 = r3_w9_d2 - r3_w9_n2 - r3_w9_d3 - r3_w9_e2
+
+        # khepera.bg:17: r3_w9: stage 4
+        r3_w9_y4 = x.r3_w9_s4 + c.b * r3_w9_u4
+
+        # khepera.bg:17: r3_w9: stage 4: memory
+        x.r3_w9_s4 = c.a * r3_w9_y4 + c.b * r3_w9_u4
+
         # khepera.bg:17: r3_w9: input of stage 3
-        r3_w9_u3 = c.r3_w9_v3_m__2__wheel * r3_w9_m__2__wheel_speed_2
+        r3_w9_u3 = r3_w9_y4 + r3_w9_n2 + 3.0 * r3_w9_d3 + 4.0 * r3_w9_e2 - 2.0 * r3_w9_d2
 
         # khepera.bg:17: r3_w9: stage 3
-        r3_w9_y3 = x.r3_w9_s3 + c.b0 * r3_w9_u3
+        r3_w9_y3 = x.r3_w9_s3 + c.b * r3_w9_u3
 
         # khepera.bg:17: r3_w9: stage 3: memory
-        x.r3_w9_s3 = c.a * r3_w9_y3 + c.b1 * r3_w9_u3
+        x.r3_w9_s3 = c.a * r3_w9_y3 + c.b * r3_w9_u3
 
         # khepera.bg:17: r3_w9: input of stage 2
-        r3_w9_u2 = r3_w9_y3 + c.r3_w9_v2_m__2__wheel * r3_w9_m__2__wheel_speed_2
+        r3_w9_u2 = r3_w9_y3 + r3_w9_d2 - 3.0 * r3_w9_d3 - 6.0 * r3_w9_e2
 
         # khepera.bg:17: r3_w9: stage 2
-        r3_w9_y2 = x.r3_w9_s2 + c.b0 * r3_w9_u2
+        r3_w9_y2 = x.r3_w9_s2 + c.b * r3_w9_u2
 
         # khepera.bg:17: r3_w9: stage 2: memory
-        x.r3_w9_s2 = c.a * r3_w9_y2 + c.b1 * r3_w9_u2
+        x.r3_w9_s2 = c.a * r3_w9_y2 + c.b * r3_w9_u2
 
         # khepera.bg:17: r3_w9: input of stage 1
-        r3_w9_u1 = r3_w9_y2 + c.r3_w9_v1_m__2__wheel * r3_w9_m__2__wheel_speed_2
+        r3_w9_u1 = r3_w9_y2 + r3_w9_d3 + 4.0 * r3_w9_e2
 
         # khepera.bg:17: r3_w9: stage 1
-        r3_w9_y1 = x.r3_w9_s1 + c.b0 * r3_w9_u1
+        r3_w9_y1 = x.r3_w9_s1 + c.b * r3_w9_u1
 
         # khepera.bg:17: r3_w9: stage 1: memory
-        x.r3_w9_s1 = c.a * r3_w9_y1 + c.b1 * r3_w9_u1
+        x.r3_w9_s1 = c.a * r3_w9_y1 + c.b * r3_w9_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].Js and m[2].el.k can do together
-        r3_w9 = r3_w9_y1
+        r3_w9 = r3_w9_y1 - r3_w9_e2
 
         # khepera.bg:17: filtered speed of m[2].wheel
         r3_w10_m__2__wheel_speed_2 = (
@@ -3871,32 +4983,44 @@ class Monitor:
         )
         x.r3_w10_m__2__wheel_speed = r3_w10_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w10: encoders, order 1
+        r3_w10_n1 = -c.r3_w10_w1_m__2__wheel * r3_w10_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w10: input of stage 4
+        r3_w10_u4 = r3_w10_n1 - r3_w10_n1
+
+        # khepera.bg:17: r3_w10: stage 4
+        r3_w10_y4 = x.r3_w10_s4 + c.b * r3_w10_u4
+
+        # khepera.bg:17: r3_w10: stage 4: memory
+        x.r3_w10_s4 = c.a * r3_w10_y4 + c.b * r3_w10_u4
+
         # khepera.bg:17: r3_w10: input of stage 3
-        r3_w10_u3 = -c.r3_w10_v3_m__2__wheel * r3_w10_m__2__wheel_speed_2
+        r3_w10_u3 = r3_w10_y4 + r3_w10_n1
 
         # khepera.bg:17: r3_w10: stage 3
-        r3_w10_y3 = x.r3_w10_s3 + c.b0 * r3_w10_u3
+        r3_w10_y3 = x.r3_w10_s3 + c.b * r3_w10_u3
 
         # khepera.bg:17: r3_w10: stage 3: memory
-        x.r3_w10_s3 = c.a * r3_w10_y3 + c.b1 * r3_w10_u3
+        x.r3_w10_s3 = c.a * r3_w10_y3 + c.b * r3_w10_u3
 
         # khepera.bg:17: r3_w10: input of stage 2
         r3_w10_u2 = r3_w10_y3
 
         # khepera.bg:17: r3_w10: stage 2
-        r3_w10_y2 = x.r3_w10_s2 + c.b0 * r3_w10_u2
+        r3_w10_y2 = x.r3_w10_s2 + c.b * r3_w10_u2
 
         # khepera.bg:17: r3_w10: stage 2: memory
-        x.r3_w10_s2 = c.a * r3_w10_y2 + c.b1 * r3_w10_u2
+        x.r3_w10_s2 = c.a * r3_w10_y2 + c.b * r3_w10_u2
 
         # khepera.bg:17: r3_w10: input of stage 1
         r3_w10_u1 = r3_w10_y2
 
         # khepera.bg:17: r3_w10: stage 1
-        r3_w10_y1 = x.r3_w10_s1 + c.b0 * r3_w10_u1
+        r3_w10_y1 = x.r3_w10_s1 + c.b * r3_w10_u1
 
         # khepera.bg:17: r3_w10: stage 1: memory
-        x.r3_w10_s1 = c.a * r3_w10_y1 + c.b1 * r3_w10_u1
+        x.r3_w10_s1 = c.a * r3_w10_y1 + c.b * r3_w10_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].fs and m[2].el.Re can do together
         r3_w10 = r3_w10_y1
@@ -3907,32 +5031,56 @@ class Monitor:
         )
         x.r3_w11_m__2__wheel_speed = r3_w11_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w11: encoders, order 1
+        r3_w11_n1 = c.r3_w11_w1_m__2__wheel * r3_w11_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w11: error of order 1
+        r3_w11_e1 = c.bend1 * r3_w11_n1
+
+        # khepera.bg:17: r3_w11: encoders, order 2
+        r3_w11_n2 = c.r3_w11_w2_m__2__wheel * r3_w11_m__2__wheel_speed_2
+
+        # khepera.bg:17: r3_w11: degree 1
+        r3_w11_d1 = r3_w11_n1 + r3_w11_n2
+
+        # khepera.bg:17: r3_w11: degree 2
+        r3_w11_d2 = r3_w11_n2 - r3_w11_e1
+
+        # khepera.bg:17: r3_w11: input of stage 4
+        r3_w11_u4 = r3_w11_n1 + r3_w11_d2 + r3_w11_e1 - r3_w11_d1
+
+        # khepera.bg:17: r3_w11: stage 4
+        r3_w11_y4 = x.r3_w11_s4 + c.b * r3_w11_u4
+
+        # khepera.bg:17: r3_w11: stage 4: memory
+        x.r3_w11_s4 = c.a * r3_w11_y4 + c.b * r3_w11_u4
+
         # khepera.bg:17: r3_w11: input of stage 3
-        r3_w11_u3 = c.r3_w11_v3_m__2__wheel * r3_w11_m__2__wheel_speed_2
+        r3_w11_u3 = r3_w11_y4 + r3_w11_d1 - 2.0 * r3_w11_d2 - 3.0 * r3_w11_e1
 
         # khepera.bg:17: r3_w11: stage 3
-        r3_w11_y3 = x.r3_w11_s3 + c.b0 * r3_w11_u3
+        r3_w11_y3 = x.r3_w11_s3 + c.b * r3_w11_u3
 
         # khepera.bg:17: r3_w11: stage 3: memory
-        x.r3_w11_s3 = c.a * r3_w11_y3 + c.b1 * r3_w11_u3
+        x.r3_w11_s3 = c.a * r3_w11_y3 + c.b * r3_w11_u3
 
         # khepera.bg:17: r3_w11: input of stage 2
-        r3_w11_u2 = r3_w11_y3 + c.r3_w11_v2_m__2__wheel * r3_w11_m__2__wheel_speed_2
+        r3_w11_u2 = r3_w11_y3 + r3_w11_d2 + 3.0 * r3_w11_e1
 
         # khepera.bg:17: r3_w11: stage 2
-        r3_w11_y2 = x.r3_w11_s2 + c.b0 * r3_w11_u2
+        r3_w11_y2 = x.r3_w11_s2 + c.b * r3_w11_u2
 
         # khepera.bg:17: r3_w11: stage 2: memory
-        x.r3_w11_s2 = c.a * r3_w11_y2 + c.b1 * r3_w11_u2
+        x.r3_w11_s2 = c.a * r3_w11_y2 + c.b * r3_w11_u2
 
         # khepera.bg:17: r3_w11: input of stage 1
-        r3_w11_u1 = r3_w11_y2
+        r3_w11_u1 = r3_w11_y2 - r3_w11_e1
 
         # khepera.bg:17: r3_w11: stage 1
-        r3_w11_y1 = x.r3_w11_s1 + c.b0 * r3_w11_u1
+        r3_w11_y1 = x.r3_w11_s1 + c.b * r3_w11_u1
 
         # khepera.bg:17: r3_w11: stage 1: memory
-        x.r3_w11_s1 = c.a * r3_w11_y1 + c.b1 * r3_w11_u1
+        x.r3_w11_s1 = c.a * r3_w11_y1 + c.b * r3_w11_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].fs and m[2].el.k can do together
         r3_w11 = r3_w11_y1
@@ -3949,47 +5097,68 @@ class Monitor:
         )
         x.r3_w12_m__2__wheel_speed = r3_w12_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w12: encoders, order 1
+        r3_w12_n1 = (
+            c.r3_w12_w1_m__2__motor * r3_w12_m__2__motor_speed_2
+            + c.r3_w12_w1_m__2__wheel * r3_w12_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w12: error of order 1
+        r3_w12_e1 = c.bend1 * r3_w12_n1
+
+        # khepera.bg:17: r3_w12: encoders, order 2
+        r3_w12_n2 = (
+            c.r3_w12_w2_m__2__motor * r3_w12_m__2__motor_speed_2
+            + c.r3_w8_w2_m__2__wheel * r3_w12_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w12: terms of order 0
+        r3_w12_g0 = c.r3_w12_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w12: degree 1
+        r3_w12_d1 = r3_w12_n1 + r3_w12_n2
+
+        # khepera.bg:17: r3_w12: error of order 0
+        r3_w12_e0 = c.bend2 * r3_w12_g0
+
+        # khepera.bg:17: r3_w12: degree 2
+        r3_w12_d2 = r3_w12_n2 - r3_w12_e1 - r3_w12_e0
+
         # khepera.bg:17: r3_w12: input of stage 4
-        r3_w12_u4 = c.r3_w12_v4_Fx__2 * s.Fx__2
+        r3_w12_u4 = r3_w12_g0 + r3_w12_n1 + r3_w12_d2 + r3_w12_e1 - r3_w12_d1
 
         # khepera.bg:17: r3_w12: stage 4
-        r3_w12_y4 = x.r3_w12_s4 + c.b0 * r3_w12_u4
+        r3_w12_y4 = x.r3_w12_s4 + c.b * r3_w12_u4
 
         # khepera.bg:17: r3_w12: stage 4: memory
-        x.r3_w12_s4 = c.a * r3_w12_y4 + c.b1 * r3_w12_u4
+        x.r3_w12_s4 = c.a * r3_w12_y4 + c.b * r3_w12_u4
 
         # khepera.bg:17: r3_w12: input of stage 3
-        r3_w12_u3 = (
-            r3_w12_y4 + c.r3_w12_v3_m__2__motor * r3_w12_m__2__motor_speed_2
-            + c.r3_w12_v3_m__2__wheel * r3_w12_m__2__wheel_speed_2
-        )
+        r3_w12_u3 = r3_w12_y4 + r3_w12_d1 - 2.0 * r3_w12_d2 - 3.0 * r3_w12_e1
 
         # khepera.bg:17: r3_w12: stage 3
-        r3_w12_y3 = x.r3_w12_s3 + c.b0 * r3_w12_u3
+        r3_w12_y3 = x.r3_w12_s3 + c.b * r3_w12_u3
 
         # khepera.bg:17: r3_w12: stage 3: memory
-        x.r3_w12_s3 = c.a * r3_w12_y3 + c.b1 * r3_w12_u3
+        x.r3_w12_s3 = c.a * r3_w12_y3 + c.b * r3_w12_u3
 
         # khepera.bg:17: r3_w12: input of stage 2
-        r3_w12_u2 = (
-            r3_w12_y3 + c.r3_w12_v2_m__2__motor * r3_w12_m__2__motor_speed_2
-            + c.r3_w8_v2_m__2__wheel * r3_w12_m__2__wheel_speed_2
-        )
+        r3_w12_u2 = r3_w12_y3 + r3_w12_d2 + 3.0 * r3_w12_e1
 
         # khepera.bg:17: r3_w12: stage 2
-        r3_w12_y2 = x.r3_w12_s2 + c.b0 * r3_w12_u2
+        r3_w12_y2 = x.r3_w12_s2 + c.b * r3_w12_u2
 
         # khepera.bg:17: r3_w12: stage 2: memory
-        x.r3_w12_s2 = c.a * r3_w12_y2 + c.b1 * r3_w12_u2
+        x.r3_w12_s2 = c.a * r3_w12_y2 + c.b * r3_w12_u2
 
         # khepera.bg:17: r3_w12: input of stage 1
-        r3_w12_u1 = r3_w12_y2
+        r3_w12_u1 = r3_w12_y2 - r3_w12_e1
 
         # khepera.bg:17: r3_w12: stage 1
-        r3_w12_y1 = x.r3_w12_s1 + c.b0 * r3_w12_u1
+        r3_w12_y1 = x.r3_w12_s1 + c.b * r3_w12_u1
 
         # khepera.bg:17: r3_w12: stage 1: memory
-        x.r3_w12_s1 = c.a * r3_w12_y1 + c.b1 * r3_w12_u1
+        x.r3_w12_s1 = c.a * r3_w12_y1 + c.b * r3_w12_u1
 
         # khepera.bg:17: r3: what the tolerances of m[2].el.Re and m[2].el.k can do together
         r3_w12 = r3_w12_y1
@@ -4006,53 +5175,89 @@ class Monitor:
         )
         x.r3_w13_m__2__wheel_speed = r3_w13_m__2__wheel_speed_2
 
+        # khepera.bg:17: r3_w13: encoders, order 1
+        r3_w13_n1 = (
+            -c.r3_w13_w1_m__2__motor * r3_w13_m__2__motor_speed_2
+            - c.r3_w13_w1_m__2__wheel * r3_w13_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w13: error of order 1
+        r3_w13_e1 = c.bend2 * r3_w13_n1
+
+        # khepera.bg:17: r3_w13: encoders, order 2
+        r3_w13_n2 = (
+            c.r3_w13_w2_m__2__motor * r3_w13_m__2__motor_speed_2
+            + c.r3_w13_w2_m__2__wheel * r3_w13_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w13: error of order 2
+        r3_w13_e2 = c.bend1 * r3_w13_n2
+
+        # khepera.bg:17: r3_w13: encoders, order 3
+        r3_w13_n3 = (
+            -c.r3_w13_w3_m__2__motor * r3_w13_m__2__motor_speed_2
+            - c.r3_w9_w3_m__2__wheel * r3_w13_m__2__wheel_speed_2
+        )
+
+        # khepera.bg:17: r3_w13: terms of order 0
+        r3_w13_g0 = -c.r3_w13_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w13: terms of order 1
+        r3_w13_g1 = -c.r3_w13_w1_Fx__2 * s.Fx__2
+
+        # khepera.bg:17: r3_w13: degree 1
+        r3_w13_d1 = r3_w13_g1 + r3_w13_n1 + r3_w13_n2
+
+        # khepera.bg:17: r3_w13: error of order 0
+        r3_w13_e0 = c.bend3 * r3_w13_g0
+
+        # khepera.bg:17: r3_w13: degree 2
+        r3_w13_d2 = r3_w13_n2 + r3_w13_n3 - r3_w13_e1 - r3_w13_e0
+
+        # khepera.bg:17: r3_w13: error of order 1
+        r3_w13_e1_2 = c.bend2 * r3_w13_g1
+
+        # khepera.bg:17: r3_w13: degree 3
+        r3_w13_d3 = r3_w13_n3 - r3_w13_e1 - r3_w13_e2 - r3_w13_e1_2
+
         # khepera.bg:17: r3_w13: input of stage 4
-        r3_w13_u4 = c.r3_w13_v4_Fx__2 * s.Fx__2
+        r3_w13_u4 = r3_w13_g0 + r3_w13_n1 + r3_w13_d2 - r3_w13_d1 - r3_w13_d3 - r3_w13_e2
 
         # khepera.bg:17: r3_w13: stage 4
-        r3_w13_y4 = x.r3_w13_s4 + c.b0 * r3_w13_u4
+        r3_w13_y4 = x.r3_w13_s4 + c.b * r3_w13_u4
 
         # khepera.bg:17: r3_w13: stage 4: memory
-        x.r3_w13_s4 = c.a * r3_w13_y4 + c.b1 * r3_w13_u4
+        x.r3_w13_s4 = c.a * r3_w13_y4 + c.b * r3_w13_u4
 
         # khepera.bg:17: r3_w13: input of stage 3
-        r3_w13_u3 = (
-            r3_w13_y4 - c.r3_w13_v3_m__2__motor * r3_w13_m__2__motor_speed_2
-            - c.r3_w13_v3_m__2__wheel * r3_w13_m__2__wheel_speed_2 - c.r3_w13_v3_Fx__2 * s.Fx__2
-        )
+        r3_w13_u3 = r3_w13_y4 + r3_w13_d1 + 3.0 * r3_w13_d3 + 4.0 * r3_w13_e2 - 2.0 * r3_w13_d2
 
         # khepera.bg:17: r3_w13: stage 3
-        r3_w13_y3 = x.r3_w13_s3 + c.b0 * r3_w13_u3
+        r3_w13_y3 = x.r3_w13_s3 + c.b * r3_w13_u3
 
         # khepera.bg:17: r3_w13: stage 3: memory
-        x.r3_w13_s3 = c.a * r3_w13_y3 + c.b1 * r3_w13_u3
+        x.r3_w13_s3 = c.a * r3_w13_y3 + c.b * r3_w13_u3
 
         # khepera.bg:17: r3_w13: input of stage 2
-        r3_w13_u2 = (
-            r3_w13_y3 + c.r3_w13_v2_m__2__motor * r3_w13_m__2__motor_speed_2
-            + c.r3_w13_v2_m__2__wheel * r3_w13_m__2__wheel_speed_2
-        )
+        r3_w13_u2 = r3_w13_y3 + r3_w13_d2 - 3.0 * r3_w13_d3 - 6.0 * r3_w13_e2
 
         # khepera.bg:17: r3_w13: stage 2
-        r3_w13_y2 = x.r3_w13_s2 + c.b0 * r3_w13_u2
+        r3_w13_y2 = x.r3_w13_s2 + c.b * r3_w13_u2
 
         # khepera.bg:17: r3_w13: stage 2: memory
-        x.r3_w13_s2 = c.a * r3_w13_y2 + c.b1 * r3_w13_u2
+        x.r3_w13_s2 = c.a * r3_w13_y2 + c.b * r3_w13_u2
 
         # khepera.bg:17: r3_w13: input of stage 1
-        r3_w13_u1 = (
-            r3_w13_y2 - c.r3_w13_v1_m__2__motor * r3_w13_m__2__motor_speed_2
-            - c.r3_w9_v1_m__2__wheel * r3_w13_m__2__wheel_speed_2
-        )
+        r3_w13_u1 = r3_w13_y2 + r3_w13_d3 + 4.0 * r3_w13_e2
 
         # khepera.bg:17: r3_w13: stage 1
-        r3_w13_y1 = x.r3_w13_s1 + c.b0 * r3_w13_u1
+        r3_w13_y1 = x.r3_w13_s1 + c.b * r3_w13_u1
 
         # khepera.bg:17: r3_w13: stage 1: memory
-        x.r3_w13_s1 = c.a * r3_w13_y1 + c.b1 * r3_w13_u1
+        x.r3_w13_s1 = c.a * r3_w13_y1 + c.b * r3_w13_u1
 
         # khepera.bg:17: r3: second order of what the tolerance of m[2].el.k can do
-        r3_w13 = r3_w13_y1
+        r3_w13 = r3_w13_y1 - r3_w13_e2
 
         # khepera.bg:17: r3: how far r3 can be from zero if no parameter is out of tolerance
         r.r3 = (
@@ -4103,8 +5308,8 @@ class Monitor:
 
         # khepera_encoders.bg:31: r4_w1: input of stage 3
         r4_w1_u3 = (
-            c.r4_w1_v3_integral_2 * r4_w1_change - c.r4_w1_v3_integral * r4_w1_change_2
-            - c.r4_w1_v3_tanh * r4_w1_tanh
+            c.r4_w1_integral_2 * r4_w1_change - c.r4_w1_integral * r4_w1_change_2
+            - c.r4_w1_tanh * r4_w1_tanh
         )
 
         # khepera_encoders.bg:31: r4_w1: stage 3, at rest
@@ -4156,7 +5361,7 @@ class Monitor:
         r4_w2_product = (c.g_10 * r4_w2_change - c.g_9 * r4_w2_change_2) * (1.0 - r4_w2_t * r4_w2_t)
 
         # khepera_encoders.bg:31: r4_w2: input of stage 3
-        r4_w2_u3 = -c.r4_w1_v3_tanh * r4_w2_t - c.r4_w2_v3_product * r4_w2_product
+        r4_w2_u3 = -c.r4_w1_tanh * r4_w2_t - c.r4_w2_product * r4_w2_product
 
         # khepera_encoders.bg:31: r4_w2: stage 3, at rest
         r4_w2_y3 = r4_w2_u3
@@ -4191,8 +5396,20 @@ class Monitor:
         # khepera_encoders.bg:31: filtered speed of m[2].wheel
         x.r4_w3_m__2__wheel_speed = r4_w3_m__2__wheel_speed_2
 
+        # khepera_encoders.bg:31: r4_w3: encoders, order 2
+        r4_w3_n2 = c.r4_w3_w2_m__2__wheel * r4_w3_m__2__wheel_speed_2
+
+        # khepera_encoders.bg:31: r4_w3: input of stage 3
+        r4_w3_u3 = r4_w3_n2 - r4_w3_n2
+
+        # khepera_encoders.bg:31: r4_w3: stage 3, at rest
+        r4_w3_y3 = r4_w3_u3
+
+        # khepera_encoders.bg:31: r4_w3: stage 3: memory
+        x.r4_w3_s3 = c.rest * r4_w3_u3
+
         # khepera_encoders.bg:31: r4_w3: input of stage 2
-        r4_w3_u2 = -c.r4_w3_v1_m__2__wheel * r4_w3_m__2__wheel_speed_2
+        r4_w3_u2 = r4_w3_y3 + r4_w3_n2 - 2.0 * r4_w3_n2
 
         # khepera_encoders.bg:31: r4_w3: stage 2, at rest
         r4_w3_y2 = r4_w3_u2
@@ -4201,7 +5418,7 @@ class Monitor:
         x.r4_w3_s2 = c.rest * r4_w3_u2
 
         # khepera_encoders.bg:31: r4_w3: input of stage 1
-        r4_w3_u1 = r4_w3_y2 + c.r4_w3_v1_m__2__wheel * r4_w3_m__2__wheel_speed_2
+        r4_w3_u1 = r4_w3_y2 + r4_w3_n2
 
         # khepera_encoders.bg:31: r4_w3: stage 1, at rest
         r4_w3_y1 = r4_w3_u1
@@ -4218,8 +5435,20 @@ class Monitor:
         # khepera_encoders.bg:31: filtered speed of m[2].wheel
         x.r4_w4_m__2__wheel_speed = r4_w4_m__2__wheel_speed_2
 
+        # khepera_encoders.bg:31: r4_w4: encoders, order 1
+        r4_w4_n1 = c.r4_w4_w1_m__2__wheel * r4_w4_m__2__wheel_speed_2
+
+        # khepera_encoders.bg:31: r4_w4: input of stage 3
+        r4_w4_u3 = r4_w4_n1 - r4_w4_n1
+
+        # khepera_encoders.bg:31: r4_w4: stage 3, at rest
+        r4_w4_y3 = r4_w4_u3
+
+        # khepera_encoders.bg:31: r4_w4: stage 3: memory
+        x.r4_w4_s3 = c.rest * r4_w4_u3
+
         # khepera_encoders.bg:31: r4_w4: input of stage 2
-        r4_w4_u2 = c.r4_w4_v2_m__2__wheel * r4_w4_m__2__wheel_speed_2
+        r4_w4_u2 = r4_w4_y3 + r4_w4_n1
 
         # khepera_encoders.bg:31: r4_w4: stage 2, at rest
         r4_w4_y2 = r4_w4_u2
@@ -4261,7 +5490,7 @@ class Monitor:
         r4_w5_product = (c.g_10 * r4_w5_change - c.g_9 * r4_w5_change_2) * (1.0 - r4_w5_t * r4_w5_t)
 
         # khepera_encoders.bg:31: r4_w5: input of stage 3
-        r4_w5_u3 = -c.r4_w5_v3_tanh * r4_w5_t - c.r4_w5_v3_product * r4_w5_product
+        r4_w5_u3 = -c.r4_w5_tanh * r4_w5_t - c.r4_w5_product * r4_w5_product
 
         # khepera_encoders.bg:31: r4_w5: stage 3, at rest
         r4_w5_y3 = r4_w5_u3
@@ -4327,8 +5556,8 @@ class Monitor:
 
         # khepera_encoders.bg:31: r4_w6: input of stage 3
         r4_w6_u3 = (
-            c.r4_w6_v3_product_2 * r4_w6_product_3 - c.r4_w5_v3_product * r4_w6_product
-            - c.r4_w6_v3_product * r4_w6_product_2
+            c.r4_w6_product_2 * r4_w6_product_3 - c.r4_w5_product * r4_w6_product
+            - c.r4_w6_product * r4_w6_product_2
         )
 
         # khepera_encoders.bg:31: r4_w6: stage 3, at rest
@@ -4387,33 +5616,33 @@ class Monitor:
 
         # khepera_encoders.bg:31: r4_w1: input of stage 3
         r4_w1_u3 = (
-            c.r4_w1_v3_integral_2 * r4_w1_change - c.r4_w1_v3_integral * r4_w1_change_2
-            - c.r4_w1_v3_tanh * r4_w1_tanh
+            c.r4_w1_integral_2 * r4_w1_change - c.r4_w1_integral * r4_w1_change_2
+            - c.r4_w1_tanh * r4_w1_tanh
         )
 
         # khepera_encoders.bg:31: r4_w1: stage 3
-        r4_w1_y3 = x.r4_w1_s3 + c.b0 * r4_w1_u3
+        r4_w1_y3 = x.r4_w1_s3 + c.b * r4_w1_u3
 
         # khepera_encoders.bg:31: r4_w1: stage 3: memory
-        x.r4_w1_s3 = c.a * r4_w1_y3 + c.b1 * r4_w1_u3
+        x.r4_w1_s3 = c.a * r4_w1_y3 + c.b * r4_w1_u3
 
         # khepera_encoders.bg:31: r4_w1: input of stage 2
         r4_w1_u2 = r4_w1_y3
 
         # khepera_encoders.bg:31: r4_w1: stage 2
-        r4_w1_y2 = x.r4_w1_s2 + c.b0 * r4_w1_u2
+        r4_w1_y2 = x.r4_w1_s2 + c.b * r4_w1_u2
 
         # khepera_encoders.bg:31: r4_w1: stage 2: memory
-        x.r4_w1_s2 = c.a * r4_w1_y2 + c.b1 * r4_w1_u2
+        x.r4_w1_s2 = c.a * r4_w1_y2 + c.b * r4_w1_u2
 
         # khepera_encoders.bg:31: r4_w1: input of stage 1
         r4_w1_u1 = r4_w1_y2
 
         # khepera_encoders.bg:31: r4_w1: stage 1
-        r4_w1_y1 = x.r4_w1_s1 + c.b0 * r4_w1_u1
+        r4_w1_y1 = x.r4_w1_s1 + c.b * r4_w1_u1
 
         # khepera_encoders.bg:31: r4_w1: stage 1: memory
-        x.r4_w1_s1 = c.a * r4_w1_y1 + c.b1 * r4_w1_u1
+        x.r4_w1_s1 = c.a * r4_w1_y1 + c.b * r4_w1_u1
 
         # khepera_encoders.bg:31: r4: what the tolerance of m[2].K can do
         r4_w1 = r4_w1_y1
@@ -4438,31 +5667,31 @@ class Monitor:
         r4_w2_product = (c.g_10 * r4_w2_change - c.g_9 * r4_w2_change_2) * (1.0 - r4_w2_t * r4_w2_t)
 
         # khepera_encoders.bg:31: r4_w2: input of stage 3
-        r4_w2_u3 = -c.r4_w1_v3_tanh * r4_w2_t - c.r4_w2_v3_product * r4_w2_product
+        r4_w2_u3 = -c.r4_w1_tanh * r4_w2_t - c.r4_w2_product * r4_w2_product
 
         # khepera_encoders.bg:31: r4_w2: stage 3
-        r4_w2_y3 = x.r4_w2_s3 + c.b0 * r4_w2_u3
+        r4_w2_y3 = x.r4_w2_s3 + c.b * r4_w2_u3
 
         # khepera_encoders.bg:31: r4_w2: stage 3: memory
-        x.r4_w2_s3 = c.a * r4_w2_y3 + c.b1 * r4_w2_u3
+        x.r4_w2_s3 = c.a * r4_w2_y3 + c.b * r4_w2_u3
 
         # khepera_encoders.bg:31: r4_w2: input of stage 2
         r4_w2_u2 = r4_w2_y3
 
         # khepera_encoders.bg:31: r4_w2: stage 2
-        r4_w2_y2 = x.r4_w2_s2 + c.b0 * r4_w2_u2
+        r4_w2_y2 = x.r4_w2_s2 + c.b * r4_w2_u2
 
         # khepera_encoders.bg:31: r4_w2: stage 2: memory
-        x.r4_w2_s2 = c.a * r4_w2_y2 + c.b1 * r4_w2_u2
+        x.r4_w2_s2 = c.a * r4_w2_y2 + c.b * r4_w2_u2
 
         # khepera_encoders.bg:31: r4_w2: input of stage 1
         r4_w2_u1 = r4_w2_y2
 
         # khepera_encoders.bg:31: r4_w2: stage 1
-        r4_w2_y1 = x.r4_w2_s1 + c.b0 * r4_w2_u1
+        r4_w2_y1 = x.r4_w2_s1 + c.b * r4_w2_u1
 
         # khepera_encoders.bg:31: r4_w2: stage 1: memory
-        x.r4_w2_s1 = c.a * r4_w2_y1 + c.b1 * r4_w2_u1
+        x.r4_w2_s1 = c.a * r4_w2_y1 + c.b * r4_w2_u1
 
         # khepera_encoders.bg:31: r4: what the tolerance of m[2].tau0 can do
         r4_w2 = r4_w2_y1
@@ -4473,23 +5702,35 @@ class Monitor:
         )
         x.r4_w3_m__2__wheel_speed = r4_w3_m__2__wheel_speed_2
 
+        # khepera_encoders.bg:31: r4_w3: encoders, order 2
+        r4_w3_n2 = c.r4_w3_w2_m__2__wheel * r4_w3_m__2__wheel_speed_2
+
+        # khepera_encoders.bg:31: r4_w3: input of stage 3
+        r4_w3_u3 = r4_w3_n2 - r4_w3_n2
+
+        # khepera_encoders.bg:31: r4_w3: stage 3
+        r4_w3_y3 = x.r4_w3_s3 + c.b * r4_w3_u3
+
+        # khepera_encoders.bg:31: r4_w3: stage 3: memory
+        x.r4_w3_s3 = c.a * r4_w3_y3 + c.b * r4_w3_u3
+
         # khepera_encoders.bg:31: r4_w3: input of stage 2
-        r4_w3_u2 = -c.r4_w3_v1_m__2__wheel * r4_w3_m__2__wheel_speed_2
+        r4_w3_u2 = r4_w3_y3 + r4_w3_n2 - 2.0 * r4_w3_n2
 
         # khepera_encoders.bg:31: r4_w3: stage 2
-        r4_w3_y2 = x.r4_w3_s2 + c.b0 * r4_w3_u2
+        r4_w3_y2 = x.r4_w3_s2 + c.b * r4_w3_u2
 
         # khepera_encoders.bg:31: r4_w3: stage 2: memory
-        x.r4_w3_s2 = c.a * r4_w3_y2 + c.b1 * r4_w3_u2
+        x.r4_w3_s2 = c.a * r4_w3_y2 + c.b * r4_w3_u2
 
         # khepera_encoders.bg:31: r4_w3: input of stage 1
-        r4_w3_u1 = r4_w3_y2 + c.r4_w3_v1_m__2__wheel * r4_w3_m__2__wheel_speed_2
+        r4_w3_u1 = r4_w3_y2 + r4_w3_n2
 
         # khepera_encoders.bg:31: r4_w3: stage 1
-        r4_w3_y1 = x.r4_w3_s1 + c.b0 * r4_w3_u1
+        r4_w3_y1 = x.r4_w3_s1 + c.b * r4_w3_u1
 
         # khepera_encoders.bg:31: r4_w3: stage 1: memory
-        x.r4_w3_s1 = c.a * r4_w3_y1 + c.b1 * r4_w3_u1
+        x.r4_w3_s1 = c.a * r4_w3_y1 + c.b * r4_w3_u1
 
         # khepera_encoders.bg:31: r4: what the tolerance of m[2].Js can do
         r4_w3 = r4_w3_y1
@@ -4500,23 +5741,35 @@ class Monitor:
         )
         x.r4_w4_m__2__wheel_speed = r4_w4_m__2__wheel_speed_2
 
+        # khepera_encoders.bg:31: r4_w4: encoders, order 1
+        r4_w4_n1 = c.r4_w4_w1_m__2__wheel * r4_w4_m__2__wheel_speed_2
+
+        # khepera_encoders.bg:31: r4_w4: input of stage 3
+        r4_w4_u3 = r4_w4_n1 - r4_w4_n1
+
+        # khepera_encoders.bg:31: r4_w4: stage 3
+        r4_w4_y3 = x.r4_w4_s3 + c.b * r4_w4_u3
+
+        # khepera_encoders.bg:31: r4_w4: stage 3: memory
+        x.r4_w4_s3 = c.a * r4_w4_y3 + c.b * r4_w4_u3
+
         # khepera_encoders.bg:31: r4_w4: input of stage 2
-        r4_w4_u2 = c.r4_w4_v2_m__2__wheel * r4_w4_m__2__wheel_speed_2
+        r4_w4_u2 = r4_w4_y3 + r4_w4_n1
 
         # khepera_encoders.bg:31: r4_w4: stage 2
-        r4_w4_y2 = x.r4_w4_s2 + c.b0 * r4_w4_u2
+        r4_w4_y2 = x.r4_w4_s2 + c.b * r4_w4_u2
 
         # khepera_encoders.bg:31: r4_w4: stage 2: memory
-        x.r4_w4_s2 = c.a * r4_w4_y2 + c.b1 * r4_w4_u2
+        x.r4_w4_s2 = c.a * r4_w4_y2 + c.b * r4_w4_u2
 
         # khepera_encoders.bg:31: r4_w4: input of stage 1
         r4_w4_u1 = r4_w4_y2
 
         # khepera_encoders.bg:31: r4_w4: stage 1
-        r4_w4_y1 = x.r4_w4_s1 + c.b0 * r4_w4_u1
+        r4_w4_y1 = x.r4_w4_s1 + c.b * r4_w4_u1
 
         # khepera_encoders.bg:31: r4_w4: stage 1: memory
-        x.r4_w4_s1 = c.a * r4_w4_y1 + c.b1 * r4_w4_u1
+        x.r4_w4_s1 = c.a * r4_w4_y1 + c.b * r4_w4_u1
 
         # khepera_encoders.bg:31: r4: what the tolerance of m[2].fs can do
         r4_w4 = r4_w4_y1
@@ -4541,31 +5794,31 @@ class Monitor:
         r4_w5_product = (c.g_10 * r4_w5_change - c.g_9 * r4_w5_change_2) * (1.0 - r4_w5_t * r4_w5_t)
 
         # khepera_encoders.bg:31: r4_w5: input of stage 3
-        r4_w5_u3 = -c.r4_w5_v3_tanh * r4_w5_t - c.r4_w5_v3_product * r4_w5_product
+        r4_w5_u3 = -c.r4_w5_tanh * r4_w5_t - c.r4_w5_product * r4_w5_product
 
         # khepera_encoders.bg:31: r4_w5: stage 3
-        r4_w5_y3 = x.r4_w5_s3 + c.b0 * r4_w5_u3
+        r4_w5_y3 = x.r4_w5_s3 + c.b * r4_w5_u3
 
         # khepera_encoders.bg:31: r4_w5: stage 3: memory
-        x.r4_w5_s3 = c.a * r4_w5_y3 + c.b1 * r4_w5_u3
+        x.r4_w5_s3 = c.a * r4_w5_y3 + c.b * r4_w5_u3
 
         # khepera_encoders.bg:31: r4_w5: input of stage 2
         r4_w5_u2 = r4_w5_y3
 
         # khepera_encoders.bg:31: r4_w5: stage 2
-        r4_w5_y2 = x.r4_w5_s2 + c.b0 * r4_w5_u2
+        r4_w5_y2 = x.r4_w5_s2 + c.b * r4_w5_u2
 
         # khepera_encoders.bg:31: r4_w5: stage 2: memory
-        x.r4_w5_s2 = c.a * r4_w5_y2 + c.b1 * r4_w5_u2
+        x.r4_w5_s2 = c.a * r4_w5_y2 + c.b * r4_w5_u2
 
         # khepera_encoders.bg:31: r4_w5: input of stage 1
         r4_w5_u1 = r4_w5_y2
 
         # khepera_encoders.bg:31: r4_w5: stage 1
-        r4_w5_y1 = x.r4_w5_s1 + c.b0 * r4_w5_u1
+        r4_w5_y1 = x.r4_w5_s1 + c.b * r4_w5_u1
 
         # khepera_encoders.bg:31: r4_w5: stage 1: memory
-        x.r4_w5_s1 = c.a * r4_w5_y1 + c.b1 * r4_w5_u1
+        x.r4_w5_s1 = c.a * r4_w5_y1 + c.b * r4_w5_u1
 
         # khepera_encoders.bg:31: r4: what the tolerances of m[2].K and m[2].tau0 can do together
         r4_w5 = r4_w5_y1
@@ -4605,33 +5858,33 @@ class Monitor:
 
         # khepera_encoders.bg:31: r4_w6: input of stage 3
         r4_w6_u3 = (
-            c.r4_w6_v3_product_2 * r4_w6_product_3 - c.r4_w5_v3_product * r4_w6_product
-            - c.r4_w6_v3_product * r4_w6_product_2
+            c.r4_w6_product_2 * r4_w6_product_3 - c.r4_w5_product * r4_w6_product
+            - c.r4_w6_product * r4_w6_product_2
         )
 
         # khepera_encoders.bg:31: r4_w6: stage 3
-        r4_w6_y3 = x.r4_w6_s3 + c.b0 * r4_w6_u3
+        r4_w6_y3 = x.r4_w6_s3 + c.b * r4_w6_u3
 
         # khepera_encoders.bg:31: r4_w6: stage 3: memory
-        x.r4_w6_s3 = c.a * r4_w6_y3 + c.b1 * r4_w6_u3
+        x.r4_w6_s3 = c.a * r4_w6_y3 + c.b * r4_w6_u3
 
         # khepera_encoders.bg:31: r4_w6: input of stage 2
         r4_w6_u2 = r4_w6_y3
 
         # khepera_encoders.bg:31: r4_w6: stage 2
-        r4_w6_y2 = x.r4_w6_s2 + c.b0 * r4_w6_u2
+        r4_w6_y2 = x.r4_w6_s2 + c.b * r4_w6_u2
 
         # khepera_encoders.bg:31: r4_w6: stage 2: memory
-        x.r4_w6_s2 = c.a * r4_w6_y2 + c.b1 * r4_w6_u2
+        x.r4_w6_s2 = c.a * r4_w6_y2 + c.b * r4_w6_u2
 
         # khepera_encoders.bg:31: r4_w6: input of stage 1
         r4_w6_u1 = r4_w6_y2
 
         # khepera_encoders.bg:31: r4_w6: stage 1
-        r4_w6_y1 = x.r4_w6_s1 + c.b0 * r4_w6_u1
+        r4_w6_y1 = x.r4_w6_s1 + c.b * r4_w6_u1
 
         # khepera_encoders.bg:31: r4_w6: stage 1: memory
-        x.r4_w6_s1 = c.a * r4_w6_y1 + c.b1 * r4_w6_u1
+        x.r4_w6_s1 = c.a * r4_w6_y1 + c.b * r4_w6_u1
 
         # khepera_encoders.bg:31: r4: second order of what the tolerance of m[2].tau0 can do
         r4_w6 = r4_w6_y1
@@ -4661,8 +5914,17 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:114: r5_w1: terms of order 0
+        r5_w1_g0 = -c.r5_w1_load * s.load
+
+        # khepera.bg:114: r5_w1: degree 1
+        r5_w1_d1 = c.r5_w1_w1_load * s.load
+
+        # khepera.bg:114: r5_w1: error of order 0
+        r5_w1_e0 = c.bend1 * r5_w1_g0
+
         # khepera.bg:114: r5_w1: input of stage 2
-        r5_w1_u2 = c.r5_w1_v2_load * s.load
+        r5_w1_u2 = r5_w1_g0 + r5_w1_d1 - r5_w1_e0
 
         # khepera.bg:114: r5_w1: stage 2, at rest
         r5_w1_y2 = r5_w1_u2
@@ -4671,7 +5933,7 @@ class Monitor:
         x.r5_w1_s2 = c.rest * r5_w1_u2
 
         # khepera.bg:114: r5_w1: input of stage 1
-        r5_w1_u1 = r5_w1_y2 - c.r5_w1_v1_load * s.load
+        r5_w1_u1 = r5_w1_y2 + 2.0 * r5_w1_e0 - r5_w1_d1
 
         # khepera.bg:114: r5_w1: stage 1, at rest
         r5_w1_y1 = r5_w1_u1
@@ -4680,10 +5942,13 @@ class Monitor:
         x.r5_w1_s1 = c.rest * r5_w1_u1
 
         # khepera.bg:114: r5: what the tolerance of R_L can do
-        r5_w1 = r5_w1_y1
+        r5_w1 = r5_w1_y1 - r5_w1_e0
+
+        # khepera.bg:114: r5_w2: degree 1
+        r5_w2_d1 = c.r5_w2_w1_load * s.load
 
         # khepera.bg:114: r5_w2: input of stage 2
-        r5_w2_u2 = c.r5_w2_v1_load * s.load
+        r5_w2_u2 = r5_w2_d1
 
         # khepera.bg:114: r5_w2: stage 2, at rest
         r5_w2_y2 = r5_w2_u2
@@ -4692,7 +5957,7 @@ class Monitor:
         x.r5_w2_s2 = c.rest * r5_w2_u2
 
         # khepera.bg:114: r5_w2: input of stage 1
-        r5_w2_u1 = r5_w2_y2 - c.r5_w2_v1_load * s.load
+        r5_w2_u1 = r5_w2_y2 - r5_w2_d1
 
         # khepera.bg:114: r5_w2: stage 1, at rest
         r5_w2_y1 = r5_w2_u1
@@ -4711,44 +5976,56 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:114: r5_w1: terms of order 0
+        r5_w1_g0 = -c.r5_w1_load * s.load
+
+        # khepera.bg:114: r5_w1: degree 1
+        r5_w1_d1 = c.r5_w1_w1_load * s.load
+
+        # khepera.bg:114: r5_w1: error of order 0
+        r5_w1_e0 = c.bend1 * r5_w1_g0
+
         # khepera.bg:114: r5_w1: input of stage 2
-        r5_w1_u2 = c.r5_w1_v2_load * s.load
+        r5_w1_u2 = r5_w1_g0 + r5_w1_d1 - r5_w1_e0
 
         # khepera.bg:114: r5_w1: stage 2
-        r5_w1_y2 = x.r5_w1_s2 + c.b0 * r5_w1_u2
+        r5_w1_y2 = x.r5_w1_s2 + c.b * r5_w1_u2
 
         # khepera.bg:114: r5_w1: stage 2: memory
-        x.r5_w1_s2 = c.a * r5_w1_y2 + c.b1 * r5_w1_u2
+        x.r5_w1_s2 = c.a * r5_w1_y2 + c.b * r5_w1_u2
 
         # khepera.bg:114: r5_w1: input of stage 1
-        r5_w1_u1 = r5_w1_y2 - c.r5_w1_v1_load * s.load
+        r5_w1_u1 = r5_w1_y2 + 2.0 * r5_w1_e0 - r5_w1_d1
 
         # khepera.bg:114: r5_w1: stage 1
-        r5_w1_y1 = x.r5_w1_s1 + c.b0 * r5_w1_u1
+        r5_w1_y1 = x.r5_w1_s1 + c.b * r5_w1_u1
 
         # khepera.bg:114: r5_w1: stage 1: memory
-        x.r5_w1_s1 = c.a * r5_w1_y1 + c.b1 * r5_w1_u1
+        x.r5_w1_s1 = c.a * r5_w1_y1 + c.b * r5_w1_u1
 
         # khepera.bg:114: r5: what the tolerance of R_L can do
-        r5_w1 = r5_w1_y1
+        r5_w1 = r5_w1_y1 - r5_w1_e0
+
+        # khepera.bg:114: r5_w2: degree 1
+        r5_w2_d1 = c.r5_w2_w1_load * s.load
 
         # khepera.bg:114: r5_w2: input of stage 2
-        r5_w2_u2 = c.r5_w2_v1_load * s.load
+        r5_w2_u2 = r5_w2_d1
 
         # khepera.bg:114: r5_w2: stage 2
-        r5_w2_y2 = x.r5_w2_s2 + c.b0 * r5_w2_u2
+        r5_w2_y2 = x.r5_w2_s2 + c.b * r5_w2_u2
 
         # khepera.bg:114: r5_w2: stage 2: memory
-        x.r5_w2_s2 = c.a * r5_w2_y2 + c.b1 * r5_w2_u2
+        x.r5_w2_s2 = c.a * r5_w2_y2 + c.b * r5_w2_u2
 
         # khepera.bg:114: r5_w2: input of stage 1
-        r5_w2_u1 = r5_w2_y2 - c.r5_w2_v1_load * s.load
+        r5_w2_u1 = r5_w2_y2 - r5_w2_d1
 
         # khepera.bg:114: r5_w2: stage 1
-        r5_w2_y1 = x.r5_w2_s1 + c.b0 * r5_w2_u1
+        r5_w2_y1 = x.r5_w2_s1 + c.b * r5_w2_u1
 
         # khepera.bg:114: r5_w2: stage 1: memory
-        x.r5_w2_s1 = c.a * r5_w2_y1 + c.b1 * r5_w2_u1
+        x.r5_w2_s1 = c.a * r5_w2_y1 + c.b * r5_w2_u1
 
         # khepera.bg:114: r5: second order of what the tolerance of R_L can do
         r5_w2 = r5_w2_y1
@@ -4771,23 +6048,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[4] = 0
             r.r5 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

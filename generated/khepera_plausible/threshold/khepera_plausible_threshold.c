@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t khepera_plausible_threshold_abi(void)
@@ -102,6 +73,15 @@ static void compute_coefficients(khepera_plausible_threshold_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
+
+    /* w*sample_time, x or 2 */
+    const real turn = REAL(2.0) * (REAL(1.0) - pole) / (pole + REAL(1.0));
+
+    /* w of the filter 1/(1 + D/w) */
+    const real w = turn / sample_time;
+
     /* khepera.bg:17: fe[1]*robot.m[1].el.Re/robot.m[1].el.k */
     const real t = p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k;
 
@@ -124,381 +104,342 @@ static void compute_coefficients(khepera_plausible_threshold_monitor *monitor,
     const real t_6 = p->R__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
             / p->robot__m__2__el__k;
 
-    /* exp(-x) */
-    const real t_7 = exponential(-x_);
+    /* 1 - pole */
+    const real t_7 = REAL(1.0) - pole;
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_8 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t_7) / x_;
+    /* turn^2 */
+    const real t_8 = turn * turn;
 
-    /* khepera.bg:17: robot.m[1].el.L*robot.m[1].me.Je*bandwidth^2/robot.m[1].el.k */
-    const real t_9 = p->robot__m__1__el__L * p->robot__m__1__me__Je * bandwidth * bandwidth
+    /* khepera.bg:17: robot.m[1].el.L*robot.m[1].me.Je*w^2/robot.m[1].el.k */
+    const real t_9 = p->robot__m__1__el__L * p->robot__m__1__me__Je * w * w / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: Js[1]*robot.m[1].el.L*w^2/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real t_10 = p->Js__1 * p->robot__m__1__el__L * w * w / p->robot__m__1__ge__N
             / p->robot__m__1__el__k;
 
-    /* khepera.bg:17: Js[1]*robot.m[1].el.L*bandwidth^2/(robot.m[1].ge.N*robot.m[1].el.k) */
-    const real t_10 = p->Js__1 * p->robot__m__1__el__L * bandwidth * bandwidth
-            / p->robot__m__1__ge__N / p->robot__m__1__el__k;
-
-    /* khepera.bg:17: R[1]*robot.m[1].el.L*bandwidth/(robot.m[1].ge.N*robot.m[1].el.k) */
-    const real t_11 = p->R__1 * p->robot__m__1__el__L * bandwidth / p->robot__m__1__ge__N
+    /* khepera.bg:17: R[1]*robot.m[1].el.L*w/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real t_11 = p->R__1 * p->robot__m__1__el__L * w / p->robot__m__1__ge__N
             / p->robot__m__1__el__k;
 
-    /* khepera.bg:17: robot.m[2].el.L*robot.m[2].me.Je*bandwidth^2/robot.m[2].el.k */
-    const real t_12 = p->robot__m__2__el__L * p->robot__m__2__me__Je * bandwidth * bandwidth
+    /* khepera.bg:17: robot.m[2].el.L*robot.m[2].me.Je*w^2/robot.m[2].el.k */
+    const real t_12 = p->robot__m__2__el__L * p->robot__m__2__me__Je * w * w
             / p->robot__m__2__el__k;
 
-    /* khepera.bg:17: Js[2]*robot.m[2].el.L*bandwidth^2/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real t_13 = p->Js__2 * p->robot__m__2__el__L * bandwidth * bandwidth
-            / p->robot__m__2__ge__N / p->robot__m__2__el__k;
-
-    /* khepera.bg:17: R[2]*robot.m[2].el.L*bandwidth/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real t_14 = p->R__2 * p->robot__m__2__el__L * bandwidth / p->robot__m__2__ge__N
+    /* khepera.bg:17: Js[2]*robot.m[2].el.L*w^2/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real t_13 = p->Js__2 * p->robot__m__2__el__L * w * w / p->robot__m__2__ge__N
             / p->robot__m__2__el__k;
 
-    /* khepera.bg:17: fe[1]*robot.m[1].el.L*bandwidth/robot.m[1].el.k */
-    const real t_15 = p->fe__1 * p->robot__m__1__el__L * bandwidth / p->robot__m__1__el__k;
+    /* khepera.bg:17: R[2]*robot.m[2].el.L*w/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real t_14 = p->R__2 * p->robot__m__2__el__L * w / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
 
-    /* khepera.bg:17: Js[1]*robot.m[1].el.Re*bandwidth/(robot.m[1].ge.N*robot.m[1].el.k) */
-    const real t_16 = p->Js__1 * p->robot__m__1__el__Re * bandwidth / p->robot__m__1__ge__N
+    /* khepera.bg:17: fe[1]*robot.m[1].el.L*w/robot.m[1].el.k */
+    const real t_15 = p->fe__1 * p->robot__m__1__el__L * w / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: Js[1]*robot.m[1].el.Re*w/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real t_16 = p->Js__1 * p->robot__m__1__el__Re * w / p->robot__m__1__ge__N
             / p->robot__m__1__el__k;
 
-    /* khepera.bg:17: robot.m[1].el.Re*robot.m[1].me.Je*bandwidth/robot.m[1].el.k */
-    const real t_17 = p->robot__m__1__el__Re * p->robot__m__1__me__Je * bandwidth
+    /* khepera.bg:17: robot.m[1].el.Re*robot.m[1].me.Je*w/robot.m[1].el.k */
+    const real t_17 = p->robot__m__1__el__Re * p->robot__m__1__me__Je * w / p->robot__m__1__el__k;
+
+    /* khepera.bg:17: robot.m[1].el.L*robot.m[1].wh.fs*w/(robot.m[1].ge.N*robot.m[1].el.k) */
+    const real t_18 = p->robot__m__1__el__L * p->robot__m__1__wh__fs * w / p->robot__m__1__ge__N
             / p->robot__m__1__el__k;
 
-    /* khepera.bg:17:
-     * robot.m[1].el.k*bandwidth*(robot.m[1].el.Re*robot.m[1].me.Je/robot.m[1].el.k^2 + fe[1] ... */
-    const real t_18 = p->robot__m__1__el__k * bandwidth
+    /* khepera.bg:17: fe[2]*robot.m[2].el.L*w/robot.m[2].el.k */
+    const real t_19 = p->fe__2 * p->robot__m__2__el__L * w / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: Js[2]*robot.m[2].el.Re*w/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real t_20 = p->Js__2 * p->robot__m__2__el__Re * w / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: robot.m[2].el.Re*robot.m[2].me.Je*w/robot.m[2].el.k */
+    const real t_21 = p->robot__m__2__el__Re * p->robot__m__2__me__Je * w / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: robot.m[2].el.L*robot.m[2].wh.fs*w/(robot.m[2].ge.N*robot.m[2].el.k) */
+    const real t_22 = p->robot__m__2__el__L * p->robot__m__2__wh__fs * w / p->robot__m__2__ge__N
+            / p->robot__m__2__el__k;
+
+    /* khepera.bg:17: r1_w1: factor of robot.m[1].me.we */
+    c->r1_w1_robot__m__1__me__we = t / REAL(10.0);
+
+    /* khepera.bg:17: r1_w1: factor of robot.m[1].me.we' */
+    c->r1_w1_w1_robot__m__1__me__we = t_15 / REAL(10.0);
+
+    /* filter: 1 * (w*sample_time)^2/12 */
+    c->bend1 = t_8 / REAL(12.0);
+
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
+
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t_7;
+
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t_7;
+
+    /* khepera.bg:17: r1_w2: factor of robot.Fx[1] */
+    c->r1_w2_robot__Fx__1 = t_3 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w2: factor of robot.m[1].wh.ws */
+    c->r1_w2_robot__m__1__wh__ws = t_2 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w2: factor of robot.m[1].wh.ws' */
+    c->r1_w2_w1_robot__m__1__wh__ws = t_16 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w2: factor of robot.m[1].me.we */
+    c->r1_w2_robot__m__1__me__we = t / REAL(20.0);
+
+    /* khepera.bg:17: r1_w2: factor of robot.m[1].me.we' */
+    c->r1_w2_w1_robot__m__1__me__we = t_17 / REAL(20.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].me.we */
+    c->r1_w3_robot__m__1__me__we = p->robot__m__1__el__k
+            * (p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k / p->robot__m__1__el__k
+            - REAL(1.0)) / REAL(50.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].me.we' */
+    c->r1_w3_w1_robot__m__1__me__we = p->robot__m__1__el__k * w
             * (p->robot__m__1__el__Re * p->robot__m__1__me__Je / p->robot__m__1__el__k
                 / p->robot__m__1__el__k
-            + p->fe__1 * p->robot__m__1__el__L / p->robot__m__1__el__k / p->robot__m__1__el__k);
+            + p->fe__1 * p->robot__m__1__el__L / p->robot__m__1__el__k / p->robot__m__1__el__k)
+            / REAL(50.0);
 
-    /* khepera.bg:17:
-     * robot.m[1].el.k*bandwidth*(Js[1]*robot.m[1].el.Re/(robot.m[1].ge.N*robot.m[1].el.k^2) ... */
-    const real t_19 = p->robot__m__1__el__k * bandwidth
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].me.we'' */
+    c->r1_w3_w2_robot__m__1__me__we = t_9 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.Fx[1] */
+    c->r1_w3_robot__Fx__1 = t_3 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.Fx[1]' */
+    c->r1_w3_w1_robot__Fx__1 = t_11 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws */
+    c->r1_w3_robot__m__1__wh__ws = t_2 / REAL(50.0);
+
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws' */
+    c->r1_w3_w1_robot__m__1__wh__ws = p->robot__m__1__el__k * w
             * (p->Js__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N / p->robot__m__1__el__k
                 / p->robot__m__1__el__k
             + p->robot__m__1__el__L * p->robot__m__1__wh__fs / p->robot__m__1__ge__N
-                / p->robot__m__1__el__k / p->robot__m__1__el__k);
+                / p->robot__m__1__el__k / p->robot__m__1__el__k)
+            / REAL(50.0);
 
-    /* khepera.bg:17:
-     * robot.m[1].el.L*robot.m[1].wh.fs*bandwidth/(robot.m[1].ge.N*robot.m[1].el.k) */
-    const real t_20 = p->robot__m__1__el__L * p->robot__m__1__wh__fs * bandwidth
-            / p->robot__m__1__ge__N / p->robot__m__1__el__k;
+    /* khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws'' */
+    c->r1_w3_w2_robot__m__1__wh__ws = t_10 / REAL(50.0);
 
-    /* khepera.bg:17: robot.m[1].el.k^2*bandwidth*(-2*fe[1]*robot.m[1].el.L/robot.m[1].el.k^3 -
-     * 2*robot.m[1] ... */
-    const real t_21 = p->robot__m__1__el__k * p->robot__m__1__el__k * bandwidth
+    /* filter: 2 * (w*sample_time)^2/12 */
+    c->bend2 = t_8 / REAL(6.0);
+
+    /* khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws */
+    c->r1_w4_robot__m__1__wh__ws = t_2 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws' */
+    c->r1_w4_w1_robot__m__1__wh__ws = t_18 / REAL(10.0);
+
+    /* khepera.bg:17: r1_w5: factor of robot.m[1].me.we */
+    c->r1_w5_robot__m__1__me__we = t / REAL(146.0);
+
+    /* khepera.bg:17: r1_w6: factor of robot.m[1].me.we */
+    c->r1_w6_robot__m__1__me__we = t / REAL(365.0);
+
+    /* khepera.bg:17: r1_w6: factor of robot.m[1].me.we' */
+    c->r1_w6_w1_robot__m__1__me__we = t_15 / REAL(365.0);
+
+    /* khepera.bg:17: r1_w7: factor of robot.m[1].me.we */
+    c->r1_w7_robot__m__1__me__we = t / REAL(730.0);
+
+    /* khepera.bg:17: r1_w7: factor of robot.m[1].me.we' */
+    c->r1_w7_w1_robot__m__1__me__we = t_17 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w7: factor of robot.m[1].wh.ws */
+    c->r1_w7_robot__m__1__wh__ws = t_2 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w7: factor of robot.m[1].wh.ws' */
+    c->r1_w7_w1_robot__m__1__wh__ws = t_16 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w7: factor of robot.Fx[1] */
+    c->r1_w7_robot__Fx__1 = t_3 / REAL(730.0);
+
+    /* khepera.bg:17: r1_w8: factor of robot.m[1].wh.ws */
+    c->r1_w8_robot__m__1__wh__ws = t_2 / REAL(146.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we */
+    c->r1_w9_robot__m__1__me__we = t / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we' */
+    c->r1_w9_w1_robot__m__1__me__we = p->robot__m__1__el__k * p->robot__m__1__el__k * w
             * (-REAL(2.0) * p->fe__1 * p->robot__m__1__el__L / p->robot__m__1__el__k
                 / p->robot__m__1__el__k / p->robot__m__1__el__k
             - REAL(2.0) * p->robot__m__1__el__Re * p->robot__m__1__me__Je / p->robot__m__1__el__k
-                / p->robot__m__1__el__k / p->robot__m__1__el__k);
+                / p->robot__m__1__el__k / p->robot__m__1__el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17:
-     * robot.m[1].el.k^2*bandwidth*(-2*robot.m[1].el.L*robot.m[1].wh.fs/(robot.m[1].ge.N*robo ... */
-    const real t_22 = p->robot__m__1__el__k * p->robot__m__1__el__k * bandwidth
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we'' */
+    c->r1_w9_w2_robot__m__1__me__we = t_9 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws */
+    c->r1_w9_robot__m__1__wh__ws = t_2 / REAL(1825.0);
+
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws' */
+    c->r1_w9_w1_robot__m__1__wh__ws = p->robot__m__1__el__k * p->robot__m__1__el__k * w
             * (-REAL(2.0) * p->robot__m__1__el__L * p->robot__m__1__wh__fs / p->robot__m__1__ge__N
                 / p->robot__m__1__el__k / p->robot__m__1__el__k / p->robot__m__1__el__k
             - REAL(2.0) * p->Js__1 * p->robot__m__1__el__Re / p->robot__m__1__ge__N
-                / p->robot__m__1__el__k / p->robot__m__1__el__k / p->robot__m__1__el__k);
+                / p->robot__m__1__el__k / p->robot__m__1__el__k / p->robot__m__1__el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17: fe[2]*robot.m[2].el.L*bandwidth/robot.m[2].el.k */
-    const real t_23 = p->fe__2 * p->robot__m__2__el__L * bandwidth / p->robot__m__2__el__k;
+    /* khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws'' */
+    c->r1_w9_w2_robot__m__1__wh__ws = t_10 / REAL(1825.0);
 
-    /* khepera.bg:17: Js[2]*robot.m[2].el.Re*bandwidth/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real t_24 = p->Js__2 * p->robot__m__2__el__Re * bandwidth / p->robot__m__2__ge__N
-            / p->robot__m__2__el__k;
+    /* khepera.bg:17: r1_w9: factor of robot.Fx[1] */
+    c->r1_w9_robot__Fx__1 = t_3 / REAL(1825.0);
 
-    /* khepera.bg:17: robot.m[2].el.Re*robot.m[2].me.Je*bandwidth/robot.m[2].el.k */
-    const real t_25 = p->robot__m__2__el__Re * p->robot__m__2__me__Je * bandwidth
-            / p->robot__m__2__el__k;
+    /* khepera.bg:17: r1_w9: factor of robot.Fx[1]' */
+    c->r1_w9_w1_robot__Fx__1 = t_11 / REAL(1825.0);
 
-    /* khepera.bg:17:
-     * robot.m[2].el.k*bandwidth*(robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2].el.k^2 + fe[2] ... */
-    const real t_26 = p->robot__m__2__el__k * bandwidth
+    /* khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws */
+    c->r1_w10_robot__m__1__wh__ws = t_2 / REAL(365.0);
+
+    /* khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws' */
+    c->r1_w10_w1_robot__m__1__wh__ws = t_18 / REAL(365.0);
+
+    /* khepera.bg:41: r2_w1: factor of robot.m[1].wh.ws' */
+    c->r2_w1_w1_robot__m__1__wh__ws = p->robot__m__1__wh__fs * w / REAL(10.0)
+            / p->robot__m__1__ge__N / p->robot__m__1__me__K;
+
+    /* khepera.bg:17: r3_w1: factor of robot.m[2].me.we */
+    c->r3_w1_robot__m__2__me__we = t_4 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w1: factor of robot.m[2].me.we' */
+    c->r3_w1_w1_robot__m__2__me__we = t_19 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w2: factor of robot.Fx[2] */
+    c->r3_w2_robot__Fx__2 = t_6 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w2: factor of robot.m[2].wh.ws */
+    c->r3_w2_robot__m__2__wh__ws = t_5 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w2: factor of robot.m[2].wh.ws' */
+    c->r3_w2_w1_robot__m__2__wh__ws = t_20 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w2: factor of robot.m[2].me.we */
+    c->r3_w2_robot__m__2__me__we = t_4 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w2: factor of robot.m[2].me.we' */
+    c->r3_w2_w1_robot__m__2__me__we = t_21 / REAL(20.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].me.we */
+    c->r3_w3_robot__m__2__me__we = p->robot__m__2__el__k
+            * (p->fe__2 * p->robot__m__2__el__Re / p->robot__m__2__el__k / p->robot__m__2__el__k
+            - REAL(1.0)) / REAL(50.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].me.we' */
+    c->r3_w3_w1_robot__m__2__me__we = p->robot__m__2__el__k * w
             * (p->robot__m__2__el__Re * p->robot__m__2__me__Je / p->robot__m__2__el__k
                 / p->robot__m__2__el__k
-            + p->fe__2 * p->robot__m__2__el__L / p->robot__m__2__el__k / p->robot__m__2__el__k);
+            + p->fe__2 * p->robot__m__2__el__L / p->robot__m__2__el__k / p->robot__m__2__el__k)
+            / REAL(50.0);
 
-    /* khepera.bg:17:
-     * robot.m[2].el.k*bandwidth*(Js[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k^2) ... */
-    const real t_27 = p->robot__m__2__el__k * bandwidth
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].me.we'' */
+    c->r3_w3_w2_robot__m__2__me__we = t_12 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.Fx[2] */
+    c->r3_w3_robot__Fx__2 = t_6 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.Fx[2]' */
+    c->r3_w3_w1_robot__Fx__2 = t_14 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws */
+    c->r3_w3_robot__m__2__wh__ws = t_5 / REAL(50.0);
+
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws' */
+    c->r3_w3_w1_robot__m__2__wh__ws = p->robot__m__2__el__k * w
             * (p->Js__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N / p->robot__m__2__el__k
                 / p->robot__m__2__el__k
             + p->robot__m__2__el__L * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
-                / p->robot__m__2__el__k / p->robot__m__2__el__k);
+                / p->robot__m__2__el__k / p->robot__m__2__el__k)
+            / REAL(50.0);
 
-    /* khepera.bg:17:
-     * robot.m[2].el.L*robot.m[2].wh.fs*bandwidth/(robot.m[2].ge.N*robot.m[2].el.k) */
-    const real t_28 = p->robot__m__2__el__L * p->robot__m__2__wh__fs * bandwidth
-            / p->robot__m__2__ge__N / p->robot__m__2__el__k;
+    /* khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws'' */
+    c->r3_w3_w2_robot__m__2__wh__ws = t_13 / REAL(50.0);
 
-    /* khepera.bg:17: robot.m[2].el.k^2*bandwidth*(-2*fe[2]*robot.m[2].el.L/robot.m[2].el.k^3 -
-     * 2*robot.m[2] ... */
-    const real t_29 = p->robot__m__2__el__k * p->robot__m__2__el__k * bandwidth
+    /* khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws */
+    c->r3_w4_robot__m__2__wh__ws = t_5 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws' */
+    c->r3_w4_w1_robot__m__2__wh__ws = t_22 / REAL(10.0);
+
+    /* khepera.bg:17: r3_w5: factor of robot.m[2].me.we */
+    c->r3_w5_robot__m__2__me__we = t_4 / REAL(146.0);
+
+    /* khepera.bg:17: r3_w6: factor of robot.m[2].me.we */
+    c->r3_w6_robot__m__2__me__we = t_4 / REAL(365.0);
+
+    /* khepera.bg:17: r3_w6: factor of robot.m[2].me.we' */
+    c->r3_w6_w1_robot__m__2__me__we = t_19 / REAL(365.0);
+
+    /* khepera.bg:17: r3_w7: factor of robot.m[2].me.we */
+    c->r3_w7_robot__m__2__me__we = t_4 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w7: factor of robot.m[2].me.we' */
+    c->r3_w7_w1_robot__m__2__me__we = t_21 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w7: factor of robot.m[2].wh.ws */
+    c->r3_w7_robot__m__2__wh__ws = t_5 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w7: factor of robot.m[2].wh.ws' */
+    c->r3_w7_w1_robot__m__2__wh__ws = t_20 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w7: factor of robot.Fx[2] */
+    c->r3_w7_robot__Fx__2 = t_6 / REAL(730.0);
+
+    /* khepera.bg:17: r3_w8: factor of robot.m[2].wh.ws */
+    c->r3_w8_robot__m__2__wh__ws = t_5 / REAL(146.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we */
+    c->r3_w9_robot__m__2__me__we = t_4 / REAL(1825.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we' */
+    c->r3_w9_w1_robot__m__2__me__we = p->robot__m__2__el__k * p->robot__m__2__el__k * w
             * (-REAL(2.0) * p->fe__2 * p->robot__m__2__el__L / p->robot__m__2__el__k
                 / p->robot__m__2__el__k / p->robot__m__2__el__k
             - REAL(2.0) * p->robot__m__2__el__Re * p->robot__m__2__me__Je / p->robot__m__2__el__k
-                / p->robot__m__2__el__k / p->robot__m__2__el__k);
+                / p->robot__m__2__el__k / p->robot__m__2__el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17:
-     * robot.m[2].el.k^2*bandwidth*(-2*robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robo ... */
-    const real t_30 = p->robot__m__2__el__k * p->robot__m__2__el__k * bandwidth
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we'' */
+    c->r3_w9_w2_robot__m__2__me__we = t_12 / REAL(1825.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws */
+    c->r3_w9_robot__m__2__wh__ws = t_5 / REAL(1825.0);
+
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws' */
+    c->r3_w9_w1_robot__m__2__wh__ws = p->robot__m__2__el__k * p->robot__m__2__el__k * w
             * (-REAL(2.0) * p->robot__m__2__el__L * p->robot__m__2__wh__fs / p->robot__m__2__ge__N
                 / p->robot__m__2__el__k / p->robot__m__2__el__k / p->robot__m__2__el__k
             - REAL(2.0) * p->Js__2 * p->robot__m__2__el__Re / p->robot__m__2__ge__N
-                / p->robot__m__2__el__k / p->robot__m__2__el__k / p->robot__m__2__el__k);
+                / p->robot__m__2__el__k / p->robot__m__2__el__k / p->robot__m__2__el__k)
+            / REAL(3650.0);
 
-    /* khepera.bg:17: r1_w1: factor of robot.m[1].me.we in stage 2 */
-    c->r1_w1_v2_robot__m__1__me__we = t_15 / REAL(10.0);
+    /* khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws'' */
+    c->r3_w9_w2_robot__m__2__wh__ws = t_13 / REAL(1825.0);
 
-    /* khepera.bg:17: r1_w1: factor of robot.m[1].me.we in stage 3 */
-    c->r1_w1_v3_robot__m__1__me__we = t_15 / REAL(10.0) - t / REAL(10.0);
+    /* khepera.bg:17: r3_w9: factor of robot.Fx[2] */
+    c->r3_w9_robot__Fx__2 = t_6 / REAL(1825.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t_7;
+    /* khepera.bg:17: r3_w9: factor of robot.Fx[2]' */
+    c->r3_w9_w1_robot__Fx__2 = t_14 / REAL(1825.0);
 
-    /* filter: weight of the new sample */
-    c->b0 = t_8;
+    /* khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws */
+    c->r3_w10_robot__m__2__wh__ws = t_5 / REAL(365.0);
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t_7 - t_8;
+    /* khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws' */
+    c->r3_w10_w1_robot__m__2__wh__ws = t_22 / REAL(365.0);
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_8;
-
-    /* khepera.bg:17: r1_w2: factor of robot.Fx[1] in stage 3 */
-    c->r1_w2_v3_robot__Fx__1 = t_3 / REAL(20.0);
-
-    /* khepera.bg:17: r1_w2: factor of robot.m[1].wh.ws in stage 2 */
-    c->r1_w2_v2_robot__m__1__wh__ws = t_16 / REAL(20.0);
-
-    /* khepera.bg:17: r1_w2: factor of robot.m[1].wh.ws in stage 3 */
-    c->r1_w2_v3_robot__m__1__wh__ws = t_16 / REAL(20.0) - t_2 / REAL(20.0);
-
-    /* khepera.bg:17: r1_w2: factor of robot.m[1].me.we in stage 2 */
-    c->r1_w2_v2_robot__m__1__me__we = t_17 / REAL(20.0);
-
-    /* khepera.bg:17: r1_w2: factor of robot.m[1].me.we in stage 3 */
-    c->r1_w2_v3_robot__m__1__me__we = t_17 / REAL(20.0) - t / REAL(20.0);
-
-    /* khepera.bg:17: r1_w3: factor of robot.m[1].me.we in stage 1 */
-    c->r1_w3_v1_robot__m__1__me__we = t_9 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w3: factor of robot.m[1].me.we in stage 2 */
-    c->r1_w3_v2_robot__m__1__me__we = t_18 / REAL(50.0) - t_9 / REAL(25.0);
-
-    /* khepera.bg:17: r1_w3: factor of robot.m[1].me.we in stage 3 */
-    c->r1_w3_v3_robot__m__1__me__we = t_9 / REAL(50.0)
-        + p->robot__m__1__el__k
-            * (p->fe__1 * p->robot__m__1__el__Re / p->robot__m__1__el__k / p->robot__m__1__el__k
-            - REAL(1.0)) / REAL(50.0)
-        - t_18 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w3: factor of robot.Fx[1] in stage 2 */
-    c->r1_w3_v2_robot__Fx__1 = t_11 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w3: factor of robot.Fx[1] in stage 3 */
-    c->r1_w3_v3_robot__Fx__1 = t_3 / REAL(50.0) - t_11 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws in stage 1 */
-    c->r1_w3_v1_robot__m__1__wh__ws = t_10 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws in stage 2 */
-    c->r1_w3_v2_robot__m__1__wh__ws = t_19 / REAL(50.0) - t_10 / REAL(25.0);
-
-    /* khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws in stage 3 */
-    c->r1_w3_v3_robot__m__1__wh__ws = t_2 / REAL(50.0) + t_10 / REAL(50.0) - t_19 / REAL(50.0);
-
-    /* khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws in stage 2 */
-    c->r1_w4_v2_robot__m__1__wh__ws = t_20 / REAL(10.0);
-
-    /* khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws in stage 3 */
-    c->r1_w4_v3_robot__m__1__wh__ws = t_20 / REAL(10.0) - t_2 / REAL(10.0);
-
-    /* khepera.bg:17: r1_w5: factor of robot.m[1].me.we in stage 3 */
-    c->r1_w5_v3_robot__m__1__me__we = t / REAL(146.0);
-
-    /* khepera.bg:17: r1_w6: factor of robot.m[1].me.we in stage 2 */
-    c->r1_w6_v2_robot__m__1__me__we = t_15 / REAL(365.0);
-
-    /* khepera.bg:17: r1_w6: factor of robot.m[1].me.we in stage 3 */
-    c->r1_w6_v3_robot__m__1__me__we = t / REAL(365.0) - t_15 / REAL(365.0);
-
-    /* khepera.bg:17: r1_w7: factor of robot.m[1].me.we in stage 2 */
-    c->r1_w7_v2_robot__m__1__me__we = t_17 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w7: factor of robot.m[1].me.we in stage 3 */
-    c->r1_w7_v3_robot__m__1__me__we = t / REAL(730.0) - t_17 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w7: factor of robot.m[1].wh.ws in stage 2 */
-    c->r1_w7_v2_robot__m__1__wh__ws = t_16 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w7: factor of robot.m[1].wh.ws in stage 3 */
-    c->r1_w7_v3_robot__m__1__wh__ws = t_2 / REAL(730.0) - t_16 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w7: factor of robot.Fx[1] in stage 3 */
-    c->r1_w7_v3_robot__Fx__1 = t_3 / REAL(730.0);
-
-    /* khepera.bg:17: r1_w8: factor of robot.m[1].wh.ws in stage 3 */
-    c->r1_w8_v3_robot__m__1__wh__ws = t_2 / REAL(146.0);
-
-    /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we in stage 1 */
-    c->r1_w9_v1_robot__m__1__me__we = t_9 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we in stage 2 */
-    c->r1_w9_v2_robot__m__1__me__we = REAL(2.0) * t_9 / REAL(1825.0) + t_21 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w9: factor of robot.m[1].me.we in stage 3 */
-    c->r1_w9_v3_robot__m__1__me__we = t / REAL(1825.0) + t_9 / REAL(1825.0) + t_21 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws in stage 1 */
-    c->r1_w9_v1_robot__m__1__wh__ws = t_10 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws in stage 2 */
-    c->r1_w9_v2_robot__m__1__wh__ws = REAL(2.0) * t_10 / REAL(1825.0) + t_22 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws in stage 3 */
-    c->r1_w9_v3_robot__m__1__wh__ws = t_2 / REAL(1825.0) + t_10 / REAL(1825.0)
-        + t_22 / REAL(3650.0);
-
-    /* khepera.bg:17: r1_w9: factor of robot.Fx[1] in stage 2 */
-    c->r1_w9_v2_robot__Fx__1 = t_11 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w9: factor of robot.Fx[1] in stage 3 */
-    c->r1_w9_v3_robot__Fx__1 = t_11 / REAL(1825.0) - t_3 / REAL(1825.0);
-
-    /* khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws in stage 2 */
-    c->r1_w10_v2_robot__m__1__wh__ws = t_20 / REAL(365.0);
-
-    /* khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws in stage 3 */
-    c->r1_w10_v3_robot__m__1__wh__ws = t_2 / REAL(365.0) - t_20 / REAL(365.0);
-
-    /* khepera.bg:41: r2_w1: factor of robot.m[1].wh.ws in stage 2 */
-    c->r2_w1_v2_robot__m__1__wh__ws = p->robot__m__1__wh__fs * bandwidth / REAL(10.0)
-            / p->robot__m__1__ge__N / p->robot__m__1__me__K;
-
-    /* khepera.bg:17: r3_w1: factor of robot.m[2].me.we in stage 2 */
-    c->r3_w1_v2_robot__m__2__me__we = t_23 / REAL(10.0);
-
-    /* khepera.bg:17: r3_w1: factor of robot.m[2].me.we in stage 3 */
-    c->r3_w1_v3_robot__m__2__me__we = t_23 / REAL(10.0) - t_4 / REAL(10.0);
-
-    /* khepera.bg:17: r3_w2: factor of robot.Fx[2] in stage 3 */
-    c->r3_w2_v3_robot__Fx__2 = t_6 / REAL(20.0);
-
-    /* khepera.bg:17: r3_w2: factor of robot.m[2].wh.ws in stage 2 */
-    c->r3_w2_v2_robot__m__2__wh__ws = t_24 / REAL(20.0);
-
-    /* khepera.bg:17: r3_w2: factor of robot.m[2].wh.ws in stage 3 */
-    c->r3_w2_v3_robot__m__2__wh__ws = t_24 / REAL(20.0) - t_5 / REAL(20.0);
-
-    /* khepera.bg:17: r3_w2: factor of robot.m[2].me.we in stage 2 */
-    c->r3_w2_v2_robot__m__2__me__we = t_25 / REAL(20.0);
-
-    /* khepera.bg:17: r3_w2: factor of robot.m[2].me.we in stage 3 */
-    c->r3_w2_v3_robot__m__2__me__we = t_25 / REAL(20.0) - t_4 / REAL(20.0);
-
-    /* khepera.bg:17: r3_w3: factor of robot.m[2].me.we in stage 1 */
-    c->r3_w3_v1_robot__m__2__me__we = t_12 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w3: factor of robot.m[2].me.we in stage 2 */
-    c->r3_w3_v2_robot__m__2__me__we = t_26 / REAL(50.0) - t_12 / REAL(25.0);
-
-    /* khepera.bg:17: r3_w3: factor of robot.m[2].me.we in stage 3 */
-    c->r3_w3_v3_robot__m__2__me__we = t_12 / REAL(50.0)
-        + p->robot__m__2__el__k
-            * (p->fe__2 * p->robot__m__2__el__Re / p->robot__m__2__el__k / p->robot__m__2__el__k
-            - REAL(1.0)) / REAL(50.0)
-        - t_26 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w3: factor of robot.Fx[2] in stage 2 */
-    c->r3_w3_v2_robot__Fx__2 = t_14 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w3: factor of robot.Fx[2] in stage 3 */
-    c->r3_w3_v3_robot__Fx__2 = t_6 / REAL(50.0) - t_14 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws in stage 1 */
-    c->r3_w3_v1_robot__m__2__wh__ws = t_13 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws in stage 2 */
-    c->r3_w3_v2_robot__m__2__wh__ws = t_27 / REAL(50.0) - t_13 / REAL(25.0);
-
-    /* khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws in stage 3 */
-    c->r3_w3_v3_robot__m__2__wh__ws = t_5 / REAL(50.0) + t_13 / REAL(50.0) - t_27 / REAL(50.0);
-
-    /* khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws in stage 2 */
-    c->r3_w4_v2_robot__m__2__wh__ws = t_28 / REAL(10.0);
-
-    /* khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws in stage 3 */
-    c->r3_w4_v3_robot__m__2__wh__ws = t_28 / REAL(10.0) - t_5 / REAL(10.0);
-
-    /* khepera.bg:17: r3_w5: factor of robot.m[2].me.we in stage 3 */
-    c->r3_w5_v3_robot__m__2__me__we = t_4 / REAL(146.0);
-
-    /* khepera.bg:17: r3_w6: factor of robot.m[2].me.we in stage 2 */
-    c->r3_w6_v2_robot__m__2__me__we = t_23 / REAL(365.0);
-
-    /* khepera.bg:17: r3_w6: factor of robot.m[2].me.we in stage 3 */
-    c->r3_w6_v3_robot__m__2__me__we = t_4 / REAL(365.0) - t_23 / REAL(365.0);
-
-    /* khepera.bg:17: r3_w7: factor of robot.m[2].me.we in stage 2 */
-    c->r3_w7_v2_robot__m__2__me__we = t_25 / REAL(730.0);
-
-    /* khepera.bg:17: r3_w7: factor of robot.m[2].me.we in stage 3 */
-    c->r3_w7_v3_robot__m__2__me__we = t_4 / REAL(730.0) - t_25 / REAL(730.0);
-
-    /* khepera.bg:17: r3_w7: factor of robot.m[2].wh.ws in stage 2 */
-    c->r3_w7_v2_robot__m__2__wh__ws = t_24 / REAL(730.0);
-
-    /* khepera.bg:17: r3_w7: factor of robot.m[2].wh.ws in stage 3 */
-    c->r3_w7_v3_robot__m__2__wh__ws = t_5 / REAL(730.0) - t_24 / REAL(730.0);
-
-    /* khepera.bg:17: r3_w7: factor of robot.Fx[2] in stage 3 */
-    c->r3_w7_v3_robot__Fx__2 = t_6 / REAL(730.0);
-
-    /* khepera.bg:17: r3_w8: factor of robot.m[2].wh.ws in stage 3 */
-    c->r3_w8_v3_robot__m__2__wh__ws = t_5 / REAL(146.0);
-
-    /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we in stage 1 */
-    c->r3_w9_v1_robot__m__2__me__we = t_12 / REAL(1825.0);
-
-    /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we in stage 2 */
-    c->r3_w9_v2_robot__m__2__me__we = REAL(2.0) * t_12 / REAL(1825.0) + t_29 / REAL(3650.0);
-
-    /* khepera.bg:17: r3_w9: factor of robot.m[2].me.we in stage 3 */
-    c->r3_w9_v3_robot__m__2__me__we = t_4 / REAL(1825.0) + t_12 / REAL(1825.0)
-        + t_29 / REAL(3650.0);
-
-    /* khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws in stage 1 */
-    c->r3_w9_v1_robot__m__2__wh__ws = t_13 / REAL(1825.0);
-
-    /* khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws in stage 2 */
-    c->r3_w9_v2_robot__m__2__wh__ws = REAL(2.0) * t_13 / REAL(1825.0) + t_30 / REAL(3650.0);
-
-    /* khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws in stage 3 */
-    c->r3_w9_v3_robot__m__2__wh__ws = t_5 / REAL(1825.0) + t_13 / REAL(1825.0)
-        + t_30 / REAL(3650.0);
-
-    /* khepera.bg:17: r3_w9: factor of robot.Fx[2] in stage 2 */
-    c->r3_w9_v2_robot__Fx__2 = t_14 / REAL(1825.0);
-
-    /* khepera.bg:17: r3_w9: factor of robot.Fx[2] in stage 3 */
-    c->r3_w9_v3_robot__Fx__2 = t_14 / REAL(1825.0) - t_6 / REAL(1825.0);
-
-    /* khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws in stage 2 */
-    c->r3_w10_v2_robot__m__2__wh__ws = t_28 / REAL(365.0);
-
-    /* khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws in stage 3 */
-    c->r3_w10_v3_robot__m__2__wh__ws = t_5 / REAL(365.0) - t_28 / REAL(365.0);
-
-    /* khepera.bg:41: r4_w1: factor of robot.m[2].wh.ws in stage 2 */
-    c->r4_w1_v2_robot__m__2__wh__ws = p->robot__m__2__wh__fs * bandwidth / REAL(10.0)
+    /* khepera.bg:41: r4_w1: factor of robot.m[2].wh.ws' */
+    c->r4_w1_w1_robot__m__2__wh__ws = p->robot__m__2__wh__fs * w / REAL(10.0)
             / p->robot__m__2__ge__N / p->robot__m__2__me__K;
 }
 
@@ -514,45 +455,45 @@ static bool parameters_are_finite(const khepera_plausible_threshold_parameters *
 
 static bool coefficients_are_finite(const khepera_plausible_threshold_monitor *monitor)
 {
-    return finite_number(monitor->c.r1_w1_v2_robot__m__1__me__we
-            + monitor->c.r1_w1_v3_robot__m__1__me__we + monitor->c.a + monitor->c.b0 + monitor->c.b1
-            + monitor->c.rest + monitor->c.r1_w2_v3_robot__Fx__1
-            + monitor->c.r1_w2_v2_robot__m__1__wh__ws + monitor->c.r1_w2_v3_robot__m__1__wh__ws
-            + monitor->c.r1_w2_v2_robot__m__1__me__we + monitor->c.r1_w2_v3_robot__m__1__me__we
-            + monitor->c.r1_w3_v1_robot__m__1__me__we + monitor->c.r1_w3_v2_robot__m__1__me__we
-            + monitor->c.r1_w3_v3_robot__m__1__me__we + monitor->c.r1_w3_v2_robot__Fx__1
-            + monitor->c.r1_w3_v3_robot__Fx__1 + monitor->c.r1_w3_v1_robot__m__1__wh__ws
-            + monitor->c.r1_w3_v2_robot__m__1__wh__ws + monitor->c.r1_w3_v3_robot__m__1__wh__ws
-            + monitor->c.r1_w4_v2_robot__m__1__wh__ws + monitor->c.r1_w4_v3_robot__m__1__wh__ws
-            + monitor->c.r1_w5_v3_robot__m__1__me__we + monitor->c.r1_w6_v2_robot__m__1__me__we
-            + monitor->c.r1_w6_v3_robot__m__1__me__we + monitor->c.r1_w7_v2_robot__m__1__me__we
-            + monitor->c.r1_w7_v3_robot__m__1__me__we + monitor->c.r1_w7_v2_robot__m__1__wh__ws
-            + monitor->c.r1_w7_v3_robot__m__1__wh__ws + monitor->c.r1_w7_v3_robot__Fx__1
-            + monitor->c.r1_w8_v3_robot__m__1__wh__ws + monitor->c.r1_w9_v1_robot__m__1__me__we
-            + monitor->c.r1_w9_v2_robot__m__1__me__we + monitor->c.r1_w9_v3_robot__m__1__me__we
-            + monitor->c.r1_w9_v1_robot__m__1__wh__ws + monitor->c.r1_w9_v2_robot__m__1__wh__ws
-            + monitor->c.r1_w9_v3_robot__m__1__wh__ws + monitor->c.r1_w9_v2_robot__Fx__1
-            + monitor->c.r1_w9_v3_robot__Fx__1 + monitor->c.r1_w10_v2_robot__m__1__wh__ws
-            + monitor->c.r1_w10_v3_robot__m__1__wh__ws + monitor->c.r2_w1_v2_robot__m__1__wh__ws
-            + monitor->c.r3_w1_v2_robot__m__2__me__we + monitor->c.r3_w1_v3_robot__m__2__me__we
-            + monitor->c.r3_w2_v3_robot__Fx__2 + monitor->c.r3_w2_v2_robot__m__2__wh__ws
-            + monitor->c.r3_w2_v3_robot__m__2__wh__ws + monitor->c.r3_w2_v2_robot__m__2__me__we
-            + monitor->c.r3_w2_v3_robot__m__2__me__we + monitor->c.r3_w3_v1_robot__m__2__me__we
-            + monitor->c.r3_w3_v2_robot__m__2__me__we + monitor->c.r3_w3_v3_robot__m__2__me__we
-            + monitor->c.r3_w3_v2_robot__Fx__2 + monitor->c.r3_w3_v3_robot__Fx__2
-            + monitor->c.r3_w3_v1_robot__m__2__wh__ws + monitor->c.r3_w3_v2_robot__m__2__wh__ws
-            + monitor->c.r3_w3_v3_robot__m__2__wh__ws + monitor->c.r3_w4_v2_robot__m__2__wh__ws
-            + monitor->c.r3_w4_v3_robot__m__2__wh__ws + monitor->c.r3_w5_v3_robot__m__2__me__we
-            + monitor->c.r3_w6_v2_robot__m__2__me__we + monitor->c.r3_w6_v3_robot__m__2__me__we
-            + monitor->c.r3_w7_v2_robot__m__2__me__we + monitor->c.r3_w7_v3_robot__m__2__me__we
-            + monitor->c.r3_w7_v2_robot__m__2__wh__ws + monitor->c.r3_w7_v3_robot__m__2__wh__ws
-            + monitor->c.r3_w7_v3_robot__Fx__2 + monitor->c.r3_w8_v3_robot__m__2__wh__ws
-            + monitor->c.r3_w9_v1_robot__m__2__me__we + monitor->c.r3_w9_v2_robot__m__2__me__we
-            + monitor->c.r3_w9_v3_robot__m__2__me__we + monitor->c.r3_w9_v1_robot__m__2__wh__ws
-            + monitor->c.r3_w9_v2_robot__m__2__wh__ws + monitor->c.r3_w9_v3_robot__m__2__wh__ws
-            + monitor->c.r3_w9_v2_robot__Fx__2 + monitor->c.r3_w9_v3_robot__Fx__2
-            + monitor->c.r3_w10_v2_robot__m__2__wh__ws + monitor->c.r3_w10_v3_robot__m__2__wh__ws
-            + monitor->c.r4_w1_v2_robot__m__2__wh__ws);
+    return finite_number(monitor->c.r1_w1_robot__m__1__me__we
+            + monitor->c.r1_w1_w1_robot__m__1__me__we + monitor->c.bend1 + monitor->c.a
+            + monitor->c.b + monitor->c.rest + monitor->c.r1_w2_robot__Fx__1
+            + monitor->c.r1_w2_robot__m__1__wh__ws + monitor->c.r1_w2_w1_robot__m__1__wh__ws
+            + monitor->c.r1_w2_robot__m__1__me__we + monitor->c.r1_w2_w1_robot__m__1__me__we
+            + monitor->c.r1_w3_robot__m__1__me__we + monitor->c.r1_w3_w1_robot__m__1__me__we
+            + monitor->c.r1_w3_w2_robot__m__1__me__we + monitor->c.r1_w3_robot__Fx__1
+            + monitor->c.r1_w3_w1_robot__Fx__1 + monitor->c.r1_w3_robot__m__1__wh__ws
+            + monitor->c.r1_w3_w1_robot__m__1__wh__ws + monitor->c.r1_w3_w2_robot__m__1__wh__ws
+            + monitor->c.bend2 + monitor->c.r1_w4_robot__m__1__wh__ws
+            + monitor->c.r1_w4_w1_robot__m__1__wh__ws + monitor->c.r1_w5_robot__m__1__me__we
+            + monitor->c.r1_w6_robot__m__1__me__we + monitor->c.r1_w6_w1_robot__m__1__me__we
+            + monitor->c.r1_w7_robot__m__1__me__we + monitor->c.r1_w7_w1_robot__m__1__me__we
+            + monitor->c.r1_w7_robot__m__1__wh__ws + monitor->c.r1_w7_w1_robot__m__1__wh__ws
+            + monitor->c.r1_w7_robot__Fx__1 + monitor->c.r1_w8_robot__m__1__wh__ws
+            + monitor->c.r1_w9_robot__m__1__me__we + monitor->c.r1_w9_w1_robot__m__1__me__we
+            + monitor->c.r1_w9_w2_robot__m__1__me__we + monitor->c.r1_w9_robot__m__1__wh__ws
+            + monitor->c.r1_w9_w1_robot__m__1__wh__ws + monitor->c.r1_w9_w2_robot__m__1__wh__ws
+            + monitor->c.r1_w9_robot__Fx__1 + monitor->c.r1_w9_w1_robot__Fx__1
+            + monitor->c.r1_w10_robot__m__1__wh__ws + monitor->c.r1_w10_w1_robot__m__1__wh__ws
+            + monitor->c.r2_w1_w1_robot__m__1__wh__ws + monitor->c.r3_w1_robot__m__2__me__we
+            + monitor->c.r3_w1_w1_robot__m__2__me__we + monitor->c.r3_w2_robot__Fx__2
+            + monitor->c.r3_w2_robot__m__2__wh__ws + monitor->c.r3_w2_w1_robot__m__2__wh__ws
+            + monitor->c.r3_w2_robot__m__2__me__we + monitor->c.r3_w2_w1_robot__m__2__me__we
+            + monitor->c.r3_w3_robot__m__2__me__we + monitor->c.r3_w3_w1_robot__m__2__me__we
+            + monitor->c.r3_w3_w2_robot__m__2__me__we + monitor->c.r3_w3_robot__Fx__2
+            + monitor->c.r3_w3_w1_robot__Fx__2 + monitor->c.r3_w3_robot__m__2__wh__ws
+            + monitor->c.r3_w3_w1_robot__m__2__wh__ws + monitor->c.r3_w3_w2_robot__m__2__wh__ws
+            + monitor->c.r3_w4_robot__m__2__wh__ws + monitor->c.r3_w4_w1_robot__m__2__wh__ws
+            + monitor->c.r3_w5_robot__m__2__me__we + monitor->c.r3_w6_robot__m__2__me__we
+            + monitor->c.r3_w6_w1_robot__m__2__me__we + monitor->c.r3_w7_robot__m__2__me__we
+            + monitor->c.r3_w7_w1_robot__m__2__me__we + monitor->c.r3_w7_robot__m__2__wh__ws
+            + monitor->c.r3_w7_w1_robot__m__2__wh__ws + monitor->c.r3_w7_robot__Fx__2
+            + monitor->c.r3_w8_robot__m__2__wh__ws + monitor->c.r3_w9_robot__m__2__me__we
+            + monitor->c.r3_w9_w1_robot__m__2__me__we + monitor->c.r3_w9_w2_robot__m__2__me__we
+            + monitor->c.r3_w9_robot__m__2__wh__ws + monitor->c.r3_w9_w1_robot__m__2__wh__ws
+            + monitor->c.r3_w9_w2_robot__m__2__wh__ws + monitor->c.r3_w9_robot__Fx__2
+            + monitor->c.r3_w9_w1_robot__Fx__2 + monitor->c.r3_w10_robot__m__2__wh__ws
+            + monitor->c.r3_w10_w1_robot__m__2__wh__ws + monitor->c.r4_w1_w1_robot__m__2__wh__ws);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -639,8 +580,17 @@ static void start_r1(
     const khepera_plausible_threshold_coefficients *c = &monitor->c;
     khepera_plausible_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1_w1: terms of order 0 */
+    const real r1_w1_g0 = -c->r1_w1_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = c->r1_w1_w1_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: error of order 0 */
+    const real r1_w1_e0 = c->bend1 * r1_w1_g0;
+
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w1_u3 = r1_w1_g0 + r1_w1_d1 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 3, at rest */
     const real r1_w1_y3 = r1_w1_u3;
@@ -649,7 +599,7 @@ static void start_r1(
     x->r1_w1_s3 = c->rest * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w1_u2 = r1_w1_y3 + REAL(2.0) * r1_w1_e0 - r1_w1_d1;
 
     /* khepera.bg:17: r1_w1: stage 2, at rest */
     const real r1_w1_y2 = r1_w1_u2;
@@ -658,7 +608,7 @@ static void start_r1(
     x->r1_w1_s2 = c->rest * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 1, at rest */
     const real r1_w1_y1 = r1_w1_u1;
@@ -669,10 +619,20 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerance of fe[1] can do */
     const real r1_w1 = r1_w1_y1;
 
+    /* khepera.bg:17: r1_w2: terms of order 0 */
+    const real r1_w2_g0 = -c->r1_w2_robot__Fx__1 * s->robot__Fx__1
+        - c->r1_w2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w2_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w2: degree 1 */
+    const real r1_w2_d1 = -c->r1_w2_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w2_w1_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w2: error of order 0 */
+    const real r1_w2_e0 = c->bend1 * r1_w2_g0;
+
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        + c->r1_w2_v3_robot__m__1__me__we * s->robot__m__1__me__we
-        - c->r1_w2_v3_robot__Fx__1 * s->robot__Fx__1;
+    const real r1_w2_u3 = r1_w2_g0 - r1_w2_d1 - r1_w2_e0;
 
     /* khepera.bg:17: r1_w2: stage 3, at rest */
     const real r1_w2_y3 = r1_w2_u3;
@@ -681,8 +641,7 @@ static void start_r1(
     x->r1_w2_s3 = c->rest * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 - c->r1_w2_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        - c->r1_w2_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_d1 + REAL(2.0) * r1_w2_e0;
 
     /* khepera.bg:17: r1_w2: stage 2, at rest */
     const real r1_w2_y2 = r1_w2_u2;
@@ -691,7 +650,7 @@ static void start_r1(
     x->r1_w2_s2 = c->rest * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2;
+    const real r1_w2_u1 = r1_w2_y2 - r1_w2_e0;
 
     /* khepera.bg:17: r1_w2: stage 1, at rest */
     const real r1_w2_y1 = r1_w2_u1;
@@ -702,10 +661,28 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re can do */
     const real r1_w2 = r1_w2_y1;
 
+    /* khepera.bg:17: r1_w3: terms of order 0 */
+    const real r1_w3_g0 = c->r1_w3_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_robot__Fx__1 * s->robot__Fx__1
+        + c->r1_w3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w3: terms of order 1 */
+    const real r1_w3_g1 = c->r1_w3_w1_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_w1_robot__Fx__1 * s->robot__Fx__1
+        + c->r1_w3_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w3: error of order 0 */
+    const real r1_w3_e0 = c->bend2 * r1_w3_g0;
+
+    /* khepera.bg:17: r1_w3: degree 2 */
+    const real r1_w3_d2 = c->r1_w3_w2_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_w2_robot__m__1__wh__ws * s->robot__m__1__wh__ws - r1_w3_e0;
+
+    /* khepera.bg:17: r1_w3: error of order 1 */
+    const real r1_w3_e1 = c->bend1 * r1_w3_g1;
+
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w3_v3_robot__Fx__1 * s->robot__Fx__1
-        + c->r1_w3_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w3_u3 = r1_w3_g0 + r1_w3_d2 + r1_w3_e1 - r1_w3_g1;
 
     /* khepera.bg:17: r1_w3: stage 3, at rest */
     const real r1_w3_y3 = r1_w3_u3;
@@ -714,9 +691,7 @@ static void start_r1(
     x->r1_w3_s3 = c->rest * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 + c->r1_w3_v2_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w3_v2_robot__Fx__1 * s->robot__Fx__1
-        + c->r1_w3_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w3_u2 = r1_w3_y3 + r1_w3_g1 - REAL(2.0) * r1_w3_d2 - REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 2, at rest */
     const real r1_w3_y2 = r1_w3_u2;
@@ -725,8 +700,7 @@ static void start_r1(
     x->r1_w3_s2 = c->rest * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2 + c->r1_w3_v1_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w3_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w3_u1 = r1_w3_y2 + r1_w3_d2 + REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 1, at rest */
     const real r1_w3_y1 = r1_w3_u1;
@@ -735,10 +709,19 @@ static void start_r1(
     x->r1_w3_s1 = c->rest * r1_w3_u1;
 
     /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do */
-    const real r1_w3 = r1_w3_y1;
+    const real r1_w3 = r1_w3_y1 - r1_w3_e1;
+
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = c->r1_w4_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend1 * r1_w4_g0;
 
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = c->r1_w4_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 3, at rest */
     const real r1_w4_y3 = r1_w4_u3;
@@ -747,7 +730,7 @@ static void start_r1(
     x->r1_w4_s3 = c->rest * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w4_u2 = r1_w4_y3 + REAL(2.0) * r1_w4_e0 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 2, at rest */
     const real r1_w4_y2 = r1_w4_u2;
@@ -756,7 +739,7 @@ static void start_r1(
     x->r1_w4_s2 = c->rest * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 1, at rest */
     const real r1_w4_y1 = r1_w4_u1;
@@ -768,7 +751,7 @@ static void start_r1(
     const real r1_w4 = r1_w4_y1;
 
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = -c->r1_w5_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w5_u3 = -c->r1_w5_robot__m__1__me__we * s->robot__m__1__me__we;
 
     /* khepera.bg:17: r1_w5: stage 3, at rest */
     const real r1_w5_y3 = r1_w5_u3;
@@ -797,8 +780,17 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.Re can do together */
     const real r1_w5 = r1_w5_y1;
 
+    /* khepera.bg:17: r1_w6: terms of order 0 */
+    const real r1_w6_g0 = c->r1_w6_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w6: degree 1 */
+    const real r1_w6_d1 = c->r1_w6_w1_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w6: error of order 0 */
+    const real r1_w6_e0 = c->bend1 * r1_w6_g0;
+
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = c->r1_w6_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w6_u3 = r1_w6_g0 - r1_w6_d1 - r1_w6_e0;
 
     /* khepera.bg:17: r1_w6: stage 3, at rest */
     const real r1_w6_y3 = r1_w6_u3;
@@ -807,7 +799,7 @@ static void start_r1(
     x->r1_w6_s3 = c->rest * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: input of stage 2 */
-    const real r1_w6_u2 = r1_w6_y3 + c->r1_w6_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w6_u2 = r1_w6_y3 + r1_w6_d1 + REAL(2.0) * r1_w6_e0;
 
     /* khepera.bg:17: r1_w6: stage 2, at rest */
     const real r1_w6_y2 = r1_w6_u2;
@@ -816,7 +808,7 @@ static void start_r1(
     x->r1_w6_s2 = c->rest * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: input of stage 1 */
-    const real r1_w6_u1 = r1_w6_y2;
+    const real r1_w6_u1 = r1_w6_y2 - r1_w6_e0;
 
     /* khepera.bg:17: r1_w6: stage 1, at rest */
     const real r1_w6_y1 = r1_w6_u1;
@@ -827,10 +819,20 @@ static void start_r1(
     /* khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.k can do together */
     const real r1_w6 = r1_w6_y1;
 
+    /* khepera.bg:17: r1_w7: terms of order 0 */
+    const real r1_w7_g0 = c->r1_w7_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w7_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        + c->r1_w7_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w7: degree 1 */
+    const real r1_w7_d1 = c->r1_w7_w1_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w7_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w7: error of order 0 */
+    const real r1_w7_e0 = c->bend1 * r1_w7_g0;
+
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = c->r1_w7_v3_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w7_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        + c->r1_w7_v3_robot__Fx__1 * s->robot__Fx__1;
+    const real r1_w7_u3 = r1_w7_g0 - r1_w7_d1 - r1_w7_e0;
 
     /* khepera.bg:17: r1_w7: stage 3, at rest */
     const real r1_w7_y3 = r1_w7_u3;
@@ -839,8 +841,7 @@ static void start_r1(
     x->r1_w7_s3 = c->rest * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: input of stage 2 */
-    const real r1_w7_u2 = r1_w7_y3 + c->r1_w7_v2_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w7_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w7_u2 = r1_w7_y3 + r1_w7_d1 + REAL(2.0) * r1_w7_e0;
 
     /* khepera.bg:17: r1_w7: stage 2, at rest */
     const real r1_w7_y2 = r1_w7_u2;
@@ -849,7 +850,7 @@ static void start_r1(
     x->r1_w7_s2 = c->rest * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: input of stage 1 */
-    const real r1_w7_u1 = r1_w7_y2;
+    const real r1_w7_u1 = r1_w7_y2 - r1_w7_e0;
 
     /* khepera.bg:17: r1_w7: stage 1, at rest */
     const real r1_w7_y1 = r1_w7_u1;
@@ -862,7 +863,7 @@ static void start_r1(
     const real r1_w7 = r1_w7_y1;
 
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = -c->r1_w8_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w8_u3 = -c->r1_w8_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
 
     /* khepera.bg:17: r1_w8: stage 3, at rest */
     const real r1_w8_y3 = r1_w8_u3;
@@ -892,10 +893,28 @@ static void start_r1(
      * together */
     const real r1_w8 = r1_w8_y1;
 
+    /* khepera.bg:17: r1_w9: terms of order 0 */
+    const real r1_w9_g0 = -c->r1_w9_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w9_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w9_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w9: terms of order 1 */
+    const real r1_w9_g1 = c->r1_w9_w1_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w9_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w9_w1_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w9: error of order 0 */
+    const real r1_w9_e0 = c->bend2 * r1_w9_g0;
+
+    /* khepera.bg:17: r1_w9: degree 2 */
+    const real r1_w9_d2 = -c->r1_w9_w2_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w9_w2_robot__m__1__wh__ws * s->robot__m__1__wh__ws - r1_w9_e0;
+
+    /* khepera.bg:17: r1_w9: error of order 1 */
+    const real r1_w9_e1 = c->bend1 * r1_w9_g1;
+
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_robot__Fx__1 * s->robot__Fx__1
-        - c->r1_w9_v3_robot__m__1__me__we * s->robot__m__1__me__we
-        - c->r1_w9_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w9_u3 = r1_w9_g0 + r1_w9_d2 + r1_w9_e1 - r1_w9_g1;
 
     /* khepera.bg:17: r1_w9: stage 3, at rest */
     const real r1_w9_y3 = r1_w9_u3;
@@ -904,9 +923,7 @@ static void start_r1(
     x->r1_w9_s3 = c->rest * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w9_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        - c->r1_w9_v2_robot__Fx__1 * s->robot__Fx__1;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_g1 - REAL(2.0) * r1_w9_d2 - REAL(3.0) * r1_w9_e1;
 
     /* khepera.bg:17: r1_w9: stage 2, at rest */
     const real r1_w9_y2 = r1_w9_u2;
@@ -915,8 +932,7 @@ static void start_r1(
     x->r1_w9_s2 = c->rest * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2 - c->r1_w9_v1_robot__m__1__me__we * s->robot__m__1__me__we
-        - c->r1_w9_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w9_u1 = r1_w9_y2 + r1_w9_d2 + REAL(3.0) * r1_w9_e1;
 
     /* khepera.bg:17: r1_w9: stage 1, at rest */
     const real r1_w9_y1 = r1_w9_u1;
@@ -925,10 +941,19 @@ static void start_r1(
     x->r1_w9_s1 = c->rest * r1_w9_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of robot.m[1].el.k can do */
-    const real r1_w9 = r1_w9_y1;
+    const real r1_w9 = r1_w9_y1 - r1_w9_e1;
+
+    /* khepera.bg:17: r1_w10: terms of order 0 */
+    const real r1_w10_g0 = c->r1_w10_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: degree 1 */
+    const real r1_w10_d1 = c->r1_w10_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: error of order 0 */
+    const real r1_w10_e0 = c->bend1 * r1_w10_g0;
 
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = c->r1_w10_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 3, at rest */
     const real r1_w10_y3 = r1_w10_u3;
@@ -937,7 +962,7 @@ static void start_r1(
     x->r1_w10_s3 = c->rest * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: input of stage 2 */
-    const real r1_w10_u2 = r1_w10_y3 + c->r1_w10_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + REAL(2.0) * r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 2, at rest */
     const real r1_w10_y2 = r1_w10_u2;
@@ -946,7 +971,7 @@ static void start_r1(
     x->r1_w10_s2 = c->rest * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: input of stage 1 */
-    const real r1_w10_u1 = r1_w10_y2;
+    const real r1_w10_u1 = r1_w10_y2 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 1, at rest */
     const real r1_w10_y1 = r1_w10_u1;
@@ -971,320 +996,404 @@ static void next_r1(
     const khepera_plausible_threshold_coefficients *c = &monitor->c;
     khepera_plausible_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r1_w1: terms of order 0 */
+    const real r1_w1_g0 = -c->r1_w1_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: degree 1 */
+    const real r1_w1_d1 = c->r1_w1_w1_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w1: error of order 0 */
+    const real r1_w1_e0 = c->bend1 * r1_w1_g0;
+
     /* khepera.bg:17: r1_w1: input of stage 3 */
-    const real r1_w1_u3 = c->r1_w1_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w1_u3 = r1_w1_g0 + r1_w1_d1 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 3 */
-    const real r1_w1_y3 = x->r1_w1_s3 + c->b0 * r1_w1_u3;
+    const real r1_w1_y3 = x->r1_w1_s3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: stage 3: memory */
-    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b1 * r1_w1_u3;
+    x->r1_w1_s3 = c->a * r1_w1_y3 + c->b * r1_w1_u3;
 
     /* khepera.bg:17: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = r1_w1_y3 - c->r1_w1_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w1_u2 = r1_w1_y3 + REAL(2.0) * r1_w1_e0 - r1_w1_d1;
 
     /* khepera.bg:17: r1_w1: stage 2 */
-    const real r1_w1_y2 = x->r1_w1_s2 + c->b0 * r1_w1_u2;
+    const real r1_w1_y2 = x->r1_w1_s2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: stage 2: memory */
-    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b1 * r1_w1_u2;
+    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b * r1_w1_u2;
 
     /* khepera.bg:17: r1_w1: input of stage 1 */
-    const real r1_w1_u1 = r1_w1_y2;
+    const real r1_w1_u1 = r1_w1_y2 - r1_w1_e0;
 
     /* khepera.bg:17: r1_w1: stage 1 */
-    const real r1_w1_y1 = x->r1_w1_s1 + c->b0 * r1_w1_u1;
+    const real r1_w1_y1 = x->r1_w1_s1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1_w1: stage 1: memory */
-    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b1 * r1_w1_u1;
+    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b * r1_w1_u1;
 
     /* khepera.bg:17: r1: what the tolerance of fe[1] can do */
     const real r1_w1 = r1_w1_y1;
 
+    /* khepera.bg:17: r1_w2: terms of order 0 */
+    const real r1_w2_g0 = -c->r1_w2_robot__Fx__1 * s->robot__Fx__1
+        - c->r1_w2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w2_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w2: degree 1 */
+    const real r1_w2_d1 = -c->r1_w2_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w2_w1_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w2: error of order 0 */
+    const real r1_w2_e0 = c->bend1 * r1_w2_g0;
+
     /* khepera.bg:17: r1_w2: input of stage 3 */
-    const real r1_w2_u3 = c->r1_w2_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        + c->r1_w2_v3_robot__m__1__me__we * s->robot__m__1__me__we
-        - c->r1_w2_v3_robot__Fx__1 * s->robot__Fx__1;
+    const real r1_w2_u3 = r1_w2_g0 - r1_w2_d1 - r1_w2_e0;
 
     /* khepera.bg:17: r1_w2: stage 3 */
-    const real r1_w2_y3 = x->r1_w2_s3 + c->b0 * r1_w2_u3;
+    const real r1_w2_y3 = x->r1_w2_s3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: stage 3: memory */
-    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b1 * r1_w2_u3;
+    x->r1_w2_s3 = c->a * r1_w2_y3 + c->b * r1_w2_u3;
 
     /* khepera.bg:17: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = r1_w2_y3 - c->r1_w2_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        - c->r1_w2_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w2_u2 = r1_w2_y3 + r1_w2_d1 + REAL(2.0) * r1_w2_e0;
 
     /* khepera.bg:17: r1_w2: stage 2 */
-    const real r1_w2_y2 = x->r1_w2_s2 + c->b0 * r1_w2_u2;
+    const real r1_w2_y2 = x->r1_w2_s2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: stage 2: memory */
-    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b1 * r1_w2_u2;
+    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b * r1_w2_u2;
 
     /* khepera.bg:17: r1_w2: input of stage 1 */
-    const real r1_w2_u1 = r1_w2_y2;
+    const real r1_w2_u1 = r1_w2_y2 - r1_w2_e0;
 
     /* khepera.bg:17: r1_w2: stage 1 */
-    const real r1_w2_y1 = x->r1_w2_s1 + c->b0 * r1_w2_u1;
+    const real r1_w2_y1 = x->r1_w2_s1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1_w2: stage 1: memory */
-    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b1 * r1_w2_u1;
+    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b * r1_w2_u1;
 
     /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re can do */
     const real r1_w2 = r1_w2_y1;
 
+    /* khepera.bg:17: r1_w3: terms of order 0 */
+    const real r1_w3_g0 = c->r1_w3_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_robot__Fx__1 * s->robot__Fx__1
+        + c->r1_w3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w3: terms of order 1 */
+    const real r1_w3_g1 = c->r1_w3_w1_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_w1_robot__Fx__1 * s->robot__Fx__1
+        + c->r1_w3_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w3: error of order 0 */
+    const real r1_w3_e0 = c->bend2 * r1_w3_g0;
+
+    /* khepera.bg:17: r1_w3: degree 2 */
+    const real r1_w3_d2 = c->r1_w3_w2_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w3_w2_robot__m__1__wh__ws * s->robot__m__1__wh__ws - r1_w3_e0;
+
+    /* khepera.bg:17: r1_w3: error of order 1 */
+    const real r1_w3_e1 = c->bend1 * r1_w3_g1;
+
     /* khepera.bg:17: r1_w3: input of stage 3 */
-    const real r1_w3_u3 = c->r1_w3_v3_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w3_v3_robot__Fx__1 * s->robot__Fx__1
-        + c->r1_w3_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w3_u3 = r1_w3_g0 + r1_w3_d2 + r1_w3_e1 - r1_w3_g1;
 
     /* khepera.bg:17: r1_w3: stage 3 */
-    const real r1_w3_y3 = x->r1_w3_s3 + c->b0 * r1_w3_u3;
+    const real r1_w3_y3 = x->r1_w3_s3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: stage 3: memory */
-    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b1 * r1_w3_u3;
+    x->r1_w3_s3 = c->a * r1_w3_y3 + c->b * r1_w3_u3;
 
     /* khepera.bg:17: r1_w3: input of stage 2 */
-    const real r1_w3_u2 = r1_w3_y3 + c->r1_w3_v2_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w3_v2_robot__Fx__1 * s->robot__Fx__1
-        + c->r1_w3_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w3_u2 = r1_w3_y3 + r1_w3_g1 - REAL(2.0) * r1_w3_d2 - REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 2 */
-    const real r1_w3_y2 = x->r1_w3_s2 + c->b0 * r1_w3_u2;
+    const real r1_w3_y2 = x->r1_w3_s2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: stage 2: memory */
-    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b1 * r1_w3_u2;
+    x->r1_w3_s2 = c->a * r1_w3_y2 + c->b * r1_w3_u2;
 
     /* khepera.bg:17: r1_w3: input of stage 1 */
-    const real r1_w3_u1 = r1_w3_y2 + c->r1_w3_v1_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w3_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w3_u1 = r1_w3_y2 + r1_w3_d2 + REAL(3.0) * r1_w3_e1;
 
     /* khepera.bg:17: r1_w3: stage 1 */
-    const real r1_w3_y1 = x->r1_w3_s1 + c->b0 * r1_w3_u1;
+    const real r1_w3_y1 = x->r1_w3_s1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1_w3: stage 1: memory */
-    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b1 * r1_w3_u1;
+    x->r1_w3_s1 = c->a * r1_w3_y1 + c->b * r1_w3_u1;
 
     /* khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do */
-    const real r1_w3 = r1_w3_y1;
+    const real r1_w3 = r1_w3_y1 - r1_w3_e1;
+
+    /* khepera.bg:17: r1_w4: terms of order 0 */
+    const real r1_w4_g0 = -c->r1_w4_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: degree 1 */
+    const real r1_w4_d1 = c->r1_w4_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w4: error of order 0 */
+    const real r1_w4_e0 = c->bend1 * r1_w4_g0;
 
     /* khepera.bg:17: r1_w4: input of stage 3 */
-    const real r1_w4_u3 = c->r1_w4_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 3 */
-    const real r1_w4_y3 = x->r1_w4_s3 + c->b0 * r1_w4_u3;
+    const real r1_w4_y3 = x->r1_w4_s3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: stage 3: memory */
-    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b1 * r1_w4_u3;
+    x->r1_w4_s3 = c->a * r1_w4_y3 + c->b * r1_w4_u3;
 
     /* khepera.bg:17: r1_w4: input of stage 2 */
-    const real r1_w4_u2 = r1_w4_y3 - c->r1_w4_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w4_u2 = r1_w4_y3 + REAL(2.0) * r1_w4_e0 - r1_w4_d1;
 
     /* khepera.bg:17: r1_w4: stage 2 */
-    const real r1_w4_y2 = x->r1_w4_s2 + c->b0 * r1_w4_u2;
+    const real r1_w4_y2 = x->r1_w4_s2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: stage 2: memory */
-    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b1 * r1_w4_u2;
+    x->r1_w4_s2 = c->a * r1_w4_y2 + c->b * r1_w4_u2;
 
     /* khepera.bg:17: r1_w4: input of stage 1 */
-    const real r1_w4_u1 = r1_w4_y2;
+    const real r1_w4_u1 = r1_w4_y2 - r1_w4_e0;
 
     /* khepera.bg:17: r1_w4: stage 1 */
-    const real r1_w4_y1 = x->r1_w4_s1 + c->b0 * r1_w4_u1;
+    const real r1_w4_y1 = x->r1_w4_s1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1_w4: stage 1: memory */
-    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b1 * r1_w4_u1;
+    x->r1_w4_s1 = c->a * r1_w4_y1 + c->b * r1_w4_u1;
 
     /* khepera.bg:17: r1: what the tolerance of robot.m[1].wh.fs can do */
     const real r1_w4 = r1_w4_y1;
 
     /* khepera.bg:17: r1_w5: input of stage 3 */
-    const real r1_w5_u3 = -c->r1_w5_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w5_u3 = -c->r1_w5_robot__m__1__me__we * s->robot__m__1__me__we;
 
     /* khepera.bg:17: r1_w5: stage 3 */
-    const real r1_w5_y3 = x->r1_w5_s3 + c->b0 * r1_w5_u3;
+    const real r1_w5_y3 = x->r1_w5_s3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: stage 3: memory */
-    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b1 * r1_w5_u3;
+    x->r1_w5_s3 = c->a * r1_w5_y3 + c->b * r1_w5_u3;
 
     /* khepera.bg:17: r1_w5: input of stage 2 */
     const real r1_w5_u2 = r1_w5_y3;
 
     /* khepera.bg:17: r1_w5: stage 2 */
-    const real r1_w5_y2 = x->r1_w5_s2 + c->b0 * r1_w5_u2;
+    const real r1_w5_y2 = x->r1_w5_s2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: stage 2: memory */
-    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b1 * r1_w5_u2;
+    x->r1_w5_s2 = c->a * r1_w5_y2 + c->b * r1_w5_u2;
 
     /* khepera.bg:17: r1_w5: input of stage 1 */
     const real r1_w5_u1 = r1_w5_y2;
 
     /* khepera.bg:17: r1_w5: stage 1 */
-    const real r1_w5_y1 = x->r1_w5_s1 + c->b0 * r1_w5_u1;
+    const real r1_w5_y1 = x->r1_w5_s1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1_w5: stage 1: memory */
-    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b1 * r1_w5_u1;
+    x->r1_w5_s1 = c->a * r1_w5_y1 + c->b * r1_w5_u1;
 
     /* khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.Re can do together */
     const real r1_w5 = r1_w5_y1;
 
+    /* khepera.bg:17: r1_w6: terms of order 0 */
+    const real r1_w6_g0 = c->r1_w6_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w6: degree 1 */
+    const real r1_w6_d1 = c->r1_w6_w1_robot__m__1__me__we * s->robot__m__1__me__we;
+
+    /* khepera.bg:17: r1_w6: error of order 0 */
+    const real r1_w6_e0 = c->bend1 * r1_w6_g0;
+
     /* khepera.bg:17: r1_w6: input of stage 3 */
-    const real r1_w6_u3 = c->r1_w6_v3_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w6_u3 = r1_w6_g0 - r1_w6_d1 - r1_w6_e0;
 
     /* khepera.bg:17: r1_w6: stage 3 */
-    const real r1_w6_y3 = x->r1_w6_s3 + c->b0 * r1_w6_u3;
+    const real r1_w6_y3 = x->r1_w6_s3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: stage 3: memory */
-    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b1 * r1_w6_u3;
+    x->r1_w6_s3 = c->a * r1_w6_y3 + c->b * r1_w6_u3;
 
     /* khepera.bg:17: r1_w6: input of stage 2 */
-    const real r1_w6_u2 = r1_w6_y3 + c->r1_w6_v2_robot__m__1__me__we * s->robot__m__1__me__we;
+    const real r1_w6_u2 = r1_w6_y3 + r1_w6_d1 + REAL(2.0) * r1_w6_e0;
 
     /* khepera.bg:17: r1_w6: stage 2 */
-    const real r1_w6_y2 = x->r1_w6_s2 + c->b0 * r1_w6_u2;
+    const real r1_w6_y2 = x->r1_w6_s2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: stage 2: memory */
-    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b1 * r1_w6_u2;
+    x->r1_w6_s2 = c->a * r1_w6_y2 + c->b * r1_w6_u2;
 
     /* khepera.bg:17: r1_w6: input of stage 1 */
-    const real r1_w6_u1 = r1_w6_y2;
+    const real r1_w6_u1 = r1_w6_y2 - r1_w6_e0;
 
     /* khepera.bg:17: r1_w6: stage 1 */
-    const real r1_w6_y1 = x->r1_w6_s1 + c->b0 * r1_w6_u1;
+    const real r1_w6_y1 = x->r1_w6_s1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1_w6: stage 1: memory */
-    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b1 * r1_w6_u1;
+    x->r1_w6_s1 = c->a * r1_w6_y1 + c->b * r1_w6_u1;
 
     /* khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.k can do together */
     const real r1_w6 = r1_w6_y1;
 
+    /* khepera.bg:17: r1_w7: terms of order 0 */
+    const real r1_w7_g0 = c->r1_w7_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w7_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        + c->r1_w7_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w7: degree 1 */
+    const real r1_w7_d1 = c->r1_w7_w1_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w7_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w7: error of order 0 */
+    const real r1_w7_e0 = c->bend1 * r1_w7_g0;
+
     /* khepera.bg:17: r1_w7: input of stage 3 */
-    const real r1_w7_u3 = c->r1_w7_v3_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w7_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        + c->r1_w7_v3_robot__Fx__1 * s->robot__Fx__1;
+    const real r1_w7_u3 = r1_w7_g0 - r1_w7_d1 - r1_w7_e0;
 
     /* khepera.bg:17: r1_w7: stage 3 */
-    const real r1_w7_y3 = x->r1_w7_s3 + c->b0 * r1_w7_u3;
+    const real r1_w7_y3 = x->r1_w7_s3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: stage 3: memory */
-    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b1 * r1_w7_u3;
+    x->r1_w7_s3 = c->a * r1_w7_y3 + c->b * r1_w7_u3;
 
     /* khepera.bg:17: r1_w7: input of stage 2 */
-    const real r1_w7_u2 = r1_w7_y3 + c->r1_w7_v2_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w7_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w7_u2 = r1_w7_y3 + r1_w7_d1 + REAL(2.0) * r1_w7_e0;
 
     /* khepera.bg:17: r1_w7: stage 2 */
-    const real r1_w7_y2 = x->r1_w7_s2 + c->b0 * r1_w7_u2;
+    const real r1_w7_y2 = x->r1_w7_s2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: stage 2: memory */
-    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b1 * r1_w7_u2;
+    x->r1_w7_s2 = c->a * r1_w7_y2 + c->b * r1_w7_u2;
 
     /* khepera.bg:17: r1_w7: input of stage 1 */
-    const real r1_w7_u1 = r1_w7_y2;
+    const real r1_w7_u1 = r1_w7_y2 - r1_w7_e0;
 
     /* khepera.bg:17: r1_w7: stage 1 */
-    const real r1_w7_y1 = x->r1_w7_s1 + c->b0 * r1_w7_u1;
+    const real r1_w7_y1 = x->r1_w7_s1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1_w7: stage 1: memory */
-    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b1 * r1_w7_u1;
+    x->r1_w7_s1 = c->a * r1_w7_y1 + c->b * r1_w7_u1;
 
     /* khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].el.k can do
      * together */
     const real r1_w7 = r1_w7_y1;
 
     /* khepera.bg:17: r1_w8: input of stage 3 */
-    const real r1_w8_u3 = -c->r1_w8_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w8_u3 = -c->r1_w8_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
 
     /* khepera.bg:17: r1_w8: stage 3 */
-    const real r1_w8_y3 = x->r1_w8_s3 + c->b0 * r1_w8_u3;
+    const real r1_w8_y3 = x->r1_w8_s3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: stage 3: memory */
-    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b1 * r1_w8_u3;
+    x->r1_w8_s3 = c->a * r1_w8_y3 + c->b * r1_w8_u3;
 
     /* khepera.bg:17: r1_w8: input of stage 2 */
     const real r1_w8_u2 = r1_w8_y3;
 
     /* khepera.bg:17: r1_w8: stage 2 */
-    const real r1_w8_y2 = x->r1_w8_s2 + c->b0 * r1_w8_u2;
+    const real r1_w8_y2 = x->r1_w8_s2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: stage 2: memory */
-    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b1 * r1_w8_u2;
+    x->r1_w8_s2 = c->a * r1_w8_y2 + c->b * r1_w8_u2;
 
     /* khepera.bg:17: r1_w8: input of stage 1 */
     const real r1_w8_u1 = r1_w8_y2;
 
     /* khepera.bg:17: r1_w8: stage 1 */
-    const real r1_w8_y1 = x->r1_w8_s1 + c->b0 * r1_w8_u1;
+    const real r1_w8_y1 = x->r1_w8_s1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1_w8: stage 1: memory */
-    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b1 * r1_w8_u1;
+    x->r1_w8_s1 = c->a * r1_w8_y1 + c->b * r1_w8_u1;
 
     /* khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].wh.fs can do
      * together */
     const real r1_w8 = r1_w8_y1;
 
+    /* khepera.bg:17: r1_w9: terms of order 0 */
+    const real r1_w9_g0 = -c->r1_w9_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w9_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w9_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w9: terms of order 1 */
+    const real r1_w9_g1 = c->r1_w9_w1_robot__m__1__me__we * s->robot__m__1__me__we
+        + c->r1_w9_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws
+        - c->r1_w9_w1_robot__Fx__1 * s->robot__Fx__1;
+
+    /* khepera.bg:17: r1_w9: error of order 0 */
+    const real r1_w9_e0 = c->bend2 * r1_w9_g0;
+
+    /* khepera.bg:17: r1_w9: degree 2 */
+    const real r1_w9_d2 = -c->r1_w9_w2_robot__m__1__me__we * s->robot__m__1__me__we
+        - c->r1_w9_w2_robot__m__1__wh__ws * s->robot__m__1__wh__ws - r1_w9_e0;
+
+    /* khepera.bg:17: r1_w9: error of order 1 */
+    const real r1_w9_e1 = c->bend1 * r1_w9_g1;
+
     /* khepera.bg:17: r1_w9: input of stage 3 */
-    const real r1_w9_u3 = c->r1_w9_v3_robot__Fx__1 * s->robot__Fx__1
-        - c->r1_w9_v3_robot__m__1__me__we * s->robot__m__1__me__we
-        - c->r1_w9_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w9_u3 = r1_w9_g0 + r1_w9_d2 + r1_w9_e1 - r1_w9_g1;
 
     /* khepera.bg:17: r1_w9: stage 3 */
-    const real r1_w9_y3 = x->r1_w9_s3 + c->b0 * r1_w9_u3;
+    const real r1_w9_y3 = x->r1_w9_s3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: stage 3: memory */
-    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b1 * r1_w9_u3;
+    x->r1_w9_s3 = c->a * r1_w9_y3 + c->b * r1_w9_u3;
 
     /* khepera.bg:17: r1_w9: input of stage 2 */
-    const real r1_w9_u2 = r1_w9_y3 + c->r1_w9_v2_robot__m__1__me__we * s->robot__m__1__me__we
-        + c->r1_w9_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws
-        - c->r1_w9_v2_robot__Fx__1 * s->robot__Fx__1;
+    const real r1_w9_u2 = r1_w9_y3 + r1_w9_g1 - REAL(2.0) * r1_w9_d2 - REAL(3.0) * r1_w9_e1;
 
     /* khepera.bg:17: r1_w9: stage 2 */
-    const real r1_w9_y2 = x->r1_w9_s2 + c->b0 * r1_w9_u2;
+    const real r1_w9_y2 = x->r1_w9_s2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: stage 2: memory */
-    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b1 * r1_w9_u2;
+    x->r1_w9_s2 = c->a * r1_w9_y2 + c->b * r1_w9_u2;
 
     /* khepera.bg:17: r1_w9: input of stage 1 */
-    const real r1_w9_u1 = r1_w9_y2 - c->r1_w9_v1_robot__m__1__me__we * s->robot__m__1__me__we
-        - c->r1_w9_v1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w9_u1 = r1_w9_y2 + r1_w9_d2 + REAL(3.0) * r1_w9_e1;
 
     /* khepera.bg:17: r1_w9: stage 1 */
-    const real r1_w9_y1 = x->r1_w9_s1 + c->b0 * r1_w9_u1;
+    const real r1_w9_y1 = x->r1_w9_s1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1_w9: stage 1: memory */
-    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b1 * r1_w9_u1;
+    x->r1_w9_s1 = c->a * r1_w9_y1 + c->b * r1_w9_u1;
 
     /* khepera.bg:17: r1: second order of what the tolerance of robot.m[1].el.k can do */
-    const real r1_w9 = r1_w9_y1;
+    const real r1_w9 = r1_w9_y1 - r1_w9_e1;
+
+    /* khepera.bg:17: r1_w10: terms of order 0 */
+    const real r1_w10_g0 = c->r1_w10_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: degree 1 */
+    const real r1_w10_d1 = c->r1_w10_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
+    /* khepera.bg:17: r1_w10: error of order 0 */
+    const real r1_w10_e0 = c->bend1 * r1_w10_g0;
 
     /* khepera.bg:17: r1_w10: input of stage 3 */
-    const real r1_w10_u3 = c->r1_w10_v3_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 3 */
-    const real r1_w10_y3 = x->r1_w10_s3 + c->b0 * r1_w10_u3;
+    const real r1_w10_y3 = x->r1_w10_s3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: stage 3: memory */
-    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b1 * r1_w10_u3;
+    x->r1_w10_s3 = c->a * r1_w10_y3 + c->b * r1_w10_u3;
 
     /* khepera.bg:17: r1_w10: input of stage 2 */
-    const real r1_w10_u2 = r1_w10_y3 + c->r1_w10_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + REAL(2.0) * r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 2 */
-    const real r1_w10_y2 = x->r1_w10_s2 + c->b0 * r1_w10_u2;
+    const real r1_w10_y2 = x->r1_w10_s2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: stage 2: memory */
-    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b1 * r1_w10_u2;
+    x->r1_w10_s2 = c->a * r1_w10_y2 + c->b * r1_w10_u2;
 
     /* khepera.bg:17: r1_w10: input of stage 1 */
-    const real r1_w10_u1 = r1_w10_y2;
+    const real r1_w10_u1 = r1_w10_y2 - r1_w10_e0;
 
     /* khepera.bg:17: r1_w10: stage 1 */
-    const real r1_w10_y1 = x->r1_w10_s1 + c->b0 * r1_w10_u1;
+    const real r1_w10_y1 = x->r1_w10_s1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1_w10: stage 1: memory */
-    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b1 * r1_w10_u1;
+    x->r1_w10_s1 = c->a * r1_w10_y1 + c->b * r1_w10_u1;
 
     /* khepera.bg:17: r1: what the tolerances of robot.m[1].el.k and robot.m[1].wh.fs can do
      * together */
@@ -1327,8 +1436,11 @@ static void start_r2(
     const khepera_plausible_threshold_coefficients *c = &monitor->c;
     khepera_plausible_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:41: r2_w1: degree 1 */
+    const real r2_w1_d1 = c->r2_w1_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
     /* khepera.bg:41: r2_w1: input of stage 3 */
-    const real r2_w1_u3 = c->r2_w1_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r2_w1_u3 = r2_w1_d1;
 
     /* khepera.bg:41: r2_w1: stage 3, at rest */
     const real r2_w1_y3 = r2_w1_u3;
@@ -1337,7 +1449,7 @@ static void start_r2(
     x->r2_w1_s3 = c->rest * r2_w1_u3;
 
     /* khepera.bg:41: r2_w1: input of stage 2 */
-    const real r2_w1_u2 = r2_w1_y3 - c->r2_w1_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r2_w1_u2 = r2_w1_y3 - r2_w1_d1;
 
     /* khepera.bg:41: r2_w1: stage 2, at rest */
     const real r2_w1_y2 = r2_w1_u2;
@@ -1368,32 +1480,35 @@ static void next_r2(
     const khepera_plausible_threshold_coefficients *c = &monitor->c;
     khepera_plausible_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:41: r2_w1: degree 1 */
+    const real r2_w1_d1 = c->r2_w1_w1_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+
     /* khepera.bg:41: r2_w1: input of stage 3 */
-    const real r2_w1_u3 = c->r2_w1_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r2_w1_u3 = r2_w1_d1;
 
     /* khepera.bg:41: r2_w1: stage 3 */
-    const real r2_w1_y3 = x->r2_w1_s3 + c->b0 * r2_w1_u3;
+    const real r2_w1_y3 = x->r2_w1_s3 + c->b * r2_w1_u3;
 
     /* khepera.bg:41: r2_w1: stage 3: memory */
-    x->r2_w1_s3 = c->a * r2_w1_y3 + c->b1 * r2_w1_u3;
+    x->r2_w1_s3 = c->a * r2_w1_y3 + c->b * r2_w1_u3;
 
     /* khepera.bg:41: r2_w1: input of stage 2 */
-    const real r2_w1_u2 = r2_w1_y3 - c->r2_w1_v2_robot__m__1__wh__ws * s->robot__m__1__wh__ws;
+    const real r2_w1_u2 = r2_w1_y3 - r2_w1_d1;
 
     /* khepera.bg:41: r2_w1: stage 2 */
-    const real r2_w1_y2 = x->r2_w1_s2 + c->b0 * r2_w1_u2;
+    const real r2_w1_y2 = x->r2_w1_s2 + c->b * r2_w1_u2;
 
     /* khepera.bg:41: r2_w1: stage 2: memory */
-    x->r2_w1_s2 = c->a * r2_w1_y2 + c->b1 * r2_w1_u2;
+    x->r2_w1_s2 = c->a * r2_w1_y2 + c->b * r2_w1_u2;
 
     /* khepera.bg:41: r2_w1: input of stage 1 */
     const real r2_w1_u1 = r2_w1_y2;
 
     /* khepera.bg:41: r2_w1: stage 1 */
-    const real r2_w1_y1 = x->r2_w1_s1 + c->b0 * r2_w1_u1;
+    const real r2_w1_y1 = x->r2_w1_s1 + c->b * r2_w1_u1;
 
     /* khepera.bg:41: r2_w1: stage 1: memory */
-    x->r2_w1_s1 = c->a * r2_w1_y1 + c->b1 * r2_w1_u1;
+    x->r2_w1_s1 = c->a * r2_w1_y1 + c->b * r2_w1_u1;
 
     /* khepera.bg:41: r2: what the tolerance of robot.m[1].wh.fs can do */
     const real r2_w1 = r2_w1_y1;
@@ -1432,8 +1547,17 @@ static void start_r3(
     const khepera_plausible_threshold_coefficients *c = &monitor->c;
     khepera_plausible_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r3_w1: terms of order 0 */
+    const real r3_w1_g0 = -c->r3_w1_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: degree 1 */
+    const real r3_w1_d1 = c->r3_w1_w1_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: error of order 0 */
+    const real r3_w1_e0 = c->bend1 * r3_w1_g0;
+
     /* khepera.bg:17: r3_w1: input of stage 3 */
-    const real r3_w1_u3 = c->r3_w1_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w1_u3 = r3_w1_g0 + r3_w1_d1 - r3_w1_e0;
 
     /* khepera.bg:17: r3_w1: stage 3, at rest */
     const real r3_w1_y3 = r3_w1_u3;
@@ -1442,7 +1566,7 @@ static void start_r3(
     x->r3_w1_s3 = c->rest * r3_w1_u3;
 
     /* khepera.bg:17: r3_w1: input of stage 2 */
-    const real r3_w1_u2 = r3_w1_y3 - c->r3_w1_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w1_u2 = r3_w1_y3 + REAL(2.0) * r3_w1_e0 - r3_w1_d1;
 
     /* khepera.bg:17: r3_w1: stage 2, at rest */
     const real r3_w1_y2 = r3_w1_u2;
@@ -1451,7 +1575,7 @@ static void start_r3(
     x->r3_w1_s2 = c->rest * r3_w1_u2;
 
     /* khepera.bg:17: r3_w1: input of stage 1 */
-    const real r3_w1_u1 = r3_w1_y2;
+    const real r3_w1_u1 = r3_w1_y2 - r3_w1_e0;
 
     /* khepera.bg:17: r3_w1: stage 1, at rest */
     const real r3_w1_y1 = r3_w1_u1;
@@ -1462,10 +1586,20 @@ static void start_r3(
     /* khepera.bg:17: r3: what the tolerance of fe[2] can do */
     const real r3_w1 = r3_w1_y1;
 
+    /* khepera.bg:17: r3_w2: terms of order 0 */
+    const real r3_w2_g0 = -c->r3_w2_robot__Fx__2 * s->robot__Fx__2
+        - c->r3_w2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w2_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w2: degree 1 */
+    const real r3_w2_d1 = -c->r3_w2_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w2_w1_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w2: error of order 0 */
+    const real r3_w2_e0 = c->bend1 * r3_w2_g0;
+
     /* khepera.bg:17: r3_w2: input of stage 3 */
-    const real r3_w2_u3 = c->r3_w2_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        + c->r3_w2_v3_robot__m__2__me__we * s->robot__m__2__me__we
-        - c->r3_w2_v3_robot__Fx__2 * s->robot__Fx__2;
+    const real r3_w2_u3 = r3_w2_g0 - r3_w2_d1 - r3_w2_e0;
 
     /* khepera.bg:17: r3_w2: stage 3, at rest */
     const real r3_w2_y3 = r3_w2_u3;
@@ -1474,8 +1608,7 @@ static void start_r3(
     x->r3_w2_s3 = c->rest * r3_w2_u3;
 
     /* khepera.bg:17: r3_w2: input of stage 2 */
-    const real r3_w2_u2 = r3_w2_y3 - c->r3_w2_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        - c->r3_w2_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w2_u2 = r3_w2_y3 + r3_w2_d1 + REAL(2.0) * r3_w2_e0;
 
     /* khepera.bg:17: r3_w2: stage 2, at rest */
     const real r3_w2_y2 = r3_w2_u2;
@@ -1484,7 +1617,7 @@ static void start_r3(
     x->r3_w2_s2 = c->rest * r3_w2_u2;
 
     /* khepera.bg:17: r3_w2: input of stage 1 */
-    const real r3_w2_u1 = r3_w2_y2;
+    const real r3_w2_u1 = r3_w2_y2 - r3_w2_e0;
 
     /* khepera.bg:17: r3_w2: stage 1, at rest */
     const real r3_w2_y1 = r3_w2_u1;
@@ -1495,10 +1628,28 @@ static void start_r3(
     /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re can do */
     const real r3_w2 = r3_w2_y1;
 
+    /* khepera.bg:17: r3_w3: terms of order 0 */
+    const real r3_w3_g0 = c->r3_w3_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_robot__Fx__2 * s->robot__Fx__2
+        + c->r3_w3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w3: terms of order 1 */
+    const real r3_w3_g1 = c->r3_w3_w1_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_w1_robot__Fx__2 * s->robot__Fx__2
+        + c->r3_w3_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w3: error of order 0 */
+    const real r3_w3_e0 = c->bend2 * r3_w3_g0;
+
+    /* khepera.bg:17: r3_w3: degree 2 */
+    const real r3_w3_d2 = c->r3_w3_w2_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_w2_robot__m__2__wh__ws * s->robot__m__2__wh__ws - r3_w3_e0;
+
+    /* khepera.bg:17: r3_w3: error of order 1 */
+    const real r3_w3_e1 = c->bend1 * r3_w3_g1;
+
     /* khepera.bg:17: r3_w3: input of stage 3 */
-    const real r3_w3_u3 = c->r3_w3_v3_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w3_v3_robot__Fx__2 * s->robot__Fx__2
-        + c->r3_w3_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w3_u3 = r3_w3_g0 + r3_w3_d2 + r3_w3_e1 - r3_w3_g1;
 
     /* khepera.bg:17: r3_w3: stage 3, at rest */
     const real r3_w3_y3 = r3_w3_u3;
@@ -1507,9 +1658,7 @@ static void start_r3(
     x->r3_w3_s3 = c->rest * r3_w3_u3;
 
     /* khepera.bg:17: r3_w3: input of stage 2 */
-    const real r3_w3_u2 = r3_w3_y3 + c->r3_w3_v2_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w3_v2_robot__Fx__2 * s->robot__Fx__2
-        + c->r3_w3_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w3_u2 = r3_w3_y3 + r3_w3_g1 - REAL(2.0) * r3_w3_d2 - REAL(3.0) * r3_w3_e1;
 
     /* khepera.bg:17: r3_w3: stage 2, at rest */
     const real r3_w3_y2 = r3_w3_u2;
@@ -1518,8 +1667,7 @@ static void start_r3(
     x->r3_w3_s2 = c->rest * r3_w3_u2;
 
     /* khepera.bg:17: r3_w3: input of stage 1 */
-    const real r3_w3_u1 = r3_w3_y2 + c->r3_w3_v1_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w3_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w3_u1 = r3_w3_y2 + r3_w3_d2 + REAL(3.0) * r3_w3_e1;
 
     /* khepera.bg:17: r3_w3: stage 1, at rest */
     const real r3_w3_y1 = r3_w3_u1;
@@ -1528,10 +1676,19 @@ static void start_r3(
     x->r3_w3_s1 = c->rest * r3_w3_u1;
 
     /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do */
-    const real r3_w3 = r3_w3_y1;
+    const real r3_w3 = r3_w3_y1 - r3_w3_e1;
+
+    /* khepera.bg:17: r3_w4: terms of order 0 */
+    const real r3_w4_g0 = -c->r3_w4_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: degree 1 */
+    const real r3_w4_d1 = c->r3_w4_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: error of order 0 */
+    const real r3_w4_e0 = c->bend1 * r3_w4_g0;
 
     /* khepera.bg:17: r3_w4: input of stage 3 */
-    const real r3_w4_u3 = c->r3_w4_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w4_u3 = r3_w4_g0 + r3_w4_d1 - r3_w4_e0;
 
     /* khepera.bg:17: r3_w4: stage 3, at rest */
     const real r3_w4_y3 = r3_w4_u3;
@@ -1540,7 +1697,7 @@ static void start_r3(
     x->r3_w4_s3 = c->rest * r3_w4_u3;
 
     /* khepera.bg:17: r3_w4: input of stage 2 */
-    const real r3_w4_u2 = r3_w4_y3 - c->r3_w4_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w4_u2 = r3_w4_y3 + REAL(2.0) * r3_w4_e0 - r3_w4_d1;
 
     /* khepera.bg:17: r3_w4: stage 2, at rest */
     const real r3_w4_y2 = r3_w4_u2;
@@ -1549,7 +1706,7 @@ static void start_r3(
     x->r3_w4_s2 = c->rest * r3_w4_u2;
 
     /* khepera.bg:17: r3_w4: input of stage 1 */
-    const real r3_w4_u1 = r3_w4_y2;
+    const real r3_w4_u1 = r3_w4_y2 - r3_w4_e0;
 
     /* khepera.bg:17: r3_w4: stage 1, at rest */
     const real r3_w4_y1 = r3_w4_u1;
@@ -1561,7 +1718,7 @@ static void start_r3(
     const real r3_w4 = r3_w4_y1;
 
     /* khepera.bg:17: r3_w5: input of stage 3 */
-    const real r3_w5_u3 = -c->r3_w5_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w5_u3 = -c->r3_w5_robot__m__2__me__we * s->robot__m__2__me__we;
 
     /* khepera.bg:17: r3_w5: stage 3, at rest */
     const real r3_w5_y3 = r3_w5_u3;
@@ -1590,8 +1747,17 @@ static void start_r3(
     /* khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.Re can do together */
     const real r3_w5 = r3_w5_y1;
 
+    /* khepera.bg:17: r3_w6: terms of order 0 */
+    const real r3_w6_g0 = c->r3_w6_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w6: degree 1 */
+    const real r3_w6_d1 = c->r3_w6_w1_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w6: error of order 0 */
+    const real r3_w6_e0 = c->bend1 * r3_w6_g0;
+
     /* khepera.bg:17: r3_w6: input of stage 3 */
-    const real r3_w6_u3 = c->r3_w6_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w6_u3 = r3_w6_g0 - r3_w6_d1 - r3_w6_e0;
 
     /* khepera.bg:17: r3_w6: stage 3, at rest */
     const real r3_w6_y3 = r3_w6_u3;
@@ -1600,7 +1766,7 @@ static void start_r3(
     x->r3_w6_s3 = c->rest * r3_w6_u3;
 
     /* khepera.bg:17: r3_w6: input of stage 2 */
-    const real r3_w6_u2 = r3_w6_y3 + c->r3_w6_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w6_u2 = r3_w6_y3 + r3_w6_d1 + REAL(2.0) * r3_w6_e0;
 
     /* khepera.bg:17: r3_w6: stage 2, at rest */
     const real r3_w6_y2 = r3_w6_u2;
@@ -1609,7 +1775,7 @@ static void start_r3(
     x->r3_w6_s2 = c->rest * r3_w6_u2;
 
     /* khepera.bg:17: r3_w6: input of stage 1 */
-    const real r3_w6_u1 = r3_w6_y2;
+    const real r3_w6_u1 = r3_w6_y2 - r3_w6_e0;
 
     /* khepera.bg:17: r3_w6: stage 1, at rest */
     const real r3_w6_y1 = r3_w6_u1;
@@ -1620,10 +1786,20 @@ static void start_r3(
     /* khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.k can do together */
     const real r3_w6 = r3_w6_y1;
 
+    /* khepera.bg:17: r3_w7: terms of order 0 */
+    const real r3_w7_g0 = c->r3_w7_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w7_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        + c->r3_w7_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w7: degree 1 */
+    const real r3_w7_d1 = c->r3_w7_w1_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w7_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w7: error of order 0 */
+    const real r3_w7_e0 = c->bend1 * r3_w7_g0;
+
     /* khepera.bg:17: r3_w7: input of stage 3 */
-    const real r3_w7_u3 = c->r3_w7_v3_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w7_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        + c->r3_w7_v3_robot__Fx__2 * s->robot__Fx__2;
+    const real r3_w7_u3 = r3_w7_g0 - r3_w7_d1 - r3_w7_e0;
 
     /* khepera.bg:17: r3_w7: stage 3, at rest */
     const real r3_w7_y3 = r3_w7_u3;
@@ -1632,8 +1808,7 @@ static void start_r3(
     x->r3_w7_s3 = c->rest * r3_w7_u3;
 
     /* khepera.bg:17: r3_w7: input of stage 2 */
-    const real r3_w7_u2 = r3_w7_y3 + c->r3_w7_v2_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w7_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w7_u2 = r3_w7_y3 + r3_w7_d1 + REAL(2.0) * r3_w7_e0;
 
     /* khepera.bg:17: r3_w7: stage 2, at rest */
     const real r3_w7_y2 = r3_w7_u2;
@@ -1642,7 +1817,7 @@ static void start_r3(
     x->r3_w7_s2 = c->rest * r3_w7_u2;
 
     /* khepera.bg:17: r3_w7: input of stage 1 */
-    const real r3_w7_u1 = r3_w7_y2;
+    const real r3_w7_u1 = r3_w7_y2 - r3_w7_e0;
 
     /* khepera.bg:17: r3_w7: stage 1, at rest */
     const real r3_w7_y1 = r3_w7_u1;
@@ -1655,7 +1830,7 @@ static void start_r3(
     const real r3_w7 = r3_w7_y1;
 
     /* khepera.bg:17: r3_w8: input of stage 3 */
-    const real r3_w8_u3 = -c->r3_w8_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w8_u3 = -c->r3_w8_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
 
     /* khepera.bg:17: r3_w8: stage 3, at rest */
     const real r3_w8_y3 = r3_w8_u3;
@@ -1685,10 +1860,28 @@ static void start_r3(
      * together */
     const real r3_w8 = r3_w8_y1;
 
+    /* khepera.bg:17: r3_w9: terms of order 0 */
+    const real r3_w9_g0 = -c->r3_w9_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w9_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w9_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w9: terms of order 1 */
+    const real r3_w9_g1 = c->r3_w9_w1_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w9_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w9_w1_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w9: error of order 0 */
+    const real r3_w9_e0 = c->bend2 * r3_w9_g0;
+
+    /* khepera.bg:17: r3_w9: degree 2 */
+    const real r3_w9_d2 = -c->r3_w9_w2_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w9_w2_robot__m__2__wh__ws * s->robot__m__2__wh__ws - r3_w9_e0;
+
+    /* khepera.bg:17: r3_w9: error of order 1 */
+    const real r3_w9_e1 = c->bend1 * r3_w9_g1;
+
     /* khepera.bg:17: r3_w9: input of stage 3 */
-    const real r3_w9_u3 = c->r3_w9_v3_robot__Fx__2 * s->robot__Fx__2
-        - c->r3_w9_v3_robot__m__2__me__we * s->robot__m__2__me__we
-        - c->r3_w9_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w9_u3 = r3_w9_g0 + r3_w9_d2 + r3_w9_e1 - r3_w9_g1;
 
     /* khepera.bg:17: r3_w9: stage 3, at rest */
     const real r3_w9_y3 = r3_w9_u3;
@@ -1697,9 +1890,7 @@ static void start_r3(
     x->r3_w9_s3 = c->rest * r3_w9_u3;
 
     /* khepera.bg:17: r3_w9: input of stage 2 */
-    const real r3_w9_u2 = r3_w9_y3 + c->r3_w9_v2_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w9_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        - c->r3_w9_v2_robot__Fx__2 * s->robot__Fx__2;
+    const real r3_w9_u2 = r3_w9_y3 + r3_w9_g1 - REAL(2.0) * r3_w9_d2 - REAL(3.0) * r3_w9_e1;
 
     /* khepera.bg:17: r3_w9: stage 2, at rest */
     const real r3_w9_y2 = r3_w9_u2;
@@ -1708,8 +1899,7 @@ static void start_r3(
     x->r3_w9_s2 = c->rest * r3_w9_u2;
 
     /* khepera.bg:17: r3_w9: input of stage 1 */
-    const real r3_w9_u1 = r3_w9_y2 - c->r3_w9_v1_robot__m__2__me__we * s->robot__m__2__me__we
-        - c->r3_w9_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w9_u1 = r3_w9_y2 + r3_w9_d2 + REAL(3.0) * r3_w9_e1;
 
     /* khepera.bg:17: r3_w9: stage 1, at rest */
     const real r3_w9_y1 = r3_w9_u1;
@@ -1718,10 +1908,19 @@ static void start_r3(
     x->r3_w9_s1 = c->rest * r3_w9_u1;
 
     /* khepera.bg:17: r3: second order of what the tolerance of robot.m[2].el.k can do */
-    const real r3_w9 = r3_w9_y1;
+    const real r3_w9 = r3_w9_y1 - r3_w9_e1;
+
+    /* khepera.bg:17: r3_w10: terms of order 0 */
+    const real r3_w10_g0 = c->r3_w10_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: degree 1 */
+    const real r3_w10_d1 = c->r3_w10_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: error of order 0 */
+    const real r3_w10_e0 = c->bend1 * r3_w10_g0;
 
     /* khepera.bg:17: r3_w10: input of stage 3 */
-    const real r3_w10_u3 = c->r3_w10_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w10_u3 = r3_w10_g0 - r3_w10_d1 - r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 3, at rest */
     const real r3_w10_y3 = r3_w10_u3;
@@ -1730,7 +1929,7 @@ static void start_r3(
     x->r3_w10_s3 = c->rest * r3_w10_u3;
 
     /* khepera.bg:17: r3_w10: input of stage 2 */
-    const real r3_w10_u2 = r3_w10_y3 + c->r3_w10_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w10_u2 = r3_w10_y3 + r3_w10_d1 + REAL(2.0) * r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 2, at rest */
     const real r3_w10_y2 = r3_w10_u2;
@@ -1739,7 +1938,7 @@ static void start_r3(
     x->r3_w10_s2 = c->rest * r3_w10_u2;
 
     /* khepera.bg:17: r3_w10: input of stage 1 */
-    const real r3_w10_u1 = r3_w10_y2;
+    const real r3_w10_u1 = r3_w10_y2 - r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 1, at rest */
     const real r3_w10_y1 = r3_w10_u1;
@@ -1764,320 +1963,404 @@ static void next_r3(
     const khepera_plausible_threshold_coefficients *c = &monitor->c;
     khepera_plausible_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:17: r3_w1: terms of order 0 */
+    const real r3_w1_g0 = -c->r3_w1_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: degree 1 */
+    const real r3_w1_d1 = c->r3_w1_w1_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w1: error of order 0 */
+    const real r3_w1_e0 = c->bend1 * r3_w1_g0;
+
     /* khepera.bg:17: r3_w1: input of stage 3 */
-    const real r3_w1_u3 = c->r3_w1_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w1_u3 = r3_w1_g0 + r3_w1_d1 - r3_w1_e0;
 
     /* khepera.bg:17: r3_w1: stage 3 */
-    const real r3_w1_y3 = x->r3_w1_s3 + c->b0 * r3_w1_u3;
+    const real r3_w1_y3 = x->r3_w1_s3 + c->b * r3_w1_u3;
 
     /* khepera.bg:17: r3_w1: stage 3: memory */
-    x->r3_w1_s3 = c->a * r3_w1_y3 + c->b1 * r3_w1_u3;
+    x->r3_w1_s3 = c->a * r3_w1_y3 + c->b * r3_w1_u3;
 
     /* khepera.bg:17: r3_w1: input of stage 2 */
-    const real r3_w1_u2 = r3_w1_y3 - c->r3_w1_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w1_u2 = r3_w1_y3 + REAL(2.0) * r3_w1_e0 - r3_w1_d1;
 
     /* khepera.bg:17: r3_w1: stage 2 */
-    const real r3_w1_y2 = x->r3_w1_s2 + c->b0 * r3_w1_u2;
+    const real r3_w1_y2 = x->r3_w1_s2 + c->b * r3_w1_u2;
 
     /* khepera.bg:17: r3_w1: stage 2: memory */
-    x->r3_w1_s2 = c->a * r3_w1_y2 + c->b1 * r3_w1_u2;
+    x->r3_w1_s2 = c->a * r3_w1_y2 + c->b * r3_w1_u2;
 
     /* khepera.bg:17: r3_w1: input of stage 1 */
-    const real r3_w1_u1 = r3_w1_y2;
+    const real r3_w1_u1 = r3_w1_y2 - r3_w1_e0;
 
     /* khepera.bg:17: r3_w1: stage 1 */
-    const real r3_w1_y1 = x->r3_w1_s1 + c->b0 * r3_w1_u1;
+    const real r3_w1_y1 = x->r3_w1_s1 + c->b * r3_w1_u1;
 
     /* khepera.bg:17: r3_w1: stage 1: memory */
-    x->r3_w1_s1 = c->a * r3_w1_y1 + c->b1 * r3_w1_u1;
+    x->r3_w1_s1 = c->a * r3_w1_y1 + c->b * r3_w1_u1;
 
     /* khepera.bg:17: r3: what the tolerance of fe[2] can do */
     const real r3_w1 = r3_w1_y1;
 
+    /* khepera.bg:17: r3_w2: terms of order 0 */
+    const real r3_w2_g0 = -c->r3_w2_robot__Fx__2 * s->robot__Fx__2
+        - c->r3_w2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w2_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w2: degree 1 */
+    const real r3_w2_d1 = -c->r3_w2_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w2_w1_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w2: error of order 0 */
+    const real r3_w2_e0 = c->bend1 * r3_w2_g0;
+
     /* khepera.bg:17: r3_w2: input of stage 3 */
-    const real r3_w2_u3 = c->r3_w2_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        + c->r3_w2_v3_robot__m__2__me__we * s->robot__m__2__me__we
-        - c->r3_w2_v3_robot__Fx__2 * s->robot__Fx__2;
+    const real r3_w2_u3 = r3_w2_g0 - r3_w2_d1 - r3_w2_e0;
 
     /* khepera.bg:17: r3_w2: stage 3 */
-    const real r3_w2_y3 = x->r3_w2_s3 + c->b0 * r3_w2_u3;
+    const real r3_w2_y3 = x->r3_w2_s3 + c->b * r3_w2_u3;
 
     /* khepera.bg:17: r3_w2: stage 3: memory */
-    x->r3_w2_s3 = c->a * r3_w2_y3 + c->b1 * r3_w2_u3;
+    x->r3_w2_s3 = c->a * r3_w2_y3 + c->b * r3_w2_u3;
 
     /* khepera.bg:17: r3_w2: input of stage 2 */
-    const real r3_w2_u2 = r3_w2_y3 - c->r3_w2_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        - c->r3_w2_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w2_u2 = r3_w2_y3 + r3_w2_d1 + REAL(2.0) * r3_w2_e0;
 
     /* khepera.bg:17: r3_w2: stage 2 */
-    const real r3_w2_y2 = x->r3_w2_s2 + c->b0 * r3_w2_u2;
+    const real r3_w2_y2 = x->r3_w2_s2 + c->b * r3_w2_u2;
 
     /* khepera.bg:17: r3_w2: stage 2: memory */
-    x->r3_w2_s2 = c->a * r3_w2_y2 + c->b1 * r3_w2_u2;
+    x->r3_w2_s2 = c->a * r3_w2_y2 + c->b * r3_w2_u2;
 
     /* khepera.bg:17: r3_w2: input of stage 1 */
-    const real r3_w2_u1 = r3_w2_y2;
+    const real r3_w2_u1 = r3_w2_y2 - r3_w2_e0;
 
     /* khepera.bg:17: r3_w2: stage 1 */
-    const real r3_w2_y1 = x->r3_w2_s1 + c->b0 * r3_w2_u1;
+    const real r3_w2_y1 = x->r3_w2_s1 + c->b * r3_w2_u1;
 
     /* khepera.bg:17: r3_w2: stage 1: memory */
-    x->r3_w2_s1 = c->a * r3_w2_y1 + c->b1 * r3_w2_u1;
+    x->r3_w2_s1 = c->a * r3_w2_y1 + c->b * r3_w2_u1;
 
     /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re can do */
     const real r3_w2 = r3_w2_y1;
 
+    /* khepera.bg:17: r3_w3: terms of order 0 */
+    const real r3_w3_g0 = c->r3_w3_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_robot__Fx__2 * s->robot__Fx__2
+        + c->r3_w3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w3: terms of order 1 */
+    const real r3_w3_g1 = c->r3_w3_w1_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_w1_robot__Fx__2 * s->robot__Fx__2
+        + c->r3_w3_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w3: error of order 0 */
+    const real r3_w3_e0 = c->bend2 * r3_w3_g0;
+
+    /* khepera.bg:17: r3_w3: degree 2 */
+    const real r3_w3_d2 = c->r3_w3_w2_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w3_w2_robot__m__2__wh__ws * s->robot__m__2__wh__ws - r3_w3_e0;
+
+    /* khepera.bg:17: r3_w3: error of order 1 */
+    const real r3_w3_e1 = c->bend1 * r3_w3_g1;
+
     /* khepera.bg:17: r3_w3: input of stage 3 */
-    const real r3_w3_u3 = c->r3_w3_v3_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w3_v3_robot__Fx__2 * s->robot__Fx__2
-        + c->r3_w3_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w3_u3 = r3_w3_g0 + r3_w3_d2 + r3_w3_e1 - r3_w3_g1;
 
     /* khepera.bg:17: r3_w3: stage 3 */
-    const real r3_w3_y3 = x->r3_w3_s3 + c->b0 * r3_w3_u3;
+    const real r3_w3_y3 = x->r3_w3_s3 + c->b * r3_w3_u3;
 
     /* khepera.bg:17: r3_w3: stage 3: memory */
-    x->r3_w3_s3 = c->a * r3_w3_y3 + c->b1 * r3_w3_u3;
+    x->r3_w3_s3 = c->a * r3_w3_y3 + c->b * r3_w3_u3;
 
     /* khepera.bg:17: r3_w3: input of stage 2 */
-    const real r3_w3_u2 = r3_w3_y3 + c->r3_w3_v2_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w3_v2_robot__Fx__2 * s->robot__Fx__2
-        + c->r3_w3_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w3_u2 = r3_w3_y3 + r3_w3_g1 - REAL(2.0) * r3_w3_d2 - REAL(3.0) * r3_w3_e1;
 
     /* khepera.bg:17: r3_w3: stage 2 */
-    const real r3_w3_y2 = x->r3_w3_s2 + c->b0 * r3_w3_u2;
+    const real r3_w3_y2 = x->r3_w3_s2 + c->b * r3_w3_u2;
 
     /* khepera.bg:17: r3_w3: stage 2: memory */
-    x->r3_w3_s2 = c->a * r3_w3_y2 + c->b1 * r3_w3_u2;
+    x->r3_w3_s2 = c->a * r3_w3_y2 + c->b * r3_w3_u2;
 
     /* khepera.bg:17: r3_w3: input of stage 1 */
-    const real r3_w3_u1 = r3_w3_y2 + c->r3_w3_v1_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w3_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w3_u1 = r3_w3_y2 + r3_w3_d2 + REAL(3.0) * r3_w3_e1;
 
     /* khepera.bg:17: r3_w3: stage 1 */
-    const real r3_w3_y1 = x->r3_w3_s1 + c->b0 * r3_w3_u1;
+    const real r3_w3_y1 = x->r3_w3_s1 + c->b * r3_w3_u1;
 
     /* khepera.bg:17: r3_w3: stage 1: memory */
-    x->r3_w3_s1 = c->a * r3_w3_y1 + c->b1 * r3_w3_u1;
+    x->r3_w3_s1 = c->a * r3_w3_y1 + c->b * r3_w3_u1;
 
     /* khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do */
-    const real r3_w3 = r3_w3_y1;
+    const real r3_w3 = r3_w3_y1 - r3_w3_e1;
+
+    /* khepera.bg:17: r3_w4: terms of order 0 */
+    const real r3_w4_g0 = -c->r3_w4_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: degree 1 */
+    const real r3_w4_d1 = c->r3_w4_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w4: error of order 0 */
+    const real r3_w4_e0 = c->bend1 * r3_w4_g0;
 
     /* khepera.bg:17: r3_w4: input of stage 3 */
-    const real r3_w4_u3 = c->r3_w4_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w4_u3 = r3_w4_g0 + r3_w4_d1 - r3_w4_e0;
 
     /* khepera.bg:17: r3_w4: stage 3 */
-    const real r3_w4_y3 = x->r3_w4_s3 + c->b0 * r3_w4_u3;
+    const real r3_w4_y3 = x->r3_w4_s3 + c->b * r3_w4_u3;
 
     /* khepera.bg:17: r3_w4: stage 3: memory */
-    x->r3_w4_s3 = c->a * r3_w4_y3 + c->b1 * r3_w4_u3;
+    x->r3_w4_s3 = c->a * r3_w4_y3 + c->b * r3_w4_u3;
 
     /* khepera.bg:17: r3_w4: input of stage 2 */
-    const real r3_w4_u2 = r3_w4_y3 - c->r3_w4_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w4_u2 = r3_w4_y3 + REAL(2.0) * r3_w4_e0 - r3_w4_d1;
 
     /* khepera.bg:17: r3_w4: stage 2 */
-    const real r3_w4_y2 = x->r3_w4_s2 + c->b0 * r3_w4_u2;
+    const real r3_w4_y2 = x->r3_w4_s2 + c->b * r3_w4_u2;
 
     /* khepera.bg:17: r3_w4: stage 2: memory */
-    x->r3_w4_s2 = c->a * r3_w4_y2 + c->b1 * r3_w4_u2;
+    x->r3_w4_s2 = c->a * r3_w4_y2 + c->b * r3_w4_u2;
 
     /* khepera.bg:17: r3_w4: input of stage 1 */
-    const real r3_w4_u1 = r3_w4_y2;
+    const real r3_w4_u1 = r3_w4_y2 - r3_w4_e0;
 
     /* khepera.bg:17: r3_w4: stage 1 */
-    const real r3_w4_y1 = x->r3_w4_s1 + c->b0 * r3_w4_u1;
+    const real r3_w4_y1 = x->r3_w4_s1 + c->b * r3_w4_u1;
 
     /* khepera.bg:17: r3_w4: stage 1: memory */
-    x->r3_w4_s1 = c->a * r3_w4_y1 + c->b1 * r3_w4_u1;
+    x->r3_w4_s1 = c->a * r3_w4_y1 + c->b * r3_w4_u1;
 
     /* khepera.bg:17: r3: what the tolerance of robot.m[2].wh.fs can do */
     const real r3_w4 = r3_w4_y1;
 
     /* khepera.bg:17: r3_w5: input of stage 3 */
-    const real r3_w5_u3 = -c->r3_w5_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w5_u3 = -c->r3_w5_robot__m__2__me__we * s->robot__m__2__me__we;
 
     /* khepera.bg:17: r3_w5: stage 3 */
-    const real r3_w5_y3 = x->r3_w5_s3 + c->b0 * r3_w5_u3;
+    const real r3_w5_y3 = x->r3_w5_s3 + c->b * r3_w5_u3;
 
     /* khepera.bg:17: r3_w5: stage 3: memory */
-    x->r3_w5_s3 = c->a * r3_w5_y3 + c->b1 * r3_w5_u3;
+    x->r3_w5_s3 = c->a * r3_w5_y3 + c->b * r3_w5_u3;
 
     /* khepera.bg:17: r3_w5: input of stage 2 */
     const real r3_w5_u2 = r3_w5_y3;
 
     /* khepera.bg:17: r3_w5: stage 2 */
-    const real r3_w5_y2 = x->r3_w5_s2 + c->b0 * r3_w5_u2;
+    const real r3_w5_y2 = x->r3_w5_s2 + c->b * r3_w5_u2;
 
     /* khepera.bg:17: r3_w5: stage 2: memory */
-    x->r3_w5_s2 = c->a * r3_w5_y2 + c->b1 * r3_w5_u2;
+    x->r3_w5_s2 = c->a * r3_w5_y2 + c->b * r3_w5_u2;
 
     /* khepera.bg:17: r3_w5: input of stage 1 */
     const real r3_w5_u1 = r3_w5_y2;
 
     /* khepera.bg:17: r3_w5: stage 1 */
-    const real r3_w5_y1 = x->r3_w5_s1 + c->b0 * r3_w5_u1;
+    const real r3_w5_y1 = x->r3_w5_s1 + c->b * r3_w5_u1;
 
     /* khepera.bg:17: r3_w5: stage 1: memory */
-    x->r3_w5_s1 = c->a * r3_w5_y1 + c->b1 * r3_w5_u1;
+    x->r3_w5_s1 = c->a * r3_w5_y1 + c->b * r3_w5_u1;
 
     /* khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.Re can do together */
     const real r3_w5 = r3_w5_y1;
 
+    /* khepera.bg:17: r3_w6: terms of order 0 */
+    const real r3_w6_g0 = c->r3_w6_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w6: degree 1 */
+    const real r3_w6_d1 = c->r3_w6_w1_robot__m__2__me__we * s->robot__m__2__me__we;
+
+    /* khepera.bg:17: r3_w6: error of order 0 */
+    const real r3_w6_e0 = c->bend1 * r3_w6_g0;
+
     /* khepera.bg:17: r3_w6: input of stage 3 */
-    const real r3_w6_u3 = c->r3_w6_v3_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w6_u3 = r3_w6_g0 - r3_w6_d1 - r3_w6_e0;
 
     /* khepera.bg:17: r3_w6: stage 3 */
-    const real r3_w6_y3 = x->r3_w6_s3 + c->b0 * r3_w6_u3;
+    const real r3_w6_y3 = x->r3_w6_s3 + c->b * r3_w6_u3;
 
     /* khepera.bg:17: r3_w6: stage 3: memory */
-    x->r3_w6_s3 = c->a * r3_w6_y3 + c->b1 * r3_w6_u3;
+    x->r3_w6_s3 = c->a * r3_w6_y3 + c->b * r3_w6_u3;
 
     /* khepera.bg:17: r3_w6: input of stage 2 */
-    const real r3_w6_u2 = r3_w6_y3 + c->r3_w6_v2_robot__m__2__me__we * s->robot__m__2__me__we;
+    const real r3_w6_u2 = r3_w6_y3 + r3_w6_d1 + REAL(2.0) * r3_w6_e0;
 
     /* khepera.bg:17: r3_w6: stage 2 */
-    const real r3_w6_y2 = x->r3_w6_s2 + c->b0 * r3_w6_u2;
+    const real r3_w6_y2 = x->r3_w6_s2 + c->b * r3_w6_u2;
 
     /* khepera.bg:17: r3_w6: stage 2: memory */
-    x->r3_w6_s2 = c->a * r3_w6_y2 + c->b1 * r3_w6_u2;
+    x->r3_w6_s2 = c->a * r3_w6_y2 + c->b * r3_w6_u2;
 
     /* khepera.bg:17: r3_w6: input of stage 1 */
-    const real r3_w6_u1 = r3_w6_y2;
+    const real r3_w6_u1 = r3_w6_y2 - r3_w6_e0;
 
     /* khepera.bg:17: r3_w6: stage 1 */
-    const real r3_w6_y1 = x->r3_w6_s1 + c->b0 * r3_w6_u1;
+    const real r3_w6_y1 = x->r3_w6_s1 + c->b * r3_w6_u1;
 
     /* khepera.bg:17: r3_w6: stage 1: memory */
-    x->r3_w6_s1 = c->a * r3_w6_y1 + c->b1 * r3_w6_u1;
+    x->r3_w6_s1 = c->a * r3_w6_y1 + c->b * r3_w6_u1;
 
     /* khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.k can do together */
     const real r3_w6 = r3_w6_y1;
 
+    /* khepera.bg:17: r3_w7: terms of order 0 */
+    const real r3_w7_g0 = c->r3_w7_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w7_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        + c->r3_w7_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w7: degree 1 */
+    const real r3_w7_d1 = c->r3_w7_w1_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w7_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w7: error of order 0 */
+    const real r3_w7_e0 = c->bend1 * r3_w7_g0;
+
     /* khepera.bg:17: r3_w7: input of stage 3 */
-    const real r3_w7_u3 = c->r3_w7_v3_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w7_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        + c->r3_w7_v3_robot__Fx__2 * s->robot__Fx__2;
+    const real r3_w7_u3 = r3_w7_g0 - r3_w7_d1 - r3_w7_e0;
 
     /* khepera.bg:17: r3_w7: stage 3 */
-    const real r3_w7_y3 = x->r3_w7_s3 + c->b0 * r3_w7_u3;
+    const real r3_w7_y3 = x->r3_w7_s3 + c->b * r3_w7_u3;
 
     /* khepera.bg:17: r3_w7: stage 3: memory */
-    x->r3_w7_s3 = c->a * r3_w7_y3 + c->b1 * r3_w7_u3;
+    x->r3_w7_s3 = c->a * r3_w7_y3 + c->b * r3_w7_u3;
 
     /* khepera.bg:17: r3_w7: input of stage 2 */
-    const real r3_w7_u2 = r3_w7_y3 + c->r3_w7_v2_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w7_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w7_u2 = r3_w7_y3 + r3_w7_d1 + REAL(2.0) * r3_w7_e0;
 
     /* khepera.bg:17: r3_w7: stage 2 */
-    const real r3_w7_y2 = x->r3_w7_s2 + c->b0 * r3_w7_u2;
+    const real r3_w7_y2 = x->r3_w7_s2 + c->b * r3_w7_u2;
 
     /* khepera.bg:17: r3_w7: stage 2: memory */
-    x->r3_w7_s2 = c->a * r3_w7_y2 + c->b1 * r3_w7_u2;
+    x->r3_w7_s2 = c->a * r3_w7_y2 + c->b * r3_w7_u2;
 
     /* khepera.bg:17: r3_w7: input of stage 1 */
-    const real r3_w7_u1 = r3_w7_y2;
+    const real r3_w7_u1 = r3_w7_y2 - r3_w7_e0;
 
     /* khepera.bg:17: r3_w7: stage 1 */
-    const real r3_w7_y1 = x->r3_w7_s1 + c->b0 * r3_w7_u1;
+    const real r3_w7_y1 = x->r3_w7_s1 + c->b * r3_w7_u1;
 
     /* khepera.bg:17: r3_w7: stage 1: memory */
-    x->r3_w7_s1 = c->a * r3_w7_y1 + c->b1 * r3_w7_u1;
+    x->r3_w7_s1 = c->a * r3_w7_y1 + c->b * r3_w7_u1;
 
     /* khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].el.k can do
      * together */
     const real r3_w7 = r3_w7_y1;
 
     /* khepera.bg:17: r3_w8: input of stage 3 */
-    const real r3_w8_u3 = -c->r3_w8_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w8_u3 = -c->r3_w8_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
 
     /* khepera.bg:17: r3_w8: stage 3 */
-    const real r3_w8_y3 = x->r3_w8_s3 + c->b0 * r3_w8_u3;
+    const real r3_w8_y3 = x->r3_w8_s3 + c->b * r3_w8_u3;
 
     /* khepera.bg:17: r3_w8: stage 3: memory */
-    x->r3_w8_s3 = c->a * r3_w8_y3 + c->b1 * r3_w8_u3;
+    x->r3_w8_s3 = c->a * r3_w8_y3 + c->b * r3_w8_u3;
 
     /* khepera.bg:17: r3_w8: input of stage 2 */
     const real r3_w8_u2 = r3_w8_y3;
 
     /* khepera.bg:17: r3_w8: stage 2 */
-    const real r3_w8_y2 = x->r3_w8_s2 + c->b0 * r3_w8_u2;
+    const real r3_w8_y2 = x->r3_w8_s2 + c->b * r3_w8_u2;
 
     /* khepera.bg:17: r3_w8: stage 2: memory */
-    x->r3_w8_s2 = c->a * r3_w8_y2 + c->b1 * r3_w8_u2;
+    x->r3_w8_s2 = c->a * r3_w8_y2 + c->b * r3_w8_u2;
 
     /* khepera.bg:17: r3_w8: input of stage 1 */
     const real r3_w8_u1 = r3_w8_y2;
 
     /* khepera.bg:17: r3_w8: stage 1 */
-    const real r3_w8_y1 = x->r3_w8_s1 + c->b0 * r3_w8_u1;
+    const real r3_w8_y1 = x->r3_w8_s1 + c->b * r3_w8_u1;
 
     /* khepera.bg:17: r3_w8: stage 1: memory */
-    x->r3_w8_s1 = c->a * r3_w8_y1 + c->b1 * r3_w8_u1;
+    x->r3_w8_s1 = c->a * r3_w8_y1 + c->b * r3_w8_u1;
 
     /* khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].wh.fs can do
      * together */
     const real r3_w8 = r3_w8_y1;
 
+    /* khepera.bg:17: r3_w9: terms of order 0 */
+    const real r3_w9_g0 = -c->r3_w9_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w9_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w9_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w9: terms of order 1 */
+    const real r3_w9_g1 = c->r3_w9_w1_robot__m__2__me__we * s->robot__m__2__me__we
+        + c->r3_w9_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws
+        - c->r3_w9_w1_robot__Fx__2 * s->robot__Fx__2;
+
+    /* khepera.bg:17: r3_w9: error of order 0 */
+    const real r3_w9_e0 = c->bend2 * r3_w9_g0;
+
+    /* khepera.bg:17: r3_w9: degree 2 */
+    const real r3_w9_d2 = -c->r3_w9_w2_robot__m__2__me__we * s->robot__m__2__me__we
+        - c->r3_w9_w2_robot__m__2__wh__ws * s->robot__m__2__wh__ws - r3_w9_e0;
+
+    /* khepera.bg:17: r3_w9: error of order 1 */
+    const real r3_w9_e1 = c->bend1 * r3_w9_g1;
+
     /* khepera.bg:17: r3_w9: input of stage 3 */
-    const real r3_w9_u3 = c->r3_w9_v3_robot__Fx__2 * s->robot__Fx__2
-        - c->r3_w9_v3_robot__m__2__me__we * s->robot__m__2__me__we
-        - c->r3_w9_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w9_u3 = r3_w9_g0 + r3_w9_d2 + r3_w9_e1 - r3_w9_g1;
 
     /* khepera.bg:17: r3_w9: stage 3 */
-    const real r3_w9_y3 = x->r3_w9_s3 + c->b0 * r3_w9_u3;
+    const real r3_w9_y3 = x->r3_w9_s3 + c->b * r3_w9_u3;
 
     /* khepera.bg:17: r3_w9: stage 3: memory */
-    x->r3_w9_s3 = c->a * r3_w9_y3 + c->b1 * r3_w9_u3;
+    x->r3_w9_s3 = c->a * r3_w9_y3 + c->b * r3_w9_u3;
 
     /* khepera.bg:17: r3_w9: input of stage 2 */
-    const real r3_w9_u2 = r3_w9_y3 + c->r3_w9_v2_robot__m__2__me__we * s->robot__m__2__me__we
-        + c->r3_w9_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws
-        - c->r3_w9_v2_robot__Fx__2 * s->robot__Fx__2;
+    const real r3_w9_u2 = r3_w9_y3 + r3_w9_g1 - REAL(2.0) * r3_w9_d2 - REAL(3.0) * r3_w9_e1;
 
     /* khepera.bg:17: r3_w9: stage 2 */
-    const real r3_w9_y2 = x->r3_w9_s2 + c->b0 * r3_w9_u2;
+    const real r3_w9_y2 = x->r3_w9_s2 + c->b * r3_w9_u2;
 
     /* khepera.bg:17: r3_w9: stage 2: memory */
-    x->r3_w9_s2 = c->a * r3_w9_y2 + c->b1 * r3_w9_u2;
+    x->r3_w9_s2 = c->a * r3_w9_y2 + c->b * r3_w9_u2;
 
     /* khepera.bg:17: r3_w9: input of stage 1 */
-    const real r3_w9_u1 = r3_w9_y2 - c->r3_w9_v1_robot__m__2__me__we * s->robot__m__2__me__we
-        - c->r3_w9_v1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w9_u1 = r3_w9_y2 + r3_w9_d2 + REAL(3.0) * r3_w9_e1;
 
     /* khepera.bg:17: r3_w9: stage 1 */
-    const real r3_w9_y1 = x->r3_w9_s1 + c->b0 * r3_w9_u1;
+    const real r3_w9_y1 = x->r3_w9_s1 + c->b * r3_w9_u1;
 
     /* khepera.bg:17: r3_w9: stage 1: memory */
-    x->r3_w9_s1 = c->a * r3_w9_y1 + c->b1 * r3_w9_u1;
+    x->r3_w9_s1 = c->a * r3_w9_y1 + c->b * r3_w9_u1;
 
     /* khepera.bg:17: r3: second order of what the tolerance of robot.m[2].el.k can do */
-    const real r3_w9 = r3_w9_y1;
+    const real r3_w9 = r3_w9_y1 - r3_w9_e1;
+
+    /* khepera.bg:17: r3_w10: terms of order 0 */
+    const real r3_w10_g0 = c->r3_w10_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: degree 1 */
+    const real r3_w10_d1 = c->r3_w10_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
+    /* khepera.bg:17: r3_w10: error of order 0 */
+    const real r3_w10_e0 = c->bend1 * r3_w10_g0;
 
     /* khepera.bg:17: r3_w10: input of stage 3 */
-    const real r3_w10_u3 = c->r3_w10_v3_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w10_u3 = r3_w10_g0 - r3_w10_d1 - r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 3 */
-    const real r3_w10_y3 = x->r3_w10_s3 + c->b0 * r3_w10_u3;
+    const real r3_w10_y3 = x->r3_w10_s3 + c->b * r3_w10_u3;
 
     /* khepera.bg:17: r3_w10: stage 3: memory */
-    x->r3_w10_s3 = c->a * r3_w10_y3 + c->b1 * r3_w10_u3;
+    x->r3_w10_s3 = c->a * r3_w10_y3 + c->b * r3_w10_u3;
 
     /* khepera.bg:17: r3_w10: input of stage 2 */
-    const real r3_w10_u2 = r3_w10_y3 + c->r3_w10_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r3_w10_u2 = r3_w10_y3 + r3_w10_d1 + REAL(2.0) * r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 2 */
-    const real r3_w10_y2 = x->r3_w10_s2 + c->b0 * r3_w10_u2;
+    const real r3_w10_y2 = x->r3_w10_s2 + c->b * r3_w10_u2;
 
     /* khepera.bg:17: r3_w10: stage 2: memory */
-    x->r3_w10_s2 = c->a * r3_w10_y2 + c->b1 * r3_w10_u2;
+    x->r3_w10_s2 = c->a * r3_w10_y2 + c->b * r3_w10_u2;
 
     /* khepera.bg:17: r3_w10: input of stage 1 */
-    const real r3_w10_u1 = r3_w10_y2;
+    const real r3_w10_u1 = r3_w10_y2 - r3_w10_e0;
 
     /* khepera.bg:17: r3_w10: stage 1 */
-    const real r3_w10_y1 = x->r3_w10_s1 + c->b0 * r3_w10_u1;
+    const real r3_w10_y1 = x->r3_w10_s1 + c->b * r3_w10_u1;
 
     /* khepera.bg:17: r3_w10: stage 1: memory */
-    x->r3_w10_s1 = c->a * r3_w10_y1 + c->b1 * r3_w10_u1;
+    x->r3_w10_s1 = c->a * r3_w10_y1 + c->b * r3_w10_u1;
 
     /* khepera.bg:17: r3: what the tolerances of robot.m[2].el.k and robot.m[2].wh.fs can do
      * together */
@@ -2120,8 +2403,11 @@ static void start_r4(
     const khepera_plausible_threshold_coefficients *c = &monitor->c;
     khepera_plausible_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:41: r4_w1: degree 1 */
+    const real r4_w1_d1 = c->r4_w1_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
     /* khepera.bg:41: r4_w1: input of stage 3 */
-    const real r4_w1_u3 = c->r4_w1_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r4_w1_u3 = r4_w1_d1;
 
     /* khepera.bg:41: r4_w1: stage 3, at rest */
     const real r4_w1_y3 = r4_w1_u3;
@@ -2130,7 +2416,7 @@ static void start_r4(
     x->r4_w1_s3 = c->rest * r4_w1_u3;
 
     /* khepera.bg:41: r4_w1: input of stage 2 */
-    const real r4_w1_u2 = r4_w1_y3 - c->r4_w1_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r4_w1_u2 = r4_w1_y3 - r4_w1_d1;
 
     /* khepera.bg:41: r4_w1: stage 2, at rest */
     const real r4_w1_y2 = r4_w1_u2;
@@ -2161,32 +2447,35 @@ static void next_r4(
     const khepera_plausible_threshold_coefficients *c = &monitor->c;
     khepera_plausible_threshold_memory *x = &monitor->x;
 
+    /* khepera.bg:41: r4_w1: degree 1 */
+    const real r4_w1_d1 = c->r4_w1_w1_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+
     /* khepera.bg:41: r4_w1: input of stage 3 */
-    const real r4_w1_u3 = c->r4_w1_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r4_w1_u3 = r4_w1_d1;
 
     /* khepera.bg:41: r4_w1: stage 3 */
-    const real r4_w1_y3 = x->r4_w1_s3 + c->b0 * r4_w1_u3;
+    const real r4_w1_y3 = x->r4_w1_s3 + c->b * r4_w1_u3;
 
     /* khepera.bg:41: r4_w1: stage 3: memory */
-    x->r4_w1_s3 = c->a * r4_w1_y3 + c->b1 * r4_w1_u3;
+    x->r4_w1_s3 = c->a * r4_w1_y3 + c->b * r4_w1_u3;
 
     /* khepera.bg:41: r4_w1: input of stage 2 */
-    const real r4_w1_u2 = r4_w1_y3 - c->r4_w1_v2_robot__m__2__wh__ws * s->robot__m__2__wh__ws;
+    const real r4_w1_u2 = r4_w1_y3 - r4_w1_d1;
 
     /* khepera.bg:41: r4_w1: stage 2 */
-    const real r4_w1_y2 = x->r4_w1_s2 + c->b0 * r4_w1_u2;
+    const real r4_w1_y2 = x->r4_w1_s2 + c->b * r4_w1_u2;
 
     /* khepera.bg:41: r4_w1: stage 2: memory */
-    x->r4_w1_s2 = c->a * r4_w1_y2 + c->b1 * r4_w1_u2;
+    x->r4_w1_s2 = c->a * r4_w1_y2 + c->b * r4_w1_u2;
 
     /* khepera.bg:41: r4_w1: input of stage 1 */
     const real r4_w1_u1 = r4_w1_y2;
 
     /* khepera.bg:41: r4_w1: stage 1 */
-    const real r4_w1_y1 = x->r4_w1_s1 + c->b0 * r4_w1_u1;
+    const real r4_w1_y1 = x->r4_w1_s1 + c->b * r4_w1_u1;
 
     /* khepera.bg:41: r4_w1: stage 1: memory */
-    x->r4_w1_s1 = c->a * r4_w1_y1 + c->b1 * r4_w1_u1;
+    x->r4_w1_s1 = c->a * r4_w1_y1 + c->b * r4_w1_u1;
 
     /* khepera.bg:41: r4: what the tolerance of robot.m[2].wh.fs can do */
     const real r4_w1 = r4_w1_y1;

@@ -32,7 +32,7 @@ typedef double khepera_plausible_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define KHEPERA_PLAUSIBLE_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(khepera_plausible_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define KHEPERA_PLAUSIBLE_THRESHOLD_DIGEST "61e468f2509f693f"
+#define KHEPERA_PLAUSIBLE_THRESHOLD_DIGEST "89a1357814eafe4f"
 
 /* What the code was made for: arguments of khepera_plausible_threshold_configure, in s, rad/s and s. */
 #define KHEPERA_PLAUSIBLE_THRESHOLD_SAMPLE_TIME KHEPERA_PLAUSIBLE_THRESHOLD_CONSTANT(0.001)
@@ -152,158 +152,150 @@ typedef struct khepera_plausible_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct khepera_plausible_threshold_coefficients {
-    /* r1_w1: factor of robot.m[1].me.we in stage 2 */
-    khepera_plausible_threshold_real r1_w1_v2_robot__m__1__me__we;
-    /* r1_w1: factor of robot.m[1].me.we in stage 3 */
-    khepera_plausible_threshold_real r1_w1_v3_robot__m__1__me__we;
-    khepera_plausible_threshold_real a;     /* filter: exp(-bandwidth*sample_time) */
-    khepera_plausible_threshold_real b0;    /* filter: weight of the new sample */
-    khepera_plausible_threshold_real b1;    /* filter: weight of the sample before */
-    khepera_plausible_threshold_real rest;  /* filter: 1 - b0, the memory of a constant 1 */
-    /* r1_w2: factor of robot.Fx[1] in stage 3 */
-    khepera_plausible_threshold_real r1_w2_v3_robot__Fx__1;
-    /* r1_w2: factor of robot.m[1].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r1_w2_v2_robot__m__1__wh__ws;
-    /* r1_w2: factor of robot.m[1].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r1_w2_v3_robot__m__1__wh__ws;
-    /* r1_w2: factor of robot.m[1].me.we in stage 2 */
-    khepera_plausible_threshold_real r1_w2_v2_robot__m__1__me__we;
-    /* r1_w2: factor of robot.m[1].me.we in stage 3 */
-    khepera_plausible_threshold_real r1_w2_v3_robot__m__1__me__we;
-    /* r1_w3: factor of robot.m[1].me.we in stage 1 */
-    khepera_plausible_threshold_real r1_w3_v1_robot__m__1__me__we;
-    /* r1_w3: factor of robot.m[1].me.we in stage 2 */
-    khepera_plausible_threshold_real r1_w3_v2_robot__m__1__me__we;
-    /* r1_w3: factor of robot.m[1].me.we in stage 3 */
-    khepera_plausible_threshold_real r1_w3_v3_robot__m__1__me__we;
-    /* r1_w3: factor of robot.Fx[1] in stage 2 */
-    khepera_plausible_threshold_real r1_w3_v2_robot__Fx__1;
-    /* r1_w3: factor of robot.Fx[1] in stage 3 */
-    khepera_plausible_threshold_real r1_w3_v3_robot__Fx__1;
-    /* r1_w3: factor of robot.m[1].wh.ws in stage 1 */
-    khepera_plausible_threshold_real r1_w3_v1_robot__m__1__wh__ws;
-    /* r1_w3: factor of robot.m[1].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r1_w3_v2_robot__m__1__wh__ws;
-    /* r1_w3: factor of robot.m[1].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r1_w3_v3_robot__m__1__wh__ws;
-    /* r1_w4: factor of robot.m[1].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r1_w4_v2_robot__m__1__wh__ws;
-    /* r1_w4: factor of robot.m[1].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r1_w4_v3_robot__m__1__wh__ws;
-    /* r1_w5: factor of robot.m[1].me.we in stage 3 */
-    khepera_plausible_threshold_real r1_w5_v3_robot__m__1__me__we;
-    /* r1_w6: factor of robot.m[1].me.we in stage 2 */
-    khepera_plausible_threshold_real r1_w6_v2_robot__m__1__me__we;
-    /* r1_w6: factor of robot.m[1].me.we in stage 3 */
-    khepera_plausible_threshold_real r1_w6_v3_robot__m__1__me__we;
-    /* r1_w7: factor of robot.m[1].me.we in stage 2 */
-    khepera_plausible_threshold_real r1_w7_v2_robot__m__1__me__we;
-    /* r1_w7: factor of robot.m[1].me.we in stage 3 */
-    khepera_plausible_threshold_real r1_w7_v3_robot__m__1__me__we;
-    /* r1_w7: factor of robot.m[1].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r1_w7_v2_robot__m__1__wh__ws;
-    /* r1_w7: factor of robot.m[1].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r1_w7_v3_robot__m__1__wh__ws;
-    /* r1_w7: factor of robot.Fx[1] in stage 3 */
-    khepera_plausible_threshold_real r1_w7_v3_robot__Fx__1;
-    /* r1_w8: factor of robot.m[1].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r1_w8_v3_robot__m__1__wh__ws;
-    /* r1_w9: factor of robot.m[1].me.we in stage 1 */
-    khepera_plausible_threshold_real r1_w9_v1_robot__m__1__me__we;
-    /* r1_w9: factor of robot.m[1].me.we in stage 2 */
-    khepera_plausible_threshold_real r1_w9_v2_robot__m__1__me__we;
-    /* r1_w9: factor of robot.m[1].me.we in stage 3 */
-    khepera_plausible_threshold_real r1_w9_v3_robot__m__1__me__we;
-    /* r1_w9: factor of robot.m[1].wh.ws in stage 1 */
-    khepera_plausible_threshold_real r1_w9_v1_robot__m__1__wh__ws;
-    /* r1_w9: factor of robot.m[1].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r1_w9_v2_robot__m__1__wh__ws;
-    /* r1_w9: factor of robot.m[1].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r1_w9_v3_robot__m__1__wh__ws;
-    /* r1_w9: factor of robot.Fx[1] in stage 2 */
-    khepera_plausible_threshold_real r1_w9_v2_robot__Fx__1;
-    /* r1_w9: factor of robot.Fx[1] in stage 3 */
-    khepera_plausible_threshold_real r1_w9_v3_robot__Fx__1;
-    /* r1_w10: factor of robot.m[1].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r1_w10_v2_robot__m__1__wh__ws;
-    /* r1_w10: factor of robot.m[1].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r1_w10_v3_robot__m__1__wh__ws;
-    /* r2_w1: factor of robot.m[1].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r2_w1_v2_robot__m__1__wh__ws;
-    /* r3_w1: factor of robot.m[2].me.we in stage 2 */
-    khepera_plausible_threshold_real r3_w1_v2_robot__m__2__me__we;
-    /* r3_w1: factor of robot.m[2].me.we in stage 3 */
-    khepera_plausible_threshold_real r3_w1_v3_robot__m__2__me__we;
-    /* r3_w2: factor of robot.Fx[2] in stage 3 */
-    khepera_plausible_threshold_real r3_w2_v3_robot__Fx__2;
-    /* r3_w2: factor of robot.m[2].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r3_w2_v2_robot__m__2__wh__ws;
-    /* r3_w2: factor of robot.m[2].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r3_w2_v3_robot__m__2__wh__ws;
-    /* r3_w2: factor of robot.m[2].me.we in stage 2 */
-    khepera_plausible_threshold_real r3_w2_v2_robot__m__2__me__we;
-    /* r3_w2: factor of robot.m[2].me.we in stage 3 */
-    khepera_plausible_threshold_real r3_w2_v3_robot__m__2__me__we;
-    /* r3_w3: factor of robot.m[2].me.we in stage 1 */
-    khepera_plausible_threshold_real r3_w3_v1_robot__m__2__me__we;
-    /* r3_w3: factor of robot.m[2].me.we in stage 2 */
-    khepera_plausible_threshold_real r3_w3_v2_robot__m__2__me__we;
-    /* r3_w3: factor of robot.m[2].me.we in stage 3 */
-    khepera_plausible_threshold_real r3_w3_v3_robot__m__2__me__we;
-    /* r3_w3: factor of robot.Fx[2] in stage 2 */
-    khepera_plausible_threshold_real r3_w3_v2_robot__Fx__2;
-    /* r3_w3: factor of robot.Fx[2] in stage 3 */
-    khepera_plausible_threshold_real r3_w3_v3_robot__Fx__2;
-    /* r3_w3: factor of robot.m[2].wh.ws in stage 1 */
-    khepera_plausible_threshold_real r3_w3_v1_robot__m__2__wh__ws;
-    /* r3_w3: factor of robot.m[2].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r3_w3_v2_robot__m__2__wh__ws;
-    /* r3_w3: factor of robot.m[2].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r3_w3_v3_robot__m__2__wh__ws;
-    /* r3_w4: factor of robot.m[2].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r3_w4_v2_robot__m__2__wh__ws;
-    /* r3_w4: factor of robot.m[2].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r3_w4_v3_robot__m__2__wh__ws;
-    /* r3_w5: factor of robot.m[2].me.we in stage 3 */
-    khepera_plausible_threshold_real r3_w5_v3_robot__m__2__me__we;
-    /* r3_w6: factor of robot.m[2].me.we in stage 2 */
-    khepera_plausible_threshold_real r3_w6_v2_robot__m__2__me__we;
-    /* r3_w6: factor of robot.m[2].me.we in stage 3 */
-    khepera_plausible_threshold_real r3_w6_v3_robot__m__2__me__we;
-    /* r3_w7: factor of robot.m[2].me.we in stage 2 */
-    khepera_plausible_threshold_real r3_w7_v2_robot__m__2__me__we;
-    /* r3_w7: factor of robot.m[2].me.we in stage 3 */
-    khepera_plausible_threshold_real r3_w7_v3_robot__m__2__me__we;
-    /* r3_w7: factor of robot.m[2].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r3_w7_v2_robot__m__2__wh__ws;
-    /* r3_w7: factor of robot.m[2].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r3_w7_v3_robot__m__2__wh__ws;
-    /* r3_w7: factor of robot.Fx[2] in stage 3 */
-    khepera_plausible_threshold_real r3_w7_v3_robot__Fx__2;
-    /* r3_w8: factor of robot.m[2].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r3_w8_v3_robot__m__2__wh__ws;
-    /* r3_w9: factor of robot.m[2].me.we in stage 1 */
-    khepera_plausible_threshold_real r3_w9_v1_robot__m__2__me__we;
-    /* r3_w9: factor of robot.m[2].me.we in stage 2 */
-    khepera_plausible_threshold_real r3_w9_v2_robot__m__2__me__we;
-    /* r3_w9: factor of robot.m[2].me.we in stage 3 */
-    khepera_plausible_threshold_real r3_w9_v3_robot__m__2__me__we;
-    /* r3_w9: factor of robot.m[2].wh.ws in stage 1 */
-    khepera_plausible_threshold_real r3_w9_v1_robot__m__2__wh__ws;
-    /* r3_w9: factor of robot.m[2].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r3_w9_v2_robot__m__2__wh__ws;
-    /* r3_w9: factor of robot.m[2].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r3_w9_v3_robot__m__2__wh__ws;
-    /* r3_w9: factor of robot.Fx[2] in stage 2 */
-    khepera_plausible_threshold_real r3_w9_v2_robot__Fx__2;
-    /* r3_w9: factor of robot.Fx[2] in stage 3 */
-    khepera_plausible_threshold_real r3_w9_v3_robot__Fx__2;
-    /* r3_w10: factor of robot.m[2].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r3_w10_v2_robot__m__2__wh__ws;
-    /* r3_w10: factor of robot.m[2].wh.ws in stage 3 */
-    khepera_plausible_threshold_real r3_w10_v3_robot__m__2__wh__ws;
-    /* r4_w1: factor of robot.m[2].wh.ws in stage 2 */
-    khepera_plausible_threshold_real r4_w1_v2_robot__m__2__wh__ws;
+    /* r1_w1: factor of robot.m[1].me.we */
+    khepera_plausible_threshold_real r1_w1_robot__m__1__me__we;
+    /* r1_w1: factor of robot.m[1].me.we' */
+    khepera_plausible_threshold_real r1_w1_w1_robot__m__1__me__we;
+    khepera_plausible_threshold_real bend1;                  /* filter: 1 * (w*sample_time)^2/12 */
+    /* filter: what is left of a memory a sample later */
+    khepera_plausible_threshold_real a;
+    /* filter: weight of a sample, new and a sample later */
+    khepera_plausible_threshold_real b;
+    /* filter: 1 - b, the memory of a constant 1 */
+    khepera_plausible_threshold_real rest;
+    khepera_plausible_threshold_real r1_w2_robot__Fx__1;     /* r1_w2: factor of robot.Fx[1] */
+    /* r1_w2: factor of robot.m[1].wh.ws */
+    khepera_plausible_threshold_real r1_w2_robot__m__1__wh__ws;
+    /* r1_w2: factor of robot.m[1].wh.ws' */
+    khepera_plausible_threshold_real r1_w2_w1_robot__m__1__wh__ws;
+    /* r1_w2: factor of robot.m[1].me.we */
+    khepera_plausible_threshold_real r1_w2_robot__m__1__me__we;
+    /* r1_w2: factor of robot.m[1].me.we' */
+    khepera_plausible_threshold_real r1_w2_w1_robot__m__1__me__we;
+    /* r1_w3: factor of robot.m[1].me.we */
+    khepera_plausible_threshold_real r1_w3_robot__m__1__me__we;
+    /* r1_w3: factor of robot.m[1].me.we' */
+    khepera_plausible_threshold_real r1_w3_w1_robot__m__1__me__we;
+    /* r1_w3: factor of robot.m[1].me.we'' */
+    khepera_plausible_threshold_real r1_w3_w2_robot__m__1__me__we;
+    khepera_plausible_threshold_real r1_w3_robot__Fx__1;     /* r1_w3: factor of robot.Fx[1] */
+    khepera_plausible_threshold_real r1_w3_w1_robot__Fx__1;  /* r1_w3: factor of robot.Fx[1]' */
+    /* r1_w3: factor of robot.m[1].wh.ws */
+    khepera_plausible_threshold_real r1_w3_robot__m__1__wh__ws;
+    /* r1_w3: factor of robot.m[1].wh.ws' */
+    khepera_plausible_threshold_real r1_w3_w1_robot__m__1__wh__ws;
+    /* r1_w3: factor of robot.m[1].wh.ws'' */
+    khepera_plausible_threshold_real r1_w3_w2_robot__m__1__wh__ws;
+    khepera_plausible_threshold_real bend2;                  /* filter: 2 * (w*sample_time)^2/12 */
+    /* r1_w4: factor of robot.m[1].wh.ws */
+    khepera_plausible_threshold_real r1_w4_robot__m__1__wh__ws;
+    /* r1_w4: factor of robot.m[1].wh.ws' */
+    khepera_plausible_threshold_real r1_w4_w1_robot__m__1__wh__ws;
+    /* r1_w5: factor of robot.m[1].me.we */
+    khepera_plausible_threshold_real r1_w5_robot__m__1__me__we;
+    /* r1_w6: factor of robot.m[1].me.we */
+    khepera_plausible_threshold_real r1_w6_robot__m__1__me__we;
+    /* r1_w6: factor of robot.m[1].me.we' */
+    khepera_plausible_threshold_real r1_w6_w1_robot__m__1__me__we;
+    /* r1_w7: factor of robot.m[1].me.we */
+    khepera_plausible_threshold_real r1_w7_robot__m__1__me__we;
+    /* r1_w7: factor of robot.m[1].me.we' */
+    khepera_plausible_threshold_real r1_w7_w1_robot__m__1__me__we;
+    /* r1_w7: factor of robot.m[1].wh.ws */
+    khepera_plausible_threshold_real r1_w7_robot__m__1__wh__ws;
+    /* r1_w7: factor of robot.m[1].wh.ws' */
+    khepera_plausible_threshold_real r1_w7_w1_robot__m__1__wh__ws;
+    khepera_plausible_threshold_real r1_w7_robot__Fx__1;     /* r1_w7: factor of robot.Fx[1] */
+    /* r1_w8: factor of robot.m[1].wh.ws */
+    khepera_plausible_threshold_real r1_w8_robot__m__1__wh__ws;
+    /* r1_w9: factor of robot.m[1].me.we */
+    khepera_plausible_threshold_real r1_w9_robot__m__1__me__we;
+    /* r1_w9: factor of robot.m[1].me.we' */
+    khepera_plausible_threshold_real r1_w9_w1_robot__m__1__me__we;
+    /* r1_w9: factor of robot.m[1].me.we'' */
+    khepera_plausible_threshold_real r1_w9_w2_robot__m__1__me__we;
+    /* r1_w9: factor of robot.m[1].wh.ws */
+    khepera_plausible_threshold_real r1_w9_robot__m__1__wh__ws;
+    /* r1_w9: factor of robot.m[1].wh.ws' */
+    khepera_plausible_threshold_real r1_w9_w1_robot__m__1__wh__ws;
+    /* r1_w9: factor of robot.m[1].wh.ws'' */
+    khepera_plausible_threshold_real r1_w9_w2_robot__m__1__wh__ws;
+    khepera_plausible_threshold_real r1_w9_robot__Fx__1;     /* r1_w9: factor of robot.Fx[1] */
+    khepera_plausible_threshold_real r1_w9_w1_robot__Fx__1;  /* r1_w9: factor of robot.Fx[1]' */
+    /* r1_w10: factor of robot.m[1].wh.ws */
+    khepera_plausible_threshold_real r1_w10_robot__m__1__wh__ws;
+    /* r1_w10: factor of robot.m[1].wh.ws' */
+    khepera_plausible_threshold_real r1_w10_w1_robot__m__1__wh__ws;
+    /* r2_w1: factor of robot.m[1].wh.ws' */
+    khepera_plausible_threshold_real r2_w1_w1_robot__m__1__wh__ws;
+    /* r3_w1: factor of robot.m[2].me.we */
+    khepera_plausible_threshold_real r3_w1_robot__m__2__me__we;
+    /* r3_w1: factor of robot.m[2].me.we' */
+    khepera_plausible_threshold_real r3_w1_w1_robot__m__2__me__we;
+    khepera_plausible_threshold_real r3_w2_robot__Fx__2;     /* r3_w2: factor of robot.Fx[2] */
+    /* r3_w2: factor of robot.m[2].wh.ws */
+    khepera_plausible_threshold_real r3_w2_robot__m__2__wh__ws;
+    /* r3_w2: factor of robot.m[2].wh.ws' */
+    khepera_plausible_threshold_real r3_w2_w1_robot__m__2__wh__ws;
+    /* r3_w2: factor of robot.m[2].me.we */
+    khepera_plausible_threshold_real r3_w2_robot__m__2__me__we;
+    /* r3_w2: factor of robot.m[2].me.we' */
+    khepera_plausible_threshold_real r3_w2_w1_robot__m__2__me__we;
+    /* r3_w3: factor of robot.m[2].me.we */
+    khepera_plausible_threshold_real r3_w3_robot__m__2__me__we;
+    /* r3_w3: factor of robot.m[2].me.we' */
+    khepera_plausible_threshold_real r3_w3_w1_robot__m__2__me__we;
+    /* r3_w3: factor of robot.m[2].me.we'' */
+    khepera_plausible_threshold_real r3_w3_w2_robot__m__2__me__we;
+    khepera_plausible_threshold_real r3_w3_robot__Fx__2;     /* r3_w3: factor of robot.Fx[2] */
+    khepera_plausible_threshold_real r3_w3_w1_robot__Fx__2;  /* r3_w3: factor of robot.Fx[2]' */
+    /* r3_w3: factor of robot.m[2].wh.ws */
+    khepera_plausible_threshold_real r3_w3_robot__m__2__wh__ws;
+    /* r3_w3: factor of robot.m[2].wh.ws' */
+    khepera_plausible_threshold_real r3_w3_w1_robot__m__2__wh__ws;
+    /* r3_w3: factor of robot.m[2].wh.ws'' */
+    khepera_plausible_threshold_real r3_w3_w2_robot__m__2__wh__ws;
+    /* r3_w4: factor of robot.m[2].wh.ws */
+    khepera_plausible_threshold_real r3_w4_robot__m__2__wh__ws;
+    /* r3_w4: factor of robot.m[2].wh.ws' */
+    khepera_plausible_threshold_real r3_w4_w1_robot__m__2__wh__ws;
+    /* r3_w5: factor of robot.m[2].me.we */
+    khepera_plausible_threshold_real r3_w5_robot__m__2__me__we;
+    /* r3_w6: factor of robot.m[2].me.we */
+    khepera_plausible_threshold_real r3_w6_robot__m__2__me__we;
+    /* r3_w6: factor of robot.m[2].me.we' */
+    khepera_plausible_threshold_real r3_w6_w1_robot__m__2__me__we;
+    /* r3_w7: factor of robot.m[2].me.we */
+    khepera_plausible_threshold_real r3_w7_robot__m__2__me__we;
+    /* r3_w7: factor of robot.m[2].me.we' */
+    khepera_plausible_threshold_real r3_w7_w1_robot__m__2__me__we;
+    /* r3_w7: factor of robot.m[2].wh.ws */
+    khepera_plausible_threshold_real r3_w7_robot__m__2__wh__ws;
+    /* r3_w7: factor of robot.m[2].wh.ws' */
+    khepera_plausible_threshold_real r3_w7_w1_robot__m__2__wh__ws;
+    khepera_plausible_threshold_real r3_w7_robot__Fx__2;     /* r3_w7: factor of robot.Fx[2] */
+    /* r3_w8: factor of robot.m[2].wh.ws */
+    khepera_plausible_threshold_real r3_w8_robot__m__2__wh__ws;
+    /* r3_w9: factor of robot.m[2].me.we */
+    khepera_plausible_threshold_real r3_w9_robot__m__2__me__we;
+    /* r3_w9: factor of robot.m[2].me.we' */
+    khepera_plausible_threshold_real r3_w9_w1_robot__m__2__me__we;
+    /* r3_w9: factor of robot.m[2].me.we'' */
+    khepera_plausible_threshold_real r3_w9_w2_robot__m__2__me__we;
+    /* r3_w9: factor of robot.m[2].wh.ws */
+    khepera_plausible_threshold_real r3_w9_robot__m__2__wh__ws;
+    /* r3_w9: factor of robot.m[2].wh.ws' */
+    khepera_plausible_threshold_real r3_w9_w1_robot__m__2__wh__ws;
+    /* r3_w9: factor of robot.m[2].wh.ws'' */
+    khepera_plausible_threshold_real r3_w9_w2_robot__m__2__wh__ws;
+    khepera_plausible_threshold_real r3_w9_robot__Fx__2;     /* r3_w9: factor of robot.Fx[2] */
+    khepera_plausible_threshold_real r3_w9_w1_robot__Fx__2;  /* r3_w9: factor of robot.Fx[2]' */
+    /* r3_w10: factor of robot.m[2].wh.ws */
+    khepera_plausible_threshold_real r3_w10_robot__m__2__wh__ws;
+    /* r3_w10: factor of robot.m[2].wh.ws' */
+    khepera_plausible_threshold_real r3_w10_w1_robot__m__2__wh__ws;
+    /* r4_w1: factor of robot.m[2].wh.ws' */
+    khepera_plausible_threshold_real r4_w1_w1_robot__m__2__wh__ws;
 } khepera_plausible_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */

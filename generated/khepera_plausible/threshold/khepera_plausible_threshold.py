@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "61e468f2509f693f"
+DIGEST = "89a1357814eafe4f"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -110,84 +110,85 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
-    r1_w1_v2_robot__m__1__me__we: float   # r1_w1: factor of robot.m[1].me.we in stage 2
-    r1_w1_v3_robot__m__1__me__we: float   # r1_w1: factor of robot.m[1].me.we in stage 3
-    a: float                              # filter: exp(-bandwidth*sample_time)
-    b0: float                             # filter: weight of the new sample
-    b1: float                             # filter: weight of the sample before
-    rest: float                           # filter: 1 - b0, the memory of a constant 1
-    r1_w2_v3_robot__Fx__1: float          # r1_w2: factor of robot.Fx[1] in stage 3
-    r1_w2_v2_robot__m__1__wh__ws: float   # r1_w2: factor of robot.m[1].wh.ws in stage 2
-    r1_w2_v3_robot__m__1__wh__ws: float   # r1_w2: factor of robot.m[1].wh.ws in stage 3
-    r1_w2_v2_robot__m__1__me__we: float   # r1_w2: factor of robot.m[1].me.we in stage 2
-    r1_w2_v3_robot__m__1__me__we: float   # r1_w2: factor of robot.m[1].me.we in stage 3
-    r1_w3_v1_robot__m__1__me__we: float   # r1_w3: factor of robot.m[1].me.we in stage 1
-    r1_w3_v2_robot__m__1__me__we: float   # r1_w3: factor of robot.m[1].me.we in stage 2
-    r1_w3_v3_robot__m__1__me__we: float   # r1_w3: factor of robot.m[1].me.we in stage 3
-    r1_w3_v2_robot__Fx__1: float          # r1_w3: factor of robot.Fx[1] in stage 2
-    r1_w3_v3_robot__Fx__1: float          # r1_w3: factor of robot.Fx[1] in stage 3
-    r1_w3_v1_robot__m__1__wh__ws: float   # r1_w3: factor of robot.m[1].wh.ws in stage 1
-    r1_w3_v2_robot__m__1__wh__ws: float   # r1_w3: factor of robot.m[1].wh.ws in stage 2
-    r1_w3_v3_robot__m__1__wh__ws: float   # r1_w3: factor of robot.m[1].wh.ws in stage 3
-    r1_w4_v2_robot__m__1__wh__ws: float   # r1_w4: factor of robot.m[1].wh.ws in stage 2
-    r1_w4_v3_robot__m__1__wh__ws: float   # r1_w4: factor of robot.m[1].wh.ws in stage 3
-    r1_w5_v3_robot__m__1__me__we: float   # r1_w5: factor of robot.m[1].me.we in stage 3
-    r1_w6_v2_robot__m__1__me__we: float   # r1_w6: factor of robot.m[1].me.we in stage 2
-    r1_w6_v3_robot__m__1__me__we: float   # r1_w6: factor of robot.m[1].me.we in stage 3
-    r1_w7_v2_robot__m__1__me__we: float   # r1_w7: factor of robot.m[1].me.we in stage 2
-    r1_w7_v3_robot__m__1__me__we: float   # r1_w7: factor of robot.m[1].me.we in stage 3
-    r1_w7_v2_robot__m__1__wh__ws: float   # r1_w7: factor of robot.m[1].wh.ws in stage 2
-    r1_w7_v3_robot__m__1__wh__ws: float   # r1_w7: factor of robot.m[1].wh.ws in stage 3
-    r1_w7_v3_robot__Fx__1: float          # r1_w7: factor of robot.Fx[1] in stage 3
-    r1_w8_v3_robot__m__1__wh__ws: float   # r1_w8: factor of robot.m[1].wh.ws in stage 3
-    r1_w9_v1_robot__m__1__me__we: float   # r1_w9: factor of robot.m[1].me.we in stage 1
-    r1_w9_v2_robot__m__1__me__we: float   # r1_w9: factor of robot.m[1].me.we in stage 2
-    r1_w9_v3_robot__m__1__me__we: float   # r1_w9: factor of robot.m[1].me.we in stage 3
-    r1_w9_v1_robot__m__1__wh__ws: float   # r1_w9: factor of robot.m[1].wh.ws in stage 1
-    r1_w9_v2_robot__m__1__wh__ws: float   # r1_w9: factor of robot.m[1].wh.ws in stage 2
-    r1_w9_v3_robot__m__1__wh__ws: float   # r1_w9: factor of robot.m[1].wh.ws in stage 3
-    r1_w9_v2_robot__Fx__1: float          # r1_w9: factor of robot.Fx[1] in stage 2
-    r1_w9_v3_robot__Fx__1: float          # r1_w9: factor of robot.Fx[1] in stage 3
-    r1_w10_v2_robot__m__1__wh__ws: float  # r1_w10: factor of robot.m[1].wh.ws in stage 2
-    r1_w10_v3_robot__m__1__wh__ws: float  # r1_w10: factor of robot.m[1].wh.ws in stage 3
-    r2_w1_v2_robot__m__1__wh__ws: float   # r2_w1: factor of robot.m[1].wh.ws in stage 2
-    r3_w1_v2_robot__m__2__me__we: float   # r3_w1: factor of robot.m[2].me.we in stage 2
-    r3_w1_v3_robot__m__2__me__we: float   # r3_w1: factor of robot.m[2].me.we in stage 3
-    r3_w2_v3_robot__Fx__2: float          # r3_w2: factor of robot.Fx[2] in stage 3
-    r3_w2_v2_robot__m__2__wh__ws: float   # r3_w2: factor of robot.m[2].wh.ws in stage 2
-    r3_w2_v3_robot__m__2__wh__ws: float   # r3_w2: factor of robot.m[2].wh.ws in stage 3
-    r3_w2_v2_robot__m__2__me__we: float   # r3_w2: factor of robot.m[2].me.we in stage 2
-    r3_w2_v3_robot__m__2__me__we: float   # r3_w2: factor of robot.m[2].me.we in stage 3
-    r3_w3_v1_robot__m__2__me__we: float   # r3_w3: factor of robot.m[2].me.we in stage 1
-    r3_w3_v2_robot__m__2__me__we: float   # r3_w3: factor of robot.m[2].me.we in stage 2
-    r3_w3_v3_robot__m__2__me__we: float   # r3_w3: factor of robot.m[2].me.we in stage 3
-    r3_w3_v2_robot__Fx__2: float          # r3_w3: factor of robot.Fx[2] in stage 2
-    r3_w3_v3_robot__Fx__2: float          # r3_w3: factor of robot.Fx[2] in stage 3
-    r3_w3_v1_robot__m__2__wh__ws: float   # r3_w3: factor of robot.m[2].wh.ws in stage 1
-    r3_w3_v2_robot__m__2__wh__ws: float   # r3_w3: factor of robot.m[2].wh.ws in stage 2
-    r3_w3_v3_robot__m__2__wh__ws: float   # r3_w3: factor of robot.m[2].wh.ws in stage 3
-    r3_w4_v2_robot__m__2__wh__ws: float   # r3_w4: factor of robot.m[2].wh.ws in stage 2
-    r3_w4_v3_robot__m__2__wh__ws: float   # r3_w4: factor of robot.m[2].wh.ws in stage 3
-    r3_w5_v3_robot__m__2__me__we: float   # r3_w5: factor of robot.m[2].me.we in stage 3
-    r3_w6_v2_robot__m__2__me__we: float   # r3_w6: factor of robot.m[2].me.we in stage 2
-    r3_w6_v3_robot__m__2__me__we: float   # r3_w6: factor of robot.m[2].me.we in stage 3
-    r3_w7_v2_robot__m__2__me__we: float   # r3_w7: factor of robot.m[2].me.we in stage 2
-    r3_w7_v3_robot__m__2__me__we: float   # r3_w7: factor of robot.m[2].me.we in stage 3
-    r3_w7_v2_robot__m__2__wh__ws: float   # r3_w7: factor of robot.m[2].wh.ws in stage 2
-    r3_w7_v3_robot__m__2__wh__ws: float   # r3_w7: factor of robot.m[2].wh.ws in stage 3
-    r3_w7_v3_robot__Fx__2: float          # r3_w7: factor of robot.Fx[2] in stage 3
-    r3_w8_v3_robot__m__2__wh__ws: float   # r3_w8: factor of robot.m[2].wh.ws in stage 3
-    r3_w9_v1_robot__m__2__me__we: float   # r3_w9: factor of robot.m[2].me.we in stage 1
-    r3_w9_v2_robot__m__2__me__we: float   # r3_w9: factor of robot.m[2].me.we in stage 2
-    r3_w9_v3_robot__m__2__me__we: float   # r3_w9: factor of robot.m[2].me.we in stage 3
-    r3_w9_v1_robot__m__2__wh__ws: float   # r3_w9: factor of robot.m[2].wh.ws in stage 1
-    r3_w9_v2_robot__m__2__wh__ws: float   # r3_w9: factor of robot.m[2].wh.ws in stage 2
-    r3_w9_v3_robot__m__2__wh__ws: float   # r3_w9: factor of robot.m[2].wh.ws in stage 3
-    r3_w9_v2_robot__Fx__2: float          # r3_w9: factor of robot.Fx[2] in stage 2
-    r3_w9_v3_robot__Fx__2: float          # r3_w9: factor of robot.Fx[2] in stage 3
-    r3_w10_v2_robot__m__2__wh__ws: float  # r3_w10: factor of robot.m[2].wh.ws in stage 2
-    r3_w10_v3_robot__m__2__wh__ws: float  # r3_w10: factor of robot.m[2].wh.ws in stage 3
-    r4_w1_v2_robot__m__2__wh__ws: float   # r4_w1: factor of robot.m[2].wh.ws in stage 2
+    r1_w1_robot__m__1__me__we: float      # r1_w1: factor of robot.m[1].me.we
+    r1_w1_w1_robot__m__1__me__we: float   # r1_w1: factor of robot.m[1].me.we'
+    bend1: float                          # filter: 1 * (w*sample_time)^2/12
+    a: float                              # filter: what is left of a memory a sample later
+    b: float                              # filter: weight of a sample, new and a sample later
+    rest: float                           # filter: 1 - b, the memory of a constant 1
+    r1_w2_robot__Fx__1: float             # r1_w2: factor of robot.Fx[1]
+    r1_w2_robot__m__1__wh__ws: float      # r1_w2: factor of robot.m[1].wh.ws
+    r1_w2_w1_robot__m__1__wh__ws: float   # r1_w2: factor of robot.m[1].wh.ws'
+    r1_w2_robot__m__1__me__we: float      # r1_w2: factor of robot.m[1].me.we
+    r1_w2_w1_robot__m__1__me__we: float   # r1_w2: factor of robot.m[1].me.we'
+    r1_w3_robot__m__1__me__we: float      # r1_w3: factor of robot.m[1].me.we
+    r1_w3_w1_robot__m__1__me__we: float   # r1_w3: factor of robot.m[1].me.we'
+    r1_w3_w2_robot__m__1__me__we: float   # r1_w3: factor of robot.m[1].me.we''
+    r1_w3_robot__Fx__1: float             # r1_w3: factor of robot.Fx[1]
+    r1_w3_w1_robot__Fx__1: float          # r1_w3: factor of robot.Fx[1]'
+    r1_w3_robot__m__1__wh__ws: float      # r1_w3: factor of robot.m[1].wh.ws
+    r1_w3_w1_robot__m__1__wh__ws: float   # r1_w3: factor of robot.m[1].wh.ws'
+    r1_w3_w2_robot__m__1__wh__ws: float   # r1_w3: factor of robot.m[1].wh.ws''
+    bend2: float                          # filter: 2 * (w*sample_time)^2/12
+    r1_w4_robot__m__1__wh__ws: float      # r1_w4: factor of robot.m[1].wh.ws
+    r1_w4_w1_robot__m__1__wh__ws: float   # r1_w4: factor of robot.m[1].wh.ws'
+    r1_w5_robot__m__1__me__we: float      # r1_w5: factor of robot.m[1].me.we
+    r1_w6_robot__m__1__me__we: float      # r1_w6: factor of robot.m[1].me.we
+    r1_w6_w1_robot__m__1__me__we: float   # r1_w6: factor of robot.m[1].me.we'
+    r1_w7_robot__m__1__me__we: float      # r1_w7: factor of robot.m[1].me.we
+    r1_w7_w1_robot__m__1__me__we: float   # r1_w7: factor of robot.m[1].me.we'
+    r1_w7_robot__m__1__wh__ws: float      # r1_w7: factor of robot.m[1].wh.ws
+    r1_w7_w1_robot__m__1__wh__ws: float   # r1_w7: factor of robot.m[1].wh.ws'
+    r1_w7_robot__Fx__1: float             # r1_w7: factor of robot.Fx[1]
+    r1_w8_robot__m__1__wh__ws: float      # r1_w8: factor of robot.m[1].wh.ws
+    r1_w9_robot__m__1__me__we: float      # r1_w9: factor of robot.m[1].me.we
+    r1_w9_w1_robot__m__1__me__we: float   # r1_w9: factor of robot.m[1].me.we'
+    r1_w9_w2_robot__m__1__me__we: float   # r1_w9: factor of robot.m[1].me.we''
+    r1_w9_robot__m__1__wh__ws: float      # r1_w9: factor of robot.m[1].wh.ws
+    r1_w9_w1_robot__m__1__wh__ws: float   # r1_w9: factor of robot.m[1].wh.ws'
+    r1_w9_w2_robot__m__1__wh__ws: float   # r1_w9: factor of robot.m[1].wh.ws''
+    r1_w9_robot__Fx__1: float             # r1_w9: factor of robot.Fx[1]
+    r1_w9_w1_robot__Fx__1: float          # r1_w9: factor of robot.Fx[1]'
+    r1_w10_robot__m__1__wh__ws: float     # r1_w10: factor of robot.m[1].wh.ws
+    r1_w10_w1_robot__m__1__wh__ws: float  # r1_w10: factor of robot.m[1].wh.ws'
+    r2_w1_w1_robot__m__1__wh__ws: float   # r2_w1: factor of robot.m[1].wh.ws'
+    r3_w1_robot__m__2__me__we: float      # r3_w1: factor of robot.m[2].me.we
+    r3_w1_w1_robot__m__2__me__we: float   # r3_w1: factor of robot.m[2].me.we'
+    r3_w2_robot__Fx__2: float             # r3_w2: factor of robot.Fx[2]
+    r3_w2_robot__m__2__wh__ws: float      # r3_w2: factor of robot.m[2].wh.ws
+    r3_w2_w1_robot__m__2__wh__ws: float   # r3_w2: factor of robot.m[2].wh.ws'
+    r3_w2_robot__m__2__me__we: float      # r3_w2: factor of robot.m[2].me.we
+    r3_w2_w1_robot__m__2__me__we: float   # r3_w2: factor of robot.m[2].me.we'
+    r3_w3_robot__m__2__me__we: float      # r3_w3: factor of robot.m[2].me.we
+    r3_w3_w1_robot__m__2__me__we: float   # r3_w3: factor of robot.m[2].me.we'
+    r3_w3_w2_robot__m__2__me__we: float   # r3_w3: factor of robot.m[2].me.we''
+    r3_w3_robot__Fx__2: float             # r3_w3: factor of robot.Fx[2]
+    r3_w3_w1_robot__Fx__2: float          # r3_w3: factor of robot.Fx[2]'
+    r3_w3_robot__m__2__wh__ws: float      # r3_w3: factor of robot.m[2].wh.ws
+    r3_w3_w1_robot__m__2__wh__ws: float   # r3_w3: factor of robot.m[2].wh.ws'
+    r3_w3_w2_robot__m__2__wh__ws: float   # r3_w3: factor of robot.m[2].wh.ws''
+    r3_w4_robot__m__2__wh__ws: float      # r3_w4: factor of robot.m[2].wh.ws
+    r3_w4_w1_robot__m__2__wh__ws: float   # r3_w4: factor of robot.m[2].wh.ws'
+    r3_w5_robot__m__2__me__we: float      # r3_w5: factor of robot.m[2].me.we
+    r3_w6_robot__m__2__me__we: float      # r3_w6: factor of robot.m[2].me.we
+    r3_w6_w1_robot__m__2__me__we: float   # r3_w6: factor of robot.m[2].me.we'
+    r3_w7_robot__m__2__me__we: float      # r3_w7: factor of robot.m[2].me.we
+    r3_w7_w1_robot__m__2__me__we: float   # r3_w7: factor of robot.m[2].me.we'
+    r3_w7_robot__m__2__wh__ws: float      # r3_w7: factor of robot.m[2].wh.ws
+    r3_w7_w1_robot__m__2__wh__ws: float   # r3_w7: factor of robot.m[2].wh.ws'
+    r3_w7_robot__Fx__2: float             # r3_w7: factor of robot.Fx[2]
+    r3_w8_robot__m__2__wh__ws: float      # r3_w8: factor of robot.m[2].wh.ws
+    r3_w9_robot__m__2__me__we: float      # r3_w9: factor of robot.m[2].me.we
+    r3_w9_w1_robot__m__2__me__we: float   # r3_w9: factor of robot.m[2].me.we'
+    r3_w9_w2_robot__m__2__me__we: float   # r3_w9: factor of robot.m[2].me.we''
+    r3_w9_robot__m__2__wh__ws: float      # r3_w9: factor of robot.m[2].wh.ws
+    r3_w9_w1_robot__m__2__wh__ws: float   # r3_w9: factor of robot.m[2].wh.ws'
+    r3_w9_w2_robot__m__2__wh__ws: float   # r3_w9: factor of robot.m[2].wh.ws''
+    r3_w9_robot__Fx__2: float             # r3_w9: factor of robot.Fx[2]
+    r3_w9_w1_robot__Fx__2: float          # r3_w9: factor of robot.Fx[2]'
+    r3_w10_robot__m__2__wh__ws: float     # r3_w10: factor of robot.m[2].wh.ws
+    r3_w10_w1_robot__m__2__wh__ws: float  # r3_w10: factor of robot.m[2].wh.ws'
+    r4_w1_w1_robot__m__2__wh__ws: float   # r4_w1: factor of robot.m[2].wh.ws'
 
 
 class Memory:
@@ -297,44 +298,45 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_w1_v2_robot__m__1__me__we + self._c.r1_w1_v3_robot__m__1__me__we
-                    + self._c.a + self._c.b0 + self._c.b1 + self._c.rest
-                    + self._c.r1_w2_v3_robot__Fx__1 + self._c.r1_w2_v2_robot__m__1__wh__ws
-                    + self._c.r1_w2_v3_robot__m__1__wh__ws + self._c.r1_w2_v2_robot__m__1__me__we
-                    + self._c.r1_w2_v3_robot__m__1__me__we + self._c.r1_w3_v1_robot__m__1__me__we
-                    + self._c.r1_w3_v2_robot__m__1__me__we + self._c.r1_w3_v3_robot__m__1__me__we
-                    + self._c.r1_w3_v2_robot__Fx__1 + self._c.r1_w3_v3_robot__Fx__1
-                    + self._c.r1_w3_v1_robot__m__1__wh__ws + self._c.r1_w3_v2_robot__m__1__wh__ws
-                    + self._c.r1_w3_v3_robot__m__1__wh__ws + self._c.r1_w4_v2_robot__m__1__wh__ws
-                    + self._c.r1_w4_v3_robot__m__1__wh__ws + self._c.r1_w5_v3_robot__m__1__me__we
-                    + self._c.r1_w6_v2_robot__m__1__me__we + self._c.r1_w6_v3_robot__m__1__me__we
-                    + self._c.r1_w7_v2_robot__m__1__me__we + self._c.r1_w7_v3_robot__m__1__me__we
-                    + self._c.r1_w7_v2_robot__m__1__wh__ws + self._c.r1_w7_v3_robot__m__1__wh__ws
-                    + self._c.r1_w7_v3_robot__Fx__1 + self._c.r1_w8_v3_robot__m__1__wh__ws
-                    + self._c.r1_w9_v1_robot__m__1__me__we + self._c.r1_w9_v2_robot__m__1__me__we
-                    + self._c.r1_w9_v3_robot__m__1__me__we + self._c.r1_w9_v1_robot__m__1__wh__ws
-                    + self._c.r1_w9_v2_robot__m__1__wh__ws + self._c.r1_w9_v3_robot__m__1__wh__ws
-                    + self._c.r1_w9_v2_robot__Fx__1 + self._c.r1_w9_v3_robot__Fx__1
-                    + self._c.r1_w10_v2_robot__m__1__wh__ws + self._c.r1_w10_v3_robot__m__1__wh__ws
-                    + self._c.r2_w1_v2_robot__m__1__wh__ws + self._c.r3_w1_v2_robot__m__2__me__we
-                    + self._c.r3_w1_v3_robot__m__2__me__we + self._c.r3_w2_v3_robot__Fx__2
-                    + self._c.r3_w2_v2_robot__m__2__wh__ws + self._c.r3_w2_v3_robot__m__2__wh__ws
-                    + self._c.r3_w2_v2_robot__m__2__me__we + self._c.r3_w2_v3_robot__m__2__me__we
-                    + self._c.r3_w3_v1_robot__m__2__me__we + self._c.r3_w3_v2_robot__m__2__me__we
-                    + self._c.r3_w3_v3_robot__m__2__me__we + self._c.r3_w3_v2_robot__Fx__2
-                    + self._c.r3_w3_v3_robot__Fx__2 + self._c.r3_w3_v1_robot__m__2__wh__ws
-                    + self._c.r3_w3_v2_robot__m__2__wh__ws + self._c.r3_w3_v3_robot__m__2__wh__ws
-                    + self._c.r3_w4_v2_robot__m__2__wh__ws + self._c.r3_w4_v3_robot__m__2__wh__ws
-                    + self._c.r3_w5_v3_robot__m__2__me__we + self._c.r3_w6_v2_robot__m__2__me__we
-                    + self._c.r3_w6_v3_robot__m__2__me__we + self._c.r3_w7_v2_robot__m__2__me__we
-                    + self._c.r3_w7_v3_robot__m__2__me__we + self._c.r3_w7_v2_robot__m__2__wh__ws
-                    + self._c.r3_w7_v3_robot__m__2__wh__ws + self._c.r3_w7_v3_robot__Fx__2
-                    + self._c.r3_w8_v3_robot__m__2__wh__ws + self._c.r3_w9_v1_robot__m__2__me__we
-                    + self._c.r3_w9_v2_robot__m__2__me__we + self._c.r3_w9_v3_robot__m__2__me__we
-                    + self._c.r3_w9_v1_robot__m__2__wh__ws + self._c.r3_w9_v2_robot__m__2__wh__ws
-                    + self._c.r3_w9_v3_robot__m__2__wh__ws + self._c.r3_w9_v2_robot__Fx__2
-                    + self._c.r3_w9_v3_robot__Fx__2 + self._c.r3_w10_v2_robot__m__2__wh__ws
-                    + self._c.r3_w10_v3_robot__m__2__wh__ws + self._c.r4_w1_v2_robot__m__2__wh__ws
+                    self._c.r1_w1_robot__m__1__me__we + self._c.r1_w1_w1_robot__m__1__me__we
+                    + self._c.bend1 + self._c.a + self._c.b + self._c.rest
+                    + self._c.r1_w2_robot__Fx__1 + self._c.r1_w2_robot__m__1__wh__ws
+                    + self._c.r1_w2_w1_robot__m__1__wh__ws + self._c.r1_w2_robot__m__1__me__we
+                    + self._c.r1_w2_w1_robot__m__1__me__we + self._c.r1_w3_robot__m__1__me__we
+                    + self._c.r1_w3_w1_robot__m__1__me__we + self._c.r1_w3_w2_robot__m__1__me__we
+                    + self._c.r1_w3_robot__Fx__1 + self._c.r1_w3_w1_robot__Fx__1
+                    + self._c.r1_w3_robot__m__1__wh__ws + self._c.r1_w3_w1_robot__m__1__wh__ws
+                    + self._c.r1_w3_w2_robot__m__1__wh__ws + self._c.bend2
+                    + self._c.r1_w4_robot__m__1__wh__ws + self._c.r1_w4_w1_robot__m__1__wh__ws
+                    + self._c.r1_w5_robot__m__1__me__we + self._c.r1_w6_robot__m__1__me__we
+                    + self._c.r1_w6_w1_robot__m__1__me__we + self._c.r1_w7_robot__m__1__me__we
+                    + self._c.r1_w7_w1_robot__m__1__me__we + self._c.r1_w7_robot__m__1__wh__ws
+                    + self._c.r1_w7_w1_robot__m__1__wh__ws + self._c.r1_w7_robot__Fx__1
+                    + self._c.r1_w8_robot__m__1__wh__ws + self._c.r1_w9_robot__m__1__me__we
+                    + self._c.r1_w9_w1_robot__m__1__me__we + self._c.r1_w9_w2_robot__m__1__me__we
+                    + self._c.r1_w9_robot__m__1__wh__ws + self._c.r1_w9_w1_robot__m__1__wh__ws
+                    + self._c.r1_w9_w2_robot__m__1__wh__ws + self._c.r1_w9_robot__Fx__1
+                    + self._c.r1_w9_w1_robot__Fx__1 + self._c.r1_w10_robot__m__1__wh__ws
+                    + self._c.r1_w10_w1_robot__m__1__wh__ws + self._c.r2_w1_w1_robot__m__1__wh__ws
+                    + self._c.r3_w1_robot__m__2__me__we + self._c.r3_w1_w1_robot__m__2__me__we
+                    + self._c.r3_w2_robot__Fx__2 + self._c.r3_w2_robot__m__2__wh__ws
+                    + self._c.r3_w2_w1_robot__m__2__wh__ws + self._c.r3_w2_robot__m__2__me__we
+                    + self._c.r3_w2_w1_robot__m__2__me__we + self._c.r3_w3_robot__m__2__me__we
+                    + self._c.r3_w3_w1_robot__m__2__me__we + self._c.r3_w3_w2_robot__m__2__me__we
+                    + self._c.r3_w3_robot__Fx__2 + self._c.r3_w3_w1_robot__Fx__2
+                    + self._c.r3_w3_robot__m__2__wh__ws + self._c.r3_w3_w1_robot__m__2__wh__ws
+                    + self._c.r3_w3_w2_robot__m__2__wh__ws + self._c.r3_w4_robot__m__2__wh__ws
+                    + self._c.r3_w4_w1_robot__m__2__wh__ws + self._c.r3_w5_robot__m__2__me__we
+                    + self._c.r3_w6_robot__m__2__me__we + self._c.r3_w6_w1_robot__m__2__me__we
+                    + self._c.r3_w7_robot__m__2__me__we + self._c.r3_w7_w1_robot__m__2__me__we
+                    + self._c.r3_w7_robot__m__2__wh__ws + self._c.r3_w7_w1_robot__m__2__wh__ws
+                    + self._c.r3_w7_robot__Fx__2 + self._c.r3_w8_robot__m__2__wh__ws
+                    + self._c.r3_w9_robot__m__2__me__we + self._c.r3_w9_w1_robot__m__2__me__we
+                    + self._c.r3_w9_w2_robot__m__2__me__we + self._c.r3_w9_robot__m__2__wh__ws
+                    + self._c.r3_w9_w1_robot__m__2__wh__ws + self._c.r3_w9_w2_robot__m__2__wh__ws
+                    + self._c.r3_w9_robot__Fx__2 + self._c.r3_w9_w1_robot__Fx__2
+                    + self._c.r3_w10_robot__m__2__wh__ws + self._c.r3_w10_w1_robot__m__2__wh__ws
+                    + self._c.r4_w1_w1_robot__m__2__wh__ws
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -396,6 +398,15 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
+
+        # w*sample_time, x or 2
+        turn = 2.0 * (1.0 - pole) / (pole + 1.0)
+
+        # w of the filter 1/(1 + D/w)
+        w = turn / sample_time
+
         # khepera.bg:17: fe[1]*robot.m[1].el.Re/robot.m[1].el.k
         t = p.fe__1 * p.robot__m__1__el__Re / p.robot__m__1__el__k
 
@@ -420,419 +431,361 @@ class Monitor:
         # khepera.bg:17: R[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k)
         t_6 = p.R__2 * p.robot__m__2__el__Re / p.robot__m__2__ge__N / p.robot__m__2__el__k
 
-        # exp(-x)
-        t_7 = _exponential(-x_)
+        # 1 - pole
+        t_7 = 1.0 - pole
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_8 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t_7) / x_
-        )
+        # turn^2
+        t_8 = turn * turn
 
-        # khepera.bg:17: robot.m[1].el.L*robot.m[1].me.Je*bandwidth^2/robot.m[1].el.k
-        t_9 = (
-            p.robot__m__1__el__L * p.robot__m__1__me__Je * bandwidth * bandwidth
-                / p.robot__m__1__el__k
-        )
+        # khepera.bg:17: robot.m[1].el.L*robot.m[1].me.Je*w^2/robot.m[1].el.k
+        t_9 = p.robot__m__1__el__L * p.robot__m__1__me__Je * w * w / p.robot__m__1__el__k
 
-        # khepera.bg:17: Js[1]*robot.m[1].el.L*bandwidth^2/(robot.m[1].ge.N*robot.m[1].el.k)
-        t_10 = (
-            p.Js__1 * p.robot__m__1__el__L * bandwidth * bandwidth / p.robot__m__1__ge__N
-                / p.robot__m__1__el__k
-        )
+        # khepera.bg:17: Js[1]*robot.m[1].el.L*w^2/(robot.m[1].ge.N*robot.m[1].el.k)
+        t_10 = p.Js__1 * p.robot__m__1__el__L * w * w / p.robot__m__1__ge__N / p.robot__m__1__el__k
 
-        # khepera.bg:17: R[1]*robot.m[1].el.L*bandwidth/(robot.m[1].ge.N*robot.m[1].el.k)
-        t_11 = (
-            p.R__1 * p.robot__m__1__el__L * bandwidth / p.robot__m__1__ge__N / p.robot__m__1__el__k
-        )
+        # khepera.bg:17: R[1]*robot.m[1].el.L*w/(robot.m[1].ge.N*robot.m[1].el.k)
+        t_11 = p.R__1 * p.robot__m__1__el__L * w / p.robot__m__1__ge__N / p.robot__m__1__el__k
 
-        # khepera.bg:17: robot.m[2].el.L*robot.m[2].me.Je*bandwidth^2/robot.m[2].el.k
-        t_12 = (
-            p.robot__m__2__el__L * p.robot__m__2__me__Je * bandwidth * bandwidth
-                / p.robot__m__2__el__k
-        )
+        # khepera.bg:17: robot.m[2].el.L*robot.m[2].me.Je*w^2/robot.m[2].el.k
+        t_12 = p.robot__m__2__el__L * p.robot__m__2__me__Je * w * w / p.robot__m__2__el__k
 
-        # khepera.bg:17: Js[2]*robot.m[2].el.L*bandwidth^2/(robot.m[2].ge.N*robot.m[2].el.k)
-        t_13 = (
-            p.Js__2 * p.robot__m__2__el__L * bandwidth * bandwidth / p.robot__m__2__ge__N
-                / p.robot__m__2__el__k
-        )
+        # khepera.bg:17: Js[2]*robot.m[2].el.L*w^2/(robot.m[2].ge.N*robot.m[2].el.k)
+        t_13 = p.Js__2 * p.robot__m__2__el__L * w * w / p.robot__m__2__ge__N / p.robot__m__2__el__k
 
-        # khepera.bg:17: R[2]*robot.m[2].el.L*bandwidth/(robot.m[2].ge.N*robot.m[2].el.k)
-        t_14 = (
-            p.R__2 * p.robot__m__2__el__L * bandwidth / p.robot__m__2__ge__N / p.robot__m__2__el__k
-        )
+        # khepera.bg:17: R[2]*robot.m[2].el.L*w/(robot.m[2].ge.N*robot.m[2].el.k)
+        t_14 = p.R__2 * p.robot__m__2__el__L * w / p.robot__m__2__ge__N / p.robot__m__2__el__k
 
-        # khepera.bg:17: fe[1]*robot.m[1].el.L*bandwidth/robot.m[1].el.k
-        t_15 = p.fe__1 * p.robot__m__1__el__L * bandwidth / p.robot__m__1__el__k
+        # khepera.bg:17: fe[1]*robot.m[1].el.L*w/robot.m[1].el.k
+        t_15 = p.fe__1 * p.robot__m__1__el__L * w / p.robot__m__1__el__k
 
-        # khepera.bg:17: Js[1]*robot.m[1].el.Re*bandwidth/(robot.m[1].ge.N*robot.m[1].el.k)
-        t_16 = (
-            p.Js__1 * p.robot__m__1__el__Re * bandwidth / p.robot__m__1__ge__N
-                / p.robot__m__1__el__k
-        )
+        # khepera.bg:17: Js[1]*robot.m[1].el.Re*w/(robot.m[1].ge.N*robot.m[1].el.k)
+        t_16 = p.Js__1 * p.robot__m__1__el__Re * w / p.robot__m__1__ge__N / p.robot__m__1__el__k
 
-        # khepera.bg:17: robot.m[1].el.Re*robot.m[1].me.Je*bandwidth/robot.m[1].el.k
-        t_17 = p.robot__m__1__el__Re * p.robot__m__1__me__Je * bandwidth / p.robot__m__1__el__k
+        # khepera.bg:17: robot.m[1].el.Re*robot.m[1].me.Je*w/robot.m[1].el.k
+        t_17 = p.robot__m__1__el__Re * p.robot__m__1__me__Je * w / p.robot__m__1__el__k
 
-        # khepera.bg:17:
-        # robot.m[1].el.k*bandwidth*(robot.m[1].el.Re*robot.m[1].me.Je/robot.m[1].el.k^2 + fe[1]
-        # ...
+        # khepera.bg:17: robot.m[1].el.L*robot.m[1].wh.fs*w/(robot.m[1].ge.N*robot.m[1].el.k)
         t_18 = (
-            p.robot__m__1__el__k * bandwidth
+            p.robot__m__1__el__L * p.robot__m__1__wh__fs * w / p.robot__m__1__ge__N
+                / p.robot__m__1__el__k
+        )
+
+        # khepera.bg:17: fe[2]*robot.m[2].el.L*w/robot.m[2].el.k
+        t_19 = p.fe__2 * p.robot__m__2__el__L * w / p.robot__m__2__el__k
+
+        # khepera.bg:17: Js[2]*robot.m[2].el.Re*w/(robot.m[2].ge.N*robot.m[2].el.k)
+        t_20 = p.Js__2 * p.robot__m__2__el__Re * w / p.robot__m__2__ge__N / p.robot__m__2__el__k
+
+        # khepera.bg:17: robot.m[2].el.Re*robot.m[2].me.Je*w/robot.m[2].el.k
+        t_21 = p.robot__m__2__el__Re * p.robot__m__2__me__Je * w / p.robot__m__2__el__k
+
+        # khepera.bg:17: robot.m[2].el.L*robot.m[2].wh.fs*w/(robot.m[2].ge.N*robot.m[2].el.k)
+        t_22 = (
+            p.robot__m__2__el__L * p.robot__m__2__wh__fs * w / p.robot__m__2__ge__N
+                / p.robot__m__2__el__k
+        )
+
+        # khepera.bg:17: r1_w1: factor of robot.m[1].me.we
+        c.r1_w1_robot__m__1__me__we = t / 10.0
+
+        # khepera.bg:17: r1_w1: factor of robot.m[1].me.we'
+        c.r1_w1_w1_robot__m__1__me__we = t_15 / 10.0
+
+        # filter: 1 * (w*sample_time)^2/12
+        c.bend1 = t_8 / 12.0
+
+        # filter: what is left of a memory a sample later
+        c.a = pole
+
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t_7
+
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t_7
+
+        # khepera.bg:17: r1_w2: factor of robot.Fx[1]
+        c.r1_w2_robot__Fx__1 = t_3 / 20.0
+
+        # khepera.bg:17: r1_w2: factor of robot.m[1].wh.ws
+        c.r1_w2_robot__m__1__wh__ws = t_2 / 20.0
+
+        # khepera.bg:17: r1_w2: factor of robot.m[1].wh.ws'
+        c.r1_w2_w1_robot__m__1__wh__ws = t_16 / 20.0
+
+        # khepera.bg:17: r1_w2: factor of robot.m[1].me.we
+        c.r1_w2_robot__m__1__me__we = t / 20.0
+
+        # khepera.bg:17: r1_w2: factor of robot.m[1].me.we'
+        c.r1_w2_w1_robot__m__1__me__we = t_17 / 20.0
+
+        # khepera.bg:17: r1_w3: factor of robot.m[1].me.we
+        c.r1_w3_robot__m__1__me__we = (
+            p.robot__m__1__el__k
+                * (p.fe__1 * p.robot__m__1__el__Re / p.robot__m__1__el__k / p.robot__m__1__el__k
+                - 1.0) / 50.0
+        )
+
+        # khepera.bg:17: r1_w3: factor of robot.m[1].me.we'
+        c.r1_w3_w1_robot__m__1__me__we = (
+            p.robot__m__1__el__k * w
                 * (p.robot__m__1__el__Re * p.robot__m__1__me__Je / p.robot__m__1__el__k
                     / p.robot__m__1__el__k
                 + p.fe__1 * p.robot__m__1__el__L / p.robot__m__1__el__k / p.robot__m__1__el__k)
+                / 50.0
         )
 
-        # khepera.bg:17:
-        # robot.m[1].el.k*bandwidth*(Js[1]*robot.m[1].el.Re/(robot.m[1].ge.N*robot.m[1].el.k^2) ...
-        t_19 = (
-            p.robot__m__1__el__k * bandwidth
+        # khepera.bg:17: r1_w3: factor of robot.m[1].me.we''
+        c.r1_w3_w2_robot__m__1__me__we = t_9 / 50.0
+
+        # khepera.bg:17: r1_w3: factor of robot.Fx[1]
+        c.r1_w3_robot__Fx__1 = t_3 / 50.0
+
+        # khepera.bg:17: r1_w3: factor of robot.Fx[1]'
+        c.r1_w3_w1_robot__Fx__1 = t_11 / 50.0
+
+        # khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws
+        c.r1_w3_robot__m__1__wh__ws = t_2 / 50.0
+
+        # khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws'
+        c.r1_w3_w1_robot__m__1__wh__ws = (
+            p.robot__m__1__el__k * w
                 * (p.Js__1 * p.robot__m__1__el__Re / p.robot__m__1__ge__N / p.robot__m__1__el__k
                     / p.robot__m__1__el__k
                 + p.robot__m__1__el__L * p.robot__m__1__wh__fs / p.robot__m__1__ge__N
                     / p.robot__m__1__el__k / p.robot__m__1__el__k)
+                / 50.0
         )
 
-        # khepera.bg:17:
-        # robot.m[1].el.L*robot.m[1].wh.fs*bandwidth/(robot.m[1].ge.N*robot.m[1].el.k)
-        t_20 = (
-            p.robot__m__1__el__L * p.robot__m__1__wh__fs * bandwidth / p.robot__m__1__ge__N
-                / p.robot__m__1__el__k
-        )
+        # khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws''
+        c.r1_w3_w2_robot__m__1__wh__ws = t_10 / 50.0
 
-        # khepera.bg:17: robot.m[1].el.k^2*bandwidth*(-2*fe[1]*robot.m[1].el.L/robot.m[1].el.k^3 -
-        # 2*robot.m[1] ...
-        t_21 = (
-            p.robot__m__1__el__k * p.robot__m__1__el__k * bandwidth
+        # filter: 2 * (w*sample_time)^2/12
+        c.bend2 = t_8 / 6.0
+
+        # khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws
+        c.r1_w4_robot__m__1__wh__ws = t_2 / 10.0
+
+        # khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws'
+        c.r1_w4_w1_robot__m__1__wh__ws = t_18 / 10.0
+
+        # khepera.bg:17: r1_w5: factor of robot.m[1].me.we
+        c.r1_w5_robot__m__1__me__we = t / 146.0
+
+        # khepera.bg:17: r1_w6: factor of robot.m[1].me.we
+        c.r1_w6_robot__m__1__me__we = t / 365.0
+
+        # khepera.bg:17: r1_w6: factor of robot.m[1].me.we'
+        c.r1_w6_w1_robot__m__1__me__we = t_15 / 365.0
+
+        # khepera.bg:17: r1_w7: factor of robot.m[1].me.we
+        c.r1_w7_robot__m__1__me__we = t / 730.0
+
+        # khepera.bg:17: r1_w7: factor of robot.m[1].me.we'
+        c.r1_w7_w1_robot__m__1__me__we = t_17 / 730.0
+
+        # khepera.bg:17: r1_w7: factor of robot.m[1].wh.ws
+        c.r1_w7_robot__m__1__wh__ws = t_2 / 730.0
+
+        # khepera.bg:17: r1_w7: factor of robot.m[1].wh.ws'
+        c.r1_w7_w1_robot__m__1__wh__ws = t_16 / 730.0
+
+        # khepera.bg:17: r1_w7: factor of robot.Fx[1]
+        c.r1_w7_robot__Fx__1 = t_3 / 730.0
+
+        # khepera.bg:17: r1_w8: factor of robot.m[1].wh.ws
+        c.r1_w8_robot__m__1__wh__ws = t_2 / 146.0
+
+        # khepera.bg:17: r1_w9: factor of robot.m[1].me.we
+        c.r1_w9_robot__m__1__me__we = t / 1825.0
+
+        # khepera.bg:17: r1_w9: factor of robot.m[1].me.we'
+        c.r1_w9_w1_robot__m__1__me__we = (
+            p.robot__m__1__el__k * p.robot__m__1__el__k * w
                 * (-2.0 * p.fe__1 * p.robot__m__1__el__L / p.robot__m__1__el__k
                     / p.robot__m__1__el__k / p.robot__m__1__el__k
                 - 2.0 * p.robot__m__1__el__Re * p.robot__m__1__me__Je / p.robot__m__1__el__k
                     / p.robot__m__1__el__k / p.robot__m__1__el__k)
+                / 3650.0
         )
 
-        # khepera.bg:17:
-        # robot.m[1].el.k^2*bandwidth*(-2*robot.m[1].el.L*robot.m[1].wh.fs/(robot.m[1].ge.N*robo
-        # ...
-        t_22 = (
-            p.robot__m__1__el__k * p.robot__m__1__el__k * bandwidth
+        # khepera.bg:17: r1_w9: factor of robot.m[1].me.we''
+        c.r1_w9_w2_robot__m__1__me__we = t_9 / 1825.0
+
+        # khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws
+        c.r1_w9_robot__m__1__wh__ws = t_2 / 1825.0
+
+        # khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws'
+        c.r1_w9_w1_robot__m__1__wh__ws = (
+            p.robot__m__1__el__k * p.robot__m__1__el__k * w
                 * (-2.0 * p.robot__m__1__el__L * p.robot__m__1__wh__fs / p.robot__m__1__ge__N
                     / p.robot__m__1__el__k / p.robot__m__1__el__k / p.robot__m__1__el__k
                 - 2.0 * p.Js__1 * p.robot__m__1__el__Re / p.robot__m__1__ge__N
                     / p.robot__m__1__el__k / p.robot__m__1__el__k / p.robot__m__1__el__k)
+                / 3650.0
         )
 
-        # khepera.bg:17: fe[2]*robot.m[2].el.L*bandwidth/robot.m[2].el.k
-        t_23 = p.fe__2 * p.robot__m__2__el__L * bandwidth / p.robot__m__2__el__k
+        # khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws''
+        c.r1_w9_w2_robot__m__1__wh__ws = t_10 / 1825.0
 
-        # khepera.bg:17: Js[2]*robot.m[2].el.Re*bandwidth/(robot.m[2].ge.N*robot.m[2].el.k)
-        t_24 = (
-            p.Js__2 * p.robot__m__2__el__Re * bandwidth / p.robot__m__2__ge__N
-                / p.robot__m__2__el__k
+        # khepera.bg:17: r1_w9: factor of robot.Fx[1]
+        c.r1_w9_robot__Fx__1 = t_3 / 1825.0
+
+        # khepera.bg:17: r1_w9: factor of robot.Fx[1]'
+        c.r1_w9_w1_robot__Fx__1 = t_11 / 1825.0
+
+        # khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws
+        c.r1_w10_robot__m__1__wh__ws = t_2 / 365.0
+
+        # khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws'
+        c.r1_w10_w1_robot__m__1__wh__ws = t_18 / 365.0
+
+        # khepera.bg:41: r2_w1: factor of robot.m[1].wh.ws'
+        c.r2_w1_w1_robot__m__1__wh__ws = (
+            p.robot__m__1__wh__fs * w / 10.0 / p.robot__m__1__ge__N / p.robot__m__1__me__K
         )
 
-        # khepera.bg:17: robot.m[2].el.Re*robot.m[2].me.Je*bandwidth/robot.m[2].el.k
-        t_25 = p.robot__m__2__el__Re * p.robot__m__2__me__Je * bandwidth / p.robot__m__2__el__k
+        # khepera.bg:17: r3_w1: factor of robot.m[2].me.we
+        c.r3_w1_robot__m__2__me__we = t_4 / 10.0
 
-        # khepera.bg:17:
-        # robot.m[2].el.k*bandwidth*(robot.m[2].el.Re*robot.m[2].me.Je/robot.m[2].el.k^2 + fe[2]
-        # ...
-        t_26 = (
-            p.robot__m__2__el__k * bandwidth
+        # khepera.bg:17: r3_w1: factor of robot.m[2].me.we'
+        c.r3_w1_w1_robot__m__2__me__we = t_19 / 10.0
+
+        # khepera.bg:17: r3_w2: factor of robot.Fx[2]
+        c.r3_w2_robot__Fx__2 = t_6 / 20.0
+
+        # khepera.bg:17: r3_w2: factor of robot.m[2].wh.ws
+        c.r3_w2_robot__m__2__wh__ws = t_5 / 20.0
+
+        # khepera.bg:17: r3_w2: factor of robot.m[2].wh.ws'
+        c.r3_w2_w1_robot__m__2__wh__ws = t_20 / 20.0
+
+        # khepera.bg:17: r3_w2: factor of robot.m[2].me.we
+        c.r3_w2_robot__m__2__me__we = t_4 / 20.0
+
+        # khepera.bg:17: r3_w2: factor of robot.m[2].me.we'
+        c.r3_w2_w1_robot__m__2__me__we = t_21 / 20.0
+
+        # khepera.bg:17: r3_w3: factor of robot.m[2].me.we
+        c.r3_w3_robot__m__2__me__we = (
+            p.robot__m__2__el__k
+                * (p.fe__2 * p.robot__m__2__el__Re / p.robot__m__2__el__k / p.robot__m__2__el__k
+                - 1.0) / 50.0
+        )
+
+        # khepera.bg:17: r3_w3: factor of robot.m[2].me.we'
+        c.r3_w3_w1_robot__m__2__me__we = (
+            p.robot__m__2__el__k * w
                 * (p.robot__m__2__el__Re * p.robot__m__2__me__Je / p.robot__m__2__el__k
                     / p.robot__m__2__el__k
                 + p.fe__2 * p.robot__m__2__el__L / p.robot__m__2__el__k / p.robot__m__2__el__k)
+                / 50.0
         )
 
-        # khepera.bg:17:
-        # robot.m[2].el.k*bandwidth*(Js[2]*robot.m[2].el.Re/(robot.m[2].ge.N*robot.m[2].el.k^2) ...
-        t_27 = (
-            p.robot__m__2__el__k * bandwidth
+        # khepera.bg:17: r3_w3: factor of robot.m[2].me.we''
+        c.r3_w3_w2_robot__m__2__me__we = t_12 / 50.0
+
+        # khepera.bg:17: r3_w3: factor of robot.Fx[2]
+        c.r3_w3_robot__Fx__2 = t_6 / 50.0
+
+        # khepera.bg:17: r3_w3: factor of robot.Fx[2]'
+        c.r3_w3_w1_robot__Fx__2 = t_14 / 50.0
+
+        # khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws
+        c.r3_w3_robot__m__2__wh__ws = t_5 / 50.0
+
+        # khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws'
+        c.r3_w3_w1_robot__m__2__wh__ws = (
+            p.robot__m__2__el__k * w
                 * (p.Js__2 * p.robot__m__2__el__Re / p.robot__m__2__ge__N / p.robot__m__2__el__k
                     / p.robot__m__2__el__k
                 + p.robot__m__2__el__L * p.robot__m__2__wh__fs / p.robot__m__2__ge__N
                     / p.robot__m__2__el__k / p.robot__m__2__el__k)
+                / 50.0
         )
 
-        # khepera.bg:17:
-        # robot.m[2].el.L*robot.m[2].wh.fs*bandwidth/(robot.m[2].ge.N*robot.m[2].el.k)
-        t_28 = (
-            p.robot__m__2__el__L * p.robot__m__2__wh__fs * bandwidth / p.robot__m__2__ge__N
-                / p.robot__m__2__el__k
-        )
+        # khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws''
+        c.r3_w3_w2_robot__m__2__wh__ws = t_13 / 50.0
 
-        # khepera.bg:17: robot.m[2].el.k^2*bandwidth*(-2*fe[2]*robot.m[2].el.L/robot.m[2].el.k^3 -
-        # 2*robot.m[2] ...
-        t_29 = (
-            p.robot__m__2__el__k * p.robot__m__2__el__k * bandwidth
+        # khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws
+        c.r3_w4_robot__m__2__wh__ws = t_5 / 10.0
+
+        # khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws'
+        c.r3_w4_w1_robot__m__2__wh__ws = t_22 / 10.0
+
+        # khepera.bg:17: r3_w5: factor of robot.m[2].me.we
+        c.r3_w5_robot__m__2__me__we = t_4 / 146.0
+
+        # khepera.bg:17: r3_w6: factor of robot.m[2].me.we
+        c.r3_w6_robot__m__2__me__we = t_4 / 365.0
+
+        # khepera.bg:17: r3_w6: factor of robot.m[2].me.we'
+        c.r3_w6_w1_robot__m__2__me__we = t_19 / 365.0
+
+        # khepera.bg:17: r3_w7: factor of robot.m[2].me.we
+        c.r3_w7_robot__m__2__me__we = t_4 / 730.0
+
+        # khepera.bg:17: r3_w7: factor of robot.m[2].me.we'
+        c.r3_w7_w1_robot__m__2__me__we = t_21 / 730.0
+
+        # khepera.bg:17: r3_w7: factor of robot.m[2].wh.ws
+        c.r3_w7_robot__m__2__wh__ws = t_5 / 730.0
+
+        # khepera.bg:17: r3_w7: factor of robot.m[2].wh.ws'
+        c.r3_w7_w1_robot__m__2__wh__ws = t_20 / 730.0
+
+        # khepera.bg:17: r3_w7: factor of robot.Fx[2]
+        c.r3_w7_robot__Fx__2 = t_6 / 730.0
+
+        # khepera.bg:17: r3_w8: factor of robot.m[2].wh.ws
+        c.r3_w8_robot__m__2__wh__ws = t_5 / 146.0
+
+        # khepera.bg:17: r3_w9: factor of robot.m[2].me.we
+        c.r3_w9_robot__m__2__me__we = t_4 / 1825.0
+
+        # khepera.bg:17: r3_w9: factor of robot.m[2].me.we'
+        c.r3_w9_w1_robot__m__2__me__we = (
+            p.robot__m__2__el__k * p.robot__m__2__el__k * w
                 * (-2.0 * p.fe__2 * p.robot__m__2__el__L / p.robot__m__2__el__k
                     / p.robot__m__2__el__k / p.robot__m__2__el__k
                 - 2.0 * p.robot__m__2__el__Re * p.robot__m__2__me__Je / p.robot__m__2__el__k
                     / p.robot__m__2__el__k / p.robot__m__2__el__k)
+                / 3650.0
         )
 
-        # khepera.bg:17:
-        # robot.m[2].el.k^2*bandwidth*(-2*robot.m[2].el.L*robot.m[2].wh.fs/(robot.m[2].ge.N*robo
-        # ...
-        t_30 = (
-            p.robot__m__2__el__k * p.robot__m__2__el__k * bandwidth
+        # khepera.bg:17: r3_w9: factor of robot.m[2].me.we''
+        c.r3_w9_w2_robot__m__2__me__we = t_12 / 1825.0
+
+        # khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws
+        c.r3_w9_robot__m__2__wh__ws = t_5 / 1825.0
+
+        # khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws'
+        c.r3_w9_w1_robot__m__2__wh__ws = (
+            p.robot__m__2__el__k * p.robot__m__2__el__k * w
                 * (-2.0 * p.robot__m__2__el__L * p.robot__m__2__wh__fs / p.robot__m__2__ge__N
                     / p.robot__m__2__el__k / p.robot__m__2__el__k / p.robot__m__2__el__k
                 - 2.0 * p.Js__2 * p.robot__m__2__el__Re / p.robot__m__2__ge__N
                     / p.robot__m__2__el__k / p.robot__m__2__el__k / p.robot__m__2__el__k)
+                / 3650.0
         )
 
-        # khepera.bg:17: r1_w1: factor of robot.m[1].me.we in stage 2
-        c.r1_w1_v2_robot__m__1__me__we = t_15 / 10.0
+        # khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws''
+        c.r3_w9_w2_robot__m__2__wh__ws = t_13 / 1825.0
 
-        # khepera.bg:17: r1_w1: factor of robot.m[1].me.we in stage 3
-        c.r1_w1_v3_robot__m__1__me__we = t_15 / 10.0 - t / 10.0
+        # khepera.bg:17: r3_w9: factor of robot.Fx[2]
+        c.r3_w9_robot__Fx__2 = t_6 / 1825.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t_7
+        # khepera.bg:17: r3_w9: factor of robot.Fx[2]'
+        c.r3_w9_w1_robot__Fx__2 = t_14 / 1825.0
 
-        # filter: weight of the new sample
-        c.b0 = t_8
+        # khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws
+        c.r3_w10_robot__m__2__wh__ws = t_5 / 365.0
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t_7 - t_8
+        # khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws'
+        c.r3_w10_w1_robot__m__2__wh__ws = t_22 / 365.0
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_8
-
-        # khepera.bg:17: r1_w2: factor of robot.Fx[1] in stage 3
-        c.r1_w2_v3_robot__Fx__1 = t_3 / 20.0
-
-        # khepera.bg:17: r1_w2: factor of robot.m[1].wh.ws in stage 2
-        c.r1_w2_v2_robot__m__1__wh__ws = t_16 / 20.0
-
-        # khepera.bg:17: r1_w2: factor of robot.m[1].wh.ws in stage 3
-        c.r1_w2_v3_robot__m__1__wh__ws = t_16 / 20.0 - t_2 / 20.0
-
-        # khepera.bg:17: r1_w2: factor of robot.m[1].me.we in stage 2
-        c.r1_w2_v2_robot__m__1__me__we = t_17 / 20.0
-
-        # khepera.bg:17: r1_w2: factor of robot.m[1].me.we in stage 3
-        c.r1_w2_v3_robot__m__1__me__we = t_17 / 20.0 - t / 20.0
-
-        # khepera.bg:17: r1_w3: factor of robot.m[1].me.we in stage 1
-        c.r1_w3_v1_robot__m__1__me__we = t_9 / 50.0
-
-        # khepera.bg:17: r1_w3: factor of robot.m[1].me.we in stage 2
-        c.r1_w3_v2_robot__m__1__me__we = t_18 / 50.0 - t_9 / 25.0
-
-        # khepera.bg:17: r1_w3: factor of robot.m[1].me.we in stage 3
-        c.r1_w3_v3_robot__m__1__me__we = (
-            t_9 / 50.0
-            + p.robot__m__1__el__k
-                * (p.fe__1 * p.robot__m__1__el__Re / p.robot__m__1__el__k / p.robot__m__1__el__k
-                - 1.0) / 50.0
-            - t_18 / 50.0
-        )
-
-        # khepera.bg:17: r1_w3: factor of robot.Fx[1] in stage 2
-        c.r1_w3_v2_robot__Fx__1 = t_11 / 50.0
-
-        # khepera.bg:17: r1_w3: factor of robot.Fx[1] in stage 3
-        c.r1_w3_v3_robot__Fx__1 = t_3 / 50.0 - t_11 / 50.0
-
-        # khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws in stage 1
-        c.r1_w3_v1_robot__m__1__wh__ws = t_10 / 50.0
-
-        # khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws in stage 2
-        c.r1_w3_v2_robot__m__1__wh__ws = t_19 / 50.0 - t_10 / 25.0
-
-        # khepera.bg:17: r1_w3: factor of robot.m[1].wh.ws in stage 3
-        c.r1_w3_v3_robot__m__1__wh__ws = t_2 / 50.0 + t_10 / 50.0 - t_19 / 50.0
-
-        # khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws in stage 2
-        c.r1_w4_v2_robot__m__1__wh__ws = t_20 / 10.0
-
-        # khepera.bg:17: r1_w4: factor of robot.m[1].wh.ws in stage 3
-        c.r1_w4_v3_robot__m__1__wh__ws = t_20 / 10.0 - t_2 / 10.0
-
-        # khepera.bg:17: r1_w5: factor of robot.m[1].me.we in stage 3
-        c.r1_w5_v3_robot__m__1__me__we = t / 146.0
-
-        # khepera.bg:17: r1_w6: factor of robot.m[1].me.we in stage 2
-        c.r1_w6_v2_robot__m__1__me__we = t_15 / 365.0
-
-        # khepera.bg:17: r1_w6: factor of robot.m[1].me.we in stage 3
-        c.r1_w6_v3_robot__m__1__me__we = t / 365.0 - t_15 / 365.0
-
-        # khepera.bg:17: r1_w7: factor of robot.m[1].me.we in stage 2
-        c.r1_w7_v2_robot__m__1__me__we = t_17 / 730.0
-
-        # khepera.bg:17: r1_w7: factor of robot.m[1].me.we in stage 3
-        c.r1_w7_v3_robot__m__1__me__we = t / 730.0 - t_17 / 730.0
-
-        # khepera.bg:17: r1_w7: factor of robot.m[1].wh.ws in stage 2
-        c.r1_w7_v2_robot__m__1__wh__ws = t_16 / 730.0
-
-        # khepera.bg:17: r1_w7: factor of robot.m[1].wh.ws in stage 3
-        c.r1_w7_v3_robot__m__1__wh__ws = t_2 / 730.0 - t_16 / 730.0
-
-        # khepera.bg:17: r1_w7: factor of robot.Fx[1] in stage 3
-        c.r1_w7_v3_robot__Fx__1 = t_3 / 730.0
-
-        # khepera.bg:17: r1_w8: factor of robot.m[1].wh.ws in stage 3
-        c.r1_w8_v3_robot__m__1__wh__ws = t_2 / 146.0
-
-        # khepera.bg:17: r1_w9: factor of robot.m[1].me.we in stage 1
-        c.r1_w9_v1_robot__m__1__me__we = t_9 / 1825.0
-
-        # khepera.bg:17: r1_w9: factor of robot.m[1].me.we in stage 2
-        c.r1_w9_v2_robot__m__1__me__we = 2.0 * t_9 / 1825.0 + t_21 / 3650.0
-
-        # khepera.bg:17: r1_w9: factor of robot.m[1].me.we in stage 3
-        c.r1_w9_v3_robot__m__1__me__we = t / 1825.0 + t_9 / 1825.0 + t_21 / 3650.0
-
-        # khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws in stage 1
-        c.r1_w9_v1_robot__m__1__wh__ws = t_10 / 1825.0
-
-        # khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws in stage 2
-        c.r1_w9_v2_robot__m__1__wh__ws = 2.0 * t_10 / 1825.0 + t_22 / 3650.0
-
-        # khepera.bg:17: r1_w9: factor of robot.m[1].wh.ws in stage 3
-        c.r1_w9_v3_robot__m__1__wh__ws = t_2 / 1825.0 + t_10 / 1825.0 + t_22 / 3650.0
-
-        # khepera.bg:17: r1_w9: factor of robot.Fx[1] in stage 2
-        c.r1_w9_v2_robot__Fx__1 = t_11 / 1825.0
-
-        # khepera.bg:17: r1_w9: factor of robot.Fx[1] in stage 3
-        c.r1_w9_v3_robot__Fx__1 = t_11 / 1825.0 - t_3 / 1825.0
-
-        # khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws in stage 2
-        c.r1_w10_v2_robot__m__1__wh__ws = t_20 / 365.0
-
-        # khepera.bg:17: r1_w10: factor of robot.m[1].wh.ws in stage 3
-        c.r1_w10_v3_robot__m__1__wh__ws = t_2 / 365.0 - t_20 / 365.0
-
-        # khepera.bg:41: r2_w1: factor of robot.m[1].wh.ws in stage 2
-        c.r2_w1_v2_robot__m__1__wh__ws = (
-            p.robot__m__1__wh__fs * bandwidth / 10.0 / p.robot__m__1__ge__N / p.robot__m__1__me__K
-        )
-
-        # khepera.bg:17: r3_w1: factor of robot.m[2].me.we in stage 2
-        c.r3_w1_v2_robot__m__2__me__we = t_23 / 10.0
-
-        # khepera.bg:17: r3_w1: factor of robot.m[2].me.we in stage 3
-        c.r3_w1_v3_robot__m__2__me__we = t_23 / 10.0 - t_4 / 10.0
-
-        # khepera.bg:17: r3_w2: factor of robot.Fx[2] in stage 3
-        c.r3_w2_v3_robot__Fx__2 = t_6 / 20.0
-
-        # khepera.bg:17: r3_w2: factor of robot.m[2].wh.ws in stage 2
-        c.r3_w2_v2_robot__m__2__wh__ws = t_24 / 20.0
-
-        # khepera.bg:17: r3_w2: factor of robot.m[2].wh.ws in stage 3
-        c.r3_w2_v3_robot__m__2__wh__ws = t_24 / 20.0 - t_5 / 20.0
-
-        # khepera.bg:17: r3_w2: factor of robot.m[2].me.we in stage 2
-        c.r3_w2_v2_robot__m__2__me__we = t_25 / 20.0
-
-        # khepera.bg:17: r3_w2: factor of robot.m[2].me.we in stage 3
-        c.r3_w2_v3_robot__m__2__me__we = t_25 / 20.0 - t_4 / 20.0
-
-        # khepera.bg:17: r3_w3: factor of robot.m[2].me.we in stage 1
-        c.r3_w3_v1_robot__m__2__me__we = t_12 / 50.0
-
-        # khepera.bg:17: r3_w3: factor of robot.m[2].me.we in stage 2
-        c.r3_w3_v2_robot__m__2__me__we = t_26 / 50.0 - t_12 / 25.0
-
-        # khepera.bg:17: r3_w3: factor of robot.m[2].me.we in stage 3
-        c.r3_w3_v3_robot__m__2__me__we = (
-            t_12 / 50.0
-            + p.robot__m__2__el__k
-                * (p.fe__2 * p.robot__m__2__el__Re / p.robot__m__2__el__k / p.robot__m__2__el__k
-                - 1.0) / 50.0
-            - t_26 / 50.0
-        )
-
-        # khepera.bg:17: r3_w3: factor of robot.Fx[2] in stage 2
-        c.r3_w3_v2_robot__Fx__2 = t_14 / 50.0
-
-        # khepera.bg:17: r3_w3: factor of robot.Fx[2] in stage 3
-        c.r3_w3_v3_robot__Fx__2 = t_6 / 50.0 - t_14 / 50.0
-
-        # khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws in stage 1
-        c.r3_w3_v1_robot__m__2__wh__ws = t_13 / 50.0
-
-        # khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws in stage 2
-        c.r3_w3_v2_robot__m__2__wh__ws = t_27 / 50.0 - t_13 / 25.0
-
-        # khepera.bg:17: r3_w3: factor of robot.m[2].wh.ws in stage 3
-        c.r3_w3_v3_robot__m__2__wh__ws = t_5 / 50.0 + t_13 / 50.0 - t_27 / 50.0
-
-        # khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws in stage 2
-        c.r3_w4_v2_robot__m__2__wh__ws = t_28 / 10.0
-
-        # khepera.bg:17: r3_w4: factor of robot.m[2].wh.ws in stage 3
-        c.r3_w4_v3_robot__m__2__wh__ws = t_28 / 10.0 - t_5 / 10.0
-
-        # khepera.bg:17: r3_w5: factor of robot.m[2].me.we in stage 3
-        c.r3_w5_v3_robot__m__2__me__we = t_4 / 146.0
-
-        # khepera.bg:17: r3_w6: factor of robot.m[2].me.we in stage 2
-        c.r3_w6_v2_robot__m__2__me__we = t_23 / 365.0
-
-        # khepera.bg:17: r3_w6: factor of robot.m[2].me.we in stage 3
-        c.r3_w6_v3_robot__m__2__me__we = t_4 / 365.0 - t_23 / 365.0
-
-        # khepera.bg:17: r3_w7: factor of robot.m[2].me.we in stage 2
-        c.r3_w7_v2_robot__m__2__me__we = t_25 / 730.0
-
-        # khepera.bg:17: r3_w7: factor of robot.m[2].me.we in stage 3
-        c.r3_w7_v3_robot__m__2__me__we = t_4 / 730.0 - t_25 / 730.0
-
-        # khepera.bg:17: r3_w7: factor of robot.m[2].wh.ws in stage 2
-        c.r3_w7_v2_robot__m__2__wh__ws = t_24 / 730.0
-
-        # khepera.bg:17: r3_w7: factor of robot.m[2].wh.ws in stage 3
-        c.r3_w7_v3_robot__m__2__wh__ws = t_5 / 730.0 - t_24 / 730.0
-
-        # khepera.bg:17: r3_w7: factor of robot.Fx[2] in stage 3
-        c.r3_w7_v3_robot__Fx__2 = t_6 / 730.0
-
-        # khepera.bg:17: r3_w8: factor of robot.m[2].wh.ws in stage 3
-        c.r3_w8_v3_robot__m__2__wh__ws = t_5 / 146.0
-
-        # khepera.bg:17: r3_w9: factor of robot.m[2].me.we in stage 1
-        c.r3_w9_v1_robot__m__2__me__we = t_12 / 1825.0
-
-        # khepera.bg:17: r3_w9: factor of robot.m[2].me.we in stage 2
-        c.r3_w9_v2_robot__m__2__me__we = 2.0 * t_12 / 1825.0 + t_29 / 3650.0
-
-        # khepera.bg:17: r3_w9: factor of robot.m[2].me.we in stage 3
-        c.r3_w9_v3_robot__m__2__me__we = t_4 / 1825.0 + t_12 / 1825.0 + t_29 / 3650.0
-
-        # khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws in stage 1
-        c.r3_w9_v1_robot__m__2__wh__ws = t_13 / 1825.0
-
-        # khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws in stage 2
-        c.r3_w9_v2_robot__m__2__wh__ws = 2.0 * t_13 / 1825.0 + t_30 / 3650.0
-
-        # khepera.bg:17: r3_w9: factor of robot.m[2].wh.ws in stage 3
-        c.r3_w9_v3_robot__m__2__wh__ws = t_5 / 1825.0 + t_13 / 1825.0 + t_30 / 3650.0
-
-        # khepera.bg:17: r3_w9: factor of robot.Fx[2] in stage 2
-        c.r3_w9_v2_robot__Fx__2 = t_14 / 1825.0
-
-        # khepera.bg:17: r3_w9: factor of robot.Fx[2] in stage 3
-        c.r3_w9_v3_robot__Fx__2 = t_14 / 1825.0 - t_6 / 1825.0
-
-        # khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws in stage 2
-        c.r3_w10_v2_robot__m__2__wh__ws = t_28 / 365.0
-
-        # khepera.bg:17: r3_w10: factor of robot.m[2].wh.ws in stage 3
-        c.r3_w10_v3_robot__m__2__wh__ws = t_5 / 365.0 - t_28 / 365.0
-
-        # khepera.bg:41: r4_w1: factor of robot.m[2].wh.ws in stage 2
-        c.r4_w1_v2_robot__m__2__wh__ws = (
-            p.robot__m__2__wh__fs * bandwidth / 10.0 / p.robot__m__2__ge__N / p.robot__m__2__me__K
+        # khepera.bg:41: r4_w1: factor of robot.m[2].wh.ws'
+        c.r4_w1_w1_robot__m__2__wh__ws = (
+            p.robot__m__2__wh__fs * w / 10.0 / p.robot__m__2__ge__N / p.robot__m__2__me__K
         )
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
@@ -840,8 +793,17 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:17: r1_w1: terms of order 0
+        r1_w1_g0 = -c.r1_w1_robot__m__1__me__we * s.robot__m__1__me__we
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = c.r1_w1_w1_robot__m__1__me__we * s.robot__m__1__me__we
+
+        # khepera.bg:17: r1_w1: error of order 0
+        r1_w1_e0 = c.bend1 * r1_w1_g0
+
         # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = c.r1_w1_v3_robot__m__1__me__we * s.robot__m__1__me__we
+        r1_w1_u3 = r1_w1_g0 + r1_w1_d1 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 3, at rest
         r1_w1_y3 = r1_w1_u3
@@ -850,7 +812,7 @@ class Monitor:
         x.r1_w1_s3 = c.rest * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = r1_w1_y3 - c.r1_w1_v2_robot__m__1__me__we * s.robot__m__1__me__we
+        r1_w1_u2 = r1_w1_y3 + 2.0 * r1_w1_e0 - r1_w1_d1
 
         # khepera.bg:17: r1_w1: stage 2, at rest
         r1_w1_y2 = r1_w1_u2
@@ -859,7 +821,7 @@ class Monitor:
         x.r1_w1_s2 = c.rest * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 1, at rest
         r1_w1_y1 = r1_w1_u1
@@ -870,12 +832,24 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerance of fe[1] can do
         r1_w1 = r1_w1_y1
 
-        # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = (
-            c.r1_w2_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            + c.r1_w2_v3_robot__m__1__me__we * s.robot__m__1__me__we
-            - c.r1_w2_v3_robot__Fx__1 * s.robot__Fx__1
+        # khepera.bg:17: r1_w2: terms of order 0
+        r1_w2_g0 = (
+            -c.r1_w2_robot__Fx__1 * s.robot__Fx__1
+            - c.r1_w2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r1_w2_robot__m__1__me__we * s.robot__m__1__me__we
         )
+
+        # khepera.bg:17: r1_w2: degree 1
+        r1_w2_d1 = (
+            -c.r1_w2_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r1_w2_w1_robot__m__1__me__we * s.robot__m__1__me__we
+        )
+
+        # khepera.bg:17: r1_w2: error of order 0
+        r1_w2_e0 = c.bend1 * r1_w2_g0
+
+        # khepera.bg:17: r1_w2: input of stage 3
+        r1_w2_u3 = r1_w2_g0 - r1_w2_d1 - r1_w2_e0
 
         # khepera.bg:17: r1_w2: stage 3, at rest
         r1_w2_y3 = r1_w2_u3
@@ -884,10 +858,7 @@ class Monitor:
         x.r1_w2_s3 = c.rest * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = (
-            r1_w2_y3 - c.r1_w2_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            - c.r1_w2_v2_robot__m__1__me__we * s.robot__m__1__me__we
-        )
+        r1_w2_u2 = r1_w2_y3 + r1_w2_d1 + 2.0 * r1_w2_e0
 
         # khepera.bg:17: r1_w2: stage 2, at rest
         r1_w2_y2 = r1_w2_u2
@@ -896,7 +867,7 @@ class Monitor:
         x.r1_w2_s2 = c.rest * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = r1_w2_y2
+        r1_w2_u1 = r1_w2_y2 - r1_w2_e0
 
         # khepera.bg:17: r1_w2: stage 1, at rest
         r1_w2_y1 = r1_w2_u1
@@ -907,12 +878,34 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re can do
         r1_w2 = r1_w2_y1
 
-        # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = (
-            c.r1_w3_v3_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w3_v3_robot__Fx__1 * s.robot__Fx__1
-            + c.r1_w3_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        # khepera.bg:17: r1_w3: terms of order 0
+        r1_w3_g0 = (
+            c.r1_w3_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w3_robot__Fx__1 * s.robot__Fx__1
+            + c.r1_w3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
         )
+
+        # khepera.bg:17: r1_w3: terms of order 1
+        r1_w3_g1 = (
+            c.r1_w3_w1_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w3_w1_robot__Fx__1 * s.robot__Fx__1
+            + c.r1_w3_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        )
+
+        # khepera.bg:17: r1_w3: error of order 0
+        r1_w3_e0 = c.bend2 * r1_w3_g0
+
+        # khepera.bg:17: r1_w3: degree 2
+        r1_w3_d2 = (
+            c.r1_w3_w2_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w3_w2_robot__m__1__wh__ws * s.robot__m__1__wh__ws - r1_w3_e0
+        )
+
+        # khepera.bg:17: r1_w3: error of order 1
+        r1_w3_e1 = c.bend1 * r1_w3_g1
+
+        # khepera.bg:17: r1_w3: input of stage 3
+        r1_w3_u3 = r1_w3_g0 + r1_w3_d2 + r1_w3_e1 - r1_w3_g1
 
         # khepera.bg:17: r1_w3: stage 3, at rest
         r1_w3_y3 = r1_w3_u3
@@ -921,11 +914,7 @@ class Monitor:
         x.r1_w3_s3 = c.rest * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = (
-            r1_w3_y3 + c.r1_w3_v2_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w3_v2_robot__Fx__1 * s.robot__Fx__1
-            + c.r1_w3_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-        )
+        r1_w3_u2 = r1_w3_y3 + r1_w3_g1 - 2.0 * r1_w3_d2 - 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 2, at rest
         r1_w3_y2 = r1_w3_u2
@@ -934,10 +923,7 @@ class Monitor:
         x.r1_w3_s2 = c.rest * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = (
-            r1_w3_y2 + c.r1_w3_v1_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w3_v1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-        )
+        r1_w3_u1 = r1_w3_y2 + r1_w3_d2 + 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 1, at rest
         r1_w3_y1 = r1_w3_u1
@@ -946,10 +932,19 @@ class Monitor:
         x.r1_w3_s1 = c.rest * r1_w3_u1
 
         # khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do
-        r1_w3 = r1_w3_y1
+        r1_w3 = r1_w3_y1 - r1_w3_e1
+
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = c.r1_w4_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend1 * r1_w4_g0
 
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = c.r1_w4_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 3, at rest
         r1_w4_y3 = r1_w4_u3
@@ -958,7 +953,7 @@ class Monitor:
         x.r1_w4_s3 = c.rest * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = r1_w4_y3 - c.r1_w4_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r1_w4_u2 = r1_w4_y3 + 2.0 * r1_w4_e0 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 2, at rest
         r1_w4_y2 = r1_w4_u2
@@ -967,7 +962,7 @@ class Monitor:
         x.r1_w4_s2 = c.rest * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 1, at rest
         r1_w4_y1 = r1_w4_u1
@@ -979,7 +974,7 @@ class Monitor:
         r1_w4 = r1_w4_y1
 
         # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = -c.r1_w5_v3_robot__m__1__me__we * s.robot__m__1__me__we
+        r1_w5_u3 = -c.r1_w5_robot__m__1__me__we * s.robot__m__1__me__we
 
         # khepera.bg:17: r1_w5: stage 3, at rest
         r1_w5_y3 = r1_w5_u3
@@ -1008,8 +1003,17 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.Re can do together
         r1_w5 = r1_w5_y1
 
+        # khepera.bg:17: r1_w6: terms of order 0
+        r1_w6_g0 = c.r1_w6_robot__m__1__me__we * s.robot__m__1__me__we
+
+        # khepera.bg:17: r1_w6: degree 1
+        r1_w6_d1 = c.r1_w6_w1_robot__m__1__me__we * s.robot__m__1__me__we
+
+        # khepera.bg:17: r1_w6: error of order 0
+        r1_w6_e0 = c.bend1 * r1_w6_g0
+
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = c.r1_w6_v3_robot__m__1__me__we * s.robot__m__1__me__we
+        r1_w6_u3 = r1_w6_g0 - r1_w6_d1 - r1_w6_e0
 
         # khepera.bg:17: r1_w6: stage 3, at rest
         r1_w6_y3 = r1_w6_u3
@@ -1018,7 +1022,7 @@ class Monitor:
         x.r1_w6_s3 = c.rest * r1_w6_u3
 
         # khepera.bg:17: r1_w6: input of stage 2
-        r1_w6_u2 = r1_w6_y3 + c.r1_w6_v2_robot__m__1__me__we * s.robot__m__1__me__we
+        r1_w6_u2 = r1_w6_y3 + r1_w6_d1 + 2.0 * r1_w6_e0
 
         # khepera.bg:17: r1_w6: stage 2, at rest
         r1_w6_y2 = r1_w6_u2
@@ -1027,7 +1031,7 @@ class Monitor:
         x.r1_w6_s2 = c.rest * r1_w6_u2
 
         # khepera.bg:17: r1_w6: input of stage 1
-        r1_w6_u1 = r1_w6_y2
+        r1_w6_u1 = r1_w6_y2 - r1_w6_e0
 
         # khepera.bg:17: r1_w6: stage 1, at rest
         r1_w6_y1 = r1_w6_u1
@@ -1038,12 +1042,24 @@ class Monitor:
         # khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.k can do together
         r1_w6 = r1_w6_y1
 
-        # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = (
-            c.r1_w7_v3_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w7_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            + c.r1_w7_v3_robot__Fx__1 * s.robot__Fx__1
+        # khepera.bg:17: r1_w7: terms of order 0
+        r1_w7_g0 = (
+            c.r1_w7_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w7_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            + c.r1_w7_robot__Fx__1 * s.robot__Fx__1
         )
+
+        # khepera.bg:17: r1_w7: degree 1
+        r1_w7_d1 = (
+            c.r1_w7_w1_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w7_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        )
+
+        # khepera.bg:17: r1_w7: error of order 0
+        r1_w7_e0 = c.bend1 * r1_w7_g0
+
+        # khepera.bg:17: r1_w7: input of stage 3
+        r1_w7_u3 = r1_w7_g0 - r1_w7_d1 - r1_w7_e0
 
         # khepera.bg:17: r1_w7: stage 3, at rest
         r1_w7_y3 = r1_w7_u3
@@ -1052,10 +1068,7 @@ class Monitor:
         x.r1_w7_s3 = c.rest * r1_w7_u3
 
         # khepera.bg:17: r1_w7: input of stage 2
-        r1_w7_u2 = (
-            r1_w7_y3 + c.r1_w7_v2_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w7_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-        )
+        r1_w7_u2 = r1_w7_y3 + r1_w7_d1 + 2.0 * r1_w7_e0
 
         # khepera.bg:17: r1_w7: stage 2, at rest
         r1_w7_y2 = r1_w7_u2
@@ -1064,7 +1077,7 @@ class Monitor:
         x.r1_w7_s2 = c.rest * r1_w7_u2
 
         # khepera.bg:17: r1_w7: input of stage 1
-        r1_w7_u1 = r1_w7_y2
+        r1_w7_u1 = r1_w7_y2 - r1_w7_e0
 
         # khepera.bg:17: r1_w7: stage 1, at rest
         r1_w7_y1 = r1_w7_u1
@@ -1077,7 +1090,7 @@ class Monitor:
         r1_w7 = r1_w7_y1
 
         # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = -c.r1_w8_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r1_w8_u3 = -c.r1_w8_robot__m__1__wh__ws * s.robot__m__1__wh__ws
 
         # khepera.bg:17: r1_w8: stage 3, at rest
         r1_w8_y3 = r1_w8_u3
@@ -1107,12 +1120,34 @@ class Monitor:
         # together
         r1_w8 = r1_w8_y1
 
-        # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = (
-            c.r1_w9_v3_robot__Fx__1 * s.robot__Fx__1
-            - c.r1_w9_v3_robot__m__1__me__we * s.robot__m__1__me__we
-            - c.r1_w9_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        # khepera.bg:17: r1_w9: terms of order 0
+        r1_w9_g0 = (
+            -c.r1_w9_robot__m__1__me__we * s.robot__m__1__me__we
+            - c.r1_w9_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r1_w9_robot__Fx__1 * s.robot__Fx__1
         )
+
+        # khepera.bg:17: r1_w9: terms of order 1
+        r1_w9_g1 = (
+            c.r1_w9_w1_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w9_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r1_w9_w1_robot__Fx__1 * s.robot__Fx__1
+        )
+
+        # khepera.bg:17: r1_w9: error of order 0
+        r1_w9_e0 = c.bend2 * r1_w9_g0
+
+        # khepera.bg:17: r1_w9: degree 2
+        r1_w9_d2 = (
+            -c.r1_w9_w2_robot__m__1__me__we * s.robot__m__1__me__we
+            - c.r1_w9_w2_robot__m__1__wh__ws * s.robot__m__1__wh__ws - r1_w9_e0
+        )
+
+        # khepera.bg:17: r1_w9: error of order 1
+        r1_w9_e1 = c.bend1 * r1_w9_g1
+
+        # khepera.bg:17: r1_w9: input of stage 3
+        r1_w9_u3 = r1_w9_g0 + r1_w9_d2 + r1_w9_e1 - r1_w9_g1
 
         # khepera.bg:17: r1_w9: stage 3, at rest
         r1_w9_y3 = r1_w9_u3
@@ -1121,11 +1156,7 @@ class Monitor:
         x.r1_w9_s3 = c.rest * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = (
-            r1_w9_y3 + c.r1_w9_v2_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w9_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            - c.r1_w9_v2_robot__Fx__1 * s.robot__Fx__1
-        )
+        r1_w9_u2 = r1_w9_y3 + r1_w9_g1 - 2.0 * r1_w9_d2 - 3.0 * r1_w9_e1
 
         # khepera.bg:17: r1_w9: stage 2, at rest
         r1_w9_y2 = r1_w9_u2
@@ -1134,10 +1165,7 @@ class Monitor:
         x.r1_w9_s2 = c.rest * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = (
-            r1_w9_y2 - c.r1_w9_v1_robot__m__1__me__we * s.robot__m__1__me__we
-            - c.r1_w9_v1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-        )
+        r1_w9_u1 = r1_w9_y2 + r1_w9_d2 + 3.0 * r1_w9_e1
 
         # khepera.bg:17: r1_w9: stage 1, at rest
         r1_w9_y1 = r1_w9_u1
@@ -1146,10 +1174,19 @@ class Monitor:
         x.r1_w9_s1 = c.rest * r1_w9_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of robot.m[1].el.k can do
-        r1_w9 = r1_w9_y1
+        r1_w9 = r1_w9_y1 - r1_w9_e1
+
+        # khepera.bg:17: r1_w10: terms of order 0
+        r1_w10_g0 = c.r1_w10_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
+        # khepera.bg:17: r1_w10: degree 1
+        r1_w10_d1 = c.r1_w10_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
+        # khepera.bg:17: r1_w10: error of order 0
+        r1_w10_e0 = c.bend1 * r1_w10_g0
 
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = c.r1_w10_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 3, at rest
         r1_w10_y3 = r1_w10_u3
@@ -1158,7 +1195,7 @@ class Monitor:
         x.r1_w10_s3 = c.rest * r1_w10_u3
 
         # khepera.bg:17: r1_w10: input of stage 2
-        r1_w10_u2 = r1_w10_y3 + c.r1_w10_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + 2.0 * r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 2, at rest
         r1_w10_y2 = r1_w10_u2
@@ -1167,7 +1204,7 @@ class Monitor:
         x.r1_w10_s2 = c.rest * r1_w10_u2
 
         # khepera.bg:17: r1_w10: input of stage 1
-        r1_w10_u1 = r1_w10_y2
+        r1_w10_u1 = r1_w10_y2 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 1, at rest
         r1_w10_y1 = r1_w10_u1
@@ -1190,340 +1227,424 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:17: r1_w1: terms of order 0
+        r1_w1_g0 = -c.r1_w1_robot__m__1__me__we * s.robot__m__1__me__we
+
+        # khepera.bg:17: r1_w1: degree 1
+        r1_w1_d1 = c.r1_w1_w1_robot__m__1__me__we * s.robot__m__1__me__we
+
+        # khepera.bg:17: r1_w1: error of order 0
+        r1_w1_e0 = c.bend1 * r1_w1_g0
+
         # khepera.bg:17: r1_w1: input of stage 3
-        r1_w1_u3 = c.r1_w1_v3_robot__m__1__me__we * s.robot__m__1__me__we
+        r1_w1_u3 = r1_w1_g0 + r1_w1_d1 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 3
-        r1_w1_y3 = x.r1_w1_s3 + c.b0 * r1_w1_u3
+        r1_w1_y3 = x.r1_w1_s3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: stage 3: memory
-        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b1 * r1_w1_u3
+        x.r1_w1_s3 = c.a * r1_w1_y3 + c.b * r1_w1_u3
 
         # khepera.bg:17: r1_w1: input of stage 2
-        r1_w1_u2 = r1_w1_y3 - c.r1_w1_v2_robot__m__1__me__we * s.robot__m__1__me__we
+        r1_w1_u2 = r1_w1_y3 + 2.0 * r1_w1_e0 - r1_w1_d1
 
         # khepera.bg:17: r1_w1: stage 2
-        r1_w1_y2 = x.r1_w1_s2 + c.b0 * r1_w1_u2
+        r1_w1_y2 = x.r1_w1_s2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b1 * r1_w1_u2
+        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b * r1_w1_u2
 
         # khepera.bg:17: r1_w1: input of stage 1
-        r1_w1_u1 = r1_w1_y2
+        r1_w1_u1 = r1_w1_y2 - r1_w1_e0
 
         # khepera.bg:17: r1_w1: stage 1
-        r1_w1_y1 = x.r1_w1_s1 + c.b0 * r1_w1_u1
+        r1_w1_y1 = x.r1_w1_s1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b1 * r1_w1_u1
+        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b * r1_w1_u1
 
         # khepera.bg:17: r1: what the tolerance of fe[1] can do
         r1_w1 = r1_w1_y1
 
-        # khepera.bg:17: r1_w2: input of stage 3
-        r1_w2_u3 = (
-            c.r1_w2_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            + c.r1_w2_v3_robot__m__1__me__we * s.robot__m__1__me__we
-            - c.r1_w2_v3_robot__Fx__1 * s.robot__Fx__1
+        # khepera.bg:17: r1_w2: terms of order 0
+        r1_w2_g0 = (
+            -c.r1_w2_robot__Fx__1 * s.robot__Fx__1
+            - c.r1_w2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r1_w2_robot__m__1__me__we * s.robot__m__1__me__we
         )
+
+        # khepera.bg:17: r1_w2: degree 1
+        r1_w2_d1 = (
+            -c.r1_w2_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r1_w2_w1_robot__m__1__me__we * s.robot__m__1__me__we
+        )
+
+        # khepera.bg:17: r1_w2: error of order 0
+        r1_w2_e0 = c.bend1 * r1_w2_g0
+
+        # khepera.bg:17: r1_w2: input of stage 3
+        r1_w2_u3 = r1_w2_g0 - r1_w2_d1 - r1_w2_e0
 
         # khepera.bg:17: r1_w2: stage 3
-        r1_w2_y3 = x.r1_w2_s3 + c.b0 * r1_w2_u3
+        r1_w2_y3 = x.r1_w2_s3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: stage 3: memory
-        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b1 * r1_w2_u3
+        x.r1_w2_s3 = c.a * r1_w2_y3 + c.b * r1_w2_u3
 
         # khepera.bg:17: r1_w2: input of stage 2
-        r1_w2_u2 = (
-            r1_w2_y3 - c.r1_w2_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            - c.r1_w2_v2_robot__m__1__me__we * s.robot__m__1__me__we
-        )
+        r1_w2_u2 = r1_w2_y3 + r1_w2_d1 + 2.0 * r1_w2_e0
 
         # khepera.bg:17: r1_w2: stage 2
-        r1_w2_y2 = x.r1_w2_s2 + c.b0 * r1_w2_u2
+        r1_w2_y2 = x.r1_w2_s2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: stage 2: memory
-        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b1 * r1_w2_u2
+        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b * r1_w2_u2
 
         # khepera.bg:17: r1_w2: input of stage 1
-        r1_w2_u1 = r1_w2_y2
+        r1_w2_u1 = r1_w2_y2 - r1_w2_e0
 
         # khepera.bg:17: r1_w2: stage 1
-        r1_w2_y1 = x.r1_w2_s1 + c.b0 * r1_w2_u1
+        r1_w2_y1 = x.r1_w2_s1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1_w2: stage 1: memory
-        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b1 * r1_w2_u1
+        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b * r1_w2_u1
 
         # khepera.bg:17: r1: what the tolerance of robot.m[1].el.Re can do
         r1_w2 = r1_w2_y1
 
-        # khepera.bg:17: r1_w3: input of stage 3
-        r1_w3_u3 = (
-            c.r1_w3_v3_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w3_v3_robot__Fx__1 * s.robot__Fx__1
-            + c.r1_w3_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        # khepera.bg:17: r1_w3: terms of order 0
+        r1_w3_g0 = (
+            c.r1_w3_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w3_robot__Fx__1 * s.robot__Fx__1
+            + c.r1_w3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
         )
+
+        # khepera.bg:17: r1_w3: terms of order 1
+        r1_w3_g1 = (
+            c.r1_w3_w1_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w3_w1_robot__Fx__1 * s.robot__Fx__1
+            + c.r1_w3_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        )
+
+        # khepera.bg:17: r1_w3: error of order 0
+        r1_w3_e0 = c.bend2 * r1_w3_g0
+
+        # khepera.bg:17: r1_w3: degree 2
+        r1_w3_d2 = (
+            c.r1_w3_w2_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w3_w2_robot__m__1__wh__ws * s.robot__m__1__wh__ws - r1_w3_e0
+        )
+
+        # khepera.bg:17: r1_w3: error of order 1
+        r1_w3_e1 = c.bend1 * r1_w3_g1
+
+        # khepera.bg:17: r1_w3: input of stage 3
+        r1_w3_u3 = r1_w3_g0 + r1_w3_d2 + r1_w3_e1 - r1_w3_g1
 
         # khepera.bg:17: r1_w3: stage 3
-        r1_w3_y3 = x.r1_w3_s3 + c.b0 * r1_w3_u3
+        r1_w3_y3 = x.r1_w3_s3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: stage 3: memory
-        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b1 * r1_w3_u3
+        x.r1_w3_s3 = c.a * r1_w3_y3 + c.b * r1_w3_u3
 
         # khepera.bg:17: r1_w3: input of stage 2
-        r1_w3_u2 = (
-            r1_w3_y3 + c.r1_w3_v2_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w3_v2_robot__Fx__1 * s.robot__Fx__1
-            + c.r1_w3_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-        )
+        r1_w3_u2 = r1_w3_y3 + r1_w3_g1 - 2.0 * r1_w3_d2 - 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 2
-        r1_w3_y2 = x.r1_w3_s2 + c.b0 * r1_w3_u2
+        r1_w3_y2 = x.r1_w3_s2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: stage 2: memory
-        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b1 * r1_w3_u2
+        x.r1_w3_s2 = c.a * r1_w3_y2 + c.b * r1_w3_u2
 
         # khepera.bg:17: r1_w3: input of stage 1
-        r1_w3_u1 = (
-            r1_w3_y2 + c.r1_w3_v1_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w3_v1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-        )
+        r1_w3_u1 = r1_w3_y2 + r1_w3_d2 + 3.0 * r1_w3_e1
 
         # khepera.bg:17: r1_w3: stage 1
-        r1_w3_y1 = x.r1_w3_s1 + c.b0 * r1_w3_u1
+        r1_w3_y1 = x.r1_w3_s1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1_w3: stage 1: memory
-        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b1 * r1_w3_u1
+        x.r1_w3_s1 = c.a * r1_w3_y1 + c.b * r1_w3_u1
 
         # khepera.bg:17: r1: what the tolerance of robot.m[1].el.k can do
-        r1_w3 = r1_w3_y1
+        r1_w3 = r1_w3_y1 - r1_w3_e1
+
+        # khepera.bg:17: r1_w4: terms of order 0
+        r1_w4_g0 = -c.r1_w4_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
+        # khepera.bg:17: r1_w4: degree 1
+        r1_w4_d1 = c.r1_w4_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
+        # khepera.bg:17: r1_w4: error of order 0
+        r1_w4_e0 = c.bend1 * r1_w4_g0
 
         # khepera.bg:17: r1_w4: input of stage 3
-        r1_w4_u3 = c.r1_w4_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r1_w4_u3 = r1_w4_g0 + r1_w4_d1 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 3
-        r1_w4_y3 = x.r1_w4_s3 + c.b0 * r1_w4_u3
+        r1_w4_y3 = x.r1_w4_s3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: stage 3: memory
-        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b1 * r1_w4_u3
+        x.r1_w4_s3 = c.a * r1_w4_y3 + c.b * r1_w4_u3
 
         # khepera.bg:17: r1_w4: input of stage 2
-        r1_w4_u2 = r1_w4_y3 - c.r1_w4_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r1_w4_u2 = r1_w4_y3 + 2.0 * r1_w4_e0 - r1_w4_d1
 
         # khepera.bg:17: r1_w4: stage 2
-        r1_w4_y2 = x.r1_w4_s2 + c.b0 * r1_w4_u2
+        r1_w4_y2 = x.r1_w4_s2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: stage 2: memory
-        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b1 * r1_w4_u2
+        x.r1_w4_s2 = c.a * r1_w4_y2 + c.b * r1_w4_u2
 
         # khepera.bg:17: r1_w4: input of stage 1
-        r1_w4_u1 = r1_w4_y2
+        r1_w4_u1 = r1_w4_y2 - r1_w4_e0
 
         # khepera.bg:17: r1_w4: stage 1
-        r1_w4_y1 = x.r1_w4_s1 + c.b0 * r1_w4_u1
+        r1_w4_y1 = x.r1_w4_s1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1_w4: stage 1: memory
-        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b1 * r1_w4_u1
+        x.r1_w4_s1 = c.a * r1_w4_y1 + c.b * r1_w4_u1
 
         # khepera.bg:17: r1: what the tolerance of robot.m[1].wh.fs can do
         r1_w4 = r1_w4_y1
 
         # khepera.bg:17: r1_w5: input of stage 3
-        r1_w5_u3 = -c.r1_w5_v3_robot__m__1__me__we * s.robot__m__1__me__we
+        r1_w5_u3 = -c.r1_w5_robot__m__1__me__we * s.robot__m__1__me__we
 
         # khepera.bg:17: r1_w5: stage 3
-        r1_w5_y3 = x.r1_w5_s3 + c.b0 * r1_w5_u3
+        r1_w5_y3 = x.r1_w5_s3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: stage 3: memory
-        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b1 * r1_w5_u3
+        x.r1_w5_s3 = c.a * r1_w5_y3 + c.b * r1_w5_u3
 
         # khepera.bg:17: r1_w5: input of stage 2
         r1_w5_u2 = r1_w5_y3
 
         # khepera.bg:17: r1_w5: stage 2
-        r1_w5_y2 = x.r1_w5_s2 + c.b0 * r1_w5_u2
+        r1_w5_y2 = x.r1_w5_s2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: stage 2: memory
-        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b1 * r1_w5_u2
+        x.r1_w5_s2 = c.a * r1_w5_y2 + c.b * r1_w5_u2
 
         # khepera.bg:17: r1_w5: input of stage 1
         r1_w5_u1 = r1_w5_y2
 
         # khepera.bg:17: r1_w5: stage 1
-        r1_w5_y1 = x.r1_w5_s1 + c.b0 * r1_w5_u1
+        r1_w5_y1 = x.r1_w5_s1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1_w5: stage 1: memory
-        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b1 * r1_w5_u1
+        x.r1_w5_s1 = c.a * r1_w5_y1 + c.b * r1_w5_u1
 
         # khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.Re can do together
         r1_w5 = r1_w5_y1
 
+        # khepera.bg:17: r1_w6: terms of order 0
+        r1_w6_g0 = c.r1_w6_robot__m__1__me__we * s.robot__m__1__me__we
+
+        # khepera.bg:17: r1_w6: degree 1
+        r1_w6_d1 = c.r1_w6_w1_robot__m__1__me__we * s.robot__m__1__me__we
+
+        # khepera.bg:17: r1_w6: error of order 0
+        r1_w6_e0 = c.bend1 * r1_w6_g0
+
         # khepera.bg:17: r1_w6: input of stage 3
-        r1_w6_u3 = c.r1_w6_v3_robot__m__1__me__we * s.robot__m__1__me__we
+        r1_w6_u3 = r1_w6_g0 - r1_w6_d1 - r1_w6_e0
 
         # khepera.bg:17: r1_w6: stage 3
-        r1_w6_y3 = x.r1_w6_s3 + c.b0 * r1_w6_u3
+        r1_w6_y3 = x.r1_w6_s3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: stage 3: memory
-        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b1 * r1_w6_u3
+        x.r1_w6_s3 = c.a * r1_w6_y3 + c.b * r1_w6_u3
 
         # khepera.bg:17: r1_w6: input of stage 2
-        r1_w6_u2 = r1_w6_y3 + c.r1_w6_v2_robot__m__1__me__we * s.robot__m__1__me__we
+        r1_w6_u2 = r1_w6_y3 + r1_w6_d1 + 2.0 * r1_w6_e0
 
         # khepera.bg:17: r1_w6: stage 2
-        r1_w6_y2 = x.r1_w6_s2 + c.b0 * r1_w6_u2
+        r1_w6_y2 = x.r1_w6_s2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: stage 2: memory
-        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b1 * r1_w6_u2
+        x.r1_w6_s2 = c.a * r1_w6_y2 + c.b * r1_w6_u2
 
         # khepera.bg:17: r1_w6: input of stage 1
-        r1_w6_u1 = r1_w6_y2
+        r1_w6_u1 = r1_w6_y2 - r1_w6_e0
 
         # khepera.bg:17: r1_w6: stage 1
-        r1_w6_y1 = x.r1_w6_s1 + c.b0 * r1_w6_u1
+        r1_w6_y1 = x.r1_w6_s1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1_w6: stage 1: memory
-        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b1 * r1_w6_u1
+        x.r1_w6_s1 = c.a * r1_w6_y1 + c.b * r1_w6_u1
 
         # khepera.bg:17: r1: what the tolerances of fe[1] and robot.m[1].el.k can do together
         r1_w6 = r1_w6_y1
 
-        # khepera.bg:17: r1_w7: input of stage 3
-        r1_w7_u3 = (
-            c.r1_w7_v3_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w7_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            + c.r1_w7_v3_robot__Fx__1 * s.robot__Fx__1
+        # khepera.bg:17: r1_w7: terms of order 0
+        r1_w7_g0 = (
+            c.r1_w7_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w7_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            + c.r1_w7_robot__Fx__1 * s.robot__Fx__1
         )
+
+        # khepera.bg:17: r1_w7: degree 1
+        r1_w7_d1 = (
+            c.r1_w7_w1_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w7_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        )
+
+        # khepera.bg:17: r1_w7: error of order 0
+        r1_w7_e0 = c.bend1 * r1_w7_g0
+
+        # khepera.bg:17: r1_w7: input of stage 3
+        r1_w7_u3 = r1_w7_g0 - r1_w7_d1 - r1_w7_e0
 
         # khepera.bg:17: r1_w7: stage 3
-        r1_w7_y3 = x.r1_w7_s3 + c.b0 * r1_w7_u3
+        r1_w7_y3 = x.r1_w7_s3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: stage 3: memory
-        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b1 * r1_w7_u3
+        x.r1_w7_s3 = c.a * r1_w7_y3 + c.b * r1_w7_u3
 
         # khepera.bg:17: r1_w7: input of stage 2
-        r1_w7_u2 = (
-            r1_w7_y3 + c.r1_w7_v2_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w7_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-        )
+        r1_w7_u2 = r1_w7_y3 + r1_w7_d1 + 2.0 * r1_w7_e0
 
         # khepera.bg:17: r1_w7: stage 2
-        r1_w7_y2 = x.r1_w7_s2 + c.b0 * r1_w7_u2
+        r1_w7_y2 = x.r1_w7_s2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: stage 2: memory
-        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b1 * r1_w7_u2
+        x.r1_w7_s2 = c.a * r1_w7_y2 + c.b * r1_w7_u2
 
         # khepera.bg:17: r1_w7: input of stage 1
-        r1_w7_u1 = r1_w7_y2
+        r1_w7_u1 = r1_w7_y2 - r1_w7_e0
 
         # khepera.bg:17: r1_w7: stage 1
-        r1_w7_y1 = x.r1_w7_s1 + c.b0 * r1_w7_u1
+        r1_w7_y1 = x.r1_w7_s1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1_w7: stage 1: memory
-        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b1 * r1_w7_u1
+        x.r1_w7_s1 = c.a * r1_w7_y1 + c.b * r1_w7_u1
 
         # khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].el.k can do
         # together
         r1_w7 = r1_w7_y1
 
         # khepera.bg:17: r1_w8: input of stage 3
-        r1_w8_u3 = -c.r1_w8_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r1_w8_u3 = -c.r1_w8_robot__m__1__wh__ws * s.robot__m__1__wh__ws
 
         # khepera.bg:17: r1_w8: stage 3
-        r1_w8_y3 = x.r1_w8_s3 + c.b0 * r1_w8_u3
+        r1_w8_y3 = x.r1_w8_s3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: stage 3: memory
-        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b1 * r1_w8_u3
+        x.r1_w8_s3 = c.a * r1_w8_y3 + c.b * r1_w8_u3
 
         # khepera.bg:17: r1_w8: input of stage 2
         r1_w8_u2 = r1_w8_y3
 
         # khepera.bg:17: r1_w8: stage 2
-        r1_w8_y2 = x.r1_w8_s2 + c.b0 * r1_w8_u2
+        r1_w8_y2 = x.r1_w8_s2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: stage 2: memory
-        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b1 * r1_w8_u2
+        x.r1_w8_s2 = c.a * r1_w8_y2 + c.b * r1_w8_u2
 
         # khepera.bg:17: r1_w8: input of stage 1
         r1_w8_u1 = r1_w8_y2
 
         # khepera.bg:17: r1_w8: stage 1
-        r1_w8_y1 = x.r1_w8_s1 + c.b0 * r1_w8_u1
+        r1_w8_y1 = x.r1_w8_s1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1_w8: stage 1: memory
-        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b1 * r1_w8_u1
+        x.r1_w8_s1 = c.a * r1_w8_y1 + c.b * r1_w8_u1
 
         # khepera.bg:17: r1: what the tolerances of robot.m[1].el.Re and robot.m[1].wh.fs can do
         # together
         r1_w8 = r1_w8_y1
 
-        # khepera.bg:17: r1_w9: input of stage 3
-        r1_w9_u3 = (
-            c.r1_w9_v3_robot__Fx__1 * s.robot__Fx__1
-            - c.r1_w9_v3_robot__m__1__me__we * s.robot__m__1__me__we
-            - c.r1_w9_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        # khepera.bg:17: r1_w9: terms of order 0
+        r1_w9_g0 = (
+            -c.r1_w9_robot__m__1__me__we * s.robot__m__1__me__we
+            - c.r1_w9_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r1_w9_robot__Fx__1 * s.robot__Fx__1
         )
+
+        # khepera.bg:17: r1_w9: terms of order 1
+        r1_w9_g1 = (
+            c.r1_w9_w1_robot__m__1__me__we * s.robot__m__1__me__we
+            + c.r1_w9_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+            - c.r1_w9_w1_robot__Fx__1 * s.robot__Fx__1
+        )
+
+        # khepera.bg:17: r1_w9: error of order 0
+        r1_w9_e0 = c.bend2 * r1_w9_g0
+
+        # khepera.bg:17: r1_w9: degree 2
+        r1_w9_d2 = (
+            -c.r1_w9_w2_robot__m__1__me__we * s.robot__m__1__me__we
+            - c.r1_w9_w2_robot__m__1__wh__ws * s.robot__m__1__wh__ws - r1_w9_e0
+        )
+
+        # khepera.bg:17: r1_w9: error of order 1
+        r1_w9_e1 = c.bend1 * r1_w9_g1
+
+        # khepera.bg:17: r1_w9: input of stage 3
+        r1_w9_u3 = r1_w9_g0 + r1_w9_d2 + r1_w9_e1 - r1_w9_g1
 
         # khepera.bg:17: r1_w9: stage 3
-        r1_w9_y3 = x.r1_w9_s3 + c.b0 * r1_w9_u3
+        r1_w9_y3 = x.r1_w9_s3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: stage 3: memory
-        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b1 * r1_w9_u3
+        x.r1_w9_s3 = c.a * r1_w9_y3 + c.b * r1_w9_u3
 
         # khepera.bg:17: r1_w9: input of stage 2
-        r1_w9_u2 = (
-            r1_w9_y3 + c.r1_w9_v2_robot__m__1__me__we * s.robot__m__1__me__we
-            + c.r1_w9_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-            - c.r1_w9_v2_robot__Fx__1 * s.robot__Fx__1
-        )
+        r1_w9_u2 = r1_w9_y3 + r1_w9_g1 - 2.0 * r1_w9_d2 - 3.0 * r1_w9_e1
 
         # khepera.bg:17: r1_w9: stage 2
-        r1_w9_y2 = x.r1_w9_s2 + c.b0 * r1_w9_u2
+        r1_w9_y2 = x.r1_w9_s2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: stage 2: memory
-        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b1 * r1_w9_u2
+        x.r1_w9_s2 = c.a * r1_w9_y2 + c.b * r1_w9_u2
 
         # khepera.bg:17: r1_w9: input of stage 1
-        r1_w9_u1 = (
-            r1_w9_y2 - c.r1_w9_v1_robot__m__1__me__we * s.robot__m__1__me__we
-            - c.r1_w9_v1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
-        )
+        r1_w9_u1 = r1_w9_y2 + r1_w9_d2 + 3.0 * r1_w9_e1
 
         # khepera.bg:17: r1_w9: stage 1
-        r1_w9_y1 = x.r1_w9_s1 + c.b0 * r1_w9_u1
+        r1_w9_y1 = x.r1_w9_s1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1_w9: stage 1: memory
-        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b1 * r1_w9_u1
+        x.r1_w9_s1 = c.a * r1_w9_y1 + c.b * r1_w9_u1
 
         # khepera.bg:17: r1: second order of what the tolerance of robot.m[1].el.k can do
-        r1_w9 = r1_w9_y1
+        r1_w9 = r1_w9_y1 - r1_w9_e1
+
+        # khepera.bg:17: r1_w10: terms of order 0
+        r1_w10_g0 = c.r1_w10_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
+        # khepera.bg:17: r1_w10: degree 1
+        r1_w10_d1 = c.r1_w10_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
+        # khepera.bg:17: r1_w10: error of order 0
+        r1_w10_e0 = c.bend1 * r1_w10_g0
 
         # khepera.bg:17: r1_w10: input of stage 3
-        r1_w10_u3 = c.r1_w10_v3_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r1_w10_u3 = r1_w10_g0 - r1_w10_d1 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 3
-        r1_w10_y3 = x.r1_w10_s3 + c.b0 * r1_w10_u3
+        r1_w10_y3 = x.r1_w10_s3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: stage 3: memory
-        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b1 * r1_w10_u3
+        x.r1_w10_s3 = c.a * r1_w10_y3 + c.b * r1_w10_u3
 
         # khepera.bg:17: r1_w10: input of stage 2
-        r1_w10_u2 = r1_w10_y3 + c.r1_w10_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r1_w10_u2 = r1_w10_y3 + r1_w10_d1 + 2.0 * r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 2
-        r1_w10_y2 = x.r1_w10_s2 + c.b0 * r1_w10_u2
+        r1_w10_y2 = x.r1_w10_s2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: stage 2: memory
-        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b1 * r1_w10_u2
+        x.r1_w10_s2 = c.a * r1_w10_y2 + c.b * r1_w10_u2
 
         # khepera.bg:17: r1_w10: input of stage 1
-        r1_w10_u1 = r1_w10_y2
+        r1_w10_u1 = r1_w10_y2 - r1_w10_e0
 
         # khepera.bg:17: r1_w10: stage 1
-        r1_w10_y1 = x.r1_w10_s1 + c.b0 * r1_w10_u1
+        r1_w10_y1 = x.r1_w10_s1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1_w10: stage 1: memory
-        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b1 * r1_w10_u1
+        x.r1_w10_s1 = c.a * r1_w10_y1 + c.b * r1_w10_u1
 
         # khepera.bg:17: r1: what the tolerances of robot.m[1].el.k and robot.m[1].wh.fs can do
         # together
@@ -1558,8 +1679,11 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:41: r2_w1: degree 1
+        r2_w1_d1 = c.r2_w1_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
         # khepera.bg:41: r2_w1: input of stage 3
-        r2_w1_u3 = c.r2_w1_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r2_w1_u3 = r2_w1_d1
 
         # khepera.bg:41: r2_w1: stage 3, at rest
         r2_w1_y3 = r2_w1_u3
@@ -1568,7 +1692,7 @@ class Monitor:
         x.r2_w1_s3 = c.rest * r2_w1_u3
 
         # khepera.bg:41: r2_w1: input of stage 2
-        r2_w1_u2 = r2_w1_y3 - c.r2_w1_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r2_w1_u2 = r2_w1_y3 - r2_w1_d1
 
         # khepera.bg:41: r2_w1: stage 2, at rest
         r2_w1_y2 = r2_w1_u2
@@ -1596,32 +1720,35 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:41: r2_w1: degree 1
+        r2_w1_d1 = c.r2_w1_w1_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+
         # khepera.bg:41: r2_w1: input of stage 3
-        r2_w1_u3 = c.r2_w1_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r2_w1_u3 = r2_w1_d1
 
         # khepera.bg:41: r2_w1: stage 3
-        r2_w1_y3 = x.r2_w1_s3 + c.b0 * r2_w1_u3
+        r2_w1_y3 = x.r2_w1_s3 + c.b * r2_w1_u3
 
         # khepera.bg:41: r2_w1: stage 3: memory
-        x.r2_w1_s3 = c.a * r2_w1_y3 + c.b1 * r2_w1_u3
+        x.r2_w1_s3 = c.a * r2_w1_y3 + c.b * r2_w1_u3
 
         # khepera.bg:41: r2_w1: input of stage 2
-        r2_w1_u2 = r2_w1_y3 - c.r2_w1_v2_robot__m__1__wh__ws * s.robot__m__1__wh__ws
+        r2_w1_u2 = r2_w1_y3 - r2_w1_d1
 
         # khepera.bg:41: r2_w1: stage 2
-        r2_w1_y2 = x.r2_w1_s2 + c.b0 * r2_w1_u2
+        r2_w1_y2 = x.r2_w1_s2 + c.b * r2_w1_u2
 
         # khepera.bg:41: r2_w1: stage 2: memory
-        x.r2_w1_s2 = c.a * r2_w1_y2 + c.b1 * r2_w1_u2
+        x.r2_w1_s2 = c.a * r2_w1_y2 + c.b * r2_w1_u2
 
         # khepera.bg:41: r2_w1: input of stage 1
         r2_w1_u1 = r2_w1_y2
 
         # khepera.bg:41: r2_w1: stage 1
-        r2_w1_y1 = x.r2_w1_s1 + c.b0 * r2_w1_u1
+        r2_w1_y1 = x.r2_w1_s1 + c.b * r2_w1_u1
 
         # khepera.bg:41: r2_w1: stage 1: memory
-        x.r2_w1_s1 = c.a * r2_w1_y1 + c.b1 * r2_w1_u1
+        x.r2_w1_s1 = c.a * r2_w1_y1 + c.b * r2_w1_u1
 
         # khepera.bg:41: r2: what the tolerance of robot.m[1].wh.fs can do
         r2_w1 = r2_w1_y1
@@ -1650,8 +1777,17 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:17: r3_w1: terms of order 0
+        r3_w1_g0 = -c.r3_w1_robot__m__2__me__we * s.robot__m__2__me__we
+
+        # khepera.bg:17: r3_w1: degree 1
+        r3_w1_d1 = c.r3_w1_w1_robot__m__2__me__we * s.robot__m__2__me__we
+
+        # khepera.bg:17: r3_w1: error of order 0
+        r3_w1_e0 = c.bend1 * r3_w1_g0
+
         # khepera.bg:17: r3_w1: input of stage 3
-        r3_w1_u3 = c.r3_w1_v3_robot__m__2__me__we * s.robot__m__2__me__we
+        r3_w1_u3 = r3_w1_g0 + r3_w1_d1 - r3_w1_e0
 
         # khepera.bg:17: r3_w1: stage 3, at rest
         r3_w1_y3 = r3_w1_u3
@@ -1660,7 +1796,7 @@ class Monitor:
         x.r3_w1_s3 = c.rest * r3_w1_u3
 
         # khepera.bg:17: r3_w1: input of stage 2
-        r3_w1_u2 = r3_w1_y3 - c.r3_w1_v2_robot__m__2__me__we * s.robot__m__2__me__we
+        r3_w1_u2 = r3_w1_y3 + 2.0 * r3_w1_e0 - r3_w1_d1
 
         # khepera.bg:17: r3_w1: stage 2, at rest
         r3_w1_y2 = r3_w1_u2
@@ -1669,7 +1805,7 @@ class Monitor:
         x.r3_w1_s2 = c.rest * r3_w1_u2
 
         # khepera.bg:17: r3_w1: input of stage 1
-        r3_w1_u1 = r3_w1_y2
+        r3_w1_u1 = r3_w1_y2 - r3_w1_e0
 
         # khepera.bg:17: r3_w1: stage 1, at rest
         r3_w1_y1 = r3_w1_u1
@@ -1680,12 +1816,24 @@ class Monitor:
         # khepera.bg:17: r3: what the tolerance of fe[2] can do
         r3_w1 = r3_w1_y1
 
-        # khepera.bg:17: r3_w2: input of stage 3
-        r3_w2_u3 = (
-            c.r3_w2_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            + c.r3_w2_v3_robot__m__2__me__we * s.robot__m__2__me__we
-            - c.r3_w2_v3_robot__Fx__2 * s.robot__Fx__2
+        # khepera.bg:17: r3_w2: terms of order 0
+        r3_w2_g0 = (
+            -c.r3_w2_robot__Fx__2 * s.robot__Fx__2
+            - c.r3_w2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r3_w2_robot__m__2__me__we * s.robot__m__2__me__we
         )
+
+        # khepera.bg:17: r3_w2: degree 1
+        r3_w2_d1 = (
+            -c.r3_w2_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r3_w2_w1_robot__m__2__me__we * s.robot__m__2__me__we
+        )
+
+        # khepera.bg:17: r3_w2: error of order 0
+        r3_w2_e0 = c.bend1 * r3_w2_g0
+
+        # khepera.bg:17: r3_w2: input of stage 3
+        r3_w2_u3 = r3_w2_g0 - r3_w2_d1 - r3_w2_e0
 
         # khepera.bg:17: r3_w2: stage 3, at rest
         r3_w2_y3 = r3_w2_u3
@@ -1694,10 +1842,7 @@ class Monitor:
         x.r3_w2_s3 = c.rest * r3_w2_u3
 
         # khepera.bg:17: r3_w2: input of stage 2
-        r3_w2_u2 = (
-            r3_w2_y3 - c.r3_w2_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            - c.r3_w2_v2_robot__m__2__me__we * s.robot__m__2__me__we
-        )
+        r3_w2_u2 = r3_w2_y3 + r3_w2_d1 + 2.0 * r3_w2_e0
 
         # khepera.bg:17: r3_w2: stage 2, at rest
         r3_w2_y2 = r3_w2_u2
@@ -1706,7 +1851,7 @@ class Monitor:
         x.r3_w2_s2 = c.rest * r3_w2_u2
 
         # khepera.bg:17: r3_w2: input of stage 1
-        r3_w2_u1 = r3_w2_y2
+        r3_w2_u1 = r3_w2_y2 - r3_w2_e0
 
         # khepera.bg:17: r3_w2: stage 1, at rest
         r3_w2_y1 = r3_w2_u1
@@ -1717,12 +1862,34 @@ class Monitor:
         # khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re can do
         r3_w2 = r3_w2_y1
 
-        # khepera.bg:17: r3_w3: input of stage 3
-        r3_w3_u3 = (
-            c.r3_w3_v3_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w3_v3_robot__Fx__2 * s.robot__Fx__2
-            + c.r3_w3_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        # khepera.bg:17: r3_w3: terms of order 0
+        r3_w3_g0 = (
+            c.r3_w3_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w3_robot__Fx__2 * s.robot__Fx__2
+            + c.r3_w3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
         )
+
+        # khepera.bg:17: r3_w3: terms of order 1
+        r3_w3_g1 = (
+            c.r3_w3_w1_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w3_w1_robot__Fx__2 * s.robot__Fx__2
+            + c.r3_w3_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        )
+
+        # khepera.bg:17: r3_w3: error of order 0
+        r3_w3_e0 = c.bend2 * r3_w3_g0
+
+        # khepera.bg:17: r3_w3: degree 2
+        r3_w3_d2 = (
+            c.r3_w3_w2_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w3_w2_robot__m__2__wh__ws * s.robot__m__2__wh__ws - r3_w3_e0
+        )
+
+        # khepera.bg:17: r3_w3: error of order 1
+        r3_w3_e1 = c.bend1 * r3_w3_g1
+
+        # khepera.bg:17: r3_w3: input of stage 3
+        r3_w3_u3 = r3_w3_g0 + r3_w3_d2 + r3_w3_e1 - r3_w3_g1
 
         # khepera.bg:17: r3_w3: stage 3, at rest
         r3_w3_y3 = r3_w3_u3
@@ -1731,11 +1898,7 @@ class Monitor:
         x.r3_w3_s3 = c.rest * r3_w3_u3
 
         # khepera.bg:17: r3_w3: input of stage 2
-        r3_w3_u2 = (
-            r3_w3_y3 + c.r3_w3_v2_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w3_v2_robot__Fx__2 * s.robot__Fx__2
-            + c.r3_w3_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-        )
+        r3_w3_u2 = r3_w3_y3 + r3_w3_g1 - 2.0 * r3_w3_d2 - 3.0 * r3_w3_e1
 
         # khepera.bg:17: r3_w3: stage 2, at rest
         r3_w3_y2 = r3_w3_u2
@@ -1744,10 +1907,7 @@ class Monitor:
         x.r3_w3_s2 = c.rest * r3_w3_u2
 
         # khepera.bg:17: r3_w3: input of stage 1
-        r3_w3_u1 = (
-            r3_w3_y2 + c.r3_w3_v1_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w3_v1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-        )
+        r3_w3_u1 = r3_w3_y2 + r3_w3_d2 + 3.0 * r3_w3_e1
 
         # khepera.bg:17: r3_w3: stage 1, at rest
         r3_w3_y1 = r3_w3_u1
@@ -1756,10 +1916,19 @@ class Monitor:
         x.r3_w3_s1 = c.rest * r3_w3_u1
 
         # khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do
-        r3_w3 = r3_w3_y1
+        r3_w3 = r3_w3_y1 - r3_w3_e1
+
+        # khepera.bg:17: r3_w4: terms of order 0
+        r3_w4_g0 = -c.r3_w4_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
+        # khepera.bg:17: r3_w4: degree 1
+        r3_w4_d1 = c.r3_w4_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
+        # khepera.bg:17: r3_w4: error of order 0
+        r3_w4_e0 = c.bend1 * r3_w4_g0
 
         # khepera.bg:17: r3_w4: input of stage 3
-        r3_w4_u3 = c.r3_w4_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r3_w4_u3 = r3_w4_g0 + r3_w4_d1 - r3_w4_e0
 
         # khepera.bg:17: r3_w4: stage 3, at rest
         r3_w4_y3 = r3_w4_u3
@@ -1768,7 +1937,7 @@ class Monitor:
         x.r3_w4_s3 = c.rest * r3_w4_u3
 
         # khepera.bg:17: r3_w4: input of stage 2
-        r3_w4_u2 = r3_w4_y3 - c.r3_w4_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r3_w4_u2 = r3_w4_y3 + 2.0 * r3_w4_e0 - r3_w4_d1
 
         # khepera.bg:17: r3_w4: stage 2, at rest
         r3_w4_y2 = r3_w4_u2
@@ -1777,7 +1946,7 @@ class Monitor:
         x.r3_w4_s2 = c.rest * r3_w4_u2
 
         # khepera.bg:17: r3_w4: input of stage 1
-        r3_w4_u1 = r3_w4_y2
+        r3_w4_u1 = r3_w4_y2 - r3_w4_e0
 
         # khepera.bg:17: r3_w4: stage 1, at rest
         r3_w4_y1 = r3_w4_u1
@@ -1789,7 +1958,7 @@ class Monitor:
         r3_w4 = r3_w4_y1
 
         # khepera.bg:17: r3_w5: input of stage 3
-        r3_w5_u3 = -c.r3_w5_v3_robot__m__2__me__we * s.robot__m__2__me__we
+        r3_w5_u3 = -c.r3_w5_robot__m__2__me__we * s.robot__m__2__me__we
 
         # khepera.bg:17: r3_w5: stage 3, at rest
         r3_w5_y3 = r3_w5_u3
@@ -1818,8 +1987,17 @@ class Monitor:
         # khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.Re can do together
         r3_w5 = r3_w5_y1
 
+        # khepera.bg:17: r3_w6: terms of order 0
+        r3_w6_g0 = c.r3_w6_robot__m__2__me__we * s.robot__m__2__me__we
+
+        # khepera.bg:17: r3_w6: degree 1
+        r3_w6_d1 = c.r3_w6_w1_robot__m__2__me__we * s.robot__m__2__me__we
+
+        # khepera.bg:17: r3_w6: error of order 0
+        r3_w6_e0 = c.bend1 * r3_w6_g0
+
         # khepera.bg:17: r3_w6: input of stage 3
-        r3_w6_u3 = c.r3_w6_v3_robot__m__2__me__we * s.robot__m__2__me__we
+        r3_w6_u3 = r3_w6_g0 - r3_w6_d1 - r3_w6_e0
 
         # khepera.bg:17: r3_w6: stage 3, at rest
         r3_w6_y3 = r3_w6_u3
@@ -1828,7 +2006,7 @@ class Monitor:
         x.r3_w6_s3 = c.rest * r3_w6_u3
 
         # khepera.bg:17: r3_w6: input of stage 2
-        r3_w6_u2 = r3_w6_y3 + c.r3_w6_v2_robot__m__2__me__we * s.robot__m__2__me__we
+        r3_w6_u2 = r3_w6_y3 + r3_w6_d1 + 2.0 * r3_w6_e0
 
         # khepera.bg:17: r3_w6: stage 2, at rest
         r3_w6_y2 = r3_w6_u2
@@ -1837,7 +2015,7 @@ class Monitor:
         x.r3_w6_s2 = c.rest * r3_w6_u2
 
         # khepera.bg:17: r3_w6: input of stage 1
-        r3_w6_u1 = r3_w6_y2
+        r3_w6_u1 = r3_w6_y2 - r3_w6_e0
 
         # khepera.bg:17: r3_w6: stage 1, at rest
         r3_w6_y1 = r3_w6_u1
@@ -1848,12 +2026,24 @@ class Monitor:
         # khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.k can do together
         r3_w6 = r3_w6_y1
 
-        # khepera.bg:17: r3_w7: input of stage 3
-        r3_w7_u3 = (
-            c.r3_w7_v3_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w7_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            + c.r3_w7_v3_robot__Fx__2 * s.robot__Fx__2
+        # khepera.bg:17: r3_w7: terms of order 0
+        r3_w7_g0 = (
+            c.r3_w7_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w7_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            + c.r3_w7_robot__Fx__2 * s.robot__Fx__2
         )
+
+        # khepera.bg:17: r3_w7: degree 1
+        r3_w7_d1 = (
+            c.r3_w7_w1_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w7_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        )
+
+        # khepera.bg:17: r3_w7: error of order 0
+        r3_w7_e0 = c.bend1 * r3_w7_g0
+
+        # khepera.bg:17: r3_w7: input of stage 3
+        r3_w7_u3 = r3_w7_g0 - r3_w7_d1 - r3_w7_e0
 
         # khepera.bg:17: r3_w7: stage 3, at rest
         r3_w7_y3 = r3_w7_u3
@@ -1862,10 +2052,7 @@ class Monitor:
         x.r3_w7_s3 = c.rest * r3_w7_u3
 
         # khepera.bg:17: r3_w7: input of stage 2
-        r3_w7_u2 = (
-            r3_w7_y3 + c.r3_w7_v2_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w7_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-        )
+        r3_w7_u2 = r3_w7_y3 + r3_w7_d1 + 2.0 * r3_w7_e0
 
         # khepera.bg:17: r3_w7: stage 2, at rest
         r3_w7_y2 = r3_w7_u2
@@ -1874,7 +2061,7 @@ class Monitor:
         x.r3_w7_s2 = c.rest * r3_w7_u2
 
         # khepera.bg:17: r3_w7: input of stage 1
-        r3_w7_u1 = r3_w7_y2
+        r3_w7_u1 = r3_w7_y2 - r3_w7_e0
 
         # khepera.bg:17: r3_w7: stage 1, at rest
         r3_w7_y1 = r3_w7_u1
@@ -1887,7 +2074,7 @@ class Monitor:
         r3_w7 = r3_w7_y1
 
         # khepera.bg:17: r3_w8: input of stage 3
-        r3_w8_u3 = -c.r3_w8_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r3_w8_u3 = -c.r3_w8_robot__m__2__wh__ws * s.robot__m__2__wh__ws
 
         # khepera.bg:17: r3_w8: stage 3, at rest
         r3_w8_y3 = r3_w8_u3
@@ -1917,12 +2104,34 @@ class Monitor:
         # together
         r3_w8 = r3_w8_y1
 
-        # khepera.bg:17: r3_w9: input of stage 3
-        r3_w9_u3 = (
-            c.r3_w9_v3_robot__Fx__2 * s.robot__Fx__2
-            - c.r3_w9_v3_robot__m__2__me__we * s.robot__m__2__me__we
-            - c.r3_w9_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        # khepera.bg:17: r3_w9: terms of order 0
+        r3_w9_g0 = (
+            -c.r3_w9_robot__m__2__me__we * s.robot__m__2__me__we
+            - c.r3_w9_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r3_w9_robot__Fx__2 * s.robot__Fx__2
         )
+
+        # khepera.bg:17: r3_w9: terms of order 1
+        r3_w9_g1 = (
+            c.r3_w9_w1_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w9_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r3_w9_w1_robot__Fx__2 * s.robot__Fx__2
+        )
+
+        # khepera.bg:17: r3_w9: error of order 0
+        r3_w9_e0 = c.bend2 * r3_w9_g0
+
+        # khepera.bg:17: r3_w9: degree 2
+        r3_w9_d2 = (
+            -c.r3_w9_w2_robot__m__2__me__we * s.robot__m__2__me__we
+            - c.r3_w9_w2_robot__m__2__wh__ws * s.robot__m__2__wh__ws - r3_w9_e0
+        )
+
+        # khepera.bg:17: r3_w9: error of order 1
+        r3_w9_e1 = c.bend1 * r3_w9_g1
+
+        # khepera.bg:17: r3_w9: input of stage 3
+        r3_w9_u3 = r3_w9_g0 + r3_w9_d2 + r3_w9_e1 - r3_w9_g1
 
         # khepera.bg:17: r3_w9: stage 3, at rest
         r3_w9_y3 = r3_w9_u3
@@ -1931,11 +2140,7 @@ class Monitor:
         x.r3_w9_s3 = c.rest * r3_w9_u3
 
         # khepera.bg:17: r3_w9: input of stage 2
-        r3_w9_u2 = (
-            r3_w9_y3 + c.r3_w9_v2_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w9_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            - c.r3_w9_v2_robot__Fx__2 * s.robot__Fx__2
-        )
+        r3_w9_u2 = r3_w9_y3 + r3_w9_g1 - 2.0 * r3_w9_d2 - 3.0 * r3_w9_e1
 
         # khepera.bg:17: r3_w9: stage 2, at rest
         r3_w9_y2 = r3_w9_u2
@@ -1944,10 +2149,7 @@ class Monitor:
         x.r3_w9_s2 = c.rest * r3_w9_u2
 
         # khepera.bg:17: r3_w9: input of stage 1
-        r3_w9_u1 = (
-            r3_w9_y2 - c.r3_w9_v1_robot__m__2__me__we * s.robot__m__2__me__we
-            - c.r3_w9_v1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-        )
+        r3_w9_u1 = r3_w9_y2 + r3_w9_d2 + 3.0 * r3_w9_e1
 
         # khepera.bg:17: r3_w9: stage 1, at rest
         r3_w9_y1 = r3_w9_u1
@@ -1956,10 +2158,19 @@ class Monitor:
         x.r3_w9_s1 = c.rest * r3_w9_u1
 
         # khepera.bg:17: r3: second order of what the tolerance of robot.m[2].el.k can do
-        r3_w9 = r3_w9_y1
+        r3_w9 = r3_w9_y1 - r3_w9_e1
+
+        # khepera.bg:17: r3_w10: terms of order 0
+        r3_w10_g0 = c.r3_w10_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
+        # khepera.bg:17: r3_w10: degree 1
+        r3_w10_d1 = c.r3_w10_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
+        # khepera.bg:17: r3_w10: error of order 0
+        r3_w10_e0 = c.bend1 * r3_w10_g0
 
         # khepera.bg:17: r3_w10: input of stage 3
-        r3_w10_u3 = c.r3_w10_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r3_w10_u3 = r3_w10_g0 - r3_w10_d1 - r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 3, at rest
         r3_w10_y3 = r3_w10_u3
@@ -1968,7 +2179,7 @@ class Monitor:
         x.r3_w10_s3 = c.rest * r3_w10_u3
 
         # khepera.bg:17: r3_w10: input of stage 2
-        r3_w10_u2 = r3_w10_y3 + c.r3_w10_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r3_w10_u2 = r3_w10_y3 + r3_w10_d1 + 2.0 * r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 2, at rest
         r3_w10_y2 = r3_w10_u2
@@ -1977,7 +2188,7 @@ class Monitor:
         x.r3_w10_s2 = c.rest * r3_w10_u2
 
         # khepera.bg:17: r3_w10: input of stage 1
-        r3_w10_u1 = r3_w10_y2
+        r3_w10_u1 = r3_w10_y2 - r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 1, at rest
         r3_w10_y1 = r3_w10_u1
@@ -2000,340 +2211,424 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:17: r3_w1: terms of order 0
+        r3_w1_g0 = -c.r3_w1_robot__m__2__me__we * s.robot__m__2__me__we
+
+        # khepera.bg:17: r3_w1: degree 1
+        r3_w1_d1 = c.r3_w1_w1_robot__m__2__me__we * s.robot__m__2__me__we
+
+        # khepera.bg:17: r3_w1: error of order 0
+        r3_w1_e0 = c.bend1 * r3_w1_g0
+
         # khepera.bg:17: r3_w1: input of stage 3
-        r3_w1_u3 = c.r3_w1_v3_robot__m__2__me__we * s.robot__m__2__me__we
+        r3_w1_u3 = r3_w1_g0 + r3_w1_d1 - r3_w1_e0
 
         # khepera.bg:17: r3_w1: stage 3
-        r3_w1_y3 = x.r3_w1_s3 + c.b0 * r3_w1_u3
+        r3_w1_y3 = x.r3_w1_s3 + c.b * r3_w1_u3
 
         # khepera.bg:17: r3_w1: stage 3: memory
-        x.r3_w1_s3 = c.a * r3_w1_y3 + c.b1 * r3_w1_u3
+        x.r3_w1_s3 = c.a * r3_w1_y3 + c.b * r3_w1_u3
 
         # khepera.bg:17: r3_w1: input of stage 2
-        r3_w1_u2 = r3_w1_y3 - c.r3_w1_v2_robot__m__2__me__we * s.robot__m__2__me__we
+        r3_w1_u2 = r3_w1_y3 + 2.0 * r3_w1_e0 - r3_w1_d1
 
         # khepera.bg:17: r3_w1: stage 2
-        r3_w1_y2 = x.r3_w1_s2 + c.b0 * r3_w1_u2
+        r3_w1_y2 = x.r3_w1_s2 + c.b * r3_w1_u2
 
         # khepera.bg:17: r3_w1: stage 2: memory
-        x.r3_w1_s2 = c.a * r3_w1_y2 + c.b1 * r3_w1_u2
+        x.r3_w1_s2 = c.a * r3_w1_y2 + c.b * r3_w1_u2
 
         # khepera.bg:17: r3_w1: input of stage 1
-        r3_w1_u1 = r3_w1_y2
+        r3_w1_u1 = r3_w1_y2 - r3_w1_e0
 
         # khepera.bg:17: r3_w1: stage 1
-        r3_w1_y1 = x.r3_w1_s1 + c.b0 * r3_w1_u1
+        r3_w1_y1 = x.r3_w1_s1 + c.b * r3_w1_u1
 
         # khepera.bg:17: r3_w1: stage 1: memory
-        x.r3_w1_s1 = c.a * r3_w1_y1 + c.b1 * r3_w1_u1
+        x.r3_w1_s1 = c.a * r3_w1_y1 + c.b * r3_w1_u1
 
         # khepera.bg:17: r3: what the tolerance of fe[2] can do
         r3_w1 = r3_w1_y1
 
-        # khepera.bg:17: r3_w2: input of stage 3
-        r3_w2_u3 = (
-            c.r3_w2_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            + c.r3_w2_v3_robot__m__2__me__we * s.robot__m__2__me__we
-            - c.r3_w2_v3_robot__Fx__2 * s.robot__Fx__2
+        # khepera.bg:17: r3_w2: terms of order 0
+        r3_w2_g0 = (
+            -c.r3_w2_robot__Fx__2 * s.robot__Fx__2
+            - c.r3_w2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r3_w2_robot__m__2__me__we * s.robot__m__2__me__we
         )
+
+        # khepera.bg:17: r3_w2: degree 1
+        r3_w2_d1 = (
+            -c.r3_w2_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r3_w2_w1_robot__m__2__me__we * s.robot__m__2__me__we
+        )
+
+        # khepera.bg:17: r3_w2: error of order 0
+        r3_w2_e0 = c.bend1 * r3_w2_g0
+
+        # khepera.bg:17: r3_w2: input of stage 3
+        r3_w2_u3 = r3_w2_g0 - r3_w2_d1 - r3_w2_e0
 
         # khepera.bg:17: r3_w2: stage 3
-        r3_w2_y3 = x.r3_w2_s3 + c.b0 * r3_w2_u3
+        r3_w2_y3 = x.r3_w2_s3 + c.b * r3_w2_u3
 
         # khepera.bg:17: r3_w2: stage 3: memory
-        x.r3_w2_s3 = c.a * r3_w2_y3 + c.b1 * r3_w2_u3
+        x.r3_w2_s3 = c.a * r3_w2_y3 + c.b * r3_w2_u3
 
         # khepera.bg:17: r3_w2: input of stage 2
-        r3_w2_u2 = (
-            r3_w2_y3 - c.r3_w2_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            - c.r3_w2_v2_robot__m__2__me__we * s.robot__m__2__me__we
-        )
+        r3_w2_u2 = r3_w2_y3 + r3_w2_d1 + 2.0 * r3_w2_e0
 
         # khepera.bg:17: r3_w2: stage 2
-        r3_w2_y2 = x.r3_w2_s2 + c.b0 * r3_w2_u2
+        r3_w2_y2 = x.r3_w2_s2 + c.b * r3_w2_u2
 
         # khepera.bg:17: r3_w2: stage 2: memory
-        x.r3_w2_s2 = c.a * r3_w2_y2 + c.b1 * r3_w2_u2
+        x.r3_w2_s2 = c.a * r3_w2_y2 + c.b * r3_w2_u2
 
         # khepera.bg:17: r3_w2: input of stage 1
-        r3_w2_u1 = r3_w2_y2
+        r3_w2_u1 = r3_w2_y2 - r3_w2_e0
 
         # khepera.bg:17: r3_w2: stage 1
-        r3_w2_y1 = x.r3_w2_s1 + c.b0 * r3_w2_u1
+        r3_w2_y1 = x.r3_w2_s1 + c.b * r3_w2_u1
 
         # khepera.bg:17: r3_w2: stage 1: memory
-        x.r3_w2_s1 = c.a * r3_w2_y1 + c.b1 * r3_w2_u1
+        x.r3_w2_s1 = c.a * r3_w2_y1 + c.b * r3_w2_u1
 
         # khepera.bg:17: r3: what the tolerance of robot.m[2].el.Re can do
         r3_w2 = r3_w2_y1
 
-        # khepera.bg:17: r3_w3: input of stage 3
-        r3_w3_u3 = (
-            c.r3_w3_v3_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w3_v3_robot__Fx__2 * s.robot__Fx__2
-            + c.r3_w3_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        # khepera.bg:17: r3_w3: terms of order 0
+        r3_w3_g0 = (
+            c.r3_w3_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w3_robot__Fx__2 * s.robot__Fx__2
+            + c.r3_w3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
         )
+
+        # khepera.bg:17: r3_w3: terms of order 1
+        r3_w3_g1 = (
+            c.r3_w3_w1_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w3_w1_robot__Fx__2 * s.robot__Fx__2
+            + c.r3_w3_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        )
+
+        # khepera.bg:17: r3_w3: error of order 0
+        r3_w3_e0 = c.bend2 * r3_w3_g0
+
+        # khepera.bg:17: r3_w3: degree 2
+        r3_w3_d2 = (
+            c.r3_w3_w2_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w3_w2_robot__m__2__wh__ws * s.robot__m__2__wh__ws - r3_w3_e0
+        )
+
+        # khepera.bg:17: r3_w3: error of order 1
+        r3_w3_e1 = c.bend1 * r3_w3_g1
+
+        # khepera.bg:17: r3_w3: input of stage 3
+        r3_w3_u3 = r3_w3_g0 + r3_w3_d2 + r3_w3_e1 - r3_w3_g1
 
         # khepera.bg:17: r3_w3: stage 3
-        r3_w3_y3 = x.r3_w3_s3 + c.b0 * r3_w3_u3
+        r3_w3_y3 = x.r3_w3_s3 + c.b * r3_w3_u3
 
         # khepera.bg:17: r3_w3: stage 3: memory
-        x.r3_w3_s3 = c.a * r3_w3_y3 + c.b1 * r3_w3_u3
+        x.r3_w3_s3 = c.a * r3_w3_y3 + c.b * r3_w3_u3
 
         # khepera.bg:17: r3_w3: input of stage 2
-        r3_w3_u2 = (
-            r3_w3_y3 + c.r3_w3_v2_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w3_v2_robot__Fx__2 * s.robot__Fx__2
-            + c.r3_w3_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-        )
+        r3_w3_u2 = r3_w3_y3 + r3_w3_g1 - 2.0 * r3_w3_d2 - 3.0 * r3_w3_e1
 
         # khepera.bg:17: r3_w3: stage 2
-        r3_w3_y2 = x.r3_w3_s2 + c.b0 * r3_w3_u2
+        r3_w3_y2 = x.r3_w3_s2 + c.b * r3_w3_u2
 
         # khepera.bg:17: r3_w3: stage 2: memory
-        x.r3_w3_s2 = c.a * r3_w3_y2 + c.b1 * r3_w3_u2
+        x.r3_w3_s2 = c.a * r3_w3_y2 + c.b * r3_w3_u2
 
         # khepera.bg:17: r3_w3: input of stage 1
-        r3_w3_u1 = (
-            r3_w3_y2 + c.r3_w3_v1_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w3_v1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-        )
+        r3_w3_u1 = r3_w3_y2 + r3_w3_d2 + 3.0 * r3_w3_e1
 
         # khepera.bg:17: r3_w3: stage 1
-        r3_w3_y1 = x.r3_w3_s1 + c.b0 * r3_w3_u1
+        r3_w3_y1 = x.r3_w3_s1 + c.b * r3_w3_u1
 
         # khepera.bg:17: r3_w3: stage 1: memory
-        x.r3_w3_s1 = c.a * r3_w3_y1 + c.b1 * r3_w3_u1
+        x.r3_w3_s1 = c.a * r3_w3_y1 + c.b * r3_w3_u1
 
         # khepera.bg:17: r3: what the tolerance of robot.m[2].el.k can do
-        r3_w3 = r3_w3_y1
+        r3_w3 = r3_w3_y1 - r3_w3_e1
+
+        # khepera.bg:17: r3_w4: terms of order 0
+        r3_w4_g0 = -c.r3_w4_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
+        # khepera.bg:17: r3_w4: degree 1
+        r3_w4_d1 = c.r3_w4_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
+        # khepera.bg:17: r3_w4: error of order 0
+        r3_w4_e0 = c.bend1 * r3_w4_g0
 
         # khepera.bg:17: r3_w4: input of stage 3
-        r3_w4_u3 = c.r3_w4_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r3_w4_u3 = r3_w4_g0 + r3_w4_d1 - r3_w4_e0
 
         # khepera.bg:17: r3_w4: stage 3
-        r3_w4_y3 = x.r3_w4_s3 + c.b0 * r3_w4_u3
+        r3_w4_y3 = x.r3_w4_s3 + c.b * r3_w4_u3
 
         # khepera.bg:17: r3_w4: stage 3: memory
-        x.r3_w4_s3 = c.a * r3_w4_y3 + c.b1 * r3_w4_u3
+        x.r3_w4_s3 = c.a * r3_w4_y3 + c.b * r3_w4_u3
 
         # khepera.bg:17: r3_w4: input of stage 2
-        r3_w4_u2 = r3_w4_y3 - c.r3_w4_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r3_w4_u2 = r3_w4_y3 + 2.0 * r3_w4_e0 - r3_w4_d1
 
         # khepera.bg:17: r3_w4: stage 2
-        r3_w4_y2 = x.r3_w4_s2 + c.b0 * r3_w4_u2
+        r3_w4_y2 = x.r3_w4_s2 + c.b * r3_w4_u2
 
         # khepera.bg:17: r3_w4: stage 2: memory
-        x.r3_w4_s2 = c.a * r3_w4_y2 + c.b1 * r3_w4_u2
+        x.r3_w4_s2 = c.a * r3_w4_y2 + c.b * r3_w4_u2
 
         # khepera.bg:17: r3_w4: input of stage 1
-        r3_w4_u1 = r3_w4_y2
+        r3_w4_u1 = r3_w4_y2 - r3_w4_e0
 
         # khepera.bg:17: r3_w4: stage 1
-        r3_w4_y1 = x.r3_w4_s1 + c.b0 * r3_w4_u1
+        r3_w4_y1 = x.r3_w4_s1 + c.b * r3_w4_u1
 
         # khepera.bg:17: r3_w4: stage 1: memory
-        x.r3_w4_s1 = c.a * r3_w4_y1 + c.b1 * r3_w4_u1
+        x.r3_w4_s1 = c.a * r3_w4_y1 + c.b * r3_w4_u1
 
         # khepera.bg:17: r3: what the tolerance of robot.m[2].wh.fs can do
         r3_w4 = r3_w4_y1
 
         # khepera.bg:17: r3_w5: input of stage 3
-        r3_w5_u3 = -c.r3_w5_v3_robot__m__2__me__we * s.robot__m__2__me__we
+        r3_w5_u3 = -c.r3_w5_robot__m__2__me__we * s.robot__m__2__me__we
 
         # khepera.bg:17: r3_w5: stage 3
-        r3_w5_y3 = x.r3_w5_s3 + c.b0 * r3_w5_u3
+        r3_w5_y3 = x.r3_w5_s3 + c.b * r3_w5_u3
 
         # khepera.bg:17: r3_w5: stage 3: memory
-        x.r3_w5_s3 = c.a * r3_w5_y3 + c.b1 * r3_w5_u3
+        x.r3_w5_s3 = c.a * r3_w5_y3 + c.b * r3_w5_u3
 
         # khepera.bg:17: r3_w5: input of stage 2
         r3_w5_u2 = r3_w5_y3
 
         # khepera.bg:17: r3_w5: stage 2
-        r3_w5_y2 = x.r3_w5_s2 + c.b0 * r3_w5_u2
+        r3_w5_y2 = x.r3_w5_s2 + c.b * r3_w5_u2
 
         # khepera.bg:17: r3_w5: stage 2: memory
-        x.r3_w5_s2 = c.a * r3_w5_y2 + c.b1 * r3_w5_u2
+        x.r3_w5_s2 = c.a * r3_w5_y2 + c.b * r3_w5_u2
 
         # khepera.bg:17: r3_w5: input of stage 1
         r3_w5_u1 = r3_w5_y2
 
         # khepera.bg:17: r3_w5: stage 1
-        r3_w5_y1 = x.r3_w5_s1 + c.b0 * r3_w5_u1
+        r3_w5_y1 = x.r3_w5_s1 + c.b * r3_w5_u1
 
         # khepera.bg:17: r3_w5: stage 1: memory
-        x.r3_w5_s1 = c.a * r3_w5_y1 + c.b1 * r3_w5_u1
+        x.r3_w5_s1 = c.a * r3_w5_y1 + c.b * r3_w5_u1
 
         # khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.Re can do together
         r3_w5 = r3_w5_y1
 
+        # khepera.bg:17: r3_w6: terms of order 0
+        r3_w6_g0 = c.r3_w6_robot__m__2__me__we * s.robot__m__2__me__we
+
+        # khepera.bg:17: r3_w6: degree 1
+        r3_w6_d1 = c.r3_w6_w1_robot__m__2__me__we * s.robot__m__2__me__we
+
+        # khepera.bg:17: r3_w6: error of order 0
+        r3_w6_e0 = c.bend1 * r3_w6_g0
+
         # khepera.bg:17: r3_w6: input of stage 3
-        r3_w6_u3 = c.r3_w6_v3_robot__m__2__me__we * s.robot__m__2__me__we
+        r3_w6_u3 = r3_w6_g0 - r3_w6_d1 - r3_w6_e0
 
         # khepera.bg:17: r3_w6: stage 3
-        r3_w6_y3 = x.r3_w6_s3 + c.b0 * r3_w6_u3
+        r3_w6_y3 = x.r3_w6_s3 + c.b * r3_w6_u3
 
         # khepera.bg:17: r3_w6: stage 3: memory
-        x.r3_w6_s3 = c.a * r3_w6_y3 + c.b1 * r3_w6_u3
+        x.r3_w6_s3 = c.a * r3_w6_y3 + c.b * r3_w6_u3
 
         # khepera.bg:17: r3_w6: input of stage 2
-        r3_w6_u2 = r3_w6_y3 + c.r3_w6_v2_robot__m__2__me__we * s.robot__m__2__me__we
+        r3_w6_u2 = r3_w6_y3 + r3_w6_d1 + 2.0 * r3_w6_e0
 
         # khepera.bg:17: r3_w6: stage 2
-        r3_w6_y2 = x.r3_w6_s2 + c.b0 * r3_w6_u2
+        r3_w6_y2 = x.r3_w6_s2 + c.b * r3_w6_u2
 
         # khepera.bg:17: r3_w6: stage 2: memory
-        x.r3_w6_s2 = c.a * r3_w6_y2 + c.b1 * r3_w6_u2
+        x.r3_w6_s2 = c.a * r3_w6_y2 + c.b * r3_w6_u2
 
         # khepera.bg:17: r3_w6: input of stage 1
-        r3_w6_u1 = r3_w6_y2
+        r3_w6_u1 = r3_w6_y2 - r3_w6_e0
 
         # khepera.bg:17: r3_w6: stage 1
-        r3_w6_y1 = x.r3_w6_s1 + c.b0 * r3_w6_u1
+        r3_w6_y1 = x.r3_w6_s1 + c.b * r3_w6_u1
 
         # khepera.bg:17: r3_w6: stage 1: memory
-        x.r3_w6_s1 = c.a * r3_w6_y1 + c.b1 * r3_w6_u1
+        x.r3_w6_s1 = c.a * r3_w6_y1 + c.b * r3_w6_u1
 
         # khepera.bg:17: r3: what the tolerances of fe[2] and robot.m[2].el.k can do together
         r3_w6 = r3_w6_y1
 
-        # khepera.bg:17: r3_w7: input of stage 3
-        r3_w7_u3 = (
-            c.r3_w7_v3_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w7_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            + c.r3_w7_v3_robot__Fx__2 * s.robot__Fx__2
+        # khepera.bg:17: r3_w7: terms of order 0
+        r3_w7_g0 = (
+            c.r3_w7_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w7_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            + c.r3_w7_robot__Fx__2 * s.robot__Fx__2
         )
+
+        # khepera.bg:17: r3_w7: degree 1
+        r3_w7_d1 = (
+            c.r3_w7_w1_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w7_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        )
+
+        # khepera.bg:17: r3_w7: error of order 0
+        r3_w7_e0 = c.bend1 * r3_w7_g0
+
+        # khepera.bg:17: r3_w7: input of stage 3
+        r3_w7_u3 = r3_w7_g0 - r3_w7_d1 - r3_w7_e0
 
         # khepera.bg:17: r3_w7: stage 3
-        r3_w7_y3 = x.r3_w7_s3 + c.b0 * r3_w7_u3
+        r3_w7_y3 = x.r3_w7_s3 + c.b * r3_w7_u3
 
         # khepera.bg:17: r3_w7: stage 3: memory
-        x.r3_w7_s3 = c.a * r3_w7_y3 + c.b1 * r3_w7_u3
+        x.r3_w7_s3 = c.a * r3_w7_y3 + c.b * r3_w7_u3
 
         # khepera.bg:17: r3_w7: input of stage 2
-        r3_w7_u2 = (
-            r3_w7_y3 + c.r3_w7_v2_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w7_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-        )
+        r3_w7_u2 = r3_w7_y3 + r3_w7_d1 + 2.0 * r3_w7_e0
 
         # khepera.bg:17: r3_w7: stage 2
-        r3_w7_y2 = x.r3_w7_s2 + c.b0 * r3_w7_u2
+        r3_w7_y2 = x.r3_w7_s2 + c.b * r3_w7_u2
 
         # khepera.bg:17: r3_w7: stage 2: memory
-        x.r3_w7_s2 = c.a * r3_w7_y2 + c.b1 * r3_w7_u2
+        x.r3_w7_s2 = c.a * r3_w7_y2 + c.b * r3_w7_u2
 
         # khepera.bg:17: r3_w7: input of stage 1
-        r3_w7_u1 = r3_w7_y2
+        r3_w7_u1 = r3_w7_y2 - r3_w7_e0
 
         # khepera.bg:17: r3_w7: stage 1
-        r3_w7_y1 = x.r3_w7_s1 + c.b0 * r3_w7_u1
+        r3_w7_y1 = x.r3_w7_s1 + c.b * r3_w7_u1
 
         # khepera.bg:17: r3_w7: stage 1: memory
-        x.r3_w7_s1 = c.a * r3_w7_y1 + c.b1 * r3_w7_u1
+        x.r3_w7_s1 = c.a * r3_w7_y1 + c.b * r3_w7_u1
 
         # khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].el.k can do
         # together
         r3_w7 = r3_w7_y1
 
         # khepera.bg:17: r3_w8: input of stage 3
-        r3_w8_u3 = -c.r3_w8_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r3_w8_u3 = -c.r3_w8_robot__m__2__wh__ws * s.robot__m__2__wh__ws
 
         # khepera.bg:17: r3_w8: stage 3
-        r3_w8_y3 = x.r3_w8_s3 + c.b0 * r3_w8_u3
+        r3_w8_y3 = x.r3_w8_s3 + c.b * r3_w8_u3
 
         # khepera.bg:17: r3_w8: stage 3: memory
-        x.r3_w8_s3 = c.a * r3_w8_y3 + c.b1 * r3_w8_u3
+        x.r3_w8_s3 = c.a * r3_w8_y3 + c.b * r3_w8_u3
 
         # khepera.bg:17: r3_w8: input of stage 2
         r3_w8_u2 = r3_w8_y3
 
         # khepera.bg:17: r3_w8: stage 2
-        r3_w8_y2 = x.r3_w8_s2 + c.b0 * r3_w8_u2
+        r3_w8_y2 = x.r3_w8_s2 + c.b * r3_w8_u2
 
         # khepera.bg:17: r3_w8: stage 2: memory
-        x.r3_w8_s2 = c.a * r3_w8_y2 + c.b1 * r3_w8_u2
+        x.r3_w8_s2 = c.a * r3_w8_y2 + c.b * r3_w8_u2
 
         # khepera.bg:17: r3_w8: input of stage 1
         r3_w8_u1 = r3_w8_y2
 
         # khepera.bg:17: r3_w8: stage 1
-        r3_w8_y1 = x.r3_w8_s1 + c.b0 * r3_w8_u1
+        r3_w8_y1 = x.r3_w8_s1 + c.b * r3_w8_u1
 
         # khepera.bg:17: r3_w8: stage 1: memory
-        x.r3_w8_s1 = c.a * r3_w8_y1 + c.b1 * r3_w8_u1
+        x.r3_w8_s1 = c.a * r3_w8_y1 + c.b * r3_w8_u1
 
         # khepera.bg:17: r3: what the tolerances of robot.m[2].el.Re and robot.m[2].wh.fs can do
         # together
         r3_w8 = r3_w8_y1
 
-        # khepera.bg:17: r3_w9: input of stage 3
-        r3_w9_u3 = (
-            c.r3_w9_v3_robot__Fx__2 * s.robot__Fx__2
-            - c.r3_w9_v3_robot__m__2__me__we * s.robot__m__2__me__we
-            - c.r3_w9_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        # khepera.bg:17: r3_w9: terms of order 0
+        r3_w9_g0 = (
+            -c.r3_w9_robot__m__2__me__we * s.robot__m__2__me__we
+            - c.r3_w9_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r3_w9_robot__Fx__2 * s.robot__Fx__2
         )
+
+        # khepera.bg:17: r3_w9: terms of order 1
+        r3_w9_g1 = (
+            c.r3_w9_w1_robot__m__2__me__we * s.robot__m__2__me__we
+            + c.r3_w9_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+            - c.r3_w9_w1_robot__Fx__2 * s.robot__Fx__2
+        )
+
+        # khepera.bg:17: r3_w9: error of order 0
+        r3_w9_e0 = c.bend2 * r3_w9_g0
+
+        # khepera.bg:17: r3_w9: degree 2
+        r3_w9_d2 = (
+            -c.r3_w9_w2_robot__m__2__me__we * s.robot__m__2__me__we
+            - c.r3_w9_w2_robot__m__2__wh__ws * s.robot__m__2__wh__ws - r3_w9_e0
+        )
+
+        # khepera.bg:17: r3_w9: error of order 1
+        r3_w9_e1 = c.bend1 * r3_w9_g1
+
+        # khepera.bg:17: r3_w9: input of stage 3
+        r3_w9_u3 = r3_w9_g0 + r3_w9_d2 + r3_w9_e1 - r3_w9_g1
 
         # khepera.bg:17: r3_w9: stage 3
-        r3_w9_y3 = x.r3_w9_s3 + c.b0 * r3_w9_u3
+        r3_w9_y3 = x.r3_w9_s3 + c.b * r3_w9_u3
 
         # khepera.bg:17: r3_w9: stage 3: memory
-        x.r3_w9_s3 = c.a * r3_w9_y3 + c.b1 * r3_w9_u3
+        x.r3_w9_s3 = c.a * r3_w9_y3 + c.b * r3_w9_u3
 
         # khepera.bg:17: r3_w9: input of stage 2
-        r3_w9_u2 = (
-            r3_w9_y3 + c.r3_w9_v2_robot__m__2__me__we * s.robot__m__2__me__we
-            + c.r3_w9_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-            - c.r3_w9_v2_robot__Fx__2 * s.robot__Fx__2
-        )
+        r3_w9_u2 = r3_w9_y3 + r3_w9_g1 - 2.0 * r3_w9_d2 - 3.0 * r3_w9_e1
 
         # khepera.bg:17: r3_w9: stage 2
-        r3_w9_y2 = x.r3_w9_s2 + c.b0 * r3_w9_u2
+        r3_w9_y2 = x.r3_w9_s2 + c.b * r3_w9_u2
 
         # khepera.bg:17: r3_w9: stage 2: memory
-        x.r3_w9_s2 = c.a * r3_w9_y2 + c.b1 * r3_w9_u2
+        x.r3_w9_s2 = c.a * r3_w9_y2 + c.b * r3_w9_u2
 
         # khepera.bg:17: r3_w9: input of stage 1
-        r3_w9_u1 = (
-            r3_w9_y2 - c.r3_w9_v1_robot__m__2__me__we * s.robot__m__2__me__we
-            - c.r3_w9_v1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
-        )
+        r3_w9_u1 = r3_w9_y2 + r3_w9_d2 + 3.0 * r3_w9_e1
 
         # khepera.bg:17: r3_w9: stage 1
-        r3_w9_y1 = x.r3_w9_s1 + c.b0 * r3_w9_u1
+        r3_w9_y1 = x.r3_w9_s1 + c.b * r3_w9_u1
 
         # khepera.bg:17: r3_w9: stage 1: memory
-        x.r3_w9_s1 = c.a * r3_w9_y1 + c.b1 * r3_w9_u1
+        x.r3_w9_s1 = c.a * r3_w9_y1 + c.b * r3_w9_u1
 
         # khepera.bg:17: r3: second order of what the tolerance of robot.m[2].el.k can do
-        r3_w9 = r3_w9_y1
+        r3_w9 = r3_w9_y1 - r3_w9_e1
+
+        # khepera.bg:17: r3_w10: terms of order 0
+        r3_w10_g0 = c.r3_w10_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
+        # khepera.bg:17: r3_w10: degree 1
+        r3_w10_d1 = c.r3_w10_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
+        # khepera.bg:17: r3_w10: error of order 0
+        r3_w10_e0 = c.bend1 * r3_w10_g0
 
         # khepera.bg:17: r3_w10: input of stage 3
-        r3_w10_u3 = c.r3_w10_v3_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r3_w10_u3 = r3_w10_g0 - r3_w10_d1 - r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 3
-        r3_w10_y3 = x.r3_w10_s3 + c.b0 * r3_w10_u3
+        r3_w10_y3 = x.r3_w10_s3 + c.b * r3_w10_u3
 
         # khepera.bg:17: r3_w10: stage 3: memory
-        x.r3_w10_s3 = c.a * r3_w10_y3 + c.b1 * r3_w10_u3
+        x.r3_w10_s3 = c.a * r3_w10_y3 + c.b * r3_w10_u3
 
         # khepera.bg:17: r3_w10: input of stage 2
-        r3_w10_u2 = r3_w10_y3 + c.r3_w10_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r3_w10_u2 = r3_w10_y3 + r3_w10_d1 + 2.0 * r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 2
-        r3_w10_y2 = x.r3_w10_s2 + c.b0 * r3_w10_u2
+        r3_w10_y2 = x.r3_w10_s2 + c.b * r3_w10_u2
 
         # khepera.bg:17: r3_w10: stage 2: memory
-        x.r3_w10_s2 = c.a * r3_w10_y2 + c.b1 * r3_w10_u2
+        x.r3_w10_s2 = c.a * r3_w10_y2 + c.b * r3_w10_u2
 
         # khepera.bg:17: r3_w10: input of stage 1
-        r3_w10_u1 = r3_w10_y2
+        r3_w10_u1 = r3_w10_y2 - r3_w10_e0
 
         # khepera.bg:17: r3_w10: stage 1
-        r3_w10_y1 = x.r3_w10_s1 + c.b0 * r3_w10_u1
+        r3_w10_y1 = x.r3_w10_s1 + c.b * r3_w10_u1
 
         # khepera.bg:17: r3_w10: stage 1: memory
-        x.r3_w10_s1 = c.a * r3_w10_y1 + c.b1 * r3_w10_u1
+        x.r3_w10_s1 = c.a * r3_w10_y1 + c.b * r3_w10_u1
 
         # khepera.bg:17: r3: what the tolerances of robot.m[2].el.k and robot.m[2].wh.fs can do
         # together
@@ -2368,8 +2663,11 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:41: r4_w1: degree 1
+        r4_w1_d1 = c.r4_w1_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
         # khepera.bg:41: r4_w1: input of stage 3
-        r4_w1_u3 = c.r4_w1_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r4_w1_u3 = r4_w1_d1
 
         # khepera.bg:41: r4_w1: stage 3, at rest
         r4_w1_y3 = r4_w1_u3
@@ -2378,7 +2676,7 @@ class Monitor:
         x.r4_w1_s3 = c.rest * r4_w1_u3
 
         # khepera.bg:41: r4_w1: input of stage 2
-        r4_w1_u2 = r4_w1_y3 - c.r4_w1_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r4_w1_u2 = r4_w1_y3 - r4_w1_d1
 
         # khepera.bg:41: r4_w1: stage 2, at rest
         r4_w1_y2 = r4_w1_u2
@@ -2406,32 +2704,35 @@ class Monitor:
         c = self._c
         x = self._x
 
+        # khepera.bg:41: r4_w1: degree 1
+        r4_w1_d1 = c.r4_w1_w1_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+
         # khepera.bg:41: r4_w1: input of stage 3
-        r4_w1_u3 = c.r4_w1_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r4_w1_u3 = r4_w1_d1
 
         # khepera.bg:41: r4_w1: stage 3
-        r4_w1_y3 = x.r4_w1_s3 + c.b0 * r4_w1_u3
+        r4_w1_y3 = x.r4_w1_s3 + c.b * r4_w1_u3
 
         # khepera.bg:41: r4_w1: stage 3: memory
-        x.r4_w1_s3 = c.a * r4_w1_y3 + c.b1 * r4_w1_u3
+        x.r4_w1_s3 = c.a * r4_w1_y3 + c.b * r4_w1_u3
 
         # khepera.bg:41: r4_w1: input of stage 2
-        r4_w1_u2 = r4_w1_y3 - c.r4_w1_v2_robot__m__2__wh__ws * s.robot__m__2__wh__ws
+        r4_w1_u2 = r4_w1_y3 - r4_w1_d1
 
         # khepera.bg:41: r4_w1: stage 2
-        r4_w1_y2 = x.r4_w1_s2 + c.b0 * r4_w1_u2
+        r4_w1_y2 = x.r4_w1_s2 + c.b * r4_w1_u2
 
         # khepera.bg:41: r4_w1: stage 2: memory
-        x.r4_w1_s2 = c.a * r4_w1_y2 + c.b1 * r4_w1_u2
+        x.r4_w1_s2 = c.a * r4_w1_y2 + c.b * r4_w1_u2
 
         # khepera.bg:41: r4_w1: input of stage 1
         r4_w1_u1 = r4_w1_y2
 
         # khepera.bg:41: r4_w1: stage 1
-        r4_w1_y1 = x.r4_w1_s1 + c.b0 * r4_w1_u1
+        r4_w1_y1 = x.r4_w1_s1 + c.b * r4_w1_u1
 
         # khepera.bg:41: r4_w1: stage 1: memory
-        x.r4_w1_s1 = c.a * r4_w1_y1 + c.b1 * r4_w1_u1
+        x.r4_w1_s1 = c.a * r4_w1_y1 + c.b * r4_w1_u1
 
         # khepera.bg:41: r4: what the tolerance of robot.m[2].wh.fs can do
         r4_w1 = r4_w1_y1
@@ -2480,23 +2781,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[4] = 0
             r.r5 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

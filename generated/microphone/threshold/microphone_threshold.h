@@ -32,7 +32,7 @@ typedef double microphone_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define MICROPHONE_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(microphone_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define MICROPHONE_THRESHOLD_DIGEST "61af2a906fe9342a"
+#define MICROPHONE_THRESHOLD_DIGEST "ffe05f2325294fab"
 
 /* What the code was made for: arguments of microphone_threshold_configure, in s, rad/s and s. */
 #define MICROPHONE_THRESHOLD_SAMPLE_TIME MICROPHONE_THRESHOLD_CONSTANT(0.001)
@@ -86,13 +86,12 @@ typedef struct microphone_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct microphone_threshold_coefficients {
-    microphone_threshold_real r1_w1_v2_U0;  /* r1_w1: factor of U0 in stage 2 */
-    microphone_threshold_real a;            /* filter: exp(-bandwidth*sample_time) */
-    microphone_threshold_real b0;           /* filter: weight of the new sample */
-    microphone_threshold_real b1;           /* filter: weight of the sample before */
-    microphone_threshold_real rest;         /* filter: 1 - b0, the memory of a constant 1 */
-    microphone_threshold_real r1_w2_v2_u;   /* r1_w2: factor of u in stage 2 */
-    microphone_threshold_real r2_w1_v1_v;   /* r2_w1: factor of v in stage 1 */
+    microphone_threshold_real r1_w1_U0;  /* r1_w1: factor of U0 */
+    microphone_threshold_real a;         /* filter: what is left of a memory a sample later */
+    microphone_threshold_real b;         /* filter: weight of a sample, new and a sample later */
+    microphone_threshold_real rest;      /* filter: 1 - b, the memory of a constant 1 */
+    microphone_threshold_real r1_w2_u;   /* r1_w2: factor of u */
+    microphone_threshold_real r2_w1_v;   /* r2_w1: factor of v */
 } microphone_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -36,39 +36,10 @@ static real least(real left, real right)
     return right < left ? right : left;
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t oven_threshold_abi(void)
@@ -96,110 +67,26 @@ static void compute_coefficients(oven_threshold_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(x) from x^35 on */
-    const real series36 = x_ * (x_ * (x_ / REAL(38.0) + REAL(1.0)) / REAL(37.0)
-            + REAL(1.0)) / REAL(36.0)
-        + REAL(1.0);
-
-    /* exp(x) from x^29 on */
-    const real series30 = x_
-            * (x_
-                * (REAL(0.03125) * x_
-                    * (x_ * (x_ * (x_ * series36 / REAL(35.0) + REAL(1.0)) / REAL(34.0)
-                        + REAL(1.0)) / REAL(33.0)
-                    + REAL(1.0))
-                + REAL(1.0)) / REAL(31.0)
-            + REAL(1.0)) / REAL(30.0)
-        + REAL(1.0);
-
-    /* exp(x) from x^23 on */
-    const real series24 = x_
-            * (x_
-                * (x_
-                    * (x_ * (x_ * (x_ * series30 / REAL(29.0) + REAL(1.0)) / REAL(28.0)
-                        + REAL(1.0)) / REAL(27.0)
-                    + REAL(1.0)) / REAL(26.0)
-                + REAL(1.0)) / REAL(25.0)
-            + REAL(1.0)) / REAL(24.0)
-        + REAL(1.0);
-
-    /* exp(x) from x^17 on */
-    const real series18 = x_
-            * (x_
-                * (x_
-                    * (x_ * (x_ * (x_ * series24 / REAL(23.0) + REAL(1.0)) / REAL(22.0)
-                        + REAL(1.0)) / REAL(21.0)
-                    + REAL(1.0)) / REAL(20.0)
-                + REAL(1.0)) / REAL(19.0)
-            + REAL(1.0)) / REAL(18.0)
-        + REAL(1.0);
-
-    /* exp(x) from x^11 on */
-    const real series12 = x_
-            * (x_
-                * (x_
-                    * (x_ * (REAL(0.0625) * x_ * (x_ * series18 / REAL(17.0) + REAL(1.0))
-                        + REAL(1.0)) / REAL(15.0)
-                    + REAL(1.0)) / REAL(14.0)
-                + REAL(1.0)) / REAL(13.0)
-            + REAL(1.0)) / REAL(12.0)
-        + REAL(1.0);
-
-    /* exp(x) from x^5 on */
-    const real series6 = x_
-            * (x_
-                * (REAL(0.125) * x_
-                    * (x_ * (x_ * (x_ * series12 / REAL(11.0) + REAL(1.0)) / REAL(10.0)
-                        + REAL(1.0)) / REAL(9.0)
-                    + REAL(1.0))
-                + REAL(1.0)) / REAL(7.0)
-            + REAL(1.0)) / REAL(6.0)
-        + REAL(1.0);
-
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
     /* min(x/2, 0.025) */
-    const real t_2 = least(REAL(0.5) * x_, REAL(1.0) / REAL(40.0));
-
-    /* x*(x*series6/5 + 1)/4 + 1 */
-    const real t_3 = REAL(0.25) * x_ * (x_ * series6 / REAL(5.0) + REAL(1.0)) + REAL(1.0);
-
-    /* x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1 */
-    const real t_4 = x_ * t_3 / REAL(3.0) + REAL(1.0);
-
-    /* x*exp(-x)*(x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1) */
-    const real t_5 = x_ * t * t_4;
-
-    /* x^2*exp(-x)*(x*(x*series6/5 + 1)/4 + 1) */
-    const real t_6 = x_ * x_ * t * t_3;
+    const real t = least(REAL(0.5) * x_, REAL(1.0) / REAL(40.0));
 
     /* part of the start that a sample is */
-    c->r1_pace = t_2;
+    c->r1_pace = t;
 
-    /* oven.bg:15: r1_w1: factor of Th in stage 2 */
-    c->r1_w1_v2_Th = p->Gh / REAL(20.0);
+    /* oven.bg:15: r1_w1: factor of Th */
+    c->r1_w1_Th = p->Gh / REAL(20.0);
 
-    /* filter: weight of the new sample 0 stages further */
-    c->n0 = x_ * t * (REAL(0.5) * x_ * t_4 + REAL(1.0)) - REAL(0.5) * t_5;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: weight of the new sample 1 stages further */
-    c->n1 = REAL(0.5) * x_ * x_ * t * t_4 - t_6 / REAL(3.0);
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * (REAL(1.0) - pole);
 
-    /* filter: what is left of a memory 0 stages further */
-    c->m0 = t;
-
-    /* filter: weight of the sample before 0 stages further */
-    c->o0 = REAL(0.5) * t_5;
-
-    /* filter: what is left of a memory 1 stages further */
-    c->m1 = x_ * t;
-
-    /* filter: weight of the sample before 1 stages further */
-    c->o1 = t_6 / REAL(3.0);
-
-    /* oven.bg:15: r2_w2: factor of Ta in stage 2 */
-    c->r2_w2_v2_Ta = p->Go / REAL(10.0);
+    /* oven.bg:15: r2_w2: factor of Ta */
+    c->r2_w2_Ta = p->Go / REAL(10.0);
 }
 
 static bool parameters_are_finite(const oven_threshold_parameters *p)
@@ -209,9 +96,8 @@ static bool parameters_are_finite(const oven_threshold_parameters *p)
 
 static bool coefficients_are_finite(const oven_threshold_monitor *monitor)
 {
-    return finite_number(monitor->c.r1_pace + monitor->c.r1_w1_v2_Th + monitor->c.n0 + monitor->c.n1
-            + monitor->c.m0 + monitor->c.o0 + monitor->c.m1 + monitor->c.o1
-            + monitor->c.r2_w2_v2_Ta);
+    return finite_number(monitor->c.r1_pace + monitor->c.r1_w1_Th + monitor->c.a + monitor->c.b
+            + monitor->c.r2_w2_Ta);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -286,10 +172,10 @@ static void start_r1(
     /* oven.bg:15: r1: the same, for the next sample */
     x->r1_open = REAL(0.0);
 
-    /* oven.bg:15: r1_w1: memory of stage 2 */
+    /* oven.bg:15: r1_w1: stage 2: memory */
     x->r1_w1_s2 = REAL(0.0);
 
-    /* oven.bg:15: r1_w1: memory of stage 1 */
+    /* oven.bg:15: r1_w1: stage 1: memory */
     x->r1_w1_s1 = REAL(0.0);
 
     /* oven.bg:15: r1: what the tolerance of Gh can do */
@@ -326,19 +212,22 @@ static void next_r1(
             + r1_rest * (REAL(3.0) + r1_rest * REAL(6.0)));
 
     /* oven.bg:15: r1_w1: input of stage 2 */
-    const real r1_w1_v2 = r1_phi0 * (c->r1_w1_v2_Th * s->To - c->r1_w1_v2_Th * s->Th);
+    const real r1_w1_u2 = r1_phi0 * (c->r1_w1_Th * s->To - c->r1_w1_Th * s->Th);
 
     /* oven.bg:15: r1_w1: stage 2 */
-    const real r1_w1_y2 = r1_kept * x->r1_w1_s2 + c->n0 * r1_w1_v2;
+    const real r1_w1_y2 = r1_kept * x->r1_w1_s2 + c->b * r1_w1_u2;
+
+    /* oven.bg:15: r1_w1: stage 2: memory */
+    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b * r1_w1_u2;
+
+    /* oven.bg:15: r1_w1: input of stage 1 */
+    const real r1_w1_u1 = r1_w1_y2;
 
     /* oven.bg:15: r1_w1: stage 1 */
-    const real r1_w1_y1 = r1_kept * x->r1_w1_s1 + c->n1 * r1_w1_v2;
+    const real r1_w1_y1 = r1_kept * x->r1_w1_s1 + c->b * r1_w1_u1;
 
-    /* oven.bg:15: r1_w1: memory of stage 2 */
-    x->r1_w1_s2 = c->m0 * r1_w1_y2 + c->o0 * r1_w1_v2;
-
-    /* oven.bg:15: r1_w1: memory of stage 1 */
-    x->r1_w1_s1 = c->m1 * r1_w1_y2 + c->o1 * r1_w1_v2 + c->m0 * r1_w1_y1;
+    /* oven.bg:15: r1_w1: stage 1: memory */
+    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b * r1_w1_u1;
 
     /* oven.bg:15: r1: what the tolerance of Gh can do */
     const real r1_w1 = r1_w1_y1;
@@ -381,19 +270,19 @@ static void start_r2(
     /* oven.bg:15: r2: the same, for the next sample */
     x->r2_open = REAL(0.0);
 
-    /* oven.bg:15: r2_w1: memory of stage 2 */
+    /* oven.bg:15: r2_w1: stage 2: memory */
     x->r2_w1_s2 = REAL(0.0);
 
-    /* oven.bg:15: r2_w1: memory of stage 1 */
+    /* oven.bg:15: r2_w1: stage 1: memory */
     x->r2_w1_s1 = REAL(0.0);
 
     /* oven.bg:15: r2: what the tolerance of Gh can do */
     const real r2_w1 = REAL(0.0);
 
-    /* oven.bg:15: r2_w2: memory of stage 2 */
+    /* oven.bg:15: r2_w2: stage 2: memory */
     x->r2_w2_s2 = REAL(0.0);
 
-    /* oven.bg:15: r2_w2: memory of stage 1 */
+    /* oven.bg:15: r2_w2: stage 1: memory */
     x->r2_w2_s1 = REAL(0.0);
 
     /* oven.bg:15: r2: what the tolerance of Go can do */
@@ -424,37 +313,43 @@ static void next_r2(
             + r2_rest * (REAL(3.0) + r2_rest * REAL(6.0)));
 
     /* oven.bg:15: r2_w1: input of stage 2 */
-    const real r2_w1_v2 = r2_phi0 * (c->r1_w1_v2_Th * s->Th - c->r1_w1_v2_Th * s->To);
+    const real r2_w1_u2 = r2_phi0 * (c->r1_w1_Th * s->Th - c->r1_w1_Th * s->To);
 
     /* oven.bg:15: r2_w1: stage 2 */
-    const real r2_w1_y2 = x->r2_w1_s2 + c->n0 * r2_w1_v2;
+    const real r2_w1_y2 = x->r2_w1_s2 + c->b * r2_w1_u2;
+
+    /* oven.bg:15: r2_w1: stage 2: memory */
+    x->r2_w1_s2 = c->a * r2_w1_y2 + c->b * r2_w1_u2;
+
+    /* oven.bg:15: r2_w1: input of stage 1 */
+    const real r2_w1_u1 = r2_w1_y2;
 
     /* oven.bg:15: r2_w1: stage 1 */
-    const real r2_w1_y1 = x->r2_w1_s1 + c->n1 * r2_w1_v2;
+    const real r2_w1_y1 = x->r2_w1_s1 + c->b * r2_w1_u1;
 
-    /* oven.bg:15: r2_w1: memory of stage 2 */
-    x->r2_w1_s2 = c->m0 * r2_w1_y2 + c->o0 * r2_w1_v2;
-
-    /* oven.bg:15: r2_w1: memory of stage 1 */
-    x->r2_w1_s1 = c->m1 * r2_w1_y2 + c->o1 * r2_w1_v2 + c->m0 * r2_w1_y1;
+    /* oven.bg:15: r2_w1: stage 1: memory */
+    x->r2_w1_s1 = c->a * r2_w1_y1 + c->b * r2_w1_u1;
 
     /* oven.bg:15: r2: what the tolerance of Gh can do */
     const real r2_w1 = r2_w1_y1;
 
     /* oven.bg:15: r2_w2: input of stage 2 */
-    const real r2_w2_v2 = r2_phi0 * (c->r2_w2_v2_Ta * s->Ta - c->r2_w2_v2_Ta * s->To);
+    const real r2_w2_u2 = r2_phi0 * (c->r2_w2_Ta * s->Ta - c->r2_w2_Ta * s->To);
 
     /* oven.bg:15: r2_w2: stage 2 */
-    const real r2_w2_y2 = x->r2_w2_s2 + c->n0 * r2_w2_v2;
+    const real r2_w2_y2 = x->r2_w2_s2 + c->b * r2_w2_u2;
+
+    /* oven.bg:15: r2_w2: stage 2: memory */
+    x->r2_w2_s2 = c->a * r2_w2_y2 + c->b * r2_w2_u2;
+
+    /* oven.bg:15: r2_w2: input of stage 1 */
+    const real r2_w2_u1 = r2_w2_y2;
 
     /* oven.bg:15: r2_w2: stage 1 */
-    const real r2_w2_y1 = x->r2_w2_s1 + c->n1 * r2_w2_v2;
+    const real r2_w2_y1 = x->r2_w2_s1 + c->b * r2_w2_u1;
 
-    /* oven.bg:15: r2_w2: memory of stage 2 */
-    x->r2_w2_s2 = c->m0 * r2_w2_y2 + c->o0 * r2_w2_v2;
-
-    /* oven.bg:15: r2_w2: memory of stage 1 */
-    x->r2_w2_s1 = c->m1 * r2_w2_y2 + c->o1 * r2_w2_v2 + c->m0 * r2_w2_y1;
+    /* oven.bg:15: r2_w2: stage 1: memory */
+    x->r2_w2_s1 = c->a * r2_w2_y1 + c->b * r2_w2_u1;
 
     /* oven.bg:15: r2: what the tolerance of Go can do */
     const real r2_w2 = r2_w2_y1;

@@ -31,7 +31,7 @@ typedef double oven_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define OVEN_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(oven_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define OVEN_THRESHOLD_DIGEST "696886b93bc918b0"
+#define OVEN_THRESHOLD_DIGEST "f36808381a90b34d"
 
 /* What the code was made for: arguments of oven_threshold_configure, in s, rad/s and s. */
 #define OVEN_THRESHOLD_SAMPLE_TIME OVEN_THRESHOLD_CONSTANT(0.001)
@@ -87,15 +87,11 @@ typedef struct oven_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct oven_threshold_coefficients {
-    oven_threshold_real r1_pace;      /* part of the start that a sample is */
-    oven_threshold_real r1_w1_v2_Th;  /* r1_w1: factor of Th in stage 2 */
-    oven_threshold_real n0;           /* filter: weight of the new sample 0 stages further */
-    oven_threshold_real n1;           /* filter: weight of the new sample 1 stages further */
-    oven_threshold_real m0;           /* filter: what is left of a memory 0 stages further */
-    oven_threshold_real o0;           /* filter: weight of the sample before 0 stages further */
-    oven_threshold_real m1;           /* filter: what is left of a memory 1 stages further */
-    oven_threshold_real o1;           /* filter: weight of the sample before 1 stages further */
-    oven_threshold_real r2_w2_v2_Ta;  /* r2_w2: factor of Ta in stage 2 */
+    oven_threshold_real r1_pace;   /* part of the start that a sample is */
+    oven_threshold_real r1_w1_Th;  /* r1_w1: factor of Th */
+    oven_threshold_real a;         /* filter: what is left of a memory a sample later */
+    oven_threshold_real b;         /* filter: weight of a sample, new and a sample later */
+    oven_threshold_real r2_w2_Ta;  /* r2_w2: factor of Ta */
 } oven_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */

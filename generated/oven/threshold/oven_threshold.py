@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "696886b93bc918b0"
+DIGEST = "f36808381a90b34d"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -68,15 +68,11 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
-    r1_pace: float      # part of the start that a sample is
-    r1_w1_v2_Th: float  # r1_w1: factor of Th in stage 2
-    n0: float           # filter: weight of the new sample 0 stages further
-    n1: float           # filter: weight of the new sample 1 stages further
-    m0: float           # filter: what is left of a memory 0 stages further
-    o0: float           # filter: weight of the sample before 0 stages further
-    m1: float           # filter: what is left of a memory 1 stages further
-    o1: float           # filter: weight of the sample before 1 stages further
-    r2_w2_v2_Ta: float  # r2_w2: factor of Ta in stage 2
+    r1_pace: float   # part of the start that a sample is
+    r1_w1_Th: float  # r1_w1: factor of Th
+    a: float         # filter: what is left of a memory a sample later
+    b: float         # filter: weight of a sample, new and a sample later
+    r2_w2_Ta: float  # r2_w2: factor of Ta
 
 
 class Memory:
@@ -122,8 +118,7 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_pace + self._c.r1_w1_v2_Th + self._c.n0 + self._c.n1 + self._c.m0
-                    + self._c.o0 + self._c.m1 + self._c.o1 + self._c.r2_w2_v2_Ta
+                self._c.r1_pace + self._c.r1_w1_Th + self._c.a + self._c.b + self._c.r2_w2_Ta
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -178,108 +173,26 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(x) from x^35 on
-        series36 = x_ * (x_ * (x_ / 38.0 + 1.0) / 37.0 + 1.0) / 36.0 + 1.0
-
-        # exp(x) from x^29 on
-        series30 = (
-            x_
-                * (x_
-                    * (0.03125 * x_ * (x_ * (x_ * (x_ * series36 / 35.0 + 1.0) / 34.0 + 1.0) / 33.0
-                        + 1.0)
-                    + 1.0) / 31.0
-                + 1.0) / 30.0
-            + 1.0
-        )
-
-        # exp(x) from x^23 on
-        series24 = (
-            x_
-                * (x_
-                    * (x_ * (x_ * (x_ * (x_ * series30 / 29.0 + 1.0) / 28.0 + 1.0) / 27.0
-                        + 1.0) / 26.0
-                    + 1.0) / 25.0
-                + 1.0) / 24.0
-            + 1.0
-        )
-
-        # exp(x) from x^17 on
-        series18 = (
-            x_
-                * (x_
-                    * (x_ * (x_ * (x_ * (x_ * series24 / 23.0 + 1.0) / 22.0 + 1.0) / 21.0
-                        + 1.0) / 20.0
-                    + 1.0) / 19.0
-                + 1.0) / 18.0
-            + 1.0
-        )
-
-        # exp(x) from x^11 on
-        series12 = (
-            x_
-                * (x_
-                    * (x_ * (x_ * (0.0625 * x_ * (x_ * series18 / 17.0 + 1.0) + 1.0) / 15.0
-                        + 1.0) / 14.0
-                    + 1.0) / 13.0
-                + 1.0) / 12.0
-            + 1.0
-        )
-
-        # exp(x) from x^5 on
-        series6 = (
-            x_
-                * (x_
-                    * (0.125 * x_ * (x_ * (x_ * (x_ * series12 / 11.0 + 1.0) / 10.0 + 1.0) / 9.0
-                        + 1.0)
-                    + 1.0) / 7.0
-                + 1.0) / 6.0
-            + 1.0
-        )
-
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
         # min(x/2, 0.025)
-        t_2 = min(0.5 * x_, 1.0 / 40.0)
-
-        # x*(x*series6/5 + 1)/4 + 1
-        t_3 = 0.25 * x_ * (x_ * series6 / 5.0 + 1.0) + 1.0
-
-        # x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1
-        t_4 = x_ * t_3 / 3.0 + 1.0
-
-        # x*exp(-x)*(x*(x*(x*series6/5 + 1)/4 + 1)/3 + 1)
-        t_5 = x_ * t * t_4
-
-        # x^2*exp(-x)*(x*(x*series6/5 + 1)/4 + 1)
-        t_6 = x_ * x_ * t * t_3
+        t = min(0.5 * x_, 1.0 / 40.0)
 
         # part of the start that a sample is
-        c.r1_pace = t_2
+        c.r1_pace = t
 
-        # oven.bg:15: r1_w1: factor of Th in stage 2
-        c.r1_w1_v2_Th = p.Gh / 20.0
+        # oven.bg:15: r1_w1: factor of Th
+        c.r1_w1_Th = p.Gh / 20.0
 
-        # filter: weight of the new sample 0 stages further
-        c.n0 = x_ * t * (0.5 * x_ * t_4 + 1.0) - 0.5 * t_5
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample 1 stages further
-        c.n1 = 0.5 * x_ * x_ * t * t_4 - t_6 / 3.0
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * (1.0 - pole)
 
-        # filter: what is left of a memory 0 stages further
-        c.m0 = t
-
-        # filter: weight of the sample before 0 stages further
-        c.o0 = 0.5 * t_5
-
-        # filter: what is left of a memory 1 stages further
-        c.m1 = x_ * t
-
-        # filter: weight of the sample before 1 stages further
-        c.o1 = t_6 / 3.0
-
-        # oven.bg:15: r2_w2: factor of Ta in stage 2
-        c.r2_w2_v2_Ta = p.Go / 10.0
+        # oven.bg:15: r2_w2: factor of Ta
+        c.r2_w2_Ta = p.Go / 10.0
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -291,10 +204,10 @@ class Monitor:
         # oven.bg:15: r1: the same, for the next sample
         x.r1_open = 0.0
 
-        # oven.bg:15: r1_w1: memory of stage 2
+        # oven.bg:15: r1_w1: stage 2: memory
         x.r1_w1_s2 = 0.0
 
-        # oven.bg:15: r1_w1: memory of stage 1
+        # oven.bg:15: r1_w1: stage 1: memory
         x.r1_w1_s1 = 0.0
 
         # oven.bg:15: r1: what the tolerance of Gh can do
@@ -327,19 +240,22 @@ class Monitor:
         r1_phi0 = r1_u * r1_u * r1_u * (1.0 + r1_rest * (3.0 + r1_rest * 6.0))
 
         # oven.bg:15: r1_w1: input of stage 2
-        r1_w1_v2 = r1_phi0 * (c.r1_w1_v2_Th * s.To - c.r1_w1_v2_Th * s.Th)
+        r1_w1_u2 = r1_phi0 * (c.r1_w1_Th * s.To - c.r1_w1_Th * s.Th)
 
         # oven.bg:15: r1_w1: stage 2
-        r1_w1_y2 = r1_kept * x.r1_w1_s2 + c.n0 * r1_w1_v2
+        r1_w1_y2 = r1_kept * x.r1_w1_s2 + c.b * r1_w1_u2
+
+        # oven.bg:15: r1_w1: stage 2: memory
+        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b * r1_w1_u2
+
+        # oven.bg:15: r1_w1: input of stage 1
+        r1_w1_u1 = r1_w1_y2
 
         # oven.bg:15: r1_w1: stage 1
-        r1_w1_y1 = r1_kept * x.r1_w1_s1 + c.n1 * r1_w1_v2
+        r1_w1_y1 = r1_kept * x.r1_w1_s1 + c.b * r1_w1_u1
 
-        # oven.bg:15: r1_w1: memory of stage 2
-        x.r1_w1_s2 = c.m0 * r1_w1_y2 + c.o0 * r1_w1_v2
-
-        # oven.bg:15: r1_w1: memory of stage 1
-        x.r1_w1_s1 = c.m1 * r1_w1_y2 + c.o1 * r1_w1_v2 + c.m0 * r1_w1_y1
+        # oven.bg:15: r1_w1: stage 1: memory
+        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b * r1_w1_u1
 
         # oven.bg:15: r1: what the tolerance of Gh can do
         r1_w1 = r1_w1_y1
@@ -370,19 +286,19 @@ class Monitor:
         # oven.bg:15: r2: the same, for the next sample
         x.r2_open = 0.0
 
-        # oven.bg:15: r2_w1: memory of stage 2
+        # oven.bg:15: r2_w1: stage 2: memory
         x.r2_w1_s2 = 0.0
 
-        # oven.bg:15: r2_w1: memory of stage 1
+        # oven.bg:15: r2_w1: stage 1: memory
         x.r2_w1_s1 = 0.0
 
         # oven.bg:15: r2: what the tolerance of Gh can do
         r2_w1 = 0.0
 
-        # oven.bg:15: r2_w2: memory of stage 2
+        # oven.bg:15: r2_w2: stage 2: memory
         x.r2_w2_s2 = 0.0
 
-        # oven.bg:15: r2_w2: memory of stage 1
+        # oven.bg:15: r2_w2: stage 1: memory
         x.r2_w2_s1 = 0.0
 
         # oven.bg:15: r2: what the tolerance of Go can do
@@ -409,37 +325,43 @@ class Monitor:
         r2_phi0 = r2_u * r2_u * r2_u * (1.0 + r2_rest * (3.0 + r2_rest * 6.0))
 
         # oven.bg:15: r2_w1: input of stage 2
-        r2_w1_v2 = r2_phi0 * (c.r1_w1_v2_Th * s.Th - c.r1_w1_v2_Th * s.To)
+        r2_w1_u2 = r2_phi0 * (c.r1_w1_Th * s.Th - c.r1_w1_Th * s.To)
 
         # oven.bg:15: r2_w1: stage 2
-        r2_w1_y2 = x.r2_w1_s2 + c.n0 * r2_w1_v2
+        r2_w1_y2 = x.r2_w1_s2 + c.b * r2_w1_u2
+
+        # oven.bg:15: r2_w1: stage 2: memory
+        x.r2_w1_s2 = c.a * r2_w1_y2 + c.b * r2_w1_u2
+
+        # oven.bg:15: r2_w1: input of stage 1
+        r2_w1_u1 = r2_w1_y2
 
         # oven.bg:15: r2_w1: stage 1
-        r2_w1_y1 = x.r2_w1_s1 + c.n1 * r2_w1_v2
+        r2_w1_y1 = x.r2_w1_s1 + c.b * r2_w1_u1
 
-        # oven.bg:15: r2_w1: memory of stage 2
-        x.r2_w1_s2 = c.m0 * r2_w1_y2 + c.o0 * r2_w1_v2
-
-        # oven.bg:15: r2_w1: memory of stage 1
-        x.r2_w1_s1 = c.m1 * r2_w1_y2 + c.o1 * r2_w1_v2 + c.m0 * r2_w1_y1
+        # oven.bg:15: r2_w1: stage 1: memory
+        x.r2_w1_s1 = c.a * r2_w1_y1 + c.b * r2_w1_u1
 
         # oven.bg:15: r2: what the tolerance of Gh can do
         r2_w1 = r2_w1_y1
 
         # oven.bg:15: r2_w2: input of stage 2
-        r2_w2_v2 = r2_phi0 * (c.r2_w2_v2_Ta * s.Ta - c.r2_w2_v2_Ta * s.To)
+        r2_w2_u2 = r2_phi0 * (c.r2_w2_Ta * s.Ta - c.r2_w2_Ta * s.To)
 
         # oven.bg:15: r2_w2: stage 2
-        r2_w2_y2 = x.r2_w2_s2 + c.n0 * r2_w2_v2
+        r2_w2_y2 = x.r2_w2_s2 + c.b * r2_w2_u2
+
+        # oven.bg:15: r2_w2: stage 2: memory
+        x.r2_w2_s2 = c.a * r2_w2_y2 + c.b * r2_w2_u2
+
+        # oven.bg:15: r2_w2: input of stage 1
+        r2_w2_u1 = r2_w2_y2
 
         # oven.bg:15: r2_w2: stage 1
-        r2_w2_y1 = x.r2_w2_s1 + c.n1 * r2_w2_v2
+        r2_w2_y1 = x.r2_w2_s1 + c.b * r2_w2_u1
 
-        # oven.bg:15: r2_w2: memory of stage 2
-        x.r2_w2_s2 = c.m0 * r2_w2_y2 + c.o0 * r2_w2_v2
-
-        # oven.bg:15: r2_w2: memory of stage 1
-        x.r2_w2_s1 = c.m1 * r2_w2_y2 + c.o1 * r2_w2_v2 + c.m0 * r2_w2_y1
+        # oven.bg:15: r2_w2: stage 1: memory
+        x.r2_w2_s1 = c.a * r2_w2_y1 + c.b * r2_w2_u1
 
         # oven.bg:15: r2: what the tolerance of Go can do
         r2_w2 = r2_w2_y1
@@ -462,23 +384,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -32,7 +32,7 @@ typedef double quarter_car_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define QUARTER_CAR_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(quarter_car_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define QUARTER_CAR_THRESHOLD_DIGEST "6fe2f638bc118b99"
+#define QUARTER_CAR_THRESHOLD_DIGEST "7f56d58a433cc549"
 
 /* What the code was made for: arguments of quarter_car_threshold_configure, in s, rad/s and s. */
 #define QUARTER_CAR_THRESHOLD_SAMPLE_TIME QUARTER_CAR_THRESHOLD_CONSTANT(0.001)
@@ -83,11 +83,10 @@ typedef struct quarter_car_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct quarter_car_threshold_coefficients {
-    quarter_car_threshold_real r1_w1_v2_vw;  /* r1_w1: factor of vw in stage 2 */
-    quarter_car_threshold_real a;            /* filter: exp(-bandwidth*sample_time) */
-    quarter_car_threshold_real b0;           /* filter: weight of the new sample */
-    quarter_car_threshold_real b1;           /* filter: weight of the sample before */
-    quarter_car_threshold_real rest;         /* filter: 1 - b0, the memory of a constant 1 */
+    quarter_car_threshold_real r1_w1_vw;  /* r1_w1: factor of vw */
+    quarter_car_threshold_real a;         /* filter: what is left of a memory a sample later */
+    quarter_car_threshold_real b;         /* filter: weight of a sample, new and a sample later */
+    quarter_car_threshold_real rest;      /* filter: 1 - b, the memory of a constant 1 */
 } quarter_car_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -32,7 +32,7 @@ typedef double rigid_gear_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define RIGID_GEAR_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(rigid_gear_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define RIGID_GEAR_THRESHOLD_DIGEST "6a0e2f0e1b5a64d5"
+#define RIGID_GEAR_THRESHOLD_DIGEST "5b171bb0b170f7e9"
 
 /* What the code was made for: arguments of rigid_gear_threshold_configure, in s, rad/s and s. */
 #define RIGID_GEAR_THRESHOLD_SAMPLE_TIME RIGID_GEAR_THRESHOLD_CONSTANT(0.001)
@@ -85,12 +85,11 @@ typedef struct rigid_gear_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct rigid_gear_threshold_coefficients {
-    rigid_gear_threshold_real r1_w1_v2_w1;  /* r1_w1: factor of w1 in stage 2 */
-    rigid_gear_threshold_real a;            /* filter: exp(-bandwidth*sample_time) */
-    rigid_gear_threshold_real b0;           /* filter: weight of the new sample */
-    rigid_gear_threshold_real b1;           /* filter: weight of the sample before */
-    rigid_gear_threshold_real rest;         /* filter: 1 - b0, the memory of a constant 1 */
-    rigid_gear_threshold_real r1_w2_v2_w2;  /* r1_w2: factor of w2 in stage 2 */
+    rigid_gear_threshold_real r1_w1_w1;  /* r1_w1: factor of w1 */
+    rigid_gear_threshold_real a;         /* filter: what is left of a memory a sample later */
+    rigid_gear_threshold_real b;         /* filter: weight of a sample, new and a sample later */
+    rigid_gear_threshold_real rest;      /* filter: 1 - b, the memory of a constant 1 */
+    rigid_gear_threshold_real r1_w2_w2;  /* r1_w2: factor of w2 */
 } rigid_gear_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */

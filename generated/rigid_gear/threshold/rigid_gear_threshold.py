@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "6a0e2f0e1b5a64d5"
+DIGEST = "5b171bb0b170f7e9"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -65,12 +65,11 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
-    r1_w1_v2_w1: float  # r1_w1: factor of w1 in stage 2
-    a: float            # filter: exp(-bandwidth*sample_time)
-    b0: float           # filter: weight of the new sample
-    b1: float           # filter: weight of the sample before
-    rest: float         # filter: 1 - b0, the memory of a constant 1
-    r1_w2_v2_w2: float  # r1_w2: factor of w2 in stage 2
+    r1_w1_w1: float  # r1_w1: factor of w1
+    a: float         # filter: what is left of a memory a sample later
+    b: float         # filter: weight of a sample, new and a sample later
+    rest: float      # filter: 1 - b, the memory of a constant 1
+    r1_w2_w2: float  # r1_w2: factor of w2
 
 
 class Memory:
@@ -111,8 +110,7 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_w1_v2_w1 + self._c.a + self._c.b0 + self._c.b1 + self._c.rest
-                    + self._c.r1_w2_v2_w2
+                self._c.r1_w1_w1 + self._c.a + self._c.b + self._c.rest + self._c.r1_w2_w2
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -159,34 +157,26 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # 1 - pole
+        t = 1.0 - pole
 
-        # rigid_gear.bg:14: r1_w1: factor of w1 in stage 2
-        c.r1_w1_v2_w1 = p.f1 / 10.0
+        # rigid_gear.bg:14: r1_w1: factor of w1
+        c.r1_w1_w1 = p.f1 / 10.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
-
-        # rigid_gear.bg:14: r1_w2: factor of w2 in stage 2
-        c.r1_w2_v2_w2 = p.f2 / 10.0 / p.N
+        # rigid_gear.bg:14: r1_w2: factor of w2
+        c.r1_w2_w2 = p.f2 / 10.0 / p.N
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -194,7 +184,7 @@ class Monitor:
         x = self._x
 
         # rigid_gear.bg:14: r1_w1: input of stage 2
-        r1_w1_u2 = -c.r1_w1_v2_w1 * s.w1
+        r1_w1_u2 = -c.r1_w1_w1 * s.w1
 
         # rigid_gear.bg:14: r1_w1: stage 2, at rest
         r1_w1_y2 = r1_w1_u2
@@ -215,7 +205,7 @@ class Monitor:
         r1_w1 = r1_w1_y1
 
         # rigid_gear.bg:14: r1_w2: input of stage 2
-        r1_w2_u2 = -c.r1_w2_v2_w2 * s.w2
+        r1_w2_u2 = -c.r1_w2_w2 * s.w2
 
         # rigid_gear.bg:14: r1_w2: stage 2, at rest
         r1_w2_y2 = r1_w2_u2
@@ -244,43 +234,43 @@ class Monitor:
         x = self._x
 
         # rigid_gear.bg:14: r1_w1: input of stage 2
-        r1_w1_u2 = -c.r1_w1_v2_w1 * s.w1
+        r1_w1_u2 = -c.r1_w1_w1 * s.w1
 
         # rigid_gear.bg:14: r1_w1: stage 2
-        r1_w1_y2 = x.r1_w1_s2 + c.b0 * r1_w1_u2
+        r1_w1_y2 = x.r1_w1_s2 + c.b * r1_w1_u2
 
         # rigid_gear.bg:14: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b1 * r1_w1_u2
+        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b * r1_w1_u2
 
         # rigid_gear.bg:14: r1_w1: input of stage 1
         r1_w1_u1 = r1_w1_y2
 
         # rigid_gear.bg:14: r1_w1: stage 1
-        r1_w1_y1 = x.r1_w1_s1 + c.b0 * r1_w1_u1
+        r1_w1_y1 = x.r1_w1_s1 + c.b * r1_w1_u1
 
         # rigid_gear.bg:14: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b1 * r1_w1_u1
+        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b * r1_w1_u1
 
         # rigid_gear.bg:14: r1: what the tolerance of f1 can do
         r1_w1 = r1_w1_y1
 
         # rigid_gear.bg:14: r1_w2: input of stage 2
-        r1_w2_u2 = -c.r1_w2_v2_w2 * s.w2
+        r1_w2_u2 = -c.r1_w2_w2 * s.w2
 
         # rigid_gear.bg:14: r1_w2: stage 2
-        r1_w2_y2 = x.r1_w2_s2 + c.b0 * r1_w2_u2
+        r1_w2_y2 = x.r1_w2_s2 + c.b * r1_w2_u2
 
         # rigid_gear.bg:14: r1_w2: stage 2: memory
-        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b1 * r1_w2_u2
+        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b * r1_w2_u2
 
         # rigid_gear.bg:14: r1_w2: input of stage 1
         r1_w2_u1 = r1_w2_y2
 
         # rigid_gear.bg:14: r1_w2: stage 1
-        r1_w2_y1 = x.r1_w2_s1 + c.b0 * r1_w2_u1
+        r1_w2_y1 = x.r1_w2_s1 + c.b * r1_w2_u1
 
         # rigid_gear.bg:14: r1_w2: stage 1: memory
-        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b1 * r1_w2_u1
+        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b * r1_w2_u1
 
         # rigid_gear.bg:14: r1: what the tolerance of f2 can do
         r1_w2 = r1_w2_y1
@@ -329,23 +319,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[1] = 0
             r.r2 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

@@ -24,39 +24,10 @@ static bool finite_number(real value)
     return value - value <= REAL(0.0);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t slider_crank_threshold_abi(void)
@@ -86,35 +57,29 @@ static void compute_coefficients(slider_crank_threshold_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* 1 - pole */
+    const real t = REAL(1.0) - pole;
 
-    /* slider_crank.bg:18: r1_w1: factor of speed in stage 2 */
-    c->r1_w1_v2_speed = p->f / REAL(10.0);
+    /* slider_crank.bg:18: r1_w1: factor of speed */
+    c->r1_w1_speed = p->f / REAL(10.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
-
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t;
 
     /* half the sample time */
     c->half_time = REAL(0.5) * sample_time;
+
+    /* sample_time/24 */
+    c->half_twelfth = sample_time / REAL(24.0);
 
     /* slider_crank.bg:18: r^2 */
     c->g = p->r * p->r;
@@ -126,12 +91,12 @@ static void compute_coefficients(slider_crank_threshold_monitor *monitor,
     c->r = p->r;
 
     /* slider_crank.bg:18: r1_w2: factor of
-     * speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... in stage 2 */
-    c->r1_w2_v2_product = p->c * p->r * p->r * p->r / REAL(5.0);
+     * speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... */
+    c->r1_w2_product = p->c * p->r * p->r * p->r / REAL(5.0);
 
     /* slider_crank.bg:18: r1_w2: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 -
-     * r^ ... in stage 2 */
-    c->r1_w2_v2_product_2 = p->c * p->r * p->r / REAL(5.0);
+     * r^ ... */
+    c->r1_w2_product_2 = p->c * p->r * p->r / REAL(5.0);
 }
 
 static bool parameters_are_finite(const slider_crank_threshold_parameters *p)
@@ -141,9 +106,9 @@ static bool parameters_are_finite(const slider_crank_threshold_parameters *p)
 
 static bool coefficients_are_finite(const slider_crank_threshold_monitor *monitor)
 {
-    return finite_number(monitor->c.r1_w1_v2_speed + monitor->c.a + monitor->c.b0 + monitor->c.b1
-            + monitor->c.rest + monitor->c.half_time + monitor->c.g + monitor->c.g_2 + monitor->c.r
-            + monitor->c.r1_w2_v2_product + monitor->c.r1_w2_v2_product_2);
+    return finite_number(monitor->c.r1_w1_speed + monitor->c.a + monitor->c.b + monitor->c.rest
+            + monitor->c.half_time + monitor->c.half_twelfth + monitor->c.g + monitor->c.g_2
+            + monitor->c.r + monitor->c.r1_w2_product + monitor->c.r1_w2_product_2);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -211,7 +176,7 @@ static void start_r1(
     slider_crank_threshold_memory *x = &monitor->x;
 
     /* slider_crank.bg:18: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = -c->r1_w1_v2_speed * s->speed;
+    const real r1_w1_u2 = -c->r1_w1_speed * s->speed;
 
     /* slider_crank.bg:18: r1_w1: stage 2, at rest */
     const real r1_w1_y2 = r1_w1_u2;
@@ -237,11 +202,18 @@ static void start_r1(
     /* slider_crank.bg:18: integral of speed: memory */
     x->r1_w2_q = c->half_time * s->speed;
 
+    /* slider_crank.bg:18: integral of speed */
+    const real r1_w2_integral = r1_w2_int;
+
+    /* slider_crank.bg:18: integral of speed: memory */
+    x->r1_w2_rate2 = s->speed;
+    x->r1_w2_rate1 = s->speed;
+
     /* slider_crank.bg:18: sin(Int(speed)) */
-    const real r1_w2_t = MATH(sin)(r1_w2_int);
+    const real r1_w2_t = MATH(sin)(r1_w2_integral);
 
     /* slider_crank.bg:18: cos(Int(speed)) */
-    const real r1_w2_t_2 = MATH(cos)(r1_w2_int);
+    const real r1_w2_t_2 = MATH(cos)(r1_w2_integral);
 
     /* slider_crank.bg:18: sqrt(l^2 - r^2*sin(Int(speed))^2) */
     const real r1_w2_t_3 = MATH(sqrt)(c->g_2 - c->g * r1_w2_t * r1_w2_t);
@@ -256,8 +228,7 @@ static void start_r1(
     const real r1_w2_product_2 = s->speed * r1_w2_t * r1_w2_t * r1_w2_t_4;
 
     /* slider_crank.bg:18: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = -c->r1_w2_v2_product * r1_w2_product
-        - c->r1_w2_v2_product_2 * r1_w2_product_2;
+    const real r1_w2_u2 = -c->r1_w2_product * r1_w2_product - c->r1_w2_product_2 * r1_w2_product_2;
 
     /* slider_crank.bg:18: r1_w2: stage 2, at rest */
     const real r1_w2_y2 = r1_w2_u2;
@@ -289,22 +260,22 @@ static void next_r1(
     slider_crank_threshold_memory *x = &monitor->x;
 
     /* slider_crank.bg:18: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = -c->r1_w1_v2_speed * s->speed;
+    const real r1_w1_u2 = -c->r1_w1_speed * s->speed;
 
     /* slider_crank.bg:18: r1_w1: stage 2 */
-    const real r1_w1_y2 = x->r1_w1_s2 + c->b0 * r1_w1_u2;
+    const real r1_w1_y2 = x->r1_w1_s2 + c->b * r1_w1_u2;
 
     /* slider_crank.bg:18: r1_w1: stage 2: memory */
-    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b1 * r1_w1_u2;
+    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b * r1_w1_u2;
 
     /* slider_crank.bg:18: r1_w1: input of stage 1 */
     const real r1_w1_u1 = r1_w1_y2;
 
     /* slider_crank.bg:18: r1_w1: stage 1 */
-    const real r1_w1_y1 = x->r1_w1_s1 + c->b0 * r1_w1_u1;
+    const real r1_w1_y1 = x->r1_w1_s1 + c->b * r1_w1_u1;
 
     /* slider_crank.bg:18: r1_w1: stage 1: memory */
-    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b1 * r1_w1_u1;
+    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b * r1_w1_u1;
 
     /* slider_crank.bg:18: r1: what the tolerance of f can do */
     const real r1_w1 = r1_w1_y1;
@@ -315,11 +286,19 @@ static void next_r1(
     /* slider_crank.bg:18: integral of speed: memory */
     x->r1_w2_q = r1_w2_int + c->half_time * s->speed;
 
+    /* slider_crank.bg:18: integral of speed */
+    const real r1_w2_integral = r1_w2_int
+        - c->half_twelfth * (REAL(3.0) * s->speed - REAL(4.0) * x->r1_w2_rate1 + x->r1_w2_rate2);
+
+    /* slider_crank.bg:18: integral of speed: memory */
+    x->r1_w2_rate2 = x->r1_w2_rate1;
+    x->r1_w2_rate1 = s->speed;
+
     /* slider_crank.bg:18: sin(Int(speed)) */
-    const real r1_w2_t = MATH(sin)(r1_w2_int);
+    const real r1_w2_t = MATH(sin)(r1_w2_integral);
 
     /* slider_crank.bg:18: cos(Int(speed)) */
-    const real r1_w2_t_2 = MATH(cos)(r1_w2_int);
+    const real r1_w2_t_2 = MATH(cos)(r1_w2_integral);
 
     /* slider_crank.bg:18: sqrt(l^2 - r^2*sin(Int(speed))^2) */
     const real r1_w2_t_3 = MATH(sqrt)(c->g_2 - c->g * r1_w2_t * r1_w2_t);
@@ -334,23 +313,22 @@ static void next_r1(
     const real r1_w2_product_2 = s->speed * r1_w2_t * r1_w2_t * r1_w2_t_4;
 
     /* slider_crank.bg:18: r1_w2: input of stage 2 */
-    const real r1_w2_u2 = -c->r1_w2_v2_product * r1_w2_product
-        - c->r1_w2_v2_product_2 * r1_w2_product_2;
+    const real r1_w2_u2 = -c->r1_w2_product * r1_w2_product - c->r1_w2_product_2 * r1_w2_product_2;
 
     /* slider_crank.bg:18: r1_w2: stage 2 */
-    const real r1_w2_y2 = x->r1_w2_s2 + c->b0 * r1_w2_u2;
+    const real r1_w2_y2 = x->r1_w2_s2 + c->b * r1_w2_u2;
 
     /* slider_crank.bg:18: r1_w2: stage 2: memory */
-    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b1 * r1_w2_u2;
+    x->r1_w2_s2 = c->a * r1_w2_y2 + c->b * r1_w2_u2;
 
     /* slider_crank.bg:18: r1_w2: input of stage 1 */
     const real r1_w2_u1 = r1_w2_y2;
 
     /* slider_crank.bg:18: r1_w2: stage 1 */
-    const real r1_w2_y1 = x->r1_w2_s1 + c->b0 * r1_w2_u1;
+    const real r1_w2_y1 = x->r1_w2_s1 + c->b * r1_w2_u1;
 
     /* slider_crank.bg:18: r1_w2: stage 1: memory */
-    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b1 * r1_w2_u1;
+    x->r1_w2_s1 = c->a * r1_w2_y1 + c->b * r1_w2_u1;
 
     /* slider_crank.bg:18: r1: what the tolerance of c can do */
     const real r1_w2 = r1_w2_y1;

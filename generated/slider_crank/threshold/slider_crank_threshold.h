@@ -32,7 +32,7 @@ typedef double slider_crank_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define SLIDER_CRANK_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(slider_crank_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define SLIDER_CRANK_THRESHOLD_DIGEST "b523fecf1227a2ed"
+#define SLIDER_CRANK_THRESHOLD_DIGEST "c96ee67695fa5a03"
 
 /* What the code was made for: arguments of slider_crank_threshold_configure, in s, rad/s and s. */
 #define SLIDER_CRANK_THRESHOLD_SAMPLE_TIME SLIDER_CRANK_THRESHOLD_CONSTANT(0.001)
@@ -80,28 +80,31 @@ typedef struct slider_crank_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct slider_crank_threshold_coefficients {
-    slider_crank_threshold_real r1_w1_v2_speed;  /* r1_w1: factor of speed in stage 2 */
-    slider_crank_threshold_real a;               /* filter: exp(-bandwidth*sample_time) */
-    slider_crank_threshold_real b0;              /* filter: weight of the new sample */
-    slider_crank_threshold_real b1;              /* filter: weight of the sample before */
-    slider_crank_threshold_real rest;            /* filter: 1 - b0, the memory of a constant 1 */
-    slider_crank_threshold_real half_time;       /* half the sample time */
-    slider_crank_threshold_real g;               /* r^2 */
-    slider_crank_threshold_real g_2;             /* l^2 */
-    slider_crank_threshold_real r;               /* r */
-    /* r1_w2: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... in stage 2 */
-    slider_crank_threshold_real r1_w2_v2_product;
-    /* r1_w2: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ... in stage 2 */
-    slider_crank_threshold_real r1_w2_v2_product_2;
+    slider_crank_threshold_real r1_w1_speed;   /* r1_w1: factor of speed */
+    slider_crank_threshold_real a;             /* filter: what is left of a memory a sample later */
+    /* filter: weight of a sample, new and a sample later */
+    slider_crank_threshold_real b;
+    slider_crank_threshold_real rest;          /* filter: 1 - b, the memory of a constant 1 */
+    slider_crank_threshold_real half_time;     /* half the sample time */
+    slider_crank_threshold_real half_twelfth;  /* sample_time/24 */
+    slider_crank_threshold_real g;             /* r^2 */
+    slider_crank_threshold_real g_2;           /* l^2 */
+    slider_crank_threshold_real r;             /* r */
+    /* r1_w2: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... */
+    slider_crank_threshold_real r1_w2_product;
+    /* r1_w2: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ... */
+    slider_crank_threshold_real r1_w2_product_2;
 } slider_crank_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */
 typedef struct slider_crank_threshold_memory {
-    slider_crank_threshold_real r1_w1_s2;  /* memory of r1_w1: stage 2 */
-    slider_crank_threshold_real r1_w1_s1;  /* memory of r1_w1: stage 1 */
-    slider_crank_threshold_real r1_w2_q;   /* memory of integral of speed */
-    slider_crank_threshold_real r1_w2_s2;  /* memory of r1_w2: stage 2 */
-    slider_crank_threshold_real r1_w2_s1;  /* memory of r1_w2: stage 1 */
+    slider_crank_threshold_real r1_w1_s2;     /* memory of r1_w1: stage 2 */
+    slider_crank_threshold_real r1_w1_s1;     /* memory of r1_w1: stage 1 */
+    slider_crank_threshold_real r1_w2_q;      /* memory of integral of speed */
+    slider_crank_threshold_real r1_w2_rate1;  /* integral of speed: rate a sample before */
+    slider_crank_threshold_real r1_w2_rate2;  /* integral of speed: rate two samples before */
+    slider_crank_threshold_real r1_w2_s2;     /* memory of r1_w2: stage 2 */
+    slider_crank_threshold_real r1_w2_s1;     /* memory of r1_w2: stage 1 */
 } slider_crank_threshold_memory;
 
 /* One monitor. You own it; configure fills it, step keeps it. */

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "b523fecf1227a2ed"
+DIGEST = "c96ee67695fa5a03"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -60,29 +60,31 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
-    r1_w1_v2_speed: float  # r1_w1: factor of speed in stage 2
-    a: float               # filter: exp(-bandwidth*sample_time)
-    b0: float              # filter: weight of the new sample
-    b1: float              # filter: weight of the sample before
-    rest: float            # filter: 1 - b0, the memory of a constant 1
-    half_time: float       # half the sample time
-    g: float               # r^2
-    g_2: float             # l^2
-    r: float               # r
-    # r1_w2: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... in stage 2
-    r1_w2_v2_product: float
-    # r1_w2: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ... in stage 2
-    r1_w2_v2_product_2: float
+    r1_w1_speed: float   # r1_w1: factor of speed
+    a: float             # filter: what is left of a memory a sample later
+    b: float             # filter: weight of a sample, new and a sample later
+    rest: float          # filter: 1 - b, the memory of a constant 1
+    half_time: float     # half the sample time
+    half_twelfth: float  # sample_time/24
+    g: float             # r^2
+    g_2: float           # l^2
+    r: float             # r
+    # r1_w2: factor of speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ...
+    r1_w2_product: float
+    # r1_w2: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2 - r^ ...
+    r1_w2_product_2: float
 
 
 class Memory:
     """What the filters remember from sample to sample."""
 
-    r1_w1_s2: float  # memory of r1_w1: stage 2
-    r1_w1_s1: float  # memory of r1_w1: stage 1
-    r1_w2_q: float   # memory of integral of speed
-    r1_w2_s2: float  # memory of r1_w2: stage 2
-    r1_w2_s1: float  # memory of r1_w2: stage 1
+    r1_w1_s2: float     # memory of r1_w1: stage 2
+    r1_w1_s1: float     # memory of r1_w1: stage 1
+    r1_w2_q: float      # memory of integral of speed
+    r1_w2_rate1: float  # integral of speed: rate a sample before
+    r1_w2_rate2: float  # integral of speed: rate two samples before
+    r1_w2_s2: float     # memory of r1_w2: stage 2
+    r1_w2_s1: float     # memory of r1_w2: stage 1
 
 
 class Monitor:
@@ -114,9 +116,9 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_w1_v2_speed + self._c.a + self._c.b0 + self._c.b1 + self._c.rest
-                    + self._c.half_time + self._c.g + self._c.g_2 + self._c.r
-                    + self._c.r1_w2_v2_product + self._c.r1_w2_v2_product_2
+                    self._c.r1_w1_speed + self._c.a + self._c.b + self._c.rest + self._c.half_time
+                    + self._c.half_twelfth + self._c.g + self._c.g_2 + self._c.r
+                    + self._c.r1_w2_product + self._c.r1_w2_product_2
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -158,34 +160,29 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # 1 - pole
+        t = 1.0 - pole
 
-        # slider_crank.bg:18: r1_w1: factor of speed in stage 2
-        c.r1_w1_v2_speed = p.f / 10.0
+        # slider_crank.bg:18: r1_w1: factor of speed
+        c.r1_w1_speed = p.f / 10.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
-
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
         # half the sample time
         c.half_time = 0.5 * sample_time
+
+        # sample_time/24
+        c.half_twelfth = sample_time / 24.0
 
         # slider_crank.bg:18: r^2
         c.g = p.r * p.r
@@ -197,12 +194,12 @@ class Monitor:
         c.r = p.r
 
         # slider_crank.bg:18: r1_w2: factor of
-        # speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ... in stage 2
-        c.r1_w2_v2_product = p.c * p.r * p.r * p.r / 5.0
+        # speed*sin(Int(speed))^2*cos(Int(speed))*(r*cos(Int(speed ...
+        c.r1_w2_product = p.c * p.r * p.r * p.r / 5.0
 
         # slider_crank.bg:18: r1_w2: factor of speed*sin(Int(speed))^2*(r*cos(Int(speed))/sqrt(l^2
-        # - r^ ... in stage 2
-        c.r1_w2_v2_product_2 = p.c * p.r * p.r / 5.0
+        # - r^ ...
+        c.r1_w2_product_2 = p.c * p.r * p.r / 5.0
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -210,7 +207,7 @@ class Monitor:
         x = self._x
 
         # slider_crank.bg:18: r1_w1: input of stage 2
-        r1_w1_u2 = -c.r1_w1_v2_speed * s.speed
+        r1_w1_u2 = -c.r1_w1_speed * s.speed
 
         # slider_crank.bg:18: r1_w1: stage 2, at rest
         r1_w1_y2 = r1_w1_u2
@@ -236,11 +233,18 @@ class Monitor:
         # slider_crank.bg:18: integral of speed: memory
         x.r1_w2_q = c.half_time * s.speed
 
+        # slider_crank.bg:18: integral of speed
+        r1_w2_integral = r1_w2_int
+
+        # slider_crank.bg:18: integral of speed: memory
+        x.r1_w2_rate2 = s.speed
+        x.r1_w2_rate1 = s.speed
+
         # slider_crank.bg:18: sin(Int(speed))
-        r1_w2_t = math.sin(r1_w2_int)
+        r1_w2_t = math.sin(r1_w2_integral)
 
         # slider_crank.bg:18: cos(Int(speed))
-        r1_w2_t_2 = math.cos(r1_w2_int)
+        r1_w2_t_2 = math.cos(r1_w2_integral)
 
         # slider_crank.bg:18: sqrt(l^2 - r^2*sin(Int(speed))^2)
         r1_w2_t_3 = math.sqrt(c.g_2 - c.g * r1_w2_t * r1_w2_t)
@@ -255,7 +259,7 @@ class Monitor:
         r1_w2_product_2 = s.speed * r1_w2_t * r1_w2_t * r1_w2_t_4
 
         # slider_crank.bg:18: r1_w2: input of stage 2
-        r1_w2_u2 = -c.r1_w2_v2_product * r1_w2_product - c.r1_w2_v2_product_2 * r1_w2_product_2
+        r1_w2_u2 = -c.r1_w2_product * r1_w2_product - c.r1_w2_product_2 * r1_w2_product_2
 
         # slider_crank.bg:18: r1_w2: stage 2, at rest
         r1_w2_y2 = r1_w2_u2
@@ -284,22 +288,22 @@ class Monitor:
         x = self._x
 
         # slider_crank.bg:18: r1_w1: input of stage 2
-        r1_w1_u2 = -c.r1_w1_v2_speed * s.speed
+        r1_w1_u2 = -c.r1_w1_speed * s.speed
 
         # slider_crank.bg:18: r1_w1: stage 2
-        r1_w1_y2 = x.r1_w1_s2 + c.b0 * r1_w1_u2
+        r1_w1_y2 = x.r1_w1_s2 + c.b * r1_w1_u2
 
         # slider_crank.bg:18: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b1 * r1_w1_u2
+        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b * r1_w1_u2
 
         # slider_crank.bg:18: r1_w1: input of stage 1
         r1_w1_u1 = r1_w1_y2
 
         # slider_crank.bg:18: r1_w1: stage 1
-        r1_w1_y1 = x.r1_w1_s1 + c.b0 * r1_w1_u1
+        r1_w1_y1 = x.r1_w1_s1 + c.b * r1_w1_u1
 
         # slider_crank.bg:18: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b1 * r1_w1_u1
+        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b * r1_w1_u1
 
         # slider_crank.bg:18: r1: what the tolerance of f can do
         r1_w1 = r1_w1_y1
@@ -310,11 +314,20 @@ class Monitor:
         # slider_crank.bg:18: integral of speed: memory
         x.r1_w2_q = r1_w2_int + c.half_time * s.speed
 
+        # slider_crank.bg:18: integral of speed
+        r1_w2_integral = (
+            r1_w2_int - c.half_twelfth * (3.0 * s.speed - 4.0 * x.r1_w2_rate1 + x.r1_w2_rate2)
+        )
+
+        # slider_crank.bg:18: integral of speed: memory
+        x.r1_w2_rate2 = x.r1_w2_rate1
+        x.r1_w2_rate1 = s.speed
+
         # slider_crank.bg:18: sin(Int(speed))
-        r1_w2_t = math.sin(r1_w2_int)
+        r1_w2_t = math.sin(r1_w2_integral)
 
         # slider_crank.bg:18: cos(Int(speed))
-        r1_w2_t_2 = math.cos(r1_w2_int)
+        r1_w2_t_2 = math.cos(r1_w2_integral)
 
         # slider_crank.bg:18: sqrt(l^2 - r^2*sin(Int(speed))^2)
         r1_w2_t_3 = math.sqrt(c.g_2 - c.g * r1_w2_t * r1_w2_t)
@@ -329,22 +342,22 @@ class Monitor:
         r1_w2_product_2 = s.speed * r1_w2_t * r1_w2_t * r1_w2_t_4
 
         # slider_crank.bg:18: r1_w2: input of stage 2
-        r1_w2_u2 = -c.r1_w2_v2_product * r1_w2_product - c.r1_w2_v2_product_2 * r1_w2_product_2
+        r1_w2_u2 = -c.r1_w2_product * r1_w2_product - c.r1_w2_product_2 * r1_w2_product_2
 
         # slider_crank.bg:18: r1_w2: stage 2
-        r1_w2_y2 = x.r1_w2_s2 + c.b0 * r1_w2_u2
+        r1_w2_y2 = x.r1_w2_s2 + c.b * r1_w2_u2
 
         # slider_crank.bg:18: r1_w2: stage 2: memory
-        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b1 * r1_w2_u2
+        x.r1_w2_s2 = c.a * r1_w2_y2 + c.b * r1_w2_u2
 
         # slider_crank.bg:18: r1_w2: input of stage 1
         r1_w2_u1 = r1_w2_y2
 
         # slider_crank.bg:18: r1_w2: stage 1
-        r1_w2_y1 = x.r1_w2_s1 + c.b0 * r1_w2_u1
+        r1_w2_y1 = x.r1_w2_s1 + c.b * r1_w2_u1
 
         # slider_crank.bg:18: r1_w2: stage 1: memory
-        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b1 * r1_w2_u1
+        x.r1_w2_s1 = c.a * r1_w2_y1 + c.b * r1_w2_u1
 
         # slider_crank.bg:18: r1: what the tolerance of c can do
         r1_w2 = r1_w2_y1
@@ -367,23 +380,3 @@ class Monitor:
         except (ArithmeticError, ValueError):
             self._age[0] = 0
             r.r1 = 0.0
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

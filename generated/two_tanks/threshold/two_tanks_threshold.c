@@ -30,39 +30,10 @@ static real signed_root(real value)
     return value < REAL(0.0) ? -MATH(sqrt)(-value) : MATH(sqrt)(value);
 }
 
-/* exp(value) to the last digit or two, without a library: 2^n times the series of the rest. */
-static real exponential(real value)
+/* The larger of two numbers. */
+static real greatest(real left, real right)
 {
-    const real ln2_high = REAL(0.693145751953125); /* few bits: n * ln2_high is exact */
-    const real ln2_low = REAL(1.4286068203094173e-06);
-    real rest;
-    real scale = REAL(1.0);
-    real sum = REAL(1.0);
-    int n = 0;
-    int k;
-
-    if (value > REAL(1000.0)) {
-        value = REAL(1000.0); /* more than enough for infinity */
-    }
-    if (value < REAL(-1000.0)) {
-        value = REAL(-1000.0); /* more than enough for zero */
-    }
-    rest = value;
-    while (rest > REAL(0.35)) {
-        ++n;
-        scale *= REAL(2.0);
-        rest = value - (real)n * ln2_high;
-    }
-    while (rest < REAL(-0.35)) {
-        --n;
-        scale *= REAL(0.5);
-        rest = value - (real)n * ln2_high;
-    }
-    rest -= (real)n * ln2_low;
-    for (k = 14; k > 0; --k) {
-        sum = REAL(1.0) + sum * rest / (real)k;
-    }
-    return sum * scale;
+    return right > left ? right : left;
 }
 
 uint32_t two_tanks_threshold_abi(void)
@@ -90,35 +61,26 @@ static void compute_coefficients(two_tanks_threshold_monitor *monitor,
     /* bandwidth*sample_time */
     const real x_ = bandwidth * sample_time;
 
-    /* exp(-x) */
-    const real t = exponential(-x_);
+    /* of a stage: what is left of its memory */
+    const real pole = greatest(REAL(2.0) - x_, REAL(0.0)) / (x_ + REAL(2.0));
 
-    /* if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ... */
-    const real t_2 = x_ < REAL(0.125)
-        ? x_ * (REAL(0.5)
-            - x_ * (REAL(1.0) / REAL(6.0)
-                - x_ * (REAL(1.0) / REAL(24.0)
-                    - x_ * (REAL(1.0) / REAL(120.0)
-                        - x_ * (REAL(1.0) / REAL(720.0) - x_ / REAL(5040.0))))))
-        : REAL(1.0) - (REAL(1.0) - t) / x_;
+    /* 1 - pole */
+    const real t = REAL(1.0) - pole;
 
-    /* two_tanks.bg:16: r1_w1: factor of ssqrt(p1 - p2) in stage 2 */
-    c->r1_w1_v2_ssqrt = p->k12 / REAL(20.0);
+    /* two_tanks.bg:16: r1_w1: factor of ssqrt(p1 - p2) */
+    c->r1_w1_ssqrt = p->k12 / REAL(20.0);
 
-    /* filter: exp(-bandwidth*sample_time) */
-    c->a = t;
+    /* filter: what is left of a memory a sample later */
+    c->a = pole;
 
-    /* filter: weight of the new sample */
-    c->b0 = t_2;
+    /* filter: weight of a sample, new and a sample later */
+    c->b = REAL(0.5) * t;
 
-    /* filter: weight of the sample before */
-    c->b1 = REAL(1.0) - t - t_2;
+    /* filter: 1 - b, the memory of a constant 1 */
+    c->rest = REAL(1.0) - REAL(0.5) * t;
 
-    /* filter: 1 - b0, the memory of a constant 1 */
-    c->rest = REAL(1.0) - t_2;
-
-    /* two_tanks.bg:16: r2_w2: factor of ssqrt(p2) in stage 2 */
-    c->r2_w2_v2_ssqrt = p->kout / REAL(20.0);
+    /* two_tanks.bg:16: r2_w2: factor of ssqrt(p2) */
+    c->r2_w2_ssqrt = p->kout / REAL(20.0);
 }
 
 static bool parameters_are_finite(const two_tanks_threshold_parameters *p)
@@ -128,8 +90,8 @@ static bool parameters_are_finite(const two_tanks_threshold_parameters *p)
 
 static bool coefficients_are_finite(const two_tanks_threshold_monitor *monitor)
 {
-    return finite_number(monitor->c.r1_w1_v2_ssqrt + monitor->c.a + monitor->c.b0 + monitor->c.b1
-            + monitor->c.rest + monitor->c.r2_w2_v2_ssqrt);
+    return finite_number(monitor->c.r1_w1_ssqrt + monitor->c.a + monitor->c.b + monitor->c.rest
+            + monitor->c.r2_w2_ssqrt);
 }
 
 /* Samples until `constants` time constants of the filter are over. */
@@ -205,7 +167,7 @@ static void start_r1(
     const real r1_w1_ssqrt = signed_root(s->p1 - s->p2);
 
     /* two_tanks.bg:16: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = -c->r1_w1_v2_ssqrt * r1_w1_ssqrt;
+    const real r1_w1_u2 = -c->r1_w1_ssqrt * r1_w1_ssqrt;
 
     /* two_tanks.bg:16: r1_w1: stage 2, at rest */
     const real r1_w1_y2 = r1_w1_u2;
@@ -240,22 +202,22 @@ static void next_r1(
     const real r1_w1_ssqrt = signed_root(s->p1 - s->p2);
 
     /* two_tanks.bg:16: r1_w1: input of stage 2 */
-    const real r1_w1_u2 = -c->r1_w1_v2_ssqrt * r1_w1_ssqrt;
+    const real r1_w1_u2 = -c->r1_w1_ssqrt * r1_w1_ssqrt;
 
     /* two_tanks.bg:16: r1_w1: stage 2 */
-    const real r1_w1_y2 = x->r1_w1_s2 + c->b0 * r1_w1_u2;
+    const real r1_w1_y2 = x->r1_w1_s2 + c->b * r1_w1_u2;
 
     /* two_tanks.bg:16: r1_w1: stage 2: memory */
-    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b1 * r1_w1_u2;
+    x->r1_w1_s2 = c->a * r1_w1_y2 + c->b * r1_w1_u2;
 
     /* two_tanks.bg:16: r1_w1: input of stage 1 */
     const real r1_w1_u1 = r1_w1_y2;
 
     /* two_tanks.bg:16: r1_w1: stage 1 */
-    const real r1_w1_y1 = x->r1_w1_s1 + c->b0 * r1_w1_u1;
+    const real r1_w1_y1 = x->r1_w1_s1 + c->b * r1_w1_u1;
 
     /* two_tanks.bg:16: r1_w1: stage 1: memory */
-    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b1 * r1_w1_u1;
+    x->r1_w1_s1 = c->a * r1_w1_y1 + c->b * r1_w1_u1;
 
     /* two_tanks.bg:16: r1: what the tolerance of k12 can do */
     const real r1_w1 = r1_w1_y1;
@@ -298,7 +260,7 @@ static void start_r2(
     const real r2_w1_ssqrt = signed_root(s->p1 - s->p2);
 
     /* two_tanks.bg:16: r2_w1: input of stage 2 */
-    const real r2_w1_u2 = c->r1_w1_v2_ssqrt * r2_w1_ssqrt;
+    const real r2_w1_u2 = c->r1_w1_ssqrt * r2_w1_ssqrt;
 
     /* two_tanks.bg:16: r2_w1: stage 2, at rest */
     const real r2_w1_y2 = r2_w1_u2;
@@ -322,7 +284,7 @@ static void start_r2(
     const real r2_w2_ssqrt = signed_root(s->p2);
 
     /* two_tanks.bg:16: r2_w2: input of stage 2 */
-    const real r2_w2_u2 = -c->r2_w2_v2_ssqrt * r2_w2_ssqrt;
+    const real r2_w2_u2 = -c->r2_w2_ssqrt * r2_w2_ssqrt;
 
     /* two_tanks.bg:16: r2_w2: stage 2, at rest */
     const real r2_w2_y2 = r2_w2_u2;
@@ -357,22 +319,22 @@ static void next_r2(
     const real r2_w1_ssqrt = signed_root(s->p1 - s->p2);
 
     /* two_tanks.bg:16: r2_w1: input of stage 2 */
-    const real r2_w1_u2 = c->r1_w1_v2_ssqrt * r2_w1_ssqrt;
+    const real r2_w1_u2 = c->r1_w1_ssqrt * r2_w1_ssqrt;
 
     /* two_tanks.bg:16: r2_w1: stage 2 */
-    const real r2_w1_y2 = x->r2_w1_s2 + c->b0 * r2_w1_u2;
+    const real r2_w1_y2 = x->r2_w1_s2 + c->b * r2_w1_u2;
 
     /* two_tanks.bg:16: r2_w1: stage 2: memory */
-    x->r2_w1_s2 = c->a * r2_w1_y2 + c->b1 * r2_w1_u2;
+    x->r2_w1_s2 = c->a * r2_w1_y2 + c->b * r2_w1_u2;
 
     /* two_tanks.bg:16: r2_w1: input of stage 1 */
     const real r2_w1_u1 = r2_w1_y2;
 
     /* two_tanks.bg:16: r2_w1: stage 1 */
-    const real r2_w1_y1 = x->r2_w1_s1 + c->b0 * r2_w1_u1;
+    const real r2_w1_y1 = x->r2_w1_s1 + c->b * r2_w1_u1;
 
     /* two_tanks.bg:16: r2_w1: stage 1: memory */
-    x->r2_w1_s1 = c->a * r2_w1_y1 + c->b1 * r2_w1_u1;
+    x->r2_w1_s1 = c->a * r2_w1_y1 + c->b * r2_w1_u1;
 
     /* two_tanks.bg:16: r2: what the tolerance of k12 can do */
     const real r2_w1 = r2_w1_y1;
@@ -381,22 +343,22 @@ static void next_r2(
     const real r2_w2_ssqrt = signed_root(s->p2);
 
     /* two_tanks.bg:16: r2_w2: input of stage 2 */
-    const real r2_w2_u2 = -c->r2_w2_v2_ssqrt * r2_w2_ssqrt;
+    const real r2_w2_u2 = -c->r2_w2_ssqrt * r2_w2_ssqrt;
 
     /* two_tanks.bg:16: r2_w2: stage 2 */
-    const real r2_w2_y2 = x->r2_w2_s2 + c->b0 * r2_w2_u2;
+    const real r2_w2_y2 = x->r2_w2_s2 + c->b * r2_w2_u2;
 
     /* two_tanks.bg:16: r2_w2: stage 2: memory */
-    x->r2_w2_s2 = c->a * r2_w2_y2 + c->b1 * r2_w2_u2;
+    x->r2_w2_s2 = c->a * r2_w2_y2 + c->b * r2_w2_u2;
 
     /* two_tanks.bg:16: r2_w2: input of stage 1 */
     const real r2_w2_u1 = r2_w2_y2;
 
     /* two_tanks.bg:16: r2_w2: stage 1 */
-    const real r2_w2_y1 = x->r2_w2_s1 + c->b0 * r2_w2_u1;
+    const real r2_w2_y1 = x->r2_w2_s1 + c->b * r2_w2_u1;
 
     /* two_tanks.bg:16: r2_w2: stage 1: memory */
-    x->r2_w2_s1 = c->a * r2_w2_y1 + c->b1 * r2_w2_u1;
+    x->r2_w2_s1 = c->a * r2_w2_y1 + c->b * r2_w2_u1;
 
     /* two_tanks.bg:16: r2: what the tolerance of kout can do */
     const real r2_w2 = r2_w2_y1;

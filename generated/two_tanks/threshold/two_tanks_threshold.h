@@ -32,7 +32,7 @@ typedef double two_tanks_threshold_real;
 /* Version of the structs and functions, and the size of a number. */
 #define TWO_TANKS_THRESHOLD_ABI (1u * 256u + (uint32_t)sizeof(two_tanks_threshold_real))
 /* Identifies the model and the options that this code was made from. */
-#define TWO_TANKS_THRESHOLD_DIGEST "34446326ab130f78"
+#define TWO_TANKS_THRESHOLD_DIGEST "37f5115aac4cace1"
 
 /* What the code was made for: arguments of two_tanks_threshold_configure, in s, rad/s and s. */
 #define TWO_TANKS_THRESHOLD_SAMPLE_TIME TWO_TANKS_THRESHOLD_CONSTANT(0.001)
@@ -84,12 +84,11 @@ typedef struct two_tanks_threshold_residuals {
 
 /* What configure computes from the parameters. */
 typedef struct two_tanks_threshold_coefficients {
-    two_tanks_threshold_real r1_w1_v2_ssqrt;  /* r1_w1: factor of ssqrt(p1 - p2) in stage 2 */
-    two_tanks_threshold_real a;               /* filter: exp(-bandwidth*sample_time) */
-    two_tanks_threshold_real b0;              /* filter: weight of the new sample */
-    two_tanks_threshold_real b1;              /* filter: weight of the sample before */
-    two_tanks_threshold_real rest;            /* filter: 1 - b0, the memory of a constant 1 */
-    two_tanks_threshold_real r2_w2_v2_ssqrt;  /* r2_w2: factor of ssqrt(p2) in stage 2 */
+    two_tanks_threshold_real r1_w1_ssqrt;  /* r1_w1: factor of ssqrt(p1 - p2) */
+    two_tanks_threshold_real a;            /* filter: what is left of a memory a sample later */
+    two_tanks_threshold_real b;            /* filter: weight of a sample, new and a sample later */
+    two_tanks_threshold_real rest;         /* filter: 1 - b, the memory of a constant 1 */
+    two_tanks_threshold_real r2_w2_ssqrt;  /* r2_w2: factor of ssqrt(p2) */
 } two_tanks_threshold_coefficients;
 
 /* What the filters remember from sample to sample. */

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "34446326ab130f78"
+DIGEST = "37f5115aac4cace1"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -64,12 +64,11 @@ class Residuals:
 class Coefficients:
     """What the monitor computes from the parameters."""
 
-    r1_w1_v2_ssqrt: float  # r1_w1: factor of ssqrt(p1 - p2) in stage 2
-    a: float               # filter: exp(-bandwidth*sample_time)
-    b0: float              # filter: weight of the new sample
-    b1: float              # filter: weight of the sample before
-    rest: float            # filter: 1 - b0, the memory of a constant 1
-    r2_w2_v2_ssqrt: float  # r2_w2: factor of ssqrt(p2) in stage 2
+    r1_w1_ssqrt: float  # r1_w1: factor of ssqrt(p1 - p2)
+    a: float            # filter: what is left of a memory a sample later
+    b: float            # filter: weight of a sample, new and a sample later
+    rest: float         # filter: 1 - b, the memory of a constant 1
+    r2_w2_ssqrt: float  # r2_w2: factor of ssqrt(p2)
 
 
 class Memory:
@@ -112,8 +111,7 @@ class Monitor:
         try:
             self._configure(p, sample_time, bandwidth)
             if not math.isfinite(
-                    self._c.r1_w1_v2_ssqrt + self._c.a + self._c.b0 + self._c.b1 + self._c.rest
-                    + self._c.r2_w2_v2_ssqrt
+                self._c.r1_w1_ssqrt + self._c.a + self._c.b + self._c.rest + self._c.r2_w2_ssqrt
             ):
                 raise ValueError("not finite")
         except (ArithmeticError, ValueError) as error:
@@ -160,34 +158,26 @@ class Monitor:
         # bandwidth*sample_time
         x_ = bandwidth * sample_time
 
-        # exp(-x)
-        t = _exponential(-x_)
+        # of a stage: what is left of its memory
+        pole = max(2.0 - x_, 0.0) / (x_ + 2.0)
 
-        # if(x < 0.125, x*(0.5 - x*(1/6 - x*(1/24 - x*(1/120 - x*(1/720 - x/5040))))), 1 - (1 - ...
-        t_2 = (
-            x_ * (0.5
-                - x_ * (1.0 / 6.0
-                    - x_ * (1.0 / 24.0 - x_ * (1.0 / 120.0 - x_ * (1.0 / 720.0 - x_ / 5040.0)))))
-            if x_ < 0.125 else 1.0 - (1.0 - t) / x_
-        )
+        # 1 - pole
+        t = 1.0 - pole
 
-        # two_tanks.bg:16: r1_w1: factor of ssqrt(p1 - p2) in stage 2
-        c.r1_w1_v2_ssqrt = p.k12 / 20.0
+        # two_tanks.bg:16: r1_w1: factor of ssqrt(p1 - p2)
+        c.r1_w1_ssqrt = p.k12 / 20.0
 
-        # filter: exp(-bandwidth*sample_time)
-        c.a = t
+        # filter: what is left of a memory a sample later
+        c.a = pole
 
-        # filter: weight of the new sample
-        c.b0 = t_2
+        # filter: weight of a sample, new and a sample later
+        c.b = 0.5 * t
 
-        # filter: weight of the sample before
-        c.b1 = 1.0 - t - t_2
+        # filter: 1 - b, the memory of a constant 1
+        c.rest = 1.0 - 0.5 * t
 
-        # filter: 1 - b0, the memory of a constant 1
-        c.rest = 1.0 - t_2
-
-        # two_tanks.bg:16: r2_w2: factor of ssqrt(p2) in stage 2
-        c.r2_w2_v2_ssqrt = p.kout / 20.0
+        # two_tanks.bg:16: r2_w2: factor of ssqrt(p2)
+        c.r2_w2_ssqrt = p.kout / 20.0
 
     def _start_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on its first sample: the filter as if it had always been so."""
@@ -198,7 +188,7 @@ class Monitor:
         r1_w1_ssqrt = _signed_root(s.p1 - s.p2)
 
         # two_tanks.bg:16: r1_w1: input of stage 2
-        r1_w1_u2 = -c.r1_w1_v2_ssqrt * r1_w1_ssqrt
+        r1_w1_u2 = -c.r1_w1_ssqrt * r1_w1_ssqrt
 
         # two_tanks.bg:16: r1_w1: stage 2, at rest
         r1_w1_y2 = r1_w1_u2
@@ -230,22 +220,22 @@ class Monitor:
         r1_w1_ssqrt = _signed_root(s.p1 - s.p2)
 
         # two_tanks.bg:16: r1_w1: input of stage 2
-        r1_w1_u2 = -c.r1_w1_v2_ssqrt * r1_w1_ssqrt
+        r1_w1_u2 = -c.r1_w1_ssqrt * r1_w1_ssqrt
 
         # two_tanks.bg:16: r1_w1: stage 2
-        r1_w1_y2 = x.r1_w1_s2 + c.b0 * r1_w1_u2
+        r1_w1_y2 = x.r1_w1_s2 + c.b * r1_w1_u2
 
         # two_tanks.bg:16: r1_w1: stage 2: memory
-        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b1 * r1_w1_u2
+        x.r1_w1_s2 = c.a * r1_w1_y2 + c.b * r1_w1_u2
 
         # two_tanks.bg:16: r1_w1: input of stage 1
         r1_w1_u1 = r1_w1_y2
 
         # two_tanks.bg:16: r1_w1: stage 1
-        r1_w1_y1 = x.r1_w1_s1 + c.b0 * r1_w1_u1
+        r1_w1_y1 = x.r1_w1_s1 + c.b * r1_w1_u1
 
         # two_tanks.bg:16: r1_w1: stage 1: memory
-        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b1 * r1_w1_u1
+        x.r1_w1_s1 = c.a * r1_w1_y1 + c.b * r1_w1_u1
 
         # two_tanks.bg:16: r1: what the tolerance of k12 can do
         r1_w1 = r1_w1_y1
@@ -278,7 +268,7 @@ class Monitor:
         r2_w1_ssqrt = _signed_root(s.p1 - s.p2)
 
         # two_tanks.bg:16: r2_w1: input of stage 2
-        r2_w1_u2 = c.r1_w1_v2_ssqrt * r2_w1_ssqrt
+        r2_w1_u2 = c.r1_w1_ssqrt * r2_w1_ssqrt
 
         # two_tanks.bg:16: r2_w1: stage 2, at rest
         r2_w1_y2 = r2_w1_u2
@@ -302,7 +292,7 @@ class Monitor:
         r2_w2_ssqrt = _signed_root(s.p2)
 
         # two_tanks.bg:16: r2_w2: input of stage 2
-        r2_w2_u2 = -c.r2_w2_v2_ssqrt * r2_w2_ssqrt
+        r2_w2_u2 = -c.r2_w2_ssqrt * r2_w2_ssqrt
 
         # two_tanks.bg:16: r2_w2: stage 2, at rest
         r2_w2_y2 = r2_w2_u2
@@ -334,22 +324,22 @@ class Monitor:
         r2_w1_ssqrt = _signed_root(s.p1 - s.p2)
 
         # two_tanks.bg:16: r2_w1: input of stage 2
-        r2_w1_u2 = c.r1_w1_v2_ssqrt * r2_w1_ssqrt
+        r2_w1_u2 = c.r1_w1_ssqrt * r2_w1_ssqrt
 
         # two_tanks.bg:16: r2_w1: stage 2
-        r2_w1_y2 = x.r2_w1_s2 + c.b0 * r2_w1_u2
+        r2_w1_y2 = x.r2_w1_s2 + c.b * r2_w1_u2
 
         # two_tanks.bg:16: r2_w1: stage 2: memory
-        x.r2_w1_s2 = c.a * r2_w1_y2 + c.b1 * r2_w1_u2
+        x.r2_w1_s2 = c.a * r2_w1_y2 + c.b * r2_w1_u2
 
         # two_tanks.bg:16: r2_w1: input of stage 1
         r2_w1_u1 = r2_w1_y2
 
         # two_tanks.bg:16: r2_w1: stage 1
-        r2_w1_y1 = x.r2_w1_s1 + c.b0 * r2_w1_u1
+        r2_w1_y1 = x.r2_w1_s1 + c.b * r2_w1_u1
 
         # two_tanks.bg:16: r2_w1: stage 1: memory
-        x.r2_w1_s1 = c.a * r2_w1_y1 + c.b1 * r2_w1_u1
+        x.r2_w1_s1 = c.a * r2_w1_y1 + c.b * r2_w1_u1
 
         # two_tanks.bg:16: r2: what the tolerance of k12 can do
         r2_w1 = r2_w1_y1
@@ -358,22 +348,22 @@ class Monitor:
         r2_w2_ssqrt = _signed_root(s.p2)
 
         # two_tanks.bg:16: r2_w2: input of stage 2
-        r2_w2_u2 = -c.r2_w2_v2_ssqrt * r2_w2_ssqrt
+        r2_w2_u2 = -c.r2_w2_ssqrt * r2_w2_ssqrt
 
         # two_tanks.bg:16: r2_w2: stage 2
-        r2_w2_y2 = x.r2_w2_s2 + c.b0 * r2_w2_u2
+        r2_w2_y2 = x.r2_w2_s2 + c.b * r2_w2_u2
 
         # two_tanks.bg:16: r2_w2: stage 2: memory
-        x.r2_w2_s2 = c.a * r2_w2_y2 + c.b1 * r2_w2_u2
+        x.r2_w2_s2 = c.a * r2_w2_y2 + c.b * r2_w2_u2
 
         # two_tanks.bg:16: r2_w2: input of stage 1
         r2_w2_u1 = r2_w2_y2
 
         # two_tanks.bg:16: r2_w2: stage 1
-        r2_w2_y1 = x.r2_w2_s1 + c.b0 * r2_w2_u1
+        r2_w2_y1 = x.r2_w2_s1 + c.b * r2_w2_u1
 
         # two_tanks.bg:16: r2_w2: stage 1: memory
-        x.r2_w2_s1 = c.a * r2_w2_y1 + c.b1 * r2_w2_u1
+        x.r2_w2_s1 = c.a * r2_w2_y1 + c.b * r2_w2_u1
 
         # two_tanks.bg:16: r2: what the tolerance of kout can do
         r2_w2 = r2_w2_y1
@@ -401,23 +391,3 @@ class Monitor:
 def _signed_root(value: float) -> float:
     """sign(value) * sqrt(|value|)"""
     return -math.sqrt(-value) if value < 0.0 else math.sqrt(value)
-
-
-def _exponential(value: float) -> float:
-    """exp(value), digit for digit as the C code does it: 2^n times the series of the rest."""
-    ln2_high = 0.693145751953125  # few bits: n * ln2_high is exact
-    ln2_low = 1.4286068203094173e-06
-    value = max(-1000.0, min(1000.0, value)) if value == value else value
-    n, scale, rest, sum_ = 0, 1.0, value, 1.0
-    while rest > 0.35:
-        n += 1
-        scale *= 2.0
-        rest = value - n * ln2_high
-    while rest < -0.35:
-        n -= 1
-        scale *= 0.5
-        rest = value - n * ln2_high
-    rest -= n * ln2_low
-    for k in range(14, 0, -1):
-        sum_ = 1.0 + sum_ * rest / k
-    return sum_ * scale

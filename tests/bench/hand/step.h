@@ -3,19 +3,19 @@
 #define HAND_STEP_H
 
 typedef struct hand_filter {
-    double a, b0, b1;
+    double a, b, bend; /* a stage, and (w T)^2/12 */
 } hand_filter;
 
 typedef struct hand_drive {
-    double e3, s3, x3, e2, s2, x2, e1, s1; /* r1: of We, Ws, Fx by stage */
-    double p3, p2, p1, px, pw, ge, gs;     /* r2: of Ws by stage, of Fx, of w */
-    double r1[3], r2[3], q;
+    double e0, s0, x0, e1, s1, x1, e2, s2; /* r1: of We, Ws, Fx by order */
+    double n, p1, p2, px, pw, ge, gs;      /* r2: of Ws by order, of Fx, of w */
+    double r1[3], r2[3], q, rate1, rate2;
     unsigned age1, age2;
 } hand_drive;
 
 typedef struct hand_robot {
     hand_filter f;
-    double half;
+    double half, slope; /* T/2 and T/24 */
     hand_drive drive[2];
     double r3;
     unsigned age3, settle3, settle1;

@@ -7,7 +7,6 @@ from math import inf
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
-from scipy.linalg import expm
 
 import bondgraph
 from bondgraph.ir.program import Const, Expression, Function, Product, Ref, Sum
@@ -108,23 +107,6 @@ model M {
         wrong = faulty.step({"y": level + 0.5}, {"on": on}).residuals["r1"]
     assert abs(calm) < 1e-9
     assert abs(wrong) == pytest.approx(0.5 / 2 * (1 if on else 2), rel=1e-6)
-
-
-@pytest.mark.parametrize("x", [1e-6, 0.02, 0.4, 2.9])
-def test_the_coupled_stages_are_those_of_the_matrix_exponential(x: float) -> None:
-    """Three stages y_k' = (y_(k-1) - y_k) with an input that goes from v to w in the time x."""
-    program = Compilation(Source("m.bg", CARRIAGE.text)).program
-    run = Sampled(program, bandwidth=x * program.rate)
-    n = 3
-    whole = np.zeros((n + 2, n + 2))  # the stages, then the input and its slope
-    whole[:n, :n] = np.eye(n, k=-1) - np.eye(n)
-    whole[0, n], whole[n, n + 1] = 1.0, 1.0
-    by_hand = expm(whole * x)
-    for q in range(n):
-        new = by_hand[q, n + 1] / x
-        assert run.coefs[f"m{q}"] == pytest.approx(by_hand[q, 0], rel=1e-12)
-        assert run.coefs[f"n{q}"] == pytest.approx(new, rel=2e-10 if x < 1e-3 else 1e-12)
-        assert run.coefs[f"o{q}"] == pytest.approx(by_hand[q, n] - new, rel=1e-9)
 
 
 def _at(value: Expression, u: float) -> float:

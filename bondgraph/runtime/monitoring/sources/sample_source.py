@@ -19,7 +19,10 @@ from bondgraph.text.tuples import NamedTuple
 IDLE = 0.2
 
 _ROUND = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)  # times a power of ten
-_NEAR = 0.02
+_CRYSTAL = 1e-4  # of a rate: no clock is nearer to the number on its label
+_SURE, _DIGITS = 1e-6, 9  # of a rate: nothing is told more exactly, nor with more digits
+_GAP = 3.5  # steps: what is longer is no few samples lost
+_LATE = 0.7  # steps that a sample may be late by before one before it counts as lost
 _FIRST = 1000  # samples whose rate is taken
 _FEW, _PAUSE = 20, 0.01  # blocks that wait so many s for more
 _LONGEST = 1 << 20  # bytes of a line that may be one
@@ -90,19 +93,44 @@ class Source(ABC):
 
 
 def rate_of(time: Array) -> float | None:
-    """Samples a second, of the first ones, at times in s; a round number if one is near.
+    """Samples a second, of the first ones, at times in s, as exactly as these tell it.
+
+    A round number that is as near as the digits and the jitter of the times leave open, or a
+    crystal, is the rate; else the number with the fewest digits that is as near as the times tell.
 
     >>> rate_of(np.array([0.0, 0.0101, 0.0199, 0.0301, 0.5]))
     100.0
+    >>> rate_of(np.round(np.arange(1000) / 610.35, 7))
+    610.35
     """
     steps = np.diff(time[:_FIRST])
     steps = steps[steps > 0.0]
     if len(steps) < 2:
         return None
-    rate = 1.0 / float(np.median(steps))
+    step, open_ = _step(steps)
+    rate = 1.0 / step
     power = 10.0 ** math.floor(math.log10(rate))
     near = min((m * power for m in _ROUND), key=lambda r: abs(r / rate - 1.0))
-    return near if abs(near / rate - 1.0) < _NEAR else float(f"{rate:.6g}")
+    if abs(near / rate - 1.0) <= max(open_, _CRYSTAL):
+        return near
+    told = (float(f"{rate:.{digits}g}") for digits in range(1, _DIGITS))
+    return next((r for r in told if abs(r / rate - 1.0) <= max(open_, _SURE)), rate)
+
+
+def _step(steps: Array) -> tuple[float, float]:
+    """The time between two samples, and which share of it the steps leave open.
+
+    Lost samples are counted, and gaps left out. The ends of all steps together are as uncertain as
+    the times differ from a uniform grid between them: for steps that are uncertain each by itself
+    three times the largest difference holds in 99 of 100 logs (a random walk and its bridge).
+    """
+    step = float(np.median(steps))
+    for _ in range(3):  # a clock of few digits has steps of two sizes, and their mean is the step
+        kept = steps[steps < _GAP * step]
+        counts = np.maximum(np.floor(kept / step + (1.0 - _LATE)), 1.0)
+        step = float(kept.sum() / counts.sum())
+    off = np.cumsum(kept - counts * step)
+    return step, 3.0 * float(np.max(np.abs(off))) / (step * float(counts.sum()))
 
 
 class Block(NamedTuple):

@@ -122,10 +122,31 @@ def test_the_rate_is_that_of_the_first_samples(
 
 
 @pytest.mark.parametrize(
-    ("true", "round_"), [(995.0, 1000.0), (1006.0, 1000.0), (0.1003, 0.1), (257.0, 257.0)]
+    ("true", "digits", "read"),
+    [
+        (995.0, 9, 995.0),  # the times tell that it is not 1000
+        (995.0, 3, 1000.0),  # each is a whole number of ms: here they cannot
+        (1000.05, 9, 1000.0),  # within the tolerance of a crystal
+        (610.35, 7, 610.35),
+        (610.35, 3, 600.0),  # 40 steps of 1 or 2 ms leave that open
+        (1 / 3, 6, 1 / 3),
+        (0.1, 0, 0.1),
+        (257.0, 12, 257.0),
+    ],
 )
-def test_a_rate_within_two_percent_of_a_round_one_is_that(true: float, round_: float) -> None:
-    assert rate_of(np.arange(40) / true) == pytest.approx(round_, rel=1e-12)
+def test_a_rate_is_as_exact_as_the_times_tell(true: float, digits: int, read: float) -> None:
+    found = rate_of(np.round(np.arange(40) / true, digits))
+    assert found == pytest.approx(read, rel=1e-6)
+
+
+def test_jitter_and_lost_samples_do_not_change_a_round_rate() -> None:
+    draw = np.random.default_rng(3)
+    for rate in (1.0, 50.0, 200.0):
+        grid = np.flatnonzero(draw.random(900) > 0.05) / rate  # one in twenty is lost
+        assert rate_of(grid) == rate
+        assert rate_of(grid + draw.uniform(-0.2, 0.2, len(grid)) / rate) == rate
+        walk = np.cumsum(draw.normal(1.0, 0.02, 500)) / rate  # each step is uncertain by itself
+        assert rate_of(walk) == pytest.approx(rate, rel=5e-3)
 
 
 def test_another_file_is_known_by_what_it_begins_with(
