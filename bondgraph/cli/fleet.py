@@ -51,11 +51,12 @@ def run(args: Namespace, tuning: Tuning | None, fault: int) -> int:
     from bondgraph.runtime.fleet.watched_log import BAD
     from bondgraph.runtime.fleet.watcher import digest
 
-    items = log_files(args.logs, note)
+    output = os.path.abspath(args.output) if args.output else None  # may be in a folder of logs
+    items = [item for item in log_files(args.logs, note) if item.path != output]
     if not items:
         raise Trouble(f"no log to watch in {listed(args.logs)}")
-    kept = KeptResults(args.output) if args.output else None
     settings = _settings(args, tuning)
+    kept = KeptResults(args.output) if args.output else None
     try:
         found = _found(args, settings, items, digest(settings), kept)
     except KeyboardInterrupt:
@@ -170,7 +171,7 @@ def _say_notes(logs: Iterable[WatchedLog]) -> None:
     said: dict[str, list[str]] = {}
     for log in logs:
         for text in dict.fromkeys(log.told):
-            said.setdefault(text.removeprefix(f"{os.path.abspath(log.log)}: "), []).append(log.log)
+            said.setdefault(text, []).append(log.log)
     for text, names in said.items():
         note(f"{listed(names, 'and', 4)}: {text}")
 

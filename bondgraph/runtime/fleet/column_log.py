@@ -59,9 +59,10 @@ def _columns(table: Any) -> dict[str, Any]:
     columns = {str(name): np.asarray(table[name]) for name in names}
     index = getattr(table, "index", None)
     if index is not None and not callable(index):
-        values, name = np.asarray(index), str(getattr(index, "name", None) or _INDEX)
-        if values.dtype.kind in "mM" or getattr(index, "name", None):
-            columns = {name: values} | columns
+        values, name = np.asarray(index), getattr(index, "name", None)
+        dates = values.dtype.kind in "mM" or isinstance(next(iter(values), None), datetime)
+        if dates or name is not None:
+            columns = {str(name or _INDEX): values} | columns
     return columns
 
 

@@ -121,7 +121,7 @@ class Extent:
         if not len(most) or most.max() < 0.0:
             return "", None
         at = int(most.argmax())
-        return self._residuals[at], round(float(most[at]), 3)
+        return self._residuals[at], float(f"{most[at]:.4g}")
 
     @property
     def unwatched(self) -> str:

@@ -124,7 +124,7 @@ class Watcher:
             heard.told += made.told
             heard.parts = parts._replace(
                 sinks=[lambda _, verdict: heard.said.append(verdict)],
-                note=heard.told.append,
+                note=lambda text: heard.told.append(text.removeprefix(f"{source.name}: ")),
                 states=heard.extent,
             )
             heard.monitor = Monitor(heard.parts, what_is_watched(compilation, engine))
