@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.watch_settings import WatchSettings
 
 _ALONE = ("follow", "serial", "mqtt", "journal", "publish", "states")
-_SHORTEST = 12  # letters of a cell that is cut
+_SHORTEST = 9  # letters of a cell that is cut
+_HEAD = ("log", "from", "to s", "lasts s", "verdict", "class", "since s", "worst")
 
 
 def wrong(args: Namespace) -> str:
@@ -183,10 +184,9 @@ def lines(model: str, logs: Sequence[WatchedLog], columns: int) -> list[str]:
     """The table of a fleet: a line for each log, its notes behind it or below where they fit."""
     from bondgraph.runtime.fleet.watched_log import BAD
 
-    head = ("log", "from s", "to s", "lasts s", "verdict", "class", "since s", "worst")
     rows = [_row(log, name) for log, name in zip(logs, _short([x.log for x in logs]), strict=True)]
-    table = console.columns(_fitting([head, *rows], columns))
-    notes = ["", *["" if x.state == BAD else ", ".join(x.notes) for x in logs]]
+    table = console.columns(_fitting([_HEAD, *rows], columns))
+    notes = ["", *["" if x.state == BAD else ", ".join(_notes(x)) for x in logs]]
     wide = max(len(line) for line in table) + 2
     beside = wide + max(len(text) for text in notes) <= columns
     out = [_message(model, logs), ""]
@@ -212,7 +212,7 @@ def _message(model: str, logs: Sequence[WatchedLog]) -> str:
 def _row(log: WatchedLog, name: str) -> tuple[str, ...]:
     span = ("", "", "")
     if log.start is not None and log.end is not None:
-        span = (f"{log.start:.3f}", f"{log.end:.3f}", f"{log.end - log.start:.1f}")
+        span = (f"{log.start:.1f}", f"{log.end:.1f}", f"{log.end - log.start:.1f}")
     alarm = log.last_alarm
     since = "" if alarm is None or alarm.since is None else f"{alarm.since:.3f}"
     worst = "" if log.level is None else f"{log.residual} {log.level:.2g}x"
@@ -220,11 +220,15 @@ def _row(log: WatchedLog, name: str) -> tuple[str, ...]:
 
 
 def _verdict(log: WatchedLog) -> str:
-    from bondgraph.runtime.fleet.watched_log import BAD, CLEARED
+    from bondgraph.runtime.fleet.watched_log import BAD
 
-    parts = [plural(log.alarms, "alarm")] if log.alarms else []
-    parts += [log.state] if not parts or log.state in (CLEARED, BAD) else []
-    return ", ".join(parts)
+    return plural(log.alarms, "alarm") if log.alarms and log.state != BAD else log.state
+
+
+def _notes(log: WatchedLog) -> tuple[str, ...]:
+    from bondgraph.runtime.fleet.watched_log import CLEARED
+
+    return (CLEARED, *log.notes) if log.state == CLEARED else log.notes
 
 
 def _class(log: WatchedLog) -> str:
@@ -248,10 +252,16 @@ def _short(names: Sequence[str]) -> list[str]:
 
 
 def _fitting(rows: list[tuple[str, ...]], columns: int) -> list[tuple[str, ...]]:
-    """Rows with names and classes cut as far as lines would be too long."""
+    """Rows with names and classes cut as far as lines would be too long.
+
+    Where that is not enough they do without the first and the last time.
+    """
     sizes = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     over = sum(sizes) + 2 * len(sizes) - columns
-    for k in (0, 5):  # the log, the class
+    cut = [_HEAD.index("log"), _HEAD.index("class")] if len(rows[0]) == len(_HEAD) else [0, 3]
+    if len(rows[0]) == len(_HEAD) and over > sum(max(0, sizes[k] - _SHORTEST) for k in cut):
+        return _fitting([(row[0], *row[3:]) for row in rows], columns)
+    for k in cut:
         room = max(min(sizes[k], _SHORTEST), sizes[k] - max(over, 0))
         over -= sizes[k] - room
         rows = [(*row[:k], _cut(row[k], room, k == 0), *row[k + 1 :]) for row in rows]

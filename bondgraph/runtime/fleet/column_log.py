@@ -80,7 +80,8 @@ def _stamps(column: Any) -> Array | None:
     """The times in s in a column of dates, of spans of time, or of texts; None in any other."""
     if column.dtype.kind in "mM":
         whole = column.astype(f"{column.dtype.kind}8[ns]").astype(np.int64)
-        return np.where(np.isnat(column), np.nan, whole / 1e9)
+        micro, nano = np.divmod(whole, 1000)  # a double has every microsecond of today
+        return np.where(np.isnat(column), np.nan, micro / 1e6 + nano / 1e9)
     if column.dtype.kind not in "OSU":
         return None
     times = [_stamp(cell) for cell in column.tolist()]

@@ -42,7 +42,11 @@ class Item(Protocol):
 
     @property
     def name(self) -> str:
-        """What it is called in verdicts and tables."""
+        """What it is called in tables."""
+
+    @property
+    def path(self) -> str:
+        """What it is called in verdicts."""
 
     def source(self, form: Form) -> Source:
         """Its samples; raises LogError."""
@@ -77,6 +81,11 @@ class LogTable(NamedTuple):
     name: str
     log: Log
 
+    @property
+    def path(self) -> str:
+        """See `Item`."""
+        return self.name
+
     def source(self, form: Form) -> Source:
         """See `Item`."""
         return LoadedLog(self.name, self.log)
@@ -103,14 +112,14 @@ class Watcher:
         try:
             self._watch(item, heard)
         except (Trouble, CompileError) as trouble:
-            error = _without_place(trouble, item.name)
+            error = _without_place(trouble, item)
         except OSError as trouble:
             error = f"cannot be read: {trouble.strerror or trouble}"
         except Exception as trouble:
             what = f"the watch failed: {type(trouble).__name__}: {trouble}"
             help = "`bondgraph monitor` on this log alone says more with BONDGRAPH_TRACEBACK=1"
             error = f"{what}; {help}"
-        return heard.result(item.name, error)
+        return heard.result(item.name, "".join(c if c.isprintable() else " " for c in error))
 
     def _watch(self, item: Item, heard: _Heard) -> None:
         settings = self._settings
@@ -210,11 +219,9 @@ def _hash(*parts: str) -> str:
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:32]
 
 
-def _without_place(error: Exception, name: str) -> str:
+def _without_place(error: Exception, item: Item) -> str:
     """What is wrong, without the name of the log, which stands beside it."""
-    if not isinstance(error, LogError):
-        return str(error)
-    if os.path.abspath(error.path) != os.path.abspath(name):
+    if not isinstance(error, LogError) or error.path not in (item.name, item.path):
         return str(error)
     line = "" if error.line is None else f"line {error.line}: "
     return f"{line}{error.message}" + (f"; {error.help}" if error.help else "")
