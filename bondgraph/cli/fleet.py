@@ -7,7 +7,7 @@ import sys
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
-from bondgraph import Options
+from bondgraph import Options, __version__
 from bondgraph.cli import console
 from bondgraph.cli.log_options import form_of, note, operating_of
 from bondgraph.cli.options import realising
@@ -59,7 +59,7 @@ def run(args: Namespace, tuning: Tuning | None, fault: int) -> int:
     settings = _settings(args, tuning)
     kept = KeptResults(args.output) if args.output else None
     try:
-        found = _found(args, settings, items, digest(settings), kept)
+        found = _found(args, settings, items, digest(settings, __version__), kept)
     except KeyboardInterrupt:
         if kept is not None:
             print(f"what is done is kept in {kept.folder}: start again to go on", file=sys.stderr)

@@ -12,7 +12,6 @@ from functools import lru_cache
 from threading import Lock
 from typing import Protocol
 
-from bondgraph import __version__
 from bondgraph.runtime.fleet.watched_log import Extent, WatchedLog
 from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_numbers import Form
@@ -199,11 +198,14 @@ def _watcher(settings: bytes) -> Watcher:
     return Watcher(pickle.loads(settings))
 
 
-def digest(settings: WatchSettings) -> str:
-    """By what settings are known again: model, options, tuning, and what is done with columns."""
+def digest(settings: WatchSettings, version: str) -> str:
+    """By what settings are known again: model, options, tuning, and what is done with columns.
+
+    And the `version` of the program that does it.
+    """
     c, tuning = settings.compilation, settings.tuning
     return _hash(
-        __version__,
+        version,
         c.source.text,
         c.program.digest,
         "" if c.thresholds is None else c.thresholds.digest,
