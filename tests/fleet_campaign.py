@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -162,6 +163,12 @@ def scheduler(folder: Path) -> Iterator[str]:
         yield address
 
 
+def processors() -> float:
+    """Seconds that processors have worked for processes that have ended, killed ones aside."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def right(motors: Sequence[Motor], logs: Sequence[WatchedLog]) -> list[tuple[str, int, int]]:
     """For each kind of log how many there are, and of how many what was said is right."""
     found: dict[str, list[bool]] = {}
@@ -207,9 +214,7 @@ def campaign(folder: Path, outputs: Path, motors: Sequence[Motor]) -> Iterator[s
 
     def on(cluster: Callable[[], object], output: Path) -> float:
         with cluster() as address:  # type: ignore[attr-defined]
-            start = time.monotonic()
-            watch(folder, output, "--scheduler", address)
-            return time.monotonic() - start
+            return timed(lambda: watch(folder, output, "--scheduler", address))
 
     def timed(what: Callable[[], None]) -> float:
         start = time.monotonic()
@@ -227,17 +232,19 @@ def campaign(folder: Path, outputs: Path, motors: Sequence[Motor]) -> Iterator[s
         "Dask, a scheduler and two workers": lambda o: on(lambda: scheduler(outputs), o),
     }
     seconds = sum(m.seconds for m in motors[:-_DAMAGED])
-    yield "| watched by | s | s of log in one | output |"
-    yield "|---|---|---|---|"
+    yield "| watched by | s | s of log in one | s of processors | output |"
+    yield "|---|---|---|---|---|"
     first: bytes | None = None
     output = outputs / "none.parquet"
     for k, (name, way) in enumerate(ways.items()):
         if "once more" not in name:  # which is about the output of the one before
             output = outputs / f"verdicts{k}.parquet"
+        before = processors()
         took = way(output)
         first = first or output.read_bytes()
         same = "the same" if output.read_bytes() == first else "differs"
-        yield f"| {name} | {took:.1f} | {seconds / took:.0f} | {same} |"
+        worked = processors() - before
+        yield f"| {name} | {took:.1f} | {seconds / took:.0f} | {worked:.1f} | {same} |"
     yield ""
     yield "| logs | number | right |"
     yield "|---|---|---|"

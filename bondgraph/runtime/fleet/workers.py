@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 Result = tuple[int, WatchedLog]
 
 _PATIENCE = 10  # s in which a scheduler has to answer
+#: Threads of numeric libraries: those of several processes would only wait for each other.
+_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 _DIED = "the process that watched it died, perhaps for want of memory"
 
 
@@ -94,10 +96,14 @@ def _processes(jobs: int) -> Iterator[Executor]:
     context = multiprocessing.get_context("spawn")
     reading, writing = context.Pipe(duplex=False)
     executor = ProcessPoolExecutor(jobs, context, _begin, (reading,))
+    added = [name for name in _THREADS if name not in os.environ]
+    os.environ.update(dict.fromkeys(added, "1"))  # read when numpy is loaded, before `_begin`
     try:
         yield executor
         executor.shutdown()
     finally:
+        for name in added:
+            os.environ.pop(name, None)
         writing.close()
         executor.shutdown(cancel_futures=True)
         reading.close()

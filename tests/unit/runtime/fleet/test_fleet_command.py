@@ -18,6 +18,7 @@ import pyarrow.parquet
 import pytest
 
 from bondgraph.cli.fleet import lines
+from bondgraph.cli.monitor import Alarms
 from bondgraph.runtime.fleet.watched_log import WatchedLog
 from bondgraph.runtime.monitoring.verdict import Pair, Verdict
 from tests.unit.runtime.fleet.conftest import Monitored
@@ -136,6 +137,18 @@ def test_nothing_but_bad_logs_is_a_failure(bad_logs: Path, monitored: Monitored)
     Path("nothing").mkdir()
     done = monitored("nothing")
     assert done.status == 1 and "no log to watch in nothing" in done.err
+
+
+def test_a_fault_that_was_latched_before_a_restart_is_an_alarm() -> None:
+    for verdict, alarm in (
+        (Verdict("resumed", 5.0, 3.0), True),
+        (Verdict("resumed", 5.0), False),
+        (Verdict("warm-up", 5.0), False),
+        (Verdict("fault", 5.0, 3.0), True),
+    ):
+        alarms = Alarms()
+        alarms(1, verdict)
+        assert alarms.any == alarm
 
 
 def test_fail_on_fault(logs: Path, monitored: Monitored) -> None:
