@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from bondgraph.backends.write import ForeignFiles
     from bondgraph.pipeline import Compilation, Options, compile
     from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
+    from bondgraph.runtime.fleet.monitor_logs import Fleet, monitor
     from bondgraph.runtime.log import Log
     from bondgraph.runtime.monitoring.native import NativeError
     from bondgraph.runtime.simulation.integrate import SimulationError
@@ -37,6 +38,7 @@ _FROM = {
     "backends.write": ("ForeignFiles",),
     "pipeline": ("Compilation", "Options", "compile"),
     "runtime.diagnosis.tuning": ("Limit", "Tuning"),
+    "runtime.fleet.monitor_logs": ("Fleet", "monitor"),
     "runtime.log": ("Log",),
     "runtime.monitoring.native": ("NativeError",),
     "runtime.simulation.integrate": ("SimulationError",),
@@ -53,6 +55,7 @@ __all__ = [
     "Controller",
     "Course",
     "Fault",
+    "Fleet",
     "ForeignFiles",
     "Instrument",
     "Limit",
@@ -66,6 +69,7 @@ __all__ = [
     "Source",
     "Tuning",
     "compile",
+    "monitor",
 ]
 __version__ = "0.1.0"
 

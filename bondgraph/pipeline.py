@@ -144,6 +144,11 @@ class Compilation:
     if not TYPE_CHECKING:
         __getattr__ = by_new_name
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """So that another process, in another folder too, can compile the same model."""
+        source = Source(os.path.abspath(self.source.path), self.source.text)
+        return type(self), (source, self.model, self.options)
+
     def __repr__(self) -> str:
         """Model, elements, sensors and residuals as far as they are known; computes nothing."""
         graph, found = vars(self).get("graph"), vars(self).get("_analysis")

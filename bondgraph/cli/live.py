@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from bondgraph import Options
 from bondgraph.cli import monitor
-from bondgraph.cli.log_options import operating_of
+from bondgraph.cli.log_options import note, operating_of
 from bondgraph.cli.options import isolating, positive, realised, realising
 from bondgraph.cli.residual_units import residual_units
 from bondgraph.ir.expr import symbols
@@ -146,11 +146,12 @@ def setup_of(args: Namespace, compilation: Compilation, scenario: Scenario) -> S
     from bondgraph.runtime.monitoring.clock import clock_of
     from bondgraph.runtime.monitoring.columns import Columns, read_map
     from bondgraph.runtime.monitoring.mqtt_client import address
+    from bondgraph.runtime.monitoring.watch_settings import watching
     from bondgraph.runtime.simulation.parameters import Values
 
     graph = compilation.graph
     tuning = monitor.read_tuning(args.tuning) if args.tuning else None
-    engine, decided = monitor.watching(compilation, tuning)
+    engine, decided = watching(compilation, tuning, note)
     values = Values(graph, scenario.parameters)
     turns = {s.name: values.number(s.counts) for s in graph.sensors if s.counts is not None}
     wide = Wide(engine, further(graph, engine, turns))

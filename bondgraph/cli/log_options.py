@@ -61,6 +61,11 @@ def operating_of(
     return None if args.operating is None else Operating(args.operating, mapping, name)
 
 
+def note(text: str) -> None:
+    """Say something on the error stream that is no result."""
+    print(f"note: {text}", file=sys.stderr)
+
+
 def read_logs(args: Namespace) -> list[tuple[str, Log]]:
     """The logs that the arguments name, each with its name."""
     from bondgraph.runtime.log_file import read_form
@@ -74,5 +79,5 @@ def times_of(logs: list[tuple[str, Log]]) -> dict[str, str]:
 
     times = {name: log.meta[TIME] for name, log in logs if TIME in log.meta}
     for name, time in times.items():
-        print(f"note: {name}: time is {time}", file=sys.stderr)
+        note(f"{name}: time is {time}")
     return times

@@ -8,9 +8,9 @@ from contextlib import closing, contextmanager, nullcontext
 from typing import TYPE_CHECKING
 
 from bondgraph import Options
-from bondgraph.cli import console
-from bondgraph.cli.log_options import form_of, logged, operating_of
-from bondgraph.cli.options import isolating, positive, realised, realising
+from bondgraph.cli import console, fleet
+from bondgraph.cli.log_options import form_of, logged, note
+from bondgraph.cli.options import count, isolating, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 
@@ -23,9 +23,11 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
     from bondgraph.runtime.monitoring.mqtt_client import Address, Publisher
-    from bondgraph.runtime.monitoring.sample_pipeline import Decision, Stop
+    from bondgraph.runtime.monitoring.sample_pipeline import Stop
     from bondgraph.runtime.monitoring.sources.sample_source import Source
     from bondgraph.runtime.monitoring.verdict import Verdict
+
+FAULT = 3  # the exit status of --fail-on-fault
 
 _COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "invalid": "33", "gap": "33"}
 
@@ -34,8 +36,9 @@ def arguments(parser: ArgumentParser) -> None:
     """The arguments of `monitor`."""
     add = parser.add_argument
     add("model", metavar="MODEL", help="file.bg or file.bg:Name")
-    add("log", metavar="LOG", nargs="?",
-        help="samples: a .csv or .parquet file, or - for standard input (default)")  # fmt: skip
+    add("logs", metavar="LOG", nargs="*",
+        help="samples: a .csv or .parquet file, or - for standard input (default); several, a"
+        " folder or a pattern are a fleet (docs/fleets.md)")  # fmt: skip
     sampled(add)
     isolating(parser)
     realised(parser)
@@ -47,6 +50,12 @@ def arguments(parser: ArgumentParser) -> None:
     add("--states", metavar="FILE",
         help="a row for each sample: residuals, thresholds, states, class (.csv or"
         " .parquet)")  # fmt: skip
+    add("--fail-on-fault", action="store_true", help="exit status 3 if there was an alarm")
+    add("-o", "--output", metavar="FILE", help="of a fleet: write a row for each verdict (.csv or"
+        " .parquet), and watch only what is not in it")  # fmt: skip
+    add("--jobs", metavar="N", type=count, help="of a fleet: so many processes (default: 1)")
+    add("--scheduler", metavar="ADDRESS",
+        help="of a fleet: the workers of this Dask scheduler watch")  # fmt: skip
 
 
 def sampled(add: Callable[..., object]) -> None:
@@ -67,12 +76,17 @@ def sampled(add: Callable[..., object]) -> None:
 
 def run(args: Namespace) -> int:
     """Open the source, compile, watch."""
+    from bondgraph.runtime.fleet.log_paths import many
     from bondgraph.runtime.monitoring.mqtt_client import address
 
-    wrong = _wrong(args)
+    several = many(args.logs) or bool(args.output or args.jobs or args.scheduler)
+    args.log = args.logs[0] if args.logs else None
+    wrong = fleet.wrong(args) if several else _wrong(args)
     if wrong:
         print(f"error: {wrong}", file=sys.stderr)
         return 2
+    if several:
+        return fleet.run(args, read_tuning(args.tuning) if args.tuning else None, FAULT)
     try:
         samples = address(args.mqtt) if args.mqtt else None
         verdicts = _publish_to(args.publish, samples)
@@ -111,45 +125,58 @@ def _publish_to(text: str | None, samples: Address | None) -> Address | None:
 
 def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     from bondgraph.runtime.diagnosis.tuning import bandwidth_for
-    from bondgraph.runtime.monitoring.clock import clock_of
-    from bondgraph.runtime.monitoring.columns import Columns, read_map
+    from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.journal import known_rate
-    from bondgraph.runtime.monitoring.sample_pipeline import Monitor, Parts
+    from bondgraph.runtime.monitoring.sample_pipeline import Monitor
     from bondgraph.runtime.monitoring.states import states_file
+    from bondgraph.runtime.monitoring.watch_settings import (
+        WatchSettings,
+        sample_rate,
+        watching,
+        what_is_watched,
+    )
 
     known = known_rate(args.journal) if args.journal else None
     tuning = read_tuning(args.tuning) if args.tuning else None
-    rate = args.rate or known or source.rate() or (tuning.rate if tuning else Options().rate)
-    samples = None if args.journal else source.samples()  # with a journal it may grow
-    bandwidth = args.bandwidth or bandwidth_for(rate, samples)
+    rate = sample_rate(args.rate or known, source, tuning, Options().rate)
+    bandwidth = args.bandwidth
+    if bandwidth is None and tuning is None:  # with a journal the log may grow
+        bandwidth = bandwidth_for(rate, None if args.journal else source.samples())
     compilation = realising(args, rate=rate, bandwidth=bandwidth)
-    engine, decided = watching(compilation, tuning)
+    engine, decided = watching(compilation, tuning, note)
     mapping = read_map(args.map, engine.signals) if args.map else None
     journal = _journal(args.journal, compilation, source, engine)
-    parts = Parts(
-        source,
-        Columns(engine.signals, mapping, source.name),
-        clock_of(engine),
-        engine,
-        decided(engine),
-        [_printer(args.lines)],
-        _publisher(verdicts, args.journal, journal),
-        journal,
-        operating_of(args, mapping, source.name),
-        _note,
-        args.rate is not None,
+    form = form_of(args, source.name)
+    settings = WatchSettings(compilation, tuning, form, mapping, args.operating)
+    alarms = Alarms()
+    parts = settings.parts(source, engine, decided(engine))._replace(
+        sinks=[_printer(args.lines), alarms],
+        publisher=_publisher(verdicts, args.journal, journal),
+        journal=journal,
+        note=note,
     )
-    watched = len(compilation.diagnosis_model.sees)
-    what = f"{compilation.graph.name}: {plural(watched, 'residual')}"
-    what += f" at {1 / engine.sample_time:g} samples a second"
     kept = states_file(args.states, engine.residuals) if args.states else nullcontext()
     with kept as states, _stop() as stop:
-        untaken = Monitor(parts._replace(states=states), what).run(stop)
+        monitor = Monitor(parts._replace(states=states), what_is_watched(compilation, engine))
+        untaken = monitor.run(stop)
     if untaken:
         how = "they are sent after the next start" if args.journal else "--journal would keep them"
         what = plural(untaken, "verdict")
         print(f"note: the broker has not taken {what}; {how}", file=sys.stderr)
-    return 0
+    return FAULT if args.fail_on_fault and alarms.any else 0
+
+
+class Alarms:
+    """Hears whether there was an alarm, or one that was latched before a restart."""
+
+    def __init__(self) -> None:
+        self.any = False
+
+    def __call__(self, number: int, verdict: Verdict) -> None:
+        """One more verdict."""
+        self.any |= verdict.event == "fault" or (
+            verdict.event == "resumed" and verdict.since is not None
+        )
 
 
 def source(args: Namespace, samples: Address | None) -> Source:
@@ -164,33 +191,6 @@ def source(args: Namespace, samples: Address | None) -> Source:
     if args.serial:
         return SerialPort(args.serial, args.baud, form)
     return Pipe(form) if name == "-" else file_source(name, form, args.follow)
-
-
-def watching(
-    compilation: Compilation, tuning: Tuning | None
-) -> tuple[Engine, Callable[[Engine], Decision]]:
-    """The engine of a watch, and what makes the decision of one.
-
-    Raises Trouble where there is nothing to watch, or where the tuning is of something else.
-    """
-    try:
-        engine = compilation.engine(tell=_note)
-    except ValueError as error:
-        raise Trouble(str(error)) from error
-    if not compilation.diagnosis_model.sees:
-        raise Trouble(f"{compilation.graph.name} has no residual that could be watched")
-    if tuning is not None:
-        engine = engine.configured(bandwidth=tuning.bandwidth)
-    try:
-        compilation.diagnosis(engine, tuning)
-    except ValueError as error:
-        message = f"the tuning cannot be used: {error}; make it anew with `bondgraph tune`"
-        raise Trouble(message) from error
-    return engine, lambda own: compilation.diagnosis(own, tuning)
-
-
-def _note(text: str) -> None:
-    print(f"note: {text}", file=sys.stderr)
 
 
 def read_tuning(path: str) -> Tuning:

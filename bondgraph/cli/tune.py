@@ -61,13 +61,15 @@ def arguments(parser: ArgumentParser) -> None:
 def run(args: Namespace) -> int:
     """Learn, choose a bandwidth, write the limits, say what follows."""
     from bondgraph.runtime.diagnosis.calibration import tune
+    from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 
     if bool(args.logs) == bool(args.simulate):
         raise Trouble("healthy samples come from LOG files or from --simulate SCENARIO")
     try:
         compilation, engine, logs, times = _logs(args)
-        wanted = args.bandwidth or _wanted(engine, logs)
-        window = args.window or _WINDOW / engine.bandwidth
+        usual = bandwidth_for(1.0 / engine.sample_time, max(map(len, logs), default=0))
+        wanted = args.bandwidth or _wanted(engine, usual, logs)
+        window = args.window or _WINDOW / usual
         found = []
         with console.progress_bar("tuning") as progress:
             for k, bandwidth in enumerate(wanted):
@@ -95,14 +97,14 @@ def run(args: Namespace) -> int:
     )
 
 
-def _wanted(engine: Engine, logs: list[Array]) -> list[float]:
+def _wanted(engine: Engine, usual: float, logs: list[Array]) -> list[float]:
     """The bandwidths to try: samples can follow them, and the logs are long enough for them."""
     longest = max((len(log) for log in logs), default=0) * engine.sample_time
-    tried = [f * engine.bandwidth for f in _FACTORS]
+    tried = [f * usual for f in _FACTORS]
     fits = [w for w in tried
             if w * engine.sample_time <= _FASTEST
             and longest >= engine.configured(bandwidth=w).warm_up + 3.0 * _LEAST / w]  # fmt: skip
-    return fits or [engine.bandwidth]
+    return fits or [usual]
 
 
 def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[float], None]:
@@ -111,7 +113,6 @@ def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[fl
 
 def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, str]]:
     """The model, an engine of it, what it reads from each log, on its grid, and by what time."""
-    from bondgraph.runtime.diagnosis.tuning import bandwidth_for
     from bondgraph.runtime.monitoring.clock import stretches
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
@@ -133,8 +134,7 @@ def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, 
     else:
         read = read_logs(args)
         rate = args.rate or rate_of(read[0][1].time) or Options().rate
-        longest = max(log.rows for _, log in read)
-        compilation = realising(args, rate=rate, bandwidth=bandwidth_for(rate, longest))
+        compilation = realising(args, rate=rate)
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
     times = times_of(read)

@@ -28,7 +28,8 @@ COMMANDS = {
 
 _EPILOG = """\
 MODEL is a file, or file.bg:Name for one of the models in it.
-Exit status: 0 done, 1 the model is wrong or cannot be solved at all, 2 wrong usage.
+Exit status: 0 done, 1 the model is wrong or cannot be solved at all, 2 wrong usage, 3 an alarm
+(`monitor --fail-on-fault`).
 `bondgraph COMMAND --help` says more; docs/cli.md says all.
 """
 

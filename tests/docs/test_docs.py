@@ -12,8 +12,10 @@ from pathlib import Path
 import pytest
 
 import bondgraph
+from bondgraph.cli.main import main
 from bondgraph.cli.summary import report
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.log_file import write_log
 from bondgraph.text.source import Source
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -166,3 +168,32 @@ def test_the_page_about_python_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     done = doctest.testfile(str(ROOT / "docs" / "python.md"), module_relative=False)
     assert done.attempted > 20
     assert done.failed == 0
+
+
+def test_the_page_about_fleets_runs_and_shows_what_is_printed(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    update: bool,
+) -> None:
+    page = ROOT / "docs" / "fleets.md"
+    text = page.read_text(encoding="utf-8")
+    monkeypatch.chdir(ROOT)
+    example = doctest.DocTestParser().get_doctest(text, {}, page.name, str(page), 0)
+    done = doctest.DocTestRunner().run(example, clear_globs=False)
+    assert done.attempted > 10 and done.failed == 0
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "100")
+    Path("models").symlink_to(ROOT / "models")
+    Path("runs").mkdir()
+    for name, log in example.globs["runs"].items():
+        write_log(log, f"runs/{name}.csv")
+    Path("runs/press4.csv").write_text("t,U\n" + "".join(f"{k},6\n" for k in range(9)))
+    shown = next(t for _, t in _FENCE.findall(text) if t.startswith("$ bondgraph monitor"))
+    words = shown.splitlines()[0].split()[2:]
+    assert main(words) == 0
+    actual = f"{shown.splitlines()[0]}\n{capsys.readouterr().out}"
+    if update:
+        replaced(page, shown, actual)
+    else:
+        assert shown == actual

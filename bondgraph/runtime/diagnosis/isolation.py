@@ -36,7 +36,7 @@ class Explained(NamedTuple):
     `evidence` is the logarithm of how much more probable it makes that than a healthy machine
     does. `change` is that of the one of its hypotheses that explains most by itself, at the end,
     with its deviation. `left` is what is left of the misfit (in squares of the noise), for each of
-    the `values` that were compared.
+    the `values` that were compared, `share` how much of the healthy machine's it takes away.
     """
 
     fault: str
@@ -46,6 +46,7 @@ class Explained(NamedTuple):
     deviation: float
     left: float = 0.0
     values: int = 1
+    share: float = 1.0
 
 
 class ExplainedPair(NamedTuple):
@@ -255,6 +256,7 @@ class _Fit(NamedTuple):
     changes: Array
     deviations: Array
     left: float
+    share: float
 
 
 def _compared(
@@ -268,7 +270,9 @@ def _compared(
     hypothesis, chosen = own[best], tops[best]
     change, deviation = (float(x[0]) * hypothesis.usual
                          for x in (chosen.changes, chosen.deviations))  # fmt: skip
-    return Explained(hypothesis.fault, _mean(fits), hypothesis, change, deviation, top.left)
+    return Explained(
+        hypothesis.fault, _mean(fits), hypothesis, change, deviation, top.left, share=top.share
+    )
 
 
 def _mean(fits: Sequence[_Fit]) -> float:
@@ -310,7 +314,8 @@ def _instead(hypothesis: Hypothesis, known: Array, told: Array, other: Array) ->
     misfit, left = (float(np.square(root[rest:, rest]).sum()) for root in (before, after))
     size, others = (np.log(np.abs(np.diagonal(root)[:rest])).sum() for root in (before, after))
     evidence = 0.5 * (misfit - left) + float(size - others)
-    return Explained(hypothesis.fault, evidence, hypothesis, 1.0, 0.0, left)
+    share = 1.0 - left / misfit if misfit > 0 else 0.0
+    return Explained(hypothesis.fault, evidence, hypothesis, 1.0, 0.0, left, share=share)
 
 
 def _either(ways: Sequence[Explained]) -> Explained:
@@ -336,11 +341,13 @@ def _scaled(left: Array, last: Array) -> list[_Fit]:
     ends = scales * last.T
     spread = np.linalg.solve(root.transpose(0, 2, 1), ends)
     size = np.abs(np.diagonal(root, axis1=1, axis2=2))
+    misfit = float(np.square(left[:, -1]).sum())
     rest = np.square(seen - moved @ changes).sum(axis=(1, 2))
     evidence = 0.5 * np.square(part).sum(axis=(1, 2)) - np.log(size).sum(axis=1)
     change = (ends * changes).sum(axis=1)
     deviation = np.sqrt(np.square(spread).sum(axis=1))
-    found = zip(evidence.tolist(), change, deviation, rest.tolist(), strict=True)
+    share = 1.0 - rest / misfit if misfit > 0 else np.zeros(len(_SCALES))
+    found = zip(evidence.tolist(), change, deviation, rest.tolist(), share.tolist(), strict=True)
     return [_Fit(*numbers) for numbers in found]
 
 

@@ -17,6 +17,7 @@ from bondgraph.runtime.diagnosis.naming import (
     candidates,
     classes,
     explains,
+    fits,
     named,
     news,
     pairs_left,
@@ -156,12 +157,14 @@ class Judge:
         if group and not sure and self.latched.said is None and self._after == _JUDGE:
             return None  # the next row may confirm it
         pairs: Sequence[ExplainedPair] = ()
-        if explains(found):
-            self._best = _larger(self._best, max(found, key=lambda e: e.evidence))
-        else:
-            if self._after < _UNEXPLAINED:
-                return None
+        most = max(found, key=lambda e: e.evidence, default=None)
+        if most is not None and explains(found):
+            self._best = _larger(self._best, most)
+        elif self._after < _UNEXPLAINED:
+            return None
+        if most is not None and not fits(most) and self._after >= _UNEXPLAINED:
             pairs = self._two_at_once(found, history, levels)
+            sure = () if pairs else sure
         doubles = model.doubles() if pairs else None
         verdict = update(time, self.latched.since, levels, sure, found, pairs, doubles)
         best = verdict.candidates[0].fault if verdict.candidates and not verdict.pairs else None

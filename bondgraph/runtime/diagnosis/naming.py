@@ -24,6 +24,7 @@ _SURE = 0.75  # probability from which on a class is named
 _ELSE = 0.5  # of the most probable fault of a class: what none outside may be above
 _SHOWN = 0.02  # probability from which on a candidate is worth telling
 _EXPLAINS = 3.0  # logarithm of how much more probable a fault has to make what was seen
+_MOST = 0.7  # share of the misfit that a fault has to take away where nothing fits
 _LEVEL = 1e-3  # probability of what noise may leave over
 _LARGER = 2.0  # times the deviation that noise is taken for, that it may have
 _AGAIN = 5  # rows between an update and the next, twice as many each time
@@ -179,8 +180,8 @@ def pairs_left(
 
 
 def explains(found: Sequence[Explained]) -> bool:
-    """Whether a single fault explains what was seen, of all residuals."""
-    return bool(found) and fits(_best(found))
+    """Whether a single fault explains what was seen, of all residuals, or most of it."""
+    return bool(found) and (fits(_best(found)) or _best(found).share >= _MOST)
 
 
 def fits(one: Explained | ExplainedPair) -> bool:
@@ -216,7 +217,7 @@ def update(
                    key=lambda e: (-chance[e.fault], e.fault))  # fmt: skip
     candidates = tuple(_candidate(e, chance[e.fault]) for e in shown)
     verdict = Verdict("update", time, since, dict(levels), group, candidates)
-    if explains(found) and candidates:
+    if explains(found) and candidates and not pairs:
         return verdict._replace(message=described(verdict))
     if not pairs:
         message = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time as clocks
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from threading import Event
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -14,7 +14,6 @@ from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.journal import Journal, JournalError, Past
 from bondgraph.runtime.monitoring.mqtt_client import Publisher
 from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Source
-from bondgraph.runtime.monitoring.states import States
 from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
 from bondgraph.runtime.time_column import Pace
 from bondgraph.text.numerals import listed
@@ -66,6 +65,13 @@ class Decision(Protocol):
         """Go on from a state; raises KeyError, TypeError or ValueError for one of another kind."""
 
 
+class Listener(Protocol):
+    """What gets every sample with what it was decided on."""
+
+    def add(self, time: Array, decided: Batch, verdicts: Iterable[Verdict]) -> None:
+        """Further samples, see `Decision.decided`, and what was said of them, in order."""
+
+
 class Parts(NamedTuple):
     """What a monitor is made of.
 
@@ -86,11 +92,15 @@ class Parts(NamedTuple):
     operating: Operating | None = None
     note: Callable[[str], None] = lambda text: None
     asked: bool = False
-    states: States | None = None
+    states: Listener | None = None
 
 
 class Monitor:
-    """Watches one machine from its first sample, or from where a journal ends, to the last."""
+    """Watches one machine from its first sample, or from where a journal ends, to the last.
+
+    `gaps` counts how often the filters began anew, `left_out` the samples that did not have the
+    columns that are needed.
+    """
 
     def __init__(self, parts: Parts, what: str) -> None:
         self._parts = parts
@@ -105,7 +115,8 @@ class Monitor:
         self._place: dict[str, Any] | None = None
         self._past: Past | None = None  # until it is told what was missed since
         self._garbage = 0
-        self._left_out = self._left_told = 0  # samples without the columns that are needed
+        self.gaps = self.left_out = 0
+        self._left_told = 0
         self._gaps = 0  # one after the other, without residuals between them
         self._anew = float("-inf")  # s, when the filters began
         self._matched = False
@@ -267,10 +278,10 @@ class Monitor:
         except LogError as error:
             if not self._matched:
                 raise
-            self._left_out += log.rows
-            if self._left_out >= 2 * self._left_told:
-                self._left_told = self._left_out
-                message = f"{self._left_out} samples are left out: {error}"
+            self.left_out += log.rows
+            if self.left_out >= 2 * self._left_told:
+                self._left_told = self.left_out
+                message = f"{self.left_out} samples are left out: {error}"
                 self._say(Verdict("invalid", self._time, message=message))
             return
         self._pace.look(log)
@@ -309,6 +320,7 @@ class Monitor:
 
     def _gap(self, piece: Piece) -> None:
         """Tell why the filters start anew; of many gaps in a row the first, second, fourth ..."""
+        self.gaps += 1
         start = float(piece.time[0])
         near = 0.0 <= self._time - self._anew < self._parts.engine.warm_up
         self._gaps = self._gaps + 1 if near else 1

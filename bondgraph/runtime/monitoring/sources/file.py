@@ -29,14 +29,14 @@ _PATIENCE = 20  # lines that are no samples, all for the same cause, before the 
 _HEAD = 512  # bytes by which a file is known again
 
 
-class TableFile(Source):
-    """A file that is read as a whole, such as Parquet; a place is the number of a row."""
+class LoadedLog(Source):
+    """A log that is in memory as a whole; a place is the number of a row."""
 
     replays = True
 
-    def __init__(self, path: str, form: Form) -> None:
-        self.name = os.path.abspath(path)
-        self._log = read_form(path, form)
+    def __init__(self, name: str, log: Log) -> None:
+        self.name = name
+        self._log = log
         self._row = 0
         self._until = 0  # before this row all was computed once
 
@@ -227,5 +227,5 @@ def file_source(path: str, form: Form, follow: bool = False) -> Source:
     if path.lower().endswith(".parquet"):
         if follow:
             raise LogError(path, None, "a Parquet file cannot be followed", "follow a CSV file")
-        return TableFile(path, form)
+        return LoadedLog(os.path.abspath(path), read_form(path, form))
     return LinesFile(path, form, follow)

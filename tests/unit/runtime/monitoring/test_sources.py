@@ -13,7 +13,7 @@ import pytest
 from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_file import write_log
 from bondgraph.runtime.log_numbers import Form
-from bondgraph.runtime.monitoring.sources.file import LinesFile, TableFile, file_source
+from bondgraph.runtime.monitoring.sources.file import LinesFile, file_source
 from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.runtime.monitoring.sources.sample_source import (
     Block,
@@ -167,8 +167,8 @@ def test_another_file_is_known_by_what_it_begins_with(
 def test_a_table_that_became_shorter_is_told(tmp_path: Path) -> None:
     path = str(tmp_path / "log.parquet")
     write_log(Log(np.arange(5.0), {"a": np.arange(5.0)}, {}, {}), path)
-    assert "5 samples" in TableFile(path, Form(path)).go({"place": {"row": 6}})
-    source = TableFile(path, Form(path))
+    assert "5 samples" in file_source(path, Form(path)).go({"place": {"row": 6}})
+    source = file_source(path, Form(path))
     assert source.go({"place": {"row": 5}, "back": {"row": 3}}) == ""  # to its very end
     assert times(source.chunks(Event())) == [3.0, 4.0]
 

@@ -1,0 +1,61 @@
+"""The logs that files, folders and patterns name."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from glob import glob, has_magic
+
+from bondgraph.runtime.fleet.watcher import LogFile
+from bondgraph.text.numerals import plural
+
+_SUFFIXES = (".csv", ".tsv", ".parquet", ".jsonl", ".ndjson")
+
+
+def many(names: Iterable[str]) -> bool:
+    """Whether names stand for more than one file that is read as it is."""
+    listed = list(names)
+    return len(listed) > 1 or any(os.path.isdir(n) or _pattern(n) for n in listed)
+
+
+def log_files(names: Iterable[str], tell: Callable[[str], object]) -> list[LogFile]:
+    """The logs in order, each once; what a folder has besides is told.
+
+    A folder stands for the logs in it and in the folders below, in order of their paths: `.csv`,
+    `.tsv`, `.parquet`, `.jsonl` and `.ndjson`. Names that begin with a dot or an underscore are
+    left out, as data sets of Parquet have them. A name that is not there is one log, which is bad.
+    """
+    found: dict[str, LogFile] = {}
+    for name in names:
+        paths = (sorted(glob(name, recursive=True)) or [name]) if _pattern(name) else [name]
+        for path in paths:
+            inside = _inside(path, tell) if os.path.isdir(path) else [path]
+            for one in inside:
+                found.setdefault(os.path.realpath(one), LogFile(one, os.path.abspath(one)))
+    return list(found.values())
+
+
+def _pattern(name: str) -> bool:
+    return has_magic(name) and not os.path.exists(name)
+
+
+def _inside(folder: str, tell: Callable[[str], object]) -> list[str]:
+    """The logs in a folder."""
+    every = sorted(_files(folder, tell))
+    found = [path for path in every if path.lower().endswith(_SUFFIXES)]
+    other = len(every) - len(found)
+    if other:
+        verb = "is" if other == 1 else "are"
+        tell(f"{folder}: {plural(other, 'file')} {verb} left out, no log by the name")
+    if not found:
+        tell(f"{folder}: no log in it ({', '.join(_SUFFIXES)})")
+    return found
+
+
+def _files(folder: str, tell: Callable[[str], object]) -> Iterator[str]:
+    def unread(error: OSError) -> None:
+        tell(f"{error.filename}: left out, it cannot be read: {error.strerror}")
+
+    for path, folders, names in os.walk(folder, onerror=unread):
+        folders[:] = [f for f in folders if not f.startswith((".", "_"))]
+        yield from (os.path.join(path, n) for n in names if not n.startswith((".", "_")))
