@@ -177,7 +177,8 @@ static void start_r1(
     quarter_car_memory *x = &monitor->x;
 
     /* quarter_car.bg:15: r1: terms of order 0 */
-    const real r1_g0 = c->r1_stroke * s->stroke + c->r1_vw * s->vw - c->r1_vw * s->vb;
+    const real r1_g0 = c->r1_stroke * s->stroke + c->r1_vw * s->vw - c->r1_constant
+        - c->r1_vw * s->vb;
 
     /* quarter_car.bg:15: r1: degree 1 */
     const real r1_d1 = c->r1_w1_vb * s->vb;
@@ -204,7 +205,7 @@ static void start_r1(
     x->r1_s1 = c->rest * r1_u1;
 
     /* quarter_car.bg:15: r1 = ks*stroke + cs*(vw - vb) - g*ms - ms*D(vb) */
-    r[QUARTER_CAR_R1] = r1_y1 - c->r1_constant - r1_e0;
+    r[QUARTER_CAR_R1] = r1_y1 - r1_e0;
 }
 
 /* r1 on every further sample. */
@@ -215,7 +216,8 @@ static void next_r1(
     quarter_car_memory *x = &monitor->x;
 
     /* quarter_car.bg:15: r1: terms of order 0 */
-    const real r1_g0 = c->r1_stroke * s->stroke + c->r1_vw * s->vw - c->r1_vw * s->vb;
+    const real r1_g0 = c->r1_stroke * s->stroke + c->r1_vw * s->vw - c->r1_constant
+        - c->r1_vw * s->vb;
 
     /* quarter_car.bg:15: r1: degree 1 */
     const real r1_d1 = c->r1_w1_vb * s->vb;
@@ -242,7 +244,7 @@ static void next_r1(
     x->r1_s1 = c->a * r1_y1 + c->b * r1_u1;
 
     /* quarter_car.bg:15: r1 = ks*stroke + cs*(vw - vb) - g*ms - ms*D(vb) */
-    r[QUARTER_CAR_R1] = r1_y1 - c->r1_constant - r1_e0;
+    r[QUARTER_CAR_R1] = r1_y1 - r1_e0;
 }
 
 /* One sample for r1; a number that is not finite makes the next sample the first. */

@@ -28,7 +28,7 @@ typedef double quarter_car_real;
 /* Version of the structs and functions, and the size of a number. */
 #define QUARTER_CAR_ABI (1u * 256u + (uint32_t)sizeof(quarter_car_real))
 /* Identifies the model and the options that this code was made from. */
-#define QUARTER_CAR_DIGEST "fd45a4f4f8ef0385"
+#define QUARTER_CAR_DIGEST "f0b88b0be7f76f8a"
 
 /* What the code was made for: arguments of quarter_car_configure, in s, rad/s and s. */
 #define QUARTER_CAR_SAMPLE_TIME QUARTER_CAR_CONSTANT(0.001)

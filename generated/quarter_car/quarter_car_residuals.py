@@ -12,7 +12,7 @@ from dataclasses import dataclass
 #: Version of the classes and methods below.
 ABI = 1
 #: Identifies the model and the options that this code was made from.
-DIGEST = "fd45a4f4f8ef0385"
+DIGEST = "f0b88b0be7f76f8a"
 
 #: What the code was made for, in s, rad/s and s.
 SAMPLE_TIME = 0.001
@@ -218,7 +218,7 @@ class Monitor:
         x = self._x
 
         # quarter_car.bg:15: r1: terms of order 0
-        r1_g0 = c.r1_stroke * s.stroke + c.r1_vw * s.vw - c.r1_vw * s.vb
+        r1_g0 = c.r1_stroke * s.stroke + c.r1_vw * s.vw - c.r1_constant - c.r1_vw * s.vb
 
         # quarter_car.bg:15: r1: degree 1
         r1_d1 = c.r1_w1_vb * s.vb
@@ -245,7 +245,7 @@ class Monitor:
         x.r1_s1 = c.rest * r1_u1
 
         # quarter_car.bg:15: r1 = ks*stroke + cs*(vw - vb) - g*ms - ms*D(vb)
-        r.r1 = r1_y1 - c.r1_constant - r1_e0
+        r.r1 = r1_y1 - r1_e0
 
     def _next_r1(self, s: Samples, r: Residuals) -> None:
         """r1 on every further sample."""
@@ -253,7 +253,7 @@ class Monitor:
         x = self._x
 
         # quarter_car.bg:15: r1: terms of order 0
-        r1_g0 = c.r1_stroke * s.stroke + c.r1_vw * s.vw - c.r1_vw * s.vb
+        r1_g0 = c.r1_stroke * s.stroke + c.r1_vw * s.vw - c.r1_constant - c.r1_vw * s.vb
 
         # quarter_car.bg:15: r1: degree 1
         r1_d1 = c.r1_w1_vb * s.vb
@@ -280,7 +280,7 @@ class Monitor:
         x.r1_s1 = c.a * r1_y1 + c.b * r1_u1
 
         # quarter_car.bg:15: r1 = ks*stroke + cs*(vw - vb) - g*ms - ms*D(vb)
-        r.r1 = r1_y1 - c.r1_constant - r1_e0
+        r.r1 = r1_y1 - r1_e0
 
     def _run_r1(self, s: Samples, r: Residuals) -> None:
         """One sample for r1; what is not finite makes the next the first."""

@@ -88,7 +88,8 @@ class Chain:
             if not term.static:
                 continue
             if term.atom is self.pool.one and term.order == 0:
-                outside.append(self._signed(term.coefficient, "constant", "constant part"))
+                # filtered like all else, so that a parameter in it may change at any time
+                orders.add(0, *self._signed(term.coefficient, "constant", "constant part"))
             elif term.order < 0:
                 integrals.setdefault(-term.order, []).append(term)
             else:
