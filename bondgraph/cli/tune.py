@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.diagnosis.calibration import Shown, Tuned
+    from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.log import Array
     from bondgraph.runtime.monitoring.engine import Engine
 
@@ -165,10 +166,20 @@ def _message(compilation: Compilation, best: Tuned) -> str:
     )
 
 
+def _supported(tuning: Tuning) -> float:
+    """False alarms an hour that so long a log without any supports, with 95 % confidence.
+
+    That is 3/T: with more than three expected, none at all is seen once in twenty times (Hanley and
+    Lippman-Hand, 1983).
+    """
+    return -math.log(0.05) * 3600.0 / tuning.seconds
+
+
 def _result(compilation: Compilation, best: Tuned, found: list[Tuned]) -> dict[str, object]:
     return {
         "model": compilation.graph.name,
         "bandwidth": best.tuning.bandwidth,
+        "supported": _supported(best.tuning),
         "tried": [{"bandwidth": t.tuning.bandwidth, "score": _score(t, found)} for t in found],
         "window": best.window,
         "limits": [{"residual": n, **x._asdict()} for n, x in best.tuning.limits.items()],
@@ -198,6 +209,13 @@ def _relative(compilation: Compilation, shown: Shown) -> float | None:
 
 def _lines(compilation: Compilation, best: Tuned, found: list[Tuned], output: str) -> list[str]:
     lines = [_message(compilation, best), ""]
+    supported = _supported(best.tuning)
+    if supported > best.tuning.false_alarms:
+        lines += [
+            f"The logs are too short to show that: they support {supported:.2g} an hour, and beyond"
+            " that the limits trust the shape of the noise",
+            "",
+        ]
     if len(found) > 1:
         tried = [f"{t.tuning.bandwidth:g} ({math.exp(_score(t, found)):.2g})" for t in found]
         what = "Filters tried, rad/s (what shows, next to a usual change)"

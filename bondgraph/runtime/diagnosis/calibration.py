@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from bondgraph.runtime.diagnosis.doubt import Doubt
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, grown, slack, tolerated
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, grown, slack, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import (
     Bank,
     Hypothesis,
@@ -18,6 +18,7 @@ from bondgraph.runtime.diagnosis.hypotheses import (
     sized,
 )
 from bondgraph.runtime.diagnosis.isolation import History
+from bondgraph.runtime.diagnosis.noise import noise, uncovered
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
@@ -26,6 +27,7 @@ from bondgraph.text.tuples import NamedTuple
 _TAIL = 3.29  # standard deviations that one normal sample in a thousand exceeds
 _ABOVE = 1.2  # times the largest excess of a healthy machine that a limit stays above
 _CHUNK = 5000  # samples at a time
+_APART = 16  # rows without a value between two logs, more than noise is taken to remember
 _SURE = 0.9  # share of the windows in which the smallest change shows
 
 
@@ -69,18 +71,18 @@ def tune(
     work = _Work(engine, model, logs)
     window += engine.lags[-1]
     total = 2 * len(logs)
-    noise: list[_Noise] = []
+    learned: list[_Noise] = []
     for k, log in enumerate(logs):
         own = work.noise(log)
         if own is not None:
-            noise.append(own)
+            learned.append(own)
         progress((k + 1) / total)
-    seconds = sum(n.rows for n in noise) * engine.sample_time
+    seconds = sum(n.rows for n in learned) * engine.sample_time
     if seconds <= 0:
         raise ValueError(
             f"no log is longer than the warm-up of {engine.warm_up:g} s: nothing can be learned"
         )
-    limits = _limits(engine, noise, false_alarms)
+    limits = _limits(engine, learned, false_alarms, centred(model, engine.residuals))
     tuning = Tuning(digest, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, limits)
     sizes: list[list[_Seen]] = [[] for _ in work.all]
     for k, log in enumerate(logs):
@@ -95,16 +97,17 @@ def tune(
 
 
 class _Noise(NamedTuple):
-    """Of one log: how many valid samples, sums by residual of squares, upward crossings of zero,
-    the level that one sample in a thousand exceeds, the largest excess over the threshold; and the
-    rows: values, what is allowed, validity."""
+    """Of one log: how many valid samples, by residual the upward crossings of its mean, the level
+    that one sample in a thousand exceeds beside it, the largest excess over the threshold to either
+    side; and the rows: values, what is left of them beside parameters and is not covered by
+    tolerances, what is allowed, validity."""
 
     rows: int
-    squares: Array
     crossings: Array
     tail: Array
     excess: Array
     value: Array
+    rest: Array
     allowed: Array
     valid: Array
 
@@ -153,21 +156,23 @@ class _Work:
                 allowed.append(batch.bound[k])
                 sound.append(valid)
         found = history.fit()
-        rest, excess, rows = [], [], 0
+        rest, spaced, excess, rows = [], [], [], 0
         for batch, slopes in self._chunks(samples[start:], samples[:start]):
             left = batch.value - np.einsum("thr,h->tr", slopes, found)
-            rest.append(np.where(batch.valid, left, 0.0))
-            over = np.abs(batch.value) - batch.bound
-            excess.append(np.where(batch.valid, over, 0.0).max(axis=0, initial=0.0))
+            rest.append(np.where(batch.valid, left, np.nan))
+            spaced.append(rest[-1][self.every - 1 :: self.every])
+            sides = np.stack([batch.value, -batch.value]) - batch.bound
+            excess.append(np.where(batch.valid, sides, -np.inf).max(axis=1, initial=-np.inf))
             rows += int(batch.valid.any(axis=1).sum())
         left = np.concatenate(rest)
+        off = np.nan_to_num(left - [_mean(column) for column in left.T])
         return _Noise(
             rows,
-            (left**2).sum(axis=0),
-            ((left[:-1] < 0) & (left[1:] >= 0)).sum(axis=0).astype(float),
-            np.quantile(np.abs(left), 0.999, axis=0),
+            ((off[:-1] < 0) & (off[1:] >= 0)).sum(axis=0).astype(float),
+            np.quantile(np.abs(off), 0.999, axis=0),
             np.max(excess, axis=0),
             np.array(values),
+            uncovered(np.concatenate(spaced), np.array(allowed)),
             np.array(allowed),
             np.array(sound),
         )
@@ -232,36 +237,45 @@ class _Whole:
         return Batch(batch.value, valid, np.where(valid, bound, 0.0)), slopes
 
 
-def _limits(engine: Engine, noise: Sequence[_Noise], false_alarms: float) -> dict[str, Limit]:
-    rows = sum(n.rows for n in noise)
-    deviation = np.sqrt(np.sum([n.squares for n in noise], axis=0) / rows)
-    tail = np.max([n.tail for n in noise], axis=0) / _TAIL
-    sigma = np.maximum(deviation, tail)
-    crossings = np.sum([n.crossings for n in noise], axis=0) / (rows * engine.sample_time)
-    excess = np.max([n.excess for n in noise], axis=0)
-    used = sigma > 0
+def _limits(
+    engine: Engine, logs: Sequence[_Noise], false_alarms: float, stands: Sequence[bool]
+) -> dict[str, Limit]:
+    rows = sum(n.rows for n in logs)
+    tail = np.max([n.tail for n in logs], axis=0) / _TAIL
+    crossings = np.sum([n.crossings for n in logs], axis=0) / (rows * engine.sample_time)
+    excess = np.max([n.excess for n in logs], axis=0)
+    rest = np.concatenate([np.vstack([n.rest, np.full((_APART, len(tail)), np.nan)]) for n in logs])
+    used = np.isfinite(rest).any(axis=0) & (tail > 0)
     alarms = false_alarms / 3600.0 / (2 * max(1, int(used.sum())))
     apart = 1.0 / (rows_apart(engine) * engine.sample_time)
-    sums = np.max([_highest(n, np.where(used, sigma, math.inf)) for n in noise], axis=0)
     found = {}
-    for k, name in enumerate(engine.residuals):
-        if not used[k]:
-            continue  # never valid in these logs
+    for k in np.flatnonzero(used).tolist():  # others were never valid in these logs
+        own = noise(rest[:, k], centred=stands[k])
         rate = max(float(crossings[k]), engine.bandwidth / (2 * math.pi))
-        level = max(kappa(rate, alarms), _ABOVE * float(excess[k] / sigma[k]))
-        top = max(height(apart, alarms), _ABOVE * float(sums[k]))
-        found[name] = Limit(float(sigma[k]), rate, level, top)
+        level = kappa(rate, alarms)
+        sigma = max(own.foreseen(level), float(tail[k]))
+        top, bottom = excess[:, k].tolist()
+        level = max(level, _ABOVE * max(top - own.mean, bottom + own.mean) / sigma)
+        limit = Limit(sigma, rate, level, height(apart, alarms), own.mean, own.memory)
+        sums = max(_highest(n, k, limit) for n in logs)
+        found[engine.residuals[k]] = limit._replace(height=max(limit.height, _ABOVE * sums))
     return found
 
 
-def _highest(noise: _Noise, sigma: Array) -> Array:
-    """The highest that the sums of a healthy machine became."""
-    count = noise.value.shape[1]
-    sums, most = np.zeros((2, count)), np.zeros(count)
-    for value, allowed, valid in zip(noise.value, noise.allowed, noise.valid, strict=True):
-        sums = np.where(valid, grown(sums, value, allowed, sigma), 0.0)
-        most = np.maximum(most, sums.max(axis=0))
+def _highest(noise: _Noise, k: int, limit: Limit) -> float:
+    """The highest that the sums of a residual of a healthy machine became."""
+    deviation = np.array([limit.sigma * math.sqrt(limit.memory)])
+    sums, most = np.zeros((2, 1)), 0.0
+    rows = (noise.value[:, k], noise.allowed[:, k], noise.valid[:, k])
+    for value, allowed, valid in zip(*rows, strict=True):
+        sums = grown(sums, value - limit.mean, allowed, deviation) if valid else np.zeros((2, 1))
+        most = max(most, float(sums.max()))
     return most
+
+
+def _mean(column: Array) -> float:
+    known = column[np.isfinite(column)]
+    return float(known.mean()) if len(known) else 0.0
 
 
 def _shown(hypothesis: Hypothesis, found: Sequence[_Seen], residuals: Sequence[str]) -> Shown:

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, tolerated
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.noise import noise, uncovered, within
 from bondgraph.runtime.diagnosis.rows import Part, Row, variances
@@ -74,10 +74,7 @@ class Learning:
         self._highest = np.full((2, len(used)), -math.inf)  # of all that counted
         self._approximate = np.array([n.approximate for n in natures], dtype=bool)
         self._stays = self._approximate | np.array([n.drifts for n in natures], dtype=bool)
-        remembers = {r for m in model.memories for r in m.residuals}
-        alone = [not n.modes and r not in remembers
-                 for n, r in zip(natures, engine.residuals, strict=True)]  # fmt: skip
-        self._centred = ~self._stays & alone
+        self._centred = centred(model, engine.residuals)
         self.hopeless = np.zeros(len(used), dtype=bool)  # approximations that are too far off
         self.off = np.zeros(len(used), dtype=bool)  # residuals that are surely not zero in the mean
         self._used, self._wanted = used.copy(), used.copy()
@@ -212,7 +209,7 @@ class Learning:
             values, whole = rest[:, k], frozenset().union(*[one.settings[k] for one in self._rows])
         if np.isfinite(values).sum() < FIRST:
             return False
-        found = noise(values, float(owed[k]), bool(self._centred[k]))
+        found = noise(values, float(owed[k]), self._centred[k])
         kappa = float(self.limits[k, 2])
         spread = _CAREFUL * _stepped(values) if self._stays[k] else found.foreseen(kappa)
         least = max(spread, _ACCURACY * float(self._scale[k]))
