@@ -19,12 +19,14 @@ from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched
 from bondgraph.runtime.diagnosis.origins import Origins, starts_in
 from bondgraph.runtime.diagnosis.rows import Part, Row, together, usual, weight
+from bondgraph.runtime.diagnosis.signal_checks import SignalChecks
 from bondgraph.runtime.diagnosis.status import WatchStatus
 from bondgraph.runtime.diagnosis.tuning import Tuning, limits
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.runtime.monitoring.plain import array, numbers
-from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.runtime.monitoring.verdict import Candidate, Verdict
+from bondgraph.text.numerals import listed
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset
 _FORGET = 1000.0  # rows after which healthy operation counts a third
@@ -63,6 +65,10 @@ class Diagnosis:
             self._limits = np.array(limits(tuning, engine.residuals), dtype=float)
         self._detection = Detection(engine.residuals, max(3, self._every // 10))
         self._judge = Judge(engine, model)
+        checked = [(k.path, at) for at, k in enumerate(engine.signals)
+                   if k.path in model.faults and k.kind != "mode" and k.counts is None]  # fmt: skip
+        names, at = zip(*checked, strict=True) if checked else ((), ())
+        self._checks = SignalChecks(names, at, engine.sample_time)
         self._last: list[Batch] = []  # of the last update, with whole thresholds
         self.restart()
 
@@ -80,6 +86,7 @@ class Diagnosis:
         self._status.restart()
         self._detection.restart()
         self._judge.restart()
+        self._checks.restart()
         if self._learning is not None:
             self._learning.restart()
 
@@ -165,8 +172,27 @@ class Diagnosis:
             self._before = copied(self._bank.engine)
             self._judge.renew()
 
+    def _checked(self, row: Row, out: list[Verdict]) -> None:
+        """What signals show by themselves in a row, told as a fault of theirs."""
+        before = set(self._checks.active)
+        healthy = not (self._detection.alarmed or before)
+        for one in self._checks.row(row.time, row.samples, healthy):
+            first = not self._detection.alarmed and not before
+            since = one.since if first or self._judge.latched is None else self._judge.latched.since
+            candidate = Candidate(one.signal, None, "", 1.0)
+            levels = self._detection.levels()
+            out.append(
+                Verdict("fault" if first else "update", row.time, since, levels, (one.signal,),
+                        (candidate,), message=f"{one.text}, since {one.since:.3f} s")
+            )  # fmt: skip
+            before.add(one.signal)
+        if before and not self._checks.active and not self._detection.alarmed:
+            message = f"{listed(sorted(before), 'and')} as while the machine was well"
+            out.append(Verdict("cleared", row.time, message=message))
+
     def _judged(self, row: Row, out: list[Verdict]) -> None:
         """What a row tells."""
+        self._checked(row, out)
         if self._learning is not None:
             fresh = self._learn(row, healthy=not self._detection.alarmed)
             self._status.learned(row.time, fresh, self._learning, out)
@@ -178,7 +204,8 @@ class Diagnosis:
         if not self._detection.alarmed:
             self._remember(row)
         elif self._judge.step(row, self._past, self._limits[:, 0], self._tolerated):
-            self._explain(row, out)
+            if not self._unusual():
+                self._explain(row, out)
             self._over(row, out)
 
     def _learn(self, row: Row, healthy: bool) -> Mask:
@@ -217,8 +244,17 @@ class Diagnosis:
             since = self._onset(time, piece)
             self._judge.latch(since)
             message = f"{self._status.names(fresh)} above what a healthy machine does since"
-            message += f" {since:.3f} s; looking for the fault"
+            message += f" {since:.3f} s"
             levels = self._detection.levels()
+            told = self._unusual()
+            if told:
+                which = tuple(Candidate(s, None, "", 1.0 / len(told)) for s in told)
+                message += f", by {listed(told, 'or')}"
+                event = "update" if self._checks.active else "fault"
+                group = tuple(told) if len(told) == 1 else ()
+                out.append(Verdict(event, time, since, levels, group, which, message=message))
+                return
+            message += "; looking for the fault"
             out.append(Verdict("fault", time, since, levels, message=message))
 
     def _onset(self, time: float, piece: list[Array]) -> float:
@@ -257,6 +293,16 @@ class Diagnosis:
 
     # ------------------------------------------------------------------ judgement
 
+    def _unusual(self) -> list[str]:
+        """Signals that are unusual by themselves, or were so a few rows ago.
+
+        Those that all residuals see which have fired: they may be what is wrong.
+        """
+        residuals = self._engine.residuals
+        fired = [n for n, own in zip(residuals, self._detection.fired, strict=True) if own]
+        known = [s for s in self._model.faults if self._checks.lately(s)]
+        return [s for s in known if all(s in self._model.sees.get(r, ()) for r in fired)]
+
     def _explain(self, row: Row, out: list[Verdict]) -> None:
         """What there is to say of the fault, if that is news."""
         sigma = np.where(self._origins.waiting, math.inf, self._limits[:, 0]).tolist()
@@ -289,6 +335,7 @@ class Diagnosis:
             "latched": latched and latched.state(),
             "prior": numbers(self._history.prior),
             "origins": self._origins.state(self._tolerated[self._lasting :]),
+            "unusual": self._checks.state(),
         }
 
     def resume(self, state: dict[str, Any]) -> None:
@@ -305,6 +352,7 @@ class Diagnosis:
         self.restart()
         self._detection, self._judge.latched = detection, latched
         self._origins.resume(state["origins"])
+        self._checks.resume(state["unusual"])
         if self._learning is not None:
             self._learning.known(levels)
             self._limits = levels

@@ -18,6 +18,9 @@ from bondgraph.text.whole_file import whole
 ALARM, HEALTHY, BLIND, WARMING = "alarm", "healthy", "blind", "warming up"
 
 
+_SIGNAL = ""  # an alarm of no residual: a signal is unusual by itself
+
+
 class _Table(Protocol):
     def add(self, columns: dict[str, Any]) -> None:
         """Further rows: columns of equal length."""
@@ -44,12 +47,12 @@ class States:
     def add(self, time: Array, decided: Batch, verdicts: Iterable[Verdict]) -> None:
         """Further samples, by what they were decided on, and what was said of them, in order."""
         count = len(time)
-        fired = np.zeros((count, len(self._residuals)), dtype=bool)
+        fired = np.zeros((count, len(self._residuals) + 1), dtype=bool)  # the last: a signal
         named = np.full(count, "", dtype=object)
         self._mark(fired, named, 0)
         for verdict in verdicts:
             if verdict.event in ("fault", "update"):
-                self._fired = self._fired | frozenset(verdict.residuals)
+                self._fired = self._fired | frozenset(verdict.residuals or [_SIGNAL])
                 self._class = " or ".join(verdict.group) or self._class
             elif verdict.event == "cleared":
                 self._fired, self._class = frozenset(), ""
@@ -57,22 +60,23 @@ class States:
                 continue
             self._mark(fired, named, int(np.searchsorted(time, verdict.time - 1e-9)))
         watched = decided.valid & np.isfinite(decided.bound)
-        states = np.select([fired, watched, decided.valid], [ALARM, HEALTHY, BLIND], WARMING)
+        every = [fired[:, :-1], watched, decided.valid]
+        states = np.select(every, [ALARM, HEALTHY, BLIND], WARMING)
         columns: dict[str, Any] = {"time": time}
         for k, name in enumerate(self._residuals):
             columns[name] = np.where(decided.valid[:, k], decided.value[:, k], np.nan)
             columns[f"{name}_threshold"] = np.where(watched[:, k], decided.bound[:, k], np.nan)
             columns[f"{name}_state"] = states[:, k]
         active = fired.any(axis=1)
-        every = [active, watched.any(axis=1), decided.valid.any(axis=1)]
+        any_of = [active, watched.any(axis=1), decided.valid.any(axis=1)]
         columns["active"] = active.astype(int)
-        columns["state"] = np.select(every, [ALARM, HEALTHY, BLIND], WARMING)
+        columns["state"] = np.select(any_of, [ALARM, HEALTHY, BLIND], WARMING)
         columns["class"] = named
         self._table.add(columns)
 
     def _mark(self, fired: Any, named: Any, start: int) -> None:
         """What is latched from a sample on."""
-        fired[start:] = [name in self._fired for name in self._residuals]
+        fired[start:] = [name in self._fired for name in (*self._residuals, _SIGNAL)]
         named[start:] = self._class
 
 

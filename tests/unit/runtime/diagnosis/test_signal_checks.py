@@ -1,0 +1,100 @@
+"""Spikes, bursts of noise and values that stand still, of signals made by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from bondgraph.runtime.diagnosis.signal_checks import SignalChecks, Unusual
+from bondgraph.runtime.log import Array
+
+_STEP, _ROW = 0.01, 25
+
+
+def _signals(seed: int, count: int = 4000) -> Array:
+    """A resonance at nine samples a period, a flow that is set in steps, a slow temperature."""
+    draw = np.random.default_rng(seed)
+    k = np.arange(count)
+    size = 1.0 + 0.5 * np.sin(k / 300.0)
+    ringing = size * np.sin(2.0 * np.pi * k / 9.0) + 0.01 * draw.normal(size=count)
+    steps = np.repeat(draw.uniform(0.0, 1.0, count // 40), 40) + 0.005 * draw.normal(size=count)
+    slow = 300.0 + np.cumsum(0.02 * draw.normal(size=count)) + 0.05 * draw.normal(size=count)
+    return np.column_stack([ringing, steps, slow])
+
+
+def _looked(samples: Array) -> list[Unusual]:
+    checks = SignalChecks(["y", "q", "T"], [0, 1, 2], _STEP)
+    return [
+        one
+        for k in range(0, len(samples) - _ROW + 1, _ROW)
+        for one in checks.row((k + _ROW - 1) * _STEP, samples[k : k + _ROW], not checks.active)
+    ]
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_healthy_signals_are_not_unusual(seed: int) -> None:
+    assert _looked(_signals(seed)) == []
+
+
+@pytest.mark.parametrize(("column", "name", "size"), [(0, "y", 1.0), (1, "q", 1.0), (2, "T", 2.0)])
+def test_a_spike_is_told_with_its_time(column: int, name: str, size: float) -> None:
+    samples = _signals(3)
+    samples[2510, column] += size
+    (one,) = _looked(samples)
+    assert (one.signal, one.kind) == (name, "spike")
+    assert one.since == pytest.approx(2510 * _STEP, abs=1.5 * _STEP)
+    assert one.size > 2.0
+
+
+def test_a_step_is_no_spike() -> None:
+    samples = _signals(4)
+    samples[2000:] += [1.0, 1.0, 5.0]
+    assert [one for one in _looked(samples) if one.kind == "spike"] == []
+
+
+@pytest.mark.parametrize(("column", "name", "size"), [(0, "y", 0.5), (2, "T", 0.5)])
+def test_a_burst_is_told_once_and_ends(column: int, name: str, size: float) -> None:
+    samples = _signals(5)
+    samples[2000:2400, column] += size * np.random.default_rng(1).normal(size=400)
+    (one,) = _looked(samples)
+    assert (one.signal, one.kind) == (name, "burst")
+    assert one.since == pytest.approx(2000 * _STEP, abs=2 * _ROW * _STEP)
+
+
+@pytest.mark.parametrize(("column", "name"), [(0, "y"), (1, "q"), (2, "T")])
+def test_a_signal_that_stands_still_is_told(column: int, name: str) -> None:
+    samples = _signals(6)
+    samples[2000:, column] = samples[2000, column]
+    (one,) = _looked(samples)
+    assert (one.signal, one.kind) == (name, "stuck")
+    assert one.since == pytest.approx(2000 * _STEP, abs=3 * _STEP)
+
+
+def test_a_command_without_noise_may_be_held() -> None:
+    samples = _signals(7)
+    samples[:, 1] = np.repeat([0.0, 1.0, 0.3, 0.6], 1000)
+    samples[1500:2500, 1] = 0.3  # held for longer than ever
+    assert _looked(samples) == []
+
+
+def test_what_comes_back_soon_is_not_told_each_time() -> None:
+    samples = _signals(8)
+    samples[2000:4000:130, 2] += 3.0  # sixteen spikes, one in five rows
+    told = _looked(samples)
+    assert {one.kind for one in told} == {"spike"} and len(told) <= 3
+
+
+def test_missing_samples_begin_anew() -> None:
+    samples = _signals(9)
+    samples[1000:1100, 0] = np.nan
+    assert _looked(samples) == []
+
+
+def test_what_is_unusual_outlasts_a_restart() -> None:
+    checks = SignalChecks(["y"], [0], _STEP)
+    checks.active["y"] = Unusual("y", "burst", 3.5, 4.0)
+    other = SignalChecks(["y"], [0], _STEP)
+    other.resume(checks.state())
+    assert other.active == checks.active
+    with pytest.raises((TypeError, ValueError)):
+        other.resume([["y", "burst", None, 1.0]])
