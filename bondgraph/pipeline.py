@@ -660,6 +660,7 @@ class Compilation:
         >>> for verdict in diagnosis.update(time, engine.run(samples), samples):
         ...     print(f"{verdict.event} at {verdict.time:.1f} s: {verdict.message[:33]}")
         warm-up at 0.5 s: the noise of r1 and r2 is learned
+        warm-up at 1.9 s: r1 and r2 are watched from now on
         """
         from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
 

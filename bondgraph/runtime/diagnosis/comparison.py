@@ -17,7 +17,7 @@ from bondgraph.runtime.diagnosis.isolation import (
     inverse,
 )
 from bondgraph.runtime.diagnosis.rows import Row, weight
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
 
 #: Time constants of the filter, beside delays, that a residual may show late what has happened.
@@ -32,6 +32,7 @@ _SAME = 0.01  # share by which changes of two rounds may differ
 _STEEP = 0.8  # of how one change makes the next: steeper, a step is not made longer
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
+_SHOWS = 0.3  # of what a fault usually does: where it does less it may be there unseen
 _GROWS = 3  # rows within which a residual has become as large as the fault makes it
 
 
@@ -68,6 +69,8 @@ class Comparison:
         self._others: list[dict[int, Rows]] = []  # by the number of what is held
         self._unsaid = np.zeros((_GROWS, len(engine.residuals)), dtype=bool)
         self._slopes = np.zeros((len(self._all), len(engine.residuals)))  # of the last row
+        self._told = np.zeros((0, len(engine.signals)))  # samples of the last row
+        self._place = {k.path: at for at, k in enumerate(engine.signals)}
         self._again = 0  # rows with which secants are looked for again
 
     def __len__(self) -> int:
@@ -84,16 +87,23 @@ class Comparison:
         if len(self._past) < _BENT:
             self._past.append((row, sigma.copy()))
         one, others = self._seen(row, sigma, len(self._rows))
-        self._slopes = one.slopes
+        self._slopes, self._told = one.slopes, row.samples
         if len(self._rows) < _MOST:
             self._rows.append(one)
             self._others.append(others)
 
-    def moved(self, by: Explained) -> Array | None:
-        """What a fault of this size does to the last row, (residuals,); None for one held."""
-        if by.hypothesis.held is not None:
-            return None
-        return np.asarray(by.change * self._slopes[self._all.index(by.hypothesis)])
+    def shows(self, fault: Explained) -> Mask:
+        """Which residuals the fault moves in the last row as it usually does.
+
+        Where something is held at a position that it is told to be in, nothing shows it.
+        """
+        held = fault.hypothesis.held
+        if held is not None:
+            told = self._told[:, self._place[held.signal]]
+            return np.full(self._slopes.shape[1], bool((told != held.position).any()))
+        k = self._all.index(fault.hypothesis)
+        usual = np.sqrt(np.mean([np.square(row.slopes[k]) for row in self._rows], axis=0))
+        return np.asarray(np.abs(self._slopes[k]) >= _SHOWS * usual)
 
     def explained(self, history: History) -> list[Explained]:
         """How well each fault explains the rows; raises LinAlgError as `explain` does."""

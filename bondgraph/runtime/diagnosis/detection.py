@@ -13,9 +13,10 @@ from bondgraph.runtime.diagnosis.rows import Part, Row
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
 
-_OVER = math.log(100.0)  # how much more probable it has to be that a fault is over
-_PAUSE = 32  # rows: what comes back within them has not been away
-_SHOWS = 1.0  # deviations by which a fault has to move a residual that should tell it is over
+_OVER = math.log(20.0)  # how much more probable it has to be that a fault is over
+_PAUSE = 32  # rows: what comes back later has been away
+_TWICE = 2  # rows that have to be quiet: what moves through zero is so in one
+_SOON = 4  # times the rows that had to be quiet: what comes back within them has not been away
 
 
 class Detection:
@@ -25,9 +26,9 @@ class Detection:
     samples while none has fired; `alarms` counts them. The sample test fires after `least` samples
     in a row. `limits` have the columns of `Limit`, (residuals, 6).
 
-    A fault is over once each residual that has fired is a hundred times as probable to be that of a
-    healthy machine as one that goes on as it has been since the alarm, normal with that mean and
-    deviation (Wald, 1945): a row or two for a large fault, some more for a small one. A fault that
+    A fault is over once each residual that has fired is twenty times as probable to be that of a
+    healthy machine as one that goes on as it has been while it was out, normal with that mean and
+    deviation (Wald, 1945): two rows for a large fault, some more for a small one. A fault that
     comes and goes is not told each time: what comes back soon has to be away for twice as long the
     next time. Nor does a row tell in which the fault that explains all would not show, as where it
     acts in a part of a motion only; when nothing is out for long, it is over nevertheless.
@@ -38,8 +39,9 @@ class Detection:
         self.fired: Mask = np.zeros(len(residuals), dtype=np.bool_)
         self.most = np.zeros(len(residuals))
         self.alarms = 0
-        self._needed = 1  # rows that have to be quiet
+        self._needed = _TWICE  # rows that have to be quiet
         self._away = _PAUSE + 1  # rows since a fault was over
+        self._gone = _TWICE  # rows that it had to be quiet for then
         self.restart()
 
     def restart(self) -> None:
@@ -47,6 +49,7 @@ class Detection:
         self._streak = np.zeros(len(self._names), dtype=int)
         self._sums = np.zeros((2, len(self._names)))
         self._sum = np.zeros((3, len(self._names)))  # of rows of this alarm: 1, excess, squares
+        self._held = np.zeros((3, len(self._names)))  # the same of rows since they are quiet
         self._healthy = np.zeros(len(self._names))  # logarithm of how probable it is to be over
         self._quiet = 0  # rows that nothing was out in
 
@@ -91,8 +94,9 @@ class Detection:
         """These have fired; whether they are the first of an alarm."""
         first = not self.alarmed
         if first:
-            back = self._away <= _PAUSE
-            self._needed = min(2 * (self._away + self._needed), _PAUSE) if back else 1
+            gap = self._away + self._gone  # rows without it
+            back = gap <= min(_SOON * self._gone, _PAUSE)
+            self._needed = min(2 * gap, _PAUSE) if back else _TWICE
         self.fired = self.fired | fresh
         self._healthy[:] = 0.0
         self._quiet = 0
@@ -105,26 +109,30 @@ class Detection:
         loud = np.abs(row.value) - row.bound > 0.5 * limits[:, 2] * limits[:, 0]
         return bool((self._streak > 0).any() or loud.any())
 
-    def over(self, row: Row, limits: Array, shown: Array | None = None) -> bool:
+    def over(self, row: Row, limits: Array, shows: Mask | None = None) -> bool:
         """Whether the fault is over, with one row more.
 
-        `shown` is what the fault would move residuals by if it was still there, where that is
-        known: a residual that it would not move is quiet for no reason.
+        `shows` says which residuals the fault would move now if it was still there, where that is
+        known: one that it would not move is quiet for no reason.
         """
         seen = row.valid & self.fired & np.isfinite(limits[:, 0])  # others tell nothing
         excess = np.sign(row.value) * np.maximum(np.abs(row.value) - row.bound, 0.0)
         excess = np.where(seen, excess / limits[:, 0], 0.0)
-        if shown is not None:
-            seen &= (np.abs(shown) - row.bound > _SHOWS * limits[:, 0]) | (np.abs(excess) > 1.0)
-        self._sum += np.where(seen, [np.ones_like(excess), excess, excess**2], 0.0)
+        if shows is not None:
+            seen &= shows | (np.abs(excess) > 1.0)
         _, mean, square = self._sum / np.maximum(self._sum[0], 1.0)
         variance = np.maximum(square - mean**2, 1.0)
         mean = np.where(np.abs(mean) < 1.0, np.copysign(1.0, mean), mean)
         more = np.log(variance) + (excess - mean) ** 2 / variance - excess**2
-        more = np.where(seen, more / (2.0 * limits[:, 5]), 0.0)
+        more = np.where(seen & (self._sum[0] > 0), more / (2.0 * limits[:, 5]), 0.0)
         self._healthy = np.maximum(self._healthy + more, 0.0)
-        quiet = (row.valid & self.fired)[self.fired].all()
-        self._quiet = 0 if (more < 0.0).any() else self._quiet + bool(quiet)
+        # what is quiet now is no part of how far out it was, until it is out again
+        self._held += np.where(seen, [np.ones_like(excess), excess, excess**2], 0.0)
+        out = self._healthy <= 0.0
+        self._sum += np.where(out, self._held, 0.0)
+        self._held[:, out] = 0.0
+        quiet = bool((row.valid & self.fired)[self.fired].all())
+        self._quiet = 0 if (more < 0.0).any() else self._quiet + quiet
         enough = bool((self._healthy[self.fired] > _OVER).all())
         return (enough and self._quiet >= self._needed) or self._quiet >= _PAUSE
 
@@ -132,8 +140,8 @@ class Detection:
         """The fault is over."""
         self.fired = np.zeros_like(self.fired)
         self.most[:] = 0.0
-        self._sums[:] = self._sum[:] = self._healthy[:] = 0.0
-        self._away = 0
+        self._sums[:] = self._sum[:] = self._held[:] = self._healthy[:] = 0.0
+        self._away, self._gone = 0, self._needed
 
     def state(self) -> dict[str, Any]:
         """All that `resumed` needs, as plain JSON."""
@@ -142,7 +150,7 @@ class Detection:
             "most": numbers(self.most),
             "sums": numbers(self._sums),
             "alarms": self.alarms,
-            "pause": [self._needed, self._away],
+            "pause": [self._needed, self._away, self._gone],
         }
 
     def resumed(self, state: dict[str, Any]) -> Detection:
@@ -152,7 +160,7 @@ class Detection:
         other.most = array(state["most"], self.most.shape)
         other._sums = array(state["sums"], self._sums.shape)
         other.alarms = int(state["alarms"])
-        other._needed, other._away = (int(x) for x in state["pause"])
+        other._needed, other._away, other._gone = (int(x) for x in state["pause"])
         return other
 
 

@@ -24,7 +24,7 @@ from bondgraph.runtime.diagnosis.naming import (
     update,
 )
 from bondgraph.runtime.diagnosis.rows import Row, weight
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
 
@@ -62,11 +62,11 @@ class Judge:
         said = self.latched is not None and self.latched.said is not None
         return not said and self._after < _JUDGE + 2
 
-    def shown(self) -> Array | None:
-        """What the fault that explains all moves residuals by in the last row, if there is one."""
+    def shows(self) -> Mask | None:
+        """Which residuals the fault that explains all would move now, if there is one."""
         if self._best is None or not self._compared:
             return None
-        return self._compared.moved(self._best)
+        return self._compared.shows(self._best)
 
     def learn(self, samples: Array) -> None:
         """Further (n, signals) samples, one after the other."""
@@ -159,7 +159,7 @@ class Judge:
         pairs: Sequence[ExplainedPair] = ()
         most = max(found, key=lambda e: e.evidence, default=None)
         if most is not None and explains(found):
-            self._best = _larger(self._best, most)
+            self._best = most
         elif self._after < _UNEXPLAINED:
             return None
         if most is not None and not fits(most) and self._after >= _UNEXPLAINED:
@@ -185,9 +185,3 @@ class Judge:
             pairs = self._compared.pairs(history, found)
             self._pairs = pairs_left(pairs, self._model.faults, self._model.sees, fired)
         return self._pairs
-
-
-def _larger(before: Explained | None, now: Explained) -> Explained:
-    """The larger change of one fault: while it goes away, what is left of it becomes small."""
-    same = before is not None and before.hypothesis == now.hypothesis
-    return before if before and same and abs(before.change) > abs(now.change) else now

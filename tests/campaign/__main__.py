@@ -1,0 +1,259 @@
+"""Six machines watched without a tuning: false alarms, missed faults, wrong names.
+
+    python -m tests.campaign healthy --hours 10 [--write]
+    python -m tests.campaign faulty --seeds 20 [--write]
+
+Healthy machines are watched for ten minutes each, without what the watch learns from first. Faults
+are of three times the smallest size that `tune` tells of other machines; the table of these sizes
+comes first, so that they are known before the run. With `--write` a table goes into
+`docs/campaign.md`. Seeds of the machines that limits and sizes come from are 1 to 3, of those that
+are reported from `--start` on.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from functools import cache
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from bondgraph.runtime.diagnosis.calibration import Shown, tune
+from bondgraph.runtime.diagnosis.tuning import bandwidth_for
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.runtime.simulation.scenario import Change, Fault
+from tests.campaign.machines import MACHINES, Machine, compiled, run
+from tests.measured import ROOT, write
+
+PAGE = ROOT / "docs" / "campaign.md"
+MINUTES = 10.0  # of a healthy run
+TIMES = 3.0  # the smallest size
+KINDS = 10  # of faults a machine
+_BLOCK = 1000  # samples that the watch gets at a time
+_LONG = {1.0: (1000.0, 500.0), 100.0: (300.0, 150.0)}  # duration and onset (s), by the rate
+_SHORT = 60.0, 30.0
+_TRIED = 1, 2, 3  # seeds of the machines that sizes are taken from
+
+
+class Kind(NamedTuple):
+    """A fault: what changes how, and in words."""
+
+    of: str
+    change: Change
+    value: float
+    words: str
+
+
+class Heard(NamedTuple):
+    """Of one run: false alarms, delay (s, None if not seen), the last class, whether it was wrong.
+
+    `ever` says whether a wrong class was named at any time; `chance` are the probabilities that
+    the last verdict gave its best candidate and whether that was right.
+    """
+
+    false: int
+    watched: float
+    delay: float | None
+    named: str
+    ever: bool
+    names: int
+    chance: tuple[float, bool] | None
+
+
+def watched(machine: Machine, samples: Array) -> tuple[list[Verdict], float]:
+    """All that a watch without a tuning says of samples, and for how long (s) it watched."""
+    c = compiled(machine)
+    engine = c.engine().configured(bandwidth=bandwidth_for(machine.rate, len(samples)))
+    watch, base = c.diagnosis(engine), engine.configured()
+    time = np.arange(len(samples)) * engine.sample_time
+    said: list[Verdict] = []
+    seen = 0
+    for k in range(0, len(samples), _BLOCK):
+        part = samples[k : k + _BLOCK]
+        said += watch.update(time[k : k + _BLOCK], base.run(part), part)
+        decided = watch.decided()
+        seen += int((decided.valid & np.isfinite(decided.bound)).any(axis=1).sum())
+    return said, seen * engine.sample_time
+
+
+@cache
+def kinds(machine: Machine) -> tuple[Kind, ...]:
+    """The faults of three times their smallest size, those that are smallest beside their value.
+
+    At most one of each parameter or signal, and none that has to be more than five times its value.
+    """
+    c = compiled(machine)
+    duration, _ = _LONG.get(machine.rate, _SHORT)
+    logs = [run(machine, seed, duration) for seed in _TRIED]
+    bandwidth = bandwidth_for(machine.rate, len(logs[0]))
+    engine = c.engine().configured(bandwidth=bandwidth)
+    shown = tune(engine, c.diagnosis_model, logs, "", 1.0, 40.0 / bandwidth).shown
+    found: dict[str, tuple[float, Kind]] = {}
+    for one in shown:
+        share, kind = _kind(machine, one)
+        if share < found.get(one.hypothesis.fault, (5.0,))[0]:
+            found[one.hypothesis.fault] = share, kind
+    chosen = sorted(found.values(), key=lambda x: x[0])[:KINDS]
+    return tuple(kind for _, kind in chosen)
+
+
+def _kind(machine: Machine, shown: Shown) -> tuple[float, Kind]:
+    """A fault of so many times the size, and how large that is beside what it changes."""
+    one, size = shown.hypothesis, TIMES * (shown.size or math.inf)
+    if one.kind == "gain":
+        value = 1.0 - size if size < 0.9 else 1.0 + size
+        return size, Kind(one.fault, "*=", value, f"{one.fault} {100.0 * (value - 1.0):+.3g} %")
+    if one.kind == "drift":
+        return math.inf, Kind(one.fault, "+=", size, "")
+    nominal = compiled(machine).diagnosis_model.faults.get(one.fault)
+    words = f"{one.fault} {size:+.3g} {one.unit}".rstrip()
+    if nominal:
+        words += f" ({100.0 * size / abs(nominal):+.3g} %)"
+    share = size / abs(nominal) if nominal else 1.0
+    return share, Kind(one.fault, "+=", size, words)
+
+
+def _run(task: tuple[str, int, Kind | None]) -> Heard:
+    name, seed, kind = task
+    machine = next(m for m in MACHINES if m.name == name)
+    if kind is None:
+        said, seconds = watched(machine, run(machine, seed, 60.0 * MINUTES))
+        alarms = [v for v in said if v.event == "fault"]
+        names = sum(bool(v.group) for v in said)
+        return Heard(len(alarms), seconds, None, "", bool(names), names, None)
+    duration, onset = _LONG.get(machine.rate, _SHORT)
+    fault = Fault(kind.of, kind.change, kind.value, onset, math.inf, 0.0, 0.0, 1.0, kind.words)
+    said, seconds = watched(machine, run(machine, seed, duration, (fault,)))
+    alarms = [v.time for v in said if v.event == "fault"]
+    true = [t - onset for t in alarms if t >= onset]
+    told = [v for v in said if v.event == "update" and v.time >= onset]
+    named = [v for v in told if v.group]
+    last = told[-1] if told else None
+    what = ""
+    if last is not None:
+        wrong = "pair" if last.pairs else "none"
+        what = ("right" if kind.of in last.group else "wrong") if last.group else wrong
+    chance = None
+    if named:
+        group = named[-1].group
+        sure = sum(c.probability for c in named[-1].candidates if c.fault in group)
+        chance = sure, kind.of in group
+    return Heard(
+        len(alarms) - len(true), seconds, true[0] if true else None, what,
+        any(kind.of not in v.group for v in named), len(named), chance,
+    )  # fmt: skip
+
+
+def _all(tasks: Sequence[tuple[str, int, Kind | None]], jobs: int) -> list[Heard]:
+    if jobs == 1:
+        return [_run(task) for task in tasks]
+    with ProcessPoolExecutor(jobs) as pool:
+        return list(pool.map(_run, tasks))
+
+
+def healthy(machines: Sequence[Machine], hours: float, start: int, jobs: int) -> str:
+    """A table of false alarms."""
+    lines = [
+        "| machine | rate | watched | false alarms | an hour | 95 % confidence | false names |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for machine in machines:
+        runs = math.ceil(60.0 * hours / MINUTES)
+        heard = _all([(machine.name, start + k, None) for k in range(runs)], jobs)
+        time = sum(h.watched for h in heard) / 3600.0
+        alarms = sum(h.false for h in heard)
+        lines.append(
+            f"| {machine.name} | {machine.rate:g} Hz | {time:.2f} h | {alarms} |"
+            f" {alarms / time:.2f} | below {_bound(alarms) / time:.2f} |"
+            f" {sum(h.names for h in heard)} |"
+        )
+        print(lines[-1], file=sys.stderr, flush=True)
+    return "\n".join(lines)
+
+
+def _bound(count: int) -> float:
+    """The mean of a Poisson number that is this small once in twenty times."""
+    from scipy.special import gammaincinv
+
+    return float(gammaincinv(count + 1, 0.95))
+
+
+def faulty(machines: Sequence[Machine], seeds: int, start: int, jobs: int) -> str:
+    """A table of what was seen and named of each fault."""
+    lines = [
+        "| machine | fault | seen | delay | right class at the end | wrong | wrong at times | two"
+        " or none named | false before |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    chances: list[tuple[float, bool]] = []
+    for machine in machines:
+        for kind in kinds(machine):
+            heard = _all([(machine.name, start + k, kind) for k in range(seeds)], jobs)
+            delays = [h.delay for h in heard if h.delay is not None]
+            count = [sum(h.named == x for h in heard) for x in ("right", "wrong")]
+            rest = sum(h.named in ("pair", "none") for h in heard)
+            chances += [h.chance for h in heard if h.chance is not None]
+            delay = f"{float(np.median(delays)):.2f} s" if delays else ""
+            lines.append(
+                f"| {machine.name} | {kind.words} | {len(delays)}/{seeds} | {delay} |"
+                f" {count[0]} | {count[1]} | {sum(h.ever for h in heard)} | {rest} |"
+                f" {sum(h.false for h in heard)} |"
+            )
+            print(lines[-1], file=sys.stderr, flush=True)
+    return "\n".join([*lines, "", *calibration(chances)])
+
+
+def calibration(chances: Sequence[tuple[float, bool]]) -> list[str]:
+    """A table of what was said with which probability, and how often it was right."""
+    lines = ["| probability of the class | verdicts | mean | right |", "|---|---|---|---|"]
+    edges = (0.0, 0.75, 0.9, 0.99, 1.0 + 1e-9)
+    for low, high in pairwise(edges):
+        own = [(p, right) for p, right in chances if low <= p < high]
+        if own:
+            mean = sum(p for p, _ in own) / len(own)
+            right = sum(r for _, r in own) / len(own)
+            lines.append(
+                f"| {low:g} to {min(high, 1.0):g} | {len(own)} | {mean:.3f} | {right:.3f} |"
+            )
+    return lines
+
+
+def main(words: Sequence[str]) -> int:
+    """The command."""
+    parser = argparse.ArgumentParser(prog="python -m tests.campaign")
+    parser.add_argument("what", choices=("healthy", "faulty", "sizes"))
+    parser.add_argument("--hours", type=float, default=10.0, help="of each healthy machine")
+    parser.add_argument("--seeds", type=int, default=20, help="of each fault")
+    parser.add_argument("--start", type=int, default=5000)
+    parser.add_argument("--only", action="append", default=[], help="machines, by name")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--write", action="store_true")
+    args = parser.parse_args(words)
+    chosen = [m for m in MACHINES if not args.only or m.name in args.only]
+    if args.what == "sizes":
+        for machine in chosen:
+            print(json.dumps({machine.name: [k.words for k in kinds(machine)]}))
+        return 0
+    own = [f"--only '{name}'" for name in args.only]
+    if args.what == "healthy":
+        text = healthy(chosen, args.hours, args.start, args.jobs)
+        own = [f"--hours {args.hours:g}", *own]
+    else:
+        text = faulty(chosen, args.seeds, args.start, args.jobs)
+        own = [f"--seeds {args.seeds}", *own]
+    command = " ".join(["python -m tests.campaign", args.what, *own])
+    if args.write:
+        write(PAGE, command, text)
+    print(text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
