@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
     from bondgraph.runtime.fleet.monitor_logs import Fleet, monitor
     from bondgraph.runtime.log import Log
-    from bondgraph.runtime.monitoring.native import NativeError
+    from bondgraph.runtime.c_library import NativeError
     from bondgraph.runtime.simulation.integrate import SimulationError
     from bondgraph.runtime.simulation.scenario import (
         Controller,
@@ -40,7 +40,7 @@ _FROM = {
     "runtime.diagnosis.tuning": ("Limit", "Tuning"),
     "runtime.fleet.monitor_logs": ("Fleet", "monitor"),
     "runtime.log": ("Log",),
-    "runtime.monitoring.native": ("NativeError",),
+    "runtime.c_library": ("NativeError",),
     "runtime.simulation.integrate": ("SimulationError",),
     "runtime.simulation.scenario": (
         "Controller", "Course", "Fault", "Instrument", "Plane", "Sampling", "Scenario",
