@@ -102,6 +102,13 @@ def smooth(course: Course) -> bool:
     return any(n.op is Op.SYM and n.symbol.name == TIME for n in topological([course.expr]))
 
 
+def moves(course: Course, order: int) -> bool:
+    """Whether a course, or its derivative of some order, changes between its bends and jumps."""
+    if course.expr is None:
+        return order < 2 and len(course.points) > 1 and not course.hold
+    return smooth(course)
+
+
 def jumps(course: Course, pool: Pool, values: Values, times: Array) -> list[float]:
     """The moments at which an expression jumps or bends, between the first and the last time.
 
