@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 
 from bondgraph.backends import listing
+from bondgraph.backends.c import PURE
 from bondgraph.backends.target import load
 from bondgraph.backends.templates import fill
 from bondgraph.ir.artifact import Artifact
 from bondgraph.ir.rate_source import RateSource
 from bondgraph.notation.dialect import Language, digits
 
-_HELPERS = "sign ssq ssqrt equal min max power table along map inverse".split()
+_HELPERS = [name for name in PURE if name != "root"]  # what iterates is left to Python
 
 
 def rate_language() -> Language:
@@ -22,7 +23,7 @@ def rate_language() -> Language:
 
 
 def rate_file(source: RateSource, beyond: float, singular: float) -> Artifact:
-    """The file of C; rates from `beyond` on, and matrices of a `singular` condition, are refused."""
+    """The file of C; it refuses rates from `beyond` on, and matrices of a `singular` condition."""
     target = load("c")
     tables = []
     for table in source.tables:

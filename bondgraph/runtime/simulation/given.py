@@ -164,6 +164,12 @@ class Given(Acting):
             return None
         return nothing if order else lambda t: pid.told(t - late) if late else pid.output
 
+    def still(self, name: str) -> bool:
+        """Whether a command is as told throughout each segment."""
+        if name in self.modes or name in self._driven:
+            return True
+        return not courses.moves(self.courses[name], 0)
+
     def followed(self, machine: Machine) -> list[Followed]:
         """See `Acting`."""
         return [

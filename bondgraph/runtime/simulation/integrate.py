@@ -93,7 +93,8 @@ class Integrator:
         try:
             with np.errstate(all="ignore"):
                 if method == "LSODA":
-                    return _odepack(tried, tried.span[0], x, at, relative, scale, self.longest)
+                    rates = tried.quick or tried  # one call less
+                    return _odepack(rates, tried.span[0], x, at, relative, scale, self.longest)
                 return self._by_steps(method, tried, x, at, _ABSOLUTE * relative * scale)
         except (ValueError, _Standstill):  # a slope that is no number is a ValueError of scipy
             return None
@@ -202,15 +203,21 @@ class _Tried:
         self.failed = False
         self._in_vain = 0
         self._native = native
+        self.quick = None if native is None else native.rates(self._slowly)
 
     def __call__(self, t: float, x: Array) -> Sequence[float] | Array:
+        return self._slowly(t, x) if self.quick is None else self.quick(t, x)
+
+    def _slowly(self, t: float, x: Array) -> Sequence[float]:
+        """The rates in Python; it also counts those of compiled code, which asks now and then."""
         native = self._native
-        if native is not None and native.rates is not None:
-            found = native.rates(t, x)
-            if found is not None:
+        if native is not None:
+            if native.count(1):
+                self.quick = native.rates(self._slowly)
+            calls = native.go_on()
+            if calls > 1:
                 self._in_vain = 0
-                return found
-            self._look(t, native.go_on())
+            self._look(t, calls)
         return self._plainly(t, x.tolist())
 
     def _look(self, t: float, calls: int) -> None:
@@ -223,10 +230,8 @@ class _Tried:
                 raise _Standstill
 
     def _plainly(self, t: float, state: list[float]) -> Sequence[float]:
-        """The rates in Python, which also tells what is none."""
+        """The rates in Python, and whether they are any."""
         self._look(t, 1)
-        if self._native is not None:
-            self._native.count(1)
         found = self.machine.rates(t, state, self.inputs(t))
         bad = not sum(map(abs, found)) < BEYOND  # also where one of them is no number
         self._in_vain = self._in_vain + 1 if bad else 0

@@ -11,8 +11,10 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from bondgraph.ir.artifact import Artifact
+from bondgraph.ir.expr import Expr
 from bondgraph.ir.rate_source import RateSource, RateTable
 from bondgraph.ir.state import Block
 from bondgraph.notation.dialect import Language
@@ -29,14 +31,16 @@ from bondgraph.text.tuples import NamedTuple
 #: A rate that no machine has.
 BEYOND = 1e100
 
-#: Rates in Python after which they are compiled. They take about as long as the compiler, whatever
-#: the machine is: both grow with its lines. So a run takes at most twice as long as it had to.
-WORTH = 40_000
+#: Rates in Python after which they are compiled: so many take as long as the compiler, as both grow
+#: with the machine (2000 to 20 000 of the models tried). Compiling when Python has cost as much
+#: costs no more than twice what it had to, however long the run will be.
+WORTH = 10_000
 
 _LINES = 3000  # from which on a compiler takes more than in proportion to them
 _LOOK = 100  # rates after which it is asked how far it is
 
-Rates: TypeAlias = Callable[[float, Array], Array | None]
+Flags: TypeAlias = npt.NDArray[np.bool_]
+Rates: TypeAlias = Callable[[float, Array], Sequence[float] | Array]
 
 
 class Coding(NamedTuple):
@@ -75,11 +79,10 @@ class _Unsuitable(Exception):
 
 
 class NativeMachine:
-    """A machine whose rates are compiled as soon as that pays.
+    """A machine whose rates are compiled as soon as that pays: `count` is told what Python did.
 
     `followed` are the inputs that follow courses. `tell` is told, in one line, why a machine that
-    should be is not. Until it is compiled `rates` is None, and `count` is told of what was computed
-    in Python.
+    should be compiled is not.
     """
 
     def __init__(
@@ -96,20 +99,30 @@ class NativeMachine:
         self._left = WORTH
         self._segment: Segment | None = None
         self._code: _Compiled | None = None
-        self.rates: Rates | None = None
 
     def begin(self, segment: Segment) -> None:
         """Go on with other inputs."""
         self._segment = segment
         if self._code is not None:
-            self.rates = self._code.enter(segment)
+            self._code.enter(segment)
 
-    def count(self, rates: int) -> None:
-        """So many more rates were computed in Python."""
-        if self._left > 0:
-            self._left -= rates
-            if self._left <= 0:
-                self.compile()
+    def count(self, rates: int) -> bool:
+        """So many more rates were computed in Python; whether it is compiled because of that."""
+        if self._left <= 0:
+            return False
+        self._left -= rates
+        if self._left <= 0:
+            self.compile()
+        return self._code is not None
+
+    def rates(self, otherwise: Rates) -> Rates | None:
+        """The rates on this segment, None where they are not compiled.
+
+        What they refuse, and one in a hundred, is asked `otherwise`.
+        """
+        if self._code is None or self._segment is None:
+            return None
+        return self._code.rates(self._segment, otherwise)
 
     def compile(self) -> None:
         """Compile it now, where it can be."""
@@ -122,7 +135,7 @@ class NativeMachine:
             self._tell(f"{error}; the machine is run in Python, some times slower")
             return
         if self._segment is not None:
-            self.rates = self._code.enter(self._segment)
+            self._code.enter(self._segment)
 
     def go_on(self) -> int:
         """How many rates there were since this was asked last."""
@@ -133,7 +146,7 @@ class NativeMachine:
         """Time and states of the last rates."""
         return None if self._code is None else self._code.last
 
-    def outputs(self, times: Array, states: Array) -> tuple[Array, Array] | None:
+    def outputs(self, times: Array, states: Array) -> tuple[Array, Flags] | None:
         """What `Machine.observe` gives at each time, shape (times, outputs), and which rows it has
         to be asked for; None where it is not compiled."""
         if self._code is None or self._segment is None:
@@ -190,19 +203,23 @@ class _Compiled:
             *[a.ctypes.data for a in own[0]], 0.0, 0.0, 0.0, _LOOK, *[a.ctypes.data for a in own[1]]
         )
 
-    def enter(self, segment: Segment) -> Rates:
-        """The rates on a segment."""
-        record, x, u, r = self._record, self._x, self._u, self._r
-        call, address = self._call, ctypes.addressof(record)
-        record.low, record.high = segment.low, segment.high
-        u[: len(u)] = segment.inputs((segment.low + segment.high) / 2) or 0.0
+    def enter(self, segment: Segment) -> None:
+        """See `NativeMachine.begin`."""
+        self._record.low, self._record.high = segment.low, segment.high
+        given = segment.inputs((segment.low + segment.high) / 2)
+        self._u[: len(given)] = given
+
+    def rates(self, segment: Segment, otherwise: Rates) -> Rates:
+        """See `NativeMachine`."""
+        x, u, r = self._x, self._u, self._r
+        call, address = self._call, ctypes.addressof(self._record)
         moving, inputs = segment.moving, segment.inputs
 
-        def rates(t: float, state: Array) -> Array | None:
+        def rates(t: float, state: Array) -> Sequence[float] | Array:
             x[:] = state
-            return None if call(address, t) else r
+            return otherwise(t, state) if call(address, t) else r
 
-        def moved(t: float, state: Array) -> Array | None:
+        def moved(t: float, state: Array) -> Sequence[float] | Array:
             given = inputs(t)
             for k in moving:
                 u[k] = given[k]
@@ -221,7 +238,7 @@ class _Compiled:
         """See `NativeMachine`."""
         return float(self._record.t), self._x.tolist()
 
-    def outputs(self, segment: Segment, times: Array, states: Array) -> tuple[Array, Array]:
+    def outputs(self, segment: Segment, times: Array, states: Array) -> tuple[Array, Flags]:
         """See `NativeMachine`."""
         count = len(times)
         u = np.tile(self._u, (count, 1))
@@ -264,10 +281,10 @@ class _Written:
         sizes = len(machine.states), len(machine.signals), len(machine.outputs)
         self.source = RateSource(tuple(tables), inputs, rates, outputs, *sizes)
 
-    def _code(self, leaves: Mapping[object, str]) -> Code:
+    def _code(self, leaves: Mapping[Expr, str]) -> Code:
         return Code(self._pool, leaves, self._machine.values.constant, shared=self._shared)
 
-    def _results(self, leaves, wanted) -> tuple[str, ...]:
+    def _results(self, leaves: Mapping[Expr, str], wanted: Sequence[Expr]) -> tuple[str, ...]:
         code = self._code(leaves)
         texts = self._machine.texts(code, wanted, self._loop)
         for k, text in enumerate(texts):

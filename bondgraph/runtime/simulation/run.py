@@ -59,8 +59,9 @@ def simulate(
 ) -> Run:
     """Run a scenario of the model behind `system`.
 
-    With a `coding` a long run is compiled; where it cannot be, `tell` is told why. Raises `CompileError` where there are no state equations, `SimulationError` where integration
-    ends early, KeyError with the name of a parameter without a value.
+    With a `coding` a long run is compiled; where it cannot be, `tell` is told why. Raises
+    `CompileError` where there are no state equations, `SimulationError` where integration ends
+    early, KeyError with the name of a parameter without a value.
     """
     return _Simulation(system, integral, scenario, coding, tell).run(progress)
 
@@ -135,9 +136,12 @@ class _Simulation(Stepper):
             self._begin(when(a), b, table, (done, last))
             wanted = times[done:last]
             names, values = self.go_on(b, wanted)
-            for k, name in enumerate(first.names):
-                if name in names:
-                    table[done:last, k] = values[:, names.index(name)]
+            if names == first.names:
+                table[done:last] = values
+            else:
+                both = [n for n in first.names if n in names]
+                places = [first.names.index(n) for n in both]
+                table[done:last, places] = values[:, [names.index(n) for n in both]]
             inner = [when(t) for t in wanted.tolist()]
             self._note(slice(done, last), inner, when((a + b) / 2))
             for t, row in zip(wanted.tolist() if self._past else (), values.tolist(), strict=False):
@@ -211,11 +215,11 @@ class _Simulation(Stepper):
     def _note(self, samples: slice, times: list[float], setting: float) -> None:
         """Write down what is told at some samples, and what is not read.
 
-        `setting` is a time at which the switches are as they are throughout the segment.
+        `setting` is a time inside of the segment: switches, and all that stands still, are as then.
         """
-        for name, column in self.told.items():
-            mode = name in self.given.modes
-            column[samples] = [self.given.told(name, setting if mode else t) for t in times]
+        for name, column in self.told.items() if times else ():
+            moments = [setting] if self.given.still(name) else times
+            column[samples] = [self.given.told(name, t) for t in moments]
             odd = ~np.isfinite(column[samples])
             if odd.any():
                 t = times[int(np.argmax(odd))]

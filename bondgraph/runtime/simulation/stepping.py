@@ -126,6 +126,8 @@ class Stepper:
         """What can be seen at each time, shape (times, names)."""
         native = None if mode.native is None else mode.native.outputs(times, states)
         if native is None:
+            if mode.native is not None:
+                mode.native.count(len(times))
             native = np.empty((len(times), len(mode.names))), np.ones(len(times), dtype=np.bool_)
         values, odd = native
         for k in np.flatnonzero(odd).tolist():
