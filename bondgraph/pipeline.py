@@ -327,12 +327,12 @@ class Compilation:
         progress: Callable[[float], None] = lambda _: None,
         *,
         native: bool = True,
-        tell: Callable[[str], None] = lambda _: None,
+        tell: Callable[[str], None] | None = None,
     ) -> Run:
         """Run a scenario (or the file of one) on the virtual machine.
 
-        A long run is compiled to C on its way; not with `native` False. Where that fails it goes on
-        in Python, which `tell` is told in one line.
+        A long run is compiled to C on its way, unless `native` is False. Where that fails it goes
+        on in Python, which is told in one line to `tell` (a RuntimeWarning if there is none).
 
         Signals in SI units, at `run.log.time` in s: `run.log` as sensors read them, `run.truth`
         without noise, with the states. `progress` is told the share that is done, 0 to 1. Raises
@@ -347,13 +347,14 @@ class Compilation:
         '189.9 rad/s'
         """
         from bondgraph.backends.rates import rate_file, rate_language
+        from bondgraph.runtime.c_library import warn
         from bondgraph.runtime.simulation.native_machine import Coding
         from bondgraph.runtime.simulation.run import simulate
         from bondgraph.runtime.simulation.scenario import Scenario
 
         chosen = scenario if isinstance(scenario, Scenario) else self.scenario(scenario)
         coding = Coding(rate_language(), rate_file) if native else None
-        return simulate(self.equations, self.integral, chosen, progress, coding, tell)
+        return simulate(self.equations, self.integral, chosen, progress, coding, tell or warn)
 
     @cached_property
     def structure(self) -> StructuralModel:

@@ -10,6 +10,7 @@ import shlex
 import subprocess
 import sys
 import tempfile
+import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
@@ -23,6 +24,11 @@ _FLAGS = "-std=c99 -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden".spli
 
 class NativeError(Exception):
     """Why generated C cannot be run here: no compiler, or one that fails."""
+
+
+def warn(message: str) -> None:
+    """Tell what is told to nobody else, as a RuntimeWarning."""
+    warnings.warn(message, RuntimeWarning, stacklevel=3)
 
 
 def library(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -49,7 +48,7 @@ def start(
     made = setting(residuals, thresholds)
     if native is False:
         return PythonEngine(made)
-    say = tell or _warn
+    say = tell or c_library.warn
     try:
         return NativeEngine(made, Library(made.programs, say))
     except NativeError as error:
@@ -59,17 +58,15 @@ def start(
         return PythonEngine(made)
 
 
-def _warn(message: str) -> None:
-    warnings.warn(message, RuntimeWarning, stacklevel=3)
-
-
 class Library:
     """The compiled code of programs, loaded; raises NativeError where that cannot be done.
 
     `tell` is told, in one line, of a cache that cannot be trusted.
     """
 
-    def __init__(self, programs: Sequence[Runnable], tell: Callable[[str], None] = _warn) -> None:
+    def __init__(
+        self, programs: Sequence[Runnable], tell: Callable[[str], None] = c_library.warn
+    ) -> None:
         library = c_library.library(
             [artifact for runnable in programs for artifact in runnable.c],
             [runnable.main for runnable in programs],

@@ -81,8 +81,8 @@ class _Unsuitable(Exception):
 class NativeMachine:
     """A machine whose rates are compiled as soon as that pays: `count` is told what Python did.
 
-    `followed` are the inputs that follow courses. `tell` is told, in one line, why a machine that
-    should be compiled is not.
+    `followed` are the inputs that follow courses. `tell` is told, in one line and not while it is
+    integrated, why a machine that should be compiled is not.
     """
 
     def __init__(
@@ -96,6 +96,7 @@ class NativeMachine:
         self._followed = tuple(followed)
         self._coding = coding
         self._tell = tell
+        self._notes: list[str] = []
         self._left = WORTH
         self._segment: Segment | None = None
         self._code: _Compiled | None = None
@@ -128,11 +129,13 @@ class NativeMachine:
         """Compile it now, where it can be."""
         self._left = 0
         try:
-            self._code = _Compiled(self._machine, self._followed, self._coding, self._tell)
+            self._code = _Compiled(
+                self._machine, self._followed, self._coding, self._notes.append
+            )
         except _Unsuitable:
             return
         except NativeError as error:
-            self._tell(f"{error}; the machine is run in Python, some times slower")
+            self._notes.append(f"{error}; the machine runs in Python, which takes twice as long")
             return
         if self._segment is not None:
             self._code.enter(self._segment)
@@ -149,6 +152,8 @@ class NativeMachine:
     def outputs(self, times: Array, states: Array) -> tuple[Array, Flags] | None:
         """What `Machine.observe` gives at each time, shape (times, outputs), and which rows it has
         to be asked for; None where it is not compiled."""
+        while self._notes:
+            self._tell(self._notes.pop(0))
         if self._code is None or self._segment is None:
             return None
         return self._code.outputs(self._segment, times, states)

@@ -14,6 +14,7 @@ import numpy as np
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.c_library import warn
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.simulation.given import Given, inside
 from bondgraph.runtime.simulation.instruments import Readings, readers
@@ -55,11 +56,11 @@ def simulate(
     scenario: Scenario,
     progress: Progress = lambda _: None,
     coding: Coding | None = None,
-    tell: Callable[[str], None] = lambda _: None,
+    tell: Callable[[str], None] = warn,
 ) -> Run:
     """Run a scenario of the model behind `system`.
 
-    With a `coding` a long run is compiled; where it cannot be, `tell` is told why. Raises
+    With a `coding` a long run is compiled; where it cannot be, `tell` is told why in a line. Raises
     `CompileError` where there are no state equations, `SimulationError` where integration ends
     early, KeyError with the name of a parameter without a value.
     """
@@ -75,7 +76,7 @@ class _Simulation(Stepper):
         integral: CausalGraph,
         scenario: Scenario,
         coding: Coding | None = None,
-        tell: Callable[[str], None] = lambda _: None,
+        tell: Callable[[str], None] = warn,
     ) -> None:
         self.graph: BondGraph = system.graph
         self.scenario = scenario
