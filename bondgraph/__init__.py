@@ -16,10 +16,10 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from bondgraph.backends.write import ForeignFiles
     from bondgraph.pipeline import Compilation, Options, compile
+    from bondgraph.runtime.c_library import NativeError
     from bondgraph.runtime.diagnosis.tuning import Limit, Tuning
     from bondgraph.runtime.fleet.monitor_logs import Fleet, monitor
     from bondgraph.runtime.log import Log
-    from bondgraph.runtime.monitoring.native import NativeError
     from bondgraph.runtime.simulation.integrate import SimulationError
     from bondgraph.runtime.simulation.scenario import (
         Controller,
@@ -37,10 +37,10 @@ if TYPE_CHECKING:
 _FROM = {
     "backends.write": ("ForeignFiles",),
     "pipeline": ("Compilation", "Options", "compile"),
+    "runtime.c_library": ("NativeError",),
     "runtime.diagnosis.tuning": ("Limit", "Tuning"),
     "runtime.fleet.monitor_logs": ("Fleet", "monitor"),
     "runtime.log": ("Log",),
-    "runtime.monitoring.native": ("NativeError",),
     "runtime.simulation.integrate": ("SimulationError",),
     "runtime.simulation.scenario": (
         "Controller", "Course", "Fault", "Instrument", "Plane", "Sampling", "Scenario",

@@ -325,8 +325,14 @@ class Compilation:
         self,
         scenario: Scenario | str | os.PathLike[str],
         progress: Callable[[float], None] = lambda _: None,
+        *,
+        native: bool = True,
+        tell: Callable[[str], None] | None = None,
     ) -> Run:
         """Run a scenario (or the file of one) on the virtual machine.
+
+        A long run is compiled to C on its way, unless `native` is False. Where that fails it goes
+        on in Python, which is told in one line to `tell` (a RuntimeWarning if there is none).
 
         Signals in SI units, at `run.log.time` in s: `run.log` as sensors read them, `run.truth`
         without noise, with the states. `progress` is told the share that is done, 0 to 1. Raises
@@ -340,11 +346,15 @@ class Compilation:
         >>> f"{run.truth.columns['speed'][-1]:.1f} rad/s"
         '189.9 rad/s'
         """
+        from bondgraph.backends.rates import rate_file, rate_language
+        from bondgraph.runtime.c_library import warn
+        from bondgraph.runtime.simulation.native_machine import Coding
         from bondgraph.runtime.simulation.run import simulate
         from bondgraph.runtime.simulation.scenario import Scenario
 
         chosen = scenario if isinstance(scenario, Scenario) else self.scenario(scenario)
-        return simulate(self.equations, self.integral, chosen, progress)
+        coding = Coding(rate_language(), rate_file) if native else None
+        return simulate(self.equations, self.integral, chosen, progress, coding, tell or warn)
 
     @cached_property
     def structure(self) -> StructuralModel:

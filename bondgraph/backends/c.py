@@ -38,7 +38,8 @@ from bondgraph.notation.dialect import CodeSpeller, digits
 from bondgraph.notation.walk import reads
 from bondgraph.text.numerals import joined
 
-_PURE = "sign ssqrt ssq equal min max power table along map inverse root".split()
+#: Helpers of the generated code that need nothing of it, each before those that call it.
+PURE = "sign ssqrt ssq equal min max power table along map inverse root".split()
 _ARITHMETIC = frozenset({"sign", "ssq", "min", "max"})  # functions that take no library
 
 _SCALED = ";\n * derivative k times time_unit to the power k"
@@ -247,7 +248,7 @@ def _empty(what: str) -> tuple[str, str]:
 def _helpers(
     program: Program, facts: Facts, spelling: Spelling, has_dot: bool, code: Code
 ) -> list[str]:
-    found = [name for name in _PURE if name in facts.laws]
+    found = [name for name in PURE if name in facts.laws]
     wanted = {
         "exponential": exponential(program),
         "dot": has_dot,

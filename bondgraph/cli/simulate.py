@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 from bondgraph.cli import console
@@ -50,11 +51,14 @@ def run(args: Namespace) -> int:
     chosen = _scenario(args, compilation)
     if args.stream:
         return stream(compilation, chosen, args.speed)
+    notes: list[str] = []
     with console.progress_bar("simulating") as progress:
         try:
-            found = compilation.simulate(chosen, progress)
+            found = compilation.simulate(chosen, progress, tell=notes.append)
         except KeyError as error:
             raise _without_value(error) from error
+    for note in notes:
+        print(f"note: {note}", file=sys.stderr)
     files = [args.output or f"{_stem(chosen.name)}.csv"]
     write_log(found.log, files[0])
     if args.truth:
@@ -81,7 +85,6 @@ def stream(compilation: Compilation, scenario: Scenario, speed: float) -> int:
 
     Who falls behind does not catch up: time stretches.
     """
-    import sys
     import time
 
     from bondgraph.runtime.simulation.run import Robot

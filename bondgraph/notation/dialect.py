@@ -58,6 +58,20 @@ class Dialect(NamedTuple):
     functions: Mapping[str, str]
 
 
+class Language(NamedTuple):
+    """A dialect with the statements around it, as patterns of a name `{0}` and a value `{1}`.
+
+    `local` makes a value, `assign` sets one that was `declared`: either side of a branch does,
+    whose lines stand before, between and after the sides. A line that is empty is none.
+    """
+
+    dialect: Dialect
+    local: str
+    assign: str
+    declared: str
+    branch: tuple[str, str, str]
+
+
 _ONE, _MINUS_ONE = Const(1.0), Const(-1.0)
 
 #: No language: for who reads the program itself.

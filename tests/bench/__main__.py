@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import bondgraph
-from tests.bench import batch, growth, instructions, peers, toolbox, whole
+from tests.bench import batch, growth, instructions, peers, simulation, toolbox, whole
 from tests.bench.clock import in_turn, python
 
 ROOT = Path(__file__).parents[2]
@@ -70,6 +70,8 @@ def main() -> None:
     print()
     whole.report(short)
     whole.sharper()
+    print()
+    simulation.report(short)
     print()
     instructions.report()
     print()

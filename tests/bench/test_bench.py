@@ -12,7 +12,7 @@ import pytest
 import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
-from tests.bench import batch, families, growth, instructions, peers, toolbox
+from tests.bench import batch, families, growth, instructions, peers, simulation, toolbox
 from tests.generated.scale import waves
 
 
@@ -79,3 +79,13 @@ def test_the_bench_says_what_it_could_not_compare(
     peers.report((1,))
     assert capsys.readouterr().out.count("not compared") == 3
     assert all((toolbox.STRUCTURES / f"{name}.csv").is_file() for name in toolbox.NAMES)
+
+
+def test_the_road_of_the_simulation_is_a_point_a_sample() -> None:
+    """As many bends as samples: no step of the integrator may run past two of them."""
+    robot, car = simulation.cases()
+    road = car.scenario.inputs["road"]
+    assert len(road.points) == 30_000 and road.points[-1][0] < car.scenario.duration
+    assert robot.scenario.controllers and robot.scenario.duration == car.scenario.duration == 60
+    short = car._replace(scenario=car.scenario._replace(duration=0.5))
+    assert simulation.processor_time(short) > 0

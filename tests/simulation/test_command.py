@@ -118,3 +118,16 @@ def test_a_terminal_shows_a_bar() -> None:
     seen = os.read(far, 4096).decode()
     os.close(far)
     assert "[============            ] simulating" in seen
+
+
+def test_a_run_that_cannot_be_compiled_says_so(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("bondgraph.runtime.simulation.native_machine.WORTH", 1)
+    monkeypatch.setenv("CC", "no-such-compiler")
+    name = scenario("duration = 0.1\ninputs.U = 12")
+    assert main(["simulate", MOTOR, name, "--json"]) == 0
+    said = capsys.readouterr()
+    assert json.loads(said.out)["samples"] == 101
+    (line,) = [line for line in said.err.splitlines() if line.startswith("note: no C")]
+    assert "no-such-compiler" in line and "Python" in line

@@ -1,26 +1,17 @@
-"""The generated C as an engine: compiled by the system's compiler, kept in a cache, loaded."""
+"""The generated C as an engine: residuals of arrays of samples, by one call through ctypes."""
 
 from __future__ import annotations
 
 import ctypes
-import hashlib
-import os
-import platform
-import shlex
-import subprocess
-import sys
-import tempfile
-import warnings
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from bondgraph.cache import user_cache
 from bondgraph.ir.runnable_code import Runnable
+from bondgraph.runtime import c_library
+from bondgraph.runtime.c_library import NativeError
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import (
     Batch,
@@ -32,9 +23,6 @@ from bondgraph.runtime.monitoring.engine import (
     setting,
 )
 
-#: One rounding for each operation, as in Python; nothing of the residuals is seen from outside.
-_FLAGS = "-std=c99 -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden".split()
-
 _STATUS = (
     "no finite number for a parameter",
     "a sample time that it was not made for",
@@ -42,10 +30,6 @@ _STATUS = (
     "a unit of time that is not positive",
     "parameters that make a coefficient which is not finite",
 )
-
-
-class NativeError(Exception):
-    """Why the generated C cannot be run here: no compiler, or one that fails."""
 
 
 def start(
@@ -64,7 +48,7 @@ def start(
     made = setting(residuals, thresholds)
     if native is False:
         return PythonEngine(made)
-    say = tell or _warn
+    say = tell or c_library.warn
     try:
         return NativeEngine(made, Library(made.programs, say))
     except NativeError as error:
@@ -74,32 +58,22 @@ def start(
         return PythonEngine(made)
 
 
-def _warn(message: str) -> None:
-    warnings.warn(message, RuntimeWarning, stacklevel=3)
-
-
 class Library:
     """The compiled code of programs, loaded; raises NativeError where that cannot be done.
 
     `tell` is told, in one line, of a cache that cannot be trusted.
     """
 
-    def __init__(self, programs: Sequence[Runnable], tell: Callable[[str], None] = _warn) -> None:
-        compiler = shlex.split(os.environ.get("CC", "")) or ["cc"]
-        name = _digest(programs, [*compiler, *_FLAGS], _version(tuple(compiler)))
-        libraries = user_cache(
-            "so", lambda why: tell(f"{why}; the residuals are compiled at each start")
+    def __init__(
+        self, programs: Sequence[Runnable], tell: Callable[[str], None] = c_library.warn
+    ) -> None:
+        library = c_library.library(
+            [artifact for runnable in programs for artifact in runnable.c],
+            [runnable.main for runnable in programs],
+            "the residuals",
+            lambda found: _is_of(found, programs),
+            tell,
         )
-        kept = libraries.find(name) if libraries else iter(())
-        library = next((found for path in kept if (found := _load(path, programs))), None)
-        if library is None:
-            with tempfile.TemporaryDirectory(prefix="bondgraph-") as temporary:
-                built = Path(temporary) / f"{name}.so"
-                _compile(programs, compiler, Path(temporary), built)
-                taken = libraries.keep(name, built.read_bytes()) if libraries else None
-                library = (_load(taken, programs) if taken else None) or _load(built, programs)
-        if library is None:
-            raise NativeError(f"what {compiler[0]} made cannot be loaded")
         self.functions = {runnable.stem: Functions(library, runnable) for runnable in programs}
 
 
@@ -213,50 +187,12 @@ def _run(engines: list[NativeEngine], samples: Array, received: Array | None = N
     return Batch(value, valid, bound)
 
 
-# ------------------------------------------------------------------------ compiler and cache
-
-
-@cache
-def _version(compiler: tuple[str, ...]) -> str:
-    """What the compiler says of itself; raises NativeError where there is none."""
-    try:
-        done = subprocess.run([*compiler, "--version"], capture_output=True, check=False)
-    except OSError as error:
-        raise NativeError(f"no C compiler `{compiler[0]}` ({error.strerror})") from error
-    return done.stdout.decode("utf-8", "replace")
-
-
-def _digest(programs: Sequence[Runnable], *facts: Sequence[str] | str) -> str:
-    """Identifies what would come out: all texts, the compiler, its flags, the machine."""
-    texts = [[(a.path, a.text) for a in runnable.c] for runnable in programs]
-    everything = repr((texts, facts, sys.platform, platform.machine()))
-    return hashlib.sha256(everything.encode("utf-8", "surrogatepass")).hexdigest()[:32]
-
-
-def _compile(
-    programs: Sequence[Runnable], compiler: list[str], folder: Path, library: Path
-) -> None:
-    for artifact in (a for runnable in programs for a in runnable.c):
-        (folder / artifact.path).write_text(artifact.text, encoding="utf-8")
-    sources = [runnable.main for runnable in programs]
-    command = [*compiler, *_FLAGS, "-o", str(library), *sources, "-lm"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
-    if done.returncode:
-        told = done.stderr.decode("utf-8", "replace").splitlines()
-        why = next((line for line in told if "error" in line), told[0] if told else "no reason")
-        raise NativeError(f"{compiler[0]} does not compile the residuals: {why.strip()}")
-
-
-def _load(path: Path, programs: Sequence[Runnable]) -> ctypes.CDLL | None:
-    """The library in a file; None if it cannot be loaded here, or is of other programs."""
-    try:
-        library = ctypes.CDLL(str(path))
-        for runnable in programs:
-            abi = getattr(library, f"{runnable.stem}_batch_abi")
-            digest = getattr(library, f"{runnable.stem}_batch_digest")
-            abi.restype, digest.restype = ctypes.c_uint32, ctypes.c_char_p
-            if abi() != runnable.abi or digest().decode() != runnable.program.digest:
-                return None
-    except (OSError, AttributeError):
-        return None
-    return library
+def _is_of(library: ctypes.CDLL, programs: Sequence[Runnable]) -> bool:
+    """Whether a library was made of these programs."""
+    for runnable in programs:
+        abi = getattr(library, f"{runnable.stem}_batch_abi")
+        digest = getattr(library, f"{runnable.stem}_batch_digest")
+        abi.restype, digest.restype = ctypes.c_uint32, ctypes.c_char_p
+        if abi() != runnable.abi or digest().decode() != runnable.program.digest:
+            return False
+    return True

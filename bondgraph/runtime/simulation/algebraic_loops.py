@@ -13,9 +13,11 @@ from bondgraph.runtime.log import Array
 Places = Sequence[tuple[int, int]]  # row and column of each entry of a matrix
 Look = Callable[..., tuple[list[float], list[list[float]]]]  # unknowns -> zeros, slopes
 
-_DENSE = 60  # unknowns of a loop from which on its matrix is kept sparse
+#: Unknowns of a loop from which on its matrix is kept sparse.
+DENSE = 60
 _STEPS = 60  # of Newton's method
-_SINGULAR = 1e13  # condition of a matrix that leaves something open: flows around a ring
+#: Condition of a matrix that leaves something open: flows around a ring.
+SINGULAR = 1e13
 _EXACT = 1e-12  # relative accuracy of a loop
 _GOOD = 1e-9  # of the terms of an equation: what may be left where no step brings it nearer
 _DOUBLINGS = 120  # of the range in which a single unknown is looked for
@@ -35,7 +37,7 @@ def factorised(size: int, places: Places, numbers: Array) -> Callable[[list[floa
     >>> solve([3.0, 4.0])
     [1.0, 2.0]
     """
-    if size > _DENSE:
+    if size > DENSE:
         from scipy.sparse import csc_array
         from scipy.sparse.linalg import splu
 
@@ -43,19 +45,24 @@ def factorised(size: int, places: Places, numbers: Array) -> Callable[[list[floa
         try:
             factors = splu(csc_array((numbers, (rows, columns)), shape=(size, size)))
             pivots = np.abs(factors.U.diagonal())
-            if pivots.min() * _SINGULAR > pivots.max():
+            if pivots.min() * SINGULAR > pivots.max():
                 return lambda b: [float(x) for x in factors.solve(np.array(b))]
         except RuntimeError:
             pass  # exactly singular
-    matrix = np.zeros((size, size))
-    for (i, j), n in zip(places, numbers, strict=True):
-        matrix[i, j] = n
-    singular = not np.linalg.cond(matrix) < _SINGULAR
-    inverse = np.linalg.pinv(matrix) if singular else np.linalg.inv(matrix)
+    inverse = inverted(size, places, numbers)
     if size <= 4:
         lines = inverse.tolist()
         return lambda b: [sum(c * v for c, v in zip(line, b, strict=True)) for line in lines]
     return lambda b: [float(x) for x in inverse @ b]
+
+
+def inverted(size: int, places: Places, numbers: Array) -> Array:
+    """The inverse of a matrix, shape (size, size); where it is singular the pseudoinverse."""
+    matrix = np.zeros((size, size))
+    for (i, j), n in zip(places, numbers, strict=True):
+        matrix[i, j] = n
+    singular = not np.linalg.cond(matrix) < SINGULAR
+    return np.asarray(np.linalg.pinv(matrix) if singular else np.linalg.inv(matrix))
 
 
 def solver(size: int, places: Places) -> Callable[[list[float], list[float]], list[float]]:
@@ -73,7 +80,7 @@ def solver(size: int, places: Places) -> Callable[[list[float], list[float]], li
         matrix[rows, columns] = entries
         try:
             found = np.linalg.solve(matrix, right)
-            if np.abs(found).max() * np.abs(matrix).max() <= _SINGULAR * np.abs(right).max():
+            if np.abs(found).max() * np.abs(matrix).max() <= SINGULAR * np.abs(right).max():
                 return [float(x) for x in found]
         except np.linalg.LinAlgError:
             pass
@@ -89,14 +96,14 @@ def solver(size: int, places: Places) -> Callable[[list[float], list[float]], li
         except RuntimeError:
             return _least(matrix.toarray(), np.array(right))
 
-    return dense if size <= _DENSE else sparse
+    return dense if size <= DENSE else sparse
 
 
 def _least(matrix: Array, right: Array) -> list[float]:
     """The least solution of equations that leave something open."""
     if not np.isfinite(matrix).all() or not np.isfinite(right).all():
         raise NoSolution
-    found = np.linalg.lstsq(matrix, right, rcond=1 / _SINGULAR)[0]
+    found = np.linalg.lstsq(matrix, right, rcond=1 / SINGULAR)[0]
     left = np.abs(matrix @ found - right)
     if (left > _GOOD * (np.abs(matrix) @ np.abs(found) + np.abs(right))).any():
         raise NoSolution

@@ -1,6 +1,7 @@
-"""Expressions become Python source over plain floats: what is computed thousands of times a second.
+"""Expressions become source over plain floats: what is computed thousands of times a second.
 
-Parts that hold nothing but numbers are computed once, while the source is written.
+Parts that hold nothing but numbers are computed once, while the source is written. Python has them
+in its text; a compiled language takes them from an array, so that its text does not depend on them.
 """
 
 from __future__ import annotations
@@ -14,25 +15,60 @@ from bondgraph.algebra.numeric import DOUBLES
 from bondgraph.ir.expr import Expr, Kind, Op, Pool
 from bondgraph.ir.program import Assignment, Branch, Choice, Const, Expression, Mode, Ref
 from bondgraph.ir.tables import backwards
-from bondgraph.notation.dialect import CodeSpeller, Dialect
+from bondgraph.notation.dialect import CodeSpeller, Dialect, Language
 from bondgraph.passes.lowering.procedure import ONE, ZERO, Procedure
 from bondgraph.passes.lowering.program_names import Names
+from bondgraph.text.tuples import NamedTuple
 
 #: What the source may call.
 NAMES: dict[str, Any] = {**DOUBLES, "nan": math.nan, "inf": math.inf, "__builtins__": {}}
 
-_PYTHON = Dialect(
-    "{0}", "{1} if {0} else {2}", "and", "or", "not {0}", "{0} == {1}", "{0} != {1}",
-    {"power": "pow({0}, {1})", "table": "{1}({0})",
-     "map": "{2}({0}, {1})", "inverse": "{2}({0}, {1})"},
+_PYTHON = Language(
+    Dialect(
+        "{0}", "{1} if {0} else {2}", "and", "or", "not {0}", "{0} == {1}", "{0} != {1}",
+        {"power": "pow({0}, {1})", "table": "{1}({0})",
+         "map": "{2}({0}, {1})", "inverse": "{2}({0}, {1})"},
+    ),
+    "{0} = {1}", "{0} = {1}", "", ("if {0}:", "else:", ""),
 )  # fmt: skip
+
+
+class Numbers:
+    """The constants of a compiled source, in the array `p` that it reads them from."""
+
+    def __init__(self) -> None:
+        self.values: list[float] = []
+        self._places: dict[Expr, int] = {}
+
+    def name(self, value: Expr, number: float) -> str:
+        """What an expression that is a number is called in the source."""
+        if value not in self._places:
+            self._places[value] = self.put([number])
+        return f"p[{self._places[value]}]"
+
+    def put(self, numbers: Sequence[float]) -> int:
+        """Further numbers, one behind the other; the place of the first."""
+        self.values += numbers
+        return len(self.values) - len(numbers)
+
+
+class Shared(NamedTuple):
+    """What the functions of one source share: its language, its tables by name, its constants.
+
+    Without `numbers` constants are written out.
+    """
+
+    language: Language
+    tables: dict[str, str]
+    numbers: Numbers | None
 
 
 class Code:
     """Lines of a function body, and what was computed so far.
 
-    `leaves` are names of Python; `outer` is the code of the function around this one. Raises
-    KeyError with the name of a symbol that is neither a leaf nor a number.
+    `leaves` are names of the language; `outer` is the code of the function around this one, and
+    `shared` what it has in common with others that do not stand around it (Python of its own
+    without). Raises KeyError with the name of a symbol that is neither a leaf nor a number.
     """
 
     def __init__(
@@ -41,6 +77,7 @@ class Code:
         leaves: Mapping[Expr, str],
         number: Callable[[Expr], float | None],
         outer: Code | None = None,
+        shared: Shared | None = None,
     ) -> None:
         self.pool = pool
         self.number = number
@@ -51,8 +88,10 @@ class Code:
         self._depth: int = outer._depth + 1 if outer else 1
         self._known: dict[Expr, Expression] = {}
         self._meant: dict[Expr, Expr] = outer._meant if outer else {}
-        self._tables: dict[str, str] = outer._tables if outer else {}
-        self._speller = CodeSpeller(_PYTHON, lambda ref: ref.name, self._tables)
+        self.shared: Shared = outer.shared if outer else shared or Shared(_PYTHON, {}, None)
+        self._speller = CodeSpeller(
+            self.shared.language.dialect, lambda ref: ref.name, self.shared.tables
+        )
         self._work = Procedure(
             pool, self._leaf, self._write, self.free, "v", self._constant,
             lambda e: number(e) is not None,
@@ -89,28 +128,40 @@ class Code:
         return found
 
     def _table(self, name: str) -> None:
-        if name not in self._tables:
-            self._tables[name] = f"table{len(self._tables)}"
-            self.names[self._tables[name]] = interpolation(self.pool.rows(name), backwards(name))
+        tables = self.shared.tables
+        if name not in tables:
+            tables[name] = f"table{len(tables)}"
+        if self.shared.numbers is None and tables[name] not in self.names:
+            self.names[tables[name]] = interpolation(self.pool.rows(name), backwards(name))
 
     def _constant(self, value: Expr) -> Expression:
         number = self.number(value)
-        return Const(math.nan if number is None else number)  # divided by a parameter of zero
+        if number is None:
+            number = math.nan  # divided by a parameter of zero
+        if self.shared.numbers is None:
+            return Const(number)
+        return Ref("local", self.shared.numbers.name(value, number))
 
     def _write(self, statement: Assignment, deeper: int = 0) -> None:
         name, text = statement.target.name, self._speller.expression
+        language = self.shared.language
         if not isinstance(statement, Branch):
-            self.line(f"{name} = {text(statement.value)}", deeper)
+            self.line(language.local.format(name, text(statement.value)), deeper)
             return
         condition, yes, no = statement.value
+        before, between, after = language.branch
+        if language.declared:
+            self.line(language.declared.format(name), deeper)
         for head, side, value in (
-            (f"if {text(condition)}:", statement.yes, yes),
-            ("else:", statement.no, no),
+            (before.format(text(condition)), statement.yes, yes),
+            (between, statement.no, no),
         ):
             self.line(head, deeper)
             for inner in side:
                 self._write(inner, deeper + 1)
-            self.line(f"{name} = {text(value)}", deeper + 1)
+            self.line(language.assign.format(name, text(value)), deeper + 1)
+        if after:
+            self.line(after, deeper)
 
     def function(
         self, name: str, arguments: str, result: str, **more: object

@@ -35,11 +35,7 @@ def function(
     if course.expr is None:
         return _through(course, order)
     time = time_symbol(pool)
-    expr = Jets(pool).of(course.expr, order)
-    rates = {pool.der(time): pool.one}
-    for _ in range(order):
-        rates[pool.der(next(reversed(rates)))] = pool.zero
-    expr = pool.substitute([expr], rates)[0]
+    expr = derived(course.expr, pool, order)
     number = values.constant(expr)
     if number is not None:
         return lambda _: number
@@ -56,6 +52,16 @@ def function(
             return math.nan
 
     return defined
+
+
+def derived(expr: Expr, pool: Pool, order: int) -> Expr:
+    """The derivative by time of an expression of `t`, of some order."""
+    time = time_symbol(pool)
+    expr = Jets(pool).of(expr, order)
+    rates = {pool.der(time): pool.one}
+    for _ in range(order):
+        rates[pool.der(next(reversed(rates)))] = pool.zero
+    return pool.substitute([expr], rates)[0]
 
 
 def _through(course: Course, order: int) -> Callable[[float], float]:
@@ -94,6 +100,13 @@ def smooth(course: Course) -> bool:
     if course.expr is None:
         return len(course.points) > _MANY and not course.hold
     return any(n.op is Op.SYM and n.symbol.name == TIME for n in topological([course.expr]))
+
+
+def moves(course: Course, order: int) -> bool:
+    """Whether a course, or its derivative of some order, changes between its bends and jumps."""
+    if course.expr is None:
+        return order < 2 and len(course.points) > 1 and not course.hold
+    return smooth(course)
 
 
 def jumps(course: Course, pool: Pool, values: Values, times: Array) -> list[float]:

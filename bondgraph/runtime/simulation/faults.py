@@ -71,6 +71,10 @@ class Wrong:
             gain, bias = g * gain, g * bias + b
         return gain, bias
 
+    def sets_in(self, t: float) -> bool:
+        """Whether one of them is on its ramp."""
+        return any(0 < strength(f, t) < 1 for f in self.faults)
+
     def missing(self, t: float) -> bool:
         """Whether no sample arrives."""
         return any(f.op == "missing" and strength(f, t) > 0 for f in self.faults)

@@ -14,6 +14,7 @@ from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation import courses
 from bondgraph.runtime.simulation.faults import Wrong, edges
 from bondgraph.runtime.simulation.machine import Machine
+from bondgraph.runtime.simulation.native_machine import Followed
 from bondgraph.runtime.simulation.parameters import Values
 from bondgraph.runtime.simulation.scenario import Controller, Course, Scenario
 
@@ -79,6 +80,17 @@ class Acting(ABC):
     def before(self, machine: Machine) -> list[float]:
         """What `machine.signals` were before the start: nothing told, nothing wrong."""
         return [float(s.name.startswith("gain of ") and s.order == 0) for s in machine.signals]
+
+    def moving(self, machine: Machine, t: float) -> tuple[int, ...]:
+        """The places of inputs that may move in the segment around t, and are not `followed`."""
+        return tuple(k for k, signal in enumerate(machine.signals) if self._moves(*signal, t))
+
+    def followed(self, machine: Machine) -> list[Followed]:
+        """The inputs of a machine that are courses of time, and arrive at once."""
+        return []
+
+    def _moves(self, name: str, order: int, t: float) -> bool:
+        return True
 
     def hold(self, t: float, look: Callable[[], Mapping[str, float]]) -> None:
         """Let faults that stick take hold; `look` tells all that can be seen at this moment."""
@@ -151,6 +163,30 @@ class Given(Acting):
         if pid is None:
             return None
         return nothing if order else lambda t: pid.told(t - late) if late else pid.output
+
+    def still(self, name: str) -> bool:
+        """Whether a command is as told throughout each segment."""
+        if name in self.modes or name in self._driven:
+            return True
+        return not courses.moves(self.courses[name], 0)
+
+    def followed(self, machine: Machine) -> list[Followed]:
+        """See `Acting`."""
+        return [
+            Followed(k, self.courses[name], order)
+            for k, (name, order) in enumerate(machine.signals)
+            if name in self.courses
+            and name not in self._late
+            and courses.moves(self.courses[name], order)
+        ]
+
+    def _moves(self, name: str, order: int, t: float) -> bool:
+        if name in self._received:
+            return order == 0
+        if name in self._late:
+            return True
+        what, _, target = name.partition(" of ")
+        return what in ("gain", "bias") and target in self.wrong and self.wrong[target].sets_in(t)
 
     def control(
         self,

@@ -14,6 +14,7 @@ import numpy as np
 
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.machine import Machine
+from bondgraph.runtime.simulation.native_machine import BEYOND, NativeMachine
 from bondgraph.text.diagnostic import Trouble
 
 Inputs = Callable[[float], Sequence[float]]
@@ -21,7 +22,6 @@ Inputs = Callable[[float], Sequence[float]]
 _ABSOLUTE = 0.1  # of the relative tolerance, in units of the effort or flow of a state
 _SPARSE = 60  # states from which on it pays to know which rate depends on which state
 _MANY = 300  # states from which on eigenvalues cost more than they tell
-_BEYOND = 1e100  # a rate that no machine has
 _LARGE = 1e5  # units of effort or flow: a state that runs away
 _START = 30_000  # rates, after which it can be told whether it will ever end
 _CALLS = 5e8  # rates in a segment: hours
@@ -29,7 +29,8 @@ _PATIENCE = 2000  # such rates in a row, from which on a method will not find ba
 _OFTEN = 100  # rates between two words about how far it is
 _RINGING = 1e5  # periods of one mode in a run: too many to follow
 _COARSE = 1e-6  # relative tolerance of a step: finer than instruments are
-_STEPS = 20_000  # in one segment
+_STEPS = 20_000  # in one segment, of a machine that has to keep up
+_UNLIMITED = 2**31 - 1
 
 
 class SimulationError(Trouble):
@@ -60,11 +61,19 @@ class Integrator:
         self.longest = longest  # step, in s: an input that moves smoothly is not run past
 
     def run(
-        self, machine: Machine, inputs: Inputs, a: float, b: float, x: Array, wanted: Array
+        self,
+        machine: Machine,
+        inputs: Inputs,
+        a: float,
+        b: float,
+        x: Array,
+        wanted: Array,
+        native: NativeMachine | None = None,
     ) -> Array:
         """The states at the `wanted` times in [a, b], and at b in the last row.
 
-        Raises `SimulationError` with the time, and the law or loop that has no value there.
+        `native` is the machine with these inputs, perhaps compiled. Raises `SimulationError` with
+        the time, and the law or loop that has no value there.
         """
         if not len(x) or b <= a:
             return np.tile(x, (len(wanted) + 1, 1))
@@ -73,30 +82,46 @@ class Integrator:
         ends = np.clip([*wanted, b], a, b)
         at = np.unique(ends)
         for method in dict.fromkeys((self.method, "Radau")):
-            tried = _Tried(machine, inputs, (a, b), self.tell)
+            tried = _Tried(machine, inputs, (a, b), self.tell, native)
             found = self._solved(method, tried, x, at)
             if found is not None:
                 return np.asarray(found[np.searchsorted(at, ends)])
         raise SimulationError(f"the run ends at {tried.t:.6g} s: {tried.trouble()}")
 
     def _solved(self, method: str, tried: _Tried, x: Array, at: Array) -> Array | None:
-        from scipy.integrate import solve_ivp
-
-        machine = tried.machine
-        options: dict[str, Any] = {
-            "rtol": self.tolerance,
-            "atol": _ABSOLUTE * self.tolerance * self._scale(tried, x),
-        }
-        if method in ("Radau", "BDF") and len(x) >= _SPARSE:
-            options["jac_sparsity"] = machine.pattern()
+        relative, scale = self.tolerance, self._scale(tried, x)
         try:
-            with np.errstate(all="ignore"), warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                found = solve_ivp(
-                    tried, tried.span, x, method, t_eval=at, max_step=self.longest, **options
-                )
+            with np.errstate(all="ignore"):
+                if method == "LSODA":
+                    rates = tried.quick or tried  # one call less
+                    return _odepack(rates, tried.span[0], x, at, relative, scale, self.longest)
+                return self._by_steps(method, tried, x, at, _ABSOLUTE * relative * scale)
         except (ValueError, _Standstill):  # a slope that is no number is a ValueError of scipy
             return None
+        finally:
+            tried.close()
+
+    def _by_steps(
+        self, method: str, tried: _Tried, x: Array, at: Array, absolute: Array
+    ) -> Array | None:
+        from scipy.integrate import solve_ivp
+
+        options: dict[str, Any] = {}
+        if method in ("Radau", "BDF") and len(x) >= _SPARSE:
+            options["jac_sparsity"] = tried.machine.pattern()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            found = solve_ivp(
+                lambda t, y: np.array(tried(t, y)),  # what it gets it keeps
+                tried.span,
+                x,
+                method,
+                t_eval=at,
+                max_step=self.longest,
+                rtol=self.tolerance,
+                atol=absolute,
+                **options,
+            )
         whole = found.status == 0 and np.isfinite(found.y).all()
         return np.asarray(found.y.T) if whole else None
 
@@ -116,6 +141,46 @@ class Integrator:
         return "Radau" if ringing > _RINGING else "LSODA"
 
 
+def _odepack(
+    rates: Callable[[float, Array], Sequence[float] | Array],
+    a: float,
+    x: Array,
+    at: Array,
+    relative: float,
+    scale: Array,
+    longest: float = math.inf,
+    most: int = _UNLIMITED,
+) -> Array | None:
+    """The states at ascending times from a on, by LSODA with its loop outside of Python.
+
+    `relative` is the tolerance of a step, `scale` how much of each state matters; a step is at most
+    the `longest`, and there are at most so many from one time to the next. None where it fails.
+    """
+    from scipy.integrate import ODEintWarning, odeint
+
+    times = at if at[0] == a else np.concatenate([[a], at])
+    if len(times) == 1:
+        return np.array([x])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        warnings.simplefilter("error", ODEintWarning)
+        try:
+            found = odeint(
+                rates,
+                x,
+                times,
+                tfirst=True,
+                rtol=relative,
+                atol=_ABSOLUTE * relative * scale,
+                tcrit=times[-1:],
+                hmax=longest if math.isfinite(longest) else 0.0,
+                mxstep=most,
+            )
+        except ODEintWarning:
+            return None
+    return found[len(times) - len(at) :] if np.isfinite(found).all() else None
+
+
 class _Standstill(Exception):
     """A method that is lost where rates are no numbers."""
 
@@ -129,6 +194,7 @@ class _Tried:
         inputs: Inputs,
         span: tuple[float, float],
         tell: Callable[[float], None],
+        native: NativeMachine | None,
     ) -> None:
         self.machine, self.inputs, self.span, self.tell = machine, inputs, span, tell
         self.calls = 0
@@ -136,17 +202,38 @@ class _Tried:
         self.x: list[float] = []
         self.failed = False
         self._in_vain = 0
+        self._native = native
+        self.quick = None if native is None else native.rates(self._slowly)
 
-    def __call__(self, t: float, x: Array) -> Sequence[float]:
-        state = x.tolist()
-        self.calls += 1
-        if not self.calls % _OFTEN:
+    def __call__(self, t: float, x: Array) -> Sequence[float] | Array:
+        return self._slowly(t, x) if self.quick is None else self.quick(t, x)
+
+    def _slowly(self, t: float, x: Array) -> Sequence[float]:
+        """The rates in Python; it also counts those of compiled code, which asks now and then."""
+        native = self._native
+        if native is not None:
+            if native.count(1):
+                self.quick = native.rates(self._slowly)
+            calls = native.go_on()
+            if calls > 1:
+                self._in_vain = 0
+            self._look(t, calls)
+        return self._plainly(t, x.tolist())
+
+    def _look(self, t: float, calls: int) -> None:
+        """After some more rates: tell how far it is, and give up what would take hours."""
+        before, self.calls = self.calls, self.calls + calls
+        if self.calls // _OFTEN > before // _OFTEN:
             self.tell(t)
             share = (t - self.span[0]) / (self.span[1] - self.span[0])
             if self.calls > _START and share * _CALLS < self.calls:
                 raise _Standstill
+
+    def _plainly(self, t: float, state: list[float]) -> Sequence[float]:
+        """The rates in Python, and whether they are any."""
+        self._look(t, 1)
         found = self.machine.rates(t, state, self.inputs(t))
-        bad = not sum(map(abs, found)) < _BEYOND  # also where one of them is no number
+        bad = not sum(map(abs, found)) < BEYOND  # also where one of them is no number
         self._in_vain = self._in_vain + 1 if bad else 0
         if self._in_vain > _PATIENCE:
             raise _Standstill
@@ -154,6 +241,12 @@ class _Tried:
         if bad or not self.failed:
             self.t, self.x, self.failed = t, state, bad or self.failed
         return found
+
+    def close(self) -> None:
+        """Nothing more is asked: remember where the last rates were."""
+        last = None if self._native is None else self._native.last
+        if last is not None and not self.failed:
+            self.t, self.x = last
 
     def trouble(self) -> str:
         """Why it cannot go on."""
@@ -183,7 +276,14 @@ class ShortSegments:
         self._scales: dict[Machine, Array] = {}
 
     def run(
-        self, machine: Machine, inputs: Inputs, a: float, b: float, x: Array, wanted: Array
+        self,
+        machine: Machine,
+        inputs: Inputs,
+        a: float,
+        b: float,
+        x: Array,
+        wanted: Array,
+        native: NativeMachine | None = None,
     ) -> Array:
         """The states at the `wanted` times in [a, b], and at b in the last row.
 
@@ -193,13 +293,11 @@ class ShortSegments:
             found = self._quickly(machine, inputs, a, x, [*wanted.tolist(), b])
             if found is not None:
                 return found
-        return self._other.run(machine, inputs, a, b, x, wanted)
+        return self._other.run(machine, inputs, a, b, x, wanted, native)
 
     def _quickly(
         self, machine: Machine, inputs: Inputs, a: float, x: Array, times: Sequence[float]
     ) -> Array | None:
-        from scipy.integrate import ode
-
         if machine not in self._scales:
             self._scales[machine] = machine.scale(a, x.tolist(), inputs(a))
         slopes = machine.rates
@@ -207,20 +305,8 @@ class ShortSegments:
         def rates(t: float, y: Array) -> Sequence[float]:
             return slopes(t, y.tolist(), inputs(t))
 
-        solver = ode(rates).set_integrator(
-            "lsoda",
-            rtol=self._tolerance,
-            atol=0.1 * self._tolerance * self._scales[machine],
-            nsteps=_STEPS,
-        )
-        solver.set_initial_value(x, a)
-        rows = np.empty((len(times), len(x)))
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            for k, t in enumerate(times):
-                if t > solver.t:
-                    solver.integrate(t)
-                if not solver.successful() or not all(map(math.isfinite, solver.y)):
-                    return None
-                rows[k] = solver.y
-        return rows
+        ends = np.array(times)
+        at = np.unique(ends)
+        scale = self._scales[machine]
+        found = _odepack(rates, a, x, at, self._tolerance, scale, most=_STEPS)
+        return None if found is None else found[np.searchsorted(at, ends)]

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from bondgraph.ir.equation_system import EquationSystem
-from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, topological
+from bondgraph.ir.expr import CONSTANTS, Expr, Kind, Op, Pool, topological
 from bondgraph.ir.graph import BondGraph
 from bondgraph.ir.state import Block, StateEquations
 from bondgraph.runtime.log import Array
@@ -188,24 +188,40 @@ class Machine:
         return tuple(found)
 
     def _compiled(self, name: str, wanted: Sequence[Expr]) -> Callable[..., Any]:
-        graph = self.equations.graph
-        leaves: dict[Expr, str] = {s.symbol: f"x[{k}]" for k, s in enumerate(self.equations.states)}
-        for k, signal in enumerate(self.signals):
-            leaves[self._leaf(signal)] = f"u[{k}]"
-        code = Code(graph.pool, leaves, self.values.constant)
         more: dict[str, object] = {}
+
+        def solved(code: Code, number: int, block: Block) -> None:
+            solve = self._linear if block.rests else self._iterated
+            solve(code, number, block, more)
+
+        code = Code(self.equations.graph.pool, self.leaves(), self.values.constant)
+        result = f"[{', '.join(self.texts(code, wanted, solved))}]"
+        return code.function(name, "t, x, u", result, **more)
+
+    def leaves(self) -> dict[Expr, str]:
+        """What states and signals are called in a source: `x[k]`, `u[k]`."""
+        found = {s.symbol: f"x[{k}]" for k, s in enumerate(self.equations.states)}
+        return found | {self._leaf(s): f"u[{k}]" for k, s in enumerate(self.signals)}
+
+    def texts(
+        self,
+        code: Code,
+        wanted: Sequence[Expr],
+        solved: Callable[[Code, int, Block], None],
+    ) -> list[str]:
+        """The texts of expressions, with lines before them for the blocks that they rest on.
+
+        `solved` writes those of a block that is a loop, and makes its unknowns known.
+        """
         needed = self._needed(wanted)
         for number, block in enumerate(self.equations.blocks):
             if number not in needed:
                 continue
             if block.value is not None:
                 code.define(block.unknowns[0], block.value)
-            elif block.rests:
-                self._linear(code, number, block, more)
             else:
-                self._iterated(code, number, block, more)
-        result = f"[{', '.join(code.text(wanted))}]"
-        return code.function(name, "t, x, u", result, **more)
+                solved(code, number, block)
+        return code.text(wanted)
 
     def _leaf(self, signal: Signal) -> Expr:
         pool = self.equations.graph.pool
@@ -231,15 +247,8 @@ class Machine:
 
     def _linear(self, code: Code, number: int, block: Block, more: dict[str, object]) -> None:
         """Matrix times unknowns = right side; factorised once where the matrix is constant."""
-        pool = code.pool
-        rests = [pool.neg(r) for r in block.rests]
+        rests, entries = equations_of(code.pool, block)
         size = len(rests)
-        entries = [
-            (i, j, slope)
-            for i, row in enumerate(block.slopes)
-            for j, slope in enumerate(row)
-            if slope is not pool.zero
-        ]
         numbers = [self.values.constant(slope) for _, _, slope in entries]
         solve = f"solve{number}"
         if all(n is not None for n in numbers):
@@ -266,6 +275,17 @@ class Machine:
         code.line(f"    return [{', '.join(texts[:size])}], [{', '.join(slopes)}]")
         more[root] = self._newton.setdefault(number, iteration(size))
         _solved(code, block, f"{root}({look})")
+
+
+def equations_of(pool: Pool, block: Block) -> tuple[list[Expr], list[tuple[int, int, Expr]]]:
+    """The right side of a linear block, and the entries of its matrix that are not zero."""
+    entries = [
+        (i, j, slope)
+        for i, row in enumerate(block.slopes)
+        for j, slope in enumerate(row)
+        if slope is not pool.zero
+    ]
+    return [pool.neg(r) for r in block.rests], entries
 
 
 def _solved(code: Code, block: Block, solution: str) -> None:

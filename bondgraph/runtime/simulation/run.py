@@ -14,10 +14,13 @@ import numpy as np
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.graph import BondGraph
+from bondgraph.runtime.c_library import warn
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.simulation.given import Given, inside
 from bondgraph.runtime.simulation.instruments import Readings, readers
 from bondgraph.runtime.simulation.integrate import Integrator, SimulationError
+from bondgraph.runtime.simulation.machine import Machine
+from bondgraph.runtime.simulation.native_machine import Coding, NativeMachine
 from bondgraph.runtime.simulation.parameters import drawn, units
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.stepping import Mode, Stepper
@@ -52,21 +55,32 @@ def simulate(
     integral: CausalGraph,
     scenario: Scenario,
     progress: Progress = lambda _: None,
+    coding: Coding | None = None,
+    tell: Callable[[str], None] = warn,
 ) -> Run:
     """Run a scenario of the model behind `system`.
 
-    Raises `CompileError` where there are no state equations, `SimulationError` where integration
-    ends early, KeyError with the name of a parameter without a value.
+    With a `coding` a long run is compiled; where it cannot be, `tell` is told why in a line. Raises
+    `CompileError` where there are no state equations, `SimulationError` where integration ends
+    early, KeyError with the name of a parameter without a value.
     """
-    return _Simulation(system, integral, scenario).run(progress)
+    return _Simulation(system, integral, scenario, coding, tell).run(progress)
 
 
 class _Simulation(Stepper):
     """A machine that goes on from jump to jump of anything, sampled until its scenario ends."""
 
-    def __init__(self, system: EquationSystem, integral: CausalGraph, scenario: Scenario) -> None:
+    def __init__(
+        self,
+        system: EquationSystem,
+        integral: CausalGraph,
+        scenario: Scenario,
+        coding: Coding | None = None,
+        tell: Callable[[str], None] = warn,
+    ) -> None:
         self.graph: BondGraph = system.graph
         self.scenario = scenario
+        self._coding, self._tell = coding, tell
         self.values = drawn(self.graph, scenario)
         self.sensors = [s for s in self.graph.sensors if s.same_as is None]
         self.times = self._times()
@@ -122,12 +136,17 @@ class _Simulation(Stepper):
             last = len(times) if a == end else int(np.searchsorted(times, b))
             self._begin(when(a), b, table, (done, last))
             wanted = times[done:last]
-            for k, (t, now) in enumerate(
-                zip(wanted.tolist(), self.advance(b, wanted), strict=True), done
-            ):
-                table[k] = [now.get(name, math.nan) for name in first.names]
-                self._note(k, when(t), when((a + b) / 2))
-                self._remember(t, now)
+            names, values = self.go_on(b, wanted)
+            if names == first.names:
+                table[done:last] = values
+            else:
+                both = [n for n in first.names if n in names]
+                places = [first.names.index(n) for n in both]
+                table[done:last, places] = values[:, [names.index(n) for n in both]]
+            inner = [when(t) for t in wanted.tolist()]
+            self._note(slice(done, last), inner, when((a + b) / 2))
+            for t, row in zip(wanted.tolist() if self._past else (), values.tolist(), strict=False):
+                self._remember(t, dict(zip(names, row, strict=True)))
             self._remember(b, self.last)
             done = last
             progress(b / end if end else 1.0)
@@ -148,16 +167,31 @@ class _Simulation(Stepper):
         a, b = self._then[k - 1 : k + 1]
         return values[k - 1] + (values[k] - values[k - 1]) * (t - a) / (b - a)
 
-    def _seen(self, mode: Mode, t: float, x: Array) -> dict[str, float]:
-        """Everything that can be seen, by name; only `let`s may have no value."""
-        state, u = x.tolist(), mode.inputs(t)
-        found = mode.machine.observe(t, state, u)
-        if not all(map(math.isfinite, found)):
-            lets = {x.name for x in self.graph.lets}
-            if any(n not in lets and v != v for n, v in zip(mode.names, found, strict=True)):
-                what = mode.machine.trouble(t, state, u) or "the solution grows without bound"
-                raise SimulationError(f"the run ends at {t:.6g} s: {what}")
-        return dict(zip(mode.names, found, strict=True))
+    def _native(self, machine: Machine) -> NativeMachine | None:
+        if self._coding is None:
+            return None
+        return NativeMachine(machine, self.given.followed(machine), self._coding, self._tell)
+
+    def _check(
+        self,
+        mode: Mode,
+        when: Callable[[float], float],
+        times: Array,
+        states: Array,
+        values: Array,
+    ) -> None:
+        """Only `let`s may have no value."""
+        if np.isfinite(values).all():
+            return
+        lets = {x.name for x in self.graph.lets}
+        needed = [k for k, n in enumerate(mode.names) if n not in lets]
+        bad = np.isnan(values[:, needed]).any(axis=1)
+        if bad.any():
+            k = int(np.argmax(bad))
+            t = when(float(times[k]))
+            what = mode.machine.trouble(t, states[k].tolist(), mode.inputs(t))
+            what = what or "the solution grows without bound"
+            raise SimulationError(f"the run ends at {t:.6g} s: {what}")
 
     def _begin(self, t: float, end: float, table: Array, samples: tuple[int, int]) -> None:
         """At the start of a segment; `samples` are the first of it and of the next."""
@@ -179,18 +213,21 @@ class _Simulation(Stepper):
                 reader.freeze(*samples)
         self.given.control(t, lambda: self.look(end), read)
 
-    def _note(self, k: int, t: float, setting: float) -> None:
-        """Write down what is told at sample k, and what is not read.
+    def _note(self, samples: slice, times: list[float], setting: float) -> None:
+        """Write down what is told at some samples, and what is not read.
 
-        `setting` is a time at which the switches are as they are throughout the segment.
+        `setting` is a time inside of the segment: switches, and all that stands still, are as then.
         """
-        for name, column in self.told.items():
-            column[k] = self.given.told(name, setting if name in self.given.modes else t)
-            if not math.isfinite(column[k]):
+        for name, column in self.told.items() if times else ():
+            moments = [setting] if self.given.still(name) else times
+            column[samples] = [self.given.told(name, t) for t in moments]
+            odd = ~np.isfinite(column[samples])
+            if odd.any():
+                t = times[int(np.argmax(odd))]
                 raise SimulationError(f"the run ends at {t:.6g} s: the input `{name}` has no value")
         for name, column in self.gone.items():
             if name in self.given.wrong:
-                column[k] = self.given.wrong[name].missing(t)
+                column[samples] = [self.given.wrong[name].missing(t) for t in times]
 
     # -------------------------------------------------------------------- results
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+
+import numpy as np
 
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
@@ -12,6 +14,7 @@ from bondgraph.runtime.log import Array
 from bondgraph.runtime.simulation.given import Acting, Inputs, inside
 from bondgraph.runtime.simulation.integrate import Integrator, ShortSegments, SimulationError
 from bondgraph.runtime.simulation.machine import Machine, observed
+from bondgraph.runtime.simulation.native_machine import NativeMachine, Segment
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.storages import handed_over, start
 from bondgraph.text.diagnostic import CompileError, Report
@@ -21,11 +24,15 @@ _HORIZON = 60.0  # s, by which it is judged what rings too fast to be followed
 
 
 class Mode(NamedTuple):
-    """The machine in one position of its switches, the names of its outputs, what it is given."""
+    """The machine in one position of its switches, the names of its outputs, what it is given.
+
+    `native` is the same machine compiled, or to be compiled; None where it is left to Python.
+    """
 
     machine: Machine
     names: tuple[str, ...]
     inputs: Inputs
+    native: NativeMachine | None
 
 
 class Stepper:
@@ -86,22 +93,48 @@ class Stepper:
         Raises `SimulationError` where the machine has no motion, `CompileError` where it has no
         state equations, KeyError with the name of a parameter without a value.
         """
+        names, values = self.go_on(end, wanted)
+        return [dict(zip(names, row, strict=True)) for row in values.tolist()]
+
+    def go_on(self, end: float, wanted: Array) -> tuple[tuple[str, ...], Array]:
+        """As `advance`: the names of what can be seen, and its values, shape (times, names)."""
         when = inside(self.time, end)
-        mode = self.mode(when((self.time + end) / 2))  # what turns at the very start has turned
+        middle = when((self.time + end) / 2)
+        mode = self.mode(middle)  # what turns at the very start has turned
         x = self._state(mode, when(self.time))
-        rows = self.integrator.run(
-            mode.machine, lambda t: mode.inputs(when(t)), self.time, end, x, wanted
-        )
-        seen = [
-            self._seen(mode, when(t), row) for t, row in zip(wanted.tolist(), rows, strict=False)
-        ]
-        after = self._seen(mode, when(end), rows[-1])
+
+        def inputs(t: float) -> list[float]:
+            return mode.inputs(when(t))
+
+        if mode.native is not None:
+            moving = self.acting.moving(mode.machine, middle)
+            mode.native.begin(Segment(when(-math.inf), when(math.inf), inputs, moving))
+        found = self.integrator.run(mode.machine, inputs, self.time, end, x, wanted, mode.native)
+        times = np.append(wanted, end)
+        values = self._values(mode, when, times, found)
+        after = dict(zip(mode.names, values[-1].tolist(), strict=True))
         held = self._held
         assert held is not None
         held |= {n: v for n, v in after.items() if n in held and v == v}
-        held |= zip(mode.machine.states, rows[-1].tolist(), strict=True)
+        held |= zip(mode.machine.states, found[-1].tolist(), strict=True)
         self.time, self.last = end, after
-        return seen
+        return mode.names, values[:-1]
+
+    def _values(
+        self, mode: Mode, when: Callable[[float], float], times: Array, states: Array
+    ) -> Array:
+        """What can be seen at each time, shape (times, names)."""
+        native = None if mode.native is None else mode.native.outputs(times, states)
+        if native is None:
+            if mode.native is not None:
+                mode.native.count(len(times))
+            native = np.empty((len(times), len(mode.names))), np.ones(len(times), dtype=np.bool_)
+        values, odd = native
+        for k in np.flatnonzero(odd).tolist():
+            t = when(float(times[k]))
+            values[k] = mode.machine.observe(t, states[k].tolist(), mode.inputs(t))
+        self._check(mode, when, times, states, values)
+        return values
 
     def mode(self, t: float) -> Mode:
         """The machine with its switches as they are at time t, and what is wrong by now."""
@@ -116,7 +149,8 @@ class Stepper:
                 raise CompileError(tuple(report.diagnostics))
             view = observed(self.system, equations, self.record)
             machine = Machine(equations, acting.values, view.exprs)
-            self._modes[key] = Mode(machine, view.names, acting.inputs(machine))
+            native = self._native(machine)
+            self._modes[key] = Mode(machine, view.names, acting.inputs(machine), native)
         mode = self._modes[key]
         self.names = self.names or mode.names
         return mode
@@ -130,10 +164,30 @@ class Stepper:
             self._held.setdefault(name, self.last.get(name.removesuffix(".counted"), 0.0))
         return handed_over(machine, self.time, u, self._held)
 
+    def _native(self, machine: Machine) -> NativeMachine | None:
+        """The machine to be compiled once that pays; None where it is left to Python."""
+        return None
+
     def _seen(self, mode: Mode, t: float, x: Array) -> dict[str, float]:
-        state, u = x.tolist(), mode.inputs(t)
-        found = mode.machine.observe(t, state, u)
-        if not all(map(math.isfinite, state)):
-            what = mode.machine.trouble(t, state, u) or "the solution grows without bound"
-            raise SimulationError(f"it ends at {t:.6g} s: {what}")
-        return dict(zip(mode.names, found, strict=True))
+        times, states = np.array([t]), x.reshape(1, -1)
+        found = np.array([mode.machine.observe(t, x.tolist(), mode.inputs(t))]).reshape(1, -1)
+        self._check(mode, lambda now: now, times, states, found)
+        return dict(zip(mode.names, found[0].tolist(), strict=True))
+
+    def _check(
+        self,
+        mode: Mode,
+        when: Callable[[float], float],
+        times: Array,
+        states: Array,
+        values: Array,
+    ) -> None:
+        """Raise `SimulationError` where the machine has run away."""
+        bad = ~np.isfinite(states).all(axis=1)
+        if bad.any():
+            k = int(np.argmax(bad))
+            t = when(float(times[k]))
+            what = mode.machine.trouble(t, states[k].tolist(), mode.inputs(t))
+            raise SimulationError(
+                f"it ends at {t:.6g} s: {what or 'the solution grows without bound'}"
+            )
