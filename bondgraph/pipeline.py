@@ -293,7 +293,8 @@ class Compilation:
     ) -> Fitted:
         """Fit parameters to logs of the healthy machine, by the names of these (docs/fit.md).
 
-        `free` are names of parameters; without it those with a tolerance, or else all. `noise` are
+        `free` are names of parameters, without it those with a tolerance, or else all; the name of
+        a sensor or an input stands for its offset. `noise` are
         standard deviations of signals in their unit, where they are known. Only samples for which
         `operating` holds count, an expression over columns (docs/logs.md). Raises ValueError for
         logs that are too short and for what is no parameter of a residual, `LogError` for a log

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting, Left
 
 _LATE = 3.0  # standard errors above which it is told that a signal comes late
+_SUSPECTS = 3  # offsets that are told at most
 _MEMORY = 0.3  # correlation of what is left, above which it is no noise of sensors
 
 
@@ -29,8 +30,8 @@ def arguments(parser: ArgumentParser) -> None:
     add("logs", metavar="LOG", nargs="+",
         help="logs of one healthy machine, .csv, .parquet or lines of JSON")  # fmt: skip
     add("--free", metavar="NAMES", action="append", default=[],
-        help="parameters to fit, separated by commas; may be repeated (default: those with a"
-        " tolerance, or else all)")  # fmt: skip
+        help="parameters to fit, and sensors or inputs whose offset is, separated by commas; may be"
+        " repeated (default: the parameters with a tolerance, or else all)")  # fmt: skip
     add("-o", "--output", metavar="FILE.toml", default="parameters.toml",
         help="where to write them (default: parameters.toml)")  # fmt: skip
     add("--noise", metavar="[NAME=]DEVIATION", type=noise, action="append", default=[],
@@ -59,10 +60,11 @@ def run(args: Namespace) -> int:
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
     free = [name.strip() for names in args.free for name in names.split(",") if name.strip()]
-    names = [v.name for v in compilation.graph.values]
+    graph = compilation.graph
+    names = [x.name for x in (*graph.values, *graph.sensors, *graph.inputs)]
     for name in free:
         if name not in names:
-            raise console.Unknown(name, "no parameter of the model", names)
+            raise console.Unknown(name, "no parameter, sensor or input of the model", names)
     times = times_of(logs)
     try:
         with console.progress_bar("fitting") as progress:
@@ -100,6 +102,9 @@ def _noise(args: Namespace, compilation: Compilation) -> dict[str, float]:
 def _message(compilation: Compilation, found: Fitted) -> str:
     told = sum(p.error is not None for p in found.parameters)
     many = plural(len(found.parameters), "parameter")
+    if found.offsets:
+        known = sum(p.error is not None for p in found.offsets)
+        many += f" and {known} of {plural(len(found.offsets), 'offset')}"
     return (
         f"{compilation.graph.name}: {told} of {many} told by {found.seconds:.3g} s of"
         " healthy operation"
@@ -111,6 +116,8 @@ def _result(compilation: Compilation, found: Fitted) -> dict[str, object]:
         "model": compilation.graph.name,
         "seconds": found.seconds,
         "parameters": [{**p._asdict(), "interval": p.interval} for p in found.parameters],
+        "offsets": [{**p._asdict(), "interval": p.interval} for p in found.offsets],
+        "suspects": [s._asdict() for s in found.suspects],
         "correlation": found.correlation.tolist(),
         "combinations": [{**c._asdict(), "text": c.text()} for c in found.combinations],
         "residuals": [
@@ -131,12 +138,19 @@ def _file(compilation: Compilation, found: Fitted) -> str:
         "",
         "[parameters]",
     ]
-    for p in found.parameters:
-        note = "not told by the logs" if p.interval is None else f"+- {p.interval:.2g} (95 %)"
-        lines.append(f'"{p.name}" = {p.value!r}  # {_about(p, note)}')
+    lines += [_line(p) for p in found.parameters]
+    if found.offsets:
+        lines += ["", "# What logs have too much of a signal: it is taken off before anything else."]
+        lines += ["[offsets]", *(_line(p) for p in found.offsets)]
     lines += ["", "[standard_errors]"]
-    lines += [f'"{p.name}" = {p.error!r}' for p in found.parameters if p.error is not None]
+    fitted = (*found.parameters, *found.offsets)
+    lines += [f'"{p.name}" = {p.error!r}' for p in fitted if p.error is not None]
     return "\n".join(lines) + "\n"
+
+
+def _line(p: Fitting) -> str:
+    note = "not told by the logs" if p.interval is None else f"+- {p.interval:.2g} (95 %)"
+    return f'"{p.name}" = {p.value!r}  # {_about(p, note)}'
 
 
 def _about(p: Fitting, note: str) -> str:
@@ -145,10 +159,11 @@ def _about(p: Fitting, note: str) -> str:
 
 def _lines(compilation: Compilation, found: Fitted, args: Namespace) -> list[str]:
     rows: list[tuple[str, ...]] = [("parameter", "nominal", "fitted", "+- (95 %)", "unit")]
-    for p in found.parameters:
+    for p in (*found.parameters, *found.offsets):
         sure = "not told" if p.interval is None else f"{p.interval:.2g}"
         sure = "at its bound" if p.bound else sure
-        rows.append((p.name, f"{p.nominal:.6g}", f"{p.value:.6g}", sure, p.unit))
+        name = f"offset of {p.name}" if p in found.offsets else p.name
+        rows.append((name, f"{p.nominal:.6g}", f"{p.value:.6g}", sure, p.unit))
     lines = [_message(compilation, found), "", *console.columns(rows)]
     if any(p.bound for p in found.parameters):
         names = ", ".join(p.name for p in found.parameters if p.bound)
@@ -160,10 +175,23 @@ def _lines(compilation: Compilation, found: Fitted, args: Namespace) -> list[str
     lines += ["", "How well it fits"]
     for left in found.left:
         lines += [f"  {text}" for text in _fits(left)]
+    lines += _suspected(found)
     for delay in found.delays:
         if abs(delay.value) > _LATE * delay.error:
             lines.append(f"  {delay.signal} comes {1000 * delay.value:.3g} ms late in the log")
     return [*lines, "", f"Written to {args.output}"]
+
+
+def _suspected(found: Fitted) -> list[str]:
+    """The offsets that would explain what is left, in words; each would do it by itself."""
+    lines = []
+    for one in found.suspects[:_SUSPECTS]:
+        value = f"{one.value:.3g} {one.unit}".rstrip()
+        lines.append(
+            f"  an offset of {one.signal} of {value} would explain {100 * one.share:.2g} % of what"
+            f" is left: add {one.signal} to --free to fit it"
+        )
+    return lines
 
 
 def _fits(left: Left) -> list[str]:

@@ -10,7 +10,8 @@ import pytest
 
 import bondgraph
 from bondgraph import Course, Log, Scenario
-from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting, newey_west, whitening
+from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting
+from bondgraph.runtime.diagnosis.whitening import newey_west, whitening
 
 N, RATE = 8000, 1000.0
 TIME = np.arange(N) / RATE
