@@ -14,6 +14,7 @@ from bondgraph.text.whole_file import write_whole
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterable, Mapping
 
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting, Left
@@ -61,7 +62,8 @@ def run(args: Namespace) -> int:
     mapping = read_map(args.map, engine.signals) if args.map else None
     free = [name.strip() for names in args.free for name in names.split(",") if name.strip()]
     graph = compilation.graph
-    names = [x.name for x in (*graph.values, *graph.sensors, *graph.inputs)]
+    names = [v.name for v in graph.values]
+    names += [s.name for s in graph.sensors] + [i.name for i in graph.inputs]
     for name in free:
         if name not in names:
             raise console.Unknown(name, "no parameter, sensor or input of the model", names)
@@ -138,14 +140,25 @@ def _file(compilation: Compilation, found: Fitted) -> str:
         "",
         "[parameters]",
     ]
+    options, fitted = compilation.options, (*found.parameters, *found.offsets)
     lines += [_line(p) for p in found.parameters]
-    if found.offsets:
-        lines += ["", "# What logs have too much of a signal: it is taken off before anything else."]
-        lines += ["[offsets]", *(_line(p) for p in found.offsets)]
+    lines += _given(options.parameters, found.parameters)
+    offsets = [_line(p) for p in found.offsets] + _given(options.offsets, found.offsets)
+    if offsets:
+        lines += ["", "# What samples of a signal are too large by: it is taken off first."]
+        lines += ["[offsets]", *offsets]
     lines += ["", "[standard_errors]"]
-    fitted = (*found.parameters, *found.offsets)
     lines += [f'"{p.name}" = {p.error!r}' for p in fitted if p.error is not None]
     return "\n".join(lines) + "\n"
+
+
+def _given(
+    numbers: Mapping[str, float] | Iterable[tuple[str, float]], fitted: Iterable[Fitting]
+) -> list[str]:
+    """What `--parameters` and `--set` said and was not fitted: the fit holds together with it."""
+    known = {p.name for p in fitted}
+    own = dict(numbers).items()
+    return [f'"{name}" = {value!r}  # as given' for name, value in own if name not in known]
 
 
 def _line(p: Fitting) -> str:
@@ -184,12 +197,14 @@ def _lines(compilation: Compilation, found: Fitted, args: Namespace) -> list[str
 
 def _suspected(found: Fitted) -> list[str]:
     """The offsets that would explain what is left, in words; each would do it by itself."""
-    lines = []
+    fitted = [p.name for p in (*found.parameters, *found.offsets)]
+    lines: list[str] = []
     for one in found.suspects[:_SUSPECTS]:
-        value = f"{one.value:.3g} {one.unit}".rstrip()
+        value = f"{one.value:.3g}" + (f" {one.unit}" if one.unit not in ("", "1") else "")
         lines.append(
-            f"  an offset of {one.signal} of {value} would explain {100 * one.share:.2g} % of what"
-            f" is left: add {one.signal} to --free to fit it"
+            f"  {'or' if lines else 'What is left does not stand at zero:'} an offset of"
+            f" {one.signal} of {value} would explain {100 * one.share:.3g} % of it"
+            f" (--free {','.join([*fitted, one.signal])})"
         )
     return lines
 

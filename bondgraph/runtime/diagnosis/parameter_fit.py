@@ -197,7 +197,7 @@ def fit(
     )  # fmt: skip
     late = at[count:]
     called = [*free.parameters, *(f"offset of {n}" for n in free.offsets)]
-    zeros = np.where(problem.nominal == 0, problem.scale, 0.0)
+    zeros = np.where(problem.zeros, problem.scale, 0.0)
     found = combinations(called, values, problem.scale, zeros, null, partial(problem.cost, late))
     suspects = problem.suspects(at, units)
     progress(1.0)
@@ -307,7 +307,10 @@ class _Problem:
         self._offset_at = [biased.index(n) for n in free.offsets]
         self._sizes = runs.sizes(runs.biased)
         declared = [runs.engine.parameters[n] for n in free.parameters]
-        self.nominal = np.array(declared + [0.0] * len(free.offsets))
+        known = [runs.engine.signals[runs.biased[k]].offset for k in self._offset_at]
+        self.nominal = np.array(declared + known)
+        self.zeros = self.nominal == 0
+        self.zeros[len(declared) :] = True
         self.scale = np.append(np.abs(declared), self._sizes[self._offset_at])
         self.size = len(self.names) + len(runs.late)
         self._low = np.full(self.size, -np.inf)
@@ -359,9 +362,9 @@ class _Problem:
         return dict(zip(self._free, self.values(at).tolist(), strict=False))
 
     def _offsets(self, at: Array) -> Array:
-        """The offsets of all signals that can have one at a point, in SI."""
+        """The offsets of all signals that can have one at a point, above those that are known."""
         found = np.zeros(len(self._runs.biased))
-        found[self._offset_at] = self.values(at)[len(self._free) :]
+        found[self._offset_at] = (self.values(at) - self.nominal)[len(self._free) :]
         return found
 
     def _rows(self, points: Sequence[Array], more: Array | None = None) -> tuple[Array, Array]:
@@ -432,8 +435,9 @@ class _Problem:
         changes; where that would make zeros of all parameters, it is a weight alone.
         """
         if not first:
-            clean = self._rows([at])[0][0]
-            self._mask = self._usual(at, clean)
+            clean, added = self._rows([at])
+            self._noise_filters = np.stack([whitening(x) for x in added[0].T], axis=1)
+            self._mask = self._usual(at, clean[0])
             self._filters = self._noise_filters
         self._extra[:], self._weight[:] = 0.0, 1.0
         if first:

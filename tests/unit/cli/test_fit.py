@@ -89,7 +89,7 @@ def test_a_log_is_read_as_the_other_commands_read_it(bondgraph: Command, folder:
 @pytest.mark.parametrize(
     ("words", "status", "said"),
     [
-        (["log.csv", "--free", "Q"], 2, "no parameter of the model is called `Q`"),
+        (["log.csv", "--free", "Q"], 2, "no parameter, sensor or input of the model is called `Q`"),
         (["none.csv"], 1, "none.csv"),
         (["short.csv"], 1, "too short to fit parameters: give one of"),
         (["bare.csv"], 1, "no column for y"),
