@@ -123,7 +123,8 @@ def _result(compilation: Compilation, found: Fitted) -> dict[str, object]:
         "correlation": found.correlation.tolist(),
         "combinations": [{**c._asdict(), "text": c.text()} for c in found.combinations],
         "residuals": [
-            {**x._asdict(), "explained": x.explained, "spans": [s._asdict() for s in x.spans]}
+            {**x._asdict(), "explained": x.explained, "wrong": x.wrong,
+             "spans": [s._asdict() for s in x.spans]}
             for x in found.left
         ],
         "delays": [d._asdict() for d in found.delays],
@@ -187,7 +188,7 @@ def _lines(compilation: Compilation, found: Fitted, args: Namespace) -> list[str
         lines += [f"  {c.text()}" for c in found.combinations]
     lines += ["", "How well it fits"]
     for left in found.left:
-        lines += [f"  {text}" for text in _fits(left)]
+        lines += [f"  {text}" for text in _fits(left, bool(found.suspects))]
     lines += _suspected(found)
     for delay in found.delays:
         if abs(delay.value) > _LATE * delay.error:
@@ -209,14 +210,18 @@ def _suspected(found: Fitted) -> list[str]:
     return lines
 
 
-def _fits(left: Left) -> list[str]:
-    """What is left of one residual, in words."""
+def _fits(left: Left, offset: bool) -> list[str]:
+    """What is left of one residual, in words; an `offset` may be what is wrong."""
     if not left.after and not left.before:
         return [f"{left.residual}: never valid in these logs"]
     text = f"{left.residual}: {100 * left.explained:.1f} % of it at the nominal values is explained"
-    times = left.after / left.noise if left.noise else 0.0
-    text += f"; what is left is {times:.2g} times the noise of the sensors"
-    if left.memory > _MEMORY:
+    text += f"; what is left is {left.times:.2g} times the noise of the sensors"
+    if left.wrong and left.follows is not None:
+        text += f", and {100 * left.follows:.0f} % of it follows the inputs: the model is another"
+        text += ", or there is an offset" if offset else ""
+    elif left.much and not left.wrong:
+        text += ", and does not follow the inputs: a disturbance, which the intervals reckon with"
+    elif left.memory > _MEMORY:
         text += ", and no white noise: the model leaves something out"
     lines = [text]
     for span in left.spans[:3]:

@@ -20,9 +20,17 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import chdtri
 
+from bondgraph.runtime.diagnosis.left_over import follows
 from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
 from bondgraph.runtime.diagnosis.told_combinations import Combination, combinations, untold
-from bondgraph.runtime.diagnosis.whitening import LAGS, filtered, newey_west, rms, whitening
+from bondgraph.runtime.diagnosis.whitening import (
+    LAGS,
+    few_rows,
+    filtered,
+    newey_west,
+    rms,
+    whitening,
+)
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
@@ -41,7 +49,8 @@ _MATTERS = 0.01  # share of what is left: an offset that explains less is not to
 _SURE = 1.96  # deviations within which 95 % are
 _FAR = 4.0  # deviations beyond which a row is not of this machine
 _MOST = 0.5  # share of what is known of a parameter that may be left out with such rows
-_WRONG = 2.0  # of its noise: with more left of it a residual says that the model is wrong
+_WRONG = 2.0  # of its noise: with more left of it a residual says that something else is there
+_FOLLOWS = 0.5  # share that follows the inputs, above which that is another law
 _SILENT = 1e-6  # of the size of a signal: the least noise that is reckoned with
 _SPANS = 20  # of the log, each of which is asked whether it fits
 
@@ -80,6 +89,8 @@ class Left(NamedTuple):
     `before` and `after` are the root mean square of the filtered residual, at the nominal and at
     the fitted parameters; `noise` what the sensors make of it. `memory` is the correlation of one
     row of it with the next once that of the noise is taken off: 0 where nothing else is in it.
+    `follows` is the share of its mean square that functions of the inputs explain (`left_over`),
+    None where that cannot be told.
     """
 
     residual: str
@@ -87,12 +98,28 @@ class Left(NamedTuple):
     after: float
     noise: float
     memory: float
+    follows: float | None
     spans: tuple[Span, ...]
 
     @property
     def explained(self) -> float:
         """The share of its mean square that the fitted parameters take off."""
         return 1.0 - (self.after / self.before) ** 2 if self.before else 0.0
+
+    @property
+    def times(self) -> float:
+        """How many times the noise of the sensors it is."""
+        return self.after / self.noise if self.noise else 0.0
+
+    @property
+    def much(self) -> bool:
+        """Whether it is more than noise: a disturbance, or a law that is another."""
+        return self.times > _WRONG
+
+    @property
+    def wrong(self) -> bool:
+        """Whether the law is another: nobody knows by how much its parameters are wrong."""
+        return self.much and (self.follows is None or self.follows > _FOLLOWS)
 
 
 class Delay(NamedTuple):
@@ -185,7 +212,8 @@ def fit(
         at = problem.solve(at)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
     told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
-    told &= problem.told_by_wrong(at)[:count] <= _MOST
+    left = problem.left(at)
+    told &= problem.told_by(at, [x.wrong for x in left])[:count] <= _MOST
     values = problem.values(at).tolist()
     own = tuple(
         Fitting(
@@ -209,7 +237,7 @@ def fit(
     )
     split = len(free.parameters)
     return Fitted(
-        own[:split], own[split:], suspects, found, problem.left(at), delays, seen, runs.seconds,
+        own[:split], own[split:], suspects, found, left, delays, seen, runs.seconds,
         covariance / np.outer(apart, apart),
     )  # fmt: skip
 
@@ -463,16 +491,19 @@ class _Problem:
         whole, part = energy.sum(axis=(1, 2)), (energy * far).sum(axis=(1, 2))
         return self._all if (part > _MOST * whole).any() else self._all & ~far
 
-    def told_by_wrong(self, at: Array) -> Array:
-        """The share of what is known of each parameter that residuals tell of a wrong model.
-
-        Of such a residual more than so many times its noise is left in the rows that count.
-        """
-        _, _, whole, noise = self._normal([at])
-        times = np.sqrt(whole[0] / np.maximum(noise[0], 1e-300)) * self._weight
+    def told_by(self, at: Array, residuals: Sequence[bool]) -> Array:
+        """The share of what is known of each parameter that some of the residuals tell."""
         energy = (self._slopes(at).by ** 2).sum(axis=1)
         known = np.maximum(energy.sum(axis=1), 1e-300)
-        return np.asarray(energy[:, times > _WRONG].sum(axis=1) / known)
+        return np.asarray(energy[:, list(residuals)].sum(axis=1) / known)
+
+    def _follows(self, at: Array) -> list[float | None]:
+        """For each residual, the share of what is left that follows the inputs."""
+        value, inputs = self._normal([at])[0][0], self._runs.inputs()
+        return [
+            follows(one, inputs, self._filters[:, r], self._mask[:, r])
+            for r, one in enumerate(value.T)
+        ]
 
     def covariance(self, at: Array) -> tuple[Array, Mask]:
         """Of the parameters, relative; and which of them are where their sign would change.
@@ -499,6 +530,7 @@ class _Problem:
         whole = (vectors * np.maximum(values, 0.0)) @ vectors.T + prior
         inverse = np.linalg.inv(whole)
         found = np.zeros((len(at), len(at)))
+        scatter *= few_rows(len(own)) ** 2 * len(own) / max(len(own) - len(at), 1)
         found[np.ix_(free, free)] = inverse @ (scatter + prior) @ inverse
         return found, bound
 
@@ -538,6 +570,7 @@ class _Problem:
         clean, added = self._rows([np.zeros(len(at)), at])
         before, after, noise = rms(clean[0]), rms(clean[1]), rms(added[1])
         white = filtered(clean[1], self._noise_filters)
+        share = self._follows(at)
         found = []
         for k, name in enumerate(self._runs.engine.residuals):
             own = white[:, k]
@@ -546,7 +579,10 @@ class _Problem:
             memory = float(np.sum((own[1:] * own[:-1])[good])) / square if square else 0.0
             spans = self._spans(own)
             found.append(
-                Left(name, float(before[k]), float(after[k]), float(noise[k]), memory, spans)
+                Left(
+                    name, float(before[k]), float(after[k]), float(noise[k]), memory, share[k],
+                    spans,
+                )
             )
         return tuple(found)
 

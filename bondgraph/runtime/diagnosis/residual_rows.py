@@ -87,6 +87,16 @@ class ResidualRows:
             found.append(moves if moves > _STILL * stands else stands or 1.0)
         return np.array(found)
 
+    def inputs(self) -> Array:
+        """The mean of each input and switch over the samples before a row, (rows, inputs)."""
+        own = [at for at, k in enumerate(self.engine.signals) if k.kind in ("input", "mode")]
+        parts = []
+        for samples in self.pieces:
+            rows = len(samples) // self.every
+            cut = samples[: rows * self.every, own].reshape(rows, self.every, len(own))
+            parts += [cut.mean(axis=1), np.full((1, len(own)), np.nan)]
+        return np.concatenate(parts)
+
     def rows(
         self, parameters: Sequence[Mapping[str, float]], delays: Array, offsets: Array
     ) -> tuple[Array, Array]:

@@ -37,6 +37,8 @@ class Combination(NamedTuple):
         'k is not told'
         >>> Combination(("R", "L", "k"), "", ({"R": 0.1, "L": 0.1, "k": -0.05},)).text()
         'R, L and k are not told apart: R +10 % with L +10 % and k -5 % changes nothing'
+        >>> Combination(("m", "b", "k"), "", ({"m": 0.1, "b": 0.1, "k": 0.1},)).text()
+        'only ratios of m, b and k are told'
         >>> Combination(("R", "z"), "", ({"R": 0.1, "z": -0.02},), ("z",)).text()
         'R and z are not told apart: R +10 % with z -0.02 changes nothing'
         """
@@ -44,6 +46,8 @@ class Combination(NamedTuple):
             return f"only {self.told} is told"
         if len(self.parameters) == 1:
             return f"{self.parameters[0]} is not told"
+        if self._ratios():
+            return f"only ratios of {joined(self.parameters, 'and')} are told"
         moves = []
         for change in self.changes:
             parts = [
@@ -53,6 +57,13 @@ class Combination(NamedTuple):
             moves.append(f"{parts[0]} with {joined(parts[1:], 'and')}" if parts[1:] else parts[0])
         what = f"{joined(self.parameters, 'and')} are not told apart"
         return f"{what}: {joined(moves, 'and')} changes nothing"
+
+    def _ratios(self) -> bool:
+        """Whether all may change by one factor, and by nothing else."""
+        if self.zeros or len(self.changes) != 1 or len(self.parameters) != len(self.changes[0]):
+            return False
+        by = self.changes[0].values()
+        return min(by) > 0 and max(by) <= (1.0 + _NEAR) * min(by)
 
 
 def combinations(

@@ -48,11 +48,28 @@ def filtered(values: Array, filters: Array) -> Array:
     return found
 
 
+def few_rows(rows: int) -> float:
+    """By how much an interval of 95 % has to be wider since `newey_west` is itself of few rows.
+
+    Critical values for Bartlett's weights over a share b of the rows (Kiefer and Vogelsang 2005).
+
+    >>> round(few_rows(100), 3), round(few_rows(10_000), 3)
+    (1.092, 1.008)
+    """
+    b = _most(rows) / rows
+    return (1.96 + 2.9694 * b + 0.416 * b**2 - 0.5324 * b**3) / 1.96
+
+
+def _most(rows: int) -> int:
+    """The lags beyond which correlations are taken for none."""
+    return math.ceil(math.sqrt(rows) / 2) + 1
+
+
 def newey_west(scores: Array) -> Array:
     """The covariance (p, p) of the sum of correlated rows (n, p) (Newey and West 1987)."""
     own = scores - scores.mean(axis=0)
     found = own.T @ own
-    most = math.ceil(math.sqrt(len(own)) / 2) + 1
+    most = _most(len(own))
     for lag in range(1, min(most, len(own))):
         part = own[lag:].T @ own[:-lag]
         found += (1.0 - lag / most) * (part + part.T)
