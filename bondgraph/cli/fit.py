@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from bondgraph import Options
@@ -9,7 +10,7 @@ from bondgraph.cli import console
 from bondgraph.cli.log_options import logged, read_logs, times_of
 from bondgraph.cli.options import isolating, noise, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
-from bondgraph.text.numerals import plural
+from bondgraph.text.numerals import joined, plural
 from bondgraph.text.whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -35,6 +36,8 @@ def arguments(parser: ArgumentParser) -> None:
         " repeated (default: the parameters with a tolerance, or else all)")  # fmt: skip
     add("-o", "--output", metavar="FILE.toml", default="parameters.toml",
         help="where to write them (default: parameters.toml)")  # fmt: skip
+    add("--plot", metavar="FILE.svg", default=None,
+        help="draw the first log as it was measured, and as the parameters predict it")  # fmt: skip
     add("--noise", metavar="[NAME=]DEVIATION", type=noise, action="append", default=[],
         help="standard deviation of the samples of a signal, without a name of every sensor; may be"
         " repeated (default: as the logs show it; inputs are exact)")  # fmt: skip
@@ -54,6 +57,8 @@ def run(args: Namespace) -> int:
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
 
+    if args.plot and find_spec("matplotlib") is None:
+        raise Trouble("--plot needs matplotlib: pip install 'bondgraph-arr[robot]'")
     logs = read_logs(args)
     rate = args.rate or rate_of(logs[0][1].time) or Options().rate
     bandwidth = args.bandwidth or bandwidth_for(rate, sum(log.rows for _, log in logs))
@@ -81,12 +86,16 @@ def run(args: Namespace) -> int:
     except ValueError as error:
         raise Trouble(str(error)) from error
     write_whole(args.output, _file(compilation, found))
+    files = [args.output]
+    if args.plot:
+        write_whole(args.plot, _plot(compilation, found, logs[0][0]))
+        files.append(args.plot)
     return console.told(
         args.json,
         compilation.report.diagnostics,
         _message(compilation, found),
-        lambda: {"files": [args.output], **_result(compilation, found), "times": times},
-        lambda: _lines(compilation, found, args),
+        lambda: {"files": files, **_result(compilation, found), "times": times},
+        lambda: _lines(compilation, found, files),
     )
 
 
@@ -171,7 +180,17 @@ def _about(p: Fitting, note: str) -> str:
     return f"{p.unit}, {note}" if p.unit else note
 
 
-def _lines(compilation: Compilation, found: Fitted, args: Namespace) -> list[str]:
+def _plot(compilation: Compilation, found: Fitted, log: str) -> str:
+    """The terms of the residuals over one log."""
+    from bondgraph.backends.report.fit_figure import Compared, figure
+
+    compared = [Compared(*one) for one in found.terms if one.log == log]
+    if not compared:
+        raise Trouble(f"nothing to plot: no residual with a parameter is valid in {log}")
+    return figure(f"the fit of {compilation.graph.name} to {log}", compared)
+
+
+def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[str]:
     rows: list[tuple[str, ...]] = [("parameter", "nominal", "fitted", "+- (95 %)", "unit")]
     for p in (*found.parameters, *found.offsets):
         sure = "not told" if p.interval is None else f"{p.interval:.2g}"
@@ -193,7 +212,7 @@ def _lines(compilation: Compilation, found: Fitted, args: Namespace) -> list[str
     for delay in found.delays:
         if abs(delay.value) > _LATE * delay.error:
             lines.append(f"  {delay.signal} comes {1000 * delay.value:.3g} ms late in the log")
-    return [*lines, "", f"Written to {args.output}"]
+    return [*lines, "", f"Written to {joined(files, 'and')}"]
 
 
 def _suspected(found: Fitted) -> list[str]:

@@ -134,6 +134,21 @@ class Delay(NamedTuple):
     error: float
 
 
+class Terms(NamedTuple):
+    """What one residual of one log is made of, at the rows (n,) that were fitted, in its unit.
+
+    `term` is the one of the `parameter` that makes most of it, `others` are all others with the
+    sign turned: the residual is the difference. NaN where it is not valid; `time` in s.
+    """
+
+    residual: str
+    parameter: str
+    log: str
+    time: Array
+    term: Array
+    others: Array
+
+
 class Suspect(NamedTuple):
     """An offset that was not fitted, and would take off a `share` of what is left (mean square).
 
@@ -163,6 +178,7 @@ class Fitted(NamedTuple):
     noise: dict[str, float]
     seconds: float
     correlation: Array  # (p, p), of the errors
+    terms: tuple[Terms, ...]
 
     @property
     def values(self) -> dict[str, float]:
@@ -238,7 +254,7 @@ def fit(
     split = len(free.parameters)
     return Fitted(
         own[:split], own[split:], suspects, found, left, delays, seen, runs.seconds,
-        covariance / np.outer(apart, apart),
+        covariance / np.outer(apart, apart), problem.terms(at),
     )  # fmt: skip
 
 
@@ -586,22 +602,41 @@ class _Problem:
             )
         return tuple(found)
 
+    def terms(self, at: Array) -> tuple[Terms, ...]:
+        """Each residual as the term with the parameter that makes most of it, and all others."""
+        runs, count = self._runs, len(self._free)
+        around = [at + s * _STEP * np.eye(len(at))[k] for k in range(count) for s in (1, -1)]
+        clean = self._rows([at, *around])[0]
+        share = (self.values(at) / self.scale)[:count, None, None]
+        parts = share * (clean[1::2] - clean[2::2]) / (2 * _STEP)
+        found, pieces = [], runs.times()
+        for log in dict.fromkeys(name for name, _, _ in pieces):
+            time = np.concatenate([t for name, t, _ in pieces if name == log])
+            rows = np.concatenate([np.arange(s.start, s.stop) for n, _, s in pieces if n == log])
+            for k, name in enumerate(runs.engine.residuals):
+                if not count or not np.isfinite(clean[0, rows, k]).any():
+                    continue
+                one = int(np.argmax(rms(parts[:, :, k].T)))
+                term = parts[one, rows, k]
+                others = term - clean[0, rows, k]
+                found.append(Terms(name, self._free[one], log, time, term, others))
+        return tuple(found)
+
     def _spans(self, white: Array) -> tuple[Span, ...]:
         """Where more than twice as much is left as usual, by spans of the logs."""
-        runs, found, begin = self._runs, [], 0
+        runs, found = self._runs, []
         apart = runs.every * runs.engine.sample_time
         most = max(map(len, runs.pieces)) // runs.every
         size = max(LAGS, math.ceil(most / _SPANS))
-        for (name, first), samples in zip(runs.begins, runs.pieces, strict=True):
-            rows = len(range(runs.every - 1, len(samples), runs.every))
-            for start in range(0, rows, size):
-                part = white[begin + start : begin + min(start + size, rows)]
-                part = part[np.isfinite(part)]
-                if len(part) >= LAGS:
-                    end = first + min(start + size, rows) * apart
-                    mean = math.sqrt(float(np.mean(part**2)))
-                    found.append(Span(name, first + start * apart, end, mean))
-            begin += rows + 1
+        for name, time, rows in runs.times():
+            own = white[rows]
+            for start in range(0, len(own), size):
+                part = own[start : start + size]
+                good = part[np.isfinite(part)]
+                if len(good) >= LAGS:
+                    begin = float(time[start]) - apart
+                    mean = math.sqrt(float(np.mean(good**2)))
+                    found.append(Span(name, begin, begin + len(part) * apart, mean))
         usual = float(np.median([s.times for s in found])) if found else 0.0
         if not usual:
             return ()

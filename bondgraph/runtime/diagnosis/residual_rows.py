@@ -87,6 +87,16 @@ class ResidualRows:
             found.append(moves if moves > _STILL * stands else stands or 1.0)
         return np.array(found)
 
+    def times(self) -> list[tuple[str, Array, slice]]:
+        """For each piece the name of its log, the times of its rows in s, and where these are."""
+        found, begin, step = [], 0, self.every * self.engine.sample_time
+        for (name, first), samples in zip(self.begins, self.pieces, strict=True):
+            rows = len(samples) // self.every
+            time: Array = first + step * np.arange(1.0, rows + 1)
+            found.append((name, time, slice(begin, begin + rows)))
+            begin += rows + 1
+        return found
+
     def inputs(self) -> Array:
         """The mean of each input and switch over the samples before a row, (rows, inputs)."""
         own = [at for at, k in enumerate(self.engine.signals) if k.kind in ("input", "mode")]
