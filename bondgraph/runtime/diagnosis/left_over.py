@@ -38,6 +38,23 @@ def follows(left: Array, inputs: Array, filter: Array, mask: Mask) -> float | No
     >>> round(follows(bent, u[:, None], one, mask), 2)
     1.0
     """
+    basis = instruments(inputs, filter, mask)
+    if basis is None:
+        return None
+    rows, size = basis.shape
+    own = left[mask] - left[mask].mean()
+    whole = float(np.sum(own**2))
+    if not whole:
+        return 0.0
+    explained = float(np.sum((basis.T @ own) ** 2)) / whole
+    return float(1.0 - (1.0 - explained) * rows / (rows - size))
+
+
+def instruments(inputs: Array, filter: Array, mask: Mask) -> Array | None:
+    """Orthonormal functions of the inputs in the rows that count, (these, functions), of mean 0.
+
+    What correlates with these is no disturbance. None as `follows` says.
+    """
     usual = [_usual(u) for u in inputs.T]
     moving = [u for u in usual if u is not None]
     rows = int(mask.sum())
@@ -49,13 +66,7 @@ def follows(left: Array, inputs: Array, filter: Array, mask: Mask) -> float | No
         return None
     columns = [filtered(one[:, None], filter[:, None])[:, 0] for one in table]
     there = np.array([np.where(np.isfinite(c), c, 0.0)[mask] for c in columns]).T
-    own = left[mask] - left[mask].mean()
-    whole = float(np.sum(own**2))
-    if not whole:
-        return 0.0
-    basis = _basis(there - there.mean(axis=0))
-    explained = float(np.sum((basis.T @ own) ** 2)) / whole
-    return float(1.0 - (1.0 - explained) * rows / (rows - basis.shape[1]))
+    return _basis(there - there.mean(axis=0))
 
 
 def _usual(values: Array) -> Array | None:

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import chdtri
 
-from bondgraph.runtime.diagnosis.left_over import follows
+from bondgraph.runtime.diagnosis.left_over import follows, instruments
 from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
 from bondgraph.runtime.diagnosis.told_combinations import Combination, combinations, untold
 from bondgraph.runtime.diagnosis.whitening import (
@@ -227,8 +227,10 @@ def fit(
         problem.pin(null)
         at = problem.solve(at)
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
-    told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
     left = problem.left(at)
+    if any(x.much for x in left):
+        deviation = np.hypot(deviation, problem.disturbed(at, [x.much for x in left]))
+    told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
     told &= problem.told_by(at, [x.wrong for x in left])[:count] <= _MOST
     values = problem.values(at).tolist()
     own = tuple(
@@ -520,6 +522,27 @@ class _Problem:
             follows(one, inputs, self._filters[:, r], self._mask[:, r])
             for r, one in enumerate(value.T)
         ]
+
+    def disturbed(self, at: Array, residuals: Sequence[bool]) -> Array:
+        """By how much the disturbance in some residuals may have moved each thing that is fitted.
+
+        A disturbance is in the sensors too, and what is multiplied with them leans on it. The
+        inputs know nothing of it: with them as instruments (Wright 1928, Hausman 1978) the fit
+        would be so far away.
+        """
+        s, inputs = self._slopes(at), self._runs.inputs()
+        by, value = s.by.copy(), s.value
+        for r in np.flatnonzero(residuals).tolist():
+            mask = self._mask[:, r]
+            basis = instruments(inputs, self._filters[:, r], mask)
+            if basis is not None:
+                whole = np.column_stack([basis, np.full(len(basis), len(basis) ** -0.5)])
+                by[:, ~mask, r] = 0.0
+                by[:, mask, r] = (by[:, mask, r] @ whole) @ whole.T
+        curved = np.einsum("atr,btr->ab", by, by) + np.diag(self._spread**-2.0)
+        curved += self._pins.T @ self._pins
+        away = np.linalg.solve(curved, np.einsum("atr,tr->a", by, value))
+        return np.asarray(away[: len(self.names)])
 
     def covariance(self, at: Array) -> tuple[Array, Mask]:
         """Of the parameters, relative; and which of them are where their sign would change.
