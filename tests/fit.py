@@ -2,8 +2,8 @@
 
     python -m tests.fit 20 [--write]     # so many logs of each machine
 
-Each sensor has noise of 1 % of the root mean square of its signal. With `--write` the table goes
-into `docs/fit.md`.
+Each sensor has noise of 1 % of the root mean square of its signal; the filter is the one that the
+command chooses. With `--write` the table goes into `docs/fit.md`.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import numpy as np
 
 import bondgraph
 from bondgraph import Course, Instrument, Sampling, Scenario
+from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from tests.measured import ROOT, write
 
 PAGE = ROOT / "docs" / "fit.md"
@@ -94,7 +95,8 @@ def course(mean: float, sines: tuple[tuple[float, float], ...], machine: Machine
 
 def rows(machine: Machine, logs: int) -> list[Row]:
     """Fit so many logs of a machine."""
-    c = bondgraph.compile(ROOT / f"{machine.model}.bg", rate=machine.rate)
+    bandwidth = bandwidth_for(machine.rate, machine.rate * machine.duration)
+    c = bondgraph.compile(ROOT / f"{machine.model}.bg", rate=machine.rate, bandwidth=bandwidth)
     scenario = Scenario(
         "healthy",
         duration=machine.duration,

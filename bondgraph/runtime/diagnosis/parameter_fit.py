@@ -50,7 +50,7 @@ _SURE = 1.96  # deviations within which 95 % are
 _FAR = 4.0  # deviations beyond which a row is not of this machine
 _MOST = 0.5  # share of what is known of a parameter that may be left out with such rows
 _WRONG = 2.0  # of its noise: with more left of it a residual says that something else is there
-_FOLLOWS = 0.5  # share that follows the inputs, above which that is another law
+_FOLLOWS = 0.2  # share that follows the inputs, above which that is another law
 _SILENT = 1e-6  # of the size of a signal: the least noise that is reckoned with
 _SPANS = 20  # of the log, each of which is asked whether it fits
 
@@ -184,6 +184,11 @@ class Fitted(NamedTuple):
     def values(self) -> dict[str, float]:
         """The fitted values of parameters in SI units, by name."""
         return {p.name: p.value for p in self.parameters}
+
+    @property
+    def offset_values(self) -> dict[str, float]:
+        """The fitted offsets in the units of their signals, by name."""
+        return {p.name: p.value for p in self.offsets}
 
 
 class Wanted(NamedTuple):
