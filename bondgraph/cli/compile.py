@@ -65,7 +65,7 @@ def run(args: Namespace) -> int:
     compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
     _compute(compilation)
     if compilation.options.offsets:
-        names = ", ".join(name for name, _ in compilation.options.offsets)
+        names = ", ".join(dict(compilation.options.offsets))
         note(f"the code takes samples without the offsets of {names}: take them off before")
     files = _write(compilation, args.output)
     if args.json:
