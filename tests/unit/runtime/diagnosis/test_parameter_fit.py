@@ -261,3 +261,15 @@ def test_an_encoder_has_no_offset() -> None:
     log = Log(TIME, {"T": DRIVE, "p": np.round(DRIVE)}, {}, {})
     with pytest.raises(ValueError, match="it has no offset"):
         c.fit({"run": log}, ["p"])
+
+
+def test_a_long_log_loses_one_warm_up_only() -> None:
+    """Logs are read in blocks; the filters go on from one to the next."""
+    c = bondgraph.compile(text=ONE, rate=RATE)
+    time = np.arange(20_000) / RATE
+    y = np.sin(7.0 * time)
+    draw = 0.01 * np.random.default_rng(1).standard_normal(len(time))
+    columns = {"U": 3.0 * y, "y": y + draw}
+    long = c.fit({"run": Log(time, columns, {}, {})}).seconds
+    short = c.fit({"run": Log(TIME, {n: x[:N] for n, x in columns.items()}, {}, {})}).seconds
+    assert abs((20.0 - long) - (8.0 - short)) < 0.06  # s, a row or two
