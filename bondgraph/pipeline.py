@@ -77,7 +77,8 @@ class Options(NamedTuple):
     sequence of names says which residuals are observers.
     With `open_ports` the model is a part of a machine: its ports may be left without a bond.
     `parameters` are numbers in SI, by name, that take the place of those in the model: a dict, or
-    pairs of names and numbers.
+    pairs of names and numbers. `offsets` are by how much samples of sensors and inputs are too
+    large, by name, in their units: what reads a log takes them off, `simulate` puts them on.
     """
 
     rate: float = 1000.0
@@ -90,6 +91,7 @@ class Options(NamedTuple):
     form: Form = "derivative"
     open_ports: bool = False
     parameters: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
+    offsets: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
 
 
 if TYPE_CHECKING:
@@ -107,6 +109,7 @@ if TYPE_CHECKING:
         form: Form
         open_ports: bool
         parameters: Mapping[str, float] | tuple[tuple[str, float], ...]
+        offsets: Mapping[str, float] | tuple[tuple[str, float], ...]
 
 
 class Compilation:
@@ -208,11 +211,13 @@ class Compilation:
 
         own = self.syntax, self.source, self.model, self._load, self.report
         found = self._stage(elaborate(*own, self.options.open_ports))
-        given = dict(self.options.parameters)
+        given, offsets = dict(self.options.parameters), dict(self.options.offsets)
         try:
-            return found.with_values(given) if given else found
+            found = found.with_values(given) if given else found
+            return found.with_offsets(offsets) if offsets else found
         except KeyError as error:
-            raise ValueError(f"the model has no value `{error.args[0]}`") from error
+            what = "value" if error.args[0] in given else "sensor or input"
+            raise ValueError(f"the model has no {what} `{error.args[0]}`") from error
 
     @cached_property
     def integral(self) -> CausalGraph:
@@ -269,15 +274,15 @@ class Compilation:
         assert found is not None
         return found
 
-    def numbers(self, source: Source) -> dict[str, float]:
-        """The numbers under [parameters] of a TOML text for this model, in SI.
+    def numbers(self, source: Source) -> tuple[dict[str, float], dict[str, float]]:
+        """The numbers under [parameters] and [offsets] of a TOML text for this model, in SI.
 
         Raises `CompileError` if it is wrong.
         """
-        from bondgraph.runtime.simulation.read_scenario import read_parameters
+        from bondgraph.runtime.simulation.read_scenario import read_numbers
 
         report = Report()
-        found = read_parameters(source, self.graph, report)
+        found = read_numbers(source, self.graph, report)
         report.stop_on_error()
         return found
 
@@ -293,7 +298,8 @@ class Compilation:
     ) -> Fitted:
         """Fit parameters to logs of the healthy machine, by the names of these (docs/fit.md).
 
-        `free` are names of parameters; without it those with a tolerance, or else all. `noise` are
+        `free` are names of parameters, without it those with a tolerance, or else all; the name of
+        a sensor or an input stands for its offset. `noise` are
         standard deviations of signals in their unit, where they are known. Only samples for which
         `operating` holds count, an expression over columns (docs/logs.md). Raises ValueError for
         logs that are too short and for what is no parameter of a residual, `LogError` for a log
@@ -354,7 +360,23 @@ class Compilation:
 
         chosen = scenario if isinstance(scenario, Scenario) else self.scenario(scenario)
         coding = Coding(rate_language(), rate_file) if native else None
-        return simulate(self.equations, self.integral, chosen, progress, coding, tell or warn)
+        biased = self.with_biases(chosen)
+        run = simulate(self.equations, self.integral, biased, progress, coding, tell or warn)
+        for item in self.graph.inputs:
+            if item.offset and item.name in run.log.columns:
+                run.log.columns[item.name] = run.log.columns[item.name] + item.offset
+        return run
+
+    def with_biases(self, scenario: Scenario) -> Scenario:
+        """A scenario whose instruments have the offsets of sensors (`Options`) as biases too."""
+        from bondgraph.runtime.simulation.scenario import Instrument
+
+        found = dict(scenario.instruments)
+        for sensor in self.graph.sensors:
+            if sensor.offset and sensor.same_as is None:
+                own = found.get(sensor.name, Instrument())
+                found[sensor.name] = own._replace(bias=own.bias + sensor.offset)
+        return scenario._replace(instruments=found)
 
     @cached_property
     def structure(self) -> StructuralModel:
@@ -765,7 +787,7 @@ def compile(
     A path may name the model: `robot.bg:Drive`. A text needs no path; one says what it is called
     in messages, and beside which files its imports are. Options are those of `Options`: `rate`,
     `bandwidth`, `resolution`, `targets`, `seed`, `decouple`, `isolate`, `form`, `open_ports`,
-    `parameters`.
+    `parameters`, `offsets`.
     Nothing is computed before a stage is asked for. Raises `CompileError` if the file cannot be
     read, TypeError for an unknown option, ValueError for a number that is not positive.
 
@@ -811,12 +833,16 @@ def _checked(options: Options) -> Options:
         value = getattr(options, name)
         if isinstance(value, str):
             raise TypeError(f"{name} is a sequence of names: [{value!r}]")
-    numbers = {str(name): float(value) for name, value in dict(options.parameters).items()}
-    for name, value in numbers.items():
+    numbers, offsets = (
+        {str(name): float(value) for name, value in dict(given).items()}
+        for given in (options.parameters, options.offsets)
+    )
+    for name, value in (*numbers.items(), *offsets.items()):
         if not abs(value) < float("inf"):
             raise ValueError(f"{name} must be a finite number, not {value!r}")
     return options._replace(
         parameters=tuple(numbers.items()),
+        offsets=tuple(offsets.items()),
         targets=tuple(options.targets),
         decouple=tuple(options.decouple),
         form=form if isinstance(form, str) else tuple(form),

@@ -2,8 +2,8 @@
 
     python -m tests.fit 20 [--write]     # so many logs of each machine
 
-Each sensor has noise of 1 % of the root mean square of its signal. With `--write` the table goes
-into `docs/fit.md`.
+Each sensor has noise of 1 % of the root mean square of its signal; the filter is the one that the
+command chooses. With `--write` the table goes into `docs/fit.md`.
 """
 
 from __future__ import annotations
@@ -11,12 +11,14 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Mapping
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 import bondgraph
 from bondgraph import Course, Instrument, Sampling, Scenario
+from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from tests.measured import ROOT, write
 
 PAGE = ROOT / "docs" / "fit.md"
@@ -24,7 +26,7 @@ NOISE = 0.01
 
 
 class Machine(NamedTuple):
-    """A model, and the machine it is a model of: `truth` by name of what is fitted.
+    """A model (its file without .bg), and the machine: `truth` by name of what is fitted.
 
     Inputs are a constant with sines (amplitude, rad/s); `modes` stay as they are.
     """
@@ -38,16 +40,34 @@ class Machine(NamedTuple):
 
 
 MACHINES = (
-    Machine("dc_motor", 1000.0, 10.0, {"R": 15.0, "k": 3.9e-3, "f": 1.0e-5},
+    Machine("models/dc_motor", 1000.0, 10.0, {"R": 15.0, "k": 3.9e-3, "f": 1.0e-5},
             {"U": (4.0, ((3.0, 2.0), (2.0, 11.0), (1.5, 31.0)))}),
-    Machine("two_tanks", 10.0, 400.0, {"A1": 0.016, "A2": 0.015, "k12": 1.1e-6, "kout": 1.1e-6},
+    Machine("models/two_tanks", 10.0, 400.0,
+            {"A1": 0.016, "A2": 0.015, "k12": 1.1e-6, "kout": 1.1e-6},
             {"Q": (8e-5, ((3e-5, 0.05), (3e-5, 0.21)))}),
-    Machine("oven", 10.0, 1000.0, {"Ch": 130.0, "Co": 850.0, "Gh": 3.8, "Go": 0.85},
+    Machine("models/oven", 10.0, 1000.0, {"Ch": 130.0, "Co": 850.0, "Gh": 3.8, "Go": 0.85},
             {"P": (300.0, ((200.0, 0.02), (100.0, 0.11))), "Ta": (293.0, ())}, {"on": 1.0}),
-    Machine("hydraulic_actuator", 1000.0, 10.0, {"kv": 3.2e-8, "m": 28.0, "b": 350.0},
+    Machine("models/hydraulic_actuator", 1000.0, 10.0, {"kv": 3.2e-8, "m": 28.0, "b": 350.0},
             {"ps": (1e7, ()), "spool": (0.3, ((0.25, 3.0), (0.2, 17.0))), "load": (1000.0, ())}),
-    Machine("quarter_car", 500.0, 20.0, {"ks": 17e3, "cs": 1100.0},
+    Machine("models/quarter_car", 500.0, 20.0, {"ks": 17e3, "cs": 1100.0},
             {"road": (0.0, ((0.2, 3.0), (0.2, 9.0), (0.3, 40.0)))}),
+    Machine("tests/campaign/series_motor", 500.0, 20.0, {"R": 0.9, "k": 0.033, "f": 0.018},
+            {"U": (24.0, ((8.0, 1.3), (5.0, 7.0))), "load": (1.0, ())}),
+    Machine("tests/campaign/vehicle", 200.0, 100.0, {"R": 0.14, "m": 450.0, "drag": 0.5},
+            {"duty": (0.5, ((0.2, 0.1), (0.15, 0.7))), "slope": (20.0, ((60.0, 0.23),))}),
+    Machine("tests/adversary/models/dc_w", 100.0, 100.0, {"R": 1.0, "k": 1.2, "f": 0.45},
+            {"U": (1.0, ((2.0, 0.7), (2.0, 2.9))), "T": (0.0, ((0.5, 1.7),))}),
+    Machine("tests/adversary/models/helmholtz", 100.0, 100.0, {"ra": 0.35, "Ca": 1.0},
+            {"sound": (0.0, ((1.0, 0.6), (1.0, 1.3), (0.5, 2.6)))}),
+    Machine("tests/adversary/models/heated_rod", 50.0, 200.0, {"C1": 1.3, "G12": 0.65},
+            {"P": (2.0, ((1.0, 0.2), (1.0, 0.9))), "Ta": (0.0, ((0.5, 0.13),))}),
+    Machine("tests/adversary/models/three_tanks", 50.0, 200.0,
+            {"k12": 0.55, "k23": 0.55, "ko": 0.45},
+            {"Q": (0.6, ((0.2, 0.1), (0.2, 0.47)))}),
+    Machine("tests/adversary/models/drag_abs", 50.0, 100.0, {"m": 0.9, "c": 0.5},
+            {"F": (2.0, ((3.0, 0.5), (2.0, 2.1))), "slope": (0.0, ((0.1, 0.3),))}),
+    Machine("tests/adversary/models/loudspeaker", 200.0, 60.0, {"R": 1.0, "Bl": 1.2, "b": 0.6},
+            {"U": (0.0, ((1.0, 0.9), (1.0, 2.3), (0.7, 5.1)))}),
 )  # fmt: skip
 
 
@@ -75,7 +95,8 @@ def course(mean: float, sines: tuple[tuple[float, float], ...], machine: Machine
 
 def rows(machine: Machine, logs: int) -> list[Row]:
     """Fit so many logs of a machine."""
-    c = bondgraph.compile(ROOT / "models" / f"{machine.model}.bg", rate=machine.rate)
+    bandwidth = bandwidth_for(machine.rate, machine.rate * machine.duration)
+    c = bondgraph.compile(ROOT / f"{machine.model}.bg", rate=machine.rate, bandwidth=bandwidth)
     scenario = Scenario(
         "healthy",
         duration=machine.duration,
@@ -95,7 +116,7 @@ def rows(machine: Machine, logs: int) -> list[Row]:
             off, wide = p.value / machine.truth[p.name] - 1.0, p.interval or 0.0
             found[p.name].append((abs(off), wide / machine.truth[p.name]))
     return [
-        Row(machine.model, name, logs, sum(off <= wide for off, wide in one),
+        Row(Path(machine.model).name, name, logs, sum(off <= wide for off, wide in one),
             *(math.sqrt(float(np.mean([x[k] ** 2 for x in one]))) for k in (1, 0)))
         for name, one in found.items()
     ]  # fmt: skip

@@ -8,6 +8,7 @@ from argparse import ArgumentParser, Namespace
 
 from bondgraph import Compilation, Options
 from bondgraph.cli import console
+from bondgraph.cli.log_options import note
 from bondgraph.cli.options import bits, further, opened, positive, realised
 from bondgraph.text.diagnostic import Trouble
 
@@ -63,6 +64,9 @@ def run(args: Namespace) -> int:
             return 2
     compilation = opened(args, tuple(dict.fromkeys(args.target or Options().targets)))
     _compute(compilation)
+    if compilation.options.offsets:
+        names = ", ".join(dict(compilation.options.offsets))
+        note(f"the code takes samples without the offsets of {names}: take them off before")
     files = _write(compilation, args.output)
     if args.json:
         from bondgraph.cli.result import result

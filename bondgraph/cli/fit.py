@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from bondgraph import Options
@@ -9,16 +10,18 @@ from bondgraph.cli import console
 from bondgraph.cli.log_options import logged, read_logs, times_of
 from bondgraph.cli.options import isolating, noise, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
-from bondgraph.text.numerals import plural
+from bondgraph.text.numerals import joined, plural
 from bondgraph.text.whole_file import write_whole
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterable, Mapping
 
     from bondgraph.pipeline import Compilation
     from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting, Left
 
 _LATE = 3.0  # standard errors above which it is told that a signal comes late
+_SUSPECTS = 3  # offsets that are told at most
 _MEMORY = 0.3  # correlation of what is left, above which it is no noise of sensors
 
 
@@ -29,10 +32,12 @@ def arguments(parser: ArgumentParser) -> None:
     add("logs", metavar="LOG", nargs="+",
         help="logs of one healthy machine, .csv, .parquet or lines of JSON")  # fmt: skip
     add("--free", metavar="NAMES", action="append", default=[],
-        help="parameters to fit, separated by commas; may be repeated (default: those with a"
-        " tolerance, or else all)")  # fmt: skip
+        help="parameters to fit, and sensors or inputs whose offset is, separated by commas; may be"
+        " repeated (default: the parameters with a tolerance, or else all)")  # fmt: skip
     add("-o", "--output", metavar="FILE.toml", default="parameters.toml",
         help="where to write them (default: parameters.toml)")  # fmt: skip
+    add("--plot", metavar="FILE.svg", default=None,
+        help="draw the first log as it was measured, and as the parameters predict it")  # fmt: skip
     add("--noise", metavar="[NAME=]DEVIATION", type=noise, action="append", default=[],
         help="standard deviation of the samples of a signal, without a name of every sensor; may be"
         " repeated (default: as the logs show it; inputs are exact)")  # fmt: skip
@@ -52,6 +57,8 @@ def run(args: Namespace) -> int:
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
 
+    if args.plot and find_spec("matplotlib") is None:
+        raise Trouble("--plot needs matplotlib: pip install 'bondgraph-arr[robot]'")
     logs = read_logs(args)
     rate = args.rate or rate_of(logs[0][1].time) or Options().rate
     bandwidth = args.bandwidth or bandwidth_for(rate, sum(log.rows for _, log in logs))
@@ -59,10 +66,12 @@ def run(args: Namespace) -> int:
     engine = compilation.engine()
     mapping = read_map(args.map, engine.signals) if args.map else None
     free = [name.strip() for names in args.free for name in names.split(",") if name.strip()]
-    names = [v.name for v in compilation.graph.values]
+    graph = compilation.graph
+    names = [v.name for v in graph.values]
+    names += [s.name for s in graph.sensors] + [i.name for i in graph.inputs]
     for name in free:
         if name not in names:
-            raise console.Unknown(name, "no parameter of the model", names)
+            raise console.Unknown(name, "no parameter, sensor or input of the model", names)
     times = times_of(logs)
     try:
         with console.progress_bar("fitting") as progress:
@@ -77,12 +86,16 @@ def run(args: Namespace) -> int:
     except ValueError as error:
         raise Trouble(str(error)) from error
     write_whole(args.output, _file(compilation, found))
+    files = [args.output]
+    if args.plot:
+        write_whole(args.plot, _plot(compilation, found, logs[0][0]))
+        files.append(args.plot)
     return console.told(
         args.json,
         compilation.report.diagnostics,
         _message(compilation, found),
-        lambda: {"files": [args.output], **_result(compilation, found), "times": times},
-        lambda: _lines(compilation, found, args),
+        lambda: {"files": files, **_result(compilation, found), "times": times},
+        lambda: _lines(compilation, found, files),
     )
 
 
@@ -100,6 +113,9 @@ def _noise(args: Namespace, compilation: Compilation) -> dict[str, float]:
 def _message(compilation: Compilation, found: Fitted) -> str:
     told = sum(p.error is not None for p in found.parameters)
     many = plural(len(found.parameters), "parameter")
+    if found.offsets:
+        known = sum(p.error is not None for p in found.offsets)
+        many += f" and {known} of {plural(len(found.offsets), 'offset')}"
     return (
         f"{compilation.graph.name}: {told} of {many} told by {found.seconds:.3g} s of"
         " healthy operation"
@@ -111,10 +127,13 @@ def _result(compilation: Compilation, found: Fitted) -> dict[str, object]:
         "model": compilation.graph.name,
         "seconds": found.seconds,
         "parameters": [{**p._asdict(), "interval": p.interval} for p in found.parameters],
+        "offsets": [{**p._asdict(), "interval": p.interval} for p in found.offsets],
+        "suspects": [s._asdict() for s in found.suspects],
         "correlation": found.correlation.tolist(),
         "combinations": [{**c._asdict(), "text": c.text()} for c in found.combinations],
         "residuals": [
-            {**x._asdict(), "explained": x.explained, "spans": [s._asdict() for s in x.spans]}
+            {**x._asdict(), "explained": x.explained, "wrong": x.wrong,
+             "spans": [s._asdict() for s in x.spans]}
             for x in found.left
         ],
         "delays": [d._asdict() for d in found.delays],
@@ -131,24 +150,53 @@ def _file(compilation: Compilation, found: Fitted) -> str:
         "",
         "[parameters]",
     ]
-    for p in found.parameters:
-        note = "not told by the logs" if p.interval is None else f"+- {p.interval:.2g} (95 %)"
-        lines.append(f'"{p.name}" = {p.value!r}  # {_about(p, note)}')
+    options, fitted = compilation.options, (*found.parameters, *found.offsets)
+    lines += [_line(p) for p in found.parameters]
+    lines += _given(options.parameters, found.parameters)
+    offsets = [_line(p) for p in found.offsets] + _given(options.offsets, found.offsets)
+    if offsets:
+        lines += ["", "# What samples of a signal are too large by: it is taken off first."]
+        lines += ["[offsets]", *offsets]
     lines += ["", "[standard_errors]"]
-    lines += [f'"{p.name}" = {p.error!r}' for p in found.parameters if p.error is not None]
+    lines += [f'"{p.name}" = {p.error!r}' for p in fitted if p.error is not None]
     return "\n".join(lines) + "\n"
+
+
+def _given(
+    numbers: Mapping[str, float] | Iterable[tuple[str, float]], fitted: Iterable[Fitting]
+) -> list[str]:
+    """What `--parameters` and `--set` said and was not fitted: the fit holds together with it."""
+    known = {p.name for p in fitted}
+    own = dict(numbers).items()
+    return [f'"{name}" = {value!r}  # as given' for name, value in own if name not in known]
+
+
+def _line(p: Fitting) -> str:
+    note = "not told by the logs" if p.interval is None else f"+- {p.interval:.2g} (95 %)"
+    return f'"{p.name}" = {p.value!r}  # {_about(p, note)}'
 
 
 def _about(p: Fitting, note: str) -> str:
     return f"{p.unit}, {note}" if p.unit else note
 
 
-def _lines(compilation: Compilation, found: Fitted, args: Namespace) -> list[str]:
+def _plot(compilation: Compilation, found: Fitted, log: str) -> str:
+    """The terms of the residuals over one log."""
+    from bondgraph.backends.report.fit_figure import Compared, figure
+
+    compared = [Compared(*one) for one in found.terms if one.log == log]
+    if not compared:
+        raise Trouble(f"nothing to plot: no residual with a parameter is valid in {log}")
+    return figure(f"the fit of {compilation.graph.name} to {log}", compared)
+
+
+def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[str]:
     rows: list[tuple[str, ...]] = [("parameter", "nominal", "fitted", "+- (95 %)", "unit")]
-    for p in found.parameters:
+    for p in (*found.parameters, *found.offsets):
         sure = "not told" if p.interval is None else f"{p.interval:.2g}"
         sure = "at its bound" if p.bound else sure
-        rows.append((p.name, f"{p.nominal:.6g}", f"{p.value:.6g}", sure, p.unit))
+        name = f"offset of {p.name}" if p in found.offsets else p.name
+        rows.append((name, f"{p.nominal:.6g}", f"{p.value:.6g}", sure, p.unit))
     lines = [_message(compilation, found), "", *console.columns(rows)]
     if any(p.bound for p in found.parameters):
         names = ", ".join(p.name for p in found.parameters if p.bound)
@@ -159,21 +207,40 @@ def _lines(compilation: Compilation, found: Fitted, args: Namespace) -> list[str
         lines += [f"  {c.text()}" for c in found.combinations]
     lines += ["", "How well it fits"]
     for left in found.left:
-        lines += [f"  {text}" for text in _fits(left)]
+        lines += [f"  {text}" for text in _fits(left, bool(found.suspects))]
+    lines += _suspected(found)
     for delay in found.delays:
         if abs(delay.value) > _LATE * delay.error:
             lines.append(f"  {delay.signal} comes {1000 * delay.value:.3g} ms late in the log")
-    return [*lines, "", f"Written to {args.output}"]
+    return [*lines, "", f"Written to {joined(files, 'and')}"]
 
 
-def _fits(left: Left) -> list[str]:
-    """What is left of one residual, in words."""
+def _suspected(found: Fitted) -> list[str]:
+    """The offsets that would explain what is left, in words; each would do it by itself."""
+    fitted = [p.name for p in (*found.parameters, *found.offsets)]
+    lines: list[str] = []
+    for one in found.suspects[:_SUSPECTS]:
+        value = f"{one.value:.3g}" + (f" {one.unit}" if one.unit not in ("", "1") else "")
+        lines.append(
+            f"  {'or' if lines else 'What is left does not stand at zero:'} an offset of"
+            f" {one.signal} of {value} would explain {100 * one.share:.3g} % of it"
+            f" (--free {','.join([*fitted, one.signal])})"
+        )
+    return lines
+
+
+def _fits(left: Left, offset: bool) -> list[str]:
+    """What is left of one residual, in words; an `offset` may be what is wrong."""
     if not left.after and not left.before:
         return [f"{left.residual}: never valid in these logs"]
     text = f"{left.residual}: {100 * left.explained:.1f} % of it at the nominal values is explained"
-    times = left.after / left.noise if left.noise else 0.0
-    text += f"; what is left is {times:.2g} times the noise of the sensors"
-    if left.memory > _MEMORY:
+    text += f"; what is left is {left.times:.2g} times the noise of the sensors"
+    if left.wrong and left.follows is not None:
+        text += f", and {100 * left.follows:.0f} % of it follows the inputs: the model is another"
+        text += ", or there is an offset" if offset else ""
+    elif left.much and not left.wrong:
+        text += ", and does not follow the inputs: a disturbance, which the intervals reckon with"
+    elif left.memory > _MEMORY:
         text += ", and no white noise: the model leaves something out"
     lines = [text]
     for span in left.spans[:3]:

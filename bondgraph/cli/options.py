@@ -104,8 +104,8 @@ def _quoted(text: str) -> str:
 
 def numbered(parser: ArgumentParser) -> None:
     """The options `--parameters` and `--set`."""
-    parser.add_argument("--parameters", metavar="FILE.toml", help="other values of parameters, as"
-                        " `bondgraph fit` writes them")  # fmt: skip
+    parser.add_argument("--parameters", metavar="FILE.toml", help="other values of parameters, and"
+                        " offsets of sensors, as `bondgraph fit` writes them")  # fmt: skip
     parser.add_argument("--set", metavar="NAME=VALUE", type=setting, action="append", default=[],
                         help="another value of a parameter, in SI or with a unit (R=1.2 kOhm);"
                         " may be repeated")  # fmt: skip
@@ -125,9 +125,13 @@ def model_of(args: Namespace, **options: Unpack[OptionValues]) -> Compilation:
         report.stop_on_error()
     sources += [Source("--set", f"parameters.{_quoted(n)} = {v}") for n, v in args.set]
     given: dict[str, float] = {}
+    offsets: dict[str, float] = {}
     for source in filter(None, sources):
-        given |= compilation.numbers(source)
-    return compilation.with_options(parameters=given) if given else compilation
+        numbers, off = compilation.numbers(source)
+        given, offsets = given | numbers, offsets | off
+    if not given and not offsets:
+        return compilation
+    return compilation.with_options(parameters=given, offsets=offsets)
 
 
 def realised(parser: ArgumentParser, usual: Form | None = "derivative") -> None:

@@ -90,7 +90,8 @@ def stream(compilation: Compilation, scenario: Scenario, speed: float) -> int:
     from bondgraph.runtime.simulation.run import Robot
 
     try:
-        robot = Robot(compilation.equations, compilation.integral, scenario)
+        biased = compilation.with_biases(scenario)
+        robot = Robot(compilation.equations, compilation.integral, biased)
         names = list(robot.units)
         sys.stdout.write(",".join(["t", *[f'"{n}"' if "," in n else n for n in names]]) + "\n")
         anchor = time.monotonic()

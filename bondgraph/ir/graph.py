@@ -116,7 +116,8 @@ class Input(NamedTuple):
     """A known or unknown input; `mode` marks a boolean known at run time.
 
     At time t the plant obeys what it said at t - `delay`, in s. `of` names the input or sensor
-    that this one is a past value of: it is no fault of its own.
+    that this one is a past value of: it is no fault of its own. Samples of it are `offset` too
+    large, in its unit.
     """
 
     name: str
@@ -129,6 +130,7 @@ class Input(NamedTuple):
     origin: Span
     delay: Fraction = Fraction(0)
     of: str | None = None
+    offset: float = 0.0
 
 
 class Sensor(NamedTuple):
@@ -138,7 +140,7 @@ class Sensor(NamedTuple):
     signal is then in rad and the generated code takes integer counts. `same_as` names the sensor
     whose physical instrument this one reads (then `symbol` is that sensor's symbol). At time t it
     says what was at t - `delay`, in s: the symbol stands for what it will say of now. `of` names
-    the sensor that this one is a past value of.
+    the sensor that this one is a past value of. Samples of it are `offset` too large, in its unit.
     """
 
     name: str
@@ -154,6 +156,7 @@ class Sensor(NamedTuple):
     origin: Span
     delay: Fraction = Fraction(0)
     of: str | None = None
+    offset: float = 0.0
 
 
 class Integral(NamedTuple):
@@ -266,6 +269,16 @@ class BondGraph(NamedTuple):
         written = {n: self.pool.num(Fraction(repr(float(x)))) for n, x in numbers.items()}
         values = tuple(v._replace(value=written.get(v.name, v.value)) for v in self.values)
         return self._replace(values=values)
+
+    def with_offsets(self, offsets: Mapping[str, float]) -> BondGraph:
+        """The same model with offsets of sensors and inputs; raises KeyError for another name."""
+        signals = {s.name for s in self.sensors} | {i.name for i in self.inputs}
+        for name in offsets:
+            if name not in signals:
+                raise KeyError(name)
+        sensors = tuple(s._replace(offset=offsets.get(s.name, s.offset)) for s in self.sensors)
+        inputs = tuple(i._replace(offset=offsets.get(i.name, i.offset)) for i in self.inputs)
+        return self._replace(sensors=sensors, inputs=inputs)
 
     def initial_values(self) -> dict[Symbol, Expr]:
         """The declared value of each symbol that an integral starts from."""

@@ -287,7 +287,8 @@ class Known(NamedTuple):
     A `reading` is the number that a law received of the sensor with the same `path`. The code that
     is emitted has none: there both are the signal of the sensor.
     `lowest` is -2 where exact needs the integral of the integral, -1 where it needs the integral;
-    `start` says that exact needs the value at the start; `sampled` that step reads it.
+    `start` says that exact needs the value at the start; `sampled` that step reads it. Samples in
+    logs are `offset` too large, in its unit; the code takes them without it.
     """
 
     name: str
@@ -302,6 +303,7 @@ class Known(NamedTuple):
     lowest: int = 0
     start: bool = False
     sampled: bool = True
+    offset: float = 0.0
 
 
 class Delayed(NamedTuple):

@@ -274,6 +274,7 @@ class Builder:
             min(low, 0),
             signal.name in self.starts,
             signal.name in self.sampled or kind == "mode",
+            declared.offset,
         )
 
     # ------------------------------------------------------------- signals

@@ -368,7 +368,7 @@ def with_tables(program: Program, pool: Pool) -> Program:
 
 
 #: What a program without is the same as it was before there was such a field.
-_ADDED = ("openings", "follows", "delayed")
+_ADDED = ("openings", "follows", "delayed", "offset")
 
 
 def digest(program: Program, text: str) -> str:

@@ -18,29 +18,39 @@ from functools import partial
 
 import numpy as np
 from scipy.optimize import least_squares
+from scipy.special import chdtri
 
+from bondgraph.runtime.diagnosis.left_over import follows, instruments
+from bondgraph.runtime.diagnosis.residual_rows import ResidualRows
 from bondgraph.runtime.diagnosis.told_combinations import Combination, combinations, untold
+from bondgraph.runtime.diagnosis.whitening import (
+    LAGS,
+    few_rows,
+    filtered,
+    newey_west,
+    rms,
+    whitening,
+)
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.clock import Piece
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.text.tuples import NamedTuple
 
-_APART = 0.5  # time constants of the filter between two rows
-_LAGS = 8  # rows that a row of noise is predicted from, so that what is left has no memory
 _ROUNDS = 4  # of weights from what is left, and parameters from weights
 _STEP = 1e-3  # relative, of central differences
 _WIDE = 10.0  # deviation of a parameter that no log tells, relative to its value
 _TOLD = 0.3  # relative deviation below which a parameter is told
 _LATE = 1.0  # samples by which what jumps may be late: deviation
-_JUMP = 10.0  # deviations of its steps that a signal changes by where it jumps
 _PINNED = 1e-3  # how far what is not told may be from its nominal value
 _SMALLEST = 1e-6  # of its nominal value: a parameter keeps its sign
+_BLIND = 1e-6  # share of an effect that nothing fitted has too: with less it is not told apart
+_RARE = 1e-3  # probability that some offset is suspected where there is none
+_MATTERS = 0.01  # share of what is left: an offset that explains less is not told
 _SURE = 1.96  # deviations within which 95 % are
 _FAR = 4.0  # deviations beyond which a row is not of this machine
 _MOST = 0.5  # share of what is known of a parameter that may be left out with such rows
-_CHUNK = 5000  # samples at a time
-_WRONG = 2.0  # of its noise: with more left of it a residual says that the model is wrong
-_LEAST = 50  # rows below which nothing is told
+_WRONG = 2.0  # of its noise: with more left of it a residual says that something else is there
+_FOLLOWS = 0.2  # share that follows the inputs, above which that is another law
 _SILENT = 1e-6  # of the size of a signal: the least noise that is reckoned with
 _SPANS = 20  # of the log, each of which is asked whether it fits
 
@@ -79,6 +89,8 @@ class Left(NamedTuple):
     `before` and `after` are the root mean square of the filtered residual, at the nominal and at
     the fitted parameters; `noise` what the sensors make of it. `memory` is the correlation of one
     row of it with the next once that of the noise is taken off: 0 where nothing else is in it.
+    `follows` is the share of its mean square that functions of the inputs explain (`left_over`),
+    None where that cannot be told.
     """
 
     residual: str
@@ -86,12 +98,28 @@ class Left(NamedTuple):
     after: float
     noise: float
     memory: float
+    follows: float | None
     spans: tuple[Span, ...]
 
     @property
     def explained(self) -> float:
         """The share of its mean square that the fitted parameters take off."""
         return 1.0 - (self.after / self.before) ** 2 if self.before else 0.0
+
+    @property
+    def times(self) -> float:
+        """How many times the noise of the sensors it is."""
+        return self.after / self.noise if self.noise else 0.0
+
+    @property
+    def much(self) -> bool:
+        """Whether it is more than noise: a disturbance, or a law that is another."""
+        return self.times > _WRONG
+
+    @property
+    def wrong(self) -> bool:
+        """Whether the law is another: nobody knows by how much its parameters are wrong."""
+        return self.much and (self.follows is None or self.follows > _FOLLOWS)
 
 
 class Delay(NamedTuple):
@@ -106,40 +134,87 @@ class Delay(NamedTuple):
     error: float
 
 
+class Terms(NamedTuple):
+    """What one residual of one log is made of, at the rows (n,) that were fitted, in its unit.
+
+    `term` is the one of the `parameter` that makes most of it, `others` are all others with the
+    sign turned: the residual is the difference. NaN where it is not valid; `time` in s.
+    """
+
+    residual: str
+    parameter: str
+    log: str
+    time: Array
+    term: Array
+    others: Array
+
+
+class Suspect(NamedTuple):
+    """An offset that was not fitted, and would take off a `share` of what is left (mean square).
+
+    Its `value` is in the unit of the signal: what the log has is so much above what is there.
+    """
+
+    signal: str
+    value: float
+    error: float
+    unit: str
+    share: float
+
+
 class Fitted(NamedTuple):
-    """Parameters from logs; `noise` by signal, as it was seen or given, `seconds` of use."""
+    """Parameters from logs; `noise` by signal, as it was seen or given, `seconds` of use.
+
+    `offsets` are those of signals that were asked for, with a nominal value of zero; `suspects`
+    others that would explain what is left, the most likely one first.
+    """
 
     parameters: tuple[Fitting, ...]
+    offsets: tuple[Fitting, ...]
+    suspects: tuple[Suspect, ...]
     combinations: tuple[Combination, ...]
     left: tuple[Left, ...]
     delays: tuple[Delay, ...]
     noise: dict[str, float]
     seconds: float
     correlation: Array  # (p, p), of the errors
+    terms: tuple[Terms, ...]
 
     @property
     def values(self) -> dict[str, float]:
-        """The fitted values in SI units, by name."""
+        """The fitted values of parameters in SI units, by name."""
         return {p.name: p.value for p in self.parameters}
+
+    @property
+    def offset_values(self) -> dict[str, float]:
+        """The fitted offsets in the units of their signals, by name."""
+        return {p.name: p.value for p in self.offsets}
+
+
+class Wanted(NamedTuple):
+    """What is to be fitted: parameters, and signals whose offsets are."""
+
+    parameters: tuple[str, ...]
+    offsets: tuple[str, ...] = ()
 
 
 def fit(
     engine: Engine,
     pieces: Sequence[tuple[str, Piece]],
-    free: Sequence[str],
+    free: Wanted,
     tolerances: Mapping[str, float],
     units: Mapping[str, str],
     noise: Mapping[str, float],
     progress: Callable[[float], None] = lambda _: None,
 ) -> Fitted:
-    """Fit the `free` parameters of an engine to pieces of healthy logs, by the names of these.
+    """Fit what is `free` of an engine to pieces of healthy logs, by the names of these.
 
     Tolerances (relative) say where parameters are looked for that no log tells, and bound nothing.
     `noise` are standard deviations of signals that are known, in their unit; of other sensors it is
     estimated, inputs are exact. Raises ValueError where the logs are too short.
     """
     seen = {**estimated_noise(engine, [p.samples for _, p in pieces]), **noise}
-    runs = _Runs(engine, pieces, [seen[k.path] for k in engine.signals])
+    runs = ResidualRows(engine, pieces, [seen[k.path] for k in engine.signals])
     problem = _Problem(runs, free, tolerances)
     at = np.zeros(problem.size)
     problem.weigh(at, first=True)
@@ -149,37 +224,45 @@ def fit(
         at = problem.solve(at)
         progress((k + 1) / (_ROUNDS + 1))
     whole, bound = problem.covariance(at)
-    count = len(free)
+    names = problem.names
+    count = len(names)
     covariance = whole[:count, :count]
     null = untold(covariance, _TOLD**2)
     if len(null):  # what nothing tells stays as it is declared
         problem.pin(null)
         at = problem.solve(at)
-    late = at[count:]
-    fitted = problem.value(at)
-    own = [
-        Fitting(n, float(old), fitted[n], None, units.get(n, ""), bool(on))
-        for n, old, on in zip(free, problem.nominal, bound, strict=False)
-    ]
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))  # rounding
     left = problem.left(at)
+    if any(x.much for x in left):
+        deviation = np.hypot(deviation, problem.disturbed(at, [x.much for x in left]))
     told = (deviation < _TOLD) & ~bound[:count] & ~null.any(axis=0)
-    told &= problem.told_by_wrong(at)[:count] <= _MOST
-    parameters = tuple(
-        p._replace(error=float(problem.scale[k] * deviation[k])) if told[k] else p
-        for k, p in enumerate(own)
-    )
-    values = [p.value for p in own]
-    found = combinations(free, values, problem.scale, null, partial(problem.cost, late))
+    told &= problem.told_by(at, [x.wrong for x in left])[:count] <= _MOST
+    values = problem.values(at).tolist()
+    own = tuple(
+        Fitting(
+            name, float(problem.nominal[k]), values[k],
+            float(problem.scale[k] * deviation[k]) if told[k] else None,
+            units.get(name, ""), bool(bound[k]),
+        )
+        for k, name in enumerate(names)
+    )  # fmt: skip
+    late = at[count:]
+    called = [*free.parameters, *(f"offset of {n}" for n in free.offsets)]
+    zeros = np.where(problem.zeros, problem.scale, 0.0)
+    found = combinations(called, values, problem.scale, zeros, null, partial(problem.cost, late))
+    suspects = problem.suspects(at, units)
     progress(1.0)
     apart = np.where(deviation > 0, deviation, 1.0)
-    correlation = covariance / np.outer(apart, apart)
     time = engine.sample_time
     delays = tuple(
-        Delay(engine.signals[k].path, float(d) * time, math.sqrt(max(v, 0.0)) * time)
-        for k, d, v in zip(runs.late, late, np.diag(whole)[count:], strict=True)
+        Delay(name, float(d) * time, math.sqrt(max(v, 0.0)) * time)
+        for name, d, v in zip(runs.names(runs.late), late, np.diag(whole)[count:], strict=True)
     )
-    return Fitted(parameters, found, left, delays, seen, runs.seconds, correlation)
+    split = len(free.parameters)
+    return Fitted(
+        own[:split], own[split:], suspects, found, left, delays, seen, runs.seconds,
+        covariance / np.outer(apart, apart), problem.terms(at),
+    )  # fmt: skip
 
 
 def fittable(
@@ -187,16 +270,22 @@ def fittable(
     faults: Mapping[str, float | None],
     tolerances: Mapping[str, float],
     wanted: Sequence[str] | None = None,
-) -> list[str]:
-    """The parameters to fit: those `wanted`, else those with a tolerance, else all.
+) -> Wanted:
+    """What to fit: what is `wanted`, else the parameters with a tolerance, else all parameters.
 
-    Of those that some residual sees: `faults` with their nominal values. Raises ValueError for
-    another name, and where there is none.
+    Of those that some residual sees: `faults` with their nominal values. The name of a sensor or an
+    input stands for its offset. Raises ValueError for another name, and where there is none.
     """
     names = [n for n, v in faults.items() if v is not None and n in engine.parameters]
+    signals = {k.path: k for k in engine.signals if k.kind in ("input", "sensor")}
     for name in wanted or ():
-        if name not in names:
-            close = get_close_matches(name, names, 3, 0.5)
+        if name not in names and name in signals:
+            if signals[name].counts is not None:
+                raise ValueError(
+                    f"{name} counts from where it stood at the start: it has no offset to be fitted"
+                )
+        elif name not in names:
+            close = get_close_matches(name, [*names, *signals], 3, 0.5)
             hint = f"perhaps {' or '.join(close)}" if close else f"there is {', '.join(names)}"
             raise ValueError(f"no residual sees a parameter `{name}` with a number; {hint}")
     free = list(dict.fromkeys(wanted or [n for n in names if n in tolerances] or names))
@@ -205,7 +294,9 @@ def fittable(
             "no residual sees a parameter with a number: give one to a parameter of a law that"
             " sensors see (`bondgraph compile` prints the residuals)"
         )
-    return free
+    return Wanted(
+        tuple(n for n in free if n in names), tuple(n for n in free if n not in names)
+    )
 
 
 def estimated_noise(engine: Engine, pieces: Sequence[Array]) -> dict[str, float]:
@@ -241,118 +332,6 @@ def _rough(differences: Sequence[Array], order: int) -> float:
     return middle / 0.6745 / math.sqrt(math.comb(2 * order, order))
 
 
-class _Runs:
-    """The filtered residuals of logs at rows some way apart, for any parameters.
-
-    Beside them, what as much noise as the sensors have adds to them: always the same noise.
-    """
-
-    def __init__(
-        self, engine: Engine, pieces: Sequence[tuple[str, Piece]], noise: Sequence[float]
-    ) -> None:
-        self.engine = engine
-        time = engine.sample_time
-        self.every = max(1, round(_APART / engine.bandwidth / time))
-        self.skip = math.ceil(engine.warm_up / time / self.every) + 1
-        long = (self.skip + 2 * _LAGS) * self.every
-        self.begins = [(n, float(p.time[0])) for n, p in pieces if len(p.time) > long]
-        self.pieces = [p.samples for _, p in pieces if len(p.time) > long]
-        rows = sum(len(p) // self.every - self.skip for p in self.pieces)
-        if rows < _LEAST:
-            need = (_LEAST + self.skip) * self.every * time
-            raise ValueError(
-                f"the logs are too short to fit parameters: give one of {need:.3g} s or more"
-            )
-        self.seconds = rows * self.every * time
-        self.late = [
-            at for at, known in enumerate(engine.signals)
-            if known.kind in ("input", "sensor") and known.counts is None
-            and any(_jumps(p[self.skip * self.every :, at]) for p in self.pieces)
-        ]  # fmt: skip
-        draw = np.random.default_rng(1)
-        self._shaken = [self._shake(p, noise, draw) for p in self.pieces]
-
-    def _shake(self, samples: Array, noise: Sequence[float], draw: np.random.Generator) -> Array:
-        """The samples with noise once more; that of encoders in whole counts."""
-        shaken = samples.copy()
-        for at, (known, sigma) in enumerate(zip(self.engine.signals, noise, strict=True)):
-            if known.kind == "mode" or not sigma:
-                continue
-            if known.counts is None:
-                shaken[:, at] += sigma * draw.standard_normal(len(samples))
-            else:
-                up, down = draw.poisson(sigma**2 / 2, (2, len(samples)))
-                shaken[:, at] += up - down
-        return shaken
-
-    def rows(
-        self, parameters: Sequence[Mapping[str, float]], delays: Array | None = None
-    ) -> tuple[Array, Array]:
-        """Residuals and what noise adds to them, both (sets of parameters, rows, residuals).
-
-        `delays` (sets, signals in `late`) in samples. NaN where a residual is not valid, and in one
-        row behind every log.
-        """
-        late = np.zeros((len(parameters), len(self.late))) if delays is None else delays
-        found: list[tuple[Array, Array]] = [(np.empty(0), np.empty(0))] * len(parameters)
-        for group in {tuple(row): None for row in late.tolist()}:
-            members = np.flatnonzero((late == group).all(axis=1)).tolist()
-            own = [parameters[k] for k in members]
-            both = zip(*self._together(own, dict(zip(self.late, group, strict=True))), strict=True)
-            for k, one in zip(members, both, strict=True):
-                found[k] = one
-        return np.stack([f[0] for f in found]), np.stack([f[1] for f in found])
-
-    def _together(
-        self, parameters: Sequence[Mapping[str, float]], late: Mapping[int, float]
-    ) -> tuple[Array, Array]:
-        clean, added = [], []
-        for samples, shaken in zip(self.pieces, self._shaken, strict=True):
-            one = self._through(parameters, _delayed(samples, late), samples)
-            clean.append(one)
-            added.append(self._through(parameters, _delayed(shaken, late), samples) - one)
-        return np.concatenate(clean, axis=1), np.concatenate(added, axis=1)
-
-    def _through(
-        self, parameters: Sequence[Mapping[str, float]], samples: Array, received: Array
-    ) -> Array:
-        engines = [self.engine.configured(p, bounds=False) for p in parameters]
-        readings = list(self.engine.readings)
-        parts = []
-        step = self.every * max(1, _CHUNK // self.every)
-        for k in range(0, len(samples), step):
-            part = samples[k : k + step]
-            if readings:  # laws acted on what they received, noise and all
-                got = received[k : k + step, readings]
-                batches = [e.run(part, got) for e in engines]
-                value = np.stack([b.value for b in batches])
-                valid = np.stack([b.valid for b in batches])
-            else:
-                value, valid, _ = engines[0].run_with(engines[1:], part)
-            value = np.where(valid, value, np.nan)
-            parts.append(value[:, self.every - 1 :: self.every])
-        found = np.concatenate([*parts, np.full_like(parts[0][:, :1], np.nan)], axis=1)
-        found[:, : self.skip] = np.nan
-        return found
-
-
-def _jumps(values: Array) -> bool:
-    """Whether a signal has steps that are no part of how it changes else."""
-    steps = np.abs(np.diff(values))
-    steps = steps[np.isfinite(steps)]
-    return bool(len(steps)) and float(steps.max()) > _JUMP * float(np.median(steps)) / 0.6745
-
-
-def _delayed(samples: Array, late: Mapping[int, float]) -> Array:
-    """The samples with some columns so many samples late, about one at most."""
-    if not any(late.values()):
-        return samples
-    found = samples.copy()
-    for at, delay in late.items():
-        found[1:, at] -= delay * np.diff(samples[:, at])
-    return found
-
-
 class _Slopes(NamedTuple):
     """At some parameters: normalised residuals and added noise, (rows, residuals), with their
     slopes (p, rows, residuals), and the slopes of the logarithm of the variance (p, residuals)."""
@@ -365,13 +344,26 @@ class _Slopes(NamedTuple):
 
 
 class _Problem:
-    """Normalised residuals as a function of parameters, relative to their nominal values."""
+    """Normalised residuals as a function of what is fitted, and of delays in samples.
 
-    def __init__(self, runs: _Runs, free: Sequence[str], tolerances: Mapping[str, float]) -> None:
-        self._runs, self._free = runs, tuple(free)
-        self.nominal = np.array([runs.engine.parameters[n] for n in free])
-        self.scale = np.abs(self.nominal)
-        self.size = len(free) + len(runs.late)
+    Parameters are relative to their nominal values, offsets to how far their signals move.
+    """
+
+    def __init__(
+        self, runs: ResidualRows, free: Wanted, tolerances: Mapping[str, float]
+    ) -> None:
+        self._runs, self._free = runs, free.parameters
+        self.names = (*free.parameters, *free.offsets)
+        biased = runs.names(runs.biased)
+        self._offset_at = [biased.index(n) for n in free.offsets]
+        self._sizes = runs.sizes(runs.biased)
+        declared = [runs.engine.parameters[n] for n in free.parameters]
+        known = [runs.engine.signals[runs.biased[k]].offset for k in self._offset_at]
+        self.nominal = np.array(declared + known)
+        self.zeros = self.nominal == 0
+        self.zeros[len(declared) :] = True
+        self.scale = np.append(np.abs(declared), self._sizes[self._offset_at])
+        self.size = len(self.names) + len(runs.late)
         self._low = np.full(self.size, -np.inf)
         self._high = np.full(self.size, np.inf)
         for k, value in enumerate(self.nominal):
@@ -379,12 +371,12 @@ class _Problem:
                 self._low[k] = _SMALLEST - 1.0
             elif value < 0:
                 self._high[k] = 1.0 - _SMALLEST
-        most = max((tolerances.get(n, 0.0) for n in free), default=0.0) or 1.0
-        own = np.array([tolerances.get(n, 0.0) / most for n in free])
+        most = max((tolerances.get(n, 0.0) for n in self.names), default=0.0) or 1.0
+        own = np.array([tolerances.get(n, 0.0) / most for n in self.names])
         wide = _WIDE * np.where(own > 0, np.maximum(own, 0.1), 1.0)
         self._spread = np.append(wide, np.full(len(runs.late), _LATE))
         self._pins = np.zeros((0, self.size))
-        self._filters = np.zeros((_LAGS + 1, len(runs.engine.residuals)))
+        self._filters = np.zeros((LAGS + 1, len(runs.engine.residuals)))
         self._extra = np.zeros(len(runs.engine.residuals))
         self._weight = np.ones(len(runs.engine.residuals))
         self._start()
@@ -394,38 +386,55 @@ class _Problem:
         zeros = np.flatnonzero(self.scale == 0)
         self.scale[zeros] = 1.0
         nothing = np.zeros(self.size)
-        values = [self.value(nothing), *[{self._free[k]: 1.0} for k in zeros]]
+        values = [self._numbers(nothing), *[{self._free[k]: 1.0} for k in zeros]]
         small = {n: v * _STEP for n, v in values[0].items()}
-        clean, added = self._runs.rows([*values, small])
+        still = np.zeros((len(values) + 1, len(self._runs.late) + len(self._runs.biased)))
+        late, off = np.split(still, [len(self._runs.late)], axis=1)
+        clean, added = self._runs.rows([*values, small], late, off)
         rough = np.sqrt(np.nanmean(added[0] ** 2, axis=0))
         for row, k in enumerate(zeros, 1):
-            effect = float(np.nanmax(_size(clean[row] - clean[0]) / np.maximum(rough, 1e-300)))
+            effect = float(np.nanmax(rms(clean[row] - clean[0]) / np.maximum(rough, 1e-300)))
             self.scale[k] = 1.0 / effect if effect > 0 else 1.0
         self._filters[0] = 1.0  # far from the truth what a filter makes larger may be anything
         self._noise_filters = np.stack([whitening(x) for x in added[0].T], axis=1)
-        self._mask: Mask = np.isfinite(_filtered(clean[0] + added[0], self._noise_filters))
+        self._mask: Mask = np.isfinite(filtered(clean[0] + added[0], self._noise_filters))
         self._all = self._mask
         if not self._mask.any():
             raise ValueError("no residual is valid in the logs: nothing can be fitted")
         # each term of it has a free parameter: all of them zero would leave nothing
-        self._homogeneous = _size(clean[-1]) < 0.05 * np.maximum(_size(clean[0]), rough)
+        self._homogeneous = rms(clean[-1]) < 0.05 * np.maximum(rms(clean[0]), rough)
 
-    def value(self, at: Array) -> dict[str, float]:
+    def values(self, at: Array) -> Array:
+        """What is fitted at a point, in SI."""
+        return np.asarray(self.nominal + self.scale * at[: len(self.names)])
+
+    def _numbers(self, at: Array) -> dict[str, float]:
         """The parameters at a point, in SI."""
-        own = self.nominal + self.scale * at[: len(self._free)]
-        return dict(zip(self._free, own.tolist(), strict=True))
+        return dict(zip(self._free, self.values(at).tolist(), strict=False))
 
-    def _rows(self, points: Sequence[Array]) -> tuple[Array, Array]:
-        delays = np.array([p[len(self._free) :] for p in points])
-        return self._runs.rows([self.value(p) for p in points], delays)
+    def _offsets(self, at: Array) -> Array:
+        """The offsets of all signals that can have one at a point, above those that are known."""
+        found = np.zeros(len(self._runs.biased))
+        found[self._offset_at] = (self.values(at) - self.nominal)[len(self._free) :]
+        return found
 
-    def _normal(self, points: Sequence[Array]) -> tuple[Array, Array, Array, Array]:
+    def _rows(self, points: Sequence[Array], more: Array | None = None) -> tuple[Array, Array]:
+        """Rows at points, with further offsets (points, signals)."""
+        delays = np.array([p[len(self.names) :] for p in points])
+        offsets = np.array([self._offsets(p) for p in points])
+        if more is not None:
+            offsets += more
+        return self._runs.rows([self._numbers(p) for p in points], delays, offsets)
+
+    def _normal(
+        self, points: Sequence[Array], more: Array | None = None
+    ) -> tuple[Array, Array, Array, Array]:
         """Normalised residuals and added noise at points, their variances, the noise's own."""
-        clean, added = self._rows(points)
+        clean, added = self._rows(points, more)
         mask = self._mask
         count = np.maximum(mask.sum(axis=0), 1)
-        filtered = [np.where(mask, _filtered(x, self._filters), 0.0) for x in (clean, added)]
-        value, extra = (np.where(np.isfinite(x), x, 0.0) for x in filtered)
+        white = [np.where(mask, filtered(x, self._filters), 0.0) for x in (clean, added)]
+        value, extra = (np.where(np.isfinite(x), x, 0.0) for x in white)
         noise = (extra**2).sum(axis=-2) / count
         whole = noise + self._extra
         root = np.sqrt(np.maximum(whole, 1e-300))[:, None, :]
@@ -477,8 +486,9 @@ class _Problem:
         changes; where that would make zeros of all parameters, it is a weight alone.
         """
         if not first:
-            clean = self._rows([at])[0][0]
-            self._mask = self._usual(at, clean)
+            clean, added = self._rows([at])
+            self._noise_filters = np.stack([whitening(x) for x in added[0].T], axis=1)
+            self._mask = self._usual(at, clean[0])
             self._filters = self._noise_filters
         self._extra[:], self._weight[:] = 0.0, 1.0
         if first:
@@ -494,26 +504,50 @@ class _Problem:
 
         Unless half of what is known of some parameter is in them: then the model is wrong.
         """
-        white = np.abs(np.where(self._all, _filtered(clean, self._noise_filters), np.nan))
+        white = np.abs(np.where(self._all, filtered(clean, self._noise_filters), np.nan))
         usual = [np.nanmedian(w) / 0.6745 if np.isfinite(w).any() else 0.0 for w in white.T]
         far = np.zeros_like(self._all)
-        for lag in range(_LAGS + 1):  # and what the filters remember of them
+        for lag in range(LAGS + 1):  # and what the filters remember of them
             far[lag:] |= white[: len(white) - lag] > _FAR * np.array(usual)
         self._mask = self._all
-        energy = self._slopes(at).by[: len(self._free)] ** 2
+        energy = self._slopes(at).by[: len(self.names)] ** 2
         whole, part = energy.sum(axis=(1, 2)), (energy * far).sum(axis=(1, 2))
         return self._all if (part > _MOST * whole).any() else self._all & ~far
 
-    def told_by_wrong(self, at: Array) -> Array:
-        """The share of what is known of each parameter that residuals tell of a wrong model.
-
-        Of such a residual more than so many times its noise is left in the rows that count.
-        """
-        _, _, whole, noise = self._normal([at])
-        times = np.sqrt(whole[0] / np.maximum(noise[0], 1e-300)) * self._weight
+    def told_by(self, at: Array, residuals: Sequence[bool]) -> Array:
+        """The share of what is known of each parameter that some of the residuals tell."""
         energy = (self._slopes(at).by ** 2).sum(axis=1)
         known = np.maximum(energy.sum(axis=1), 1e-300)
-        return np.asarray(energy[:, times > _WRONG].sum(axis=1) / known)
+        return np.asarray(energy[:, list(residuals)].sum(axis=1) / known)
+
+    def _follows(self, at: Array) -> list[float | None]:
+        """For each residual, the share of what is left that follows the inputs."""
+        value, inputs = self._normal([at])[0][0], self._runs.inputs()
+        return [
+            follows(one, inputs, self._filters[:, r], self._mask[:, r])
+            for r, one in enumerate(value.T)
+        ]
+
+    def disturbed(self, at: Array, residuals: Sequence[bool]) -> Array:
+        """By how much the disturbance in some residuals may have moved each thing that is fitted.
+
+        A disturbance is in the sensors too, and what is multiplied with them leans on it. The
+        inputs know nothing of it: with them as instruments (Wright 1928, Hausman 1978) the fit
+        would be so far away.
+        """
+        s, inputs = self._slopes(at), self._runs.inputs()
+        by, value = s.by.copy(), s.value
+        for r in np.flatnonzero(residuals).tolist():
+            mask = self._mask[:, r]
+            basis = instruments(inputs, self._filters[:, r], mask)
+            if basis is not None:
+                whole = np.column_stack([basis, np.full(len(basis), len(basis) ** -0.5)])
+                by[:, ~mask, r] = 0.0
+                by[:, mask, r] = (by[:, mask, r] @ whole) @ whole.T
+        curved = np.einsum("atr,btr->ab", by, by) + np.diag(self._spread**-2.0)
+        curved += self._pins.T @ self._pins
+        away = np.linalg.solve(curved, np.einsum("atr,tr->a", by, value))
+        return np.asarray(away[: len(self.names)])
 
     def covariance(self, at: Array) -> tuple[Array, Mask]:
         """Of the parameters, relative; and which of them are where their sign would change.
@@ -540,14 +574,47 @@ class _Problem:
         whole = (vectors * np.maximum(values, 0.0)) @ vectors.T + prior
         inverse = np.linalg.inv(whole)
         found = np.zeros((len(at), len(at)))
+        scatter *= few_rows(len(own)) ** 2 * len(own) / max(len(own) - len(at), 1)
         found[np.ix_(free, free)] = inverse @ (scatter + prior) @ inverse
         return found, bound
+
+    def suspects(self, at: Array, units: Mapping[str, str]) -> tuple[Suspect, ...]:
+        """The offsets that would explain what is left, each by itself, the most likely one first.
+
+        A test of scores: how much the sum of squares falls with an offset if all that is fitted
+        follows, beside how much this scatters with what is left as it is, correlated or not.
+        """
+        wanted = [k for k in range(len(self._sizes)) if k not in self._offset_at]
+        if not wanted:
+            return ()
+        s = self._slopes(at)
+        steps = _STEP * np.diag(self._sizes)[wanted]
+        moved = self._normal([at] * (2 * len(wanted)), np.vstack([steps, -steps]))[0]
+        apart = (moved[: len(wanted)] - moved[len(wanted) :]) / (2 * _STEP)
+        by = s.by.reshape(len(at), -1)
+        curved = by @ by.T + np.diag(self._spread**-2.0) + self._pins.T @ self._pins
+        found = []
+        for k, slope in zip(wanted, apart, strict=True):
+            follow = np.linalg.solve(curved, by @ slope.ravel())
+            alone = slope - np.tensordot(follow, s.by, 1)
+            energy = float(np.sum(alone**2))
+            if energy <= _BLIND * float(np.sum(slope**2)):
+                continue
+            score = float(np.sum(alone * s.value))
+            scatter = float(newey_west((alone * s.value).sum(axis=1)[:, None])[0, 0])
+            share = score**2 / energy / max(float(np.sum(s.value**2)), 1e-300)
+            if score**2 > chdtri(1, _RARE / len(wanted)) * scatter and share > _MATTERS:
+                name, size = self._runs.names([self._runs.biased[k]])[0], float(self._sizes[k])
+                value, error = -score / energy * size, math.sqrt(scatter) / energy * size
+                found.append(Suspect(name, value, error, units.get(name, ""), share))
+        return tuple(sorted(found, key=lambda one: -one.share))
 
     def left(self, at: Array) -> tuple[Left, ...]:
         """What is left of every residual at a point, beside what there was."""
         clean, added = self._rows([np.zeros(len(at)), at])
-        before, after, noise = _size(clean[0]), _size(clean[1]), _size(added[1])
-        white = _filtered(clean[1], self._noise_filters)
+        before, after, noise = rms(clean[0]), rms(clean[1]), rms(added[1])
+        white = filtered(clean[1], self._noise_filters)
+        share = self._follows(at)
         found = []
         for k, name in enumerate(self._runs.engine.residuals):
             own = white[:, k]
@@ -556,75 +623,49 @@ class _Problem:
             memory = float(np.sum((own[1:] * own[:-1])[good])) / square if square else 0.0
             spans = self._spans(own)
             found.append(
-                Left(name, float(before[k]), float(after[k]), float(noise[k]), memory, spans)
+                Left(
+                    name, float(before[k]), float(after[k]), float(noise[k]), memory, share[k],
+                    spans,
+                )
             )
+        return tuple(found)
+
+    def terms(self, at: Array) -> tuple[Terms, ...]:
+        """Each residual as the term with the parameter that makes most of it, and all others."""
+        runs, count = self._runs, len(self._free)
+        around = [at + s * _STEP * np.eye(len(at))[k] for k in range(count) for s in (1, -1)]
+        clean = self._rows([at, *around])[0]
+        share = (self.values(at) / self.scale)[:count, None, None]
+        parts = share * (clean[1::2] - clean[2::2]) / (2 * _STEP)
+        found, pieces = [], runs.times()
+        for log in dict.fromkeys(name for name, _, _ in pieces):
+            time = np.concatenate([t for name, t, _ in pieces if name == log])
+            rows = np.concatenate([np.arange(s.start, s.stop) for n, _, s in pieces if n == log])
+            for k, name in enumerate(runs.engine.residuals):
+                if not count or not np.isfinite(clean[0, rows, k]).any():
+                    continue
+                one = int(np.argmax(rms(parts[:, :, k].T)))
+                term = parts[one, rows, k]
+                others = term - clean[0, rows, k]
+                found.append(Terms(name, self._free[one], log, time, term, others))
         return tuple(found)
 
     def _spans(self, white: Array) -> tuple[Span, ...]:
         """Where more than twice as much is left as usual, by spans of the logs."""
-        runs, found, begin = self._runs, [], 0
+        runs, found = self._runs, []
         apart = runs.every * runs.engine.sample_time
         most = max(map(len, runs.pieces)) // runs.every
-        size = max(_LAGS, math.ceil(most / _SPANS))
-        for (name, first), samples in zip(runs.begins, runs.pieces, strict=True):
-            rows = len(range(runs.every - 1, len(samples), runs.every))
-            for start in range(0, rows, size):
-                part = white[begin + start : begin + min(start + size, rows)]
-                part = part[np.isfinite(part)]
-                if len(part) >= _LAGS:
-                    end = first + min(start + size, rows) * apart
-                    mean = math.sqrt(float(np.mean(part**2)))
-                    found.append(Span(name, first + start * apart, end, mean))
-            begin += rows + 1
+        size = max(LAGS, math.ceil(most / _SPANS))
+        for name, time, rows in runs.times():
+            own = white[rows]
+            for start in range(0, len(own), size):
+                part = own[start : start + size]
+                good = part[np.isfinite(part)]
+                if len(good) >= LAGS:
+                    begin = float(time[start]) - apart
+                    mean = math.sqrt(float(np.mean(good**2)))
+                    found.append(Span(name, begin, begin + len(part) * apart, mean))
         usual = float(np.median([s.times for s in found])) if found else 0.0
         if not usual:
             return ()
         return tuple(s._replace(times=s.times / usual) for s in found if s.times > 2.0 * usual)
-
-
-def _size(values: Array) -> Array:
-    """The root mean square of each column, 0 where there is nothing."""
-    there = np.isfinite(values)
-    total = np.where(there, values, 0.0) ** 2
-    return np.asarray(np.sqrt(total.sum(axis=-2) / np.maximum(there.sum(axis=-2), 1)))
-
-
-def whitening(values: Array) -> Array:
-    """The filter (1, -a1, -a2, ...) that leaves of a series (n,) what its past does not predict.
-
-    An autoregression by least squares; NaN may be anywhere.
-
-    >>> draw, x = np.random.default_rng(1).standard_normal(5000), np.zeros(5000)
-    >>> for k in range(1, 5000):
-    ...     x[k] = 0.8 * x[k - 1] + draw[k]
-    >>> [bool(abs(a - b) < 0.05) for a, b in zip(whitening(x)[:3], (1.0, -0.8, 0.0))]
-    [True, True, True]
-    """
-    lags = np.stack([values[_LAGS - k : len(values) - k] for k in range(_LAGS + 1)])
-    lags = lags[:, np.isfinite(lags).all(axis=0)]
-    found = np.zeros(_LAGS + 1)
-    found[0] = 1.0
-    if lags.shape[1] > 4 * _LAGS and lags.any():
-        found[1:] = -np.linalg.lstsq(lags[1:].T, lags[0], rcond=1e-7)[0]
-    return found
-
-
-def _filtered(values: Array, filters: Array) -> Array:
-    """Series (..., rows, residuals) through a filter (lags, residuals) each; NaN at the start."""
-    found = np.full_like(values, np.nan)
-    rows = values.shape[-2]
-    found[..., _LAGS:, :] = sum(
-        filters[k] * values[..., _LAGS - k : rows - k, :] for k in range(_LAGS + 1)
-    )
-    return found
-
-
-def newey_west(scores: Array) -> Array:
-    """The covariance (p, p) of the sum of correlated rows (n, p) (Newey and West 1987)."""
-    own = scores - scores.mean(axis=0)
-    found = own.T @ own
-    most = math.ceil(math.sqrt(len(own)) / 2) + 1
-    for lag in range(1, min(most, len(own))):
-        part = own[lag:].T @ own[:-lag]
-        found += (1.0 - lag / most) * (part + part.T)
-    return np.asarray(found)

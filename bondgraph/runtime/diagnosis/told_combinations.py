@@ -19,12 +19,14 @@ class Combination(NamedTuple):
     """Parameters that the logs do not tell apart.
 
     `told` is what they tell of them (`R/L`, `R1 + R2`), "" for nothing that has a short name;
-    `changes` are by how much (relative) some may change together with nothing to be seen.
+    `changes` are by how much some may change together with nothing to be seen, relative to their
+    values; in their own unit for those in `zeros`, which are declared to be zero.
     """
 
     parameters: tuple[str, ...]
     told: str
     changes: tuple[dict[str, float], ...]
+    zeros: tuple[str, ...] = ()
 
     def text(self) -> str:
         """One sentence for people.
@@ -35,29 +37,47 @@ class Combination(NamedTuple):
         'k is not told'
         >>> Combination(("R", "L", "k"), "", ({"R": 0.1, "L": 0.1, "k": -0.05},)).text()
         'R, L and k are not told apart: R +10 % with L +10 % and k -5 % changes nothing'
+        >>> Combination(("m", "b", "k"), "", ({"m": 0.1, "b": 0.1, "k": 0.1},)).text()
+        'only ratios of m, b and k are told'
+        >>> Combination(("R", "z"), "", ({"R": 0.1, "z": -0.02},), ("z",)).text()
+        'R and z are not told apart: R +10 % with z -0.02 changes nothing'
         """
         if self.told:
             return f"only {self.told} is told"
         if len(self.parameters) == 1:
             return f"{self.parameters[0]} is not told"
+        if self._ratios():
+            return f"only ratios of {joined(self.parameters, 'and')} are told"
         moves = []
         for change in self.changes:
-            parts = [f"{name} {100 * share:+.3g} %" for name, share in change.items()]
+            parts = [
+                f"{name} {by:+.3g}" if name in self.zeros else f"{name} {100 * by:+.3g} %"
+                for name, by in change.items()
+            ]
             moves.append(f"{parts[0]} with {joined(parts[1:], 'and')}" if parts[1:] else parts[0])
         what = f"{joined(self.parameters, 'and')} are not told apart"
         return f"{what}: {joined(moves, 'and')} changes nothing"
+
+    def _ratios(self) -> bool:
+        """Whether all may change by one factor, and by nothing else."""
+        if self.zeros or len(self.changes) != 1 or len(self.parameters) != len(self.changes[0]):
+            return False
+        by = self.changes[0].values()
+        return min(by) > 0 and max(by) <= (1.0 + _NEAR) * min(by)
 
 
 def combinations(
     names: Sequence[str],
     values: Sequence[float],
     scale: Array,
+    zeros: Array,
     null: Array,
     cost: Callable[[Sequence[float]], float],
 ) -> tuple[Combination, ...]:
     """What is told of parameters that may change along the rows of `null` and nothing shows.
 
-    These are changes of (value - nominal) / scale; `cost` is what some values leave.
+    These are changes of (value - nominal) / scale; `cost` is what some values leave. What is
+    declared zero has in `zeros` a size that a change of it is compared with, others have 0.
     """
     found = []
     rest = list(range(len(null)))
@@ -69,7 +89,7 @@ def combinations(
             rest = [k for k in rest if k not in more]
             members = (null[group] != 0).any(axis=0)
         own = np.flatnonzero(members).tolist()
-        found.append(_named(own, null[group][:, own], names, values, scale, cost))
+        found.append(_named(own, null[group][:, own], names, values, scale, zeros, cost))
     return tuple(found)
 
 
@@ -106,23 +126,28 @@ def _named(
     names: Sequence[str],
     values: Sequence[float],
     scale: Array,
+    zeros: Array,
     cost: Callable[[Sequence[float]], float],
 ) -> Combination:
     """What is told of the parameters numbered `own`, that change along the rows of `null`."""
     called = tuple(names[k] for k in own)
     value = np.array([values[k] for k in own])
     absolute = null * scale[own]
-    size = np.where(value == 0, scale[own], np.abs(value))
+    zero = zeros[own]
+    size = np.where(zero > 0, zero, np.abs(value))
+    own_unit = np.where(zero > 0, zero, 1.0)
     changes = tuple(
-        {n: 0.1 * float(x) for n, x in zip(called, row / np.abs(row).max(), strict=True) if x}
+        {n: 0.1 * float(x) for n, x in zip(called, own_unit * row / np.abs(row).max(), strict=True)
+         if x}
         for row in absolute / size
-    )
+    )  # fmt: skip
+    noughts = tuple(n for n, x in zip(called, zero, strict=True) if x > 0)
     if len(own) - len(null) != 1:
-        return Combination(called, "", changes)
+        return Combination(called, "", changes, noughts)
     gradient = np.linalg.svd(absolute / size)[2][-1]  # along which alone something changes
     written = []
     exponents = _whole(gradient)
-    if exponents is not None and (value != 0).all():
+    if exponents is not None and not noughts:
         step = _MOVE * null[0] * scale[own] / value
         written.append((value * np.exp(step), _product(called, exponents)))
     factors = _whole(gradient / size)
@@ -135,7 +160,7 @@ def _named(
         return cost(whole.tolist())
 
     told = min(written, key=lambda one: moved(one[0]))[1] if written else ""
-    return Combination(called, told, changes)
+    return Combination(called, told, changes, noughts)
 
 
 def _whole(numbers: Array) -> list[int] | None:

@@ -33,7 +33,10 @@ class Mapped(NamedTuple):
 
 
 class _Taken(NamedTuple):
-    """What is done with one column; without a name there is nothing to read."""
+    """What is done with one column; without a name there is nothing to read.
+
+    It is multiplied with `scale`, then `offset` is added.
+    """
 
     name: str | None
     scale: float
@@ -45,8 +48,8 @@ class Columns:
     """Picks the samples of `signals` out of logs, in SI units.
 
     A column belongs to a signal if it has its path (`U0[1]`), else its name in C (`U0__1`), with a
-    unit behind it or not, unless the `mapping` says otherwise. `name` is that of the log, for
-    messages.
+    unit behind it or not, unless the `mapping` says otherwise. What samples of a signal are known
+    to be too large by (`offset`) is taken off. `name` is that of the log, for messages.
 
     >>> import numpy as np
     >>> volts = Known("U0__1", "U0[1]", "V", "", "input", 0, False, None, None)
@@ -98,10 +101,13 @@ class Columns:
         ]
         if missing:
             raise self._missing(missing, log)
-        return [
-            _Taken(None, 1.0, 0.0, False) if source is None else self._taken(known, source, log)
-            for known, source in zip(self._signals, sources, strict=True)
-        ]
+        found = []
+        for known, source in zip(self._signals, sources, strict=True):
+            one = _Taken(None, 1.0, 0.0, False)
+            if source is not None:
+                one = self._taken(known, source, log)
+            found.append(one._replace(offset=one.offset - known.offset))
+        return found
 
     def _source(self, known: Known, log: Log) -> Mapped | None:
         mapped = self._mapping.get(known.path)

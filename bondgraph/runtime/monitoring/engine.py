@@ -153,7 +153,8 @@ class Setting(NamedTuple):
         if not self.readings:
             return taken
         got = taken[:, self.readings] if received is None else received
-        return np.hstack([taken, checked(got, len(self.readings))])
+        off = [self.signals[at].offset for at in self.readings]  # laws got what the sensor said
+        return np.hstack([taken, checked(got, len(self.readings)) + off])
 
     def values(self, runnable: Runnable) -> list[float]:
         """The parameters of one program, in its order."""

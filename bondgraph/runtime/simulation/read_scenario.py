@@ -9,7 +9,7 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
-from bondgraph.ir.graph import BondGraph, Node
+from bondgraph.ir.graph import BondGraph, Input, Node, Sensor
 from bondgraph.ir.unit import Dimension, over, times
 from bondgraph.library.units import DOMAINS
 from bondgraph.passes.elaboration.outside import Outside
@@ -44,14 +44,18 @@ def read_scenario(source: Source, graph: BondGraph, report: Report) -> Scenario 
     return None if report.failed else found
 
 
-def read_parameters(source: Source, graph: BondGraph, report: Report) -> dict[str, float]:
-    """The [parameters] of a TOML text, in SI; errors in the report, also if there are none.
+def read_numbers(
+    source: Source, graph: BondGraph, report: Report
+) -> tuple[dict[str, float], dict[str, float]]:
+    """[parameters] and [offsets] of a TOML text, in SI; errors in the report, also for neither.
 
     What else is in the text is not looked at: it may be what `bondgraph fit` writes, or a scenario.
     """
     content = _content(source, report)
-    found = {} if content is None else _Reader(source, graph, report).parameters(content)
-    if not found and not report.failed:
+    found: tuple[dict[str, float], dict[str, float]] = {}, {}
+    if content is not None:
+        found = _Reader(source, graph, report).numbers(content)
+    if not any(found) and not report.failed:
         report.error("scenario-key", "There are no parameters.", Label(Span(source, 0, 0)),
                      help="Write them below a line [parameters]: R = 12.5, or R ="
                      ' "12.5 Ohm".')  # fmt: skip
@@ -98,8 +102,11 @@ class _Reader:
         self.values = {v.name: v for v in graph.values}
         self.lets = {x.name: x for x in graph.lets}
 
-    def parameters(self, content: Mapping[str, object]) -> dict[str, float]:
-        return self._parameters(Table(self.document, (), content).table("parameters"))
+    def numbers(
+        self, content: Mapping[str, object]
+    ) -> tuple[dict[str, float], dict[str, float]]:
+        top = Table(self.document, (), content)
+        return self._parameters(top.table("parameters")), self._offsets(top.table("offsets"))
 
     def read(self, content: Mapping[str, object]) -> Scenario:
         top = Table(self.document, (), content)
@@ -170,6 +177,18 @@ class _Reader:
             if self._known(table, key, key, "parameter", self.values):
                 found[key] = table.number(key, self.values[key].dimension, 0.0)
         return found
+
+    def _offsets(self, table: Table) -> dict[str, float]:
+        """By how much samples of a signal are too large; encoders count from their start."""
+        signals: dict[str, Input | Sensor] = {
+            n: s for n, s in self.sensors.items() if s.counts is None
+        }
+        signals |= {n: i for n, i in self.inputs.items() if i.known and not i.mode}
+        return {
+            key: table.number(key, signals[key].dimension, 0.0)
+            for key in table.keys
+            if self._known(table, key, key, "sensor or input with an offset", signals)
+        }
 
     def _initial(self, table: Table) -> dict[str, float]:
         states = {

@@ -6,6 +6,7 @@ import json
 import re
 import tomllib
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -89,7 +90,7 @@ def test_a_log_is_read_as_the_other_commands_read_it(bondgraph: Command, folder:
 @pytest.mark.parametrize(
     ("words", "status", "said"),
     [
-        (["log.csv", "--free", "Q"], 2, "no parameter of the model is called `Q`"),
+        (["log.csv", "--free", "Q"], 2, "no parameter, sensor or input of the model is called `Q`"),
         (["none.csv"], 1, "none.csv"),
         (["short.csv"], 1, "too short to fit parameters: give one of"),
         (["bare.csv"], 1, "no column for y"),
@@ -172,3 +173,94 @@ def test_options_take_numbers_by_name() -> None:
         package.compile(text=MODEL, parameters={"R": float("nan")})
     with pytest.raises(ValueError, match="no value `Q`"):
         assert package.compile(text=MODEL, parameters={"Q": 1.0}).graph
+
+
+def _biased(folder: Path, name: str, seed: int, offset: float) -> None:
+    """A log of the circuit whose ammeter says so much too much."""
+    t = np.arange(20_000) / 1000.0
+    i = np.sin(8.0 * t) + 0.5 * np.sin(21.0 * t)
+    rate = 8.0 * np.cos(8.0 * t) + 10.5 * np.cos(21.0 * t)
+    noise = 0.01 * np.random.default_rng(seed).standard_normal(len(t))
+    write_log(Log(t, {"U": 2.0 * i + 1e-3 * rate, "y": i + offset + noise}, {}, {}), folder / name)
+
+
+def test_an_offset_goes_from_fit_to_every_command_that_reads_logs(
+    bondgraph: Command, folder: Path
+) -> None:
+    _biased(folder, "off.csv", 1, 0.3)
+    _biased(folder, "true.csv", 2, 0.0)
+    (folder / "live").mkdir()
+    _biased(folder / "live", "a.csv", 3, 0.3)
+    _biased(folder / "live", "b.csv", 4, 0.3)
+    first = bondgraph("fit", "c.bg", "off.csv", "-o", "p.toml")
+    assert "an offset of y of 0.3" in first.out
+    assert "(--free R,y)" in first.out
+    done = bondgraph("fit", "c.bg", "off.csv", "-o", "p.toml", "--free", "R,y")
+    assert re.search(r"^  offset of y +0 +0\.\d+ +\S+", done.out, re.MULTILINE), done.out
+    data = tomllib.loads((folder / "p.toml").read_text())
+    assert data["offsets"]["y"] == pytest.approx(0.3, abs=0.005)
+    assert set(data["standard_errors"]) == {"R", "y"}
+    own = ["--parameters", "p.toml", "--bandwidth", "20"]
+    assert bondgraph("tune", "c.bg", "off.csv", *own).status == 0
+    watch = ["--tuning", "tuning.json", *own]
+    assert "fault" not in bondgraph("monitor", "c.bg", "live/a.csv", *watch).out
+    assert "fault" in bondgraph("monitor", "c.bg", "true.csv", *watch).out
+    many = bondgraph("monitor", "c.bg", "live", *watch, "--json")
+    assert many.status == 0
+    assert "2 logs" in bondgraph("monitor", "c.bg", "live", *watch).out
+    assert "alarm" not in many.out.replace("no alarm", "").replace('"alarms"', "")
+    bare = bondgraph("monitor", "c.bg", "live/a.csv", *watch[:2], *own[2:])
+    assert bare.status == 1
+    assert "another model" in bare.err
+
+
+def test_what_was_given_and_is_not_fitted_stays_in_the_file(
+    bondgraph: Command, folder: Path
+) -> None:
+    (folder / "given.toml").write_text("[parameters]\nL = 0.001\n[offsets]\ny = 0.0\nU = 0.125\n")
+    done = bondgraph("fit", "c.bg", "log.csv", "--parameters", "given.toml", "-o", "p.toml")
+    assert done.status == 0
+    data = tomllib.loads((folder / "p.toml").read_text())
+    assert data["parameters"]["L"] == 0.001
+    assert data["offsets"] == {"y": 0.0, "U": 0.125}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[offsets]\nz = 1\n", "no sensor or input with an offset `z`"),
+        ("[offsets]\ny = true\n", "quantity"),
+        ('[offsets]\ny = "3 blah"\n', "blah"),
+    ],
+)
+def test_a_wrong_offset_is_told(
+    bondgraph: Command, folder: Path, text: str, said: str
+) -> None:
+    (folder / "p.toml").write_text(text)
+    done = bondgraph("tune", "c.bg", "log.csv", "--parameters", "p.toml")
+    assert done.status == 1
+    assert said in done.err.lower() or said in done.err
+    assert "p.toml:2" in done.err
+
+
+def test_a_machine_is_simulated_with_the_offsets_of_its_instruments() -> None:
+    twelve = {"U": package.Course.constant(12.0)}
+    scenario = package.Scenario("x", duration=0.05, inputs=twelve)
+    plain = package.compile(text=MODEL).simulate(scenario).log
+    off = package.compile(text=MODEL, offsets={"y": 0.5, "U": 0.25}).simulate(scenario).log
+    assert np.allclose(off.columns["y"], plain.columns["y"] + 0.5)
+    assert np.allclose(off.columns["U"], 12.25)
+    with pytest.raises(ValueError, match="no sensor or input `z`"):
+        assert package.compile(text=MODEL, offsets={"z": 1.0}).graph
+
+
+def test_measured_and_predicted_are_drawn(bondgraph: Command, folder: Path) -> None:
+    done = bondgraph("fit", "c.bg", "log.csv", "-o", "p.toml", "--plot", "fit.svg")
+    assert done.status == 0
+    assert "p.toml and fit.svg" in done.out
+    text = (folder / "fit.svg").read_text()
+    root = ElementTree.fromstring(text)
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    for word in ("measured", "predicted", "left", "r1: term of R"):
+        assert word in text
+    assert text.count("<path") > 6

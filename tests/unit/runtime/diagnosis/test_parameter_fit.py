@@ -10,7 +10,8 @@ import pytest
 
 import bondgraph
 from bondgraph import Course, Log, Scenario
-from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting, newey_west, whitening
+from bondgraph.runtime.diagnosis.parameter_fit import Fitted, Fitting
+from bondgraph.runtime.diagnosis.whitening import newey_west, whitening
 
 N, RATE = 8000, 1000.0
 TIME = np.arange(N) / RATE
@@ -177,3 +178,98 @@ def test_a_law_that_is_another_makes_no_interval() -> None:
     assert bent.error is None
     assert 3.0 < bent.value < 3.0 + 0.4 * float(np.max(y**2))
     assert holds(only(fitted(ONE, U=3.0 * y, y=y + noise(0.01))), 3.0)
+
+
+def test_an_offset_of_a_sensor_is_suspected_and_fitted_where_it_is_asked_for() -> None:
+    """U = 3 (y - 0.05): what is left is -3 0.05, which an offset of U of -0.15 would leave too."""
+    columns = {"U": DRIVE, "y": DRIVE / 3.0 + 0.05 + noise(0.01)}
+    (left,) = fitted(ONE, **columns).suspects[:1]
+    found = {s.signal: s for s in fitted(ONE, **columns).suspects}
+    assert left.share > 0.5
+    assert abs(found["y"].value - 0.05) < 4 * found["y"].error < 0.01
+    assert abs(found["U"].value + 0.15) < 4 * found["U"].error < 0.03
+    asked = fitted(ONE, ["R", "y"], **columns)
+    (offset,) = asked.offsets
+    assert (offset.name, offset.nominal) == ("y", 0.0)
+    assert holds(offset, 0.05)
+    assert holds(only(asked), 3.0)
+    assert not asked.suspects
+    both = fitted(ONE.replace("2 Ohm", "3 Ohm"), ["U", "y"], **columns)
+    assert [p.error for p in both.offsets] == [None, None]
+    assert not both.parameters
+    assert "offset of" in both.combinations[0].text()
+
+
+def test_no_offset_is_suspected_where_there_is_none() -> None:
+    for seed in range(8):
+        assert not fitted(ONE, U=DRIVE, y=DRIVE / 3.0 + noise(0.01, seed)).suspects
+
+
+def test_what_is_known_of_an_offset_is_where_the_fit_of_it_begins() -> None:
+    c = bondgraph.compile(text=ONE, rate=RATE, offsets={"y": 0.04})
+    log = Log(TIME, {"U": DRIVE, "y": DRIVE / 3.0 + 0.05 + noise(0.01)}, {}, {})
+    (offset,) = c.fit({"run": log}, ["R", "y"]).offsets
+    assert offset.nominal == 0.04
+    assert holds(offset, 0.05)
+
+
+def test_a_disturbance_that_follows_no_input_widens_the_interval_to_what_it_has_to_be() -> None:
+    """U = 3 y + d, d of 0.5 V with a memory of 0.02 s, forty times what the noise of y makes."""
+    inside, wide = 0, []
+    for seed in range(10):
+        draw, d = np.random.default_rng(seed).standard_normal(N), np.zeros(N)
+        for k in range(1, N):
+            d[k] = 0.95 * d[k - 1] + draw[k]
+        d *= 0.5 / float(np.std(d))
+        found = fitted(ONE, U=DRIVE, y=(DRIVE - d) / 3.0 + noise(0.002, seed))
+        assert found.left[0].much
+        assert not found.left[0].wrong
+        inside += holds(only(found), 3.0)
+        wide.append(only(found).interval or 0.0)
+    assert inside >= 8
+    still = only(fitted(ONE, U=DRIVE, y=DRIVE / 3.0 + noise(0.002))).interval
+    assert still is not None
+    assert min(wide) > 5 * still
+
+
+def test_an_inductance_that_the_model_leaves_out_follows_the_input() -> None:
+    """U = 3 y + 0.01 dy/dt, fitted as U = R y."""
+    slope = (5.0 * 7.0 * np.cos(7.0 * TIME) + 3.0 * 23.0 * np.cos(23.0 * TIME)) / 3.0
+    found = fitted(ONE, U=DRIVE + 0.01 * slope, y=DRIVE / 3.0 + noise(0.002))
+    (left,) = found.left
+    assert left.wrong
+    assert left.follows is not None
+    assert left.follows > 0.8
+    assert only(found).error is None
+
+
+def test_the_terms_of_a_residual_are_its_two_sides() -> None:
+    """The residual is U - R y: R y on one side, U on the other, filtered alike."""
+    (one,) = fitted(ONE, U=DRIVE, y=DRIVE / 3.0 + noise(0.001)).terms
+    assert (one.residual, one.parameter, one.log) == ("r1", "R", "run")
+    good = np.isfinite(one.term)
+    assert good.sum() > 100
+    assert float(np.std((one.term - one.others)[good])) < 0.01 * float(np.std(one.term[good]))
+    assert np.allclose(np.diff(one.time), one.time[1] - one.time[0])
+
+
+def test_an_encoder_has_no_offset() -> None:
+    text = """bg 1
+    model M { input T : N.m; Se:drive = T -> 1:w; w -> I:J = 1e-3 kg.m^2
+              w -> R:b = 2e-3 N.m.s/rad; sensor p : rad = int(w.f) counts 512/turn }"""
+    c = bondgraph.compile(text=text, rate=RATE)
+    log = Log(TIME, {"T": DRIVE, "p": np.round(DRIVE)}, {}, {})
+    with pytest.raises(ValueError, match="it has no offset"):
+        c.fit({"run": log}, ["p"])
+
+
+def test_a_long_log_loses_one_warm_up_only() -> None:
+    """Logs are read in blocks; the filters go on from one to the next."""
+    c = bondgraph.compile(text=ONE, rate=RATE)
+    time = np.arange(20_000) / RATE
+    y = np.sin(7.0 * time)
+    draw = 0.01 * np.random.default_rng(1).standard_normal(len(time))
+    columns = {"U": 3.0 * y, "y": y + draw}
+    long = c.fit({"run": Log(time, columns, {}, {})}).seconds
+    short = c.fit({"run": Log(TIME, {n: x[:N] for n, x in columns.items()}, {}, {})}).seconds
+    assert abs((20.0 - long) - (8.0 - short)) < 0.06  # s, a row or two

@@ -1,0 +1,198 @@
+"""The filtered residuals of logs, at rows some way apart, for any parameters of a machine.
+
+Beside them is what the noise of the sensors adds to them: the program runs over a log, and over
+the same log with as much noise once more.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from bondgraph.runtime.diagnosis.whitening import LAGS
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.clock import Piece
+from bondgraph.runtime.monitoring.engine import Engine
+
+_APART = 0.5  # time constants of the filter between two rows
+_JUMP = 10.0  # deviations of its steps that a signal changes by where it jumps
+_CHUNK = 5000  # samples at a time
+_STILL = 1e-9  # of what it is: a signal that moves less stands still
+_LEAST = 50  # rows below which nothing is told
+
+
+class ResidualRows:
+    """The filtered residuals of logs at rows some way apart, for any parameters.
+
+    Beside them, what as much noise as the sensors have adds to them: always the same noise.
+    """
+
+    def __init__(
+        self, engine: Engine, pieces: Sequence[tuple[str, Piece]], noise: Sequence[float]
+    ) -> None:
+        self.engine = engine
+        time = engine.sample_time
+        self.every = max(1, round(_APART / engine.bandwidth / time))
+        self.skip = math.ceil(engine.warm_up / time / self.every) + 1
+        long = (self.skip + 2 * LAGS) * self.every
+        whole = _joined(pieces)
+        self.begins = [(name, start) for name, start, samples in whole if len(samples) > long]
+        self.pieces = [samples for _, _, samples in whole if len(samples) > long]
+        rows = sum(len(p) // self.every - self.skip for p in self.pieces)
+        if rows < _LEAST:
+            need = (_LEAST + self.skip) * self.every * time
+            raise ValueError(
+                f"the logs are too short to fit parameters: give one of {need:.3g} s or more"
+            )
+        self.seconds = rows * self.every * time
+        self.late = [
+            at for at, known in enumerate(engine.signals)
+            if known.kind in ("input", "sensor") and known.counts is None
+            and any(_jumps(p[self.skip * self.every :, at]) for p in self.pieces)
+        ]  # fmt: skip
+        self.biased = [
+            at for at, known in enumerate(engine.signals)
+            if known.kind in ("input", "sensor") and known.counts is None
+        ]  # fmt: skip
+        draw = np.random.default_rng(1)
+        self._shaken = [self._shake(p, noise, draw) for p in self.pieces]
+
+    def _shake(self, samples: Array, noise: Sequence[float], draw: np.random.Generator) -> Array:
+        """The samples with noise once more; that of encoders in whole counts."""
+        shaken = samples.copy()
+        for at, (known, sigma) in enumerate(zip(self.engine.signals, noise, strict=True)):
+            if known.kind == "mode" or not sigma:
+                continue
+            if known.counts is None:
+                shaken[:, at] += sigma * draw.standard_normal(len(samples))
+            else:
+                up, down = draw.poisson(sigma**2 / 2, (2, len(samples)))
+                shaken[:, at] += up - down
+        return shaken
+
+    def names(self, columns: Sequence[int]) -> list[str]:
+        """The paths of signals, by their columns."""
+        return [self.engine.signals[at].path for at in columns]
+
+    def sizes(self, columns: Sequence[int]) -> Array:
+        """How far signals move, in their units: the deviation of their samples.
+
+        Of one that stands still it is how large it is, and 1 if that is nothing.
+        """
+        found = []
+        for at in columns:
+            values = np.concatenate([p[:, at] for p in self.pieces])
+            moves, stands = float(np.nanstd(values)), float(np.abs(np.nanmean(values)))
+            found.append(moves if moves > _STILL * stands else stands or 1.0)
+        return np.array(found)
+
+    def times(self) -> list[tuple[str, Array, slice]]:
+        """For each piece the name of its log, the times of its rows in s, and where these are."""
+        found, begin, step = [], 0, self.every * self.engine.sample_time
+        for (name, first), samples in zip(self.begins, self.pieces, strict=True):
+            rows = len(samples) // self.every
+            time: Array = first + step * np.arange(1.0, rows + 1)
+            found.append((name, time, slice(begin, begin + rows)))
+            begin += rows + 1
+        return found
+
+    def inputs(self) -> Array:
+        """The mean of each input and switch over the samples before a row, (rows, inputs)."""
+        own = [at for at, k in enumerate(self.engine.signals) if k.kind in ("input", "mode")]
+        parts = []
+        for samples in self.pieces:
+            rows = len(samples) // self.every
+            cut = samples[: rows * self.every, own].reshape(rows, self.every, len(own))
+            parts += [cut.mean(axis=1), np.full((1, len(own)), np.nan)]
+        return np.concatenate(parts)
+
+    def rows(
+        self, parameters: Sequence[Mapping[str, float]], delays: Array, offsets: Array
+    ) -> tuple[Array, Array]:
+        """Residuals and what noise adds to them, both (sets of parameters, rows, residuals).
+
+        `delays` (sets, signals in `late`) in samples, `offsets` (sets, signals in `biased`) in the
+        units of these, of which logs are cleared. NaN where a residual is not valid, and in one row
+        behind every log.
+        """
+        moved = np.hstack([delays, offsets])
+        found: list[tuple[Array, Array]] = [(np.empty(0), np.empty(0))] * len(parameters)
+        for group in {tuple(row): None for row in moved.tolist()}:
+            members = np.flatnonzero((moved == group).all(axis=1)).tolist()
+            own = [parameters[k] for k in members]
+            late = dict(zip(self.late, group, strict=False))
+            off = dict(zip(self.biased, group[len(self.late) :], strict=True))
+            both = zip(*self._together(own, late, off), strict=True)
+            for k, one in zip(members, both, strict=True):
+                found[k] = one
+        return np.stack([f[0] for f in found]), np.stack([f[1] for f in found])
+
+    def _together(
+        self,
+        parameters: Sequence[Mapping[str, float]],
+        late: Mapping[int, float],
+        off: Mapping[int, float],
+    ) -> tuple[Array, Array]:
+        clean, added = [], []
+        for samples, shaken in zip(self.pieces, self._shaken, strict=True):
+            one = self._through(parameters, _moved(samples, late, off), samples)
+            clean.append(one)
+            added.append(self._through(parameters, _moved(shaken, late, off), samples) - one)
+        return np.concatenate(clean, axis=1), np.concatenate(added, axis=1)
+
+    def _through(
+        self, parameters: Sequence[Mapping[str, float]], samples: Array, received: Array
+    ) -> Array:
+        engines = [self.engine.configured(p, bounds=False) for p in parameters]
+        readings = list(self.engine.readings)
+        parts = []
+        step = self.every * max(1, _CHUNK // self.every)
+        for k in range(0, len(samples), step):
+            part = samples[k : k + step]
+            if readings:  # laws acted on what they received, noise and all
+                got = received[k : k + step, readings]
+                batches = [e.run(part, got) for e in engines]
+                value = np.stack([b.value for b in batches])
+                valid = np.stack([b.valid for b in batches])
+            else:
+                value, valid, _ = engines[0].run_with(engines[1:], part)
+            value = np.where(valid, value, np.nan)
+            parts.append(value[:, self.every - 1 :: self.every])
+        found = np.concatenate([*parts, np.full_like(parts[0][:, :1], np.nan)], axis=1)
+        found[:, : self.skip] = np.nan
+        return found
+
+
+def _joined(pieces: Sequence[tuple[str, Piece]]) -> list[tuple[str, float, Array]]:
+    """Name, first time and samples of what is without a gap, of pieces that go on with others."""
+    found: list[tuple[str, float, list[Array]]] = []
+    for name, piece in pieces:
+        if piece.anew or not found or found[-1][0] != name:
+            found.append((name, float(piece.time[0]), []))
+        found[-1][2].append(piece.samples)
+    return [(name, start, np.concatenate(parts)) for name, start, parts in found]
+
+
+def _jumps(values: Array) -> bool:
+    """Whether a signal has steps that are no part of how it changes else."""
+    steps = np.abs(np.diff(values))
+    steps = steps[np.isfinite(steps)]
+    return bool(len(steps)) and float(steps.max()) > _JUMP * float(np.median(steps)) / 0.6745
+
+
+def _moved(samples: Array, late: Mapping[int, float], off: Mapping[int, float]) -> Array:
+    """The samples with some columns so many samples late, about one at most, and without offsets.
+
+    >>> _moved(np.array([[1.0], [3.0]]), {0: 0.5}, {0: 1.0}).tolist()
+    [[0.0], [1.0]]
+    """
+    if not any(late.values()) and not any(off.values()):
+        return samples
+    found = samples.copy()
+    for at, delay in late.items():
+        found[1:, at] -= delay * np.diff(samples[:, at])
+    for at, offset in off.items():
+        found[:, at] -= offset
+    return found
