@@ -19,7 +19,8 @@ _ENOUGH = 200  # samples of a signal to know it by
 _MOST = 5000  # after which nothing more is learned of it
 _OUT = 2.0  # times as far out as any sample, or row, was while all was well
 _FLOOR = 0.02  # of the range of a signal: what is smaller matters to nothing
-_NOISY = 1e-4  # of the range, in any healthy row: noise that is seen, and would be missed
+_NOISY = 0.003  # rough beside its own motion, in any healthy row: noise that would be missed
+_MANY = 100  # rows that tell how rough a signal may become: with fewer, half as much again
 _ALONE = 3.0  # times as far out as all around it: a spike is alone
 _ROUGHER = 2.0  # times as rough, beside its own motion, as any row was
 _WHITE = 0.7  # so rough beside its own motion is white noise at least: 0.8 or more
@@ -69,7 +70,8 @@ class SignalChecks:
         self._samples = 0  # that were learned from
         self._far = np.zeros(count)  # largest spike of a healthy sample
         self._rough = np.zeros((2, count))  # of a healthy row: roughness, and beside its motion
-        self._calm = np.full(count, math.inf)  # roughness of the smoothest healthy row
+        self._calm = np.full(count, math.inf)  # roughness of the smoothest row, beside its motion
+        self._rows = 0  # that were learned from
         self._range = np.array([np.full(count, math.inf), np.full(count, -math.inf)])
         self._still = np.zeros(count)  # longest run of equal values that has ended
         self._least = np.ones(count)  # share of the samples of a row that differ from the last
@@ -140,14 +142,14 @@ class SignalChecks:
             floor = _FLOOR * np.maximum(span, 1e-300)
             spike = far[0] / (_OUT * np.maximum(self._far, floor))
             spike = np.where(far[0] > _ALONE * far[1], spike, 0.0)
-            burst = rough / (_OUT * np.maximum(self._rough[0], floor))
+            out = _OUT if self._rows >= _MANY else 1.5 * _OUT
+            burst = rough / (out * np.maximum(self._rough[0], floor))
             beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
             most = np.minimum(_ROUGHER * self._rough[1], _WHITE)
             burst = np.where(beside > most, burst, 0.0)
             longest = np.maximum(_STILL * self._still, _LEAST)
             known = (self._still > 0.0) & (self._least >= _CHANGES)
-            noisy = known & (self._calm > _NOISY / _FLOOR * floor)
-            stuck = np.where(noisy, runs / longest, 0.0)
+            stuck = np.where(known & (self._calm > _NOISY), runs / longest, 0.0)
         return {"spike": spike, "burst": burst, "stuck": stuck}
 
     def _runs(self, own: Array) -> tuple[Array, Array, Array]:
@@ -203,7 +205,8 @@ class SignalChecks:
         self._still = np.maximum(self._still, ended)
         usual = self._run <= np.maximum(self._still, 1.0) * 2.0  # else it may have begun to stand
         self._least = np.where(usual, np.minimum(self._least, changes), self._least)
-        self._calm = np.where(usual, np.minimum(self._calm, rough), self._calm)
+        self._calm = np.where(usual & (moved > 0), np.minimum(self._calm, beside), self._calm)
+        self._rows += 1
 
     def _looked_at(self, samples: Array) -> tuple[Array, Array, Array, Array]:
         """Of samples (n, signals): the largest spike and the next one that is not beside it, the

@@ -52,7 +52,7 @@ def test_a_step_is_no_spike() -> None:
     assert [one for one in _looked(samples) if one.kind == "spike"] == []
 
 
-@pytest.mark.parametrize(("column", "name", "size"), [(0, "y", 0.5), (2, "T", 0.5)])
+@pytest.mark.parametrize(("column", "name", "size"), [(0, "y", 0.5), (2, "T", 1.0)])
 def test_a_burst_is_told_once_and_ends(column: int, name: str, size: float) -> None:
     samples = _signals(5)
     samples[2000:2400, column] += size * np.random.default_rng(1).normal(size=400)
