@@ -149,7 +149,8 @@ class SignalChecks:
             burst = np.where(beside > most, burst, 0.0)
             longest = np.maximum(_STILL * self._still, _LEAST)
             known = (self._still > 0.0) & (self._least >= _CHANGES)
-            stuck = np.where(known & (self._calm > _NOISY), runs / longest, 0.0)
+            noisy = known & np.isfinite(self._calm) & (self._calm > _NOISY)
+            stuck = np.where(noisy, runs / longest, 0.0)
         return {"spike": spike, "burst": burst, "stuck": stuck}
 
     def _runs(self, own: Array) -> tuple[Array, Array, Array]:
