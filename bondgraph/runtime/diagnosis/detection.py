@@ -15,7 +15,7 @@ from bondgraph.runtime.monitoring.plain import array, numbers
 
 _OVER = math.log(20.0)  # how much more probable it has to be that a fault is over
 _PAUSE = 32  # rows: what comes back later has been away
-_TWICE = 2  # rows that have to be quiet: what moves through zero is so in one
+_QUIET = 2  # rows, at least: what moves through zero is quiet in one
 _SOON = 4  # times the rows that had to be quiet: what comes back within them has not been away
 
 
@@ -39,9 +39,9 @@ class Detection:
         self.fired: Mask = np.zeros(len(residuals), dtype=np.bool_)
         self.most = np.zeros(len(residuals))
         self.alarms = 0
-        self._needed = _TWICE  # rows that have to be quiet
+        self._needed = _QUIET  # rows that have to be quiet
         self._away = _PAUSE + 1  # rows since a fault was over
-        self._gone = _TWICE  # rows that it had to be quiet for then
+        self._gone = _QUIET  # rows that it had to be quiet for then
         self.restart()
 
     def restart(self) -> None:
@@ -84,6 +84,8 @@ class Detection:
 
     def row(self, row: Row, limits: Array) -> Mask:
         """Which fire by the sum of what is too much in rows, to either side (Page, 1954)."""
+        if not self.alarmed:
+            self._away = min(self._away + 1, _PAUSE + 1)
         top = limits[:, 3]
         with np.errstate(invalid="ignore"):
             after = np.minimum(grown(self._sums, row.value, row.bound, _adding(limits)), 2.0 * top)
@@ -96,7 +98,7 @@ class Detection:
         if first:
             gap = self._away + self._gone  # rows without it
             back = gap <= min(_SOON * self._gone, _PAUSE)
-            self._needed = min(2 * gap, _PAUSE) if back else _TWICE
+            self._needed = min(2 * gap, _PAUSE) if back else _QUIET
         self.fired = self.fired | fresh
         self._healthy[:] = 0.0
         self._quiet = 0
@@ -105,7 +107,6 @@ class Detection:
 
     def suspects(self, row: Row, limits: Array) -> bool:
         """Whether something is further out than it usually is, though nothing has fired yet."""
-        self._away = min(self._away + 1, _PAUSE + 1)
         loud = np.abs(row.value) - row.bound > 0.5 * limits[:, 2] * limits[:, 0]
         return bool((self._streak > 0).any() or loud.any())
 

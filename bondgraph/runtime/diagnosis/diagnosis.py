@@ -136,8 +136,8 @@ class Diagnosis:
             given = Batch(batch.value[own], batch.valid[own], batch.bound[own])
             doubt, sound = self._doubt.run(samples[own], given, number, self._limits[:, 0])
             value, valid, bound = self._origins.judged(given, self._bank, slopes)
-            value = value - self._limits[:, 4]
             valid = valid & sound
+            value = np.where(valid, value - self._limits[:, 4], 0.0)
             self._status.warm_up(time[own], valid, self._limits[:, 0], self._origins, out)
             bound = np.where(valid, bound + slack(self._tolerated, slopes) + doubt, 0.0)
             yield Part(time[own], samples[own], value, valid, bound, doubt, slopes)
@@ -168,7 +168,9 @@ class Diagnosis:
                 break
             self._calm.clear()
             self._bank, self._tolerated, self._history = found.bank, found.tolerated, found.history
-            self._past = deque(found.rows, maxlen=self._past.maxlen)
+            rows = [r._replace(value=np.where(r.valid, r.value - self._limits[:, 4], 0.0))
+                    for r in found.rows]  # fmt: skip
+            self._past = deque(rows, maxlen=self._past.maxlen)
             self._before = copied(self._bank.engine)
             self._judge.renew()
 
@@ -275,7 +277,8 @@ class Diagnosis:
         noise = inverse(self._weight(last))
         samples = np.concatenate([last.samples[:0], *piece])
         fired = self._detection.fired
-        count = samples_before(engine, samples, self._history, last.slopes, noise, fired)
+        mean = self._limits[:, 4]
+        count = samples_before(engine, samples, mean, self._history, last.slopes, noise, fired)
         # what is read late may have gone wrong before it showed
         late = math.ceil(self._engine.lags[-1] / self._engine.sample_time)
         first = begin
@@ -312,9 +315,9 @@ class Diagnosis:
             out.append(verdict)
 
     def _over(self, row: Row, out: list[Verdict]) -> None:
-        """A fault is over when its residuals have been quiet for long enough."""
+        """A fault is over when its residuals have been quiet for long enough, and its signal."""
         over = self._detection.over(row, self._limits, self._judge.shows())
-        if not over or self._judge.waits:
+        if not over or self._judge.waits or self._checks.active:
             return
         assert self._judge.latched is not None
         what = "back to what a healthy machine does; what was said stays said"
@@ -365,15 +368,22 @@ def odd(history: History, value: Array, slopes: Array, noise: Array) -> Mask:
 
 
 def samples_before(
-    engine: Engine, samples: Array, history: History, slopes: Array, noise: Array, fired: Mask
+    engine: Engine,
+    samples: Array,
+    mean: Array,
+    history: History,
+    slopes: Array,
+    noise: Array,
+    fired: Mask,
 ) -> int:
     """How many of the samples come before the fault; `engine` stands before them.
 
-    `slopes` of the tolerated parameters are those of the last healthy row, (tolerated, residuals).
+    Residuals stand at their `mean` while all is well. `slopes` of the tolerated parameters are
+    those of the last healthy row, (tolerated, residuals).
     """
     if not len(samples):
         return 0
     found = copied(engine).run(samples)
-    away = odd(history, found.value, slopes, noise) & found.valid & fired
+    away = odd(history, found.value - mean, slopes, noise) & found.valid & fired
     usual = np.flatnonzero(~away.any(axis=1))
     return min(int(usual[-1]) + 1, len(samples) - 1) if len(usual) else 0

@@ -148,7 +148,7 @@ class Learning:
         residuals whose noise is known with it.
         """
         valid = row.valid & healthy
-        if (self._counts < _MANY).any():
+        if ((self._counts < _MANY) & self._used & ~self.hopeless).any():
             sizes = np.abs(self._bank.run(row.samples)[-1]).max(axis=0, initial=0.0)
             self._scale = np.maximum(self._scale, np.where(valid, sizes, 0.0))
         first = np.where(valid & self._wanted, self._peak, -math.inf)
@@ -163,7 +163,7 @@ class Learning:
             if self._wanted[k] and self._sigma[k] and settings[k] <= self._learned[k]:
                 self._wanted[k] = False  # back to what is known
                 self.limits[k, 0] = max(self._sigma[k].values())
-            if self._wanted[k] or self._counts[k] >= self._due[k]:
+            if self._wanted[k] or self._due[k] <= min(self._counts[k], _MOST):
                 rest = rest or self._rest()
                 fresh[k] = self._estimated(k, settings[k], *rest)
         self._peak[:] = -math.inf

@@ -28,7 +28,7 @@ _MOST = 0.7  # share of the misfit that a fault has to take away where nothing f
 _LEVEL = 1e-3  # probability of what noise may leave over
 _LARGER = 2.0  # times the deviation that noise is taken for, that it may have
 _AGAIN = 5  # rows between an update and the next, twice as many each time
-LONGEST = 320  # rows that anything said again has to wait
+_LONGEST = 320  # rows that anything said again has to wait
 
 
 def possible(explained: Explained, nominal: float | None) -> Explained:
@@ -119,7 +119,7 @@ def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
         return False  # the same, or only less sure of it
     if (wanted.group and not said.group) or (wanted.pair and not (said.pair or said.group)):
         return True
-    return again and waited >= min(_AGAIN * 2.0 ** min(latched.times, 9), LONGEST)
+    return again and waited >= min(_AGAIN * 2.0 ** min(latched.times, 9), _LONGEST)
 
 
 def classes(

@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.monitoring.plain import array, numbers
 from bondgraph.text.tuples import NamedTuple
 
 _ENOUGH = 200  # samples of a signal to know it by
@@ -31,27 +32,36 @@ _QUIET = 3  # rows after which it is as it was
 _PAUSE = 32  # rows: what comes back within them has to be away for twice as long the next time
 _AFTER = 10  # rows until which residuals may be out by it
 _SIDE = 2  # samples to either side that a sample is compared with
+_SMOOTH = (2 / 3, -1 / 6)  # weights of these: what a cubic through them is between them
 
 
 class Unusual(NamedTuple):
     """Something that a signal shows: which, what (`spike`, `burst` or `stuck`), and since when (s).
 
-    `size` is how far out it is, in times the largest that is healthy.
+    `now` is how far out it is and `before` the most that it was while all was well: of a spike or
+    a burst in shares of its range, of a signal that stands still in samples.
     """
 
     signal: str
     kind: str
     since: float
-    size: float
+    now: float
+    before: float
 
     @property
     def text(self) -> str:
-        """In words."""
-        if self.kind == "spike":
-            return f"a spike of {self.signal}, {self.size:.2g} times the largest of healthy ones"
-        if self.kind == "burst":
-            return f"a burst of noise of {self.signal}, {self.size:.2g} times what it was"
-        return f"{self.signal} stands still, {self.size:.2g} times as long as ever"
+        """In words.
+
+        >>> print(Unusual("y", "spike", 3.0, 0.25, 0.004).text)
+        a spike of y by 25 % of its range, 0.4 % at most while the machine was well
+        """
+        if self.kind == "stuck":
+            text = f"{self.signal} stands still for {self.now:.0f} samples, {self.before:.0f}"
+        else:
+            what = "a spike" if self.kind == "spike" else "a burst of noise"
+            text = f"{what} of {self.signal} by {100 * self.now:.3g} % of its range,"
+            text += f" {100 * self.before:.2g} %"
+        return f"{text} at most while the machine was well"
 
 
 class SignalChecks:
@@ -59,19 +69,20 @@ class SignalChecks:
 
     Each sample is compared with what its neighbours on both sides let expect, by weights that fit
     the healthy signal best, and with their median: a step is far from the first, the peak of an
-    oscillation from the second, a spike from both.
+    oscillation from the second, a spike from both. A signal without a value (NaN) shows nothing,
+    and does not keep others from being looked at.
     """
 
     def __init__(self, names: Sequence[str], at: Sequence[int], sample_time: float) -> None:
         self._names, self._at, self._step = tuple(names), list(at), sample_time
         count = len(self._names)
         self._seen: list[Array] = []  # healthy samples until the weights are known
-        self._weights: Array | None = None  # (signals, 2): of the nearest and the next ones
-        self._samples = 0  # that were learned from
-        self._far = np.zeros(count)  # largest spike of a healthy sample
+        self._weights = np.empty((0, 2))  # (signals, 2): of the nearest and the next ones
+        self._samples = np.zeros(count)  # that were learned from
+        self._rows = np.zeros(count)  # the same in rows
+        self._far = np.zeros((2, count))  # largest spike when healthy, and off expected
         self._rough = np.zeros((2, count))  # of a healthy row: roughness, and beside its motion
         self._calm = np.full(count, math.inf)  # roughness of the smoothest row, beside its motion
-        self._rows = 0  # that were learned from
         self._range = np.array([np.full(count, math.inf), np.full(count, -math.inf)])
         self._still = np.zeros(count)  # longest run of equal values that has ended
         self._least = np.ones(count)  # share of the samples of a row that differ from the last
@@ -87,33 +98,27 @@ class SignalChecks:
 
     def row(self, time: float, samples: Array, healthy: bool) -> list[Unusual]:
         """What begins to be unusual in a row, (n, all signals), that ends at a time (s)."""
-        own = samples[:, self._at]
-        if not np.isfinite(own).all():
-            self.restart()
-            return []
+        own = np.where(np.isfinite(samples), samples, math.nan)[:, self._at]
         with_last = np.concatenate([self._last, own])
         runs, ended, changes = self._runs(own)
         self._last = with_last[-2 * _SIDE :]
-        if len(with_last) < 4 * _SIDE + 1:
+        if not self._names or len(with_last) < 4 * _SIDE + 1:
             return []
-        if self._weights is None:
+        if not len(self._weights):
             self._first(own, healthy)
             return []
         far, rough, moved, where = self._looked_at(with_last)
         found = {}
-        if self._samples >= _ENOUGH:
-            low = np.minimum(self._range[0], own.min(axis=0))
-            span = np.maximum(self._range[1], own.max(axis=0)) - low
-            for kind, size in self._unusual(far, rough, moved, runs, span).items():
-                for k in np.flatnonzero(size > 1.0).tolist():
-                    late = len(with_last) - 1 - where[k] if kind == "spike" else len(own) - 1
-                    late = runs[k] - 1 if kind == "stuck" else late
-                    since = time - float(late) * self._step
-                    scale = {"spike": _OUT, "burst": _OUT, "stuck": _STILL}[kind]
-                    found[self._names[k]] = Unusual(
-                        self._names[k], kind, since, float(size[k]) * scale
-                    )
-        if healthy and not found and self._samples < _MOST:
+        span = np.fmax(self._range[1], own.max(axis=0)) - np.fmin(self._range[0], own.min(axis=0))
+        sizes = self._unusual(far, rough, moved, runs, span)
+        for kind, (out, now, before) in sizes.items():
+            for k in np.flatnonzero(out & (self._samples >= _ENOUGH)).tolist():
+                late = len(with_last) - 1 - where[k] if kind == "spike" else len(own) - 1
+                late = runs[k] - 1 if kind == "stuck" else late
+                since = time - float(late) * self._step
+                one = Unusual(self._names[k], kind, since, float(now[k]), float(before[k]))
+                found[one.signal] = one
+        if healthy and not found:
             self._learn(own, far, rough, moved, ended, changes)
         return self._begun(found)
 
@@ -136,22 +141,24 @@ class SignalChecks:
 
     def _unusual(
         self, far: Array, rough: Array, moved: Array, runs: Array, span: Array
-    ) -> dict[str, Array]:
-        """How far out each signal is, above 1 for what is unusual."""
+    ) -> dict[str, tuple[Mask, Array, Array]]:
+        """Of each kind: which signals are unusual, how far out each is now, and was at most."""
         with np.errstate(divide="ignore", invalid="ignore"):
             floor = _FLOOR * np.maximum(span, 1e-300)
-            spike = far[0] / (_OUT * np.maximum(self._far, floor))
-            spike = np.where(far[0] > _ALONE * far[1], spike, 0.0)
-            out = _OUT if self._rows >= _MANY else 1.5 * _OUT
-            burst = rough / (out * np.maximum(self._rough[0], floor))
+            spike = far[0] > _OUT * np.maximum(self._far[0], floor)
+            spike &= far[0] > _ALONE * far[2]
+            out = np.where(self._rows >= _MANY, _OUT, 1.5 * _OUT)
+            burst = rough > out * np.maximum(self._rough[0], floor)
             beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
-            most = np.minimum(_ROUGHER * self._rough[1], _WHITE)
-            burst = np.where(beside > most, burst, 0.0)
+            burst &= beside > np.minimum(_ROUGHER * self._rough[1], _WHITE)
             longest = np.maximum(_STILL * self._still, _LEAST)
             known = (self._still > 0.0) & (self._least >= _CHANGES)
             noisy = known & np.isfinite(self._calm) & (self._calm > _NOISY)
-            stuck = np.where(noisy, runs / longest, 0.0)
-        return {"spike": spike, "burst": burst, "stuck": stuck}
+            return {
+                "spike": (spike, far[1] / span, self._far[1] / span),
+                "burst": (burst, rough / span, self._rough[0] / span),
+                "stuck": (noisy & (runs > longest), runs, self._still),
+            }
 
     def _runs(self, own: Array) -> tuple[Array, Array, Array]:
         """How long each signal has had its present value, and the longest one that ended in this
@@ -174,15 +181,17 @@ class SignalChecks:
         self._seen.append(own)
         if sum(map(len, self._seen)) < _ENOUGH:
             return
-        whole = np.concatenate(self._seen)
-        near, next_, middle = _around(whole)
+        near, next_, middle = _around(np.concatenate(self._seen))
         weights = []
-        for k in range(whole.shape[1]):
-            table = np.column_stack([near[:, k], next_[:, k]])
-            weights.append(np.linalg.lstsq(table, middle[:, k], rcond=None)[0])
+        for k in range(own.shape[1]):
+            table = np.column_stack([near[:, k], next_[:, k], middle[:, k]])
+            table = table[np.isfinite(table).all(axis=1)]
+            known = len(table) >= _ENOUGH // 2  # else as of a signal that is smooth
+            best = np.linalg.lstsq(table[:, :2], table[:, 2], rcond=None)[0] if known else _SMOOTH
+            weights.append(best)
         self._weights = np.array(weights)
         rows, self._seen = self._seen, []
-        last = np.empty((0, whole.shape[1]))
+        last = np.empty((0, own.shape[1]))
         self._run[:] = 0.0
         for row in rows:
             with_last = np.concatenate([last, row])
@@ -197,42 +206,66 @@ class SignalChecks:
     def _learn(
         self, own: Array, far: Array, rough: Array, moved: Array, ended: Array, changes: Array
     ) -> None:
-        self._samples += len(own)
-        self._range[0] = np.minimum(self._range[0], own.min(axis=0))
-        self._range[1] = np.maximum(self._range[1], own.max(axis=0))
-        self._far = np.maximum(self._far, far[0])
+        """A healthy row more, of the signals that have a value all through it."""
+        fresh = np.isfinite(far[0]) & (self._samples < _MOST)
         beside = np.where(moved > 0, rough / np.maximum(moved, 1e-300), 0.0)
-        self._rough = np.maximum(self._rough, [rough, beside])
-        self._still = np.maximum(self._still, ended)
         usual = self._run <= np.maximum(self._still, 1.0) * 2.0  # else it may have begun to stand
-        self._least = np.where(usual, np.minimum(self._least, changes), self._least)
-        self._calm = np.where(usual & (moved > 0), np.minimum(self._calm, beside), self._calm)
-        self._rows += 1
+        for table, more, which in (
+            (self._range[1], own.max(axis=0), fresh),
+            (self._far[0], far[0], fresh),
+            (self._far[1], far[1], fresh),
+            (self._rough[0], rough, fresh),
+            (self._rough[1], beside, fresh),
+            (self._still, ended, fresh),
+        ):
+            table[which] = np.maximum(table, more)[which]
+        for table, more, which in (
+            (self._range[0], own.min(axis=0), fresh),
+            (self._least, changes, fresh & usual),
+            (self._calm, beside, fresh & usual & (moved > 0)),
+        ):
+            table[which] = np.minimum(table, more)[which]
+        self._samples += np.where(fresh, len(own), 0)
+        self._rows += fresh
 
     def _looked_at(self, samples: Array) -> tuple[Array, Array, Array, Array]:
-        """Of samples (n, signals): the largest spike and the next one that is not beside it, the
-        roughness, what the signals move, and where the spike is."""
-        assert self._weights is not None
+        """Of samples (n, signals): the largest spike, by how much it is off what its neighbours let
+        expect, and the next spike that is not beside it; the roughness, what the signals move, and
+        where the spike is."""
         near, next_, middle = _around(samples)
         off = np.abs(middle - near * self._weights[:, 0] - next_ * self._weights[:, 1])
         neighbours = np.sort(np.stack([samples[1:-3], middle, samples[3:-1]]), axis=0)[1]
         spike = np.minimum(off, np.abs(middle - neighbours))
-        where = spike.argmax(axis=0)
-        apart = np.abs(np.arange(len(spike))[:, None] - where) > _SIDE
+        apart = np.abs(np.arange(len(spike))[:, None] - spike.argmax(axis=0)) > _SIDE
         second = np.where(apart, spike, 0.0).max(axis=0)
+        where = np.where(apart, 0.0, off).argmax(axis=0)  # its neighbours are out by it as well
         moved = np.median(np.abs(np.diff(samples, axis=0)), axis=0)
-        return np.stack([spike.max(axis=0), second]), np.median(off, axis=0), moved, where + _SIDE
+        far = np.stack([spike.max(axis=0), off[where, np.arange(len(where))], second])
+        return far, np.median(off, axis=0), moved, where + _SIDE
 
-    def state(self) -> list[Any]:
-        """What is unusual now, as plain JSON."""
-        return [list(one) for one in self.active.values()]
+    def state(self) -> dict[str, Any]:
+        """What signals were like and what is unusual now, as plain JSON."""
+        learned = [numbers(table) for table in self._learned()] if len(self._weights) else []
+        active = [[*one, self._needed.get(name, _QUIET)] for name, one in self.active.items()]
+        return {"learned": learned, "active": active}
 
-    def resume(self, state: Sequence[Any]) -> None:
-        """Go on with what was unusual; raises TypeError or ValueError for another kind of state."""
-        for signal, kind, since, size in state:
-            if not math.isfinite(float(since)):
-                raise ValueError("a time is no number")
-            self.active[str(signal)] = Unusual(str(signal), str(kind), float(since), float(size))
+    def resume(self, state: Mapping[str, Any]) -> None:
+        """Go on from a state; raises KeyError, TypeError or ValueError for one of another kind."""
+        if state["learned"]:
+            self._weights = np.zeros((len(self._names), 2))
+            for table, known in zip(self._learned(), state["learned"], strict=True):
+                table[:] = array(known, table.shape)
+            self._range[1][self._samples == 0] = -math.inf  # of which nothing is known
+        for signal, kind, since, now, before, needed in state["active"]:
+            one = Unusual(str(signal), str(kind), float(since), float(now), float(before))
+            if not all(map(math.isfinite, one[2:])):
+                raise ValueError("a time or a size is no number")
+            self.active[one.signal], self._needed[one.signal] = one, int(needed)
+            self._away[one.signal] = 0
+
+    def _learned(self) -> list[Array]:
+        return [self._weights, self._samples, self._rows, self._far, self._rough, self._calm,
+                self._range, self._still, self._least]  # fmt: skip
 
 
 def _around(samples: Array) -> tuple[Array, Array, Array]:

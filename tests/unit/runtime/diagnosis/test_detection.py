@@ -105,10 +105,10 @@ def test_what_comes_back_soon_has_to_be_away_for_longer_the_next_time() -> None:
         _alarm(detection, 20.0)
         needed.append(_quiet(detection))
         for _ in range(3):  # away for three rows more
-            detection.suspects(_row(0.0, 0.0), _LIMITS)
+            detection.row(_row(0.0, 0.0), _LIMITS)
     assert needed[0] == 2 and needed == sorted(needed) and needed[1] >= 8, needed
     for _ in range(40):
-        detection.suspects(_row(0.0, 0.0), _LIMITS)
+        detection.row(_row(0.0, 0.0), _LIMITS)
     _alarm(detection, 20.0)
     assert _quiet(detection) == 2, "away for long: another fault"
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.learning import FIRST, LATE, Learning
 from bondgraph.runtime.diagnosis.rows import Row
@@ -115,3 +116,31 @@ def test_no_sensor_is_better_than_a_ten_thousandth_of_what_it_does() -> None:
     assert told(learning, row(engine, 0.5))
     # R i is 6 V behind a filter that has long settled after ten rows of a tenth of a second
     assert learning.limits[0, 0] == pytest.approx(6e-4, rel=1e-3)
+
+
+def seen_after(rate: float, start: int, seed: int) -> int:
+    """Rows after which a drift of so many deviations a row is seen by level or sum."""
+    learning, engine = learner()
+    detection = Detection(engine.residuals, 3)
+    for k, value in enumerate(np.random.default_rng(seed).standard_normal(2500).tolist()):
+        one = row(engine, value + rate * max(k - start, 0))
+        one = one._replace(value=one.value - learning.limits[:, 4])
+        limit = learning.limits[0]
+        high = math.isfinite(limit[0]) and abs(one.value[0]) > limit[0] * limit[2]
+        if high or detection.row(one, learning.limits).any():
+            return k - start
+        if not learning.over:
+            learning.row(one, np.zeros((0, 1)), True)
+    return 2500 - start
+
+
+def test_a_drift_that_begins_after_a_hundred_healthy_rows_is_not_learned() -> None:
+    """A fiftieth of the deviation a row, of twenty machines; no faster one is seen later."""
+    slow = sorted(seen_after(0.02, 100, seed) for seed in range(20))
+    assert slow[17] < 200, "eighteen of them within two hundred rows"
+    assert max(seen_after(0.2, 100, seed) for seed in range(20)) < 30
+
+
+def test_a_drift_from_the_beginning_is_seen_in_four_times_the_rows_that_are_learned() -> None:
+    after = [seen_after(0.2, 0, seed) for seed in range(3)]
+    assert all(512 < rows < 4 * 512 for rows in after)

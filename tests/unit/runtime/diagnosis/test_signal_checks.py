@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -43,7 +46,8 @@ def test_a_spike_is_told_with_its_time(column: int, name: str, size: float) -> N
     (one,) = _looked(samples)
     assert (one.signal, one.kind) == (name, "spike")
     assert one.since == pytest.approx(2510 * _STEP, abs=1.5 * _STEP)
-    assert one.size > 2.0
+    assert one.now * np.ptp(samples[:2525, column]) == pytest.approx(size, rel=0.15)
+    assert one.before < 0.5 * one.now
 
 
 def test_a_step_is_no_spike() -> None:
@@ -90,11 +94,65 @@ def test_missing_samples_begin_anew() -> None:
     assert _looked(samples) == []
 
 
-def test_what_is_unusual_outlasts_a_restart() -> None:
-    checks = SignalChecks(["y"], [0], _STEP)
-    checks.active["y"] = Unusual("y", "burst", 3.5, 4.0)
-    other = SignalChecks(["y"], [0], _STEP)
-    other.resume(checks.state())
-    assert other.active == checks.active
-    with pytest.raises((TypeError, ValueError)):
-        other.resume([["y", "burst", None, 1.0]])
+@pytest.mark.parametrize("dead", [0, 30, 1700])
+def test_a_sensor_that_dies_hides_nothing_of_the_others(dead: int) -> None:
+    samples = _signals(3)
+    samples[dead:, 0] = np.nan
+    samples[2510, 2] += 2.0
+    (one,) = _looked(samples)
+    assert (one.signal, one.kind) == ("T", "spike")
+
+
+def test_a_burst_of_a_sensor_that_dies_is_over() -> None:
+    samples = _signals(5)
+    samples[2000:2200, 2] += np.random.default_rng(1).normal(size=200)
+    samples[2200:, 2] = np.nan
+    checks = SignalChecks(["y", "q", "T"], [0, 1, 2], _STEP)
+    active = []
+    for k in range(0, len(samples) - _ROW + 1, _ROW):
+        checks.row((k + _ROW - 1) * _STEP, samples[k : k + _ROW], not checks.active)
+        active.append("T" in checks.active)
+    assert any(active) and not active[-1]
+
+
+def test_a_machine_with_encoders_only_has_nothing_to_look_at() -> None:
+    checks = SignalChecks([], [], _STEP)
+    assert checks.row(0.0, _signals(1)[:_ROW], True) == []
+    other = SignalChecks([], [], _STEP)
+    other.resume(json.loads(json.dumps(checks.state())))
+    assert other.active == {}
+
+
+def test_what_is_known_outlasts_a_restart() -> None:
+    """The one that goes on says what the other would have said, and ends it as soon."""
+    samples = _signals(5)
+    samples[2000:2100, 2] += np.random.default_rng(1).normal(size=100)
+    samples[3000, 0] += 1.0
+    one, other = (SignalChecks(["y", "q", "T"], [0, 1, 2], _STEP) for _ in range(2))
+    told: list[list[Unusual]] = [[], []]
+    for k in range(0, len(samples) - _ROW + 1, _ROW):
+        if k == 2050:  # the burst is active
+            assert "T" in one.active
+            other.resume(json.loads(json.dumps(one.state())))
+            assert other.active == one.active
+        row = (k + _ROW - 1) * _STEP, samples[k : k + _ROW], not one.active
+        found = one.row(*row)
+        if k >= 2050:
+            told[0] += found
+            told[1] += other.row(*row)
+            assert ("T" in other.active) == ("T" in one.active)
+    assert [u[:2] for u in told[0]] == [("y", "spike")] == [u[:2] for u in told[1]]
+
+
+@pytest.mark.parametrize(
+    "state",
+    [
+        [["y", "burst", 1.0, 2.0]],
+        {"learned": [], "active": [["y", "burst", None, 1.0, 0.1, 3]]},
+        {"learned": [[1.0]], "active": []},
+        {"active": []},
+    ],
+)
+def test_a_state_of_another_kind_is_refused(state: Any) -> None:
+    with pytest.raises((KeyError, TypeError, ValueError)):
+        SignalChecks(["y"], [0], _STEP).resume(state)
