@@ -68,7 +68,8 @@ class Diagnosis:
         checked = [(k.path, at) for at, k in enumerate(engine.signals)
                    if k.path in model.faults and k.kind != "mode" and k.counts is None]  # fmt: skip
         names, at = zip(*checked, strict=True) if checked else ((), ())
-        self._checks = SignalChecks(names, at, engine.sample_time)
+        inputs = {k.path for k in engine.signals if k.kind == "input"}
+        self._checks = SignalChecks(names, at, engine.sample_time, inputs)
         self._last: list[Batch] = []  # of the last update, with whole thresholds
         self.restart()
 
@@ -211,8 +212,14 @@ class Diagnosis:
             self._over(row, out)
 
     def _learn(self, row: Row, healthy: bool) -> Mask:
+        """Which residuals are known with this row; where they stand holds for rows before too."""
         assert self._learning is not None
-        return self._learning.row(row, row.slopes[self._values], healthy)
+        before = self._limits[:, 4].copy()
+        fresh = self._learning.row(row, row.slopes[self._values], healthy)
+        if (moved := self._limits[:, 4] - before).any():
+            for one in self._past:
+                one.value[one.valid] -= moved[one.valid]
+        return fresh
 
     def _remember(self, row: Row) -> None:
         """Learn from a row once the ones behind it are as usual too: before an alarm a fault acts.
@@ -339,6 +346,7 @@ class Diagnosis:
             "prior": numbers(self._history.prior),
             "origins": self._origins.state(self._tolerated[self._lasting :]),
             "unusual": self._checks.state(),
+            "driving": self._learning and self._learning.state(),
         }
 
     def resume(self, state: dict[str, Any]) -> None:
@@ -357,7 +365,7 @@ class Diagnosis:
         self._origins.resume(state["origins"])
         self._checks.resume(state["unusual"])
         if self._learning is not None:
-            self._learning.known(levels)
+            self._learning.resume(levels, state["driving"])
             self._limits = levels
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TypeAlias
+from collections import deque
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.driving import Driving
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis, rows_apart
 from bondgraph.runtime.diagnosis.noise import noise, uncovered, within
@@ -29,7 +31,7 @@ _HOPELESS = 1.2  # times what noise may do: an approximation that is that far of
 _NORMAL = 1.4826  # deviation of normal numbers, over the median of their sizes
 _MANY = 4 * FIRST  # rows after which switches that are turned all the time are known
 _OFF = 4.0  # deviations of a mean that is surely not zero
-_ALARMS = 0.1  # false ones wanted per hour: one is promised, and noise is not quite normal
+_ALARMS = 0.3  # false ones wanted per hour: one is promised, and noise is not quite normal
 
 _Settings: TypeAlias = frozenset[tuple[float, ...]]  # positions of the switches of a residual
 
@@ -49,7 +51,10 @@ class Learning:
     of it tells anything. Where an approximation is far off it is `hopeless`.
 
     Noise is learned for each position of the switches that a residual reads: it comes from other
-    readings then. Where they never rest for long, it is learned for all of them together.
+    readings then. Where they never rest for long, it is learned for all of them together. And it is
+    learned anew where the machine is driven as never before (see `Driving`): what is known then is
+    the noise of a machine at rest. Where tolerances were declared, the adaptive threshold grows
+    with the motion, and tells what the model is wrong by.
     """
 
     def __init__(
@@ -62,7 +67,7 @@ class Learning:
         counted = {h.fault for h in known if h.unit == COUNT}  # exact, however far they have come
         self._gains = tuple(h for h in known if h.kind == "gain" and h.fault not in counted)
         self._engine = engine
-        self._rows: list[_Healthy] = []
+        self._rows: deque[_Healthy] = deque(maxlen=_MOST)
         self._counts = np.zeros(len(used), dtype=int)  # of healthy rows
         self._scale = np.zeros(len(used))
         natures = [model.natures[n] for n in engine.residuals]
@@ -72,6 +77,14 @@ class Learning:
         self._met: list[_Settings] = [frozenset() for _ in used]  # that were told to be new
         self._peak = np.full((2, len(used)), -math.inf)  # of this row, to either side
         self._highest = np.full((2, len(used)), -math.inf)  # of all that counted
+        self._inputs = [j for j, h in enumerate(self._gains)
+                        if engine.signals[place[h.fault]].kind == "input"]  # fmt: skip
+        paths = [self._gains[j].fault for j in self._inputs]
+        sees = [model.sees.get(r, ()) for r in engine.residuals]
+        sees = [() if any(model.tolerances.get(f) for f in own) else own for own in sees]
+        reads = [[path in own for own in sees] for path in paths]
+        reading = np.array(reads, dtype=bool).reshape(len(paths), len(used))
+        self._driving = Driving([place[path] for path in paths], reading)
         self._approximate = np.array([n.approximate for n in natures], dtype=bool)
         self._stays = self._approximate | np.array([n.drifts for n in natures], dtype=bool)
         self._centred = centred(model, engine.residuals)
@@ -92,7 +105,8 @@ class Learning:
 
     def restart(self) -> None:
         """The residuals begin anew."""
-        self._bank = Bank(self._engine.configured(bounds=False), self._gains, {})
+        self._bank: Bank | None = None
+        self._driving.restart()
         self._now: list[_Settings] = [frozenset() for _ in self._wanted]  # in this row
         self._before: list[_Settings] = [frozenset() for _ in self._wanted]
         self._peak[:] = -math.inf
@@ -106,10 +120,19 @@ class Learning:
     def over(self) -> bool:
         """Whether nothing is left to be learned, however the switches are turned."""
         known = (self._due > _MOST) | ~self._used | self.hopeless
-        return bool(known.all()) and not any(self._modes)
+        return bool(known.all()) and not any(self._modes) and not self._driving
 
-    def known(self, limits: Array) -> None:
-        """Take over limits that were learned before, in whatever positions of the switches."""
+    def state(self) -> dict[str, Any]:
+        """How the machine was driven, as plain JSON."""
+        return self._driving.state()
+
+    def resume(self, limits: Array, state: Mapping[str, Any] | None) -> None:
+        """Take over limits that were learned before, in whatever positions of the switches.
+
+        Raises KeyError, TypeError or ValueError for a `state` of another kind.
+        """
+        if state is not None:
+            self._driving.resume(state)
         self.limits = limits
         own = np.isfinite(limits[:, 0])
         self._wanted &= ~own
@@ -134,11 +157,25 @@ class Learning:
             self._wanted[k], self.limits[k, 0] = True, math.inf
             fresh[k] = not now <= self._met[k]
             self._met[k] |= now
+        if self._driving:
+            anew = self._driving.anew(part.samples, self.limits[:, 2] * self.limits[:, 0])
+            for k in np.flatnonzero(anew & healthy & ~self._wanted & ~self.hopeless).tolist():
+                self._forget(k)
+                fresh[k] = True
         return fresh
+
+    def _forget(self, k: int) -> None:
+        """What is known of the noise of a residual does not hold any longer."""
+        for row in self._rows:
+            row.value[k] = math.nan
+        self._wanted[k], self.limits[k, 0] = True, math.inf
+        self._counts[k], self._due[k] = 0, FIRST
+        self._sigma[k], self._learned[k] = {}, frozenset()
+        self._highest[:, k] = -math.inf
 
     def alarm(self) -> None:
         """Something is wrong now, and may have been for some rows."""
-        for row in self._rows[-LATE:]:
+        for row in list(self._rows)[-LATE:]:
             row.value[:] = math.nan
 
     def row(self, row: Row, slopes: Array, healthy: bool) -> Mask:
@@ -148,14 +185,15 @@ class Learning:
         residuals whose noise is known with it.
         """
         valid = row.valid & healthy
-        if ((self._counts < _MANY) & self._used & ~self.hopeless).any():
-            sizes = np.abs(self._bank.run(row.samples)[-1]).max(axis=0, initial=0.0)
-            self._scale = np.maximum(self._scale, np.where(valid, sizes, 0.0))
+        added = self._added(row)
+        sizes = np.abs(added).max(axis=0, initial=0.0)
+        self._scale = np.fmax(self._scale, np.where(valid, sizes, 0.0))
+        self._driving.learned(row.samples, valid, added[self._inputs])
         first = np.where(valid & self._wanted, self._peak, -math.inf)
         self._highest = np.maximum(self._highest, first)
         settings = [now | before for now, before in zip(self._now, self._before, strict=True)]
         raw = np.where(valid, row.value + self.limits[:, 4], math.nan)
-        self._rows = [*self._rows, _Healthy(raw, row.bound, slopes, settings)][-_MOST:]
+        self._rows.append(_Healthy(raw, row.bound, slopes, settings))
         self._counts += valid
         fresh = np.zeros_like(valid)
         rest: tuple[Array, Array] | None = None
@@ -169,6 +207,17 @@ class Learning:
         self._peak[:] = -math.inf
         self._now, self._before = [frozenset() for _ in self._now], self._now
         return fresh
+
+    def _added(self, row: Row) -> Array:
+        """What signals add to residuals, (signals, residuals), while few rows are known."""
+        if not ((self._counts < _MANY) & self._used & ~self.hopeless).any():
+            self._bank = None
+            return np.full((len(self._gains), len(self._used)), math.nan)
+        if self._bank is None:
+            self._bank = Bank(self._engine.configured(bounds=False), self._gains, {})
+        slopes = self._bank.run(row.samples)[-1]
+        batch = self._bank.batch
+        return np.where(batch is not None and batch.valid[-1], slopes, math.nan)
 
     def _rest(self) -> tuple[Array, Array]:
         """What is left of the rows with parameters as they fit best, (rows, residuals).

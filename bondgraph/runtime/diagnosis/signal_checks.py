@@ -7,7 +7,7 @@ So these are told of the signal, by what it was like while all was well, without
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -71,10 +71,17 @@ class SignalChecks:
     the healthy signal best, and with their median: a step is far from the first, the peak of an
     oscillation from the second, a spike from both. A signal without a value (NaN) shows nothing,
     and does not keep others from being looked at.
+
+    `inputs` drive the machine: they may jump and be rough as never before, and so may sensors
+    then. What an input shows so is not told by itself; whether it is wrong residuals say.
     """
 
-    def __init__(self, names: Sequence[str], at: Sequence[int], sample_time: float) -> None:
+    def __init__(
+        self, names: Sequence[str], at: Sequence[int], sample_time: float,
+        inputs: Container[str] = (),
+    ) -> None:  # fmt: skip
         self._names, self._at, self._step = tuple(names), list(at), sample_time
+        self._inputs = inputs
         count = len(self._names)
         self._seen: list[Array] = []  # healthy samples until the weights are known
         self._weights = np.empty((0, 2))  # (signals, 2): of the nearest and the next ones
@@ -89,6 +96,7 @@ class SignalChecks:
         self.active: dict[str, Unusual] = {}
         self._away: dict[str, int] = {}  # rows since it was unusual last
         self._needed: dict[str, int] = {}  # rows that it has to be away for
+        self._driven = _PAUSE  # rows since an input was as never before
         self.restart()
 
     def restart(self) -> None:
@@ -118,11 +126,15 @@ class SignalChecks:
                 since = time - float(late) * self._step
                 one = Unusual(self._names[k], kind, since, float(now[k]), float(before[k]))
                 found[one.signal] = one
+        driven = {n for n, one in found.items() if one.kind != "stuck" and n in self._inputs}
+        self._driven = 0 if driven else self._driven + 1
+        if self._driven < _AFTER:
+            found = {n: one for n, one in found.items() if one.kind == "stuck"}
         if healthy and not found:
             self._learn(own, far, rough, moved, ended, changes)
-        return self._begun(found)
+        return self._begun(found, driven)
 
-    def _begun(self, found: Mapping[str, Unusual]) -> list[Unusual]:
+    def _begun(self, found: Mapping[str, Unusual], driven: Container[str]) -> list[Unusual]:
         """What is new; what has been away for some rows is over."""
         fresh = [one for name, one in found.items() if name not in self.active]
         for one in fresh:
@@ -130,7 +142,8 @@ class SignalChecks:
             self._needed[one.signal] = min(2 * gone, _PAUSE) if gone <= _PAUSE else _QUIET
             self.active[one.signal] = one
         for name in self._names:
-            self._away[name] = 0 if name in found else self._away.get(name, _PAUSE) + 1
+            shown = name in found or name in driven
+            self._away[name] = 0 if shown else self._away.get(name, _PAUSE) + 1
             if name in self.active and self._away[name] >= self._needed.get(name, _QUIET):
                 del self.active[name]
         return fresh

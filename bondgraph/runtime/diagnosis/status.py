@@ -119,9 +119,9 @@ class WatchStatus:
         self._hopeless = hopeless.copy()
 
     def relearning(self, time: float, fresh: Mask, out: list[Verdict]) -> None:
-        """The switches are as never before, and the noise of `fresh` residuals is not known."""
+        """Driven or switched as never before: the noise of `fresh` residuals is not known."""
         if fresh.any():
-            message = f"switches are as never before: {self._learning(time, fresh)}"
+            message = f"driven as never before: {self._learning(time, fresh)}"
             out.append(Verdict("warm-up", time, message=message))
 
     def _watched(self, of: Mask) -> str:

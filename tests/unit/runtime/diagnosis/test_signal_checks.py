@@ -156,3 +156,18 @@ def test_what_is_known_outlasts_a_restart() -> None:
 def test_a_state_of_another_kind_is_refused(state: Any) -> None:
     with pytest.raises((KeyError, TypeError, ValueError)):
         SignalChecks(["y"], [0], _STEP).resume(state)
+
+
+def test_what_an_input_does_as_never_before_is_no_fault_of_a_sensor() -> None:
+    """A machine that idles, and follows an input that begins to jump."""
+    draw = np.random.default_rng(11)
+    u = 1.0 + 0.01 * draw.normal(size=4000)
+    u[2000:] += draw.choice([-1.0, 1.0], 2000)
+    y = np.convolve(u, [0.5, 0.3, 0.2])[:4000] + 0.005 * draw.normal(size=4000)
+    rows = [np.column_stack([u, y])[k : k + _ROW] for k in range(0, 4000, _ROW)]
+    seen = {}
+    for inputs in ((), ("u",)):
+        checks = SignalChecks(["u", "y"], [0, 1], _STEP, inputs)
+        said = [one for k, row in enumerate(rows) for one in checks.row(k * 1.0, row, True)]
+        seen[inputs] = {one.signal for one in said}
+    assert seen == {(): {"u", "y"}, ("u",): set()}

@@ -1,0 +1,120 @@
+"""A machine that idles while its noise is learned and works later, driven as never before."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.driving import Driving
+from bondgraph.runtime.log import Array
+from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.text.source import Source
+
+_TEXT = """bg 1
+model Tank {
+    input q : m^3/s
+    param C = 20 {tolerance}
+    param R = 2 {tolerance}
+    0:liquid { <- Sf:q; -> C:C; -> R:R; -> De:p }
+}
+"""
+
+
+def _machine(tolerance: str = "") -> Compilation:
+    text = _TEXT.replace("{tolerance}", tolerance)
+    return Compilation(Source("tank.bg", text)).with_options(rate=1.0, bandwidth=0.2)
+
+
+def _samples(seed: int, weak: float = 1.0, idle: int = 600, fault: int = 10**6) -> Array:
+    """Of (q, p) a second apart: a tank with a resistance 6 % off that idles, then works.
+
+    Its level by the exact solution between samples; `weak` times the resistance from `fault` on.
+    """
+    draw = np.random.default_rng(seed)
+    count = 2400
+    steps = np.repeat(draw.uniform(0.2, 1.8, count // 40), 40)
+    flow = np.where(np.arange(count) < idle, 1.0, steps)
+    level, rows = 2.12, []
+    for k, q in enumerate(flow.tolist()):
+        rows.append((q, level))
+        resistance = 2.12 * (weak if k >= fault else 1.0)
+        level = q * resistance + (level - q * resistance) * math.exp(-1.0 / (20.0 * resistance))
+    told = np.array(rows)
+    told[1:, 0] = 0.5 * (told[1:, 0] + told[:-1, 0])  # as a line between samples adds up to
+    return told + draw.normal(size=told.shape) * [0.001, 0.002]
+
+
+def _watched(machine: Compilation, samples: Array) -> list[Verdict]:
+    engine = machine.engine(native=False)
+    assert [k.path for k in engine.signals] == ["q", "p"]
+    watch = machine.diagnosis(engine)
+    base, said = engine.configured(), []
+    for k in range(0, len(samples), 15):
+        part = samples[k : k + 15]
+        said += watch.update(np.arange(k, k + len(part)) * 1.0, base.run(part), part)
+    return said
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_machine_that_idled_is_learned_anew_when_it_works(seed: int) -> None:
+    said = _watched(_machine(), _samples(seed))
+    assert [v for v in said if v.event == "fault"] == []
+    (anew,) = [v for v in said if "driven as never before" in v.message]
+    assert 585.0 <= anew.time <= 630.0
+
+
+def test_a_fault_of_a_machine_that_works_is_seen() -> None:
+    said = _watched(_machine(), _samples(1, weak=0.6, fault=1500))
+    (fault,) = [v.time for v in said if v.event == "fault"]
+    assert 1500.0 < fault < 1620.0
+
+
+def test_with_tolerances_nothing_is_learned_anew() -> None:
+    """The adaptive threshold grows with the motion."""
+    said = _watched(_machine("+- 10%"), _samples(2))
+    assert [v for v in said if v.event == "fault" or "never before" in v.message] == []
+
+
+def _learned(samples: Array, driving: Driving) -> None:
+    """Rows of ten samples of an input that adds three times itself to the one residual."""
+    for k in range(0, len(samples), 10):
+        row = samples[k : k + 10]
+        driving.anew(row, np.array([math.inf]))
+        driving.learned(row, np.array([True]), 3.0 * row.mean(axis=0)[:, None])
+
+
+def test_twice_the_range_that_matters_is_driven_as_never_before() -> None:
+    learned = np.random.default_rng(1).uniform(4.0, 5.0, (400, 1))
+    limit = np.array([0.2])
+    for value, anew in ((5.9, False), (6.2, True), (2.5, True)):
+        driving = Driving([0], np.ones((1, 1), dtype=bool))
+        _learned(learned, driving)
+        other = Driving([0], np.ones((1, 1), dtype=bool))
+        other.resume(json.loads(json.dumps(driving.state())))
+        for one in (driving, other):
+            assert one.anew(np.array([[value]]), limit).tolist() == [anew]
+        # a twentieth of three times what it moves by does not matter for a wider limit
+        assert not driving.anew(np.array([[value]]), np.array([1.0])).any()
+
+
+def test_what_a_residual_does_not_read_does_not_matter() -> None:
+    driving = Driving([0], np.zeros((1, 1), dtype=bool))
+    _learned(np.ones((100, 1)), driving)
+    assert not driving.anew(np.array([[99.0]]), np.array([0.0])).any()
+
+
+def test_a_sample_without_a_value_tells_nothing() -> None:
+    driving = Driving([0], np.ones((1, 1), dtype=bool))
+    _learned(np.random.default_rng(1).uniform(4.0, 5.0, (100, 1)), driving)
+    assert not driving.anew(np.array([[math.nan], [math.inf]]), np.array([0.1])).any()
+
+
+@pytest.mark.parametrize("state", [{}, {"range": [1.0], "effect": [[1.0]]}, {"range": None}])
+def test_a_state_of_another_kind_is_refused(state: Any) -> None:
+    with pytest.raises((KeyError, TypeError, ValueError)):
+        Driving([0], np.ones((1, 1), dtype=bool)).resume(state)
