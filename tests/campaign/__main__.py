@@ -1,7 +1,7 @@
 """Six machines watched without a tuning: false alarms, missed faults, wrong names.
 
     python -m tests.campaign healthy --hours 10 [--write]
-    python -m tests.campaign faulty --seeds 20 [--write]
+    python -m tests.campaign faulty --seeds 20 [--times 1.5] [--write]
 
 Healthy machines are watched for ten minutes each, without what the watch learns from first. Faults
 are of three times the smallest size that `tune` tells of other machines; the table of these sizes
@@ -19,7 +19,6 @@ import sys
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import cache
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +28,7 @@ from bondgraph.runtime.diagnosis.tuning import bandwidth_for
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.runtime.simulation.scenario import Change, Fault
+from tests.campaign.calibration import Stated, draw, stated, table
 from tests.campaign.machines import MACHINES, Machine, compiled, run
 from tests.measured import ROOT, write
 
@@ -54,8 +54,8 @@ class Kind(NamedTuple):
 class Heard(NamedTuple):
     """Of one run: false alarms, delay (s, None if not seen), the last class, whether it was wrong.
 
-    `ever` says whether a wrong class was named at any time; `chance` are the probabilities that
-    the last verdict gave its best candidate and whether that was right.
+    `ever` says whether a wrong class was named at any time; `said` is what the last verdict with
+    candidates says of each class.
     """
 
     false: int
@@ -64,7 +64,7 @@ class Heard(NamedTuple):
     named: str
     ever: bool
     names: int
-    chance: tuple[float, bool] | None
+    said: tuple[Stated, ...]
 
 
 def watched(machine: Machine, samples: Array) -> tuple[list[Verdict], float]:
@@ -84,8 +84,8 @@ def watched(machine: Machine, samples: Array) -> tuple[list[Verdict], float]:
 
 
 @cache
-def kinds(machine: Machine) -> tuple[Kind, ...]:
-    """The faults of three times their smallest size, those that are smallest beside their value.
+def kinds(machine: Machine, times: float = TIMES) -> tuple[Kind, ...]:
+    """The faults of so many times their smallest size, those smallest beside their value.
 
     At most one of each parameter or signal, and none that has to be more than five times its value.
     """
@@ -97,16 +97,16 @@ def kinds(machine: Machine) -> tuple[Kind, ...]:
     shown = tune(engine, c.diagnosis_model, logs, "", 1.0, 40.0 / bandwidth).shown
     found: dict[str, tuple[float, Kind]] = {}
     for one in shown:
-        share, kind = _kind(machine, one)
+        share, kind = _kind(machine, one, times)
         if share < found.get(one.hypothesis.fault, (5.0,))[0]:
             found[one.hypothesis.fault] = share, kind
     chosen = sorted(found.values(), key=lambda x: x[0])[:KINDS]
     return tuple(kind for _, kind in chosen)
 
 
-def _kind(machine: Machine, shown: Shown) -> tuple[float, Kind]:
+def _kind(machine: Machine, shown: Shown, times: float) -> tuple[float, Kind]:
     """A fault of so many times the size, and how large that is beside what it changes."""
-    one, size = shown.hypothesis, TIMES * (shown.size or math.inf)
+    one, size = shown.hypothesis, times * (shown.size or math.inf)
     if one.kind == "gain":
         value = 1.0 - size if size < 0.9 else 1.0 + size
         return size, Kind(one.fault, "*=", value, f"{one.fault} {100.0 * (value - 1.0):+.3g} %")
@@ -127,12 +127,12 @@ def _run(task: tuple[str, int, Kind | None]) -> Heard:
         said, seconds = watched(machine, run(machine, seed, 60.0 * MINUTES))
         alarms = [v for v in said if v.event == "fault"]
         names = sum(bool(v.group) for v in said)
-        return Heard(len(alarms), seconds, None, "", bool(names), names, None)
+        return Heard(len(alarms), seconds, None, "", bool(names), names, ())
     duration, onset = _LONG.get(machine.rate, _SHORT)
     fault = Fault(kind.of, kind.change, kind.value, onset, math.inf, 0.0, 0.0, 1.0, kind.words)
     said, seconds = watched(machine, run(machine, seed, duration, (fault,)))
-    alarms = [v.time for v in said if v.event == "fault"]
-    true = [t - onset for t in alarms if t >= onset]
+    fired = [v.time for v in said if v.event == "fault"]
+    true = [t - onset for t in fired if t >= onset]
     told = [v for v in said if v.event == "update" and v.time >= onset]
     named = [v for v in told if v.group]
     last = told[-1] if told else None
@@ -140,14 +140,12 @@ def _run(task: tuple[str, int, Kind | None]) -> Heard:
     if last is not None:
         wrong = "pair" if last.pairs else "none"
         what = ("right" if kind.of in last.group else "wrong") if last.group else wrong
-    chance = None
-    if named:
-        group = named[-1].group
-        sure = sum(c.probability for c in named[-1].candidates if c.fault in group)
-        chance = sure, kind.of in group
+    groups = compiled(machine).diagnosis_model.groups
+    single = next((v for v in reversed(told) if v.candidates and not v.pairs), None)
+    probable = tuple(stated(single, groups, kind.of)) if single else ()
     return Heard(
-        len(alarms) - len(true), seconds, true[0] if true else None, what,
-        any(kind.of not in v.group for v in named), len(named), chance,
+        len(fired) - len(true), seconds, true[0] if true else None, what,
+        any(kind.of not in v.group for v in named), len(named), probable,
     )  # fmt: skip
 
 
@@ -185,21 +183,23 @@ def _bound(count: int) -> float:
     return float(gammaincinv(count + 1, 0.95))
 
 
-def faulty(machines: Sequence[Machine], seeds: int, start: int, jobs: int) -> str:
-    """A table of what was seen and named of each fault."""
+def faulty(
+    machines: Sequence[Machine], seeds: int, start: int, jobs: int, times: float
+) -> tuple[str, list[Stated]]:
+    """A table of what was seen and named of each fault, and all that was said of classes."""
     lines = [
         "| machine | fault | seen | delay | right class at the end | wrong | wrong at times | two"
         " or none named | false before |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
-    chances: list[tuple[float, bool]] = []
+    said: list[Stated] = []
     for machine in machines:
-        for kind in kinds(machine):
+        for kind in kinds(machine, times):
             heard = _all([(machine.name, start + k, kind) for k in range(seeds)], jobs)
             delays = [h.delay for h in heard if h.delay is not None]
             count = [sum(h.named == x for h in heard) for x in ("right", "wrong")]
             rest = sum(h.named in ("pair", "none") for h in heard)
-            chances += [h.chance for h in heard if h.chance is not None]
+            said += [one for h in heard for one in h.said]
             delay = f"{float(np.median(delays)):.2f} s" if delays else ""
             lines.append(
                 f"| {machine.name} | {kind.words} | {len(delays)}/{seeds} | {delay} |"
@@ -207,22 +207,7 @@ def faulty(machines: Sequence[Machine], seeds: int, start: int, jobs: int) -> st
                 f" {sum(h.false for h in heard)} |"
             )
             print(lines[-1], file=sys.stderr, flush=True)
-    return "\n".join([*lines, "", *calibration(chances)])
-
-
-def calibration(chances: Sequence[tuple[float, bool]]) -> list[str]:
-    """A table of what was said with which probability, and how often it was right."""
-    lines = ["| probability of the class | verdicts | mean | right |", "|---|---|---|---|"]
-    edges = (0.0, 0.75, 0.9, 0.99, 1.0 + 1e-9)
-    for low, high in pairwise(edges):
-        own = [(p, right) for p, right in chances if low <= p < high]
-        if own:
-            mean = sum(p for p, _ in own) / len(own)
-            right = sum(r for _, r in own) / len(own)
-            lines.append(
-                f"| {low:g} to {min(high, 1.0):g} | {len(own)} | {mean:.3f} | {right:.3f} |"
-            )
-    return lines
+    return "\n".join([*lines, "", *table(said)]), said
 
 
 def main(words: Sequence[str]) -> int:
@@ -231,6 +216,7 @@ def main(words: Sequence[str]) -> int:
     parser.add_argument("what", choices=("healthy", "faulty", "sizes"))
     parser.add_argument("--hours", type=float, default=10.0, help="of each healthy machine")
     parser.add_argument("--seeds", type=int, default=20, help="of each fault")
+    parser.add_argument("--times", type=float, default=TIMES, help="smallest size of faults")
     parser.add_argument("--start", type=int, default=5000)
     parser.add_argument("--only", action="append", default=[], help="machines, by name")
     parser.add_argument("--jobs", type=int, default=2)
@@ -239,15 +225,18 @@ def main(words: Sequence[str]) -> int:
     chosen = [m for m in MACHINES if not args.only or m.name in args.only]
     if args.what == "sizes":
         for machine in chosen:
-            print(json.dumps({machine.name: [k.words for k in kinds(machine)]}))
+            print(json.dumps({machine.name: [k.words for k in kinds(machine, args.times)]}))
         return 0
     own = [f"--only '{name}'" for name in args.only]
     if args.what == "healthy":
         text = healthy(chosen, args.hours, args.start, args.jobs)
         own = [f"--hours {args.hours:g}", *own]
     else:
-        text = faulty(chosen, args.seeds, args.start, args.jobs)
-        own = [f"--seeds {args.seeds}", *own]
+        text, said = faulty(chosen, args.seeds, args.start, args.jobs, args.times)
+        size = [] if args.times == TIMES else [f"--times {args.times:g}"]
+        own = [f"--seeds {args.seeds}", *size, *own]
+        if args.write:
+            draw(said, PAGE.parent / "pictures" / f"calibration_{args.times:g}.svg")
     command = " ".join(["python -m tests.campaign", args.what, *own])
     if args.write:
         write(PAGE, command, text)
