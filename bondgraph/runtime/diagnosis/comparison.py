@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import accumulate
 
 import numpy as np
 
@@ -23,12 +24,14 @@ from bondgraph.runtime.monitoring.engine import Engine, copied
 #: Time constants of the filter, beside delays, that a residual may show late what has happened.
 _SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0)
 _MOST = 600  # rows that are compared: by then it is known as well as it will be
+_WAIT = 8  # rows that are run at once, unless somebody asks before
 _BENT = 60  # rows with whose samples onsets and sizes are looked for, while there are no more
 _ROUNDS = 8  # of looking for them
 _SMALL = 0.02  # of the usual change: for less a tangent does
 _CLEAR = 2.0  # standard deviations of a change that it is worth a secant
 _LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is taken
 _SAME = 0.01  # share by which changes of two rounds may differ
+_STILL = 1e-3  # less than that, and the secant is the same as before
 _STEEP = 0.8  # of how one change makes the next: steeper, a step is not made longer
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
@@ -61,65 +64,91 @@ class Comparison:
         self._all, self._nominal = tuple(hypotheses), nominal
         self._sized = [k for k, h in enumerate(self._all) if h.held is None]
         self._tolerated = tuple(tolerated)
-        self._changes: dict[int, float] = {}
-        self._earlier = [0] * len(self._all)  # healthy samples that come behind the onset
-        self._banks, self._instead = self._started({})
-        self._past: list[tuple[Row, Array]] = []  # with the noise of each residual
+        shape = len(self._all), len(engine.residuals)
+        self._waiting: list[tuple[Row, Array]] = []  # with the noise of each residual
+        self._past: list[tuple[Row, Array]] = []
         self._rows: list[Rows] = []
-        self._others: list[dict[int, Rows]] = []  # by the number of what is held
-        self._unsaid = np.zeros((_GROWS, len(engine.residuals)), dtype=bool)
-        self._slopes = np.zeros((len(self._all), len(engine.residuals)))  # of the last row
+        self._others: dict[int, list[Rows]] = {}  # by the number of what is held
+        self._squares = np.zeros(shape)  # sums over the rows, of slopes
+        self._unsaid = np.zeros((_GROWS, shape[1]), dtype=bool)
+        self._slopes = np.zeros(shape)  # of the last row
         self._told = np.zeros((0, len(engine.signals)))  # samples of the last row
         self._place = {k.path: at for at, k in enumerate(engine.signals)}
         self._again = 0  # rows with which secants are looked for again
+        self._count = 0  # rows so far
+        self._last: Array | None = None  # residuals of the last row
+        self._known: list[Explained] | None = None  # with all rows that are compared
+        #: Healthy samples that come behind the onset, and the change that slopes are secants up to.
+        self._tried: dict[int, tuple[int, float | None]] = dict.fromkeys(self._sized, (0, None))
+        before, begin = self._onset(0)
+        self._bank = Bank(before, [self._all[k] for k in self._sized], nominal, begin)
+        self._instead: dict[int, Instead] = {}
+        self._try(dict.fromkeys(range(len(self._all)), 0), {})
 
     def __len__(self) -> int:
-        return len(self._rows)
+        return self._count
 
     def has(self, row: Row) -> bool:
         """Whether this row was the last one."""
-        return bool(self._rows) and self._rows[-1].value is row.value
+        return self._last is row.value
 
     def step(self, row: Row, sigma: Array) -> None:
         """One more row, and the noise (standard deviations) of its residuals."""
-        if not self._rows:
+        self._last = row.value
+        if not self._count:
             row = row._replace(samples=row.samples[self._own :])
-        if len(self._past) < _BENT:
-            self._past.append((row, sigma.copy()))
-        one, others = self._seen(row, sigma, len(self._rows))
-        self._slopes, self._told = one.slopes, row.samples
-        if len(self._rows) < _MOST:
-            self._rows.append(one)
-            self._others.append(others)
+        self._count += 1
+        self._waiting.append((row, sigma.copy()))
+        if len(self._waiting) >= _WAIT:
+            self._catch_up()
 
-    def shows(self, fault: Explained) -> Mask:
-        """Which residuals the fault moves in the last row as it usually does.
+    def shows(self, fault: Explained) -> Mask | None:
+        """Which residuals the fault moves in the last row as it usually does, where that is known.
 
         Where something is held at a position that it is told to be in, nothing shows it.
         """
+        self._catch_up()
         held = fault.hypothesis.held
         if held is not None:
             told = self._told[:, self._place[held.signal]]
             return np.full(self._slopes.shape[1], bool((told != held.position).any()))
         k = self._all.index(fault.hypothesis)
-        usual = np.sqrt(np.mean([np.square(row.slopes[k]) for row in self._rows], axis=0))
+        if k not in self._sized:
+            return None
+        usual = np.sqrt(self._squares[k] / len(self._rows))
         return np.asarray(np.abs(self._slopes[k]) >= _SHOWS * usual)
+
+    def settle(self, fault: Explained) -> None:
+        """Once all rows that are compared are known, only what this fault shows is still wanted."""
+        if self._known is None:
+            return
+        self._catch_up()
+        k = self._all.index(fault.hypothesis)
+        self._bank = self._bank.part([at for at, own in enumerate(self._sized) if own == k])
+        self._sized = [own for own in self._sized if own == k]
+        self._instead = {}
 
     def explained(self, history: History) -> list[Explained]:
         """How well each fault explains the rows; raises LinAlgError as `explain` does."""
+        self._catch_up()
+        if self._known is not None:
+            return self._known
         if not len(self._past) == len(self._rows) >= self._again:
-            return self._found(history)
+            found = self._found(history)
+            self._known = found if len(self._rows) == _MOST else None
+            return found
         if not self._again:
             self._dated(history)
         found = self._found(history)
         self._again = 2 * len(self._rows)
         before: dict[int, tuple[float, float]] = {}
         for _ in range(_ROUNDS):
-            wanted = self._bent(found)
-            if _alike(wanted, self._changes):
+            wanted, changes = self._bent(found), self._changes()
+            if _alike(wanted, changes):
                 break
-            tried = {k: (self._changes.get(k, 0.0), change) for k, change in wanted.items()}
-            self._try({k: self._next(k, before.get(k), tried[k]) for k in wanted})
+            tried = {k: (changes.get(k, 0.0), change) for k, change in wanted.items()}
+            earlier = {k: own for k, (own, _) in self._tried.items()}
+            self._try(earlier, {k: self._next(k, before.get(k), tried[k]) for k in wanted})
             found, before = self._found(history), tried
         return found
 
@@ -135,7 +164,7 @@ class Comparison:
     def _tables(self) -> tuple[Rows, dict[int, Rows]]:
         """The rows as they were told, and as they should have been told, by hypothesis."""
         rows = _stacked(self._rows)
-        others = {k: _stacked([own[k] for own in self._others]) for k in self._instead}
+        others = {k: _stacked(own) for k, own in self._others.items()}
         for other in others.values():
             self._unsaid |= np.isnan(other.weight[:_GROWS])
         early = _early(rows.value)
@@ -149,67 +178,114 @@ class Comparison:
         best: dict[str, tuple[float, int]] = {}
         constant = 1.0 / (self._engine.bandwidth * self._engine.sample_time)
         lags = [round(lag / self._engine.sample_time) for lag in self._engine.lags]
+        every = range(len(self._all))
         for earlier in dict.fromkeys(round(constant * x) + lag for lag in lags for x in _SHIFTS):
             if earlier <= len(self._healthy):
-                self._earlier = [earlier] * len(self._all)
-                self._try({})
+                self._try(dict.fromkeys(every, earlier), {})
                 for one in self._found(history):
                     known = best.get(one.fault)
                     if known is None or one.evidence > known[0]:
                         best[one.fault] = one.evidence, earlier
-        self._earlier = [best[h.fault][1] for h in self._all]
-        self._try({})
+        self._try({k: best[self._all[k].fault][1] for k in every}, {})
 
-    def _started(
-        self, changes: Mapping[int, float]
-    ) -> tuple[list[tuple[list[int], Bank]], dict[int, Instead]]:
-        """Banks at the first row, one for each onset, with the numbers of their hypotheses.
+    def _onset(self, earlier: int) -> tuple[Engine, Array | None]:
+        """An engine so many healthy samples before the first row, and the sample before that."""
+        count = len(self._healthy) - earlier
+        engine = copied(self._engine)
+        engine.run(self._healthy[:count])
+        return engine, self._healthy[count - 1] if count else None
 
-        And what has no slopes, by its number.
+    def _changes(self) -> dict[int, float]:
+        """What slopes are secants up to, where they are."""
+        return {k: change for k, (_, change) in self._tried.items() if change is not None}
+
+    def _try(self, earlier: Mapping[int, int], changes: Mapping[int, float]) -> None:
+        """The rows again of those that begin at another moment, or have another change, than now.
+
+        Slopes go as far as the changes.
         """
-        banks: list[tuple[list[int], Bank]] = []
-        instead = {}
-        for earlier in dict.fromkeys(self._earlier):
-            own = [k for k in self._sized if self._earlier[k] == earlier]
-            engine = copied(self._engine)
-            count = len(self._healthy) - earlier
-            engine.run(self._healthy[:count])
-            begin = self._healthy[count - 1] if count else None
-            known = [self._all[k] for k in own]
-            bent = {at: changes[k] for at, k in enumerate(own) if k in changes}
-            for k, one in enumerate(self._all):
-                if one.held is not None and self._earlier[k] == earlier:
-                    other = Bank(copied(engine), self._tolerated, self._nominal, begin)
-                    instead[k] = Instead(other, one.held)
-                    instead[k].run(self._healthy[count:])
-            bank = Bank(engine, known, self._nominal, begin, bent)
-            bank.run(self._healthy[count:])
-            banks.append((own, bank))
-        return banks, instead
+        wanted = {k: (own, changes.get(k)) for k, own in earlier.items()}
+        moved = [k for k, one in wanted.items() if not _same(one, self._tried.get(k))]
+        for onset in dict.fromkeys(earlier[k] for k in moved):
+            own = [k for k in moved if earlier[k] == onset]
+            before, begin = self._onset(onset)
+            healthy = self._healthy[len(self._healthy) - onset :]
+            for k in own:
+                held = self._all[k].held
+                if held is not None:
+                    other = Bank(copied(before), self._tolerated, self._nominal, begin)
+                    self._instead[k] = Instead(other, held)
+                    self._instead[k].run(healthy, ())
+                    self._others[k] = self._held(k, self._past, self._rows, 0)
+                    self._tried[k] = wanted[k]
+            self._start([k for k in own if self._all[k].held is None], onset, changes)
 
-    def _seen(self, row: Row, sigma: Array, number: int) -> tuple[Rows, dict[int, Rows]]:
-        """A row with what each hypothesis does to it, and what it is instead where one holds.
+    def _start(self, own: Sequence[int], onset: int, changes: Mapping[int, float]) -> None:
+        """Let hypotheses with a size, by their numbers, begin at an onset; none may be left out."""
+        if not own:
+            return
+        before, begin = self._onset(onset)
+        known = [self._all[k] for k in own]
+        bent = {at: changes[k] for at, k in enumerate(own) if k in changes}
+        try:
+            bank = Bank(before, known, self._nominal, begin, bent)
+        except ValueError:  # the model cannot take one of them
+            bent, bank = {}, Bank(before, known, self._nominal, begin)
+        bank.run(self._healthy[len(self._healthy) - onset :], ())
+        self._bank.take(bank, [self._sized.index(k) for k in own])
+        self._tried |= {k: (onset, bent.get(at)) for at, k in enumerate(own)}
+        if self._past:
+            slopes = bank.run(*_joined(self._past))
+            for row, one in zip(self._rows, slopes, strict=True):
+                row.slopes[own] = one
+            self._squares[own] = np.square(slopes).sum(axis=0)
+            self._slopes[own] = slopes[-1]
 
-        Residuals that have no value instead yet, in the first rows, have no weight (NaN) in any.
+    def _catch_up(self) -> None:
+        """Run the banks over the rows that wait."""
+        if not self._waiting:
+            return
+        rows, self._waiting = self._waiting, []
+        slopes = np.zeros((len(rows), *self._slopes.shape))
+        slopes[:, self._sized] = self._bank.run(*_joined(rows))
+        self._slopes, self._told = slopes[-1].copy(), rows[-1][0].samples
+        left, number = _MOST - len(self._rows), len(self._rows)
+        if left:
+            told = [
+                Rows(row.value, weight(row, sigma), row.slopes, one)
+                for (row, sigma), one in zip(rows, slopes, strict=True)
+            ]
+            for k, others in self._others.items():
+                others += self._held(k, rows, told, number)[:left]
+            self._rows += told[:left]
+            self._squares += np.square(slopes[:left]).sum(axis=0)
+            self._past += rows[: max(0, _BENT - len(self._past))]
+
+    def _held(
+        self, k: int, rows: Sequence[tuple[Row, Array]], told: Sequence[Rows], number: int
+    ) -> list[Rows]:
+        """Rows as they would be if a position was told that is held, `number` rows after the onset.
+
+        Residuals that have no value yet, in the first rows, have no weight (NaN) in any.
         """
-        slopes = np.zeros((len(self._all), len(self._engine.residuals)))
-        for own, bank in self._banks:
-            slopes[own] = bank.run(row.samples)[-1]
-        told = Rows(row.value, weight(row, sigma), row.slopes, slopes)
-        others = {}
-        for k, instead in self._instead.items():
-            value, valid, rest, moved = instead.run(row.samples)
+        found: list[Rows] = []
+        if not rows:
+            return found
+        parts = zip(*self._instead[k].run(*_joined(rows)), strict=True)
+        for (row, sigma), one, (value, valid, rest, moved) in zip(rows, told, parts, strict=True):
             other = weight(row._replace(value=value, valid=valid), sigma)
-            other[told.weight == 0] = 0.0
-            other[~valid & (told.weight > 0)] = np.nan
-            new = moved if number < _GROWS else moved & valid
-            others[k] = Rows(
-                np.where(new, value, told.value),
-                np.where(new, other, told.weight),
-                np.where(new, rest, told.rest),
-                slopes[:0],
+            other[one.weight == 0] = 0.0
+            other[~valid & (one.weight > 0)] = np.nan
+            new = moved if number + len(found) < _GROWS else moved & valid
+            found.append(
+                Rows(
+                    np.where(new, value, one.value),
+                    np.where(new, other, one.weight),
+                    np.where(new, rest, one.rest),
+                    one.slopes[:0],
+                )
             )
-        return told, others
+        return found
 
     def _bent(self, found: Sequence[Explained]) -> dict[int, float]:
         """Changes that are large and clear enough for a secant, by number of the hypothesis."""
@@ -240,15 +316,21 @@ class Comparison:
             return change
         return float((1.0 - np.clip(1.0 - change / nominal, _LEFT, _LARGEST)) * nominal)
 
-    def _try(self, changes: dict[int, float]) -> None:
-        """The rows again, with slopes as far as the changes go."""
-        try:
-            started = self._started(changes)
-        except ValueError:  # the model cannot take one of them
-            started, changes = self._started({}), {}
-        (self._banks, self._instead), self._changes = started, changes
-        for k, (row, sigma) in enumerate(self._past):
-            self._rows[k], self._others[k] = self._seen(row, sigma, k)
+
+def _joined(rows: Sequence[tuple[Row, Array]]) -> tuple[Array, list[int]]:
+    """The samples of rows, one after the other, and the number of the last one of each."""
+    ends = accumulate(len(row.samples) for row, _ in rows)
+    return np.concatenate([row.samples for row, _ in rows]), [end - 1 for end in ends]
+
+
+def _same(wanted: tuple[int, float | None], tried: tuple[int, float | None] | None) -> bool:
+    """Whether an onset and a change are those that were tried already, or hardly others."""
+    if tried is None or wanted[0] != tried[0]:
+        return False
+    left, right = wanted[1], tried[1]
+    return left is right or (
+        left is not None and right is not None and abs(left - right) <= _STILL * abs(left)
+    )
 
 
 def _stacked(rows: Sequence[Rows]) -> Rows:

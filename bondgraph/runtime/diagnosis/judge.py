@@ -12,6 +12,7 @@ from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Sizes, hypotheses, sized
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, History
 from bondgraph.runtime.diagnosis.naming import (
+    LONGEST,
     Judgement,
     Latched,
     candidates,
@@ -29,7 +30,9 @@ from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
 
 _JUDGE = 5  # rows after an alarm before a fault is named
-_AGAIN = 5  # rows between later judgements
+_OFTEN = 10  # rows after it until when each row is judged
+_AGAIN = 5  # rows between later judgements, at least
+_MORE = 8  # of what is known: so many a part has to be new for a further judgement
 _UNEXPLAINED = 20  # rows of an alarm that no single fault explains: the first are not sure
 
 
@@ -52,6 +55,8 @@ class Judge:
         self._after = self._told = 0  # rows since the alarm, and until the last update
         self._pairs: Sequence[ExplainedPair] = ()
         self._due = 0  # rows since the alarm when pairs are looked for again
+        self._next = _JUDGE  # and when faults are judged again
+        self._fired: frozenset[str] = frozenset()  # that the last judgement was of
         self._best: Explained | None = None  # the fault that explains all, if any
         self._leads: tuple[str, ...] = ()  # the class that the last judgement found best
         self._wanted: Judgement | None = None  # what the last judgement would have said
@@ -98,6 +103,7 @@ class Judge:
         """Begin to compare faults behind the `healthy` samples, `own` of these of the first row."""
         model = self._model
         self._after = self._told = self._due = 0
+        self._next = _JUDGE
         self._best = None
         self._pairs, sizes = (), self._sizes.found()
         found = hypotheses(self._engine, model.faults, model.units, sizes, model.switches)
@@ -143,8 +149,7 @@ class Judge:
         `levels` are those of the residuals that have fired, `noise` is infinite where nobody knows
         it.
         """
-        due = self._after >= _JUDGE and (self._after < 10 or self._after % _AGAIN == 0)
-        if not due or self.latched is None or not self._compared:
+        if self.latched is None or not self._compared or not self._judges(frozenset(levels)):
             return None
         try:
             found = self._compared.explained(history)
@@ -160,6 +165,7 @@ class Judge:
         most = max(found, key=lambda e: e.evidence, default=None)
         if most is not None and explains(found):
             self._best = most
+            self._compared.settle(most)
         elif self._after < _UNEXPLAINED:
             return None
         if most is not None and not fits(most) and self._after >= _UNEXPLAINED:
@@ -171,10 +177,21 @@ class Judge:
         wanted = Judgement(sure, best, verdict.pairs[0].faults if verdict.pairs else ())
         again, self._wanted = self._wanted == wanted, wanted
         if not news(self.latched, wanted, again, self._after - self._told):
+            if news(self.latched, wanted, True, LONGEST):  # to be told, once that is confirmed
+                self._next = min(self._next, self._after + _AGAIN)
             return None
         self.latched = self.latched._replace(said=wanted, times=self.latched.times + 1)
         self._told = self._after
         return verdict
+
+    def _judges(self, fired: frozenset[str]) -> bool:
+        """Whether this row is judged: there is enough more to go by, or another residual fired."""
+        due = self._after >= self._next
+        due |= self._after > _JUDGE and fired != self._fired and self._after % _AGAIN == 0
+        if due:
+            step = 1 if self._after < _OFTEN else max(_AGAIN, self._after // _MORE)
+            self._next, self._fired = self._after + step, fired
+        return due
 
     def _two_at_once(
         self, found: Sequence[Explained], history: History, fired: Mapping[str, float]
