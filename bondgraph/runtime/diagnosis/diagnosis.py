@@ -313,7 +313,7 @@ class Diagnosis:
 
     def _over(self, row: Row, out: list[Verdict]) -> None:
         """A fault is over when its residuals have been quiet for long enough."""
-        over = self._detection.over(row, self._limits, self._judge.shows())
+        over = self._detection.over(row, self._limits, self._judge.shows)
         if not over or self._judge.waits:
             return
         assert self._judge.latched is not None

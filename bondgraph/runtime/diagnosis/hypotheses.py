@@ -14,12 +14,12 @@ from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
-_STEP = 1e-3  # relative change that a sensitivity is taken from
+_STEP = 1e-5  # relative change that a sensitivity is taken from
 _USUAL = 0.3  # share of what a fault usually changes: of a value, of the size of a signal
 _COUNTS = 0.02  # share of an encoder's counts: smaller ones would drown in rounding
 _SLIP = 1 / 8  # of a turn, by which an encoder usually slips
 _APART = 3.0  # time constants of the filter between two rows
-_AT_ONCE = 2**20  # numbers that the engines of a bank take and give in one call
+_AT_ONCE = 2**18  # numbers that the engines of a bank take and give in one call
 
 COUNT = "count"  # the unit of an encoder's offset
 Kind = Literal["value", "offset", "gain", "drift", "start", "stuck"]
@@ -90,10 +90,11 @@ class _Lane:
 
 
 class Bank:
-    """Engines side by side on the same samples, two for each hypothesis.
+    """Engines side by side on the same samples, one or two for each hypothesis.
 
-    The slope of a residual is its central difference between two engines with a parameter a little
-    larger and smaller, or with a signal that is a little wrong. With one of the `changes` (by the
+    The slope of a residual is the difference between the machine as it is and one with a parameter
+    a little larger, or with a signal that is a little wrong; between both sides with an encoder,
+    whose counts are whole, so that a little is much. With one of the `changes` (by the
     number of the hypothesis) it is the secant up to there: times the change it is what such a fault
     does, however bent the laws are. Hypotheses hold from the moment at which the bank begins, with
     all that `engine` remembers of the time before. Raises ValueError for a change that the model
@@ -118,7 +119,9 @@ class Bank:
 
     def _lane(self, hypothesis: Hypothesis, change: float | None, begin: Array | None) -> _Lane:
         step = self._step(hypothesis)
-        lane = _Lane(hypothesis, (step, -step) if change is None else (0.0, -change))
+        whole = hypothesis.kind != "value" and self._counts(hypothesis)
+        tangent = (step, -step) if whole else (step, 0.0)
+        lane = _Lane(hypothesis, tangent if change is None else (0.0, -change))
         lane.begin = begin
         fault = hypothesis.fault
         for end in lane.ends:

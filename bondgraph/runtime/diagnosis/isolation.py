@@ -313,7 +313,7 @@ class _Unexplained:
             moved[rest + c * size :][:size, c] += part[c]
         steps = np.abs(np.subtract.outer(np.arange(chunks), np.arange(chunks)))
         self._spread = np.linalg.cholesky(_KEEP**steps)
-        self._moved = np.tensordot(moved[:, :, :-1], self._spread, (1, 0)).transpose(1, 0, 2)
+        self._moved = moved[:, :, :-1].transpose(2, 0, 1) @ self._spread
         self._value = moved[:, :, -1].sum(axis=1) - shared @ (shared[:rest].T @ known[:, -1])
         self._value[:rest] += known[:, -1]
 
@@ -329,7 +329,9 @@ class _Unexplained:
         for own in sets:
             by_size.setdefault(len(own), []).append(tuple(own))
         for size, alike in by_size.items():
-            at_once = max(1, _AT_ONCE // ((size + 1) * self._within.size))
+            chunks, moments, _ = self._within.shape
+            numbers = (size + 1) * chunks * (moments + size * chunks + len(self._value))
+            at_once = max(1, _AT_ONCE // numbers)
             for start in range(0, len(alike), at_once):
                 some = alike[start : start + at_once]
                 last = np.kron(np.eye(size), self._spread[-1:])

@@ -22,6 +22,7 @@ from bondgraph.runtime.diagnosis.naming import (
     named,
     news,
     pairs_left,
+    suspects,
     update,
 )
 from bondgraph.runtime.diagnosis.rows import Row, weight
@@ -32,7 +33,7 @@ from bondgraph.runtime.monitoring.verdict import Verdict
 _JUDGE = 5  # rows after an alarm before a fault is named
 _OFTEN = 10  # rows after it until when each row is judged
 _AGAIN = 5  # rows between later judgements, at least
-_MORE = 8  # of what is known: so many a part has to be new for a further judgement
+_MORE = 4  # of what is known: so many a part has to be new for a further judgement
 _UNEXPLAINED = 20  # rows of an alarm that no single fault explains: the first are not sure
 
 
@@ -151,12 +152,13 @@ class Judge:
         """
         if self.latched is None or not self._compared or not self._judges(frozenset(levels)):
             return None
+        model = self._model
         try:
-            found = self._compared.explained(history)
+            found = self._explained(history, levels, suspects(model.faults, model.sees, levels))
+            if all(e.evidence == -math.inf for e in found):
+                found = self._explained(history, levels, list(model.faults))
         except np.linalg.LinAlgError:
             return None
-        model = self._model
-        found = candidates(found, model.faults, model.sees, levels)
         group, leads = named(found, classes(model.groups, model.sees, noise))
         sure, self._leads = group if leads == self._leads else (), leads
         if group and not sure and self.latched.said is None and self._after == _JUDGE:
@@ -165,11 +167,11 @@ class Judge:
         most = max(found, key=lambda e: e.evidence, default=None)
         if most is not None and explains(found):
             self._best = most
-            self._compared.settle(most)
+            self._compared.follow(most)
         elif self._after < _UNEXPLAINED:
             return None
         if most is not None and not fits(most) and self._after >= _UNEXPLAINED:
-            pairs = self._two_at_once(found, history, levels)
+            pairs = self._two_at_once(history, levels)
             sure = () if pairs else sure
         doubles = model.doubles() if pairs else None
         verdict = update(time, self.latched.since, levels, sure, found, pairs, doubles)
@@ -193,12 +195,25 @@ class Judge:
             self._next, self._fired = self._after + step, fired
         return due
 
+    def _explained(
+        self, history: History, fired: Mapping[str, float], faults: Sequence[str]
+    ) -> list[Explained]:
+        """How well these faults and perhaps others explain the rows; see `candidates`."""
+        assert self._compared is not None
+        found = self._compared.explained(history, faults)
+        return candidates(found, self._model.faults, self._model.sees, fired)
+
     def _two_at_once(
-        self, found: Sequence[Explained], history: History, fired: Mapping[str, float]
+        self, history: History, fired: Mapping[str, float]
     ) -> Sequence[ExplainedPair]:
         """The pairs that explain what no single fault does, looked for ever more rarely."""
         if self._compared is not None and self._after >= self._due:
             self._due = 2 * self._after
-            pairs = self._compared.pairs(history, found)
-            self._pairs = pairs_left(pairs, self._model.faults, self._model.sees, fired)
+            faults = self._model.faults
+            try:
+                found = self._explained(history, fired, list(faults))
+                pairs = self._compared.pairs(history, found)
+            except np.linalg.LinAlgError:
+                return ()
+            self._pairs = pairs_left(pairs, faults, self._model.sees, fired)
         return self._pairs

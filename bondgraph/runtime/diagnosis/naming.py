@@ -40,6 +40,19 @@ def possible(explained: Explained, nominal: float | None) -> Explained:
     return explained
 
 
+def suspects(
+    faults: Iterable[str], sees: Mapping[str, Sequence[str]], fired: Iterable[str]
+) -> list[str]:
+    """The faults that every residual sees which has fired; all of them where there is none.
+
+    >>> sees = {"r1": ["a", "b"], "r2": ["b", "c"], "r3": ["c"]}
+    >>> [suspects("abc", sees, fired) for fired in (["r1"], ["r1", "r2"], ["r1", "r3"])]
+    [['a', 'b'], ['b'], ['a', 'b', 'c']]
+    """
+    every, seen = list(faults), [set(sees.get(name, ())) for name in fired]
+    return [f for f in every if all(f in own for own in seen)] or every
+
+
 def candidates(
     found: Sequence[Explained],
     faults: Mapping[str, float | None],

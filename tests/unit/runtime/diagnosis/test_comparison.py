@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
 from bondgraph.runtime.diagnosis.isolation import History
 from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.text.source import Source
 
@@ -72,21 +75,58 @@ def test_a_fault_is_dated_within_the_time_that_the_filter_takes() -> None:
         assert alarm.since == pytest.approx(_ONSET, abs=0.1)
 
 
+def _compared(rows: int, asked: Callable[[int], Collection[str]]) -> Comparison:
+    """So many rows of twenty samples; which faults are asked for behind each, if any."""
+    brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
+    engine, facts = brake.engine(), brake.diagnosis_model
+    known = hypotheses(engine, facts.faults, facts.units, {})
+    samples = _samples(engine, 20 * rows)
+    compared = Comparison(engine.configured(), samples[:0], 0, known, facts.nominal)
+    one, nothing = np.ones(1), np.zeros((0, 1))
+    for k in range(rows):
+        part = samples[20 * k : 20 * k + 20]
+        compared.step(Row(0.0, part, engine, 0.1 * k * one, one > 0, one, one, nothing), one)
+        faults = asked(k + 1)
+        if faults:
+            compared.explained(History(np.zeros(0)), faults)
+    return compared
+
+
+def _samples(engine: Engine, count: int) -> np.ndarray:
+    t = np.arange(count) / _RATE
+    columns = {"T": np.sin(9.0 * t), "w": 2.0 + np.cos(7.0 * t)}
+    return np.column_stack([columns[k.path] for k in engine.signals])
+
+
 def test_what_is_found_late_goes_on_from_where_the_samples_are() -> None:
     # more rows than samples are kept of, before anybody asks: slopes go on as in one run
     brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
     engine, facts = brake.engine(), brake.diagnosis_model
     known = hypotheses(engine, facts.faults, facts.units, {})
-    nominal = facts.nominal
-    t = np.arange(70 * 20) / _RATE
-    columns = {"T": np.sin(9.0 * t), "w": 2.0 + np.cos(7.0 * t)}
-    samples = np.column_stack([columns[k.path] for k in engine.signals])
-    slopes = Bank(engine.configured(), known, nominal).run(samples)[19::20]
-    compared = Comparison(engine.configured(), samples[:0], 0, known, nominal)
-    one, nothing = np.ones(1), np.zeros((0, 1))
-    for k in range(70):
-        part = samples[20 * k : 20 * k + 20]
-        compared.step(Row(0.0, part, engine, 0.1 * k * one, one > 0, one, one, nothing), one)
-        if k > 64:
-            compared.explained(History(np.zeros(0)))
-    assert compared._rows[-1].slopes == pytest.approx(slopes[-1], rel=1e-9, abs=1e-12)
+    bank = Bank(engine.configured(), known, facts.nominal)
+    slopes = bank.run(_samples(engine, 70 * 20))[-1]
+    compared = _compared(70, lambda rows: facts.faults if rows > 65 else ())
+    (fault,) = [e for e in compared.explained(History(np.zeros(0)), ()) if e.fault == "c"]
+    drag = [k for k, h in enumerate(known) if h.fault == "c"]
+    assert fault.hypothesis == known[drag[0]]
+    assert _last(compared) == pytest.approx(slopes, rel=1e-9, abs=1e-12)
+
+
+def test_a_fault_that_is_asked_for_later_is_compared_as_from_the_first_row_on() -> None:
+    history, every = History(np.zeros(0)), ("c", "w0", "J", "T", "w")
+    asked = (5, 6, 10, 20, 23, 40, 50)
+    always = _compared(70, lambda rows: every if rows in asked else ())
+    later = _compared(70, lambda rows: ("w0",) if rows in asked else ())
+    (single,) = later.explained(history, ("w0",))
+    found = {e.fault: e for e in later.explained(history, every)}
+    wanted = {e.fault: e for e in always.explained(history, every)}
+    assert single == wanted["w0"]
+    assert found == wanted and set(found) == set(every)
+    assert (_last(later) == _last(always)).all()
+
+
+def _last(compared: Comparison) -> np.ndarray:
+    """Slopes of the last row."""
+    beside = compared._beside
+    assert beside is not None
+    return np.asarray(beside._rows[-1].slopes)
