@@ -89,6 +89,38 @@ class _Lane:
         self.age = 0  # samples so far
 
 
+class _Plan(NamedTuple):
+    """How the engines of a bank are run in one call: by which table each, the first as it is told.
+
+    Behind it is one for each of `told`, a hypothesis with a change. Those with the same table stand
+    behind each other. `ends` are the numbers of the engines (hypotheses, 2), -1 for the machine as
+    it is, `apart` how far these are from each other, (hypotheses, 1, 1).
+    """
+
+    engines: list[Engine]
+    which: list[int]
+    told: list[tuple[_Lane, float]]
+    ends: npt.NDArray[np.intp]
+    apart: Array
+
+
+def _plan(lanes: Sequence[_Lane]) -> _Plan:
+    apart = np.array([lane.ends[0] - lane.ends[1] for lane in lanes])[:, None, None]
+    plan = _Plan([], [], [], np.full((len(lanes), 2), -1, dtype=np.intp), apart)
+    order = sorted(range(len(lanes)), key=lambda k: lanes[k].hypothesis.kind != "value")
+    for k in order:
+        lane = lanes[k]
+        for side, (end, engine) in enumerate(zip(lane.ends, lane.engines, strict=True)):
+            if engine is None:
+                continue
+            if lane.hypothesis.kind != "value":
+                plan.told.append((lane, end))
+            plan.ends[k, side] = len(plan.engines)
+            plan.engines.append(engine)
+            plan.which.append(len(plan.told))
+    return plan
+
+
 class Bank:
     """Engines side by side on the same samples, one or two for each hypothesis.
 
@@ -116,18 +148,20 @@ class Bank:
         self.batch: Batch | None = None  # what came out of `engine` last
         bent = changes or {}
         self._lanes = [self._lane(h, bent.get(k), begin) for k, h in enumerate(self.hypotheses)]
+        self._plan = _plan(self._lanes)
 
     def _lane(self, hypothesis: Hypothesis, change: float | None, begin: Array | None) -> _Lane:
         step = self._step(hypothesis)
-        whole = hypothesis.kind != "value" and self._counts(hypothesis)
-        tangent = (step, -step) if whole else (step, 0.0)
+        of_value, start = hypothesis.kind == "value", hypothesis.kind == "start"
+        little = of_value or not (start or self._counts(hypothesis))
+        tangent = (step, 0.0) if little else (step, -step)
         lane = _Lane(hypothesis, tangent if change is None else (0.0, -change))
         lane.begin = begin
         fault = hypothesis.fault
         for end in lane.ends:
             one = None
             if end:
-                own = {fault: self._nominal[fault] + end} if hypothesis.kind == "value" else None
+                own = {fault: self._nominal[fault] + end} if of_value else None
                 one = self.engine.configured(own, bounds=False)
                 one.follow(self.engine)
             lane.engines.append(one)
@@ -159,12 +193,14 @@ class Bank:
         """Let hypotheses of these numbers be as they are in another bank, at the same sample."""
         for k, lane in zip(numbers, other._lanes, strict=True):
             self._lanes[k] = lane
+        self._plan = _plan(self._lanes)
 
     def part(self, numbers: Sequence[int]) -> Bank:
         """Only the hypotheses of these numbers, at the same sample; the others are given up."""
         other = Bank(self.engine, (), self._nominal)
         other.hypotheses = tuple(self.hypotheses[k] for k in numbers)
         other._lanes = [self._lanes[k] for k in numbers]
+        other._plan = _plan(other._lanes)
         return other
 
     def run(self, samples: Array, at: Sequence[int] | None = None) -> Array:
@@ -191,80 +227,62 @@ class Bank:
         self, samples: Array, at: npt.NDArray[np.intp], value: Array, valid: Mask
     ) -> Array:
         """As `run`, with the residuals of the first engine there, (n, residuals)."""
-        ends, engines, which, tables, received = self._told(samples)
-        if engines:
-            got = np.stack(received) if self.engine.readings else None
-            batch = engines[0].run_with(engines[1:], np.stack(tables), got, which)
+        plan = self._plan
+        tables, received = self._told(samples)
+        if plan.engines:
+            batch = plan.engines[0].run_with(plan.engines[1:], tables, received, plan.which)
             value = np.concatenate([batch.value[:, at], value[None]])
             valid = np.concatenate([batch.valid[:, at], valid[None]])
         else:
             value, valid = value[None], valid[None]
-        up, down = ends.T
-        apart = np.array([lane.ends[0] - lane.ends[1] for lane in self._lanes])[:, None, None]
-        slopes = (value[up] - value[down]) / apart
+        up, down = plan.ends.T
+        slopes = (value[up] - value[down]) / plan.apart
         slopes *= valid[up] & valid[down]
         return np.asarray(slopes.transpose(1, 0, 2))
 
-    def _told(
-        self, samples: Array
-    ) -> tuple[npt.NDArray[np.intp], list[Engine], list[int], list[Array], list[Array]]:
-        """What the engines at both ends of each hypothesis are told.
-
-        The numbers of the engines (hypotheses, 2), -1 for the machine as it is; the engines, by
-        which table each is run; the tables, and what laws received in each. Those with the same
-        table stand behind each other.
-        """
-        ends = np.full((len(self._lanes), 2), -1, dtype=np.intp)
-        engines: list[Engine] = []
-        which: list[int] = []
-        tables, got = [samples], samples[:, self.engine.readings]
-        received = [got]
-        others = [lane.hypothesis.kind != "value" for lane in self._lanes]
-        for k in np.argsort(others, kind="stable").tolist():
-            lane = self._lanes[k]
-            fresh = lane.begin is None
-            if fresh:
-                lane.begin = samples[0].copy()
-            for side, (end, engine) in enumerate(zip(lane.ends, lane.engines, strict=True)):
-                if engine is None:
-                    continue
-                ends[k, side] = len(engines)
-                engines.append(engine)
-                if lane.hypothesis.kind != "value":
-                    told = self._shifted(samples, lane, end, fresh)
-                    # laws acted on what they received, wrong or not; where a log begins is no fault
-                    begins = lane.hypothesis.kind == "start"
-                    tables.append(told)
-                    received.append(told[:, self.engine.readings] if begins else got)
-                which.append(len(tables) - 1)
+    def _told(self, samples: Array) -> tuple[Array, Array | None]:
+        """The tables of the plan, (tables, n, signals), and what laws received in each, if any."""
+        fresh = [lane for lane in self._lanes if lane.begin is None]
+        for lane in fresh:
+            lane.begin = samples[0].copy()
+        tables = np.repeat(samples[None], 1 + len(self._plan.told), axis=0)
+        for told, (lane, end) in zip(tables[1:], self._plan.told, strict=True):
+            at = self._place[lane.hypothesis.fault]
+            told[:, at] = self._shifted(samples[:, at], lane, end, bool(fresh) and lane in fresh)
+        for lane in self._lanes:
             lane.age += len(samples)
-        return ends, engines, which, tables, received
+        if not self.engine.readings:
+            return tables, None
+        # laws acted on what they received, wrong or not; where a log begins is no fault
+        received = np.repeat(samples[None][:, :, self.engine.readings], len(tables), axis=0)
+        for k, (lane, _) in enumerate(self._plan.told, 1):
+            if lane.hypothesis.kind == "start":
+                received[k] = tables[k][:, self.engine.readings]
+        return tables, received
 
-    def _shifted(self, samples: Array, lane: _Lane, step: float, fresh: bool) -> Array:
-        """The samples as they are told when the hypothesis holds with a change of `step`.
+    def _shifted(self, column: Array, lane: _Lane, step: float, fresh: bool) -> Array:
+        """Samples of a signal as they are told when the hypothesis holds with a change of `step`.
 
         A `fresh` encoder counts from its first sample, which is therefore as it is told.
         """
         hypothesis = lane.hypothesis
-        at = self._place[hypothesis.fault]
-        told = samples.copy()
-        column = samples[:, at]
         if hypothesis.kind == "offset":
-            told[:, at] = column + step
+            told = column + step
             if fresh and self._counts(hypothesis):
-                told[:1, at] = column[:1]
-        elif hypothesis.kind == "start":
-            if fresh:
-                told[:1, at] += step
-        elif hypothesis.kind == "drift":
-            since = (lane.age + 1 + np.arange(len(told))) * self.engine.sample_time
-            told[:, at] = np.round(column + step * since)
-        elif self._counts(hypothesis):
+                told[:1] = column[:1]
+            return told
+        if hypothesis.kind == "start":
+            told = column.copy()
+            told[:1] += step * fresh
+            return told
+        if hypothesis.kind == "drift":
+            since = (lane.age + 1 + np.arange(len(column))) * self.engine.sample_time
+            return np.asarray(np.round(column + step * since))
+        if self._counts(hypothesis):
             assert lane.begin is not None
-            told[:, at] = np.round(column + step * (column - lane.begin[at]))
-        else:
-            told[:, at] = column + step * column
-        return told
+            begin = lane.begin[self._place[hypothesis.fault]]
+            return np.asarray(np.round(column + step * (column - begin)))
+        return column + step * column
 
 
 class Instead:

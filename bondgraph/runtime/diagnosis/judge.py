@@ -46,6 +46,7 @@ class Judge:
 
     def __init__(self, engine: Engine, model: DiagnosisModel) -> None:
         self._engine, self._model = engine, model
+        self._all = tuple(dict.fromkeys((*model.faults, *model.switches)))
         self._sizes = Sizes(engine)
         self.latched: Latched | None = None
         self.restart()
@@ -154,9 +155,9 @@ class Judge:
             return None
         model = self._model
         try:
-            found = self._explained(history, levels, suspects(model.faults, model.sees, levels))
+            found = self._explained(history, levels, suspects(self._all, model.sees, levels))
             if all(e.evidence == -math.inf for e in found):
-                found = self._explained(history, levels, list(model.faults))
+                found = self._explained(history, levels, self._all)
         except np.linalg.LinAlgError:
             return None
         group, leads = named(found, classes(model.groups, model.sees, noise))
@@ -209,11 +210,10 @@ class Judge:
         """The pairs that explain what no single fault does, looked for ever more rarely."""
         if self._compared is not None and self._after >= self._due:
             self._due = 2 * self._after
-            faults = self._model.faults
             try:
-                found = self._explained(history, fired, list(faults))
+                found = self._explained(history, fired, self._all)
                 pairs = self._compared.pairs(history, found)
             except np.linalg.LinAlgError:
-                return ()
-            self._pairs = pairs_left(pairs, faults, self._model.sees, fired)
+                pairs = []
+            self._pairs = pairs_left(pairs, self._model.faults, self._model.sees, fired)
         return self._pairs
