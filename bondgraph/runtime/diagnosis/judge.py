@@ -33,7 +33,7 @@ from bondgraph.runtime.monitoring.verdict import Verdict
 _JUDGE = 5  # rows after an alarm before a fault is named
 _OFTEN = 10  # rows after it until when each row is judged
 _AGAIN = 5  # rows between later judgements, at least
-_MORE = 4  # of what is known: so many a part has to be new for a further judgement
+_MORE = 8  # of what is known: so many a part has to be new for a further judgement
 _UNEXPLAINED = 20  # rows of an alarm that no single fault explains: the first are not sure
 
 
