@@ -126,11 +126,11 @@ class Bank:
 
     The slope of a residual is the difference between the machine as it is and one with a parameter
     a little larger, or with a signal that is a little wrong; between both sides with an encoder,
-    whose counts are whole, so that a little is much. With one of the `changes` (by the
-    number of the hypothesis) it is the secant up to there: times the change it is what such a fault
-    does, however bent the laws are. Hypotheses hold from the moment at which the bank begins, with
-    all that `engine` remembers of the time before. Raises ValueError for a change that the model
-    cannot take.
+    whose counts are whole, so that a little is much. With one of the `changes` (by the number of
+    the hypothesis) it is the secant up to there: times the change it is what such a fault does,
+    however bent the laws are. Hypotheses hold from the moment at which the bank begins, with all
+    that `engine` remembers of the time before. Raises ValueError for a change that the model cannot
+    take.
     """
 
     def __init__(

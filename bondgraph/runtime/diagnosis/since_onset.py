@@ -42,12 +42,12 @@ _GROWS = 3  # rows within which a residual has become as large as the fault make
 class SinceOnset:
     """Begins at the onset: `engine` stands before samples that look healthy.
 
-    Those of the first row come behind them. A filter shows late what happens,
-    and what looks like one fault now looks like another that began a little earlier: once there is
-    something to go by, each fault gets the onset that suits it best. And laws may be bent: where a
-    fault is as large as the samples say, its slope is not that of a small one. So each is tried
-    again then with its own size. A switch that is stuck has no size: beside the rows as they were
-    told stand those that it would have made of the same samples. What is `tolerated` is so in both.
+    Those of the first row come behind them. A filter shows late what happens, and what looks like
+    one fault now looks like another that began a little earlier: once there is something to go by,
+    each fault gets the onset that suits it best. And laws may be bent: where a fault is as large as
+    the samples say, its slope is not that of a small one. So each is tried again then with its own
+    size. A switch that is stuck has no size: beside the rows as they were told stand those that it
+    would have made of the same samples. What is `tolerated` is so in both.
     """
 
     def __init__(
