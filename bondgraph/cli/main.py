@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 gc.set_threshold(100_000, 20, 20)
 atexit.register(gc.freeze)
 
+_WATCHES = ("monitor", "tune", "live")  # commands of many small matrices
+
 
 def plain_check(words: list[str]) -> SimpleNamespace | None:
     """What the parser makes of `check MODEL ...`, if that is what the words are.
@@ -62,8 +64,11 @@ def _run(args: SimpleNamespace | Namespace) -> int:
     from importlib import import_module
 
     from bondgraph.cli import console
+    from bondgraph.runtime import threads
     from bondgraph.text.diagnostic import CompileError, Trouble
 
+    if args.command in _WATCHES:
+        threads.one()
     command = import_module(f"bondgraph.cli.{args.command}")
     as_json = bool(getattr(args, "json", False))
     try:

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import bondgraph
-from tests.bench import batch, growth, instructions, peers, simulation, toolbox, whole
+from tests.bench import alarm, batch, growth, instructions, peers, simulation, toolbox, whole
 from tests.bench.clock import in_turn, python
 
 ROOT = Path(__file__).parents[2]
@@ -76,6 +76,8 @@ def main() -> None:
     instructions.report()
     print()
     batch.report(short)
+    print()
+    alarm.report()
     print()
     toolbox.report(3 if short else 7)
     print()

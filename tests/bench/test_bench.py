@@ -12,7 +12,7 @@ import pytest
 import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.text.source import Source
-from tests.bench import batch, families, growth, instructions, peers, simulation, toolbox
+from tests.bench import alarm, batch, families, growth, instructions, peers, simulation, toolbox
 from tests.generated.scale import waves
 
 
@@ -78,6 +78,9 @@ def test_the_bench_says_what_it_could_not_compare(
     toolbox.report(1)
     peers.report((1,))
     assert capsys.readouterr().out.count("not compared") == 3
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    alarm.report()
+    assert "not measured" in capsys.readouterr().out
     assert all((toolbox.STRUCTURES / f"{name}.csv").is_file() for name in toolbox.NAMES)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -110,17 +110,21 @@ class Detection:
         loud = np.abs(row.value) - row.bound > 0.5 * limits[:, 2] * limits[:, 0]
         return bool((self._streak > 0).any() or loud.any())
 
-    def over(self, row: Row, limits: Array, shows: Mask | None = None) -> bool:
+    def over(
+        self, row: Row, limits: Array, shows: Callable[[], Mask | None] = lambda: None
+    ) -> bool:
         """Whether the fault is over, with one row more.
 
         `shows` says which residuals the fault would move now if it was still there, where that is
-        known: one that it would not move is quiet for no reason.
+        known: one that it would not move is quiet for no reason. It is asked while one is quiet.
         """
         seen = row.valid & self.fired & np.isfinite(limits[:, 0])  # others tell nothing
         excess = np.sign(row.value) * np.maximum(np.abs(row.value) - row.bound, 0.0)
         excess = np.where(seen, excess / limits[:, 0], 0.0)
-        if shows is not None:
-            seen &= shows | (np.abs(excess) > 1.0)
+        loud = np.abs(excess) > 1.0
+        moved = shows() if (seen & ~loud).any() else None
+        if moved is not None:
+            seen &= moved | loud
         _, mean, square = self._sum / np.maximum(self._sum[0], 1.0)
         variance = np.maximum(square - mean**2, 1.0)
         mean = np.where(np.abs(mean) < 1.0, np.copysign(1.0, mean), mean)

@@ -8,16 +8,18 @@ from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
-_STEP = 1e-3  # relative change that a sensitivity is taken from
+_STEP = 1e-5  # relative change that a sensitivity is taken from
 _USUAL = 0.3  # share of what a fault usually changes: of a value, of the size of a signal
 _COUNTS = 0.02  # share of an encoder's counts: smaller ones would drown in rounding
 _SLIP = 1 / 8  # of a turn, by which an encoder usually slips
 _APART = 3.0  # time constants of the filter between two rows
+_AT_ONCE = 2**18  # numbers that the engines of a bank take and give in one call
 
 COUNT = "count"  # the unit of an encoder's offset
 Kind = Literal["value", "offset", "gain", "drift", "start", "stuck"]
@@ -77,15 +79,58 @@ class Hypothesis(NamedTuple):
     held: Stuck | None = None
 
 
-class Bank:
-    """Engines side by side on the same samples, two for each hypothesis.
+class _Lane:
+    """One hypothesis of a bank: engines at both ends of its slope, and since when it holds."""
 
-    The slope of a residual is its central difference between two engines with a parameter a little
-    larger and smaller, or with a signal that is a little wrong. With one of the `changes` (by the
-    number of the hypothesis) it is the secant up to there: times the change it is what such a fault
-    does, however bent the laws are. Hypotheses hold from the moment at which the bank begins, with
-    all that `engine` remembers of the time before. Raises ValueError for a change that the model
-    cannot take.
+    def __init__(self, hypothesis: Hypothesis, ends: tuple[float, float]) -> None:
+        self.hypothesis, self.ends = hypothesis, ends
+        self.engines: list[Engine | None] = []  # None for an end at the machine as it is
+        self.begin: Array | None = None  # the sample before the first: where encoders count from
+        self.age = 0  # samples so far
+
+
+class _Plan(NamedTuple):
+    """How the engines of a bank are run in one call: by which table each, the first as it is told.
+
+    Behind it is one for each of `told`, a hypothesis with a change. Those with the same table stand
+    behind each other. `ends` are the numbers of the engines (hypotheses, 2), -1 for the machine as
+    it is, `apart` how far these are from each other, (hypotheses, 1, 1).
+    """
+
+    engines: list[Engine]
+    which: list[int]
+    told: list[tuple[_Lane, float]]
+    ends: npt.NDArray[np.intp]
+    apart: Array
+
+
+def _plan(lanes: Sequence[_Lane]) -> _Plan:
+    apart = np.array([lane.ends[0] - lane.ends[1] for lane in lanes])[:, None, None]
+    plan = _Plan([], [], [], np.full((len(lanes), 2), -1, dtype=np.intp), apart)
+    order = sorted(range(len(lanes)), key=lambda k: lanes[k].hypothesis.kind != "value")
+    for k in order:
+        lane = lanes[k]
+        for side, (end, engine) in enumerate(zip(lane.ends, lane.engines, strict=True)):
+            if engine is None:
+                continue
+            if lane.hypothesis.kind != "value":
+                plan.told.append((lane, end))
+            plan.ends[k, side] = len(plan.engines)
+            plan.engines.append(engine)
+            plan.which.append(len(plan.told))
+    return plan
+
+
+class Bank:
+    """Engines side by side on the same samples, one or two for each hypothesis.
+
+    The slope of a residual is the difference between the machine as it is and one with a parameter
+    a little larger, or with a signal that is a little wrong; between both sides with an encoder,
+    whose counts are whole, so that a little is much. With one of the `changes` (by the number of
+    the hypothesis) it is the secant up to there: times the change it is what such a fault does,
+    however bent the laws are. Hypotheses hold from the moment at which the bank begins, with all
+    that `engine` remembers of the time before. Raises ValueError for a change that the model cannot
+    take.
     """
 
     def __init__(
@@ -100,23 +145,27 @@ class Bank:
         self.hypotheses = tuple(hypotheses)
         self._place = {k.path: at for at, k in enumerate(engine.signals)}
         self._nominal = nominal
-        steps = [self._step(h) for h in hypotheses]
-        self._ends = [(step, -step) for step in steps]
-        for k, change in (changes or {}).items():
-            self._ends[k] = (0.0, -change)
-        self._values = [k for k, h in enumerate(hypotheses) if h.kind == "value"]
-        self._signals = [k for k, h in enumerate(hypotheses) if h.kind != "value"]
-        self._wrong = [self._configured(k, end) for k in self._values for end in self._ends[k]]
-        self._told = [engine.configured(bounds=False) for _ in self._signals for _ in range(2)]
-        for one in (*self._wrong, *self._told):
-            one.follow(engine)
-        self._begin = begin  # the sample before the first: where encoders count from
-        self._age = 0  # samples so far
         self.batch: Batch | None = None  # what came out of `engine` last
+        bent = changes or {}
+        self._lanes = [self._lane(h, bent.get(k), begin) for k, h in enumerate(self.hypotheses)]
+        self._plan = _plan(self._lanes)
 
-    def _configured(self, k: int, change: float) -> Engine:
-        fault = self.hypotheses[k].fault
-        return self.engine.configured({fault: self._nominal[fault] + change}, bounds=False)
+    def _lane(self, hypothesis: Hypothesis, change: float | None, begin: Array | None) -> _Lane:
+        step = self._step(hypothesis)
+        of_value, start = hypothesis.kind == "value", hypothesis.kind == "start"
+        little = of_value or not (start or self._counts(hypothesis))
+        tangent = (step, 0.0) if little else (step, -step)
+        lane = _Lane(hypothesis, tangent if change is None else (0.0, -change))
+        lane.begin = begin
+        fault = hypothesis.fault
+        for end in lane.ends:
+            one = None
+            if end:
+                own = {fault: self._nominal[fault] + end} if of_value else None
+                one = self.engine.configured(own, bounds=False)
+                one.follow(self.engine)
+            lane.engines.append(one)
+        return lane
 
     def _step(self, hypothesis: Hypothesis) -> float:
         if hypothesis.kind == "value":
@@ -135,66 +184,105 @@ class Bank:
 
     def reset(self) -> None:
         """Forget all samples."""
-        for engine in (self.engine, *self._wrong, *self._told):
+        for engine in (self.engine, *[e for lane in self._lanes for e in lane.engines if e]):
             engine.reset()
-        self._begin = None
-        self._age = 0
+        for lane in self._lanes:
+            lane.begin, lane.age = None, 0
 
-    def run(self, samples: Array) -> Array:
+    def take(self, other: Bank, numbers: Sequence[int]) -> None:
+        """Let hypotheses of these numbers be as they are in another bank, at the same sample."""
+        for k, lane in zip(numbers, other._lanes, strict=True):
+            self._lanes[k] = lane
+        self._plan = _plan(self._lanes)
+
+    def part(self, numbers: Sequence[int]) -> Bank:
+        """Only the hypotheses of these numbers, at the same sample; the others are given up."""
+        other = Bank(self.engine, (), self._nominal)
+        other.hypotheses = tuple(self.hypotheses[k] for k in numbers)
+        other._lanes = [self._lanes[k] for k in numbers]
+        other._plan = _plan(other._lanes)
+        return other
+
+    def run(self, samples: Array, at: Sequence[int] | None = None) -> Array:
         """The slopes after further (n, signals) samples; shape (n, hypotheses, residuals).
 
-        In units of the residual over those of the hypothesis. The first engine goes on too.
+        Or only after those that are numbered `at`, in order. In units of the residual over those of
+        the hypothesis. The first engine goes on too.
         """
-        count = len(self.engine.residuals)
-        slopes = np.zeros((len(samples), len(self.hypotheses), count))
-        if self._wrong:
-            value, valid, _ = self._wrong[0].run_with(self._wrong[1:], samples)
-            for at, k in enumerate(self._values):
-                up, down = self._ends[k]
-                slopes[:, k, :] = (value[2 * at] - value[2 * at + 1]) / (up - down)
-                slopes[:, k, :] *= valid[2 * at] & valid[2 * at + 1]
-        fresh = self._begin is None
-        if fresh and len(samples):
-            self._begin = samples[0].copy()
-        got = samples[:, self.engine.readings] if self.engine.readings else None
-        for at, k in enumerate(self._signals):
-            up, down = self._ends[k]
-            # laws acted on what they received, wrong or not; where a log begins is no fault
-            same = None if self.hypotheses[k].kind == "start" else got
-            more = self._told[2 * at].run(self._shifted(samples, k, up, fresh), same)
-            less = self._told[2 * at + 1].run(self._shifted(samples, k, down, fresh), same)
-            slopes[:, k, :] = (more.value - less.value) / (up - down)
-            slopes[:, k, :] *= more.valid & less.valid
         self.batch = self.engine.run(samples)
-        self._age += len(samples)
+        wanted = np.arange(len(samples)) if at is None else np.asarray(at, dtype=np.intp)
+        slopes = np.zeros((len(wanted), len(self._lanes), len(self.engine.residuals)))
+        wide = 1 + 2 * len(self._lanes) * (samples.shape[1] + 2 * len(self.engine.residuals))
+        block = max(1, _AT_ONCE // wide)
+        for start in range(0, len(samples) if self._lanes else 0, block):
+            first, last = np.searchsorted(wanted, (start, start + block))
+            own = wanted[first:last]
+            value, valid = self.batch.value[own], self.batch.valid[own]
+            slopes[first:last] = self._slopes(
+                samples[start : start + block], own - start, value, valid
+            )
         return slopes
 
-    def _shifted(self, samples: Array, k: int, step: float, fresh: bool) -> Array:
-        """The samples as they are told when the hypothesis holds with a change of `step`.
+    def _slopes(
+        self, samples: Array, at: npt.NDArray[np.intp], value: Array, valid: Mask
+    ) -> Array:
+        """As `run`, with the residuals of the first engine there, (n, residuals)."""
+        plan = self._plan
+        tables, received = self._told(samples)
+        if plan.engines:
+            batch = plan.engines[0].run_with(plan.engines[1:], tables, received, plan.which)
+            value = np.concatenate([batch.value[:, at], value[None]])
+            valid = np.concatenate([batch.valid[:, at], valid[None]])
+        else:
+            value, valid = value[None], valid[None]
+        up, down = plan.ends.T
+        slopes = (value[up] - value[down]) / plan.apart
+        slopes *= valid[up] & valid[down]
+        return np.asarray(slopes.transpose(1, 0, 2))
+
+    def _told(self, samples: Array) -> tuple[Array, Array | None]:
+        """The tables of the plan, (tables, n, signals), and what laws received in each, if any."""
+        fresh = [lane for lane in self._lanes if lane.begin is None]
+        for lane in fresh:
+            lane.begin = samples[0].copy()
+        tables = np.repeat(samples[None], 1 + len(self._plan.told), axis=0)
+        for told, (lane, end) in zip(tables[1:], self._plan.told, strict=True):
+            at = self._place[lane.hypothesis.fault]
+            told[:, at] = self._shifted(samples[:, at], lane, end, bool(fresh) and lane in fresh)
+        for lane in self._lanes:
+            lane.age += len(samples)
+        if not self.engine.readings:
+            return tables, None
+        # laws acted on what they received, wrong or not; where a log begins is no fault
+        received = np.repeat(samples[None][:, :, self.engine.readings], len(tables), axis=0)
+        for k, (lane, _) in enumerate(self._plan.told, 1):
+            if lane.hypothesis.kind == "start":
+                received[k] = tables[k][:, self.engine.readings]
+        return tables, received
+
+    def _shifted(self, column: Array, lane: _Lane, step: float, fresh: bool) -> Array:
+        """Samples of a signal as they are told when the hypothesis holds with a change of `step`.
 
         A `fresh` encoder counts from its first sample, which is therefore as it is told.
         """
-        hypothesis = self.hypotheses[k]
-        at = self._place[hypothesis.fault]
-        told = samples.copy()
-        column = told[:, at]
+        hypothesis = lane.hypothesis
         if hypothesis.kind == "offset":
-            told[:, at] = column + step
+            told = column + step
             if fresh and self._counts(hypothesis):
-                told[:1, at] = samples[:1, at]
-        elif hypothesis.kind == "start":
-            told[:, at] = samples[:, at]
-            if fresh:
-                told[:1, at] += step
-        elif hypothesis.kind == "drift":
-            since = (self._age + 1 + np.arange(len(told))) * self.engine.sample_time
-            told[:, at] = np.round(column + step * since)
-        elif self._counts(hypothesis):
-            assert self._begin is not None
-            told[:, at] = np.round(column + step * (column - self._begin[at]))
-        else:
-            told[:, at] = column + step * column
-        return told
+                told[:1] = column[:1]
+            return told
+        if hypothesis.kind == "start":
+            told = column.copy()
+            told[:1] += step * fresh
+            return told
+        if hypothesis.kind == "drift":
+            since = (lane.age + 1 + np.arange(len(column))) * self.engine.sample_time
+            return np.asarray(np.round(column + step * since))
+        if self._counts(hypothesis):
+            assert lane.begin is not None
+            begin = lane.begin[self._place[hypothesis.fault]]
+            return np.asarray(np.round(column + step * (column - begin)))
+        return column + step * column
 
 
 class Instead:
@@ -210,22 +298,27 @@ class Instead:
         self._at, self._modes = place[held.signal], [place[m] for m in held.modes]
         self._moved = np.zeros(len(bank.engine.residuals), dtype=np.bool_)
 
-    def run(self, samples: Array) -> tuple[Array, Mask, Array, Mask]:
-        """At the end of further samples: residuals, which are valid, and slopes of the bank.
+    def run(self, samples: Array, at: Sequence[int]) -> tuple[Array, Mask, Array, Mask]:
+        """After those of further samples that are numbered `at`: residuals, (n, residuals).
 
-        Last which of them the position can have moved in the modes that were told so far. Others
-        are to be judged as they were told: they should be quiet as well.
+        Then which are valid, and slopes of the bank, (n, hypotheses, residuals). Last which of them
+        the position can have moved in the modes that were told so far. Others are to be judged as
+        they were told: they should be quiet as well.
         """
         told = samples.copy()
         told[:, self._at] = self._held.position
-        slopes = self._bank.run(told)
+        wanted = list(at)
+        slopes = self._bank.run(told, wanted)
         batch = self._bank.batch
         assert batch is not None
-        if not len(samples):
-            return batch.value, batch.valid, slopes, self._moved
-        moved = self._held.moved(samples[:, self._modes], self._bank.engine.residuals)
-        self._moved = self._moved | moved.any(axis=0)
-        return batch.value[-1], batch.valid[-1], slopes[-1], self._moved
+        if len(samples):
+            own = self._held.moved(samples[:, self._modes], self._bank.engine.residuals)
+            own[0] |= self._moved
+            moved = np.logical_or.accumulate(own, axis=0)
+            self._moved = moved[-1]
+        else:
+            moved = np.zeros((0, len(self._moved)), dtype=np.bool_)
+        return batch.value[wanted], batch.valid[wanted], slopes, moved[wanted]
 
 
 def hypotheses(

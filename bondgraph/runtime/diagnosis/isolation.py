@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 import numpy as np
+import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.log import Array
@@ -27,6 +28,7 @@ _KEEP = 0.95  # correlation of a fault's change between neighbouring chunks
 _CHUNK = 4  # rows in which the change is taken as constant, at least
 _PARTS = 15  # chunks at most
 _LEADS = 8  # faults of which pairs with every other one are looked at
+_AT_ONCE = 2**20  # numbers that sets of hypotheses take side by side
 _SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
 
 
@@ -181,16 +183,22 @@ def explain(
     told = {k: _seen(other, history.prior, np.zeros(0)) for k, other in others.items()}
     if not all(np.isfinite(table).all() for table in told.values()):
         raise np.linalg.LinAlgError("a residual or a weight is not finite")
+    ways: dict[str, list[int]] = {}
+    for j, hypothesis in enumerate(hypotheses):
+        ways.setdefault(hypothesis.fault, []).append(j)
+    sized = {fault: [j for j in own if j not in told] for fault, own in ways.items()}
+    alone = [[j] for own in sized.values() for j in own]
+    every = [own for own in sized.values() if len(own) > 1]
+    fits = _Unexplained(known, seen).fits([*alone, *every])
     found = []
-    for fault in dict.fromkeys(h.fault for h in hypotheses):
-        own = [j for j, h in enumerate(hypotheses) if h.fault == fault]
-        sized = [j for j in own if j not in told]
-        alone = [_fits(known, seen, [j]) for j in sized]
-        every = _fits(known, seen, sized) if len(sized) > 1 else []
-        ways = [_compared([hypotheses[j] for j in sized], alone, every)] if sized else []
-        ways += [_instead(hypotheses[j], known, seen, told[j]) for j in own if j in told]
-        one = _either(ways)
-        found.append(one._replace(left=one.left / values, values=values))
+    for fault, own in ways.items():
+        chances = [_instead(hypotheses[j], known, seen, told[j]) for j in own if j in told]
+        if sized[fault]:
+            one, several = [fits[j,] for j in sized[fault]], fits[tuple(sized[fault])]
+            whole = several if len(one) > 1 else None
+            chances.insert(0, _compared([hypotheses[j] for j in sized[fault]], one, whole))
+        best = _either(chances)
+        found.append(best._replace(left=best.left / values, values=values))
     return found
 
 
@@ -203,20 +211,17 @@ def explain_pairs(
     is among those that explain most so: the first step of a search that adds one fault at a time.
     Two faults have the same scales, and the prior of one; raises as `explain` does.
     """
-    known, seen = _compared_with(rows, hypotheses, history)
     leads = sorted((e for e in singles if e.hypothesis.held is None), key=lambda e: -e.evidence)
-    place = {e.fault: hypotheses.index(e.hypothesis) for e in leads}
+    place = [hypotheses.index(e.hypothesis) for e in leads]
     values = max(1, int((rows.weight > 0).sum()))
+    pairs = [(a, b) for at, a in enumerate(place[:_LEADS]) for b in place[at + 1 :]]
+    fits = _Unexplained(*_compared_with(rows, hypotheses, history)).fits(pairs)
     found = []
-    for at, one in enumerate(leads[:_LEADS]):
-        for other in leads[at + 1 :]:
-            own = one.hypothesis, other.hypothesis
-            fits = _fits(known, seen, [place[h.fault] for h in own])
-            top = max(fits, key=lambda f: f.evidence)
-            sizes = (top.changes * [h.usual for h in own]).tolist()
-            left = top.left / values
-            both = sizes[0], sizes[1]
-            found.append(ExplainedPair(own, _mean(fits), both, left, values))
+    for pair in pairs:
+        own, fit = (hypotheses[pair[0]], hypotheses[pair[1]]), fits[pair]
+        sizes = (fit.changes[fit.top] * [h.usual for h in own]).tolist()
+        left = float(fit.left[fit.top]) / values
+        found.append(ExplainedPair(own, _mean(fit.evidence), (sizes[0], sizes[1]), left, values))
     return sorted(found, key=lambda pair: -pair.evidence)
 
 
@@ -246,58 +251,125 @@ def _seen(rows: Rows, prior: Array, usual: Array) -> Array:
     return np.concatenate([table, more]).reshape(-1, length * table.shape[1], table.shape[2])
 
 
-class _Fit(NamedTuple):
-    """One hypothesis, or several at once, where changes have about one size.
+class _Fits(NamedTuple):
+    """Some hypotheses at once, where changes have about one size, for each of the scales.
 
-    `changes` and `deviations` are those at the end, of the shape (hypotheses,).
+    `changes` and `deviations` are those at the end, (scales, hypotheses); the rest is (scales,).
     """
 
-    evidence: float
+    evidence: Array
     changes: Array
     deviations: Array
-    left: float
-    share: float
+    left: Array
+    share: Array
+
+    @property
+    def top(self) -> int:
+        """The scale that explains most."""
+        return int(np.argmax(self.evidence))
 
 
-def _compared(
-    own: Sequence[Hypothesis], alone: Sequence[Sequence[_Fit]], every: Sequence[_Fit]
-) -> Explained:
+def _compared(own: Sequence[Hypothesis], alone: Sequence[_Fits], every: _Fits | None) -> Explained:
     """Each hypothesis of a fault by itself, and all at once: one as probable as the other."""
-    tops = [max(fits, key=lambda f: f.evidence) for fits in alone]
-    best = max(range(len(own)), key=lambda j: tops[j].evidence)
-    fits = [f for fits in (*alone, every) for f in fits]
-    top = max(fits, key=lambda f: f.evidence)
-    hypothesis, chosen = own[best], tops[best]
-    change, deviation = (float(x[0]) * hypothesis.usual
+    ways = [*alone] if every is None else [*alone, every]
+    best = max(range(len(own)), key=lambda j: float(alone[j].evidence.max()))
+    hypothesis, chosen = own[best], alone[best]
+    change, deviation = (float(x[chosen.top, 0]) * hypothesis.usual
                          for x in (chosen.changes, chosen.deviations))  # fmt: skip
-    return Explained(
-        hypothesis.fault, _mean(fits), hypothesis, change, deviation, top.left, share=top.share
-    )
+    most = max(ways, key=lambda fits: float(fits.evidence.max()))
+    evidence = _mean(np.concatenate([fits.evidence for fits in ways]))
+    left, share = float(most.left[most.top]), float(most.share[most.top])
+    return Explained(hypothesis.fault, evidence, hypothesis, change, deviation, left, share=share)
 
 
-def _mean(fits: Sequence[_Fit]) -> float:
+def _mean(evidence: Array) -> float:
     """The evidence of something that fits in one of several ways, all as probable before."""
-    top = max(f.evidence for f in fits)
-    weights = sum(math.exp(max(f.evidence - top, -700.0)) for f in fits)
-    return top + math.log(weights / len(fits))
+    top = float(evidence.max())
+    return top + math.log(float(np.exp(np.maximum(evidence - top, -700.0)).mean()))
 
 
-def _fits(known: Array, seen: Array, own: Sequence[int]) -> list[_Fit]:
-    """Evidence for changes with a normal prior that is correlated in time, for each of the scales.
+class _Unexplained:
+    """What the healthy machine leaves unexplained of what was seen, and of what faults do.
 
-    By least squares: what changes explain is a part of what was seen, which no rounding makes
-    larger than that. So no fault gains by more than half the misfit of what it moves.
+    The parameters with a tolerance are the same beside each fault: they are taken out of all
+    columns once, by orthonormal bases of what they span, in each chunk and then of all chunks
+    (Frisch and Waugh, 1933). Of the columns themselves, not of their products: nothing is lost
+    where a fault does nearly what a parameter does. What is left of a fault is the same rows in
+    every chunk, each with a column of its own, and those that no parameter reaches.
     """
-    rest, size, chunks = len(known), len(own), len(seen)
-    part = _triangle(seen[:, :, [*range(rest), *[rest + j for j in own], -1]])
-    steps = np.abs(np.subtract.outer(np.arange(chunks), np.arange(chunks)))
-    spread = np.kron(np.linalg.cholesky(_KEEP**steps), np.eye(size))
-    moved = part[:, :, rest:-1] @ spread.reshape(chunks, size, -1)
-    table = np.concatenate([part[:, :, :rest], moved, part[:, :, -1:]], axis=2)
-    before = np.insert(known, [rest] * (chunks * size), 0.0, axis=1)
-    # The triangle of all, less that of the healthy machine: what only a fault explains.
-    left = _triangle(np.vstack([before, table.reshape(-1, table.shape[2])]))[rest:, rest:]
-    return _scaled(left, spread[-size:])
+
+    def __init__(self, known: Array, seen: Array) -> None:
+        rest, chunks, columns = len(known), len(seen), seen.shape[2] - len(known)
+        basis, root = np.linalg.qr(seen[:, :, :rest])
+        size = basis.shape[2]
+        part = basis.transpose(0, 2, 1) @ seen[:, :, rest:]
+        self._within = seen[:, :, rest:] - basis @ part  # (chunks, moments, columns)
+        every = np.vstack([known[:, :-1], root.reshape(chunks * size, rest)])
+        shared = np.linalg.qr(every)[0]
+        own = shared[rest:].reshape(chunks, size, rest).transpose(0, 2, 1) @ part
+        wide = own.transpose(1, 0, 2).reshape(rest, chunks * columns)
+        moved = -(shared @ wide).reshape(len(shared), chunks, columns)
+        for c in range(chunks):
+            moved[rest + c * size :][:size, c] += part[c]
+        steps = np.abs(np.subtract.outer(np.arange(chunks), np.arange(chunks)))
+        self._spread = np.linalg.cholesky(_KEEP**steps)
+        self._moved = moved[:, :, :-1].transpose(2, 0, 1) @ self._spread
+        self._value = moved[:, :, -1].sum(axis=1) - shared @ (shared[:rest].T @ known[:, -1])
+        self._value[:rest] += known[:, -1]
+
+    def fits(self, sets: Sequence[Sequence[int]]) -> dict[tuple[int, ...], _Fits]:
+        """Evidence for the hypotheses of each set at once, by their numbers.
+
+        Their changes have a normal prior that is correlated in time. By least squares: what changes
+        explain is a part of what was seen, which no rounding makes larger than that. So no fault
+        gains by more than half the misfit of what it moves.
+        """
+        found: dict[tuple[int, ...], _Fits] = {}
+        by_size: dict[int, list[tuple[int, ...]]] = {}
+        for own in sets:
+            by_size.setdefault(len(own), []).append(tuple(own))
+        for size, alike in by_size.items():
+            chunks, moments, _ = self._within.shape
+            numbers = (size + 1) * chunks * (moments + size * chunks + len(self._value))
+            at_once = max(1, _AT_ONCE // numbers)
+            for start in range(0, len(alike), at_once):
+                some = alike[start : start + at_once]
+                last = np.kron(np.eye(size), self._spread[-1:])
+                found |= zip(some, _scaled(self._left(np.array(some)), last), strict=True)
+        return found
+
+    def _left(self, sets: npt.NDArray[np.intp]) -> Array:
+        """Triangles of what hypotheses do and of what was seen, (sets, changes + 1, changes + 1).
+
+        The changes of a hypothesis stand beside each other, by chunks.
+        """
+        (count, size), (_, rows, chunks) = sets.shape, self._moved.shape
+        table = np.zeros((count, rows + chunks * size + 1, size * chunks + 1))
+        moved = self._moved[sets].transpose(0, 2, 1, 3)
+        table[:, :rows, :-1] = moved.reshape(count, rows, size * chunks)
+        table[:, :rows, -1] = self._value
+        every = np.insert(sets, size, -1, axis=1)
+        within = _orthogonal(np.moveaxis(self._within[:, :, every], 2, 0))
+        own = within[:, :, :size, :size, None] * self._spread[:, None, None, :]
+        table[:, rows:-1, :-1] = own.reshape(count, chunks * size, size * chunks)
+        table[:, rows:-1, -1] = within[:, :, :size, size].reshape(count, chunks * size)
+        table[:, -1, -1] = np.linalg.norm(within[:, :, size, size], axis=1)
+        return _triangle(table)
+
+
+def _orthogonal(rows: Array) -> Array:
+    """As `_triangle`, of many rows with a few columns (modified Gram and Schmidt; Bjorck, 1967)."""
+    rows, columns = rows.copy(), rows.shape[-1]
+    root = np.zeros((*rows.shape[:-2], columns, columns))
+    for j in range(columns):
+        size = np.sqrt(np.einsum("...k,...k", rows[..., j], rows[..., j]))
+        root[..., j, j] = size
+        unit = rows[..., j] / np.where(size > 0.0, size, 1.0)[..., None]
+        for k in range(j + 1, columns):
+            along = np.einsum("...k,...k", unit, rows[..., k])
+            root[..., j, k] = along
+            rows[..., k] -= along[..., None] * unit
+    return root
 
 
 def _instead(hypothesis: Hypothesis, known: Array, told: Array, other: Array) -> Explained:
@@ -325,30 +397,29 @@ def _either(ways: Sequence[Explained]) -> Explained:
     return top._replace(evidence=top.evidence + math.log(weights / len(ways)))
 
 
-def _scaled(left: Array, last: Array) -> list[_Fit]:
+def _scaled(left: Array, last: Array) -> list[_Fits]:
     """From what is left to explain, by one deviation of each change, for each of the scales.
 
-    `last` makes of the changes those of each hypothesis at the end: (hypotheses, changes).
+    `left` are the triangles of several sets; `last` makes of the changes those of each hypothesis
+    at the end: (hypotheses, changes). With singular values a scale is a factor of each.
     """
-    count = left.shape[1] - 1
-    scales = np.array(_SCALES)[:, None, None]
-    moved, seen = scales * left[:, :-1], np.tile(left[:, -1:], (len(_SCALES), 1, 1))
-    ones = np.tile(np.eye(count, count + 1), (len(_SCALES), 1, 1))
-    table = np.concatenate([np.concatenate([moved, seen], axis=2), ones], axis=1)
-    root = _triangle(table)[:, :count]
-    root, part = root[:, :, :-1], root[:, :, -1:]
-    changes = np.linalg.solve(root, part)
-    ends = scales * last.T
-    spread = np.linalg.solve(root.transpose(0, 2, 1), ends)
-    size = np.abs(np.diagonal(root, axis1=1, axis2=2))
-    misfit = float(np.square(left[:, -1]).sum())
-    rest = np.square(seen - moved @ changes).sum(axis=(1, 2))
-    evidence = 0.5 * np.square(part).sum(axis=(1, 2)) - np.log(size).sum(axis=1)
-    change = (ends * changes).sum(axis=1)
-    deviation = np.sqrt(np.square(spread).sum(axis=1))
-    share = 1.0 - rest / misfit if misfit > 0 else np.zeros(len(_SCALES))
-    found = zip(evidence.tolist(), change, deviation, rest.tolist(), share.tolist(), strict=True)
-    return [_Fit(*numbers) for numbers in found]
+    moved, seen, over = left[:, :-1, :-1], left[:, :-1, -1:], left[:, -1, -1, None] ** 2
+    turned, size, ways = np.linalg.svd(moved)
+    along = turned.transpose(0, 2, 1) @ seen
+    along = along.transpose(0, 2, 1)  # (sets, scales, changes) from here on
+    ends, scales = last @ ways.transpose(0, 2, 1), np.array(_SCALES)[:, None]
+    size = size[:, None, :]
+    more = np.square(scales * size)
+    sure = more / (1.0 + more)
+    evidence = 0.5 * (sure * np.square(along) - np.log1p(more)).sum(axis=2)
+    changes = (scales**2 * size / (1.0 + more) * along) @ ends.transpose(0, 2, 1)
+    variance = (scales**2 / (1.0 + more)) @ np.square(ends).transpose(0, 2, 1)
+    misfit = np.square(along).sum(axis=2) + over
+    rest = np.square(along / (1.0 + more)).sum(axis=2) + over
+    share = 1.0 - rest / np.where(misfit > 0.0, misfit, 1.0)
+    share[misfit[:, 0] <= 0.0] = 0.0
+    every = zip(evidence, changes, np.sqrt(variance), rest, share, strict=True)
+    return [_Fits(*numbers) for numbers in every]
 
 
 def probabilities(found: Sequence[Explained]) -> dict[str, float]:

@@ -12,6 +12,7 @@ from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Sizes, hypotheses, sized
 from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, History
 from bondgraph.runtime.diagnosis.naming import (
+    LONGEST,
     Judgement,
     Latched,
     candidates,
@@ -21,6 +22,7 @@ from bondgraph.runtime.diagnosis.naming import (
     named,
     news,
     pairs_left,
+    suspects,
     update,
 )
 from bondgraph.runtime.diagnosis.rows import Row, weight
@@ -29,7 +31,9 @@ from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
 
 _JUDGE = 5  # rows after an alarm before a fault is named
-_AGAIN = 5  # rows between later judgements
+_OFTEN = 10  # rows after it until when each row is judged
+_AGAIN = 5  # rows between later judgements, at least
+_MORE = 8  # of what is known: so many a part has to be new for a further judgement
 _UNEXPLAINED = 20  # rows of an alarm that no single fault explains: the first are not sure
 
 
@@ -42,6 +46,7 @@ class Judge:
 
     def __init__(self, engine: Engine, model: DiagnosisModel) -> None:
         self._engine, self._model = engine, model
+        self._all = tuple(dict.fromkeys((*model.faults, *model.switches)))
         self._sizes = Sizes(engine)
         self.latched: Latched | None = None
         self.restart()
@@ -52,6 +57,8 @@ class Judge:
         self._after = self._told = 0  # rows since the alarm, and until the last update
         self._pairs: Sequence[ExplainedPair] = ()
         self._due = 0  # rows since the alarm when pairs are looked for again
+        self._next = _JUDGE  # and when faults are judged again
+        self._fired: frozenset[str] = frozenset()  # that the last judgement was of
         self._best: Explained | None = None  # the fault that explains all, if any
         self._leads: tuple[str, ...] = ()  # the class that the last judgement found best
         self._wanted: Judgement | None = None  # what the last judgement would have said
@@ -98,6 +105,7 @@ class Judge:
         """Begin to compare faults behind the `healthy` samples, `own` of these of the first row."""
         model = self._model
         self._after = self._told = self._due = 0
+        self._next = _JUDGE
         self._best = None
         self._pairs, sizes = (), self._sizes.found()
         found = hypotheses(self._engine, model.faults, model.units, sizes, model.switches)
@@ -143,15 +151,15 @@ class Judge:
         `levels` are those of the residuals that have fired, `noise` is infinite where nobody knows
         it.
         """
-        due = self._after >= _JUDGE and (self._after < 10 or self._after % _AGAIN == 0)
-        if not due or self.latched is None or not self._compared:
-            return None
-        try:
-            found = self._compared.explained(history)
-        except np.linalg.LinAlgError:
+        if self.latched is None or not self._compared or not self._judges(frozenset(levels)):
             return None
         model = self._model
-        found = candidates(found, model.faults, model.sees, levels)
+        try:
+            found = self._explained(history, levels, suspects(self._all, model.sees, levels))
+            if all(e.evidence == -math.inf for e in found):
+                found = self._explained(history, levels, self._all)
+        except np.linalg.LinAlgError:
+            return None
         group, leads = named(found, classes(model.groups, model.sees, noise))
         sure, self._leads = group if leads == self._leads else (), leads
         if group and not sure and self.latched.said is None and self._after == _JUDGE:
@@ -160,10 +168,11 @@ class Judge:
         most = max(found, key=lambda e: e.evidence, default=None)
         if most is not None and explains(found):
             self._best = most
+            self._compared.follow(most)
         elif self._after < _UNEXPLAINED:
             return None
         if most is not None and not fits(most) and self._after >= _UNEXPLAINED:
-            pairs = self._two_at_once(found, history, levels)
+            pairs = self._two_at_once(history, levels)
             sure = () if pairs else sure
         doubles = model.doubles() if pairs else None
         verdict = update(time, self.latched.since, levels, sure, found, pairs, doubles)
@@ -171,17 +180,40 @@ class Judge:
         wanted = Judgement(sure, best, verdict.pairs[0].faults if verdict.pairs else ())
         again, self._wanted = self._wanted == wanted, wanted
         if not news(self.latched, wanted, again, self._after - self._told):
+            if news(self.latched, wanted, True, LONGEST):  # to be told, once that is confirmed
+                self._next = min(self._next, self._after + _AGAIN)
             return None
         self.latched = self.latched._replace(said=wanted, times=self.latched.times + 1)
         self._told = self._after
         return verdict
 
+    def _judges(self, fired: frozenset[str]) -> bool:
+        """Whether this row is judged: there is enough more to go by, or another residual fired."""
+        due = self._after >= self._next
+        due |= self._after > _JUDGE and fired != self._fired and self._after % _AGAIN == 0
+        if due:
+            step = 1 if self._after < _OFTEN else max(_AGAIN, self._after // _MORE)
+            self._next, self._fired = self._after + step, fired
+        return due
+
+    def _explained(
+        self, history: History, fired: Mapping[str, float], faults: Sequence[str]
+    ) -> list[Explained]:
+        """How well these faults and perhaps others explain the rows; see `candidates`."""
+        assert self._compared is not None
+        found = self._compared.explained(history, faults)
+        return candidates(found, self._model.faults, self._model.sees, fired)
+
     def _two_at_once(
-        self, found: Sequence[Explained], history: History, fired: Mapping[str, float]
+        self, history: History, fired: Mapping[str, float]
     ) -> Sequence[ExplainedPair]:
         """The pairs that explain what no single fault does, looked for ever more rarely."""
         if self._compared is not None and self._after >= self._due:
             self._due = 2 * self._after
-            pairs = self._compared.pairs(history, found)
+            try:
+                found = self._explained(history, fired, self._all)
+                pairs = self._compared.pairs(history, found)
+            except np.linalg.LinAlgError:
+                pairs = []
             self._pairs = pairs_left(pairs, self._model.faults, self._model.sees, fired)
         return self._pairs

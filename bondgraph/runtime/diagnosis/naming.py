@@ -28,7 +28,7 @@ _MOST = 0.7  # share of the misfit that a fault has to take away where nothing f
 _LEVEL = 1e-3  # probability of what noise may leave over
 _LARGER = 2.0  # times the deviation that noise is taken for, that it may have
 _AGAIN = 5  # rows between an update and the next, twice as many each time
-_LONGEST = 320  # rows that anything said again has to wait
+LONGEST = 320  # rows that anything said again has to wait
 
 
 def possible(explained: Explained, nominal: float | None) -> Explained:
@@ -38,6 +38,19 @@ def possible(explained: Explained, nominal: float | None) -> Explained:
         if left < -0.1 - 3.0 * explained.deviation / abs(nominal):
             return explained._replace(evidence=-math.inf)
     return explained
+
+
+def suspects(
+    faults: Iterable[str], sees: Mapping[str, Sequence[str]], fired: Iterable[str]
+) -> list[str]:
+    """The faults that every residual sees which has fired; all of them where there is none.
+
+    >>> sees = {"r1": ["a", "b"], "r2": ["b", "c"], "r3": ["c"]}
+    >>> [suspects("abc", sees, fired) for fired in (["r1"], ["r1", "r2"], ["r1", "r3"])]
+    [['a', 'b'], ['b'], ['a', 'b', 'c']]
+    """
+    every, seen = list(faults), [set(sees.get(name, ())) for name in fired]
+    return [f for f in every if all(f in own for own in seen)] or every
 
 
 def candidates(
@@ -119,7 +132,7 @@ def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
         return False  # the same, or only less sure of it
     if (wanted.group and not said.group) or (wanted.pair and not (said.pair or said.group)):
         return True
-    return again and waited >= min(_AGAIN * 2.0 ** min(latched.times, 9), _LONGEST)
+    return again and waited >= min(_AGAIN * 2.0 ** min(latched.times, 9), LONGEST)
 
 
 def classes(

@@ -151,13 +151,9 @@ class ResidualRows:
         step = self.every * max(1, _CHUNK // self.every)
         for k in range(0, len(samples), step):
             part = samples[k : k + step]
-            if readings:  # laws acted on what they received, noise and all
-                got = received[k : k + step, readings]
-                batches = [e.run(part, got) for e in engines]
-                value = np.stack([b.value for b in batches])
-                valid = np.stack([b.valid for b in batches])
-            else:
-                value, valid, _ = engines[0].run_with(engines[1:], part)
+            # laws acted on what they received, noise and all
+            got = received[k : k + step, readings] if readings else None
+            value, valid, _ = engines[0].run_with(engines[1:], part, got)
             value = np.where(valid, value, np.nan)
             parts.append(value[:, self.every - 1 :: self.every])
         found = np.concatenate([*parts, np.full_like(parts[0][:, :1], np.nan)], axis=1)

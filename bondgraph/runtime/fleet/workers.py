@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from bondgraph.runtime.fleet.watched_log import WatchedLog
 from bondgraph.runtime.fleet.watcher import Item, Watcher, watch_in_worker
 from bondgraph.runtime.monitoring.watch_settings import WatchSettings
+from bondgraph.runtime.threads import VARIABLES
 from bondgraph.text.diagnostic import Trouble
 
 if TYPE_CHECKING:
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
 Result = tuple[int, WatchedLog]
 
 _PATIENCE = 10  # s in which a scheduler has to answer
-#: Threads of numeric libraries: those of several processes would only wait for each other.
-_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 _DIED = "the process that watched it died, perhaps for want of memory"
 
 
@@ -96,7 +95,7 @@ def _processes(jobs: int) -> Iterator[Executor]:
     context = multiprocessing.get_context("spawn")
     reading, writing = context.Pipe(duplex=False)
     executor = ProcessPoolExecutor(jobs, context, _begin, (reading,))
-    added = [name for name in _THREADS if name not in os.environ]
+    added = [name for name in VARIABLES if name not in os.environ]
     os.environ.update(dict.fromkeys(added, "1"))  # read when numpy is loaded, before `_begin`
     try:
         yield executor

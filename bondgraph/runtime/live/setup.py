@@ -126,9 +126,15 @@ class Wide:
         """See `Engine`."""
         return self._engine.run(samples[:, : self._own], received)
 
-    def run_with(self, others: Sequence[Engine], samples: Array) -> Batch:
+    def run_with(
+        self,
+        others: Sequence[Engine],
+        samples: Array,
+        received: Array | None = None,
+        which: Sequence[int] | None = None,
+    ) -> Batch:
         """See `Engine`."""
-        return self._engine.run_with(others, samples[:, : self._own])
+        return self._engine.run_with(others, samples[..., : self._own], received, which)
 
     def reset(self) -> None:
         """See `Engine`."""

@@ -77,9 +77,17 @@ class Engine(Protocol):
         changes its samples and not what was received.
         """
 
-    def run_with(self, others: Sequence[Engine], samples: Array) -> Batch:
+    def run_with(
+        self,
+        others: Sequence[Engine],
+        samples: Array,
+        received: Array | None = None,
+        which: Sequence[int] | None = None,
+    ) -> Batch:
         """This engine and others of the same model, each over the same samples.
 
+        Or over samples of its own: `which` says for each of the engines, this one first, by which
+        of the tables it is run, then (tables, n, signals) samples, and `received` accordingly.
         The results of all samples and engines are in memory at once: give long logs in blocks.
         """
 
@@ -211,9 +219,20 @@ def copied(engine: Engine) -> Engine:
     return copy
 
 
-def one_by_one(engines: Sequence[Engine], samples: Array) -> Batch:
-    """The results of engines run one after the other, with a first axis of engines."""
-    return Batch(*map(np.stack, zip(*[e.run(samples) for e in engines], strict=True)))
+def one_by_one(
+    engines: Sequence[Engine],
+    samples: Array,
+    received: Array | None = None,
+    which: Sequence[int] | None = None,
+) -> Batch:
+    """As `run_with` of the first of these engines, by running one after the other."""
+    if which is None:
+        found = [e.run(samples, received) for e in engines]
+    else:
+        own = [(e, samples[at], None if received is None else received[at])
+               for e, at in zip(engines, which, strict=True)]  # fmt: skip
+        found = [e.run(table, got) for e, table, got in own]
+    return Batch(*map(np.stack, zip(*found, strict=True)))
 
 
 class OfSetting:
@@ -265,9 +284,15 @@ class PythonEngine(OfSetting):
         """See `Engine`."""
         return PythonEngine(self._setting.changed(parameters, bandwidth, bounds), self._modules)
 
-    def run_with(self, others: Sequence[Engine], samples: Array) -> Batch:
+    def run_with(
+        self,
+        others: Sequence[Engine],
+        samples: Array,
+        received: Array | None = None,
+        which: Sequence[int] | None = None,
+    ) -> Batch:
         """See `Engine`."""
-        return one_by_one([self, *others], samples)
+        return one_by_one([self, *others], samples, received, which)
 
     def run(self, samples: Array, received: Array | None = None) -> Batch:
         """See `Engine`."""

@@ -135,14 +135,20 @@ class NativeEngine(OfSetting):
         """See `Engine`."""
         return Batch(*[array[0] for array in _run([self], samples, received)])
 
-    def run_with(self, others: Sequence[Engine], samples: Array) -> Batch:
+    def run_with(
+        self,
+        others: Sequence[Engine],
+        samples: Array,
+        received: Array | None = None,
+        which: Sequence[int] | None = None,
+    ) -> Batch:
         """See `Engine`; one call where all are of the same library, with thresholds or without."""
         engines = [self]
         for other in others:
             if not isinstance(other, NativeEngine) or not self._is_like(other):
-                return one_by_one([self, *others], samples)
+                return one_by_one([self, *others], samples, received, which)
             engines.append(other)
-        return _run(engines, samples)
+        return _run(engines, samples, received, which)
 
     def _is_like(self, other: NativeEngine) -> bool:
         return self._library is other._library and len(self._monitors) == len(other._monitors)
@@ -165,22 +171,40 @@ class _Monitor:
             raise ValueError(f"{runnable.stem} refuses {_STATUS[status - 1]}")
 
 
-def _run(engines: list[NativeEngine], samples: Array, received: Array | None = None) -> Batch:
-    """All engines over the same samples, in one call for each program."""
+def _run(
+    engines: list[NativeEngine],
+    samples: Array,
+    received: Array | None = None,
+    which: Sequence[int] | None = None,
+) -> Batch:
+    """All engines over the same samples or each over its own, in one call for each program."""
     first = engines[0]
-    taken = first._setting.table(samples, received)
-    shape = (len(engines), len(taken), len(first.residuals))
+    numbers = np.zeros(len(engines), dtype=np.intp)
+    if which is None:
+        taken = first._setting.table(samples, received)
+        rows, width = taken.shape
+    else:
+        numbers[:] = which
+        (count, rows, _), (low, high) = samples.shape, (numbers.min(), numbers.max())
+        if low < 0 or high >= count:
+            raise ValueError(f"tables {low} to {high} of {count}")
+        got = None if received is None else received.reshape(count * rows, -1)
+        taken = first._setting.table(samples.reshape(count * rows, -1), got)
+        width = taken.shape[1]
+    places = (taken.ctypes.data + numbers * (rows * width * taken.itemsize)).astype(np.uintp)
+    shape = (len(engines), rows, len(first.residuals))
     value = np.empty(shape)
     valid = np.empty(shape, dtype=np.bool_)
     bound = np.empty(shape) if len(first._monitors) > 1 else np.zeros(shape)
     results = [value.ctypes.data, valid.ctypes.data, bound.ctypes.data]
     for k, monitor in enumerate(first._monitors):
-        addresses = (ctypes.c_void_p * len(engines))(*[e._monitors[k].address for e in engines])
+        addresses = np.array([e._monitors[k].address for e in engines], dtype=np.uintp)
         monitor.functions.run(
-            addresses,
+            addresses.ctypes.data,
             len(engines),
-            taken.ctypes.data,
-            *taken.shape,
+            places.ctypes.data,
+            rows,
+            width,
             monitor.columns.ctypes.data,
             *results[: 2 + k],
         )

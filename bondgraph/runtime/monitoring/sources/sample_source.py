@@ -24,7 +24,7 @@ _SURE, _DIGITS = 1e-6, 9  # of a rate: nothing is told more exactly, nor with mo
 _GAP = 3.5  # steps: what is longer is no few samples lost
 _LATE = 0.7  # steps that a sample may be late by before one before it counts as lost
 _FIRST = 1000  # samples whose rate is taken
-_FEW, _PAUSE = 20, 0.01  # blocks that wait so many s for more
+_FEW, _PAUSE = 20, 0.1  # blocks that wait so many s for more
 _LONGEST = 1 << 20  # bytes of a line that may be one
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable, Iterator
 from threading import Event, Thread
 from typing import TYPE_CHECKING, Any
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from paho.mqtt.client import Client, MQTTMessage
     from serial import Serial
 
+_SMALL, _REST = 4096, 0.01  # bytes: after fewer a pipe is left alone for so many s
 _LONGEST = 5.0  # s between two attempts to open a serial port
 _AT_ONCE = 200  # messages that a broker may send before the first of them is acknowledged
 
@@ -84,6 +86,8 @@ class Pipe(Stream):
                 block = cutter.cut(piece)
                 if block is not None:
                     self._intake.put(block)
+                if len(piece) < _SMALL:
+                    time.sleep(_REST)  # to wake up for each line would cost most
         except OSError as error:
             self._intake.say("gap", f"{self.name}: {error.strerror}")
         last = cutter.cut(b"\n") if cutter.rest else None

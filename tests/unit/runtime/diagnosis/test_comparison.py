@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -9,8 +12,9 @@ import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
-from bondgraph.runtime.diagnosis.isolation import History
+from bondgraph.runtime.diagnosis.isolation import Explained, History
 from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.text.source import Source
 
@@ -33,11 +37,11 @@ _RATE = 500.0
 _ONSET = 9.137  # s, in the middle of a row
 
 
-def _said(c: float = _C, w0: float = _W0) -> list[Verdict]:
+def _said(c: float = _C, w0: float = _W0, seconds: float = 16.0) -> list[Verdict]:
     """The speed is given, and the torque that it takes: J w' + c tanh(w/w0), c or w0 changed."""
     brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
     engine = brake.engine()
-    t = np.arange(round(16.0 * _RATE)) / _RATE
+    t = np.arange(round(seconds * _RATE)) / _RATE
     w = 1.5 + np.sin(2.0 * t) + 0.7 * np.sin(5.1 * t)
     rate = 2.0 * np.cos(2.0 * t) + 0.7 * 5.1 * np.cos(5.1 * t)
     late = t >= _ONSET
@@ -72,21 +76,104 @@ def test_a_fault_is_dated_within_the_time_that_the_filter_takes() -> None:
         assert alarm.since == pytest.approx(_ONSET, abs=0.1)
 
 
+def _compared(rows: int, asked: Callable[[int], Collection[str]]) -> Comparison:
+    """So many rows of twenty samples; which faults are asked for behind each, if any."""
+    brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
+    engine, facts = brake.engine(), brake.diagnosis_model
+    known = hypotheses(engine, facts.faults, facts.units, {})
+    samples = _samples(engine, 20 * rows)
+    compared = Comparison(engine.configured(), samples[:0], 0, known, facts.nominal)
+    one, nothing = np.ones(1), np.zeros((0, 1))
+    for k in range(rows):
+        part = samples[20 * k : 20 * k + 20]
+        compared.step(Row(0.0, part, engine, 0.1 * k * one, one > 0, one, one, nothing), one)
+        faults = asked(k + 1)
+        if faults:
+            compared.explained(History(np.zeros(0)), faults)
+    return compared
+
+
+def _samples(engine: Engine, count: int) -> np.ndarray:
+    t = np.arange(count) / _RATE
+    columns = {"T": np.sin(9.0 * t), "w": 2.0 + np.cos(7.0 * t)}
+    return np.column_stack([columns[k.path] for k in engine.signals])
+
+
 def test_what_is_found_late_goes_on_from_where_the_samples_are() -> None:
     # more rows than samples are kept of, before anybody asks: slopes go on as in one run
     brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
     engine, facts = brake.engine(), brake.diagnosis_model
     known = hypotheses(engine, facts.faults, facts.units, {})
-    nominal = facts.nominal
-    t = np.arange(70 * 20) / _RATE
-    columns = {"T": np.sin(9.0 * t), "w": 2.0 + np.cos(7.0 * t)}
-    samples = np.column_stack([columns[k.path] for k in engine.signals])
-    slopes = Bank(engine.configured(), known, nominal).run(samples)[19::20]
-    compared = Comparison(engine.configured(), samples[:0], 0, known, nominal)
-    one, nothing = np.ones(1), np.zeros((0, 1))
-    for k in range(70):
-        part = samples[20 * k : 20 * k + 20]
-        compared.step(Row(0.0, part, engine, 0.1 * k * one, one > 0, one, one, nothing), one)
-        if k > 64:
-            compared.explained(History(np.zeros(0)))
-    assert compared._rows[-1].slopes == pytest.approx(slopes[-1], rel=1e-9, abs=1e-12)
+    bank = Bank(engine.configured(), known, facts.nominal)
+    slopes = bank.run(_samples(engine, 70 * 20))[-1]
+    compared = _compared(70, lambda rows: facts.faults if rows > 65 else ())
+    (fault,) = [e for e in compared.explained(History(np.zeros(0)), ()) if e.fault == "c"]
+    drag = [k for k, h in enumerate(known) if h.fault == "c"]
+    assert fault.hypothesis == known[drag[0]]
+    assert _last(compared) == pytest.approx(slopes, rel=1e-9, abs=1e-12)
+
+
+def test_a_fault_that_is_asked_for_later_is_compared_as_from_the_first_row_on() -> None:
+    history, every = History(np.zeros(0)), ("c", "w0", "J", "T", "w")
+    asked = (5, 6, 10, 20, 23, 40, 50)
+    always = _compared(70, lambda rows: every if rows in asked else ())
+    later = _compared(70, lambda rows: ("w0",) if rows in asked else ())
+    (single,) = later.explained(history, ("w0",))
+    found = {e.fault: e for e in later.explained(history, every)}
+    wanted = {e.fault: e for e in always.explained(history, every)}
+    assert single == wanted["w0"]
+    assert found == wanted and set(found) == set(every)
+    assert (_last(later) == _last(always)).all()
+
+
+def test_once_all_rows_are_known_only_the_fault_that_explains_them_is_run() -> None:
+    # 600 rows are compared; of those behind them it is known whether the fault would show
+    history, faults = History(np.zeros(0)), ("J", "w0")
+    compared = _compared(604, lambda rows: faults if rows == 600 else ())
+    found = {e.fault: e for e in compared.explained(history, faults)}
+    assert found["J"].values == found["w0"].values == 600
+    compared.follow(found["J"])
+    brake = Compilation(Source("brake.bg", _MODEL), options=bondgraph.Options(rate=_RATE))
+    engine, one = brake.engine(), np.ones(1)
+    slopes = Bank(engine.configured(), [found["J"].hypothesis], {"J": _J}).run(
+        _samples(engine, 640 * 20), range(19, 640 * 20, 20)
+    )[:, 0, 0]
+    usual = np.sqrt(np.mean(slopes[:600] ** 2))
+    seen = []
+    for k in range(604, 640):
+        part = _samples(engine, 640 * 20)[20 * k : 20 * k + 20]
+        nothing = np.zeros((0, 1))
+        compared.step(Row(0.0, part, engine, one.copy(), one > 0, one, one, nothing), one)
+        shows = compared.shows(found["J"])
+        assert shows is not None
+        seen.append(bool(shows[0]))
+        assert compared.shows(found["w0"]) is None
+        assert compared.explained(history, faults) == list(found.values())
+    assert seen == (np.abs(slopes[604:]) >= 0.3 * usual).tolist()
+    assert True in seen and False in seen
+
+
+def test_judgements_come_with_an_eighth_more_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[int] = []
+    explained = Comparison.explained
+
+    def counted(
+        self: Comparison, history: History, faults: Collection[str]
+    ) -> list[Explained]:
+        asked.append(len(self))
+        return explained(self, history, faults)
+
+    monkeypatch.setattr(Comparison, "explained", counted)
+    _said(c=2.0 * _C, seconds=50.0)
+    asked = sorted(set(asked))
+    rows = [k - asked[0] + 5 for k in asked]  # since the alarm: it is judged five rows later
+    assert rows[:6] == [5, 6, 7, 8, 9, 10] and rows[-1] > 60
+    for before, now in pairwise(rows[5:]):
+        assert 5 <= now - before <= max(5, before // 8)
+
+
+def _last(compared: Comparison) -> np.ndarray:
+    """Slopes of the last row."""
+    beside = compared._beside
+    assert beside is not None
+    return np.asarray(beside._rows[-1].slopes)

@@ -79,7 +79,7 @@ def _alarm(detection: Detection, size: float, rows: int = 6) -> None:
 def _quiet(detection: Detection, value: float = 0.0, shows: Mask | None = None) -> int:
     """Rows after which it is over."""
     for rows in range(1, 200):
-        if detection.over(_row(value, value), _LIMITS, shows):
+        if detection.over(_row(value, value), _LIMITS, lambda: shows):
             detection.clear()
             assert not detection.alarmed and detection.levels() == {}
             return rows
@@ -117,8 +117,8 @@ def test_rows_in_which_the_fault_would_not_show_do_not_tell_that_it_is_over() ->
     detection = Detection(["r1", "r2"], 3)
     _alarm(detection, 20.0)
     unmoved, moved = np.array([False, False]), np.array([True, True])
-    assert not any(detection.over(_row(0.0, 0.0), _LIMITS, unmoved) for _ in range(10))
-    rows = [detection.over(_row(0.0, 0.0), _LIMITS, moved) for _ in range(2)]
+    assert not any(detection.over(_row(0.0, 0.0), _LIMITS, lambda: unmoved) for _ in range(10))
+    rows = [detection.over(_row(0.0, 0.0), _LIMITS, lambda: moved) for _ in range(2)]
     assert rows[-1]
     other = Detection(["r1", "r2"], 3)
     _alarm(other, 20.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import product
 
 import mpmath
@@ -105,15 +106,34 @@ def test_a_fault_that_moves_nothing_that_is_off_explains_nothing() -> None:
             assert found.evidence == pytest.approx(ratio, rel=1e-6)
 
 
-def _exact_ratio(rest: np.ndarray, slopes: np.ndarray, value: np.ndarray) -> float:
-    """The evidence of one fault with three ways to be wrong, with as many digits as it takes."""
+def test_a_fault_that_does_what_a_parameter_does_keeps_its_digits() -> None:
+    # A parameter that moves the residual a million times more than its noise, within its tolerance,
+    # and a fault that is the same parameter since the onset: what is left of it is what the prior
+    # and a slope that is hardly another one leave. Products of the columns would have four digits.
+    draw = np.random.default_rng(4)
+    rest = 1e6 * (1.0 + 0.3 * draw.normal(size=(24, 1, 1)))
+    slopes = rest * (1.0 + 1e-6 * draw.normal(size=(24, 1, 1)))
+    value = 0.4 * rest[:, 0] + draw.normal(size=(24, 1))
+    rows = Rows(value, np.ones((24, 1)), rest, slopes)
+    (found,) = explain(rows, (Hypothesis("a", "value", "", 0.3, True),), History(np.ones(1)))
+    ratio = _exact_ratio(_flat(rest), _flat(slopes) * 0.3, value[:, 0], ways=([0],))
+    assert found.evidence == pytest.approx(ratio, rel=1e-7)
+
+
+def _exact_ratio(
+    rest: np.ndarray,
+    slopes: np.ndarray,
+    value: np.ndarray,
+    ways: Sequence[list[int]] = ([0], [1], [2], [0, 1, 2]),
+) -> float:
+    """The evidence of one fault with some ways to be wrong, with as many digits as it takes."""
     mpmath.mp.dps = 60
     many = np.vectorize(mpf, otypes=[object])
     healthy = many(np.eye(len(value))) + many(rest) @ many(rest).T
     steps = np.arange(len(value)) // _CHUNK
     kept = many(_KEEP ** np.abs(np.subtract.outer(steps, steps)))
     ratios = []
-    for own, scale in product(([0], [1], [2], [0, 1, 2]), _SCALES):
+    for own, scale in product(ways, _SCALES):
         one = many(slopes[:, own]) * mpf(scale)
         ratios.append(_log_density(healthy + (one @ one.T) * kept, value))
     total = mpmath.log(mpmath.fsum(map(mpmath.exp, ratios)) / len(ratios))

@@ -176,6 +176,23 @@ def test_many_engines_over_the_same_samples(native: bool) -> None:
 
 
 @pytest.mark.parametrize("native", [True, False])
+def test_many_engines_each_over_samples_of_its_own(native: bool) -> None:
+    engine = _made(native).configured()
+    tables = np.stack([_samples(150), _samples(150)[::-1], 2.0 * _samples(150)])
+    which = [2, 0, 0, 1]
+    values = [1.0, 1.1, 1.2, 1.3]
+    for bounds in (True, False):
+        fleet = [engine.configured({"R": v}, bounds=bounds) for v in values]
+        found = fleet[0].run_with(fleet[1:], tables, which=which)
+        for k, (value, table) in enumerate(zip(values, which, strict=True)):
+            alone = engine.configured({"R": value}, bounds=bounds).run(tables[table])
+            for own, one in zip(found, alone, strict=True):
+                np.testing.assert_array_equal(own[k], one)
+    with pytest.raises((ValueError, IndexError)):
+        engine.configured().run_with([engine.configured()], tables, which=[0, 3])
+
+
+@pytest.mark.parametrize("native", [True, False])
 def test_reset_and_bandwidth_and_warm_up(native: bool) -> None:
     engine = _made(native).configured()
     samples = _samples(1200)

@@ -1,0 +1,335 @@
+"""Faults beside what was seen since an onset, each with what it would have done since then."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import accumulate
+
+import numpy as np
+
+from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead
+from bondgraph.runtime.diagnosis.isolation import (
+    Explained,
+    ExplainedPair,
+    History,
+    Rows,
+    explain,
+    explain_pairs,
+    inverse,
+)
+from bondgraph.runtime.diagnosis.rows import Row, weight
+from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.monitoring.engine import Engine, copied
+
+#: Time constants of the filter, beside delays, that a residual may show late what has happened.
+_SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0)
+MOST = 600  # rows that are compared: by then it is known as well as it will be
+_WAIT = 8  # rows that are run at once, unless somebody asks before
+BENT = 60  # rows with whose samples onsets and sizes are looked for, while there are no more
+_ROUNDS = 8  # of looking for them
+_SMALL = 0.02  # of the usual change: for less a tangent does
+_CLEAR = 2.0  # standard deviations of a change that it is worth a secant
+_LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is taken
+_SAME = 0.01  # share by which changes of two rounds may differ
+_STILL = 1e-3  # less than that, and the secant is the same as before
+_STEEP = 0.8  # of how one change makes the next: steeper, a step is not made longer
+_ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
+_FADES = 0.4  # what is left of that in every row after
+_SHOWS = 0.3  # of what a fault usually does: where it does less it may be there unseen
+_GROWS = 3  # rows within which a residual has become as large as the fault makes it
+
+
+class SinceOnset:
+    """Begins at the onset: `engine` stands before samples that look healthy.
+
+    Those of the first row come behind them. A filter shows late what happens, and what looks like
+    one fault now looks like another that began a little earlier: once there is something to go by,
+    each fault gets the onset that suits it best. And laws may be bent: where a fault is as large as
+    the samples say, its slope is not that of a small one. So each is tried again then with its own
+    size. A switch that is stuck has no size: beside the rows as they were told stand those that it
+    would have made of the same samples. What is `tolerated` is so in both.
+    """
+
+    def __init__(
+        self,
+        engine: Engine,
+        healthy: Array,
+        hypotheses: Sequence[Hypothesis],
+        nominal: Mapping[str, float],
+        tolerated: Sequence[Hypothesis],
+    ) -> None:
+        self._engine = copied(engine)
+        self._healthy = healthy
+        self._all, self._nominal = tuple(hypotheses), nominal
+        self._sized = [k for k, h in enumerate(self._all) if h.held is None]
+        self._tolerated = tuple(tolerated)
+        shape = len(self._all), len(engine.residuals)
+        self._waiting: list[tuple[Row, Array]] = []  # with the noise of each residual
+        self._past: list[tuple[Row, Array]] = []
+        self._rows: list[Rows] = []
+        self._others: dict[int, list[Rows]] = {}  # by the number of what is held
+        self._squares = np.zeros(shape)  # sums over the rows, of slopes
+        self._unsaid = np.zeros((_GROWS, shape[1]), dtype=bool)
+        self._slopes = np.zeros(shape)  # of the last row
+        self._told = np.zeros((0, len(engine.signals)))  # samples of the last row
+        self._place = {k.path: at for at, k in enumerate(engine.signals)}
+        self._again = 0  # rows with which secants are looked for again
+        self._known: list[Explained] | None = None  # with all rows that are compared
+        #: Healthy samples that come behind the onset, and the change that slopes are secants up to.
+        self._tried: dict[int, tuple[int, float | None]] = dict.fromkeys(self._sized, (0, None))
+        before, begin = self._onset(0)
+        self._bank = Bank(before, [self._all[k] for k in self._sized], nominal, begin)
+        self._instead: dict[int, Instead] = {}
+        self._try(dict.fromkeys(range(len(self._all)), 0), {})
+
+    def step(self, row: Row, sigma: Array) -> None:
+        """One more row, and the noise (standard deviations) of its residuals."""
+        self._waiting.append((row, sigma))
+        if len(self._waiting) >= _WAIT:
+            self._catch_up()
+
+    def shows(self, fault: Explained) -> Mask | None:
+        """Which residuals the fault moves in the last row as it usually does, where that is known.
+
+        Where something is held at a position that it is told to be in, nothing shows it.
+        """
+        self._catch_up()
+        held = fault.hypothesis.held
+        if held is not None:
+            told = self._told[:, self._place[held.signal]]
+            return np.full(self._slopes.shape[1], bool((told != held.position).any()))
+        k = self._all.index(fault.hypothesis)
+        if k not in self._sized:  # it is not followed any more
+            return None
+        usual = np.sqrt(self._squares[k] / len(self._rows))
+        return np.asarray(np.abs(self._slopes[k]) >= _SHOWS * usual)
+
+    def follow(self, fault: Explained | None) -> None:
+        """Once all rows that are compared are known, only what this fault shows is still wanted."""
+        if self._known is None:
+            return
+        self._catch_up()
+        k = None if fault is None else self._all.index(fault.hypothesis)
+        self._bank = self._bank.part([at for at, own in enumerate(self._sized) if own == k])
+        self._sized = [own for own in self._sized if own == k]
+        self._instead = {}
+
+    def explained(self, history: History) -> list[Explained]:
+        """How well each fault explains the rows; raises LinAlgError as `explain` does."""
+        self._catch_up()
+        if self._known is not None:
+            return self._known
+        if not len(self._past) == len(self._rows) >= self._again:
+            found = self._found(history)
+            self._known = found if len(self._rows) == MOST else None
+            return found
+        if not self._again:
+            self._dated(history)
+        found = self._found(history)
+        self._again = 2 * len(self._rows)
+        before: dict[int, tuple[float, float]] = {}
+        for _ in range(_ROUNDS):
+            wanted, changes = self._bent(found), self._changes()
+            if _alike(wanted, changes):
+                break
+            tried = {k: (changes.get(k, 0.0), change) for k, change in wanted.items()}
+            earlier = {k: own for k, (own, _) in self._tried.items()}
+            self._try(earlier, {k: self._next(k, before.get(k), tried[k]) for k in wanted})
+            found, before = self._found(history), tried
+        return found
+
+    def pairs(self, history: History, singles: Sequence[Explained]) -> list[ExplainedPair]:
+        """How well two of the `singles` at once explain the rows, with the onsets of these."""
+        return explain_pairs(self._tables()[0], self._all, history, singles)
+
+    def _found(self, history: History) -> list[Explained]:
+        """How well each fault explains the rows as they are known now."""
+        rows, others = self._tables()
+        return explain(rows, self._all, history, others)
+
+    def _tables(self) -> tuple[Rows, dict[int, Rows]]:
+        """The rows as they were told, and as they should have been told, by hypothesis."""
+        rows = _stacked(self._rows)
+        others = {k: _stacked(own) for k, own in self._others.items()}
+        for other in others.values():
+            self._unsaid |= np.isnan(other.weight[:_GROWS])
+        early = _early(rows.value)
+        for one in (rows, *others.values()):  # all are compared by the same rows, at any onset
+            one.weight[:_GROWS][self._unsaid] = 0.0
+            one.weight[:] = 1.0 / (inverse(one.weight) + early)
+        return rows, others
+
+    def _dated(self, history: History) -> None:
+        """Let each fault begin when it makes what was seen most probable."""
+        best: dict[str, tuple[float, int]] = {}
+        constant = 1.0 / (self._engine.bandwidth * self._engine.sample_time)
+        lags = [round(lag / self._engine.sample_time) for lag in self._engine.lags]
+        every = range(len(self._all))
+        for earlier in dict.fromkeys(round(constant * x) + lag for lag in lags for x in _SHIFTS):
+            if earlier <= len(self._healthy):
+                self._try(dict.fromkeys(every, earlier), {})
+                for one in self._found(history):
+                    known = best.get(one.fault)
+                    if known is None or one.evidence > known[0]:
+                        best[one.fault] = one.evidence, earlier
+        self._try({k: best[self._all[k].fault][1] for k in every}, {})
+
+    def _onset(self, earlier: int) -> tuple[Engine, Array | None]:
+        """An engine so many healthy samples before the first row, and the sample before that."""
+        count = len(self._healthy) - earlier
+        engine = copied(self._engine)
+        engine.run(self._healthy[:count])
+        return engine, self._healthy[count - 1] if count else None
+
+    def _changes(self) -> dict[int, float]:
+        """What slopes are secants up to, where they are."""
+        return {k: change for k, (_, change) in self._tried.items() if change is not None}
+
+    def _try(self, earlier: Mapping[int, int], changes: Mapping[int, float]) -> None:
+        """The rows again of those that begin at another moment, or have another change, than now.
+
+        Slopes go as far as the changes.
+        """
+        wanted = {k: (own, changes.get(k)) for k, own in earlier.items()}
+        moved = [k for k, one in wanted.items() if not _same(one, self._tried.get(k))]
+        for onset in dict.fromkeys(earlier[k] for k in moved):
+            own = [k for k in moved if earlier[k] == onset]
+            before, begin = self._onset(onset)
+            healthy = self._healthy[len(self._healthy) - onset :]
+            for k in own:
+                held = self._all[k].held
+                if held is not None:
+                    other = Bank(copied(before), self._tolerated, self._nominal, begin)
+                    self._instead[k] = Instead(other, held)
+                    self._instead[k].run(healthy, ())
+                    self._others[k] = self._held(k, self._past, self._rows, 0)
+                    self._tried[k] = wanted[k]
+            self._start([k for k in own if self._all[k].held is None], onset, changes)
+
+    def _start(self, own: Sequence[int], onset: int, changes: Mapping[int, float]) -> None:
+        """Let hypotheses with a size, by their numbers, begin at an onset; none may be left out."""
+        if not own:
+            return
+        before, begin = self._onset(onset)
+        known = [self._all[k] for k in own]
+        bent = {at: changes[k] for at, k in enumerate(own) if k in changes}
+        try:
+            bank = Bank(before, known, self._nominal, begin, bent)
+        except ValueError:  # the model cannot take one of them
+            bent, bank = {}, Bank(before, known, self._nominal, begin)
+        bank.run(self._healthy[len(self._healthy) - onset :], ())
+        self._bank.take(bank, [self._sized.index(k) for k in own])
+        self._tried |= {k: (onset, bent.get(at)) for at, k in enumerate(own)}
+        if self._past:
+            slopes = bank.run(*_joined(self._past))
+            for row, one in zip(self._rows, slopes, strict=True):
+                row.slopes[own] = one
+            self._squares[own] = np.square(slopes).sum(axis=0)
+            self._slopes[own] = slopes[-1]
+
+    def _catch_up(self) -> None:
+        """Run the banks over the rows that wait."""
+        if not self._waiting:
+            return
+        rows, self._waiting = self._waiting, []
+        slopes = np.zeros((len(rows), *self._slopes.shape))
+        slopes[:, self._sized] = self._bank.run(*_joined(rows))
+        self._slopes, self._told = slopes[-1].copy(), rows[-1][0].samples
+        left, number = MOST - len(self._rows), len(self._rows)
+        if left:
+            told = [
+                Rows(row.value, weight(row, sigma), row.slopes, one)
+                for (row, sigma), one in zip(rows, slopes, strict=True)
+            ]
+            for k, others in self._others.items():
+                others += self._held(k, rows, told, number)[:left]
+            self._rows += told[:left]
+            self._squares += np.square(slopes[:left]).sum(axis=0)
+            self._past += rows[: max(0, BENT - len(self._past))]
+
+    def _held(
+        self, k: int, rows: Sequence[tuple[Row, Array]], told: Sequence[Rows], number: int
+    ) -> list[Rows]:
+        """Rows as they would be if a position was told that is held, `number` rows after the onset.
+
+        Residuals that have no value yet, in the first rows, have no weight (NaN) in any.
+        """
+        found: list[Rows] = []
+        if not rows:
+            return found
+        parts = zip(*self._instead[k].run(*_joined(rows)), strict=True)
+        for (row, sigma), one, (value, valid, rest, moved) in zip(rows, told, parts, strict=True):
+            other = weight(row._replace(value=value, valid=valid), sigma)
+            other[one.weight == 0] = 0.0
+            other[~valid & (one.weight > 0)] = np.nan
+            new = moved if number + len(found) < _GROWS else moved & valid
+            found.append(
+                Rows(
+                    np.where(new, value, one.value),
+                    np.where(new, other, one.weight),
+                    np.where(new, rest, one.rest),
+                    one.slopes[:0],
+                )
+            )
+        return found
+
+    def _bent(self, found: Sequence[Explained]) -> dict[int, float]:
+        """Changes that are large and clear enough for a secant, by number of the hypothesis."""
+        changes = {}
+        for one in found:
+            size = abs(one.change)
+            least = max(_SMALL * one.hypothesis.usual, _CLEAR * one.deviation)
+            if least <= size < np.inf and one.hypothesis.held is None:
+                k = self._all.index(one.hypothesis)
+                changes[k] = self._within(k, one.change)
+        return changes
+
+    def _next(self, k: int, before: tuple[float, float] | None, now: tuple[float, float]) -> float:
+        """The change to try next, from what was tried and what came of it (Steffensen)."""
+        change, wanted = now
+        if before is not None and before[0] != change:
+            slope = (wanted - before[1]) / (change - before[0])
+            found = (wanted - slope * change) / (1.0 - slope) if abs(slope) <= _STEEP else wanted
+            if abs(found) >= _SMALL * self._all[k].usual:
+                wanted = found
+        return self._within(k, wanted)
+
+    def _within(self, k: int, change: float) -> float:
+        """The change, of a parameter only as far as it keeps its sign and size."""
+        hypothesis = self._all[k]
+        nominal = self._nominal[hypothesis.fault] if hypothesis.kind == "value" else 0.0
+        if not nominal:
+            return change
+        return float((1.0 - np.clip(1.0 - change / nominal, _LEFT, _LARGEST)) * nominal)
+
+
+def _joined(rows: Sequence[tuple[Row, Array]]) -> tuple[Array, list[int]]:
+    """The samples of rows, one after the other, and the number of the last one of each."""
+    ends = accumulate(len(row.samples) for row, _ in rows)
+    return np.concatenate([row.samples for row, _ in rows]), [end - 1 for end in ends]
+
+
+def _same(wanted: tuple[int, float | None], tried: tuple[int, float | None] | None) -> bool:
+    """Whether an onset and a change are those that were tried already, or hardly others."""
+    if tried is None or wanted[0] != tried[0]:
+        return False
+    left, right = wanted[1], tried[1]
+    return left is right or (
+        left is not None and right is not None and abs(left - right) <= _STILL * abs(left)
+    )
+
+
+def _stacked(rows: Sequence[Rows]) -> Rows:
+    return Rows(*[np.array(x) for x in zip(*rows, strict=True)])
+
+
+def _alike(left: Mapping[int, float], right: Mapping[int, float]) -> bool:
+    return left.keys() == right.keys() and all(
+        abs(left[k] - right[k]) <= _SAME * abs(left[k]) for k in left
+    )
+
+
+def _early(values: Array) -> Array:
+    """Variances for not knowing the onset to the sample, of residuals (rows, residuals) since."""
+    size = np.abs(values[:_GROWS]).max(axis=0, initial=0.0)
+    return np.asarray((np.outer(_ERROR * _FADES ** np.arange(len(values)), size)) ** 2)
