@@ -2,8 +2,8 @@
 
 Residuals are r(t) = sum_k s_k(t) d_k + s_j(t) c_j(t) + noise, with the sensitivities s through the
 same filter. The d are what parameters are off by within their tolerances, constant and normal with
-the deviation of their tolerance; the change c of candidate j is a signal that moves little from one
-moment to the next. With both integrated out (Gaussian evidence; MacKay, 1992), candidates are
+the deviation of their tolerance; the change c of candidate j stays as it is, or is a signal that
+moves little from one moment to the next. With both integrated out (Gaussian evidence; MacKay, 1992), candidates are
 compared by how probable they make what was seen. A residual that a fault would have to move and
 that did not speaks against it by as much as it would have moved, and no more.
 """
@@ -23,10 +23,11 @@ from bondgraph.text.tuples import NamedTuple
 
 #: Of the usual change: how large a fault is, nobody knows. Close together, so that no fault is
 #: better off than another for being just as large as one of them.
-_SCALES = tuple(10.0 ** (k / 4.0) for k in range(-4, 9))
+_SCALES = tuple(10.0 ** (k / 4.0) for k in range(-16, 9))
 _KEEP = 0.95  # correlation of a fault's change between neighbouring chunks
 _CHUNK = 4  # rows in which the change is taken as constant, at least
 _PARTS = 15  # chunks at most
+_BESIDE = 0.05  # of the residual: what slopes of one fault are off by beside another
 _LEADS = 8  # faults of which pairs with every other one are looked at
 _AT_ONCE = 2**20  # numbers that sets of hypotheses take side by side
 _SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
@@ -209,8 +210,11 @@ def explain_pairs(
 
     Each fault acts in the way in which it explains most alone, if that has a size, and one of both
     is among those that explain most so: the first step of a search that adds one fault at a time.
-    Two faults have the same scales, and the prior of one; raises as `explain` does.
+    Two faults have the same scales, and the prior of one; raises as `explain` does. What one does
+    is known for its own size alone, and beside another only nearly.
     """
+    variance = inverse(rows.weight) + (_BESIDE * rows.value) ** 2
+    rows = rows._replace(weight=1.0 / variance)
     leads = sorted((e for e in singles if e.hypothesis.held is None), key=lambda e: -e.evidence)
     place = [hypotheses.index(e.hypothesis) for e in leads]
     values = max(1, int((rows.weight > 0).sum()))
@@ -252,9 +256,10 @@ def _seen(rows: Rows, prior: Array, usual: Array) -> Array:
 
 
 class _Fits(NamedTuple):
-    """Some hypotheses at once, where changes have about one size, for each of the scales.
+    """Some hypotheses at once, where changes have about one size, for each of the ways.
 
-    `changes` and `deviations` are those at the end, (scales, hypotheses); the rest is (scales,).
+    These are scales of changes that move and of such that stay. `changes` and `deviations` are
+    those at the end, (ways, hypotheses); the rest is (ways,).
     """
 
     evidence: Array
@@ -265,8 +270,13 @@ class _Fits(NamedTuple):
 
     @property
     def top(self) -> int:
-        """The scale that explains most."""
+        """The way that explains most."""
         return int(np.argmax(self.evidence))
+
+    @classmethod
+    def joined(cls, one: _Fits, other: _Fits) -> _Fits:
+        """The ways of both."""
+        return cls(*[np.concatenate(pair) for pair in zip(one, other, strict=True)])
 
 
 def _compared(own: Sequence[Hypothesis], alone: Sequence[_Fits], every: _Fits | None) -> Explained:
@@ -313,6 +323,7 @@ class _Unexplained:
             moved[rest + c * size :][:size, c] += part[c]
         steps = np.abs(np.subtract.outer(np.arange(chunks), np.arange(chunks)))
         self._spread = np.linalg.cholesky(_KEEP**steps)
+        self._steady = np.linalg.solve(self._spread, np.ones((chunks, 1)))
         self._moved = moved[:, :, :-1].transpose(2, 0, 1) @ self._spread
         self._value = moved[:, :, -1].sum(axis=1) - shared @ (shared[:rest].T @ known[:, -1])
         self._value[:rest] += known[:, -1]
@@ -320,9 +331,10 @@ class _Unexplained:
     def fits(self, sets: Sequence[Sequence[int]]) -> dict[tuple[int, ...], _Fits]:
         """Evidence for the hypotheses of each set at once, by their numbers.
 
-        Their changes have a normal prior that is correlated in time. By least squares: what changes
-        explain is a part of what was seen, which no rounding makes larger than that. So no fault
-        gains by more than half the misfit of what it moves.
+        Their changes have a normal prior, and stay as they are or are correlated in time: one as
+        probable as the other. By least squares: what changes explain is a part of what was seen,
+        which no rounding makes larger than that. So no fault gains by more than half the misfit of
+        what it moves.
         """
         found: dict[tuple[int, ...], _Fits] = {}
         by_size: dict[int, list[tuple[int, ...]]] = {}
@@ -334,8 +346,12 @@ class _Unexplained:
             at_once = max(1, _AT_ONCE // numbers)
             for start in range(0, len(alike), at_once):
                 some = alike[start : start + at_once]
-                last = np.kron(np.eye(size), self._spread[-1:])
-                found |= zip(some, _scaled(self._left(np.array(some)), last), strict=True)
+                left = self._left(np.array(some))
+                moving = _scaled(left, np.kron(np.eye(size), self._spread[-1:]))
+                every = left[:, :, :-1] @ np.kron(np.eye(size), self._steady)
+                steady = _triangle(np.concatenate([every, left[:, :, -1:]], axis=2))
+                both = zip(moving, _scaled(steady, np.eye(size)), strict=True)
+                found |= zip(some, [_Fits.joined(*one) for one in both], strict=True)
         return found
 
     def _left(self, sets: npt.NDArray[np.intp]) -> Array:

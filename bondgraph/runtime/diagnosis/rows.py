@@ -11,7 +11,7 @@ from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.text.tuples import NamedTuple
 
 _MODEL_ERROR = 0.02  # of the adaptive threshold: what the linearised model is off by
-_SLOPE_ERROR = 0.05  # of the residual: what its sensitivities are off by
+_SLOPE_ERROR = 0.02  # of the residual: what its sensitivities are off by
 _DOUBTED = 0.5  # of the doubt: its deviation
 CORRELATED = 2.0  # variance of the mean of rows, to that of independent ones
 

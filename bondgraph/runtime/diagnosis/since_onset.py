@@ -25,9 +25,9 @@ from bondgraph.runtime.monitoring.engine import Engine, copied
 _SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0)
 MOST = 600  # rows that are compared: by then it is known as well as it will be
 _WAIT = 8  # rows that are run at once, unless somebody asks before
-BENT = 60  # rows with whose samples onsets and sizes are looked for, while there are no more
+BENT = 80  # rows with whose samples onsets and sizes are looked for, while there are no more
 _ROUNDS = 8  # of looking for them
-_SMALL = 0.02  # of the usual change: for less a tangent does
+_SMALL = 1e-5  # of the usual change: for less a tangent does
 _CLEAR = 2.0  # standard deviations of a change that it is worth a secant
 _LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is taken
 _SAME = 0.01  # share by which changes of two rounds may differ

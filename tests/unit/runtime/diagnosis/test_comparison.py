@@ -105,8 +105,8 @@ def test_what_is_found_late_goes_on_from_where_the_samples_are() -> None:
     engine, facts = brake.engine(), brake.diagnosis_model
     known = hypotheses(engine, facts.faults, facts.units, {})
     bank = Bank(engine.configured(), known, facts.nominal)
-    slopes = bank.run(_samples(engine, 70 * 20))[-1]
-    compared = _compared(70, lambda rows: facts.faults if rows > 65 else ())
+    slopes = bank.run(_samples(engine, 90 * 20))[-1]
+    compared = _compared(90, lambda rows: facts.faults if rows > 85 else ())
     (fault,) = [e for e in compared.explained(History(np.zeros(0)), ()) if e.fault == "c"]
     drag = [k for k, h in enumerate(known) if h.fault == "c"]
     assert fault.hypothesis == known[drag[0]]

@@ -23,8 +23,9 @@ from bondgraph.runtime.diagnosis.isolation import (
 )
 from bondgraph.runtime.diagnosis.naming import named, update
 
-_SCALES = [0.1 * 10.0 ** (k / 4.0) for k in range(13)]
+_SCALES = [1e-4 * 10.0 ** (k / 4.0) for k in range(25)]
 _CHUNK, _PARTS, _KEEP = 4, 15, 0.95
+_BESIDE = 0.05
 
 
 def _flat(slopes: np.ndarray) -> np.ndarray:
@@ -64,14 +65,19 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
     shared = _flat(rest)
     healthy = np.diag(1.0 / weight.ravel()) + shared @ np.diag(spread**2) @ shared.T
     steps = np.arange(after) // max(_CHUNK, math.ceil(after / _PARTS))
-    kept = _KEEP ** np.abs(np.subtract.outer(steps, steps))
-    same = np.kron(kept, np.ones((residuals, residuals)))
+    moving = _KEEP ** np.abs(np.subtract.outer(steps, steps))
+    courses = [np.kron(kept, np.ones((residuals, residuals)))
+               for kept in (moving, np.ones_like(moving))]  # fmt: skip
     both = [hypotheses.index(h) for h in pair.hypotheses]
     assert sorted(h.fault for h in pair.hypotheses) == ["a", "b"]
     for fault, ways in (("a", [[0]]), ("b", [[1], [2], [3], [1, 2, 3]]), ("both", [both])):
         one = _flat(slopes)
         densities = []
-        for own, scale in product(ways, _SCALES):
+        if fault == "both":  # the residuals since the onset are known less well
+            more = np.zeros_like(value)
+            more[before:] = (_BESIDE * value[before:]) ** 2
+            healthy = healthy + np.diag(more.ravel())
+        for own, scale, same in product(ways, _SCALES, courses):
             moved = np.zeros_like(healthy)
             part = sum(
                 np.outer(one[:, j], one[:, j]) * same * (scale * hypotheses[j].usual) ** 2
@@ -131,9 +137,10 @@ def _exact_ratio(
     many = np.vectorize(mpf, otypes=[object])
     healthy = many(np.eye(len(value))) + many(rest) @ many(rest).T
     steps = np.arange(len(value)) // _CHUNK
-    kept = many(_KEEP ** np.abs(np.subtract.outer(steps, steps)))
+    moving = _KEEP ** np.abs(np.subtract.outer(steps, steps))
+    courses = [many(moving), many(np.ones_like(moving))]
     ratios = []
-    for own, scale in product(ways, _SCALES):
+    for own, scale, kept in product(ways, _SCALES, courses):
         one = many(slopes[:, own]) * mpf(scale)
         ratios.append(_log_density(healthy + (one @ one.T) * kept, value))
     total = mpmath.log(mpmath.fsum(map(mpmath.exp, ratios)) / len(ratios))
