@@ -3,9 +3,10 @@
 Residuals are r(t) = sum_k s_k(t) d_k + s_j(t) c_j(t) + noise, with the sensitivities s through the
 same filter. The d are what parameters are off by within their tolerances, constant and normal with
 the deviation of their tolerance; the change c of candidate j stays as it is, or is a signal that
-moves little from one moment to the next. With both integrated out (Gaussian evidence; MacKay, 1992), candidates are
-compared by how probable they make what was seen. A residual that a fault would have to move and
-that did not speaks against it by as much as it would have moved, and no more.
+moves little from one moment to the next. With both integrated out (Gaussian evidence; MacKay,
+1992), candidates are compared by how probable they make what was seen. A residual that a fault
+would have to move and that did not speaks against it by as much as it would have moved, and no
+more.
 """
 
 from __future__ import annotations
@@ -27,7 +28,6 @@ _SCALES = tuple(10.0 ** (k / 4.0) for k in range(-16, 9))
 _KEEP = 0.95  # correlation of a fault's change between neighbouring chunks
 _CHUNK = 4  # rows in which the change is taken as constant, at least
 _PARTS = 15  # chunks at most
-_BESIDE = 0.05  # of the residual: what slopes of one fault are off by beside another
 _LEADS = 8  # faults of which pairs with every other one are looked at
 _AT_ONCE = 2**20  # numbers that sets of hypotheses take side by side
 _SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
@@ -210,11 +210,8 @@ def explain_pairs(
 
     Each fault acts in the way in which it explains most alone, if that has a size, and one of both
     is among those that explain most so: the first step of a search that adds one fault at a time.
-    Two faults have the same scales, and the prior of one; raises as `explain` does. What one does
-    is known for its own size alone, and beside another only nearly.
+    Two faults have the same scales, and the prior of one; raises as `explain` does.
     """
-    variance = inverse(rows.weight) + (_BESIDE * rows.value) ** 2
-    rows = rows._replace(weight=1.0 / variance)
     leads = sorted((e for e in singles if e.hypothesis.held is None), key=lambda e: -e.evidence)
     place = [hypotheses.index(e.hypothesis) for e in leads]
     values = max(1, int((rows.weight > 0).sum()))

@@ -176,9 +176,11 @@ class Judge:
             sure = () if pairs else sure
         doubles = model.doubles() if pairs else None
         verdict = update(time, self.latched.since, levels, sure, found, pairs, doubles)
-        best = verdict.candidates[0].fault if verdict.candidates and not verdict.pairs else None
-        wanted = Judgement(sure, best, verdict.pairs[0].faults if verdict.pairs else ())
-        again, self._wanted = self._wanted == wanted, wanted
+        best = verdict.candidates[0] if verdict.candidates and not verdict.pairs else None
+        two = verdict.pairs[0].faults if verdict.pairs else ()
+        wanted = Judgement(sure, best and best.fault, two, best and best.size)
+        again = self._wanted is not None and self._wanted.says(wanted)
+        self._wanted = wanted
         if not news(self.latched, wanted, again, self._after - self._told):
             if news(self.latched, wanted, True, LONGEST):  # to be told, once that is confirmed
                 self._next = min(self._next, self._after + _AGAIN)

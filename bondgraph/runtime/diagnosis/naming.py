@@ -27,6 +27,7 @@ _EXPLAINS = 3.0  # logarithm of how much more probable a fault has to make what 
 _MOST = 0.7  # share of the misfit that a fault has to take away where nothing fits
 _LEVEL = 1e-3  # probability of what noise may leave over
 _LARGER = 2.0  # times the deviation that noise is taken for, that it may have
+_GROWN = 1.5  # times its size that a fault has to have to be told again
 _AGAIN = 5  # rows between an update and the next, twice as many each time
 LONGEST = 320  # rows that anything said again has to wait
 
@@ -76,7 +77,7 @@ def candidates(
 
 
 class Judgement(NamedTuple):
-    """The class that is named, () if of none, and the most probable candidate.
+    """The class that is named, () if of none, and the most probable candidate with its size.
 
     Where no single fault explains what was seen, `pair` are two that do, or classes of such.
     """
@@ -84,6 +85,17 @@ class Judgement(NamedTuple):
     group: tuple[str, ...]
     fault: str | None
     pair: tuple[str, ...] = ()
+    size: float | None = None
+
+    def says(self, other: Judgement) -> bool:
+        """Whether it says the same, whatever the sizes."""
+        return self[:3] == other[:3]
+
+    def grown(self, other: Judgement) -> bool:
+        """Whether the same fault is half as large again as in another one, or as much smaller."""
+        if self.size is None or other.size is None or self.fault != other.fault:
+            return False
+        return not 1.0 / _GROWN <= self.size / (other.size or math.inf) <= _GROWN
 
 
 class Latched(NamedTuple):
@@ -95,7 +107,8 @@ class Latched(NamedTuple):
 
     def state(self) -> dict[str, Any]:
         """All that `resumed` needs, as plain JSON."""
-        said = self.said and [list(self.said.group), self.said.fault, self.times, self.said.pair]
+        said = self.said and [list(self.said.group), self.said.fault, self.times, self.said.pair,
+                              self.said.size]  # fmt: skip
         return {"since": self.since, "said": said}
 
     @classmethod
@@ -109,12 +122,13 @@ class Latched(NamedTuple):
         since = float(state["since"])
         if state["said"] is None:
             return cls(since)
-        group, fault, times, *pair = state["said"]
-        return cls(since, Judgement(tuple(group), fault, tuple(*pair)), int(times))
+        group, fault, times, pair, size = state["said"]
+        size = None if size is None else float(size)
+        return cls(since, Judgement(tuple(group), fault, tuple(pair), size), int(times))
 
 
 def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
-    """Whether a judgement is to be told: something else than before, and for good.
+    """Whether a judgement is to be told: something else than before or of another size, for good.
 
     `again` says whether the judgement before had the same, `waited` how many rows ago the last one
     was told. Who waits longer each time does not go back and forth between two that are alike.
@@ -124,15 +138,19 @@ def news(latched: Latched, wanted: Judgement, again: bool, waited: int) -> bool:
     False
     >>> [news(Latched(0.0, a, k), b, True, 20) for k in (1, 2, 3)]
     [True, True, False]
+    >>> small, same, large = (a._replace(size=x) for x in (2.0, 2.9, 3.1))
+    >>> [news(Latched(0.0, small, 1), now, True, 20) for now in (same, large)]
+    [False, True]
     """
     said = latched.said
     if said is None:
         return True
-    if wanted == said or (not wanted.group and wanted.fault in said.group):
-        return False  # the same, or only less sure of it
+    late = again and waited >= min(_AGAIN * 2.0 ** min(latched.times, 9), LONGEST)
+    if wanted.says(said) or (not wanted.group and wanted.fault in said.group):
+        return late and wanted.grown(said)  # the same, or only less sure of it
     if (wanted.group and not said.group) or (wanted.pair and not (said.pair or said.group)):
         return True
-    return again and waited >= min(_AGAIN * 2.0 ** min(latched.times, 9), LONGEST)
+    return late
 
 
 def classes(

@@ -17,6 +17,7 @@ from bondgraph.runtime.diagnosis.isolation import (
     explain_pairs,
     inverse,
 )
+from bondgraph.runtime.diagnosis.naming import fits
 from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
@@ -33,6 +34,7 @@ _LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is
 _SAME = 0.01  # share by which changes of two rounds may differ
 _STILL = 1e-3  # less than that, and the secant is the same as before
 _STEEP = 0.8  # of how one change makes the next: steeper, a step is not made longer
+_NEARLY = 0.05  # of the residual: what slopes are off by beside other faults
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
 _SHOWS = 0.3  # of what a fault usually does: where it does less it may be there unseen
@@ -139,8 +141,17 @@ class SinceOnset:
         return found
 
     def pairs(self, history: History, singles: Sequence[Explained]) -> list[ExplainedPair]:
-        """How well two of the `singles` at once explain the rows, with the onsets of these."""
-        return explain_pairs(self._tables()[0], self._all, history, singles)
+        """How well two of the `singles` at once explain the rows, with the onsets of these.
+
+        None where one fault does: what it does is known for its own size, and for one that stays;
+        beside another, or where it grows, only nearly.
+        """
+        rows, others = self._tables()
+        for one in (rows, *others.values()):
+            one.weight[:] = 1.0 / (inverse(one.weight) + (_NEARLY * one.value) ** 2)
+        if any(fits(one) for one in explain(rows, self._all, history, others)):
+            return []
+        return explain_pairs(rows, self._all, history, singles)
 
     def _found(self, history: History) -> list[Explained]:
         """How well each fault explains the rows as they are known now."""

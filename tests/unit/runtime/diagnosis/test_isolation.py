@@ -25,7 +25,6 @@ from bondgraph.runtime.diagnosis.naming import named, update
 
 _SCALES = [1e-4 * 10.0 ** (k / 4.0) for k in range(25)]
 _CHUNK, _PARTS, _KEEP = 4, 15, 0.95
-_BESIDE = 0.05
 
 
 def _flat(slopes: np.ndarray) -> np.ndarray:
@@ -73,10 +72,6 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
     for fault, ways in (("a", [[0]]), ("b", [[1], [2], [3], [1, 2, 3]]), ("both", [both])):
         one = _flat(slopes)
         densities = []
-        if fault == "both":  # the residuals since the onset are known less well
-            more = np.zeros_like(value)
-            more[before:] = (_BESIDE * value[before:]) ** 2
-            healthy = healthy + np.diag(more.ravel())
         for own, scale, same in product(ways, _SCALES, courses):
             moved = np.zeros_like(healthy)
             part = sum(
