@@ -47,15 +47,37 @@ def parsed(words: list[str]) -> SimpleNamespace | Namespace:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit status is 0 (done), 1 (wrong model) or 2 (wrong usage)."""
     words = list(sys.argv[1:] if argv is None else argv)
+    if sys.stdout is None:  # closed by who started us
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115 (until the end)
     try:
         if words == ["--version"]:  # before anything is loaded
-            print("bondgraph", __version__)
+            print("bondgraph", __version__, flush=True)
             return 0
         return _run(parsed(words))
     except BrokenPipeError:
         # The reader has gone (`bondgraph dump ... | head`): not an error of anybody.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _silence()
         return 0
+    except OSError as error:
+        if not _stdout_fails():
+            raise
+        print(f"error: the output cannot be written: {error.strerror}", file=sys.stderr)
+        _silence()
+        return 1
+
+
+def _stdout_fails() -> bool:
+    """Whether what was printed cannot be written: a full disk behind `>`, or a closed output."""
+    try:
+        sys.stdout.flush()
+    except (OSError, ValueError):
+        return True
+    return False
+
+
+def _silence() -> None:
+    """What is left of the output goes nowhere, so that the interpreter can end in peace."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _run(args: SimpleNamespace | Namespace) -> int:
@@ -85,7 +107,10 @@ def _run(args: SimpleNamespace | Namespace) -> int:
     except Trouble as error:
         return console.broken(str(error), as_json)
     except OSError as error:
-        return console.broken(f"{error.strerror}: {error.filename}", as_json)
+        if _stdout_fails():
+            raise
+        why = error.strerror or str(error)
+        return console.broken(f"{why}: {error.filename}" if error.filename else why, as_json)
     except Exception as error:
         if os.environ.get("BONDGRAPH_TRACEBACK"):
             raise

@@ -50,11 +50,15 @@ def library(
     kept = libraries.find(name) if libraries else iter(())
     found = next((found for path in kept if (found := _load(path, sound))), None)
     if found is None:
-        with tempfile.TemporaryDirectory(prefix="bondgraph-") as temporary:
-            built = Path(temporary) / f"{name}.so"
-            _compile(files, sources, what, compiler, built)
-            taken = libraries.keep(name, built.read_bytes()) if libraries else None
-            found = (_load(taken, sound) if taken else None) or _load(built, sound)
+        try:
+            with tempfile.TemporaryDirectory(prefix="bondgraph-", ignore_cleanup_errors=True) as at:
+                built = Path(at) / f"{name}.so"
+                _compile(files, sources, what, compiler, built)
+                taken = libraries.keep(name, built.read_bytes()) if libraries else None
+                found = (_load(taken, sound) if taken else None) or _load(built, sound)
+        except OSError as error:
+            place = error.filename or tempfile.gettempdir()
+            raise NativeError(f"{what} cannot be compiled: {error.strerror}: {place}") from error
     if found is None:
         raise NativeError(f"what {compiler[0]} made cannot be loaded")
     return found
