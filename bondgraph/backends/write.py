@@ -104,8 +104,8 @@ def _fill(home: Path, files: Mapping[str, bytes]) -> None:
     _refuse_foreign(home, files, known)
     hashes = {path: _hash(data) for path, data in files.items()}
     manifest = json.dumps({"files": hashes}, indent=1) + "\n"
-    new = [p for p in files if not _stands(home, p, hashes[p])]  # others keep their times: make
-    old = [p for p in known if p not in files and _is_ours(home, p, known[p])]
+    new = [p for p in files if not _stands(home, p, {hashes[p]})]  # others keep their times: make
+    old = [p for p in known if p not in files and _stands(home, p, known[p])]
     with folder_aside(home) as temporary:
         for path in new:
             place = temporary / path
@@ -128,7 +128,7 @@ def _fill(home: Path, files: Mapping[str, bytes]) -> None:
                 f"{home}: {error.strerror or error}: {error.filename2 or error.filename}; some of"
                 " its files are new and some are old: mend this and write into it again"
             ) from error
-    if not _stands(home, MANIFEST, _hash(manifest.encode())):
+    if not _stands(home, MANIFEST, {_hash(manifest.encode())}):
         write_whole(home / MANIFEST, manifest)
 
 
@@ -208,14 +208,6 @@ def _is_foreign(home: Path, path: str, own: Set[str]) -> bool:
     return standing == "obstacle"
 
 
-def _stands(home: Path, path: str, written: str) -> bool:
+def _stands(home: Path, path: str, written: Set[str]) -> bool:
     """Whether a file stands there as it was `written`."""
-    return _at(home, path) == "file" and not _is_foreign(home, path, {written})
-
-
-def _is_ours(home: Path, path: str, written: Set[str]) -> bool:
-    """Whether a file stands there as it was `written`; not if it cannot be looked at."""
-    try:
-        return _at(home, path) == "file" and not _is_foreign(home, path, written)
-    except OSError:
-        return False
+    return _at(home, path) == "file" and not _is_foreign(home, path, written)

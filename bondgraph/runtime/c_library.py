@@ -17,6 +17,7 @@ from pathlib import Path
 
 from bondgraph.cache import user_cache
 from bondgraph.ir.artifact import Artifact
+from bondgraph.text.whole_file import folder_aside
 
 #: One rounding for each operation, as in Python; nothing is seen from outside that is not shared.
 _FLAGS = "-std=c99 -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden".split()
@@ -51,8 +52,8 @@ def library(
     found = next((found for path in kept if (found := _load(path, sound))), None)
     if found is None:
         try:
-            with tempfile.TemporaryDirectory(prefix="bondgraph-", ignore_cleanup_errors=True) as at:
-                built = Path(at) / f"{name}.so"
+            with folder_aside(Path(tempfile.gettempdir())) as temporary:
+                built = temporary / f"{name}.so"
                 _compile(files, sources, what, compiler, built)
                 taken = libraries.keep(name, built.read_bytes()) if libraries else None
                 found = (_load(taken, sound) if taken else None) or _load(built, sound)

@@ -72,7 +72,7 @@ def aside(path: str | os.PathLike[str], private: bool = False) -> Iterator[tuple
 
 @contextmanager
 def folder_aside(home: Path) -> Iterator[Path]:
-    """A folder below `home` to write to; it is gone at the end, with what is left in it."""
+    """A private folder in `home` to write to; it is gone at the end, with what is left in it."""
     remove_leftovers(home)
     temporary, file = _begun(home, _made)
     try:
@@ -164,7 +164,7 @@ def _created(path: Path, mode: int) -> int:
 
 
 def _made(path: Path) -> int:
-    path.mkdir()
+    path.mkdir(0o700)
     try:
         return os.open(path, os.O_RDONLY)
     except OSError:

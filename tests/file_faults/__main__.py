@@ -23,8 +23,11 @@ COMMAND = "python -m tests.file_faults --write"
 
 def main() -> int:
     """Run the campaign in a process that has the library loaded."""
-    parser = argparse.ArgumentParser(prog="python -m tests.file_faults", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.file_faults",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("--sample", metavar="N", type=int, default=0)
     parser.add_argument("--of", metavar="NAME", default="")
     parser.add_argument("--write", action="store_true")
@@ -48,7 +51,6 @@ def main() -> int:
 
     bench = Bench(Path(os.environ["HOME"]))
     counts, wrong = campaign(bench, writers, chosen, lambda line: print(line, flush=True))
-    print("\n".join(wrong))
     total = sum(n for *_, n in counts)
     print(f"{total} points, {len(wrong)} wrong, {time.monotonic() - start:.0f} s")
     if args.write and not wrong:

@@ -33,8 +33,8 @@ class Writer(NamedTuple):
     """A command by its words, and the files that it writes, all relative to its folder.
 
     `begin` makes what stands there before. Files of `outputs` are the old ones or the new ones at
-    any time; those of `folder` after the next run. A `journal` is looked at by its records. `always`
-    says that the command does its work whatever happens to its files (but for what it reads).
+    any time; those of `folder` after the next run. A `journal` is looked at by its records. `cold`
+    is one that finds no template in memory.
     """
 
     name: str
@@ -43,6 +43,7 @@ class Writer(NamedTuple):
     folder: str = ""
     journal: str = ""
     begin: Callable[[Path, Run], None] = lambda folder, run: None
+    cold: bool = False
 
 
 def plant(folder: Path, run: Run) -> None:
@@ -93,7 +94,7 @@ WRITERS = (
     Writer("compile, new folder", "compile motor.bg -o out", folder="out"),
     Writer("compile, other files", "compile motor.bg -o out --target c --rate 500",
            folder="out", begin=_compiled),
-    Writer("templates", "compile motor.bg -o out", folder="out", begin=_cold),
+    Writer("templates", "compile motor.bg -o out", folder="out", begin=_cold, cold=True),
     Writer("libraries", "monitor motor.bg log.csv --json", begin=_cold),
     Writer("draw", "draw motor.bg -o out.svg", ("out.svg",), begin=_old("out.svg")),
     Writer("report", "report motor.bg -o out.html", ("out.html",), begin=_old("out.html")),

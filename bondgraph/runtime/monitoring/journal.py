@@ -18,7 +18,7 @@ from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.file_lock import locked
 from bondgraph.text.numerals import listed, plural
 from bondgraph.text.tuples import NamedTuple
-from bondgraph.text.whole_file import aside, sync_folder, write_bytes
+from bondgraph.text.whole_file import aside, remove_leftovers, sync_folder, write_bytes
 
 _EDITION = 2  # the first one had no checksums
 _OLD = 1 << 20  # bytes of positions that are no longer needed, after which the file is cleaned
@@ -72,6 +72,7 @@ class Journal:
         self._size = 0  # bytes of all records
         self._old = 0  # bytes that could be cleaned away
         self._failed: JournalError | None = None
+        remove_leftovers(Path(path).parent)
         self._file = self._opened()
         try:
             if locked(self._file) is False:
@@ -206,24 +207,22 @@ class Journal:
         """Refuse what another program, version or model has written."""
         head = found.records[0] if found.records and found.records[0]["n"] == 1 else {}
         edition = head.get("journal", _edition(data))
-        if edition is None and found.records:
-            message = "its first record is damaged, so that nobody knows of which model it is;"
-            raise JournalError(f"{self._path}: {message} move it away to begin anew")
-        if edition is None:
-            raise JournalError(f"{self._path}: is not a journal; give another file")
-        if edition != _EDITION or "digest" not in head:
-            message = (
-                f"is a journal of another version of bondgraph (edition {edition}, not {_EDITION});"
-                " give another file, or move this one away to begin anew"
-            )
-            raise JournalError(f"{self._path}: {message}")
-        if head["digest"] != self._head["digest"]:
-            message = (
+        away = "move it away to begin anew"
+        if not head and (found.records or edition == _EDITION):
+            why = f"its first record is damaged: nobody knows of which model it is; {away}"
+        elif edition is None:
+            why = "is not a journal; give another file"
+        elif edition != _EDITION or "digest" not in head:
+            why = f"is a journal of another version of bondgraph (edition {edition}); {away}"
+        elif head["digest"] != self._head["digest"]:
+            why = (
                 f"belongs to another model or other options ({head.get('model')},"
-                f" {head.get('digest')}; this is {self._head['model']}, {self._head['digest']});"
-                " give another file, or move this one away to begin anew"
+                f" {head['digest']}; this is {self._head['model']}, {self._head['digest']});"
+                f" give another file, or {away}"
             )
-            raise JournalError(f"{self._path}: {message}")
+        else:
+            return
+        raise JournalError(f"{self._path}: {why}")
 
     def _damage(self, data: bytes, found: Found) -> str:
         """In words: which lines are damaged, and what is lost with them. The file is kept then."""
