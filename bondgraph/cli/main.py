@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import errno
 import gc
 import os
 import sys
@@ -58,21 +59,22 @@ def main(argv: Sequence[str] | None = None) -> int:
         # The reader has gone (`bondgraph dump ... | head`): not an error of anybody.
         _silence()
         return 0
-    except OSError as error:
-        if not _stdout_fails():
-            raise
-        print(f"error: the output cannot be written: {error.strerror}", file=sys.stderr)
+    except OSError as error:  # to tell it was in vain
+        print(f"error: {_reason(error)}", file=sys.stderr)
         _silence()
         return 1
 
 
-def _stdout_fails() -> bool:
-    """Whether what was printed cannot be written: a full disk behind `>`, or a closed output."""
-    try:
-        sys.stdout.flush()
-    except (OSError, ValueError):
-        return True
-    return False
+#: What only files without a name can say here: the output stream.
+_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+
+
+def _reason(error: OSError) -> str:
+    """What has failed, in one line."""
+    why = error.strerror or str(error)
+    if error.filename:
+        return f"{why}: {error.filename}"
+    return f"the output cannot be written: {why}" if error.errno in _FULL else why
 
 
 def _silence() -> None:
@@ -107,10 +109,9 @@ def _run(args: SimpleNamespace | Namespace) -> int:
     except Trouble as error:
         return console.broken(str(error), as_json)
     except OSError as error:
-        if _stdout_fails():
+        if error.errno in _FULL and not error.filename:
             raise
-        why = error.strerror or str(error)
-        return console.broken(f"{why}: {error.filename}" if error.filename else why, as_json)
+        return console.broken(_reason(error), as_json)
     except Exception as error:
         if os.environ.get("BONDGRAPH_TRACEBACK"):
             raise

@@ -1,8 +1,10 @@
 """Every writer, with something happening at every operation on its files; half an hour.
 
     python -m tests.file_faults [--sample N] [--of NAME] [--write]
+    python -m tests.file_faults --damage N
 
-`--sample` takes so many points of each writer, spread evenly. The exit status is 1 if anything is
+`--sample` takes so many points of each writer, spread evenly. `--damage` flips bits and cuts ends
+in N ways instead, of a journal and of a library that is kept. The exit status is 1 if anything is
 wrong. With `--write` the table goes into docs/trust.md.
 """
 
@@ -30,8 +32,11 @@ def main() -> int:
     )
     parser.add_argument("--sample", metavar="N", type=int, default=0)
     parser.add_argument("--of", metavar="NAME", default="")
+    parser.add_argument("--damage", metavar="N", type=int, default=0)
     parser.add_argument("--write", action="store_true")
     args = parser.parse_args()
+    if args.damage:
+        return _damaged(args.damage)
     if not loaded():
         with tempfile.TemporaryDirectory(prefix="faults-") as folder:
             root = Path(folder).resolve() / "root"
@@ -58,6 +63,29 @@ def main() -> int:
         head = ["| writer | operations | points |", "|---|---|---|"]
         write(ROOT / "docs" / "trust.md", COMMAND, "\n".join([*head, *rows]))
     return 1 if wrong else 0
+
+
+def _damaged(count: int) -> int:
+    """Damage a journal and a library of the C compiler; 1 if any of it does harm."""
+    from bondgraph import compile
+    from bondgraph.cache import user_cache
+    from tests.file_faults import damage
+
+    with tempfile.TemporaryDirectory(prefix="faults-") as folder:
+        os.environ["XDG_CACHE_HOME"] = folder
+        compile(str(ROOT / "models" / "dc_motor.bg")).engine(native=True)
+        cache = user_cache("so", print)
+        assert cache is not None
+        (built,) = cache.folder.glob("*.so")
+        data = built.read_bytes()
+        (Path(folder) / "journal").mkdir()
+        results = {
+            "journal": damage.journal(Path(folder) / "journal" / "journal", count),
+            f"library of {len(data)} bytes": damage.library(cache, data, count),
+        }
+    for name, (tried, wrong) in results.items():
+        print("\n".join([*wrong, f"{name}: {tried} ways, {len(wrong)} wrong"]))
+    return 1 if any(wrong for _, wrong in results.values()) else 0
 
 
 if __name__ == "__main__":
