@@ -22,7 +22,13 @@ from typing import Literal
 from bondgraph.ir.artifact import Artifact
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.file_lock import locked
-from bondgraph.text.whole_file import folder_aside, sync_folder, write_synced, write_whole
+from bondgraph.text.whole_file import (
+    folder_aside,
+    opened_folder,
+    sync_folder,
+    write_synced,
+    write_whole,
+)
 
 #: Lists what was generated into a folder, with the hash of each file as it was written.
 MANIFEST = ".bondgraph.json"
@@ -89,13 +95,14 @@ def _refuse_foreign(home: Path, files: Mapping[str, bytes], known: Mapping[str, 
 @contextmanager
 def _alone(home: Path) -> Iterator[None]:
     """Keep other compilers from writing into a folder; wait a little for one that does."""
-    file = os.open(home, os.O_RDONLY)
+    file = opened_folder(home)
     try:
-        if locked(file, _PATIENCE) is False:
+        if file is not None and locked(file, _PATIENCE) is False:
             raise Trouble(f"{home}: another process writes into it; try again, or name another")
         yield
     finally:
-        os.close(file)
+        if file is not None:
+            os.close(file)
 
 
 def _fill(home: Path, files: Mapping[str, bytes]) -> None:

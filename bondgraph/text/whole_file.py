@@ -15,10 +15,13 @@ import re
 import shutil
 import stat
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+from typing import TypeVar
 
 from bondgraph.text.file_lock import locked
+
+_Opened = TypeVar("_Opened", int, int | None)
 
 _BEGUN = re.compile(r"\.bondgraph-[0-9a-f]{12}\.tmp")
 #: What a system says that cannot put names on the disk by themselves.
@@ -51,6 +54,8 @@ def aside(path: str | os.PathLike[str], private: bool = False) -> Iterator[tuple
     with naming(final):
         remove_leftovers(final.parent)
         temporary, file = _begun(final.parent, lambda p: _created(p, 0o600 if private else 0o666))
+    opened = ExitStack()
+    opened.callback(os.close, file)
     try:
         with naming(final, temporary):
             yield temporary, file
@@ -59,13 +64,15 @@ def aside(path: str | os.PathLike[str], private: bool = False) -> Iterator[tuple
                 if not private:
                     temporary.chmod(stat.S_IMODE(final.stat().st_mode))
             os.fsync(file)
+            if os.name == "nt":  # it renames nothing that is open
+                opened.close()
             os.replace(temporary, final)
     except BaseException:
         with suppress(OSError):
             temporary.unlink()
         raise
     finally:
-        os.close(file)
+        opened.close()
     with naming(final):
         sync_folder(final.parent)
 
@@ -79,7 +86,8 @@ def folder_aside(home: Path) -> Iterator[Path]:
         yield temporary
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
-        os.close(file)
+        if file is not None:
+            os.close(file)
 
 
 def write_whole(path: str | os.PathLike[str], text: str) -> None:
@@ -104,9 +112,8 @@ def write_synced(path: str | os.PathLike[str], data: bytes) -> None:
 
 def sync_folder(folder: str | os.PathLike[str]) -> None:
     """Put the names in a folder on the disk, as far as the system can; raises OSError."""
-    try:
-        file = os.open(folder, os.O_RDONLY)
-    except PermissionError:  # not for us to read, or not on this system
+    file = opened_folder(folder)
+    if file is None:
         return
     try:
         os.fsync(file)
@@ -142,11 +149,21 @@ def naming(
         raise OSError(error.errno or errno.EIO, why, os.fspath(path)) from error
 
 
-def _begun(folder: Path, make: Callable[[Path], int]) -> tuple[Path, int]:
-    """Something new in a folder, open and with its lock."""
+def opened_folder(folder: str | os.PathLike[str]) -> int | None:
+    """A descriptor of a folder, to be locked or put on the disk; None where there can be none."""
+    try:
+        return os.open(folder, os.O_RDONLY)
+    except PermissionError:  # not for us to read, or not on this system
+        return None
+
+
+def _begun(folder: Path, make: Callable[[Path], _Opened]) -> tuple[Path, _Opened]:
+    """Something new in a folder, open and with its lock if that can be."""
     while True:
         path = folder / f".bondgraph-{os.urandom(6).hex()}.tmp"
         file = make(path)
+        if file is None:
+            return path, file
         try:
             # Before it was locked another process may have taken it for something left.
             if locked(file) is not False and os.path.samestat(os.fstat(file), os.lstat(path)):
@@ -163,10 +180,10 @@ def _created(path: Path, mode: int) -> int:
     return os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND, mode)
 
 
-def _made(path: Path) -> int:
+def _made(path: Path) -> int | None:
     path.mkdir(0o700)
     try:
-        return os.open(path, os.O_RDONLY)
+        return opened_folder(path)
     except OSError:
         path.rmdir()
         raise
