@@ -24,9 +24,10 @@ from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.file_lock import locked
 from bondgraph.text.whole_file import (
     folder_aside,
+    naming,
     opened_folder,
+    sync_files,
     sync_folder,
-    write_synced,
     write_whole,
 )
 
@@ -117,7 +118,9 @@ def _fill(home: Path, files: Mapping[str, bytes]) -> None:
         for path in new:
             place = temporary / path
             place.parent.mkdir(parents=True, exist_ok=True)
-            write_synced(place, files[path])
+            with naming(home / path):
+                place.write_bytes(files[path])
+        sync_files(temporary / path for path in new)
         if new or old:
             before = {path: sorted(known[path]) for path in known}
             write_whole(home / MANIFEST, json.dumps({"files": hashes, "before": before}) + "\n")

@@ -11,7 +11,6 @@ from bondgraph.backends.write import MANIFEST, ForeignFiles, write
 from bondgraph.ir.artifact import Artifact
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.file_lock import locked
-from bondgraph.text.whole_file import write_synced
 
 _FILES = (Artifact("a.c", "one\n"), Artifact("deep/b.py", "two\n"))
 
@@ -78,13 +77,14 @@ def test_a_full_disk_leaves_everything_as_it_was(
 ) -> None:
     out = tmp_path / "out"
     write(_FILES, out)
+    real = Path.write_bytes
 
-    def full(path: Path, data: bytes) -> None:
-        if path.name == "c.h":
+    def full(self: Path, data: bytes) -> int:
+        if self.name == "c.h":
             raise OSError("no space left")
-        write_synced(path, data)
+        return real(self, data)
 
-    monkeypatch.setattr("bondgraph.backends.write.write_synced", full)
+    monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(OSError, match="no space"):
         write((Artifact("a.c", "changed\n"), Artifact("c.h", "")), out)
     assert (out / "a.c").read_text() == "one\n"

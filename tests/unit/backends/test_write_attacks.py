@@ -265,10 +265,10 @@ def test_a_link_to_nothing_is_no_folder(place: Place) -> None:
 
 
 def test_a_failure_leaves_no_new_folder(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(path: Path, data: bytes) -> None:
+    def full(self: Path, data: bytes) -> int:
         raise OSError("no space left")
 
-    monkeypatch.setattr("bondgraph.backends.write.write_synced", full)
+    monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(OSError, match="no space"):
         write(_FILES, place.out / "new")
     assert list(place.out.iterdir()) == []
