@@ -94,8 +94,6 @@ WRITERS = (
     Writer("compile, new folder", "compile motor.bg -o out", folder="out"),
     Writer("compile, other files", "compile motor.bg -o out --target c --rate 500",
            folder="out", begin=_compiled),
-    Writer("templates", "compile motor.bg -o out", folder="out", begin=_cold, cold=True),
-    Writer("libraries", "monitor motor.bg log.csv --json", begin=_cold),
     Writer("draw", "draw motor.bg -o out.svg", ("out.svg",), begin=_old("out.svg")),
     Writer("report", "report motor.bg -o out.html", ("out.html",), begin=_old("out.html")),
     Writer("format", "format motor.bg", ("motor.bg",), begin=_spaced),
@@ -115,6 +113,9 @@ WRITERS = (
            journal="journal"),
     Writer("journal, again", "monitor motor.bg log.csv --json --journal journal",
            journal="journal", begin=_half),
+    Writer("templates", "compile motor.bg -o out --target python", folder="out", begin=_cold,
+           cold=True),
+    Writer("libraries", "monitor motor.bg log.csv --json", begin=_cold),
 )  # fmt: skip
 
 
