@@ -75,9 +75,6 @@ class Journal:
         remove_leftovers(Path(path).parent)
         self._file = self._opened()
         try:
-            if locked(self._file) is False:
-                message = "another monitor writes it; give this one a journal of its own"
-                raise JournalError(f"{path}: {message}")
             self._read()
         except BaseException:
             os.close(self._file)
@@ -125,9 +122,13 @@ class Journal:
         self._size += len(line)
         self._old += len(line)
         if self._old > _OLD:
+            self._old = 0
             with contextlib.suppress(OSError):  # no room for two, or no right to: it grows on
                 self._clean()
-            self._old = 0
+            if not _is_at(self._file, self._path):
+                message = "replaced while it was cleaned, so that what is written would be lost"
+                self._failed = JournalError(f"{self._path}: {message}")
+                raise self._failed
 
     def _lines(self, records: Iterable[dict[str, Any]]) -> bytes:
         lines = []
@@ -160,24 +161,33 @@ class Journal:
     # --------------------------------------------------------------------------- reading
 
     def _opened(self) -> int:
-        try:
-            file = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_APPEND | _NO_WAIT, 0o644)
-        except OSError as error:
-            raise self._unwritable(error) from error
-        if stat.S_ISREG(os.fstat(file).st_mode):
-            return file
-        os.close(file)
-        raise JournalError(f"{self._path}: is no regular file; give another one")
+        """The file with its lock."""
+        flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | _NO_WAIT
+        while True:
+            try:
+                file = os.open(self._path, flags, 0o644)
+            except OSError as error:
+                raise self._unwritable(error) from error
+            why = ""
+            if not stat.S_ISREG(os.fstat(file).st_mode):
+                why = "is no regular file; give another one"
+            elif locked(file) is False:
+                why = "another monitor writes it; give this one a journal of its own"
+            elif _is_at(file, self._path):  # nobody has cleaned it in the meantime
+                return file
+            os.close(file)
+            if why:
+                raise JournalError(f"{self._path}: {why}")
 
     def _read(self) -> None:
         try:
             with open(self._file, "rb", closefd=False) as file:
                 data = file.read()
-            begun = checked_line({"n": 1, **self._head}).startswith(data)
-            if not begun:
+            killed = b"\n" not in data and (data.startswith(_FIRST) or _FIRST.startswith(data))
+            if not killed:
                 self._take(data)
                 return
-            os.ftruncate(self._file, 0)  # killed in its first line
+            os.ftruncate(self._file, 0)  # there is nothing but the beginning of a first line
             sync_folder(os.path.dirname(os.path.abspath(self._path)))
         except OSError as error:
             raise JournalError(f"{self._path}: {error.strerror}") from error
@@ -265,6 +275,8 @@ class Journal:
         return Past(sources[-1], position, state, found.verdicts, self._sent, at, number, damage)
 
 
+#: What a journal begins with.
+_FIRST = b'{"n": 1, "journal": '
 #: Not to wait for the other end of a named pipe.
 _NO_WAIT = getattr(os, "O_NONBLOCK", 0)
 
@@ -289,6 +301,14 @@ def _edition(data: bytes) -> int | None:
         return None
     edition = head.get("journal") if isinstance(head, dict) else None
     return edition if isinstance(edition, int) else None
+
+
+def _is_at(file: int, path: str) -> bool:
+    """Whether an open file is the one of this name."""
+    try:
+        return os.path.samestat(os.fstat(file), os.stat(path))
+    except OSError:
+        return False
 
 
 def _written(file: int, data: bytes) -> None:

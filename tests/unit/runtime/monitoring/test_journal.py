@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import stat
 import subprocess
 import sys
 import zlib
@@ -284,6 +285,42 @@ def test_what_cannot_be_cleaned_grows_on(tmp_path: Path, monkeypatch: pytest.Mon
     past = opened(path).past
     assert past is not None and past.damage == "" and past.position == {"time": 79.0}
     assert {p.name for p in tmp_path.iterdir()} == {"j"}
+
+
+def test_a_journal_that_is_gone_when_it_is_cleaned_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "j"
+    real = os.fsync
+
+    def broken(file: int) -> None:
+        if stat.S_ISDIR(os.fstat(file).st_mode):
+            raise OSError(5, "Input/output error")
+        real(file)
+
+    journal = opened(path)
+    journal.write({"time": 1.0}, {}, [(1, _FAULT)])
+    monkeypatch.setattr(os, "fsync", broken)  # the new file has its name, perhaps not for long
+    with pytest.raises(JournalError, match="replaced while"):
+        for k in range(80):
+            journal.write({"time": float(k)}, {"x": "y" * 20_000})
+    with pytest.raises(JournalError, match="replaced while"):
+        journal.write({"time": 99.0}, {})
+    journal.close()
+    monkeypatch.setattr(os, "fsync", real)
+    past = opened(path).past
+    assert past is not None and past.verdicts == ((1, _FAULT),)
+
+
+def test_what_was_begun_for_another_source_is_no_obstacle(tmp_path: Path) -> None:
+    path = tmp_path / "j"
+    opened(path).close()
+    data = path.read_bytes()
+    for size in range(len(data)):
+        path.write_bytes(data[:size])
+        journal = opened(path, digest="other", source="there")
+        assert journal.past is None
+        journal.close()
 
 
 def test_a_pipe_is_no_journal(tmp_path: Path) -> None:
