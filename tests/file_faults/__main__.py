@@ -3,7 +3,7 @@
     python -m tests.file_faults [--sample N] [--of NAME] [--write]
     python -m tests.file_faults --damage N
 
-`--sample` takes so many points of each writer, spread evenly. `--damage` flips bits and cuts ends
+`--sample` takes so many points of each writer by chance. `--damage` flips bits and cuts ends
 in N ways instead, of a journal and of a library that is kept. The exit status is 1 if anything is
 wrong. With `--write` the table goes into docs/trust.md.
 """
@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from random import Random
 
 from tests.file_faults.interposer import Point, again, loaded
 from tests.measured import ROOT, write
@@ -53,8 +54,8 @@ def main() -> int:
     writers = [w for w in WRITERS if args.of in w.name]
 
     def chosen(points: list[Point]) -> list[Point]:
-        step = max(1, -(-len(points) // args.sample)) if args.sample else 1
-        return points[::step]
+        few = 0 < args.sample < len(points)
+        return sorted(Random(1).sample(points, args.sample)) if few else points
 
     bench = Bench(Path(os.environ["HOME"]))
     counts, wrong = campaign(bench, writers, chosen, lambda line: print(line, flush=True))

@@ -140,6 +140,9 @@ class Trial:
         done = bench.run(self._words)
         assert done.status == 0, done
         self._new, self._verdicts = self._files(), _faults(lines_of(done, writer))
+        self._then = (writer.then or writer.words).split()
+        assert bench.run(self._then).status == 0
+        self._next = self._files()
         self.operations = done.operations
         self.points = points(done.operations)
         self.wrong = unsynced(done.operations) + self._leftovers()
@@ -150,10 +153,11 @@ class Trial:
         first = self._bench.run(self._words, point)
         wrong = self._ended(first, point)
         wrong += self._standing(first, "then")
-        second = self._bench.run(self._words)
+        wrong += self._unsaid(first)
+        second = self._bench.run(self._then)
         if second.status:
             wrong.append(f"the next run ends with {second.status}: {second.err.strip()[-300:]}")
-        if self._files() != self._new:
+        if self._files() != self._next:
             wrong.append("the next run leaves other files")
         wrong += self._leftovers()
         return wrong + self._journal([first, second])
@@ -202,17 +206,27 @@ class Trial:
         """What was said and is not in the journal, or not what is said without a fault."""
         if not self._writer.journal:
             return []
-        found = read_records((self._bench.work / self._writer.journal).read_bytes())
-        wrong = [f"the journal is damaged: {d.why}" for d in found.damage]
-        kept = [v for r in found.records for v in r.get("verdicts", ())]
-        for verdict in (v for run in runs for v in lines_of(run, self._writer)):
-            if verdict not in kept:
-                wrong.append(f"said and not in the journal: {verdict}")
+        kept, wrong = self._kept()
+        wrong += [line for run in runs for line in self._unsaid(run)]
         if [v["number"] for v in kept] != list(range(1, len(kept) + 1)):
             wrong.append(f"numbers are {[v['number'] for v in kept]}")
         if self._verdicts and _faults(kept)[-len(self._verdicts) :] != self._verdicts:
             wrong.append(f"faults are {_faults(kept)}, not {self._verdicts}")
         return wrong
+
+
+    def _kept(self) -> tuple[list[dict[str, Any]], list[str]]:
+        """The verdicts in the journal, and what is wrong with it."""
+        path = self._bench.work / self._writer.journal
+        found = read_records(path.read_bytes() if path.exists() else b"")
+        kept = [v for r in found.records for v in r.get("verdicts", ())]
+        return kept, [f"the journal is damaged: {d.why}" for d in found.damage]
+
+    def _unsaid(self, done: Done) -> list[str]:
+        """What was said and is not in the journal."""
+        said = lines_of(done, self._writer)
+        kept, wrong = self._kept() if said else ([], [])
+        return wrong + [f"said and not in the journal: {v}" for v in said if v not in kept]
 
 
 def lines_of(done: Done, writer: Writer) -> list[dict[str, Any]]:

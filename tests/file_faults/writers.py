@@ -34,7 +34,7 @@ class Writer(NamedTuple):
 
     `begin` makes what stands there before. Files of `outputs` are the old ones or the new ones at
     any time; those of `folder` after the next run. A `journal` is looked at by its records. `cold`
-    is one that finds no template in memory.
+    is one that finds no template in memory. What is run next is the same command, or `then`.
     """
 
     name: str
@@ -44,6 +44,7 @@ class Writer(NamedTuple):
     journal: str = ""
     begin: Callable[[Path, Run], None] = lambda folder, run: None
     cold: bool = False
+    then: str = ""
 
 
 def plant(folder: Path, run: Run) -> None:
@@ -91,9 +92,10 @@ def _cold(folder: Path, run: Run) -> None:
 
 
 WRITERS = (
-    Writer("compile, new folder", "compile motor.bg -o out", folder="out"),
+    Writer("compile, new folder", "compile motor.bg -o out", folder="out",
+           then="compile motor.bg -o out --rate 250"),
     Writer("compile, other files", "compile motor.bg -o out --target c --rate 500",
-           folder="out", begin=_compiled),
+           folder="out", begin=_compiled, then="compile motor.bg -o out --rate 250"),
     Writer("draw", "draw motor.bg -o out.svg", ("out.svg",), begin=_old("out.svg")),
     Writer("report", "report motor.bg -o out.html", ("out.html",), begin=_old("out.html")),
     Writer("format", "format motor.bg", ("motor.bg",), begin=_spaced),
