@@ -86,7 +86,7 @@ def write(artifacts: Iterable[Artifact], folder: str | os.PathLike[str]) -> tupl
 
 def _refuse_foreign(home: Path, files: Mapping[str, bytes], known: Mapping[str, set[str]]) -> None:
     """Raise `ForeignFiles` if something is in the way that is not ours."""
-    foreign = [p for p, data in files.items() if _is_foreign(home, p, known[p] | {_hash(data)})]
+    foreign = [p for p, data in files.items() if _is_foreign(home, p, known.get(p, set()) | {_hash(data)})]
     if _at(home, MANIFEST) == "obstacle":
         foreign.append(MANIFEST)
     if foreign:
@@ -146,10 +146,10 @@ def _hash(data: bytes) -> str:
     return sha256(data).hexdigest()
 
 
-def _manifest(home: Path) -> defaultdict[str, set[str]]:
+def _manifest(home: Path) -> Mapping[str, set[str]]:
     """The hashes of the files that earlier runs wrote; what cannot be a file is left out.
 
-    There are several of a file if a run did not come to its end.
+    There are several of a file if a run did not come to its end. Raises OSError.
     """
     known: defaultdict[str, set[str]] = defaultdict(set)
     if _at(home, MANIFEST) != "file":
@@ -159,7 +159,7 @@ def _manifest(home: Path) -> defaultdict[str, set[str]]:
         if place.stat().st_size > _LARGEST:
             return known
         found = json.loads(place.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
+    except (ValueError, RecursionError):
         return known
     for part in ("files", "before"):
         listed = found.get(part) if isinstance(found, dict) else None
