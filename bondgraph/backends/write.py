@@ -86,7 +86,8 @@ def write(artifacts: Iterable[Artifact], folder: str | os.PathLike[str]) -> tupl
 
 def _refuse_foreign(home: Path, files: Mapping[str, bytes], known: Mapping[str, set[str]]) -> None:
     """Raise `ForeignFiles` if something is in the way that is not ours."""
-    foreign = [p for p, data in files.items() if _is_foreign(home, p, known.get(p, set()) | {_hash(data)})]
+    ours = {path: known.get(path, set()) | {_hash(data)} for path, data in files.items()}
+    foreign = [path for path in files if _is_foreign(home, path, ours[path])]
     if _at(home, MANIFEST) == "obstacle":
         foreign.append(MANIFEST)
     if foreign:
