@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 .DEFAULT_GOAL := help
-.PHONY: help run demo robots test check lint types imports docs wheel bench update fuzz random real mutants clean
+.PHONY: help run demo robots test check lint types imports docs wheel bench update fuzz random real mutants faults clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -97,6 +97,10 @@ robots: $(VENV)/dev.stamp ## a hundred healthy robots and many faulty ones throu
 
 mutants: $(VENV)/dev.stamp ## 300 mutants of the compiler (or COUNT=...) through the tests that reach them; hours
 	$(BIN)/python -m tests.mutants --count $(or $(COUNT),300) --jobs 2 $(if $(SEED),--seed $(SEED))
+
+faults: $(VENV)/dev.stamp ## every writer, killed or failed at every operation on its files, then damage; half an hour
+	$(BIN)/python -m tests.file_faults
+	$(BIN)/python -m tests.file_faults --damage 10000
 
 clean: ## remove what this file made
 	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

@@ -10,15 +10,14 @@ from __future__ import annotations
 
 import os
 import stat
-import tempfile
-import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from hashlib import file_digest, sha256
 from pathlib import Path
 
+from bondgraph.text.whole_file import write_bytes
+
 _KEPT = 100  # files of one kind
-_STALE = 3600.0  # s; what a process that was killed had begun to write
 _WRITABLE = stat.S_IWGRP | stat.S_IWOTH
 
 
@@ -54,15 +53,9 @@ class Cache:
     def keep(self, name: str, data: bytes) -> Path | None:
         """Take a content in, whole or not at all, and forget the oldest; where it is then."""
         path = self.folder / f"{name}.{sha256(data).hexdigest()}.{self.kind}"
-        temporary = None
         try:
-            descriptor, temporary = tempfile.mkstemp(".tmp", ".", self.folder)  # only ours
-            with open(descriptor, "wb") as file:
-                file.write(data)
-            os.replace(temporary, path)
+            write_bytes(path, data, private=True)
         except OSError:
-            if temporary is not None:
-                Path(temporary).unlink(missing_ok=True)
             return None
         self._tidy()
         return path
@@ -70,10 +63,7 @@ class Cache:
     def _tidy(self) -> None:
         with suppress(OSError):  # another process may be at it
             kept = sorted(self._files(), key=lambda p: p.stat().st_mtime)
-            begun = [
-                p for p in self.folder.glob(".*.tmp") if p.stat().st_mtime < time.time() - _STALE
-            ]
-            for old in kept[:-_KEPT] + begun:
+            for old in kept[:-_KEPT]:
                 old.unlink()
 
 

@@ -34,6 +34,30 @@ def test_functions_have_names_in_their_record_and_in_tables_only() -> None:
     assert sorted(knowing - RECORD - NUMBERS - LANGUAGES) == []
 
 
+def test_files_get_their_names_in_one_place_only() -> None:
+    """What puts a file under its name is `text.whole_file`; a journal is appended to by itself."""
+    renames = {"replace", "rename", "mkstemp", "mkdtemp", "NamedTemporaryFile", "fsync"}
+    found = {
+        (file.name.removeprefix("bondgraph."), node.func.attr)
+        for file in FILES
+        for node in ast.walk(file.tree)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)
+        and node.func.attr in renames
+        and (node.func.attr != "replace" or len(node.args) == 1 or _of_os(node.func))
+    }  # fmt: skip
+    assert found == {
+        ("backends.write", "replace"),  # out of a folder that is on the disk
+        ("runtime.monitoring.journal", "fsync"),
+        ("text.whole_file", "fsync"),
+        ("text.whole_file", "replace"),
+    }
+
+
+def _of_os(function: ast.Attribute) -> bool:
+    """Whether it is of the system, not of a text."""
+    return isinstance(function.value, ast.Name) and function.value.id == "os"
+
+
 def test_what_is_counted_is_found() -> None:
     g = "def g(n):\n    '''Doc.'''\n    return n.op in (Op.A, Op.B, Op.C)"
     one = house.Module("bondgraph.x.a", ast.parse(f"from bondgraph.y.a import f\n{g}"))

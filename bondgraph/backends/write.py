@@ -11,22 +11,32 @@ from __future__ import annotations
 import errno
 import json
 import os
-import shutil
 import stat
-import tempfile
-from collections.abc import Iterable
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Set
+from contextlib import contextmanager
 from hashlib import file_digest, sha256
 from pathlib import Path
 from typing import Literal
 
 from bondgraph.ir.artifact import Artifact
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.file_lock import locked
+from bondgraph.text.whole_file import (
+    folder_aside,
+    naming,
+    opened_folder,
+    sync_files,
+    sync_folder,
+    write_whole,
+)
 
 #: Lists what was generated into a folder, with the hash of each file as it was written.
 MANIFEST = ".bondgraph.json"
 
 #: A manifest has some hundred bytes a file; one of more bytes than this is not ours.
 _LARGEST = 10_000_000
+_PATIENCE = 10.0  # s that another process has to write its files
 #: What the system says of a place where nothing stands, or can.
 _NOTHING = {errno.ENOENT, errno.ENOTDIR, errno.ENAMETOOLONG}
 
@@ -47,68 +57,118 @@ def write(artifacts: Iterable[Artifact], folder: str | os.PathLike[str]) -> tupl
     """Write the files below `folder`, and return their paths (folder included), in order.
 
     Everything is first written to a folder inside and then moved, so that a failure before that
-    leaves everything as it was. Files that an earlier run wrote and this one does not are removed;
-    what the manifest does not know, what was edited since, and what is behind a link is never
-    touched. `folder` itself may be a link: it was named by who called. Raises `ForeignFiles` if
-    something is in the way, OSError if the disk refuses, ValueError for a path that leads out of
-    the folder.
+    leaves everything as it was. While files are moved the manifest lists both the new and the old
+    ones: wherever a process is killed, the next one knows them all as ours, and what it writes is
+    whole again. Files that an earlier run wrote and this one does not are removed; what the
+    manifest does not know, what was edited since, and what is behind a link is never touched.
+    `folder` itself may be a link: it was named by who called. Raises `ForeignFiles` if something is
+    in the way, `Trouble` where another process writes there or the disk refuses while files are
+    moved, OSError if it refuses before, ValueError for a path that leads out of the folder.
     """
     files = {a.path: a.text.encode() for a in artifacts}
     for path in files:
         if not _is_below(path):
             raise ValueError(f"{path} is not a path below the output folder")
     home = Path(folder)
-    known = _manifest(home)
-    hashes = {path: sha256(data).hexdigest() for path, data in files.items()}
-    foreign = [p for p in files if _is_foreign(home, p, known.get(p), hashes[p])]
+    _refuse_foreign(home, files, _manifest(home))
+    is_new = not home.exists()
+    home.mkdir(parents=True, exist_ok=True)
+    try:
+        with _alone(home):
+            _fill(home, files)
+        if is_new:
+            sync_folder(home.parent)
+    finally:
+        if is_new and not any(home.iterdir()):
+            home.rmdir()
+    return tuple(str(home / path) for path in files)
+
+
+def _refuse_foreign(home: Path, files: Mapping[str, bytes], known: Mapping[str, set[str]]) -> None:
+    """Raise `ForeignFiles` if something is in the way that is not ours."""
+    ours = {path: known.get(path, set()) | {_hash(data)} for path, data in files.items()}
+    foreign = [path for path in files if _is_foreign(home, path, ours[path])]
     if _at(home, MANIFEST) == "obstacle":
         foreign.append(MANIFEST)
     if foreign:
         raise ForeignFiles(home, tuple(foreign))
-    manifest = json.dumps({"files": hashes}, indent=1) + "\n"
-    _fill(home, {**files, MANIFEST: manifest.encode()})
-    for path, written in known.items():
-        if path not in files and _is_ours(home, path, written):
-            (home / path).unlink()
-    return tuple(str(home / path) for path in files)
 
 
-def _fill(home: Path, files: dict[str, bytes]) -> None:
-    """Write all files to a folder of their own, then move them; a new `home` goes if that fails."""
-    is_new = not home.exists()
-    home.mkdir(parents=True, exist_ok=True)
-    temporary = Path(tempfile.mkdtemp(prefix=".bondgraph.", dir=home))
+@contextmanager
+def _alone(home: Path) -> Iterator[None]:
+    """Keep other compilers from writing into a folder; wait a little for one that does."""
+    file = opened_folder(home)
     try:
-        for path, data in files.items():
+        if file is not None and locked(file, _PATIENCE) is False:
+            raise Trouble(f"{home}: another process writes into it; try again, or name another")
+        yield
+    finally:
+        if file is not None:
+            os.close(file)
+
+
+def _fill(home: Path, files: Mapping[str, bytes]) -> None:
+    """Write all files to a folder of their own, then move them; see `write`."""
+    known = _manifest(home)  # again: another process may just have finished
+    _refuse_foreign(home, files, known)
+    hashes = {path: _hash(data) for path, data in files.items()}
+    manifest = json.dumps({"files": hashes}, indent=1) + "\n"
+    new = [p for p in files if not _stands(home, p, {hashes[p]})]  # others keep their times: make
+    old = [p for p in known if p not in files and _stands(home, p, known[p])]
+    with folder_aside(home) as temporary:
+        for path in new:
             place = temporary / path
             place.parent.mkdir(parents=True, exist_ok=True)
-            place.write_bytes(data)
-        for path, data in files.items():
-            place = home / path
-            if _at(home, path) == "file" and place.read_bytes() == data:
-                continue  # it keeps its time: make need not compile it again
-            place.parent.mkdir(parents=True, exist_ok=True)
-            (temporary / path).replace(place)
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
-        if is_new and not any(home.iterdir()):
-            home.rmdir()
+            with naming(home / path):
+                place.write_bytes(files[path])
+        sync_files(temporary / path for path in new)
+        if new or old:
+            before = {path: sorted(known[path]) for path in known}
+            write_whole(home / MANIFEST, json.dumps({"files": hashes, "before": before}) + "\n")
+        try:
+            for path in new:
+                place = home / path
+                place.parent.mkdir(parents=True, exist_ok=True)
+                (temporary / path).replace(place)
+            for path in old:
+                (home / path).unlink()
+            for touched in sorted({(home / p).parent for p in new + old}):
+                sync_folder(touched)
+        except OSError as error:
+            raise Trouble(
+                f"{home}: {error.strerror or error}: {error.filename2 or error.filename}; some of"
+                " its files are new and some are old: mend this and write into it again"
+            ) from error
+    if not _stands(home, MANIFEST, {_hash(manifest.encode())}):
+        write_whole(home / MANIFEST, manifest)
 
 
-def _manifest(home: Path) -> dict[str, str]:
-    """The files that an earlier run wrote, with their hashes; what cannot be one is left out."""
+def _hash(data: bytes) -> str:
+    return sha256(data).hexdigest()
+
+
+def _manifest(home: Path) -> Mapping[str, set[str]]:
+    """The hashes of the files that earlier runs wrote; what cannot be a file is left out.
+
+    There are several of a file if a run did not come to its end. Raises OSError.
+    """
+    known: defaultdict[str, set[str]] = defaultdict(set)
     if _at(home, MANIFEST) != "file":
-        return {}
+        return known
     place = home / MANIFEST
     try:
         if place.stat().st_size > _LARGEST:
-            return {}
-        found = json.loads(place.read_text(encoding="utf-8"))["files"]
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
-        return {}
-    if not isinstance(found, dict):
-        return {}
-    return {p: h for p, h in found.items() if isinstance(h, str) and _is_below(p)}
+            return known
+        found = json.loads(place.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError):
+        return known
+    for part in ("files", "before"):
+        listed = found.get(part) if isinstance(found, dict) else None
+        for path, hashes in listed.items() if isinstance(listed, dict) else ():
+            several = hashes if isinstance(hashes, list) else [hashes]
+            if _is_below(path):
+                known[path].update(h for h in several if isinstance(h, str))
+    return known
 
 
 def _is_below(path: str) -> bool:
@@ -150,7 +210,7 @@ def _at(home: Path, path: str) -> Literal["nothing", "file", "obstacle"]:
         raise
 
 
-def _is_foreign(home: Path, path: str, *own: str | None) -> bool:
+def _is_foreign(home: Path, path: str, own: Set[str]) -> bool:
     """Whether something stands there, or on the way there, that has none of our `own` hashes."""
     standing = _at(home, path)
     if standing == "file":
@@ -159,9 +219,6 @@ def _is_foreign(home: Path, path: str, *own: str | None) -> bool:
     return standing == "obstacle"
 
 
-def _is_ours(home: Path, path: str, written: str) -> bool:
-    """Whether a file stands there as it was `written`; not if it cannot be looked at."""
-    try:
-        return _at(home, path) == "file" and not _is_foreign(home, path, written)
-    except OSError:
-        return False
+def _stands(home: Path, path: str, written: Set[str]) -> bool:
+    """Whether a file stands there as it was `written`."""
+    return _at(home, path) == "file" and not _is_foreign(home, path, written)

@@ -9,7 +9,6 @@ from contextlib import contextmanager
 from typing import IO
 
 from bondgraph.text.diagnostic import CompileError, Diagnostic
-from bondgraph.text.whole_file import write_whole
 
 
 class Unknown(Exception):
@@ -133,6 +132,8 @@ def deliver(output: str, text: str, what: str) -> None:
     if output == "-":
         sys.stdout.write(text)
         return
+    from bondgraph.text.whole_file import write_whole
+
     os.makedirs(os.path.dirname(output) or ".", exist_ok=True)
     write_whole(output, text)
     print(f"{output}: {what}")

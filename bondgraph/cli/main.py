@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import errno
 import gc
 import os
 import sys
@@ -49,15 +50,38 @@ def parsed(words: list[str]) -> SimpleNamespace | Namespace:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit status is 0 (done), 1 (wrong model) or 2 (wrong usage)."""
     words = list(sys.argv[1:] if argv is None else argv)
+    if sys.stdout is None:  # closed by who started us
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115 (until the end)
     try:
         if words == ["--version"]:  # before anything is loaded
-            print("bondgraph", __version__)
+            print("bondgraph", __version__, flush=True)
             return 0
         return _run(parsed(words))
     except BrokenPipeError:
         # The reader has gone (`bondgraph dump ... | head`): not an error of anybody.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _silence()
         return 0
+    except OSError as error:  # to tell it was in vain
+        print(f"error: {_reason(error)}", file=sys.stderr)
+        _silence()
+        return 1
+
+
+#: What only files without a name can say here: the output stream.
+_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+
+
+def _reason(error: OSError) -> str:
+    """What has failed, in one line."""
+    why = error.strerror or str(error)
+    if error.filename:
+        return f"{why}: {error.filename}"
+    return f"the output cannot be written: {why}" if error.errno in _FULL else why
+
+
+def _silence() -> None:
+    """What is left of the output goes nowhere, so that the interpreter can end in peace."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _run(args: SimpleNamespace | Namespace) -> int:
@@ -90,7 +114,9 @@ def _run(args: SimpleNamespace | Namespace) -> int:
     except Trouble as error:
         return console.broken(str(error), as_json)
     except OSError as error:
-        return console.broken(f"{error.strerror}: {error.filename}", as_json)
+        if error.errno in _FULL and not error.filename:
+            raise
+        return console.broken(_reason(error), as_json)
     except Exception as error:
         if os.environ.get("BONDGRAPH_TRACEBACK"):
             raise

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from importlib import import_module
+from typing import Any
 
 from bondgraph import __version__
 
@@ -34,7 +36,16 @@ Exit status: 0 done, 1 the model is wrong or cannot be solved at all, 2 wrong us
 """
 
 
-class Parser(argparse.ArgumentParser):
+class _Heard(argparse.ArgumentParser):
+    """A parser whose help is printed, or raises OSError."""
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        stream = file or sys.stderr
+        stream.write(message)
+        stream.flush()
+
+
+class Parser(_Heard):
     """A parser of one command: its options may stand between the other words too."""
 
     _inside = False
@@ -52,7 +63,7 @@ class Parser(argparse.ArgumentParser):
 
 def parser_for(command: str | None) -> argparse.ArgumentParser:
     """The parser with all commands; only `command` gets its arguments (None: every one)."""
-    parser = argparse.ArgumentParser(
+    parser = _Heard(
         prog="bondgraph",
         description="Compile bond graphs into residuals that detect and isolate faults.",
         epilog=_EPILOG,

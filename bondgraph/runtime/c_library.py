@@ -17,6 +17,7 @@ from pathlib import Path
 
 from bondgraph.cache import user_cache
 from bondgraph.ir.artifact import Artifact
+from bondgraph.text.whole_file import folder_aside
 
 #: One rounding for each operation, as in Python; nothing is seen from outside that is not shared.
 _FLAGS = "-std=c99 -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden".split()
@@ -50,11 +51,15 @@ def library(
     kept = libraries.find(name) if libraries else iter(())
     found = next((found for path in kept if (found := _load(path, sound))), None)
     if found is None:
-        with tempfile.TemporaryDirectory(prefix="bondgraph-") as temporary:
-            built = Path(temporary) / f"{name}.so"
-            _compile(files, sources, what, compiler, built)
-            taken = libraries.keep(name, built.read_bytes()) if libraries else None
-            found = (_load(taken, sound) if taken else None) or _load(built, sound)
+        try:
+            with folder_aside(Path(tempfile.gettempdir())) as temporary:
+                built = temporary / f"{name}.so"
+                _compile(files, sources, what, compiler, built)
+                taken = libraries.keep(name, built.read_bytes()) if libraries else None
+                found = (_load(taken, sound) if taken else None) or _load(built, sound)
+        except OSError as error:
+            place = error.filename or tempfile.gettempdir()
+            raise NativeError(f"{what} cannot be compiled: {error.strerror}: {place}") from error
     if found is None:
         raise NativeError(f"what {compiler[0]} made cannot be loaded")
     return found

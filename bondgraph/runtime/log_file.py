@@ -32,7 +32,7 @@ from bondgraph.runtime.log_numbers import (
     separator_of,
 )
 from bondgraph.runtime.time_column import chosen, stamp
-from bondgraph.text.whole_file import whole
+from bondgraph.text.whole_file import naming, whole
 
 if TYPE_CHECKING:
     import pyarrow
@@ -421,5 +421,5 @@ def write_parquet(log: Log, path: str) -> None:
     ]
     schema = pyarrow.schema(fields, metadata={MARK: EDITION, **log.meta})
     table = pyarrow.Table.from_arrays([pyarrow.array(a) for a in arrays.values()], schema=schema)
-    with whole(path) as temporary:
+    with whole(path) as temporary, naming(path):
         pyarrow.parquet.write_table(table, temporary)

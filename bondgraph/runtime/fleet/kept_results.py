@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable
 from contextlib import suppress
@@ -11,7 +10,8 @@ from pathlib import Path
 from bondgraph.runtime.fleet.verdict_table import check_name, read_verdicts, write_verdicts
 from bondgraph.runtime.fleet.watched_log import BAD, WatchedLog, from_json_record
 from bondgraph.runtime.log import LogError
-from bondgraph.text.whole_file import write_whole
+from bondgraph.text.checked_line import checked_line, record_of
+from bondgraph.text.whole_file import remove_leftovers, write_bytes
 
 
 class KeptResults:
@@ -43,8 +43,9 @@ class KeptResults:
         if found.state == BAD:
             return
         self.folder.mkdir(exist_ok=True)  # another run may have finished
-        text = json.dumps(found.to_record(), ensure_ascii=False)
-        write_whole(str(self.folder / f"{found.key}.json"), text)
+        level = None if found.level is None else repr(found.level)  # it may be infinite
+        line = checked_line({**found.to_record(), "level": level})
+        write_bytes(self.folder / f"{found.key}.json", line)
 
     def finish(self, logs: Iterable[WatchedLog]) -> None:
         """Write the output; what was kept beside it is no longer needed."""
@@ -53,7 +54,8 @@ class KeptResults:
 
     def discard(self) -> None:
         """Remove what was kept beside the output, and nothing that is not ours."""
-        for path in (*self.folder.glob("*.json"), *self.folder.glob(".*.json.*.tmp")):
+        remove_leftovers(self.folder)
+        for path in self.folder.glob("*.json"):
             path.unlink(missing_ok=True)
         with suppress(OSError):
             self.folder.rmdir()
@@ -62,6 +64,8 @@ class KeptResults:
 def _kept(path: Path) -> WatchedLog | None:
     """What was put down for a log; None for a file that is not that: the log is watched again."""
     try:
-        return from_json_record(json.loads(path.read_text(encoding="utf-8")))
-    except (OSError, KeyError, TypeError, ValueError, AttributeError):
+        record = record_of(path.read_bytes().removesuffix(b"\n"))
+        level = None if record["level"] is None else float(record["level"])
+        return from_json_record({**record, "level": level})
+    except (OSError, KeyError, TypeError, ValueError, AttributeError, OverflowError):
         return None

@@ -9,7 +9,7 @@ from typing import Any
 
 from bondgraph.runtime.fleet.watched_log import WatchedLog, from_json_record
 from bondgraph.runtime.log import LogError
-from bondgraph.text.whole_file import whole
+from bondgraph.text.whole_file import naming, whole
 
 #: What a row is called that says why a log is bad.
 ERROR = "error"
@@ -78,7 +78,7 @@ def check_name(path: str) -> None:
 def write_verdicts(path: str, logs: Iterable[WatchedLog]) -> None:
     """Write the table, the whole file or nothing; raises LogError or OSError."""
     columns = columns_of(logs)
-    with whole(path) as temporary:
+    with whole(path) as temporary, naming(path):
         if path.lower().endswith(".parquet"):
             arrow, parquet = _parquet(path)
             kinds = {str: arrow.string(), float: arrow.float64(), int: arrow.int64()}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time as clocks
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import closing
 from threading import Event
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -165,16 +166,17 @@ class Monitor:
                 publisher.publish(number, to_json(verdict, number))
         self._time = float(past.position.get("time", 0.0))
         self._samples = int(past.position.get("samples", 0))
-        if past.state is not None:
-            try:
-                self._parts.decision.resume(past.state)
-            except (KeyError, IndexError, TypeError, ValueError) as error:
-                message = (
-                    "the journal is of another version of bondgraph; move it away to begin anew"
-                )
-                raise JournalError(message) from error
+        self._number = max(self._number, past.number)
+        if past.damage:
+            self._parts.note(past.damage)
         same = past.source == source.name
-        why = source.go(past.position) if same else f"the source was {past.source}"
+        try:
+            if past.state is not None:
+                self._parts.decision.resume(past.state)
+            why = source.go(past.position) if same else f"the source was {past.source}"
+        except (AttributeError, LookupError, OverflowError, TypeError, ValueError) as error:
+            message = "the journal is of another version of bondgraph; move it away to begin anew"
+            raise JournalError(message) from error
         if why:
             self._parts.decision.restart()
         if same and not source.replays:
@@ -191,7 +193,7 @@ class Monitor:
 
     def _resumed(self, past: Past, message: str) -> None:
         away = max(0.0, clocks.time() - past.at)
-        message = f"after {away:.0f} s away, {message}"
+        message = f"after {away:.0f} s away, {message}" + (past.damage and f"; {past.damage}")
         known = self._latched
         if known is None:
             self._say(Verdict("resumed", self._time, message=f"{message}; no fault is known"))
@@ -247,9 +249,9 @@ class Monitor:
         parts.source.close()
         untaken = 0 if parts.publisher is None else parts.publisher.close()
         if parts.journal is not None:
-            if parts.publisher is not None:
-                parts.journal.sent(parts.publisher.taken)
-            parts.journal.close()
+            with closing(parts.journal):
+                if parts.publisher is not None:
+                    parts.journal.sent(parts.publisher.taken)
         return untaken
 
     # -------------------------------------------------------------------------- samples

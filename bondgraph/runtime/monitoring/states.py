@@ -13,7 +13,7 @@ import numpy as np
 from bondgraph.runtime.log import Array, LogError
 from bondgraph.runtime.monitoring.engine import Batch
 from bondgraph.runtime.monitoring.verdict import Verdict
-from bondgraph.text.whole_file import whole
+from bondgraph.text.whole_file import naming, whole
 
 ALARM, HEALTHY, BLIND, WARMING = "alarm", "healthy", "blind", "warming up"
 
@@ -91,11 +91,26 @@ def states_file(path: str, residuals: Sequence[str]) -> Iterator[States]:
     if kind is None:
         raise LogError(path, None, "states are written as .csv or .parquet")
     with whole(path) as temporary:
-        table = kind(temporary)
+        table = _Named(kind(temporary), path)
         try:
             yield States(table, residuals)
         finally:
             table.close()
+
+
+class _Named:
+    """A table whose failures name its file, not the one aside."""
+
+    def __init__(self, table: _Table, path: str) -> None:
+        self._table, self._path = table, path
+
+    def add(self, columns: dict[str, Any]) -> None:
+        with naming(self._path):
+            self._table.add(columns)
+
+    def close(self) -> None:
+        with naming(self._path):
+            self._table.close()
 
 
 class _Csv:

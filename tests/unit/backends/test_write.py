@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 
 from bondgraph.backends.write import MANIFEST, ForeignFiles, write
 from bondgraph.ir.artifact import Artifact
+from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.file_lock import locked
 
 _FILES = (Artifact("a.c", "one\n"), Artifact("deep/b.py", "two\n"))
 
@@ -86,3 +89,64 @@ def test_a_full_disk_leaves_everything_as_it_was(
         write((Artifact("a.c", "changed\n"), Artifact("c.h", "")), out)
     assert (out / "a.c").read_text() == "one\n"
     assert {p.name for p in tmp_path.iterdir()} == {"out"}
+
+
+class _Killed(BaseException):
+    """What nobody catches, as nobody catches a signal 9."""
+
+
+def test_after_a_kill_between_two_files_anything_can_be_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+    write(_FILES, out)
+    real, moved = Path.replace, 0
+
+    def killed(self: Path, target: Path) -> Path:
+        nonlocal moved
+        moved += target.parent == out
+        if moved == 2:  # the first is the manifest
+            raise _Killed
+        return real(self, target)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "replace", killed)
+        with pytest.raises(_Killed):
+            write((Artifact("a.c", "new\n"), Artifact("c.h", "new\n")), out)
+    third = (Artifact("c.h", "third\n"),)
+    write(third, out)  # neither what was there nor what was begun
+    assert (out / "c.h").read_text() == "third\n"
+    assert {p.name for p in out.rglob("*") if p.is_file()} == {"c.h", MANIFEST}
+
+
+def test_a_failure_between_two_files_says_what_to_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+    write(_FILES, out)
+
+    def denied(self: Path, target: Path) -> Path:
+        raise PermissionError(13, "Permission denied", str(self))
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "replace", denied)
+        with pytest.raises(Trouble, match="some of its files are new and some are old"):
+            write((Artifact("a.c", "new\n"),), out)
+    write((Artifact("a.c", "new\n"),), out)
+    assert (out / "a.c").read_text() == "new\n" and not (out / "deep/b.py").exists()
+
+
+def test_two_writers_do_not_mix_their_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+    write(_FILES, out)
+    monkeypatch.setattr("bondgraph.backends.write._PATIENCE", 0.0)
+    other = os.open(out, os.O_RDONLY)
+    try:
+        assert locked(other)
+        with pytest.raises(Trouble, match="another process"):
+            write((Artifact("a.c", "changed\n"),), out)
+    finally:
+        os.close(other)
+    assert (out / "a.c").read_text() == "one\n"

@@ -201,3 +201,53 @@ def test_a_plain_check_is_read_as_the_parser_reads_it(words: str) -> None:
 )
 def test_whatever_else_goes_to_the_parser(words: str) -> None:
     assert plain_check(words.split()) is None
+
+
+_FULL = Path("/dev/full")
+
+
+@pytest.mark.skipif(not _FULL.exists(), reason="there is no /dev/full")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--version"],
+        ["--help"],
+        ["draw", "--help"],
+        ["check", "models/dc_motor.bg"],
+        ["check", "models/dc_motor.bg", "--json"],
+        ["check", "models/missing.bg", "--json"],
+        ["draw", "models/dc_motor.bg", "-o", "-"],
+        ["dump", "--stage", "graph", "models/dc_motor.bg"],
+        ["explain", "causality-conflict"],
+    ],
+    ids=" ".join,
+)
+def test_a_full_output_is_an_error_in_one_line(words: list[str]) -> None:
+    with _FULL.open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "bondgraph", *words],
+            cwd=ROOT,
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 1
+    assert done.stderr == "error: the output cannot be written: No space left on device\n"
+
+
+@pytest.mark.skipif(not _FULL.exists(), reason="there is no /dev/full")
+def test_a_full_device_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+    from bondgraph.cli.main import main
+
+    assert main(["draw", str(MODELS / "dc_motor.bg"), "-o", str(_FULL)]) == 1
+    assert "No space left on device: /dev/full" in capsys.readouterr().err
+    assert _FULL.is_char_device()
+
+
+def test_a_closed_output_is_no_error() -> None:
+    command = [sys.executable, "-m", "bondgraph", "check", "models/dc_motor.bg"]
+    done = subprocess.run(
+        ["sh", "-c", 'exec "$@" >&-', "sh", *command], cwd=ROOT, stderr=subprocess.PIPE, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, b"")

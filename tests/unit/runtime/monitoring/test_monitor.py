@@ -18,6 +18,7 @@ from bondgraph.cli.main import main
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.log_file import write_log
 from bondgraph.runtime.monitoring.verdict import Verdict, from_json
+from bondgraph.text.checked_line import checked_line
 from tests.unit.runtime.monitoring import motor
 from tests.unit.runtime.monitoring.watch import MOTOR, ROOT, Watch, csv, objects, until
 
@@ -189,10 +190,41 @@ def test_a_journal_with_another_kind_of_state_is_refused(
     journal = tmp_path / "j"
     words = ["monitor", MOTOR, str(logs / "motor.csv"), "--journal", str(journal)]
     assert main(words) == 0
-    journal.write_text(journal.read_text("utf-8").replace(*change))
+    lines = journal.read_text("utf-8").replace(*change).splitlines()
+    records = [json.loads(line) for line in lines]  # with checksums that are right
+    journal.write_bytes(b"".join(checked_line(r) for r in records if r.pop("crc")))
     capsys.readouterr()
     assert main(words) == 1
     assert "another version" in capsys.readouterr().err
+
+
+def test_a_damaged_journal_is_told_kept_and_gone_on_with(
+    logs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    journal = tmp_path / "j"
+    words = ["monitor", MOTOR, str(logs / "motor.csv"), "--json", "--journal", str(journal)]
+    assert main(words) == 0
+    said = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    data = journal.read_bytes()
+    at = data.index(b'"event": "fault"')
+    damaged = data[:at] + b"!" + data[at + 1 :]
+    journal.write_bytes(damaged)
+    assert main(words) == 0
+    printed = capsys.readouterr()
+    line = damaged[:at].count(b"\n") + 1
+    byte = damaged.rindex(b"\n", 0, at) + 1
+    place = f"line {line}, at byte {byte}: its checksum does not match"
+    assert place in printed.err
+    resumed = json.loads(printed.out.splitlines()[0])
+    assert resumed["event"] == "resumed" and place in resumed["message"]
+    lost = [v["number"] for v in said if v["event"] == "fault"]
+    assert "lost are the verdicts" in resumed["message"]
+    kept = [v for r in journal.read_bytes().splitlines() for v in json.loads(r).get("verdicts", ())]
+    assert not set(lost) & {v["number"] for v in kept}
+    assert [v for v in kept if v in said] == [v for v in said if v in kept] != []
+    assert (tmp_path / "j.damaged").read_bytes() == damaged
+    assert main(words) == 0  # it is told once
+    assert "checksum" not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
