@@ -152,6 +152,7 @@ class Diagnosis:
         whole = np.concatenate(self._piece)
         self._judge.learn(whole)
         row = Row(float(part.time[-1]), whole, self._before, *[x[-1].copy() for x in part[2:]])
+        row = row._replace(mean=self._limits[:, 4].copy())
         self._piece, self._before = [], copied(self._bank.engine)
         self._past.append(row)
         if self._origins.looking:
@@ -169,7 +170,8 @@ class Diagnosis:
                 break
             self._calm.clear()
             self._bank, self._tolerated, self._history = found.bank, found.tolerated, found.history
-            rows = [r._replace(value=np.where(r.valid, r.value - self._limits[:, 4], 0.0))
+            mean = self._limits[:, 4].copy()
+            rows = [r._replace(value=np.where(r.valid, r.value - mean, 0.0), mean=mean)
                     for r in found.rows]  # fmt: skip
             self._past = deque(rows, maxlen=self._past.maxlen)
             self._before = copied(self._bank.engine)
@@ -219,6 +221,8 @@ class Diagnosis:
         if (moved := self._limits[:, 4] - before).any():
             for one in self._past:
                 one.value[one.valid] -= moved[one.valid]
+            mean = self._limits[:, 4].copy()
+            self._past = deque((r._replace(mean=mean) for r in self._past), self._past.maxlen)
         return fresh
 
     def _remember(self, row: Row) -> None:

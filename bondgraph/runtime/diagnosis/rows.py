@@ -39,6 +39,7 @@ class Row(NamedTuple):
     bound: Array
     doubt: Array  # the part of it that no parameter explains
     slopes: Array  # of the tolerated parameters, wrong for ever
+    mean: Array | float = 0.0  # of the residuals while all is well, that was taken off the value
 
 
 def together(parts: Sequence[Batch], residuals: int) -> Batch:

@@ -270,6 +270,7 @@ class SinceOnset:
             return found
         parts = zip(*self._instead[k].run(*_joined(rows)), strict=True)
         for (row, sigma), one, (value, valid, rest, moved) in zip(rows, told, parts, strict=True):
+            value = value - row.mean
             other = weight(row._replace(value=value, valid=valid), sigma)
             other[one.weight == 0] = 0.0
             other[~valid & (one.weight > 0)] = np.nan
