@@ -92,8 +92,9 @@ def draw(said: Sequence[Stated], path: Path) -> None:
     axis.plot([0, 1], [0, 1], color="0.7", linewidth=0.8)
     axis.vlines(mean, middle - wide, middle + wide, color="C0", linewidth=1)
     axis.plot(mean, right, "o-", color="C0", markersize=4, linewidth=1)
-    for x, y, n in zip(mean, right, count, strict=True):
-        axis.annotate(f"{n:.0f}", (x, y), (5, -11), textcoords="offset points", fontsize=8)
+    for k, (x, y, n) in enumerate(zip(mean, right, count, strict=True)):
+        beside = (5, -11) if k % 2 == 0 else (-18, 6)
+        axis.annotate(f"{n:.0f}", (x, y), beside, textcoords="offset points", fontsize=8)
     axis.set(xlim=(0, 1.02), ylim=(0, 1.02), xlabel="probability that was said",
              ylabel="share that was right")  # fmt: skip
     axis.spines[["top", "right"]].set_visible(False)
