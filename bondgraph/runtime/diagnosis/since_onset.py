@@ -143,8 +143,8 @@ class SinceOnset:
     def pairs(self, history: History, singles: Sequence[Explained]) -> list[ExplainedPair]:
         """How well two of the `singles` at once explain the rows, with the onsets of these.
 
-        None where one fault does: what it does is known for its own size, and for one that stays;
-        beside another, or where it grows, only nearly.
+        There are none where one fault nearly does: what a fault does is known for its own size and
+        if it stays; beside another, or where it grows, less well.
         """
         rows, others = self._tables()
         for one in (rows, *others.values()):
