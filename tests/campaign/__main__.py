@@ -2,6 +2,7 @@
 
     python -m tests.campaign healthy --hours 10 [--write]
     python -m tests.campaign faulty --seeds 20 [--times 1.5] [--write]
+    python -m tests.campaign double --seeds 5 [--write]
 
 Healthy machines are watched for ten minutes each, without what the watch learns from first. Faults
 are of three times the smallest size that `tune` tells of other machines; the table of these sizes
@@ -18,38 +19,20 @@ import math
 import sys
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.calibration import Shown, tune
-from bondgraph.runtime.diagnosis.tuning import bandwidth_for
-from bondgraph.runtime.log import Array
-from bondgraph.runtime.monitoring.verdict import Verdict
-from bondgraph.runtime.simulation.scenario import Change, Fault
 from tests.campaign.calibration import Stated, draw, stated, table
+from tests.campaign.double import double
+from tests.campaign.faults import TIMES, Kind, kinds, lasting, span
 from tests.campaign.machines import MACHINES, Machine, compiled, run
+from tests.campaign.watched import watched
 from tests.measured import ROOT, write
 
 PAGE = ROOT / "docs" / "campaign.md"
 MINUTES = 10.0  # of a healthy run
-TIMES = 3.0  # the smallest size
 START = 5000  # first of the seeds that are reported
-KINDS = 10  # of faults a machine
-_BLOCK = 1000  # samples that the watch gets at a time
-_LONG = {1.0: (1000.0, 500.0), 100.0: (300.0, 150.0)}  # duration and onset (s), by the rate
-_SHORT = 60.0, 30.0
-_TRIED = 1, 2, 3  # seeds of the machines that sizes are taken from
-
-
-class Kind(NamedTuple):
-    """A fault: what changes how, and in words."""
-
-    of: str
-    change: Change
-    value: float
-    words: str
 
 
 class Heard(NamedTuple):
@@ -68,59 +51,6 @@ class Heard(NamedTuple):
     said: tuple[Stated, ...]
 
 
-def watched(machine: Machine, samples: Array) -> tuple[list[Verdict], float]:
-    """All that a watch without a tuning says of samples, and for how long (s) it watched."""
-    c = compiled(machine)
-    engine = c.engine().configured(bandwidth=bandwidth_for(machine.rate, len(samples)))
-    watch, base = c.diagnosis(engine), engine.configured()
-    time = np.arange(len(samples)) * engine.sample_time
-    said: list[Verdict] = []
-    seen = 0
-    for k in range(0, len(samples), _BLOCK):
-        part = samples[k : k + _BLOCK]
-        said += watch.update(time[k : k + _BLOCK], base.run(part), part)
-        decided = watch.decided()
-        seen += int((decided.valid & np.isfinite(decided.bound)).any(axis=1).sum())
-    return said, seen * engine.sample_time
-
-
-@cache
-def kinds(machine: Machine, times: float = TIMES) -> tuple[Kind, ...]:
-    """The faults of so many times their smallest size, those smallest beside their value.
-
-    At most one of each parameter or signal, and none that has to be more than five times its value.
-    """
-    c = compiled(machine)
-    duration, _ = _LONG.get(machine.rate, _SHORT)
-    logs = [run(machine, seed, duration) for seed in _TRIED]
-    bandwidth = bandwidth_for(machine.rate, len(logs[0]))
-    engine = c.engine().configured(bandwidth=bandwidth)
-    shown = tune(engine, c.diagnosis_model, logs, "", 1.0, 40.0 / bandwidth).shown
-    found: dict[str, tuple[float, Kind]] = {}
-    for one in shown:
-        share, kind = _kind(machine, one, times)
-        if share < found.get(one.hypothesis.fault, (5.0,))[0]:
-            found[one.hypothesis.fault] = share, kind
-    chosen = sorted(found.values(), key=lambda x: x[0])[:KINDS]
-    return tuple(kind for _, kind in chosen)
-
-
-def _kind(machine: Machine, shown: Shown, times: float) -> tuple[float, Kind]:
-    """A fault of so many times the size, and how large that is beside what it changes."""
-    one, size = shown.hypothesis, times * (shown.size or math.inf)
-    if one.kind == "gain":
-        value = 1.0 - size if size < 0.9 else 1.0 + size
-        return size, Kind(one.fault, "*=", value, f"{one.fault} {100.0 * (value - 1.0):+.3g} %")
-    if one.kind == "drift":
-        return math.inf, Kind(one.fault, "+=", size, "")
-    nominal = compiled(machine).diagnosis_model.faults.get(one.fault)
-    words = f"{one.fault} {size:+.3g} {one.unit}".rstrip()
-    if nominal:
-        words += f" ({100.0 * size / abs(nominal):+.3g} %)"
-    share = size / abs(nominal) if nominal else 1.0
-    return share, Kind(one.fault, "+=", size, words)
-
-
 def _run(task: tuple[str, int, Kind | None]) -> Heard:
     name, seed, kind = task
     machine = next(m for m in MACHINES if m.name == name)
@@ -129,9 +59,8 @@ def _run(task: tuple[str, int, Kind | None]) -> Heard:
         alarms = [v for v in said if v.event == "fault"]
         names = sum(bool(v.group) for v in said)
         return Heard(len(alarms), seconds, None, "", bool(names), names, ())
-    duration, onset = _LONG.get(machine.rate, _SHORT)
-    fault = Fault(kind.of, kind.change, kind.value, onset, math.inf, 0.0, 0.0, 1.0, kind.words)
-    said, seconds = watched(machine, run(machine, seed, duration, (fault,)))
+    duration, onset = span(machine)
+    said, seconds = watched(machine, run(machine, seed, duration, (lasting(machine, kind),)))
     fired = [v.time for v in said if v.event == "fault"]
     true = [t - onset for t in fired if t >= onset]
     told = [v for v in said if v.event == "update" and v.time >= onset]
@@ -214,7 +143,7 @@ def faulty(
 def main(words: Sequence[str]) -> int:
     """The command."""
     parser = argparse.ArgumentParser(prog="python -m tests.campaign")
-    parser.add_argument("what", choices=("healthy", "faulty", "sizes"))
+    parser.add_argument("what", choices=("healthy", "faulty", "double", "sizes"))
     parser.add_argument("--hours", type=float, default=10.0, help="of each healthy machine")
     parser.add_argument("--seeds", type=int, default=20, help="of each fault")
     parser.add_argument("--times", type=float, default=TIMES, help="smallest size of faults")
@@ -233,6 +162,9 @@ def main(words: Sequence[str]) -> int:
     if args.what == "healthy":
         text = healthy(chosen, args.hours, args.start, args.jobs)
         own = [f"--hours {args.hours:g}", *own]
+    elif args.what == "double":
+        text = double(chosen, args.seeds, args.start, args.jobs)
+        own = [f"--seeds {args.seeds}", *own]
     else:
         text, said = faulty(chosen, args.seeds, args.start, args.jobs, args.times)
         size = [] if args.times == TIMES else [f"--times {args.times:g}"]

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.cusum import Cusum
 from bondgraph.runtime.diagnosis.doubt import Doubt
-from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, grown, slack, tolerated
+from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, slack, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import (
     Bank,
     Hypothesis,
@@ -17,13 +19,15 @@ from bondgraph.runtime.diagnosis.hypotheses import (
     rows_apart,
     sized,
 )
-from bondgraph.runtime.diagnosis.isolation import History
+from bondgraph.runtime.diagnosis.isolation import HEALTHY, History
 from bondgraph.runtime.diagnosis.noise import noise, uncovered
-from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa
+from bondgraph.runtime.diagnosis.rows import Row, weight
+from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Batch, Engine, copied
 from bondgraph.text.tuples import NamedTuple
 
+_TESTS = 3  # of each residual: samples, sums of rows, how loud rows are
 _TAIL = 3.29  # standard deviations that one normal sample in a thousand exceeds
 _ABOVE = 1.2  # times the largest excess of a healthy machine that a limit stays above
 _CHUNK = 5000  # samples at a time
@@ -82,11 +86,11 @@ def tune(
         raise ValueError(
             f"no log is longer than the warm-up of {engine.warm_up:g} s: nothing can be learned"
         )
-    limits = _limits(engine, learned, false_alarms, centred(model, engine.residuals))
-    tuning = Tuning(digest, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, limits)
+    found = _limits(engine, learned, false_alarms, centred(model, engine.residuals), work.spread)
+    tuning = Tuning(digest, 1 / engine.sample_time, engine.bandwidth, false_alarms, seconds, found)
     sizes: list[list[_Seen]] = [[] for _ in work.all]
     for k, log in enumerate(logs):
-        for seen in work.windows(log, limits, window):
+        for seen in work.windows(log, found, window):
             for all_, one in zip(sizes, seen, strict=True):
                 all_.append(one)
         progress((len(logs) + k + 1) / total)
@@ -99,17 +103,14 @@ def tune(
 class _Noise(NamedTuple):
     """Of one log: how many valid samples, by residual the upward crossings of its mean, the level
     that one sample in a thousand exceeds beside it, the largest excess over the threshold to either
-    side; and the rows: values, what is left of them beside parameters and is not covered by
-    tolerances, what is allowed, validity."""
+    side; the rows, and what is left of them beside parameters and is not covered by tolerances."""
 
     rows: int
     crossings: Array
     tail: Array
     excess: Array
-    value: Array
+    every: tuple[Row, ...]
     rest: Array
-    allowed: Array
-    valid: Array
 
 
 class _Seen(NamedTuple):
@@ -147,17 +148,15 @@ class _Work:
         rough = np.std(np.diff(first[:: self.every], axis=0), axis=0)
         size = np.max(np.abs(first), axis=0, initial=0.0)
         weight = 1.0 / np.maximum(rough, 1e-12 * size + 1e-300) ** 2
-        values, allowed, sound = [], [], []
-        for batch, slopes in self._chunks(samples[start:], samples[:start]):
+        every = []
+        for batch, slopes, doubt in self._chunks(samples[start:], samples[:start]):
             for k in range(self.every - 1, len(slopes), self.every):
-                valid = batch.valid[k]
-                history.add(batch.value[k], weight * valid, slopes[k], 1.0)
-                values.append(batch.value[k])
-                allowed.append(batch.bound[k])
-                sound.append(valid)
+                own = [x[k] for x in (*batch, doubt, slopes)]
+                history.add(batch.value[k], weight * batch.valid[k], slopes[k], 1.0)
+                every.append(Row(0.0, samples[:0], self.engine, *own))
         found = history.fit()
         rest, spaced, excess, rows = [], [], [], 0
-        for batch, slopes in self._chunks(samples[start:], samples[:start]):
+        for batch, slopes, _ in self._chunks(samples[start:], samples[:start]):
             left = batch.value - np.einsum("thr,h->tr", slopes, found)
             rest.append(np.where(batch.valid, left, np.nan))
             spaced.append(rest[-1][self.every - 1 :: self.every])
@@ -171,14 +170,12 @@ class _Work:
             ((off[:-1] < 0) & (off[1:] >= 0)).sum(axis=0).astype(float),
             np.quantile(np.abs(off), 0.999, axis=0),
             np.max(excess, axis=0),
-            np.array(values),
-            uncovered(np.concatenate(spaced), np.array(allowed)),
-            np.array(allowed),
-            np.array(sound),
+            tuple(every),
+            uncovered(np.concatenate(spaced), np.array([row.bound for row in every])),
         )
 
-    def _chunks(self, samples: Array, before: Array) -> Iterator[tuple[Batch, Array]]:
-        """Residuals and the slopes of what is tolerated, some thousand samples at a time."""
+    def _chunks(self, samples: Array, before: Array) -> Iterator[tuple[Batch, Array, Array]]:
+        """Residuals, slopes of what is tolerated, and doubt, some thousand samples at a time."""
         whole = _Whole(self)
         whole.run(before)
         step = self.every * max(1, _CHUNK // self.every)
@@ -186,22 +183,21 @@ class _Work:
             yield whole.run(samples[k : k + step])
 
     def windows(
-        self, samples: Array, limits: Mapping[str, Limit], window: float
+        self, samples: Array, known: Mapping[str, Limit], window: float
     ) -> Iterator[list[_Seen]]:
         """For each window of the log, what of each hypothesis would show if it began there."""
         whole = _Whole(self)
         engine = whole.engine
         start = math.ceil(self.engine.warm_up / self.engine.sample_time) + 1
         length = max(2, round(window / self.engine.sample_time))
-        never = Limit(math.inf, 0.0, 1.0, math.inf)
-        own = [limits.get(name, never) for name in engine.residuals]
+        own = limits(known, engine.residuals)
         top = np.array([limit.kappa * limit.sigma for limit in own])
         whole.run(samples[:start])
         for begin in range(start, len(samples) - length + 1, length):
             part = samples[begin : begin + length]
             bank = Bank(copied(engine), self.all, self.nominal, samples[begin - 1])
             slopes = np.abs(bank.run(part))
-            batch, _ = whole.run(part)
+            batch, _, _ = whole.run(part)
             yield [self._seen(h, slopes[:, k], batch, top) for k, h in enumerate(self.all)]
 
     def _seen(self, hypothesis: Hypothesis, slopes: Array, batch: Batch, top: Array) -> _Seen:
@@ -226,7 +222,7 @@ class _Whole:
         self._doubt, self._tolerated = Doubt(work.engine, work.model), work.tolerated
         self._age = 0
 
-    def run(self, samples: Array) -> tuple[Batch, Array]:
+    def run(self, samples: Array) -> tuple[Batch, Array, Array]:
         """Go on with further samples."""
         batch, slopes = self.engine.run(samples), self._bank.run(samples)
         doubt, valid = self._doubt.run(
@@ -234,11 +230,12 @@ class _Whole:
         )
         bound = batch.bound + slack(self._tolerated, slopes) + doubt
         self._age += len(samples)
-        return Batch(batch.value, valid, np.where(valid, bound, 0.0)), slopes
+        return Batch(batch.value, valid, np.where(valid, bound, 0.0)), slopes, doubt
 
 
 def _limits(
-    engine: Engine, logs: Sequence[_Noise], false_alarms: float, stands: Sequence[bool]
+    engine: Engine, logs: Sequence[_Noise], false_alarms: float, stands: Sequence[bool],
+    spread: Array,
 ) -> dict[str, Limit]:
     rows = sum(n.rows for n in logs)
     tail = np.max([n.tail for n in logs], axis=0) / _TAIL
@@ -246,7 +243,7 @@ def _limits(
     excess = np.max([n.excess for n in logs], axis=0)
     rest = np.concatenate([np.vstack([n.rest, np.full((_APART, len(tail)), np.nan)]) for n in logs])
     used = np.isfinite(rest).any(axis=0) & (tail > 0)
-    alarms = false_alarms / 3600.0 / (2 * max(1, int(used.sum())))
+    alarms = false_alarms / 3600.0 / (_TESTS * max(1, int(used.sum())))
     apart = 1.0 / (rows_apart(engine) * engine.sample_time)
     found = {}
     for k in np.flatnonzero(used).tolist():  # others were never valid in these logs
@@ -257,20 +254,30 @@ def _limits(
         top, bottom = excess[:, k].tolist()
         level = max(level, _ABOVE * max(top - own.mean, bottom + own.mean) / sigma)
         limit = Limit(sigma, rate, level, height(apart, alarms), own.mean, own.memory)
-        sums = max(_highest(n, k, limit) for n in logs)
-        found[engine.residuals[k]] = limit._replace(height=max(limit.height, _ABOVE * sums))
-    return found
+        found[engine.residuals[k]] = limit
+    return _higher(found, engine.residuals, logs, spread)
 
 
-def _highest(noise: _Noise, k: int, limit: Limit) -> float:
-    """The highest that the sums of a residual of a healthy machine became."""
-    deviation = np.array([limit.sigma * math.sqrt(limit.memory)])
-    sums, most = np.zeros((2, 1)), 0.0
-    rows = (noise.value[:, k], noise.allowed[:, k], noise.valid[:, k])
-    for value, allowed, valid in zip(*rows, strict=True):
-        sums = grown(sums, value - limit.mean, allowed, deviation) if valid else np.zeros((2, 1))
-        most = max(most, float(sums.max()))
-    return most
+def _higher(
+    found: Mapping[str, Limit], residuals: Sequence[str], logs: Sequence[_Noise], spread: Array
+) -> dict[str, Limit]:
+    """The same with heights above what the sums of healthy machines, watched so, come to."""
+    own = np.array(limits(found, residuals), dtype=float)
+    cusum, sure = Cusum(len(own)), np.ones(len(own), dtype=bool)
+    for log in logs:
+        history = History(spread)
+        cusum.restart()
+        waiting: deque[Row] = deque()
+        for one in log.every:
+            value = np.where(one.valid, one.value - own[:, 4], 0.0)
+            row = one._replace(value=value, mean=own[:, 4])
+            cusum.add(history.innovation(row, sure), own)
+            waiting.append(row)
+            if len(waiting) > HEALTHY:
+                old = waiting.popleft()
+                history.add(old.value, weight(old, own[:, 0]), old.slopes)
+    heights = dict(zip(residuals, cusum.heights(own[:, 3]).max(axis=0).tolist(), strict=True))
+    return {name: limit._replace(height=heights[name]) for name, limit in found.items()}
 
 
 def _mean(column: Array) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bondgraph.runtime.diagnosis.healthy import grown
+from bondgraph.runtime.diagnosis.cusum import Cusum
 from bondgraph.runtime.diagnosis.rows import Part, Row
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.plain import array, numbers
@@ -34,8 +34,10 @@ class Detection:
     acts in a part of a motion only; when nothing is out for long, it is over nevertheless.
     """
 
-    def __init__(self, residuals: Sequence[str], least: int) -> None:
+    def __init__(self, residuals: Sequence[str], least: int, learns: bool = True) -> None:
+        """How high sums climb while all is well is learned where it `learns`."""
         self._names, self._least = tuple(residuals), least
+        self._cusum = Cusum(len(residuals), learns)
         self.fired: Mask = np.zeros(len(residuals), dtype=np.bool_)
         self.most = np.zeros(len(residuals))
         self.alarms = 0
@@ -47,7 +49,7 @@ class Detection:
     def restart(self) -> None:
         """The residuals begin anew; what has fired still has."""
         self._streak = np.zeros(len(self._names), dtype=int)
-        self._sums = np.zeros((2, len(self._names)))
+        self._cusum.restart()
         self._sum = np.zeros((3, len(self._names)))  # of rows of this alarm: 1, excess, squares
         self._held = np.zeros((3, len(self._names)))  # the same of rows since they are quiet
         self._healthy = np.zeros(len(self._names))  # logarithm of how probable it is to be over
@@ -83,14 +85,15 @@ class Detection:
                 yield k, fresh
 
     def row(self, row: Row, limits: Array) -> Mask:
-        """Which fire by the sum of what is too much in rows, to either side (Page, 1954)."""
+        """Which fire by what is too much in rows (see `Cusum`)."""
         if not self.alarmed:
             self._away = min(self._away + 1, _PAUSE + 1)
-        top = limits[:, 3]
-        with np.errstate(invalid="ignore"):
-            after = np.minimum(grown(self._sums, row.value, row.bound, _adding(limits)), 2.0 * top)
-        self._sums = np.where(row.valid & np.isfinite(limits[:, 0]), after, 0.0)
-        return np.asarray((self._sums.max(axis=0) > top) & ~self.fired)
+        return np.asarray(self._cusum.add(row, limits) & ~self.fired)
+
+    @property
+    def held(self) -> Array:
+        """Rows since the sums of each residual were zero: a fault may act since then."""
+        return self._cusum.held
 
     def latch(self, fresh: Mask) -> bool:
         """These have fired; whether they are the first of an alarm."""
@@ -145,7 +148,8 @@ class Detection:
         """The fault is over."""
         self.fired = np.zeros_like(self.fired)
         self.most[:] = 0.0
-        self._sums[:] = self._sum[:] = self._held[:] = self._healthy[:] = 0.0
+        self._cusum.restart()
+        self._sum[:] = self._held[:] = self._healthy[:] = 0.0
         self._away, self._gone = 0, self._needed
 
     def state(self) -> dict[str, Any]:
@@ -153,7 +157,7 @@ class Detection:
         return {
             "fired": self.fired.tolist(),
             "most": numbers(self.most),
-            "sums": numbers(self._sums),
+            **self._cusum.state(),
             "alarms": self.alarms,
             "pause": [self._needed, self._away, self._gone],
         }
@@ -163,12 +167,8 @@ class Detection:
         other = Detection(self._names, self._least)
         other.fired = array(state["fired"], self.fired.shape) != 0.0
         other.most = array(state["most"], self.most.shape)
-        other._sums = array(state["sums"], self._sums.shape)
+        other._cusum = self._cusum.resumed(state)
         other.alarms = int(state["alarms"])
         other._needed, other._away, other._gone = (int(x) for x in state["pause"])
         return other
 
-
-def _adding(limits: Array) -> Array:
-    """The deviation of noise that adds up over rows."""
-    return np.asarray(limits[:, 0] * np.sqrt(limits[:, 5]))

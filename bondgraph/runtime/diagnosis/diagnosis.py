@@ -13,7 +13,7 @@ from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, slack, tolerated
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
-from bondgraph.runtime.diagnosis.isolation import History, inverse
+from bondgraph.runtime.diagnosis.isolation import HEALTHY, History, inverse
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched
@@ -29,9 +29,7 @@ from bondgraph.runtime.monitoring.verdict import Candidate, Verdict
 from bondgraph.text.numerals import listed
 
 _MEMORY = 60.0  # rows of the past that are kept, to go back to the onset
-_FORGET = 1000.0  # rows after which healthy operation counts a third
 _ODD = 3.0  # standard deviations that a residual has to be away from what is expected
-_HEALTHY = 5  # rows that have to be as usual behind one before it counts as healthy
 
 
 class Diagnosis:
@@ -62,8 +60,9 @@ class Diagnosis:
             self._learning = Learning(engine, known, used, model)
             self._limits = self._learning.limits
         else:
-            self._limits = np.array(limits(tuning, engine.residuals), dtype=float)
-        self._detection = Detection(engine.residuals, max(3, self._every // 10))
+            self._limits = np.array(limits(tuning.limits, engine.residuals), dtype=float)
+        learns = tuning is None
+        self._detection = Detection(engine.residuals, max(3, self._every // 10), learns)
         self._judge = Judge(engine, model)
         checked = [(k.path, at) for at, k in enumerate(engine.signals)
                    if k.path in model.faults and k.kind != "mode" and k.counts is None]  # fmt: skip
@@ -203,7 +202,9 @@ class Diagnosis:
             self._status.learned(row.time, fresh, self._learning, out)
             if self._learning.over:
                 self._learning = None
-        fresh = self._detection.row(row, self._limits)
+        unsure = False if self._learning is None else self._learning.unsure
+        own = self._history.innovation(row, np.logical_not(unsure))
+        fresh = self._detection.row(own, self._limits)
         if fresh.any():
             self._fire(row.time, fresh, [], out)
         if not self._detection.alarmed:
@@ -211,13 +212,13 @@ class Diagnosis:
         elif self._judge.step(row, self._past, self._limits[:, 0], self._tolerated):
             if not self._unusual():
                 self._explain(row, out)
-            self._over(row, out)
+            self._over(own, out)
 
     def _learn(self, row: Row, healthy: bool) -> Mask:
         """Which residuals are known with this row; where they stand holds for rows before too."""
         assert self._learning is not None
         before = self._limits[:, 4].copy()
-        fresh = self._learning.row(row, row.slopes[self._values], healthy)
+        fresh = self._learning.row(row, row.slopes[self._values], healthy, self._detection.held)
         if (moved := self._limits[:, 4] - before).any():
             for one in self._past:
                 one.value[one.valid] -= moved[one.valid]
@@ -235,10 +236,10 @@ class Diagnosis:
             return
         self._calm.append(row)
         waits = self._learning is not None and self._learning.first
-        wait = int(_MEMORY) if waits else _HEALTHY
+        wait = int(_MEMORY) if waits else max(HEALTHY, int(self._detection.held.max(initial=0)))
         while len(self._calm) > wait:
             old = self._calm.popleft()
-            self._history.add(old.value, self._weight(old), old.slopes, 1.0 - 1.0 / _FORGET)
+            self._history.add(old.value, self._weight(old), old.slopes)
             self._origins.learn(self._tolerated, self._history)
 
     def _weight(self, row: Row) -> Array:
@@ -253,7 +254,7 @@ class Diagnosis:
         self._calm.clear()
         if self._detection.latch(fresh):
             if self._learning is not None:
-                self._learning.alarm()
+                self._learning.alarm(self._detection.held)
             since = self._onset(time, piece)
             self._judge.latch(since)
             message = f"{self._status.names(fresh)} above what a healthy machine does since"

@@ -196,12 +196,3 @@ def slack(known: Sequence[Hypothesis], slopes: Array) -> Array:
     own = [k for k, h in enumerate(known) if h.unit == COUNT and h.kind == "offset"]
     return np.asarray(_COUNT * np.abs(slopes[..., own, :]).sum(axis=-2))
 
-
-def grown(sums: Array, value: Array, allowed: Array, sigma: Array) -> Array:
-    """One row more of the sums of what is above the allowed and below its opposite (Page, 1954).
-
-    `sums` has the shape (2, residuals), `sigma` is the deviation of a sum of n rows over the root
-    of n. Half of it less a row keeps noise from adding up.
-    """
-    above = (np.stack([value, -value]) - allowed) / sigma - 0.5
-    return np.asarray(np.maximum(0.0, sums + above))

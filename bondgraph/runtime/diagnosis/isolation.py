@@ -19,7 +19,9 @@ import numpy as np
 import numpy.typing as npt
 
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.log import Array
+from bondgraph.runtime.diagnosis.noise import COVERED
+from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.text.tuples import NamedTuple
 
 #: Of the usual change: how large a fault is, nobody knows. Close together, so that no fault is
@@ -30,6 +32,9 @@ _CHUNK = 4  # rows in which the change is taken as constant, at least
 _PARTS = 15  # chunks at most
 _LEADS = 8  # faults of which pairs with every other one are looked at
 _AT_ONCE = 2**20  # numbers that sets of hypotheses take side by side
+HEALTHY = 5  # rows that have to be as usual behind one before it counts as healthy
+_KEPT = 1.0 - 1.0 / 1000.0  # of what is known, with each further row
+_UNKNOWN = 2.0  # deviations of what is not known of healthy parameters
 _SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
 
 
@@ -93,7 +98,7 @@ class History:
         self.prior = prior
         self.root = np.zeros((len(prior), len(prior) + 1))
 
-    def add(self, value: Array, weight: Array, slopes: Array, keep: float) -> None:
+    def add(self, value: Array, weight: Array, slopes: Array, keep: float = _KEPT) -> None:
         """One row: residuals, their weights, slopes of the shape (parameters, residuals)."""
         root = np.sqrt(weight)
         row = np.column_stack([(slopes * root).T * self.prior, root * value])
@@ -146,6 +151,21 @@ class History:
         known = self.known()
         moved = np.linalg.solve(known[:, :-1].T, slopes * self.prior[:, None])
         return moved.T @ known[:, -1], np.square(moved).sum(axis=0)
+
+    def innovation(self, row: Row, sure: Mask) -> Row:
+        """A row less what is expected; its bound is how far off a healthy machine may be from that.
+
+        That is what is not known of its parameters yet, what they may drift by, and what no
+        parameter does. A residual that is not `sure` may be anywhere within its tolerances.
+        """
+        expected, variance = self.expected(row.slopes)
+        sure = sure & np.isfinite(expected) & np.isfinite(variance)
+        unknown = _UNKNOWN * np.sqrt(np.where(sure, variance, 0.0))
+        bound = COVERED * (row.bound - row.doubt) + row.doubt + unknown
+        return row._replace(
+            value=np.where(sure, row.value - expected, row.value),
+            bound=np.where(sure, bound, row.bound),
+        )
 
 
 def _triangle(rows: Array) -> Array:

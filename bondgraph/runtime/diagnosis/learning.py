@@ -17,6 +17,7 @@ from bondgraph.runtime.diagnosis.rows import Part, Row, variances
 from bondgraph.runtime.diagnosis.tuning import Limit, height, kappa
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
+from bondgraph.runtime.monitoring.plain import array
 from bondgraph.text.tuples import NamedTuple
 
 FIRST = 10  # rows with which the noise of a residual counts as known
@@ -31,6 +32,7 @@ _HOPELESS = 1.2  # times what noise may do: an approximation that is that far of
 _NORMAL = 1.4826  # deviation of normal numbers, over the median of their sizes
 _MANY = 4 * FIRST  # rows after which switches that are turned all the time are known
 _OFF = 4.0  # deviations of a mean that is surely not zero
+_TESTS = 3  # of each residual: samples, sums of rows, how loud rows are
 _ALARMS = 0.3  # false ones wanted per hour: one is promised, and noise is not quite normal
 
 _Settings: TypeAlias = frozenset[tuple[float, ...]]  # positions of the switches of a residual
@@ -54,7 +56,8 @@ class Learning:
     readings then. Where they never rest for long, it is learned for all of them together. And it is
     learned anew where the machine is driven as never before (see `Driving`): what is known then is
     the noise of a machine at rest. Where tolerances were declared, the adaptive threshold grows
-    with the motion, and tells what the model is wrong by.
+    with the motion, and tells what the model is wrong by: the residual is watched on, but `unsure`,
+    so that it may be anywhere within its tolerances.
     """
 
     def __init__(
@@ -81,7 +84,8 @@ class Learning:
                         if engine.signals[place[h.fault]].kind == "input"]  # fmt: skip
         paths = [self._gains[j].fault for j in self._inputs]
         sees = [model.sees.get(r, ()) for r in engine.residuals]
-        sees = [() if any(model.tolerances.get(f) for f in own) else own for own in sees]
+        self._covered = np.array([any(model.tolerances.get(f) for f in own) for own in sees])
+        self.unsure = np.zeros(len(used), dtype=bool)  # known from a machine that was hardly driven
         reads = [[path in own for own in sees] for path in paths]
         reading = np.array(reads, dtype=bool).reshape(len(paths), len(used))
         self._driving = Driving([place[path] for path in paths], reading)
@@ -93,7 +97,7 @@ class Learning:
         self._used, self._wanted = used.copy(), used.copy()
         self._sigma: list[dict[_Settings, float]] = [{} for _ in used]
         self._due = np.full(len(used), FIRST)  # rows with which the noise is estimated again
-        alarms = _ALARMS / 3600.0 / (2 * max(1, int(used.sum())))
+        alarms = _ALARMS / 3600.0 / (_TESTS * max(1, int(used.sum())))
         crossings = engine.bandwidth / 4.0
         rows = 1.0 / (rows_apart(engine) * engine.sample_time)
         limit = Limit(math.inf, crossings, kappa(crossings, alarms), height(rows, alarms))
@@ -124,7 +128,7 @@ class Learning:
 
     def state(self) -> dict[str, Any]:
         """How the machine was driven, as plain JSON."""
-        return self._driving.state()
+        return {**self._driving.state(), "unsure": self.unsure.tolist()}
 
     def resume(self, limits: Array, state: Mapping[str, Any] | None) -> None:
         """Take over limits that were learned before, in whatever positions of the switches.
@@ -136,7 +140,9 @@ class Learning:
         self.limits = limits
         own = np.isfinite(limits[:, 0])
         self._wanted &= ~own
-        self._due[own] = _MOST + 1
+        if state is not None:
+            self.unsure = array(state["unsure"], self.unsure.shape) != 0.0
+        self._due[own & ~self.unsure] = _MOST + 1
         self._modes = [[] if o else m for m, o in zip(self._modes, own, strict=True)]
 
     def part(self, part: Part, healthy: bool) -> Mask:
@@ -161,28 +167,33 @@ class Learning:
             anew = self._driving.anew(part.samples, self.limits[:, 2] * self.limits[:, 0])
             for k in np.flatnonzero(anew & healthy & ~self._wanted & ~self.hopeless).tolist():
                 self._forget(k)
-                fresh[k] = True
+                fresh[k] = not self._covered[k]
         return fresh
 
     def _forget(self, k: int) -> None:
         """What is known of the noise of a residual does not hold any longer."""
         for row in self._rows:
             row.value[k] = math.nan
-        self._wanted[k], self.limits[k, 0] = True, math.inf
         self._counts[k], self._due[k] = 0, FIRST
         self._sigma[k], self._learned[k] = {}, frozenset()
         self._highest[:, k] = -math.inf
+        if self._covered[k]:
+            self.unsure[k] = True
+        else:
+            self._wanted[k], self.limits[k, 0] = True, math.inf
 
-    def alarm(self) -> None:
-        """Something is wrong now, and may have been for some rows."""
-        for row in list(self._rows)[-LATE:]:
-            row.value[:] = math.nan
+    def alarm(self, held: Array) -> None:
+        """Something is wrong, and may have been for some rows, as many as are `held` or more."""
+        for ago, row in enumerate(reversed(self._rows)):
+            row.value[np.maximum(held, LATE) > ago] = math.nan
 
-    def row(self, row: Row, slopes: Array, healthy: bool) -> Mask:
+    def row(self, row: Row, slopes: Array, healthy: bool, held: Array) -> Mask:
         """One row more, which counts if the machine is `healthy`.
 
-        `slopes` are those of the parameters with a tolerance, (parameters, residuals). Returns the
-        residuals whose noise is known with it.
+        `slopes` are those of the parameters with a tolerance, (parameters, residuals). Of each
+        residual so many of the last rows are `held` back: they may be those of a fault that is
+        small, and nothing that is known is changed by them. Returns the residuals whose noise is
+        known with it.
         """
         valid = row.valid & healthy
         added = self._added(row)
@@ -201,9 +212,9 @@ class Learning:
             if self._wanted[k] and self._sigma[k] and settings[k] <= self._learned[k]:
                 self._wanted[k] = False  # back to what is known
                 self.limits[k, 0] = max(self._sigma[k].values())
-            if self._wanted[k] or self._due[k] <= min(self._counts[k], _MOST):
+            if self._wanted[k] or self._due[k] <= min(self._counts[k] - held[k], _MOST):
                 rest = rest or self._rest()
-                fresh[k] = self._estimated(k, settings[k], *rest)
+                fresh[k] = self._estimated(k, settings[k], *rest, int(held[k]))
         self._peak[:] = -math.inf
         self._now, self._before = [frozenset() for _ in self._now], self._now
         return fresh
@@ -249,10 +260,12 @@ class Learning:
         variance = variances(np.nan_to_num(value), bound, sigma)
         return np.where(variance > 0, 1.0 / np.sqrt(np.maximum(variance, 1e-300)), 0.0)
 
-    def _estimated(self, k: int, setting: _Settings, rest: Array, owed: Array) -> bool:
+    def _estimated(self, k: int, setting: _Settings, rest: Array, owed: Array, held: int) -> bool:
         """Whether the noise of a residual, that was not known in this setting, is known now."""
         every = np.array([one.settings[k] == setting for one in self._rows])
         values = np.where(every, rest[:, k], math.nan)
+        if not self._wanted[k]:
+            values[len(values) - held :] = math.nan
         whole = setting
         if self._wanted[k] and self._counts[k] >= _MANY and np.isfinite(values).sum() < FIRST:
             values, whole = rest[:, k], frozenset().union(*[one.settings[k] for one in self._rows])
@@ -273,7 +286,8 @@ class Learning:
         self._sigma[k][whole] = sigma
         self._learned[k] |= whole
         unknown, self._wanted[k] = bool(self._wanted[k]), False
-        self._due[k] = _MOST + 1 if self._stays[k] else math.ceil(_MORE * self._counts[k])
+        self.unsure[k] = False
+        self._due[k] = _MOST + 1 if self._stays[k] else math.ceil(_MORE * (self._counts[k] - held))
         deviation = found.sigma * math.sqrt(found.memory / found.rows)
         self.off[k] = abs(found.mean) > max(_OFF * deviation, found.sigma)
         self.limits[k, 0] = max(self._sigma[k].values())

@@ -15,7 +15,7 @@ _EACH = 6  # rows that there have to be for each of its numbers
 #: its correlations and that of their squares. No noise of a residual has less of a memory.
 _FILTERED, _SQUARED = 2.0, 1.25
 _SLOW = 5  # rows in the mean of which noise is small
-_COVERED = 0.1  # of the adaptive threshold: what parameters may do that nobody can tell
+COVERED = 0.1
 _FAR = 6.0 * 1.4826  # times the median distance from the median: six normal deviations
 _LEAST = 5.0  # degrees of freedom, of however few rows
 
@@ -112,7 +112,7 @@ def uncovered(rest: Array, bound: Array) -> Array:
         ).sum(axis=2)
         for table in (np.where(known, rest, 0.0), known.astype(float))
     )
-    most = _COVERED * bound
+    most = COVERED * bound
     return np.asarray(rest - np.clip(total / np.maximum(count, 1.0), -most, most))
 
 

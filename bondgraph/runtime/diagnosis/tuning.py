@@ -18,8 +18,8 @@ class Limit(NamedTuple):
     """Of one residual, in its own unit: noise `sigma` about its `mean`, and how often a second it
     crosses that upwards (`crossings`).
 
-    It fires where max(0, |r - mean| - a) is above `kappa` sigma, or where the sum of what it is
-    above (CUSUM of rows, less a drift of one half) is above `height`. Sums count in deviations of
+    It fires where max(0, |r - mean| - a) is above `kappa` sigma, or where a sum of rows is above
+    `height` (see `Cusum`). Sums count in deviations of
     noise that adds up: the variance of a sum of n rows is n sigma^2 times their `memory`.
     """
 
@@ -34,7 +34,7 @@ class Limit(NamedTuple):
 class Tuning(NamedTuple):
     """Limits by residual for a filter of `bandwidth` (rad/s) at `rate` samples a second.
 
-    `false_alarms` are those wanted per hour, of all residuals and both tests together; `model` is
+    `false_alarms` are those wanted per hour, of all residuals and tests together; `model` is
     the digest of the residuals that it belongs to, `seconds` how much healthy data it is from.
 
     >>> limits = {"r1": Limit(sigma=0.2, crossings=10.0, kappa=4.7, height=9.3)}
@@ -90,9 +90,9 @@ class Tuning(NamedTuple):
 _NEVER = Limit(math.inf, 1.0, 1.0, math.inf)
 
 
-def limits(tuning: Tuning, names: Sequence[str]) -> list[Limit]:
-    """Those of residuals by name; one that the tuning does not know never fires."""
-    return [tuning.limits.get(name, _NEVER) for name in names]
+def limits(known: Mapping[str, Limit], names: Sequence[str]) -> list[Limit]:
+    """Those of residuals by name; one that has none never fires."""
+    return [known.get(name, _NEVER) for name in names]
 
 
 def bandwidth_for(rate: float, samples: float | None = None) -> float:

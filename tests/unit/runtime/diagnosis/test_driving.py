@@ -80,6 +80,30 @@ def test_with_tolerances_nothing_is_learned_anew() -> None:
     assert [v for v in said if v.event == "fault" or "never before" in v.message] == []
 
 
+def test_with_tolerances_it_is_unsure_until_it_is_learned_how_it_works() -> None:
+    machine = _machine("+- 10%")
+    engine = machine.engine(native=False)
+    watch, base = machine.diagnosis(engine), engine.configured()
+    unsure, samples = [], _samples(2)
+    for k in range(0, len(samples), 15):
+        part = samples[k : k + 15]
+        watch.update(np.arange(k, k + len(part)) * 1.0, base.run(part), part)
+        state = watch.state()["driving"]
+        if state and state["unsure"] == [True]:
+            unsure.append(k)
+    assert 585 <= unsure[0] <= 630
+    assert unsure == list(range(unsure[0], unsure[-1] + 1, 15))
+    assert 8 * 15 <= unsure[-1] - unsure[0] <= 16 * 15, "ten rows, and such as are held back"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_change_within_its_tolerance_is_seen(seed: int) -> None:
+    """What counts is what this machine did: it was 6 % off before, and 10 % are tolerated."""
+    said = _watched(_machine("+- 10%"), _samples(seed, weak=0.94, fault=1500))
+    (fault,) = [v.time for v in said if v.event == "fault"]
+    assert 1500.0 < fault < 1700.0
+
+
 def _learned(samples: Array, driving: Driving) -> None:
     """Rows of ten samples of an input that adds three times itself to the one residual."""
     for k in range(0, len(samples), 10):

@@ -22,6 +22,7 @@ from bondgraph.runtime.diagnosis.isolation import (
     probabilities,
 )
 from bondgraph.runtime.diagnosis.naming import named, update
+from bondgraph.runtime.diagnosis.rows import Row
 
 _SCALES = [1e-4 * 10.0 ** (k / 4.0) for k in range(25)]
 _CHUNK, _PARTS, _KEEP = 4, 15, 0.95
@@ -83,6 +84,29 @@ def test_evidence_is_the_ratio_of_the_densities_of_everything_seen(
         ratio = np.logaddexp.reduce(densities) - math.log(len(densities)) - _density(value, healthy)
         evidence = pair.evidence if fault == "both" else found[fault].evidence
         assert evidence == pytest.approx(ratio, rel=1e-9, abs=1e-9)
+
+
+def test_what_is_expected_of_this_machine_is_the_mean_of_what_its_parameters_may_be() -> None:
+    draw = np.random.default_rng(5)
+    spread, count = np.array([0.5, 2.0]), 7
+    slopes = draw.normal(size=(count, 2, 3))
+    value, weight = draw.normal(size=(count, 3)), draw.uniform(0.5, 2.0, size=(count, 3))
+    history = History(spread)
+    for k in range(count):
+        history.add(value[k], weight[k], slopes[k], 1.0)
+    # normal equations of the parameters given all rows, with their prior
+    flat = slopes.transpose(0, 2, 1).reshape(-1, 2)
+    known = np.linalg.inv(flat.T @ (flat * weight.reshape(-1, 1)) + np.diag(spread**-2.0))
+    best = known @ flat.T @ (weight * value).ravel()
+    now, bound, doubt = draw.normal(size=(2, 3)), np.array([4.0, 5.0, 6.0]), np.ones(3)
+    here = np.array([1.0, -2.0, 3.0])
+    row = Row(0.0, here, None, here, np.ones(3, dtype=bool), bound, doubt, now)
+    found = history.innovation(row, np.array([True, True, False]))
+    deviation = np.sqrt(np.einsum("hr,hg,gr->r", now, known, now))
+    expected = here - now.T @ best
+    assert found.value == pytest.approx([*expected[:2], 3.0], rel=1e-9)
+    wide = 0.1 * (bound - 1.0) + 1.0 + 2.0 * deviation
+    assert found.bound == pytest.approx([*wide[:2], 6.0], rel=1e-9)
 
 
 def test_a_fault_that_moves_nothing_that_is_off_explains_nothing() -> None:

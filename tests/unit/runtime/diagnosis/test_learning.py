@@ -40,7 +40,7 @@ def row(engine: Engine, value: float, valid: bool = True) -> Row:
 def told(learning: Learning, one: Row, healthy: bool = True) -> bool:
     """Whether the noise is known with this row, that no parameter moves."""
     one = one._replace(value=one.value - learning.limits[:, 4])  # as the watch has it
-    return bool(learning.row(one, np.zeros((0, 1)), healthy)[0])
+    return bool(learning.row(one, np.zeros((0, 1)), healthy, np.zeros(1))[0])
 
 
 def drawn(count: int, sigma: float = 1.0) -> list[float]:
@@ -83,12 +83,33 @@ def test_rows_before_an_alarm_are_forgotten() -> None:
     for learning in (wise, hasty):
         for _ in range(LATE):
             told(learning, row(engine, 4.0))
-    wise.alarm()
+    wise.alarm(np.zeros(1))
     for value in drawn(100):
         told(wise, row(engine, value))
         told(hasty, row(engine, value))
     assert wise.limits[0, 0] < hasty.limits[0, 0]
     assert wise.limits[0, 0] == pytest.approx(1.0, rel=0.2)
+
+
+def test_rows_of_a_small_fault_are_held_back_until_it_is_told() -> None:
+    """Three deviations off: as noise they would double it, before their sum tells of a fault."""
+    for keeps in (True, False):
+        learning, engine = learner()
+        detection = Detection(engine.residuals, 3)
+        for value in drawn(45):
+            one = row(engine, value)._replace(value=value - learning.limits[:, 4])
+            assert not detection.row(one, learning.limits).any()
+            learning.row(one, np.zeros((0, 1)), True, detection.held)
+        before = float(learning.limits[0, 0])
+        rows = 0
+        for value in drawn(30, 0.5):
+            one = row(engine, 3.0 + value)._replace(value=3.0 + value - learning.limits[:, 4])
+            if detection.row(one, learning.limits).any():
+                break
+            learning.row(one, np.zeros((0, 1)), True, detection.held if keeps else np.zeros(1))
+            rows += 1
+        assert (rows < 6) == keeps
+        assert (float(learning.limits[0, 0]) < 1.01 * before) == keeps
 
 
 def test_a_residual_that_does_not_stand_at_zero_is_told_and_watched_where_it_stands() -> None:
@@ -130,17 +151,21 @@ def seen_after(rate: float, start: int, seed: int) -> int:
         if high or detection.row(one, learning.limits).any():
             return k - start
         if not learning.over:
-            learning.row(one, np.zeros((0, 1)), True)
+            learning.row(one, np.zeros((0, 1)), True, detection.held)
     return 2500 - start
 
 
 def test_a_drift_that_begins_after_a_hundred_healthy_rows_is_not_learned() -> None:
-    """A fiftieth of the deviation a row, of twenty machines; no faster one is seen later."""
-    slow = sorted(seen_after(0.02, 100, seed) for seed in range(20))
+    """A hundredth of the deviation a row, of twenty machines; no faster one is seen later."""
+    slow = sorted(seen_after(0.01, 100, seed) for seed in range(20))
     assert slow[17] < 200, "eighteen of them within two hundred rows"
     assert max(seen_after(0.2, 100, seed) for seed in range(20)) < 30
 
 
-def test_a_drift_from_the_beginning_is_seen_in_four_times_the_rows_that_are_learned() -> None:
-    after = [seen_after(0.2, 0, seed) for seed in range(3)]
-    assert all(512 < rows < 4 * 512 for rows in after)
+def test_a_drift_from_the_beginning_is_seen() -> None:
+    """A slow one soon; a fast one may be taken for noise with a long memory, for a while."""
+    for rate in (0.01, 0.05):
+        slow = sorted(seen_after(rate, 0, seed) for seed in range(20))
+        assert slow[17] < 250, "eighteen of twenty"
+    fast = [seen_after(0.2, 0, seed) for seed in range(8)]
+    assert max(fast) < 4 * 512

@@ -1,0 +1,94 @@
+"""Sums of what is too much in rows (CUSUM), and how high those of a healthy machine climb."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from bondgraph.runtime.diagnosis.rows import Row
+from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.monitoring.plain import array, numbers
+
+_LOUDER = 4.0  # times the variance of noise: twice as loud
+_OVERSHOOT = 1.166  # of the mean of sums over their height, to either side (Siegmund, 1985)
+_SHARE = 1.0 / 3.0  # of the height, that a single row adds at most to how loud it is
+_LOW = 1.0  # peaks below are not counted
+_BEFORE = 20.0  # peaks of normal rows that are reckoned with before the first one
+_ABOVE = 1.2  # times the highest peak of a healthy machine that a height stays above
+
+
+class Cusum:
+    """Three sums of each residual: of what is above, of what is below, of how loud it is.
+
+    Each adds up logarithms, by how much a fault makes a row more probable, and begins anew at zero
+    (Page, 1954): a mean that is one deviation off, to either side, or twice the deviation. Where
+    noise is independent and normal they climb higher than x so much more seldom than exp(-x); where
+    it is not, as where a machine is louder in some of its motions, that is exp(-x/s), and the
+    stretch s is seen in the peaks between two zeros (Pickands, 1975: an excess over a level is
+    exponential). Heights are s times what they are for normal rows then, and above every peak.
+
+    `limits` have the columns of `Limit`, (residuals, 6).
+    """
+
+    def __init__(self, residuals: int, learns: bool = True) -> None:
+        self._learns = learns
+        self._count = np.zeros(residuals)  # of peaks
+        self._excess = np.zeros(residuals)  # of all of them together
+        self._highest = np.zeros((3, residuals))
+        self.held = np.zeros(residuals)  # rows since all three sums were zero
+        self.restart()
+
+    def restart(self) -> None:
+        """The sums begin anew; what is known of peaks is still known."""
+        count = len(self._count)
+        self.sums, self._peaks = np.zeros((3, count)), np.zeros((3, count))
+        self.held[:] = 0.0
+
+    def heights(self, normal: Array) -> Array:
+        """The heights that tell of a fault, (3, residuals); `normal` are those for normal rows."""
+        stretch = np.maximum((self._excess + _BEFORE) / (self._count + _BEFORE), 1.0)
+        return np.maximum(stretch * normal, _ABOVE * self._highest)
+
+    def add(self, row: Row, limits: Array) -> Mask:
+        """One row more, whose values are near zero within its bound; which residuals are too far.
+
+        A residual without a value, or of unknown noise, begins anew.
+        """
+        known = row.valid & np.isfinite(limits[:, 0])
+        sigma, memory = limits[:, 0], limits[:, 5]
+        top = self.heights(limits[:, 3] + np.array([[0.0], [0.0], [_OVERSHOOT]]))
+        squares = 0.5 * (memory + 1.0 / memory)  # the memory of squares, of first order
+        with np.errstate(divide="ignore", invalid="ignore"):
+            off = (np.stack([row.value, -row.value]) - row.bound) / (sigma * np.sqrt(memory)) - 0.5
+            size = np.maximum(np.abs(row.value) - row.bound, 0.0) / sigma
+            loud = 0.5 * (size**2 * (1.0 - 1.0 / _LOUDER) - math.log(_LOUDER)) / squares
+            more = np.vstack([off, np.minimum(loud, _SHARE * top[2])[None]])
+            after = np.clip(self.sums + more, 0.0, 2.0 * top)
+        self.sums = np.where(known, after, 0.0)
+        if self._learns:
+            self._learn()
+        self.held = np.where(self.sums.max(axis=0) > 0.0, self.held + 1.0, 0.0)
+        return np.asarray((self.sums > top).any(axis=0))
+
+    def _learn(self) -> None:
+        """A peak counts when its sum is at zero again: those of a fault come to an alarm."""
+        over = (self.sums == 0.0) & (self._peaks > _LOW)
+        self._count += over.sum(axis=0)
+        self._excess += np.where(over, self._peaks - _LOW, 0.0).sum(axis=0)
+        self._highest = np.where(over, np.maximum(self._highest, self._peaks), self._highest)
+        self._peaks = np.where(self.sums == 0.0, 0.0, np.maximum(self._peaks, self.sums))
+
+    def state(self) -> dict[str, Any]:
+        """All that `resumed` needs, as plain JSON."""
+        peaks = np.vstack([self._count, self._excess, self._highest])
+        return {"sums": numbers(self.sums), "peaks": numbers(peaks)}
+
+    def resumed(self, state: dict[str, Any]) -> Cusum:
+        """The same in a state; raises KeyError, TypeError or ValueError for one of another kind."""
+        other = Cusum(len(self._count), self._learns)
+        other.sums = array(state["sums"], self.sums.shape)
+        peaks = array(state["peaks"], (5, len(self._count)))
+        other._count, other._excess, other._highest = peaks[0], peaks[1], peaks[2:]
+        return other
