@@ -249,7 +249,10 @@ def update(
     candidates = tuple(_candidate(e, chance[e.fault]) for e in shown)
     verdict = Verdict("update", time, since, dict(levels), group, candidates)
     if explains(found) and candidates and not pairs:
-        return verdict._replace(message=described(verdict))
+        message = described(verdict)
+        if not fits(_best(found)):
+            message += "; it leaves more than noise: it may not be the only one"
+        return verdict._replace(message=message)
     if not pairs:
         message = (
             "no single fault explains this: several at once, or one that is not modelled;"
