@@ -204,7 +204,8 @@ def _lines(compilation: Compilation, found: Fitted, files: list[str]) -> list[st
                   " signals, and to the model."]  # fmt: skip
     if found.combinations:
         lines += ["", "What the logs cannot tell (such parameters stay near their nominal values)"]
-        lines += [f"  {c.text()}" for c in found.combinations]
+        for c in found.combinations:
+            lines += [f"  {c.text()}", f"    {c.which()}"]
     lines += ["", "How well it fits"]
     for left in found.left:
         lines += [f"  {text}" for text in _fits(left, bool(found.suspects))]

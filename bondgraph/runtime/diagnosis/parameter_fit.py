@@ -249,7 +249,10 @@ def fit(
     late = at[count:]
     called = [*free.parameters, *(f"offset of {n}" for n in free.offsets)]
     zeros = np.where(problem.zeros, problem.scale, 0.0)
-    found = combinations(called, values, problem.scale, zeros, null, partial(problem.cost, late))
+    more = partial(_more, covariance)
+    found = combinations(
+        called, values, problem.scale, zeros, null, partial(problem.cost, late), more
+    )
     suspects = problem.suspects(at, units)
     progress(1.0)
     apart = np.where(deviation > 0, deviation, 1.0)
@@ -263,6 +266,12 @@ def fit(
         own[:split], own[split:], suspects, found, left, delays, seen, runs.seconds,
         covariance / np.outer(apart, apart), problem.terms(at),
     )  # fmt: skip
+
+
+def _more(covariance: Array, own: Sequence[int]) -> float | None:
+    """How many times the motion would tell these parameters; None if nothing tells of them now."""
+    deviation = math.sqrt(float(np.linalg.eigvalsh(covariance[np.ix_(own, own)])[-1]))
+    return deviation / _TOLD if deviation < _WIDE / 3.0 else None
 
 
 def fittable(

@@ -20,13 +20,16 @@ class Combination(NamedTuple):
 
     `told` is what they tell of them (`R/L`, `R1 + R2`), "" for nothing that has a short name;
     `changes` are by how much some may change together with nothing to be seen, relative to their
-    values; in their own unit for those in `zeros`, which are declared to be zero.
+    values; in their own unit for those in `zeros`, which are declared to be zero. `more` is how
+    many times the motion of these logs would tell, as far as they go: None where in these logs what
+    they do not tell does next to nothing.
     """
 
     parameters: tuple[str, ...]
     told: str
     changes: tuple[dict[str, float], ...]
     zeros: tuple[str, ...] = ()
+    more: float | None = None
 
     def text(self) -> str:
         """One sentence for people.
@@ -58,6 +61,21 @@ class Combination(NamedTuple):
         what = f"{joined(self.parameters, 'and')} are not told apart"
         return f"{what}: {joined(moves, 'and')} changes nothing"
 
+    def which(self) -> str:
+        """Which log would tell.
+
+        What is known of a parameter grows with the motion, and with the root of time.
+
+        >>> Combination(("k",), "", ({"k": 1.0},), more=3.0).which()
+        'a log with 3 times the motion would tell, or 9 times as long'
+        >>> Combination(("k",), "", ({"k": 1.0},)).which()
+        'no log like these would tell: another motion may'
+        """
+        if self.more is None:
+            return "no log like these would tell: another motion may"
+        much, long = f"{self.more:.2g} times the motion", f"{self.more**2:.2g} times as long"
+        return f"a log with {much} would tell, or {long}"
+
     def _ratios(self) -> bool:
         """Whether all may change by one factor, and by nothing else."""
         if self.zeros or len(self.changes) != 1 or len(self.parameters) != len(self.changes[0]):
@@ -73,23 +91,26 @@ def combinations(
     zeros: Array,
     null: Array,
     cost: Callable[[Sequence[float]], float],
+    more: Callable[[Sequence[int]], float | None] = lambda _: None,
 ) -> tuple[Combination, ...]:
     """What is told of parameters that may change along the rows of `null` and nothing shows.
 
     These are changes of (value - nominal) / scale; `cost` is what some values leave. What is
-    declared zero has in `zeros` a size that a change of it is compared with, others have 0.
+    declared zero has in `zeros` a size that a change of it is compared with, others have 0. `more`
+    says how many times the motion would tell parameters, by their numbers.
     """
     found = []
     rest = list(range(len(null)))
     while rest:
         group = [rest.pop(0)]
         members = null[group[0]] != 0
-        while more := [k for k in rest if (members & (null[k] != 0)).any()]:
-            group += more
-            rest = [k for k in rest if k not in more]
+        while beside := [k for k in rest if (members & (null[k] != 0)).any()]:
+            group += beside
+            rest = [k for k in rest if k not in beside]
             members = (null[group] != 0).any(axis=0)
         own = np.flatnonzero(members).tolist()
-        found.append(_named(own, null[group][:, own], names, values, scale, zeros, cost))
+        one = _named(own, null[group][:, own], names, values, scale, zeros, cost)
+        found.append(one._replace(more=more(own)))
     return tuple(found)
 
 

@@ -78,9 +78,32 @@ def test_of_a_blocked_rotor_the_constant_of_the_motor_is_not_told() -> None:
     found = c.fit({"run": Log(TIME, still, {}, {})}, ["R", "k"])
     resistance, constant = found.parameters
     assert [x.text() for x in found.combinations] == ["k is not told"]
+    assert found.combinations[0].more is None
     assert math.isclose(resistance.value, 15.0, rel_tol=2e-3)
     assert constant.error is None
     assert math.isclose(constant.value, constant.nominal, rel_tol=0.02)
+
+
+@pytest.mark.parametrize("long", [True, False])
+def test_which_log_would_tell_an_inductance_that_a_slow_current_hardly_shows(long: bool) -> None:
+    text = """bg 1
+    model M { param R = 2 Ohm; param L = 10 mH; Se:U -> 1:i; i -> R:R; i -> I:L; i -> Df:y }"""
+
+    def log(motion: float, times: float, seed: int) -> Log:
+        time = np.arange(round(4 * RATE * times)) / RATE
+        y, slope = motion * np.sin(2.0 * time), 2.0 * motion * np.cos(2.0 * time)
+        sensor = y + 0.1 * np.random.default_rng(seed).standard_normal(len(time))
+        return Log(time, {"U": 2.0 * y + 0.01 * slope, "y": sensor}, {}, {})
+
+    c = bondgraph.compile(text=text, rate=RATE, bandwidth=50.0)
+    (short,) = c.fit({"run": log(1.0, 1.0, 1)}, ["L"]).combinations
+    assert short.more is not None
+    assert 1.5 < short.more < 8.0
+    for times, tells in ((1.3, True), (0.4, False)):
+        more = times * short.more
+        motion, length = (1.0, more**2) if long else (more, 1.0)
+        found = [only(c.fit({"run": log(motion, length, 5 + s)}, ["L"])) for s in range(3)]
+        assert sum((p.error is not None) == tells for p in found) >= 2
 
 
 def test_what_is_declared_zero_may_have_either_sign_and_others_keep_theirs() -> None:
