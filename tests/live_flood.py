@@ -1,4 +1,4 @@
-"""Many pages, some that do not read, a flood of wishes, pages from elsewhere: python -m tests.live_flood.
+"""Many pages, some that do not read, a flood of wishes: python -m tests.live_flood.
 
 One server of `bondgraph live` is asked for all that at once. Told are the frames that pages get
 meanwhile, the longest time without one, the memory of the server, and how fast it ends.
@@ -64,7 +64,7 @@ class _Reader:
     async def run(self, session: aiohttp.ClientSession, address: str) -> None:
         async with session.ws_connect(f"{address}ws", max_msg_size=0, autoping=True) as page:
             async for message in page:
-                if message.type is aiohttp.WSMsgType.TEXT and '"type": "frame"' in message.data[:40]:
+                if str(message.data).startswith('{"type": "frame"'):
                     now = time.monotonic()
                     if self.frames:
                         self.gap = max(self.gap, now - self.last)

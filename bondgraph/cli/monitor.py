@@ -238,14 +238,20 @@ def _identity(journal: str, role: str) -> str:
 
 
 def _printer(lines: bool) -> Callable[[int, Verdict], None]:
+    from bondgraph.cli.terminal import styled
     from bondgraph.runtime.monitoring.verdict import to_json, to_text
+    from bondgraph.text.printable import printable
 
     colours = _COLOURS if console.coloured(sys.stdout) else {}
 
     def text(number: int, verdict: Verdict) -> None:
         line = to_text(verdict)
         colour = colours.get(verdict.event)
-        print(f"\x1b[{colour}m{line}\x1b[0m" if colour else line, flush=True)
+        if colour:
+            styled(sys.stdout, f"\x1b[{colour}m{printable(line)}\x1b[0m\n")
+            sys.stdout.flush()
+        else:
+            print(line, flush=True)
 
     def json(number: int, verdict: Verdict) -> None:
         print(to_json(verdict, number), flush=True)

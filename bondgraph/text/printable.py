@@ -1,7 +1,7 @@
-"""Text that cannot move a cursor, colour a screen, turn the reading direction or end a line.
+"""Text that cannot move a cursor, colour a screen or turn the reading direction.
 
 Names, units, comments and messages come from files, devices and brokers. They become text of ours
-at few borders (what is printed, a file that is written, a message to a page), and each of them
+at a few borders (what is printed, a file that is written, a message to a page), and each of them
 goes through here.
 """
 
@@ -11,11 +11,11 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-#: Controls but for tab and line feed, marks of direction, invisible letters, line and paragraph
-#: separators, halves of surrogates. Operators that are not seen, as in MathML, may stay.
+#: Controls but for tab and line feed, marks of direction and of languages, line and paragraph
+#: separators, halves of surrogates.
 _RAW = re.compile(
-    "[\0-\x08\x0b-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2065-\u206f\ufeff"
-    "\ufff9-\ufffb\ud800-\udfff\U000e0000-\U000e0fff]"
+    "[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u180e\u200e\u200f\u2028-\u202e\u2065-\u206f\ufff9-\ufffb"
+    "\ud800-\udfff\U000e0000-\U000e0fff]"
 )
 
 
@@ -25,18 +25,13 @@ def printable(text: str) -> str:
     >>> printable("a\x1b[31m\u202eb")
     'a\ufffd[31m\ufffdb'
     """
-    if text.isascii() and text.isprintable():
+    if text.isprintable():
         return text
     return _RAW.sub("\N{REPLACEMENT CHARACTER}", text)
 
 
-def one_line(text: str) -> str:
-    """The same for text that is to stay in its line: line ends and tabs become spaces."""
-    return printable(" ".join(text.split()) if not text.isprintable() else text)
-
-
 def printable_values(value: Any) -> Any:
-    """Plain data, with every text in it made printable, names of entries too."""
+    """Plain data with every text in it made printable, names of entries too."""
     if isinstance(value, str):
         return printable(value)
     if isinstance(value, Mapping):
@@ -44,3 +39,22 @@ def printable_values(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [printable_values(v) for v in value]
     return value
+
+
+def json_text(value: object, indent: int | None = None, allow_nan: bool = False) -> str:
+    r"""JSON in which such characters are escaped: the reader gets each of them.
+
+    Raises ValueError for a number that is not finite, which JSON has not, unless it is allowed.
+
+    >>> json_text({"log": "é\u202e"})
+    '{"log": "é\\u202e"}'
+    """
+    import json  # not for those who print no JSON
+
+    text = json.dumps(value, ensure_ascii=False, allow_nan=allow_nan, indent=indent)
+    return text if text.isprintable() else _RAW.sub(_escaped, text)
+
+
+def _escaped(found: re.Match[str]) -> str:
+    units = found[0].encode("utf-16-be", "surrogatepass")
+    return "".join([f"\\u{units[k : k + 2].hex()}" for k in range(0, len(units), 2)])

@@ -149,7 +149,7 @@ async def _talk(request: web.Request, hub: Hub, ask: Asked) -> web.WebSocketResp
         await page.prepare(request)
         writer = asyncio.create_task(_write(page, viewer, request.protocol))
         try:
-            await _read(page, viewer, ask)
+            await _read(page, viewer, ask, request.protocol)
         finally:
             writer.cancel()
             with suppress(asyncio.CancelledError, ConnectionError):
@@ -171,7 +171,9 @@ async def _write(page: web.WebSocketResponse, viewer: Viewer, connection: Reques
         _cut(connection)
 
 
-async def _read(page: web.WebSocketResponse, viewer: Viewer, ask: Asked) -> None:
+async def _read(
+    page: web.WebSocketResponse, viewer: Viewer, ask: Asked, connection: RequestHandler
+) -> None:
     """Hear what a page wishes, not more often than a person could; the rest waits at the page."""
     loop = asyncio.get_running_loop()
 
@@ -192,6 +194,8 @@ async def _read(page: web.WebSocketResponse, viewer: Viewer, ask: Asked) -> None
         wait = free - clocks.monotonic() - _AT_ONCE / _OFTEN
         if wait > 0:
             await asyncio.sleep(wait)
+        if connection.transport is None:  # the page has gone: nobody wishes the rest
+            return
 
 
 def _cut(connection: RequestHandler | None) -> None:
