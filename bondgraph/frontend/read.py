@@ -6,6 +6,7 @@ import os
 import stat
 
 from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.regular_file import check_regular
 from bondgraph.text.source import Source, Span
 
 #: A model of a million bonds has about 50 MB; more is surely no model.
@@ -31,6 +32,7 @@ def read(path: str, report: Report, origin: Span | None = None) -> Source | None
                     "Is this a log or a packed file? Describe repeated parts as an array of "
                     "submodels, `Cell:cell[n]`.", origin)  # fmt: skip
             return None
+        check_regular(path, pipe=origin is None)
         with open(path, "rb") as file:
             data = file.read(MAX_BYTES + 1)
     except FileNotFoundError:
@@ -39,7 +41,7 @@ def read(path: str, report: Report, origin: Span | None = None) -> Source | None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         _refuse(path, report, "file-unreadable", f"cannot be read: {reason}",
-                "Check the name and the rights of the file.", origin)  # fmt: skip
+                "Check the name and the rights; give a regular file.", origin)  # fmt: skip
         return None
     return decode(path, data, report, origin)
 

@@ -8,7 +8,7 @@ goes through here.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 #: Controls but for tab and line feed, marks of direction and of languages, line and paragraph
@@ -25,9 +25,12 @@ def printable(text: str) -> str:
     >>> printable("a\x1b[31m\u202eb")
     'a\ufffd[31m\ufffdb'
     """
-    if text.isprintable():
-        return text
-    return _RAW.sub("\N{REPLACEMENT CHARACTER}", text)
+    return respelt(text, lambda _: "\N{REPLACEMENT CHARACTER}")
+
+
+def respelt(text: str, spell: Callable[[str], str]) -> str:
+    """The text with each character that is not to be printed spelt in another way."""
+    return text if text.isprintable() else _RAW.sub(lambda found: spell(found[0]), text)
 
 
 def printable_values(value: Any) -> Any:
@@ -52,9 +55,9 @@ def json_text(value: object, indent: int | None = None, allow_nan: bool = False)
     import json  # not for those who print no JSON
 
     text = json.dumps(value, ensure_ascii=False, allow_nan=allow_nan, indent=indent)
-    return text if text.isprintable() else _RAW.sub(_escaped, text)
+    return respelt(text, _escaped)
 
 
-def _escaped(found: re.Match[str]) -> str:
-    units = found[0].encode("utf-16-be", "surrogatepass")
+def _escaped(character: str) -> str:
+    units = character.encode("utf-16-be", "surrogatepass")
     return "".join([f"\\u{units[k : k + 2].hex()}" for k in range(0, len(units), 2)])

@@ -14,9 +14,12 @@ import numpy as np
 from bondgraph.ir.program import Known
 from bondgraph.library.units import parse_unit, scale, suggest_unit
 from bondgraph.runtime.log import LEFT_OUT, TIME, Array, Log, LogError, labelled
+from bondgraph.text.regular_file import check_regular
 from bondgraph.text.tuples import NamedTuple
 
 _KEYS = {"column", "scale", "offset", "unit"}
+#: Of a map file.
+MOST_BYTES = 1_000_000
 _CLOCK = "time"  # in a map file: where the time is
 
 
@@ -219,6 +222,7 @@ def read_time(path: str | os.PathLike[str]) -> Mapped | None:
 def _entries(name: str) -> Iterable[tuple[str, Any]]:
     """The entries of a map file; raises LogError for a file that is no TOML."""
     try:
+        check_regular(name, MOST_BYTES)
         with open(name, "rb") as file:
             data = tomllib.load(file)
     except OSError as error:
