@@ -10,6 +10,7 @@ from typing import IO
 
 from bondgraph.cli.terminal import styled
 from bondgraph.text.diagnostic import CompileError, Diagnostic
+from bondgraph.text.limits import SHOWN
 from bondgraph.text.printable import printable
 
 
@@ -39,7 +40,21 @@ def show(diagnostics: Iterable[Diagnostic]) -> None:
     if found:
         from bondgraph.text.render import render
 
-        styled(sys.stderr, render(found, color=coloured(sys.stderr)))
+        some = _some(found)
+        styled(sys.stderr, render(some, color=coloured(sys.stderr)))
+        if len(some) < len(found):
+            print(f"{len(found) - len(some)} more are not shown: mend these first", file=sys.stderr)
+
+
+def _some(found: tuple[Diagnostic, ...]) -> list[Diagnostic]:
+    """The first ones of each kind, in order."""
+    seen: dict[str, int] = {}
+    shown = []
+    for diagnostic in found:
+        seen[diagnostic.code] = seen.get(diagnostic.code, 0) + 1
+        if seen[diagnostic.code] <= SHOWN:
+            shown.append(diagnostic)
+    return shown
 
 
 def print_json(value: object) -> None:

@@ -7,6 +7,7 @@ import errno
 import gc
 import os
 import sys
+import warnings
 
 from bondgraph import __version__
 from bondgraph.cli.terminal import printable_streams
@@ -51,6 +52,8 @@ def parsed(words: list[str]) -> SimpleNamespace | Namespace:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit status is 0 (done), 1 (wrong model) or 2 (wrong usage)."""
     words = list(sys.argv[1:] if argv is None else argv)
+    if argv is None and not sys.warnoptions:  # numbers beyond all bounds are told as such
+        warnings.filterwarnings("ignore", category=RuntimeWarning)
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by who started us
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115 (until the end)

@@ -12,6 +12,7 @@ from bondgraph.cli import console, fleet
 from bondgraph.cli.log_options import form_of, logged, note
 from bondgraph.cli.options import count, isolating, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.limits import TUNING_BYTES
 from bondgraph.text.numerals import plural
 from bondgraph.text.regular_file import check_regular
 
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 
 FAULT = 3  # the exit status of --fail-on-fault
 
-_TUNING = 20_000_000  # bytes
 _COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "invalid": "33", "gap": "33"}
 
 
@@ -200,7 +200,7 @@ def read_tuning(path: str) -> Tuning:
     from bondgraph.runtime.diagnosis.tuning import Tuning
 
     try:
-        check_regular(path, _TUNING)
+        check_regular(path, TUNING_BYTES)
         with open(path, encoding="utf-8") as file:
             return Tuning.from_json(file.read())
     except (ValueError, UnicodeDecodeError) as error:

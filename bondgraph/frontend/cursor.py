@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import Final
 
 from bondgraph.frontend.lexer import split
 from bondgraph.frontend.words import KEYWORDS, RESERVED, is_arrow, say
 from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.limits import SYNTAX_ERRORS
 from bondgraph.text.source import Source, Span
-
-#: How deep brackets and braces may nest; far above any model written by hand.
-MAX_DEPTH: Final = 100
-#: How high the tree of one expression may be: later passes walk it recursively.
-MAX_HEIGHT: Final = 200
-#: After so many errors the rest of a file is not worth reading.
-MAX_ERRORS: Final = 40
 
 _ODD_NAME = re.compile(r"__|(?<!\w)_")
 
@@ -90,7 +83,7 @@ class Cursor:
         """Report an error and go on as if all were well."""
         self.report.error(code, message, *labels, help=help)
         self.errors += 1
-        if self.errors >= MAX_ERRORS:
+        if self.errors >= SYNTAX_ERRORS:
             raise TooManyProblems
 
     def problem(

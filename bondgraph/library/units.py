@@ -54,7 +54,7 @@ _ZEROS = {
 }  # fmt: skip
 _BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
 
-_FACTOR = re.compile(r"(1|%|‰|°[CF]?|[^\W\d_]\w*)(?:\^(-?\d+(?:\.\d+)?))?")
+_FACTOR = re.compile(r"(1|%|‰|°[CF]?|[^\W\d_]\w*)(?:\^(-?\d{1,20}(?:\.\d{1,20})?))?")
 _LARGEST_EXPONENT = 24  # beyond any physics; keeps factors small whatever is typed
 _LARGEST_ROOT = 12
 

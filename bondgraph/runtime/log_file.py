@@ -32,6 +32,7 @@ from bondgraph.runtime.log_numbers import (
     separator_of,
 )
 from bondgraph.runtime.time_column import chosen, stamp
+from bondgraph.text.limits import COLUMNS
 from bondgraph.text.printable import respelt
 from bondgraph.text.regular_file import check_regular
 from bondgraph.text.whole_file import naming, whole
@@ -355,6 +356,9 @@ class ParquetReader(Reader):
                 raise LogError(path, None, message, "read it with a newer bondgraph")
             self._own, meta = True, {k: _text(v) for k, v in texts.items()}
         names = list(schema.names)
+        if len(names) > COLUMNS:
+            message = f"{len(names)} columns, {COLUMNS} are the most"
+            raise LogError(path, None, message, "leave out what no model reads")
         twice = next((n for k, n in enumerate(names) if n in names[:k]), None)
         if twice is not None:
             raise LogError(path, None, f"two columns are called `{twice}`", "rename one of them")

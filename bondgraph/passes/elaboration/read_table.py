@@ -11,6 +11,7 @@ from bondgraph.ir.syntax import Text
 from bondgraph.ir.tables import Rows
 from bondgraph.passes.elaboration.problems import fail
 from bondgraph.text.diagnostic import Report
+from bondgraph.text.limits import TABLE_BYTES, TABLE_NUMBERS
 from bondgraph.text.regular_file import check_regular
 from bondgraph.text.source import Source
 
@@ -22,10 +23,6 @@ _HELP = {
        "Both ascend, and there are two or more of each, in SI units.",
 }  # fmt: skip
 _LARGEST = 10**300
-#: Of a file with a table.
-MOST_BYTES = 20_000_000
-#: Numbers in a table: residuals have all of them in their code.
-MOST_NUMBERS = 200_000
 
 
 def read_table(file: Text, inputs: int, source: Source, report: Report) -> Rows:
@@ -37,7 +34,7 @@ def read_table(file: Text, inputs: int, source: Source, report: Report) -> Rows:
     """
     path = os.path.join(os.path.dirname(source.path), file.value)
     try:
-        check_regular(path, MOST_BYTES)
+        check_regular(path, TABLE_BYTES)
         with open(path, encoding="utf-8-sig") as stream:
             text = stream.read().splitlines()
     except (OSError, ValueError) as error:
@@ -64,8 +61,8 @@ def read_table(file: Text, inputs: int, source: Source, report: Report) -> Rows:
         if len(rows) >= inputs and row[0] <= rows[-1][0]:
             wrong(": x does not ascend.", at)
         rows.append(row)
-        if len(rows) * width > MOST_NUMBERS:
-            wrong(f" is one too many: a table has {MOST_NUMBERS:,} numbers at most.", at)
+        if len(rows) * width > TABLE_NUMBERS:
+            wrong(f" is one too many: a table has {TABLE_NUMBERS:,} numbers at most.", at)
     if len(rows) < inputs + 1:
         wrong(" has fewer than two points.")
     if inputs == 2 and (width < 3 or any(b <= a for a, b in pairwise(rows[0][1:]))):

@@ -22,12 +22,11 @@ from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.runtime.simulation.integrate import SimulationError
 from bondgraph.text.diagnostic import CompileError
+from bondgraph.text.limits import INJECTED, WISHES
 
 Refuse = Callable[[str], None]
 
-_WISHES = 64  # that may wait
 _A_TURN = 4  # wishes that are done before the next samples
-_FAULTS = 30  # that may be injected at once
 _LOOK = 0.05  # s between two looks at wishes, where no samples come
 
 
@@ -43,7 +42,7 @@ class Follower:
     ) -> None:
         self._setup, self._targets = setup, targets
         self._messages, self._control = messages, control
-        self._wishes: Queue[tuple[dict[str, Any], Refuse]] = Queue(_WISHES)
+        self._wishes: Queue[tuple[dict[str, Any], Refuse]] = Queue(WISHES)
         self.portions = Portions(setup.speed is not None)
         self.twin = Twin(setup.system, setup.integral, setup.scenario)
         self.places = Places(setup.system, setup.scenario, self.twin.fed.values)
@@ -168,8 +167,8 @@ class Follower:
                 fault = wish(message, self._setup, self._targets)
                 if isinstance(fault, str):
                     return f"Not injected: {fault}."
-                if len(self.twin.fed.faults) >= _FAULTS:
-                    return f"Not injected: {_FAULTS} faults are already; take all back first."
+                if len(self.twin.fed.faults) >= INJECTED:
+                    return f"Not injected: {INJECTED} faults are already; take all back first."
                 self.twin.inject(fault)
                 self._injected()
             case "clear":

@@ -9,7 +9,8 @@ from collections.abc import Container
 from aiohttp.web import Server
 from aiohttp.web_protocol import RequestHandler
 
-_CONNECTIONS = 700  # below the 1024 files that a process may usually have open
+from bondgraph.text.limits import CONNECTIONS
+
 _SILENT = 30.0  # s that a connection may last that shows no page
 _LOOK = 5.0  # s between two looks at them
 _NO_ROOM = b"HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
@@ -24,7 +25,7 @@ class Gate:
 
     def __call__(self) -> asyncio.Protocol:
         """What a new connection speaks."""
-        return self._server() if len(self._server.connections) < _CONNECTIONS else _Full()
+        return self._server() if len(self._server.connections) < CONNECTIONS else _Full()
 
     async def watch(self) -> None:
         """Cut what has shown no page for too long, until cancelled."""

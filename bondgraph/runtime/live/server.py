@@ -20,15 +20,14 @@ from aiohttp.web_protocol import RequestHandler
 from bondgraph.runtime.live.gate import Gate
 from bondgraph.runtime.live.hub import Hub, Viewer, message_text
 from bondgraph.runtime.live.session import Session
+from bondgraph.text import limits
 from bondgraph.text.diagnostic import Trouble
 
-_LARGEST = 4096  # bytes of a wish
 _LOCAL = ("127.0.0.1", "localhost", "[::1]", "::1")
 _CLOSE = 0.3  # s that all pages together may take to say goodbye
 _END = 0.4  # s that a watch has for its last words
 _PATIENCE = 10.0  # s that a page may take to read what it is sent
-_OFTEN, _AT_ONCE = 10.0, 10  # messages a second that are read of a page, and so many at once
-_PAGES = 600
+_AT_ONCE = 10  # messages of a page that are read at once
 
 #: Nothing from elsewhere, no script or style in the page itself.
 POLICY = (
@@ -138,10 +137,14 @@ def application(
 async def _talk(request: web.Request, hub: Hub, ask: Asked) -> web.WebSocketResponse:
     """One page, from its first message to its last."""
     pages = request.app[PAGES]
-    if len(pages) >= _PAGES:
+    if len(pages) >= limits.PAGES:
         raise web.HTTPServiceUnavailable(text="Too many pages are open.", headers=_HEADERS)
     page = web.WebSocketResponse(
-        timeout=_CLOSE, autoping=False, heartbeat=20.0, max_msg_size=_LARGEST, compress=False
+        timeout=_CLOSE,
+        autoping=False,
+        heartbeat=20.0,
+        max_msg_size=limits.WISH_BYTES,
+        compress=False,
     )
     pages[request.protocol] = page
     viewer = hub.join()
@@ -190,8 +193,8 @@ async def _read(
             wish = _wish(message.data)
             if wish is not None:
                 ask(wish, refuse)
-        free = max(free, clocks.monotonic()) + 1 / _OFTEN
-        wait = free - clocks.monotonic() - _AT_ONCE / _OFTEN
+        free = max(free, clocks.monotonic()) + 1 / limits.WISHES_A_SECOND
+        wait = free - clocks.monotonic() - _AT_ONCE / limits.WISHES_A_SECOND
         if wait > 0:
             await asyncio.sleep(wait)
         if connection.transport is None:  # the page has gone: nobody wishes the rest

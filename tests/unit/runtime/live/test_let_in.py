@@ -100,7 +100,7 @@ def test_beyond_this_computer_the_address_has_a_token() -> None:
 
 
 def test_there_is_room_for_so_many_pages(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server, "_PAGES", 2)
+    monkeypatch.setattr(server.limits, "PAGES", 2)
 
     async def look(client: TestClient[Any, Any], hub: Hub, wishes: list[Any]) -> None:
         one, _ = [await client.ws_connect("/ws") for _ in range(2)]
@@ -142,7 +142,7 @@ async def _ended(reader: asyncio.StreamReader) -> bool:
 
 
 def test_connections_that_show_no_page_are_cut(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(gates, "_CONNECTIONS", 3)
+    monkeypatch.setattr(gates, "CONNECTIONS", 3)
 
     async def run() -> None:
         app = server.application({"/": ("text/html", "x")}, Hub({"type": "hello"}), lambda *_: None)
