@@ -7,10 +7,10 @@ import re
 from bondgraph.frontend.lexer import split
 from bondgraph.frontend.words import KEYWORDS, RESERVED, is_arrow, say
 from bondgraph.text.diagnostic import Label, Report
-from bondgraph.text.limits import SYNTAX_ERRORS
+from bondgraph.text.limits import NAME_LETTERS, SYNTAX_ERRORS
 from bondgraph.text.source import Source, Span
 
-_ODD_NAME = re.compile(r"__|(?<!\w)_")
+_ODD_NAME = re.compile(rf"__|(?<!\w)_|(?<!\w)\w{{{NAME_LETTERS + 1}}}")
 
 
 class SyntaxProblem(Exception):
@@ -163,7 +163,8 @@ class Cursor:
     def check_name(self, at: int) -> None:
         """Complain once about a name that the generated code could not spell."""
         word = self.words[at]
-        if word in self.complained or ("__" not in word and word.isascii() and word[0] != "_"):
+        sound = "__" not in word and word.isascii() and word[0] != "_"
+        if word in self.complained or (sound and len(word) <= NAME_LETTERS):
             return
         self.complained.add(word)
         from bondgraph.frontend.odd import odd_name

@@ -10,6 +10,7 @@ PARTS = 3_000_000  #: names and statements of a whole model; a million bonds are
 UNROLLED = 20_000  #: names of arrays and statements of loops that one instance unrolls itself
 BRACKETS = 100  #: inside each other, or blocks
 OPERATORS = 200  #: inside each other, in one expression
+NAME_LETTERS = 100  #: of one name; files are called by it
 DIGITS = 400  #: of a number
 SYNTAX_ERRORS = 40  #: after which a file is not read on
 SHOWN = 100  #: findings that are shown of one kind, and so many errors
