@@ -1,4 +1,4 @@
-"""Texts that reach what no text before has reached: python -m tests.fuzz.guided KIND.
+"""Texts that reach what no text before has reached: python -m tests.fuzz.guided [KIND ...].
 
 Each text is made of one that was kept. It is kept itself if the answer to it is a new one, or, of
 a sample of texts whose lines are traced, if it reaches a line of the package that none has reached.
@@ -15,6 +15,7 @@ import time
 import traceback
 from collections.abc import Sequence
 from hashlib import sha256
+from multiprocessing import get_context
 from pathlib import Path
 from types import FrameType
 from typing import Any, NamedTuple
@@ -22,10 +23,13 @@ from typing import Any, NamedTuple
 from tests.fuzz.mutate import ROOT, Mutator, corpus
 from tests.fuzz.run import check
 from tests.fuzz.targets import KINDS, WORDS, Kind
+from tests.measured import write
 
 KEPT = Path(__file__).with_name("corpus")
 _SECONDS = 20.0  # that no text may take
 _MEMORY = 1 << 30  # bytes that all of them together may add
+#: Texts of a whole campaign, by kind; of all others 100 000.
+_COUNTS = {"check": 1_000_000, "compile": 10_000}
 _TRACED = 40  # one text in so many is traced
 _PACKAGE = str(ROOT / "bondgraph")
 
@@ -35,6 +39,7 @@ class Result(NamedTuple):
 
     kind: str
     texts: int
+    sound: int  # of these, that nothing was wrong with
     answers: int
     lines: int
     slowest: float  # s
@@ -123,6 +128,7 @@ def run(name: str, count: int, seed: int, keep: int = 0) -> Result:
     known = len(kept)
     fresh: list[bytes] = []
     answers: set[str] = set()
+    sound = 0
     lines, findings = Lines(), {}
     slowest, before = 0.0, _resident()
     start = time.perf_counter()
@@ -160,13 +166,14 @@ def run(name: str, count: int, seed: int, keep: int = 0) -> Result:
             kept.append(text)
             fresh.append(text)
         answers.add(answer)
+        sound += answer.startswith(("sound", "compiled", "samples", "done", "begun"))
     if keep:
         folder = KEPT / name
         folder.mkdir(parents=True, exist_ok=True)
         for text in fresh[-keep:]:
             (folder / sha256(text).hexdigest()[:12]).write_bytes(text)
     taken = time.perf_counter() - start
-    return Result(name, count, len(answers), len(lines.seen), slowest, _resident() - before,
+    return Result(name, count, sound, len(answers), len(lines.seen), slowest, _resident() - before,
                   findings, taken)  # fmt: skip
 
 
@@ -174,24 +181,52 @@ def _resident() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
+def told(found: Sequence[Result]) -> str:
+    """What was found, for a page of the documentation."""
+    rows = ["| kind | texts | sound | answers | lines reached | findings | slowest | memory |",
+            "|---|---|---|---|---|---|---|---|"]  # fmt: skip
+    rows += [
+        f"| {r.kind} | {r.texts:,} | {r.sound:,} | {r.answers:,} | {r.lines:,} | {len(r.findings)}"
+        f" | {r.slowest:.2f} s | {r.memory:.0f} MB |"
+        for r in found
+    ]
+    return "\n".join(rows)
+
+
+def _job(job: tuple[str, int, int, int]) -> Result:
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY * 4, resource.RLIM_INFINITY))
+    return run(*job)
+
+
 def main() -> int:
     """Run some kinds and tell; the exit status is 1 where a text broke one."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("kinds", nargs="*", metavar="KIND", help="check, " + ", ".join(KINDS))
-    parser.add_argument("--count", type=int, default=10_000)
+    parser.add_argument("--count", type=int, help="of each kind (default: those of a campaign)")
+    parser.add_argument("--share", type=float, default=1.0, help="of a campaign")
+    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--write", action="store_true", help="put the table into docs/trust.md")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", type=int, default=0, help="so many texts for the corpus")
     args = parser.parse_args()
-    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY * 4, resource.RLIM_INFINITY))
+    names = args.kinds or ["check", *KINDS]
+    counts = {n: args.count or round(_COUNTS.get(n, 100_000) * args.share) for n in names}
     bad = False
-    for name in args.kinds or ["check", *KINDS]:
-        found = run(name, args.count, args.seed, args.keep)
-        print(f"{name}: {found.texts} texts, {found.answers} answers, {found.lines} lines reached,"
-              f" {len(found.findings)} findings, slowest {found.slowest:.2f} s,"
-              f" {found.memory:.0f} MB more, {found.seconds:.0f} s", flush=True)  # fmt: skip
+    every = []
+    pool = get_context("spawn").Pool(args.jobs)
+    for found in pool.imap(_job, [(n, counts[n], args.seed, args.keep) for n in names], 1):
+        every.append(found)
+        print(f"{found.kind}: {found.texts} texts, {found.sound} sound, {found.answers} answers,"
+              f" {found.lines} lines reached, {len(found.findings)} findings, slowest"
+              f" {found.slowest:.2f} s, {found.memory:.0f} MB more, {found.seconds:.0f} s",
+              flush=True)  # fmt: skip
         for what, (text, trace) in found.findings.items():
             bad = True
             print(f"=== {what}\n{trace}--- for\n{text[:1500]!r}")
+    pool.close()
+    if args.write:
+        command = f"python -m tests.fuzz.guided --share {args.share:g} --write"
+        write(ROOT / "docs" / "trust.md", command, told(every))
     return 1 if bad else 0
 
 
