@@ -17,19 +17,17 @@ import subprocess
 import sys
 import tempfile
 import time
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple
 
 import aiohttp
 
+from tests.fuzz.connections import HANDSHAKE
 from tests.measured import ROOT, write
 from tests.unit.runtime.live.rover import written
 
-_HANDSHAKE = (
-    "GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-    "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n\r\n"
-)
 _WISHES = (
     {"do": "inject", "target": "f[1]", "change": "*=", "value": 3},
     {"do": "clear"},
@@ -128,7 +126,7 @@ async def _load(
         before = _memory(process)
         readers = [_Reader() for _ in range(viewers - silent)]
         tasks += [asyncio.create_task(r.run(session, address)) for r in readers]
-        mute = [_silent(port, _HANDSHAKE.format(port=port)) for _ in range(silent)]
+        mute = [_silent(port, HANDSHAKE.format(port=port)) for _ in range(silent)]
         mute += [_silent(port, "GET / HT") for _ in range(20)]  # a request that never ends
         start = time.monotonic()
         while min(r.frames for r in readers) < 1 and time.monotonic() - start < 30:
@@ -159,8 +157,9 @@ async def _load(
                  most, end, process.returncode, said)._replace(seconds=s)  # fmt: skip
 
 
-def flood(folder: Path, viewers: int, silent: int, wishes: int, seconds: float) -> Found:
-    """Start a server, ask too much of it, end it."""
+@contextmanager
+def served(folder: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """A server of the rover in a process of its own, and its address."""
     model, scenario = written(folder)
     words = ["live", str(model), str(scenario), "--port", "0", "--no-browser"]
     process = subprocess.Popen(
@@ -171,10 +170,18 @@ def flood(folder: Path, viewers: int, silent: int, wishes: int, seconds: float) 
         assert process.stdout is not None
         found = re.search(r"http://127\.0\.0\.1:\d+/", process.stdout.readline())
         assert found is not None
-        return asyncio.run(_load(process, found[0], viewers, silent, wishes, seconds))
+        yield process, found[0]
     finally:
         process.kill()
         process.wait()
+        assert process.stdout is not None
+        process.stdout.close()
+
+
+def flood(folder: Path, viewers: int, silent: int, wishes: int, seconds: float) -> Found:
+    """Start a server, ask too much of it, end it."""
+    with served(folder) as (process, address):
+        return asyncio.run(_load(process, address, viewers, silent, wishes, seconds))
 
 
 def table(found: Found) -> str:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 import hmac
 import json
+import logging
+import os
 import secrets
 import signal
 import socket
@@ -54,6 +56,18 @@ class Asked(Protocol):
 
     def __call__(self, message: dict[str, Any], refuse: Callable[[str], None]) -> None:
         """Somebody wishes something."""
+
+
+def _quiet() -> logging.Logger:
+    """A logger that says nothing, unless somebody looks for a bug.
+
+    What others send is wrong as they like: they are not to fill a log, nor to hold up the server
+    where nobody reads it.
+    """
+    if not os.environ.get("BONDGRAPH_TRACEBACK"):
+        for name in ("asyncio", "aiohttp"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    return logging.getLogger("aiohttp.server")
 
 
 class PortTaken(Trouble):
@@ -265,7 +279,9 @@ async def serve(
             loop.remove_signal_handler(number)
 
     app = application(files, hub, session.ask, token)
-    runner = web.AppRunner(app, access_log=None, shutdown_timeout=_CLOSE, lingering_time=0.0)
+    runner = web.AppRunner(
+        app, access_log=None, logger=_quiet(), shutdown_timeout=_CLOSE, lingering_time=0.0
+    )
     await runner.setup()
     assert runner.server is not None
     pages = app[PAGES]

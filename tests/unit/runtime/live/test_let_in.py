@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import signal
 import socket
 import time
 from contextlib import suppress
@@ -23,7 +24,8 @@ from bondgraph.runtime.live.hub import Hub
 from bondgraph.runtime.live.portions import Portion, Portions
 from bondgraph.runtime.log_numbers import Form
 from bondgraph.runtime.monitoring.sources.streams import Pipe
-from tests.live_flood import flood
+from tests.fuzz.connections import garbage
+from tests.live_flood import flood, served
 from tests.unit.runtime.live.test_server import Watched, _frame, _served, _verdict
 
 
@@ -34,6 +36,16 @@ def test_a_flood_of_wishes_and_pages_that_do_not_read(tmp_path: Path) -> None:
     assert min(found.frames) > 0.5 * 20 * found.seconds and found.gap < 1.0
     assert found.most < found.before + 100  # MB
     assert found.end < 1.0
+
+
+def test_connections_that_say_anything_leave_no_trace(tmp_path: Path) -> None:
+    with served(tmp_path) as (process, address):  # nobody reads what it prints meanwhile
+        garbage(int(address.rsplit(":", 1)[1].strip("/")), 400, 1)
+        start = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        said, _ = process.communicate(timeout=20)
+        assert time.monotonic() - start < 1.5
+    assert said == "stopped\n" and process.returncode == 0
 
 
 def test_a_page_that_never_reads_is_told_everything_anew() -> None:
