@@ -83,8 +83,8 @@ update: $(VENV)/dev.stamp ## write the expected dumps and generated/ anew
 	@for model in models/*.bg; do $(BIN)/bondgraph compile $$model > /dev/null || exit 1; done
 	$(BIN)/python -m pytest --update
 
-fuzz: $(VENV)/dev.stamp ## 100 000 broken models through `check`
-	$(BIN)/python -m tests.fuzz.run --count 100000 --jobs 2
+fuzz: $(VENV)/dev.stamp ## a million hostile models, and 800 000 scenarios, logs, journals, messages ...; an hour (SHARE=0.1: less)
+	$(BIN)/python -m tests.fuzz.guided --jobs 2 --share $(or $(SHARE),1)
 
 random: $(VENV)/dev.stamp ## 10 000 random bond graphs, others each time but for START=..., each verified or refused with a reason
 	$(BIN)/python -m tests.random.run --count 10000 --jobs 2 $(if $(START),--start $(START))

@@ -767,12 +767,20 @@ class Compilation:
 
     def _load(self, path: str, origin: Span) -> File | None:
         """The syntax tree of an imported file; reports at `origin` what is wrong with it."""
-        from bondgraph.frontend.parser import parse
+        from bondgraph.frontend.parser import has_edition, parse
         from bondgraph.frontend.read import read
 
         beside = os.path.join(os.path.dirname(origin.source.path), path)
         source = read(beside, self.report, origin)
-        return parse(source, self.report) if source else None
+        if source is None:
+            return None
+        if not has_edition(source):  # of a file that is no model, no line is shown
+            self.report.error(
+                "import-no-model", f"The file `{beside}` is no model: it does not begin with `bg`"
+                " and the edition.", origin, help="Name a model file, as in `import Motor from"
+                " \"motor.bg\"`; `bondgraph check` on the file itself says more.")  # fmt: skip
+            return None
+        return parse(source, self.report)
 
 
 def compile(

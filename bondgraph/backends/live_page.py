@@ -6,6 +6,7 @@ from functools import cache
 
 from bondgraph.backends.drawing.style import colours, inside
 from bondgraph.backends.templates import codegen
+from bondgraph.text.printable import printable
 
 _SCRIPTS = ("main.js", "graph.js", "plane.js", "said.js", "strips.js")
 _LIGHT, _DARK = (
@@ -29,7 +30,7 @@ def live(title: str, doc: str, drawing: str) -> dict[str, tuple[str, str]]:
     template = environment.get_template("live/page.html.j2")
     html = template.render(title=title, doc=doc, drawing=Markup(drawing.rstrip()))
     scripts = {f"/{name}": ("text/javascript", _text(name)) for name in _SCRIPTS}
-    return {"/": ("text/html", html), "/live.css": ("text/css", _style()), **scripts}
+    return {"/": ("text/html", printable(html)), "/live.css": ("text/css", _style()), **scripts}
 
 
 def _style() -> str:

@@ -22,6 +22,7 @@ from typing import Literal
 from bondgraph.ir.artifact import Artifact
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.file_lock import locked
+from bondgraph.text.printable import printable
 from bondgraph.text.whole_file import (
     folder_aside,
     naming,
@@ -65,7 +66,7 @@ def write(artifacts: Iterable[Artifact], folder: str | os.PathLike[str]) -> tupl
     in the way, `Trouble` where another process writes there or the disk refuses while files are
     moved, OSError if it refuses before, ValueError for a path that leads out of the folder.
     """
-    files = {a.path: a.text.encode() for a in artifacts}
+    files = {a.path: printable(a.text).encode() for a in artifacts}
     for path in files:
         if not _is_below(path):
             raise ValueError(f"{path} is not a path below the output folder")

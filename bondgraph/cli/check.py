@@ -31,7 +31,7 @@ def run(args: Namespace) -> int:
         except CompileError as error:
             failures.append(error)
             diagnostics = error.diagnostics
-        found += [d for d in diagnostics if d not in found]
+        found += [d for d in diagnostics if d not in found] if found else diagnostics
     if args.json:
         from bondgraph.text.render import as_json
 

@@ -8,7 +8,10 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import IO
 
+from bondgraph.cli.terminal import styled
 from bondgraph.text.diagnostic import CompileError, Diagnostic
+from bondgraph.text.limits import SHOWN
+from bondgraph.text.printable import printable
 
 
 class Unknown(Exception):
@@ -37,14 +40,28 @@ def show(diagnostics: Iterable[Diagnostic]) -> None:
     if found:
         from bondgraph.text.render import render
 
-        print(render(found, color=coloured(sys.stderr)), file=sys.stderr, end="")
+        some = _some(found)
+        styled(sys.stderr, render(some, color=coloured(sys.stderr)))
+        if len(some) < len(found):
+            print(f"{len(found) - len(some)} more are not shown: mend these first", file=sys.stderr)
+
+
+def _some(found: tuple[Diagnostic, ...]) -> list[Diagnostic]:
+    """The first ones of each kind, in order."""
+    seen: dict[str, int] = {}
+    shown = []
+    for diagnostic in found:
+        seen[diagnostic.code] = seen.get(diagnostic.code, 0) + 1
+        if seen[diagnostic.code] <= SHOWN:
+            shown.append(diagnostic)
+    return shown
 
 
 def print_json(value: object) -> None:
     """Print one JSON object on the output stream."""
-    import json
+    from bondgraph.text.printable import json_text
 
-    print(json.dumps(value, indent=2, ensure_ascii=False))
+    print(json_text(value, indent=2, allow_nan=True))
 
 
 def told(
@@ -179,9 +196,11 @@ def progress(steps: int, patience: float = 1.0) -> Iterator[Callable[[str], None
         while True:
             filled = 24 * (done - 1) // steps
             bar = "=" * filled + " " * (24 - filled)
-            print(f"\r[{bar}] {word:<16}", end="", file=sys.stderr, flush=True)
+            styled(sys.stderr, f"\r[{bar}] {printable(word):<16}")
+            sys.stderr.flush()
             if finished.wait(0.1):
-                print("\r" + " " * 44 + "\r", end="", file=sys.stderr, flush=True)
+                styled(sys.stderr, "\r" + " " * 44 + "\r")
+                sys.stderr.flush()
                 return
 
     def advance(now: str) -> None:

@@ -158,12 +158,12 @@ def _in_order(results: Iterable[Result]) -> Iterator[Result]:
 
 def _print_lines(log: WatchedLog, bad: bool) -> None:
     """The verdicts as lines of JSON, each with the name of the log."""
-    import json
+    from bondgraph.text.printable import json_text
 
     for record in log.to_record()["verdicts"]:
-        print(json.dumps({"log": log.log, **record}, ensure_ascii=False))
+        print(json_text({"log": log.log, **record}))
     if bad:
-        print(json.dumps({"log": log.log, "error": log.error}, ensure_ascii=False))
+        print(json_text({"log": log.log, "error": log.error}))
     sys.stdout.flush()
 
 

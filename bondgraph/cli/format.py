@@ -6,11 +6,12 @@ import sys
 from argparse import ArgumentParser, Namespace
 
 from bondgraph.cli import console
+from bondgraph.cli.terminal import exactly
 from bondgraph.frontend.formatter import format_text
 from bondgraph.frontend.read import read
 from bondgraph.text.diagnostic import CompileError, Report
 from bondgraph.text.source import Source
-from bondgraph.text.whole_file import write_whole
+from bondgraph.text.whole_file import write_bytes
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -51,7 +52,7 @@ def _format(name: str, check: bool) -> bool:
         raise CompileError(tuple(report.diagnostics))
     if not check:
         if name == "-":
-            sys.stdout.write(text)
+            exactly(sys.stdout, text)
         elif text != source.text:
-            write_whole(name, text)
+            write_bytes(name, text.encode())  # comments stay as they are
     return text != source.text

@@ -7,8 +7,10 @@ import errno
 import gc
 import os
 import sys
+import warnings
 
 from bondgraph import __version__
+from bondgraph.cli.terminal import printable_streams
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -50,8 +52,16 @@ def parsed(words: list[str]) -> SimpleNamespace | Namespace:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit status is 0 (done), 1 (wrong model) or 2 (wrong usage)."""
     words = list(sys.argv[1:] if argv is None else argv)
-    if sys.stdout is None:  # closed by who started us
-        sys.stdout = open(os.devnull, "w")  # noqa: SIM115 (until the end)
+    if argv is None and not sys.warnoptions:  # numbers beyond all bounds are told as such
+        warnings.filterwarnings("ignore", category=RuntimeWarning)
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by who started us
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115 (until the end)
+    with printable_streams():
+        return _guarded(words)
+
+
+def _guarded(words: list[str]) -> int:
     try:
         if words == ["--version"]:  # before anything is loaded
             print("bondgraph", __version__, flush=True)

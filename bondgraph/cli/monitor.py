@@ -12,7 +12,9 @@ from bondgraph.cli import console, fleet
 from bondgraph.cli.log_options import form_of, logged, note
 from bondgraph.cli.options import count, isolating, positive, realised, realising
 from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.limits import TUNING_BYTES
 from bondgraph.text.numerals import plural
+from bondgraph.text.regular_file import check_regular
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -198,6 +200,7 @@ def read_tuning(path: str) -> Tuning:
     from bondgraph.runtime.diagnosis.tuning import Tuning
 
     try:
+        check_regular(path, TUNING_BYTES)
         with open(path, encoding="utf-8") as file:
             return Tuning.from_json(file.read())
     except (ValueError, UnicodeDecodeError) as error:
@@ -238,14 +241,20 @@ def _identity(journal: str, role: str) -> str:
 
 
 def _printer(lines: bool) -> Callable[[int, Verdict], None]:
+    from bondgraph.cli.terminal import styled
     from bondgraph.runtime.monitoring.verdict import to_json, to_text
+    from bondgraph.text.printable import printable
 
     colours = _COLOURS if console.coloured(sys.stdout) else {}
 
     def text(number: int, verdict: Verdict) -> None:
         line = to_text(verdict)
         colour = colours.get(verdict.event)
-        print(f"\x1b[{colour}m{line}\x1b[0m" if colour else line, flush=True)
+        if colour:
+            styled(sys.stdout, f"\x1b[{colour}m{printable(line)}\x1b[0m\n")
+            sys.stdout.flush()
+        else:
+            print(line, flush=True)
 
     def json(number: int, verdict: Verdict) -> None:
         print(to_json(verdict, number), flush=True)

@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 import re
-from typing import Final
 
 from bondgraph.frontend.lexer import split
 from bondgraph.frontend.words import KEYWORDS, RESERVED, is_arrow, say
 from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.limits import NAME_LETTERS, SYNTAX_ERRORS
 from bondgraph.text.source import Source, Span
 
-#: How deep brackets and braces may nest; far above any model written by hand.
-MAX_DEPTH: Final = 100
-#: How high the tree of one expression may be: later passes walk it recursively.
-MAX_HEIGHT: Final = 200
-#: After so many errors the rest of a file is not worth reading.
-MAX_ERRORS: Final = 40
-
-_ODD_NAME = re.compile(r"__|(?<!\w)_")
+_ODD_NAME = re.compile(rf"__|(?<!\w)_|(?<!\w)\w{{{NAME_LETTERS + 1}}}")
 
 
 class SyntaxProblem(Exception):
@@ -90,7 +83,7 @@ class Cursor:
         """Report an error and go on as if all were well."""
         self.report.error(code, message, *labels, help=help)
         self.errors += 1
-        if self.errors >= MAX_ERRORS:
+        if self.errors >= SYNTAX_ERRORS:
             raise TooManyProblems
 
     def problem(
@@ -170,7 +163,8 @@ class Cursor:
     def check_name(self, at: int) -> None:
         """Complain once about a name that the generated code could not spell."""
         word = self.words[at]
-        if word in self.complained or ("__" not in word and word.isascii() and word[0] != "_"):
+        sound = "__" not in word and word.isascii() and word[0] != "_"
+        if word in self.complained or (sound and len(word) <= NAME_LETTERS):
             return
         self.complained.add(word)
         from bondgraph.frontend.odd import odd_name

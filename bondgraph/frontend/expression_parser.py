@@ -6,10 +6,11 @@ import re
 from fractions import Fraction
 from typing import Final
 
-from bondgraph.frontend.cursor import MAX_DEPTH, MAX_HEIGHT, Cursor, SyntaxProblem
+from bondgraph.frontend.cursor import Cursor, SyntaxProblem
 from bondgraph.frontend.words import NOT_UNITS, RESERVED, say
 from bondgraph.ir import syntax
 from bondgraph.text.diagnostic import Label
+from bondgraph.text.limits import BRACKETS, DIGITS, OPERATORS
 from bondgraph.text.source import Span
 
 _POWER: Final = r"(?:\^-?[0-9]++(?:\.[0-9]++)?+(?!\w))?+"
@@ -25,8 +26,6 @@ _COMPARISON: Final = 4
 _SUM: Final = 5
 _SIGN_LEVEL: Final = 7
 _POWER_LEVEL: Final = 8
-#: Larger exponents of ten are slips, and would cost memory as exact numbers.
-_MAX_EXPONENT: Final = 400
 
 _OPERAND_HELP: Final = "Write a number, a name, a call or brackets here."
 
@@ -60,7 +59,7 @@ class Expressions(Cursor):
         first = self.i
         words = self.words
         self.depth += 1
-        if self.depth > MAX_DEPTH:
+        if self.depth > BRACKETS:
             raise self.too_deep(first)
         if minus or words[first] == "-":
             if not minus:
@@ -95,7 +94,7 @@ class Expressions(Cursor):
                 self.i = at + 1
                 right = self._binary(_SIGN_LEVEL if power == _POWER_LEVEL else power + 1)
             height = max(height, self.height) + 1
-            if height > MAX_HEIGHT:
+            if height > OPERATORS:
                 raise self.too_deep(at)
             left = syntax.Binary(op, left, right, self._from(left, right))
             if power == _COMPARISON and _LEVEL.get(words[self.i]) == _COMPARISON:
@@ -129,7 +128,7 @@ class Expressions(Cursor):
         """The complaint about brackets in brackets in brackets."""
         return self.problem(
             "nesting-too-deep",
-            f"Brackets or braces are nested more than {MAX_DEPTH} deep, or more than {MAX_HEIGHT} "
+            f"Brackets or braces are nested more than {BRACKETS} deep, or more than {OPERATORS} "
             "operators stand in one expression.",
             at,
             "too deep from here on",
@@ -294,16 +293,16 @@ class Expressions(Cursor):
 
     def _value(self, at: int) -> Fraction:
         word = self.words[at]
-        if word.isdigit() and len(word) < _MAX_EXPONENT:
+        if word.isdigit() and len(word) < DIGITS:
             return Fraction(int(word))
         mantissa, _, exponent = word.lower().partition("e")
-        if len(mantissa) > _MAX_EXPONENT or len(exponent) > 9 or abs(int(exponent or "0")) > 400:
+        if len(mantissa) > DIGITS or len(exponent) > 9 or abs(int(exponent or "0")) > DIGITS:
             raise self.problem(
                 "number-form",
                 "This number has more digits or a larger exponent than any quantity of physics.",
                 at,
                 "this number",
-                help=f"Exponents of ten go from -{_MAX_EXPONENT} to {_MAX_EXPONENT}.",
+                help=f"Exponents of ten go from -{DIGITS} to {DIGITS}.",
             )
         whole, _, digits = mantissa.partition(".")
         shift = int(exponent or "0") - len(digits)

@@ -6,6 +6,7 @@ import os
 
 from bondgraph.ir.structural_model import Mark, StructuralEquation, StructuralModel
 from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.limits import INCIDENCE_CELLS, INCIDENCE_MARKS
 from bondgraph.text.source import Source, Span
 from bondgraph.text.tuples import NamedTuple
 
@@ -51,8 +52,18 @@ def read_table(source: Source, report: Report) -> StructuralModel | None:
         return None
     separator = next((s for s in "\t;" if s in lines[0].text), ",")
     columns = _columns(_cells(lines[0], separator), report)
+    if (len(columns) + 1) * len(lines) > INCIDENCE_CELLS:
+        report.error(
+            "table-column",
+            f"The table has {len(lines) - 1} rows and {len(columns)} columns: more than"
+            f" {INCIDENCE_CELLS:,} cells.",
+            lines[0].origin,
+            help="Leave out what cannot matter for a fault, or analyse parts of the machine.",
+        )
+        return None
     equations: list[StructuralEquation] = []
     names: dict[str, _Cell] = {}
+    marks = 0
     for line in lines[1:]:
         cells = _cells(line, separator)
         while len(cells) > len(columns) + 1 and not cells[-1].text:
@@ -66,6 +77,13 @@ def read_table(source: Source, report: Report) -> StructuralModel | None:
                 help=f"Give each row at most {len(columns) + 1} cells, its name counted.",
             )
             continue
+        marks += sum(cell.text not in _ABSENT for cell in cells[1:])
+        if marks > INCIDENCE_MARKS:
+            report.error(
+                "table-row", f"The table has more than {INCIDENCE_MARKS:,} marks.", line.origin,
+                help="An equation has few unknowns: mark only what occurs in it.",
+            )  # fmt: skip
+            return None
         _unique(cells[0], names, "equations", report)
         equations.append(_equation(cells, columns, report))
     if len(lines) == 1:

@@ -6,6 +6,7 @@ import re
 from typing import Final
 
 from bondgraph.frontend.words import NOT_UNITS, say
+from bondgraph.text.limits import NAME_LETTERS
 from bondgraph.text.tuples import NamedTuple
 
 
@@ -121,6 +122,13 @@ def _character(found: str, at: int) -> Odd:
 
 def odd_name(word: str) -> Odd:
     """Why the generated code could not spell this name."""
+    if len(word) > NAME_LETTERS:
+        return Odd(
+            "name-letters",
+            f"The name {say(word[:20])}... has {len(word)} letters: {NAME_LETTERS} are the most,"
+            " since files are called by it.", 0, "this name",
+            "Say in a comment, after `#` or `##`, what a name cannot say.",
+        )  # fmt: skip
     if "__" in word and word.isascii():
         shorter = re.sub("_+", "_", word).strip("_") or "x"
         return Odd(

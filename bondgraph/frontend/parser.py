@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import re
 
 from bondgraph.frontend.cursor import SyntaxProblem, TooManyProblems
 from bondgraph.frontend.statements import Statements
@@ -12,6 +13,7 @@ from bondgraph.text.diagnostic import Label, Report
 from bondgraph.text.source import Source, Span
 
 EDITION = 1
+_BEGIN = re.compile(r"(?:[ \t\r\n\ufeff]|#[^\n]*+)*+bg[ \t]+[0-9]")
 
 _TOP_HELP = "A file has `bg 1`, then `import` lines and `model Name { ... }`."
 
@@ -34,6 +36,15 @@ def parse(source: Source, report: Report) -> syntax.File | None:
     finally:
         if collecting:
             gc.enable()
+
+
+def has_edition(source: Source) -> bool:
+    """Whether a text begins as a model does, with `bg` and a number.
+
+    >>> has_edition(Source("a.bg", "# a motor\\nbg 1")), has_edition(Source("passwd", "root:x:0"))
+    (True, False)
+    """
+    return _BEGIN.match(source.text) is not None
 
 
 class Parser(Statements):

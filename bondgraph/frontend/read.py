@@ -6,17 +6,16 @@ import os
 import stat
 
 from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.limits import MODEL_BYTES
+from bondgraph.text.regular_file import check_regular
 from bondgraph.text.source import Source, Span
-
-#: A model of a million bonds has about 50 MB; more is surely no model.
-MAX_BYTES = 200_000_000
 
 
 def read(path: str, report: Report, origin: Span | None = None) -> Source | None:
     """The text of the file at `path`, decoded from UTF-8, without mark and with plain line ends.
 
-    None, and one error in `report`, if there is no such file, it cannot be read, is larger than
-    `MAX_BYTES` bytes, or is not text. The error stands at `origin`, the `import` that asks for the
+    None, and one error in `report`, if there is no such file, it cannot be read, has more than
+    `MODEL_BYTES`, or is not text. The error stands at `origin`, the `import` that asks for the
     file, else at the file itself.
     """
     try:
@@ -25,21 +24,22 @@ def read(path: str, report: Report, origin: Span | None = None) -> Source | None
             _refuse(path, report, "file-unreadable", "is a directory, not a model file",
                     "Give a file, such as `models/khepera.bg`.", origin)  # fmt: skip
             return None
-        if status.st_size > MAX_BYTES:
+        if status.st_size > MODEL_BYTES:
             _refuse(path, report, "file-too-large",
-                    f"has {status.st_size} bytes; a model has at most {MAX_BYTES}",
+                    f"has {status.st_size} bytes; a model has at most {MODEL_BYTES}",
                     "Is this a log or a packed file? Describe repeated parts as an array of "
                     "submodels, `Cell:cell[n]`.", origin)  # fmt: skip
             return None
+        check_regular(path, pipe=origin is None)
         with open(path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
+            data = file.read(MODEL_BYTES + 1)
     except FileNotFoundError:
         _refuse(path, report, "file-not-found", "does not exist", _nearby(path), origin)
         return None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         _refuse(path, report, "file-unreadable", f"cannot be read: {reason}",
-                "Check the name and the rights of the file.", origin)  # fmt: skip
+                "Check the name and the rights; give a regular file.", origin)  # fmt: skip
         return None
     return decode(path, data, report, origin)
 

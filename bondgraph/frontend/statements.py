@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from bondgraph.frontend.cursor import MAX_DEPTH, SyntaxProblem
+from bondgraph.frontend.cursor import SyntaxProblem
 from bondgraph.frontend.node_parser import Nodes
 from bondgraph.frontend.words import KEYWORDS, is_arrow, say
 from bondgraph.ir import syntax
 from bondgraph.text.diagnostic import Label
+from bondgraph.text.limits import BRACKETS
 
 #: After one of these a keyword is an ordinary name: `port -> x`, `input { ... }`, `let:x`.
 _NAME_FOLLOWERS = frozenset([":", ".", "[", "{", ";", "}", ""])
@@ -28,7 +29,7 @@ class Statements(Nodes):
         words = self.words
         self.depth += 1
         depth = self.depth
-        if depth > MAX_DEPTH:
+        if depth > BRACKETS:
             self.i = opening
             raise self.too_deep(opening)
         while True:
@@ -145,7 +146,7 @@ class Statements(Nodes):
             self.i += 1
             if self.words[self.i] == "if":
                 self.depth += 1
-                if self.depth > MAX_DEPTH:
+                if self.depth > BRACKETS:
                     raise self.too_deep(self.i)
                 otherwise = (self._if(inside),)
                 self.depth -= 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from decimal import Context, Decimal
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
 from importlib import import_module
 from math import lcm
 
@@ -54,9 +54,10 @@ _ZEROS = {
 }  # fmt: skip
 _BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
 
-_FACTOR = re.compile(r"(1|%|‰|°[CF]?|[^\W\d_]\w*)(?:\^(-?\d+(?:\.\d+)?))?")
+_FACTOR = re.compile(r"(1|%|‰|°[CF]?|[^\W\d_]\w*)(?:\^(-?\d{1,20}(?:\.\d{1,20})?))?")
 _LARGEST_EXPONENT = 24  # beyond any physics; keeps factors small whatever is typed
 _LARGEST_ROOT = 12
+_LONGEST_TEXT = 60  # letters of a unit for which a better spelling is looked for
 
 #: Rounds a root that is not rational; a double keeps 17 digits.
 _ROOT = Context(prec=20)
@@ -175,6 +176,8 @@ def suggest_unit(text: str) -> str | None:
     >>> suggest_unit("Nm/A"), suggest_unit("kg*m²"), suggest_unit("J/(kg.K)"), suggest_unit("ohms")
     ('N.m/A', 'kg.m^2', 'J/kg/K', 'Ohm')
     """
+    if len(text) > _LONGEST_TEXT:  # nobody meant that
+        return None
     flat = text.strip().strip("[]").translate(_SUPERSCRIPTS).replace("**", "^")
     flat = re.sub("[*·×⋅]| +", ".", flat)
     flat = re.sub(r"\(([^()]*)\)", _opened, flat)
@@ -197,6 +200,7 @@ def _opened(found: re.Match[str]) -> str:
     return found[1].replace("/", "\0").replace(".", "/").replace("\0", ".")
 
 
+@lru_cache(10_000)  # the same ends of a name are met again and again
 def _respelt(name: str) -> str | None:
     lower = name.lower()
     if lower in _WORDS:

@@ -24,6 +24,7 @@ LEFT_OUT, TIME, TIME_UNIT = "left-out", "time", "time-unit"
 
 _LABELLED = re.compile(r"(.*\S)(\s*)([\[(])\s*([^\[\]()]+?)\s*[\])]")
 _SPELT = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·*", "0123456789-..")
+_LONG = 500  # letters: no name with a unit is so long
 _PURE = {"-": "1", "count": "count", "counts": "count"}
 
 
@@ -94,7 +95,7 @@ def labelled(name: str) -> tuple[str, str]:
     >>> labelled("T1 [°C]"), labelled("p(bar)"), labelled("U[1]"), labelled("flow [m³/h]")
     (('T1', '°C'), ('p', 'bar'), ('U[1]', ''), ('flow', 'm^3/h'))
     """
-    found = _LABELLED.fullmatch(name.strip())
+    found = _LABELLED.fullmatch(name.strip()) if len(name) < _LONG else None
     if found is None or found[4].isdigit():
         return name, ""
     unit = re.sub(r"(?<=[^\W\d_])(-?\d)", r"^\1", found[4].translate(_SPELT))

@@ -32,6 +32,9 @@ from bondgraph.runtime.log_numbers import (
     separator_of,
 )
 from bondgraph.runtime.time_column import chosen, stamp
+from bondgraph.text.limits import COLUMNS
+from bondgraph.text.printable import respelt
+from bondgraph.text.regular_file import check_regular
 from bondgraph.text.whole_file import naming, whole
 
 if TYPE_CHECKING:
@@ -215,6 +218,7 @@ def read_csv(path: str, form: Form) -> Log:
     """The log in a CSV file; see `read_log`."""
     reader = CsvReader(form)
     parts: list[Log] = []
+    check_regular(path)
     try:
         with open(path, encoding="utf-8-sig") as file:
             while lines := file.readlines(_BLOCK):
@@ -233,6 +237,7 @@ def read_objects(path: str, form: Form) -> Log:
     from bondgraph.runtime.monitoring.sources.lines import Decoder
 
     decoder = Decoder(form)
+    check_regular(path)
     with open(path, "rb") as file:
         logs = decoder.feed(file.read() + b"\n")
     decoder.check()
@@ -301,12 +306,17 @@ def _texts(column: Array, count: bool, none: str) -> Iterable[str]:
 
 
 def _escaped(text: str) -> str:
-    return "".join([_ESCAPES.get(letter, letter) for letter in text])
+    text = "".join([_ESCAPES.get(letter, letter) for letter in text])
+    return respelt(text, lambda letter: f"\\u{ord(letter):06x}")
 
 
 def _plain(text: str) -> str:
     back = {code[1]: letter for letter, code in _ESCAPES.items()}
-    return re.sub(r"\\(.)", lambda found: back.get(found[1], found[1]), text)
+
+    def letter(found: re.Match[str]) -> str:
+        return chr(int(found[1], 16)) if found[1] else back.get(found[2], found[2])
+
+    return re.sub(r"\\(?:u(0[0-9a-f]{5}|10[0-9a-f]{4})|(.))", letter, text)
 
 
 def _needed(path: str) -> LogError:
@@ -325,6 +335,7 @@ def read_parquet(path: str, form: Form) -> Log:
         import pyarrow.parquet
     except ImportError as error:
         raise _needed(path) from error
+    check_regular(path)
     try:
         table = pyarrow.parquet.ParquetFile(path).read()
     except pyarrow.ArrowException as error:
@@ -345,6 +356,9 @@ class ParquetReader(Reader):
                 raise LogError(path, None, message, "read it with a newer bondgraph")
             self._own, meta = True, {k: _text(v) for k, v in texts.items()}
         names = list(schema.names)
+        if len(names) > COLUMNS:
+            message = f"{len(names)} columns, {COLUMNS} are the most"
+            raise LogError(path, None, message, "leave out what no model reads")
         twice = next((n for k, n in enumerate(names) if n in names[:k]), None)
         if twice is not None:
             raise LogError(path, None, f"two columns are called `{twice}`", "rename one of them")

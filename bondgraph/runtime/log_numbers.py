@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import csv
 import re
+from collections import Counter
 from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from bondgraph.runtime.log import LEFT_OUT, TIME, TIME_UNIT, Array, Log, LogError, labelled
 from bondgraph.runtime.time_column import ISO, candidates, chosen, no_time, seconds, stamp, unit_of
+from bondgraph.text.limits import COLUMNS
 from bondgraph.text.tuples import NamedTuple
 
 #: How a cell says that there is no sample, in small letters.
@@ -272,7 +274,11 @@ class Reader:
     ) -> Table:
         """The table under a header; raises LogError where it has no column of time."""
         form = self.form
-        twice = next((n for k, n in enumerate(names) if n in names[:k]), None)
+        if len(names) > COLUMNS:
+            message = f"{len(names)} columns, {COLUMNS} are the most"
+            raise LogError(form.name, None, message, "leave out what no model reads")
+        count = Counter(names)
+        twice = next((n for n in names if count[n] > 1), None)
         if twice is not None:
             message = f"two columns are called `{twice}`"
             raise LogError(form.name, None, message, "rename one of them")

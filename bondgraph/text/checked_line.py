@@ -8,6 +8,8 @@ import re
 import zlib
 from typing import Any
 
+from bondgraph.text.printable import json_text
+
 _LINE = re.compile(rb'(\{.+), "crc": "([0-9a-f]{8})"\}', re.DOTALL)
 
 
@@ -20,8 +22,7 @@ def checked_line(record: dict[str, Any]) -> bytes:
     >>> checked_line({"sent": 7})
     b'{"sent": 7, "crc": "455a11e2"}\\n'
     """
-    text = json.dumps(record, ensure_ascii=False, allow_nan=False)
-    body = text.encode("utf-8", "surrogatepass")  # names of files may be no text
+    body = json_text(record).encode()
     return body[:-1] + f', "crc": "{zlib.crc32(body):08x}"}}\n'.encode()
 
 

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from bondgraph.text.file_lock import locked
+from bondgraph.text.printable import printable
 
 _Opened = TypeVar("_Opened", int, int | None)
 
@@ -91,9 +92,9 @@ def folder_aside(home: Path) -> Iterator[Path]:
 
 
 def write_whole(path: str | os.PathLike[str], text: str) -> None:
-    """Write a text to a file, all of it or nothing; raises OSError."""
+    """Write a text of ours to a file, printably, all of it or nothing; raises OSError."""
     with whole(path) as temporary, naming(path):
-        temporary.write_text(text, encoding="utf-8", newline="\n")
+        temporary.write_text(printable(text), encoding="utf-8", newline="\n")
 
 
 def write_bytes(path: str | os.PathLike[str], data: bytes, private: bool = False) -> None:

@@ -103,7 +103,9 @@ function later() {
 }
 
 function connect() {
-  socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`);
+  const address = new URL("ws", location.href); // beside the page, under the token that it has
+  address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+  socket = new WebSocket(address);
   socket.onmessage = (event) => {
     const message = JSON.parse(event.data);
     tries = 0;

@@ -138,7 +138,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--answers", action="store_true", help="how often each code was answered")
     args = parser.parse_args(argv)
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, resource.RLIM_INFINITY))
-    limits.MOST = 60_000  # arrays of submodels may take their time, but not here
+    limits.PARTS = 60_000  # arrays of submodels may take their time, but not here
     step = 500
     jobs = [
         (args.seed * 1_000_003 + at, min(step, args.count - at))

@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import math
 import re
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -50,6 +51,7 @@ _SETTINGS = {
     "axes.unicode_minus": True,
     "legend.fontsize": 9.5,
     "path.simplify": True,
+    "text.parse_math": False,  # names are names, also with a dollar in them
 }
 
 
@@ -346,7 +348,10 @@ def drawn(figure: Figure, key: str, title: str, told: str) -> str:
     """
     stream = io.StringIO()
     metadata = {"Date": None, "Creator": None, "Format": None, "Type": None}
-    figure.savefig(stream, format="svg", transparent=True, metadata=metadata)
+    with warnings.catch_warnings():
+        # Letters are those of the browser: that matplotlib has no picture of one is no matter.
+        warnings.filterwarnings("ignore", "Glyph .* missing from font", UserWarning)
+        figure.savefig(stream, format="svg", transparent=True, metadata=metadata)
     return _inlined(stream.getvalue(), key, title, told)
 
 

@@ -43,15 +43,11 @@ from bondgraph.passes.elaboration.scope import (
     ValueKind,
 )
 from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.limits import PARTS, UNROLLED
 from bondgraph.text.source import Span
 from bondgraph.text.tuples import NamedTuple
 
 _KEYWORDS: dict[str, ValueKind] = {"param": "param", "const": "const"}
-#: Names and statements of the whole model: a million bonds, as arrays of submodels, are within it.
-MOST = 3_000_000
-#: Names of arrays and statements of loops that one instance unrolls itself: a typing error in a
-#: size must not cost more than a second or two.
-MOST_UNROLLED = 20_000
 #: A statement of so many characters counts once, a longer one more.
 _USUAL = 40
 
@@ -492,9 +488,9 @@ class Size:
     def count(self, number: int, scope: Scope, origin: Span) -> None:
         """Keep the size of the model within bounds; the first of an array counts for all."""
         self.made += number * scope.times
-        if self.made > MOST:
+        if self.made > PARTS:
             self.report.error(
-                "model-too-large", f"The model has more than {MOST:,} parts.", origin,
+                "model-too-large", f"The model has more than {PARTS:,} parts.", origin,
                 help="Check the sizes of arrays and `for` loops.",
             )  # fmt: skip
             raise Abort
@@ -503,10 +499,10 @@ class Size:
         """Keep within bounds what loops and arrays of names make of one instance."""
         self.count(number, scope, origin)
         scope.unrolled += number
-        if scope.unrolled > MOST_UNROLLED:
+        if scope.unrolled > UNROLLED:
             self.report.error(
                 "model-too-large", f"`{scope.model.name}` unrolls into more than "
-                f"{MOST_UNROLLED:,} statements and names.", origin,
+                f"{UNROLLED:,} statements and names.", origin,
                 help="Check the sizes of loops and arrays. Describe a part that repeats so often "
                 "as a model, and use an array of it: `Cell:cell[n]`.",
             )  # fmt: skip

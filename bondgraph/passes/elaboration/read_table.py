@@ -11,6 +11,8 @@ from bondgraph.ir.syntax import Text
 from bondgraph.ir.tables import Rows
 from bondgraph.passes.elaboration.problems import fail
 from bondgraph.text.diagnostic import Report
+from bondgraph.text.limits import TABLE_BYTES, TABLE_NUMBERS
+from bondgraph.text.regular_file import check_regular
 from bondgraph.text.source import Source
 
 _HELP = {
@@ -32,12 +34,13 @@ def read_table(file: Text, inputs: int, source: Source, report: Report) -> Rows:
     """
     path = os.path.join(os.path.dirname(source.path), file.value)
     try:
+        check_regular(path, TABLE_BYTES)
         with open(path, encoding="utf-8-sig") as stream:
             text = stream.read().splitlines()
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is no text"
         fail(report, "unreadable-table", f'The table "{file.value}" cannot be read: {reason}.',
-             file.origin, help="The path is taken from the folder of the model file."
+             file.origin, help="Give a text file; its path is taken from the folder of the model."
              )  # fmt: skip
 
     def wrong(message: str, at: int | None = None) -> NoReturn:
@@ -58,6 +61,8 @@ def read_table(file: Text, inputs: int, source: Source, report: Report) -> Rows:
         if len(rows) >= inputs and row[0] <= rows[-1][0]:
             wrong(": x does not ascend.", at)
         rows.append(row)
+        if len(rows) * width > TABLE_NUMBERS:
+            wrong(f" is one too many: a table has {TABLE_NUMBERS:,} numbers at most.", at)
     if len(rows) < inputs + 1:
         wrong(" has fewer than two points.")
     if inputs == 2 and (width < 3 or any(b <= a for a, b in pairwise(rows[0][1:]))):

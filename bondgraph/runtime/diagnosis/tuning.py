@@ -7,6 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from bondgraph.text.foreign_data import WrongData, json_data
 from bondgraph.text.tuples import NamedTuple
 
 EDITION = 1
@@ -63,7 +64,7 @@ class Tuning(NamedTuple):
     def from_json(cls, text: str) -> Tuning:
         """The tuning in a text; raises ValueError, with the reason, for any other text."""
         try:
-            record: dict[str, Any] = json.loads(text)
+            record: dict[str, Any] = json_data(text)
             if record["bondgraph tuning"] != EDITION:
                 raise ValueError(f"edition {record['bondgraph tuning']} is not known here")
             limits = {
@@ -81,10 +82,11 @@ class Tuning(NamedTuple):
                 float(record["seconds"]),
                 limits,
             )
-        except (KeyError, TypeError, AttributeError) as error:
+        except (KeyError, TypeError, AttributeError, OverflowError) as error:
             raise ValueError(f"this is no tuning: {error}") from error
-        except json.JSONDecodeError as error:
-            raise ValueError(f"this is no tuning: {error.msg} in line {error.lineno}") from error
+        except WrongData as error:
+            where = f" in line {error.line}" if error.line else ""
+            raise ValueError(f"this is no tuning: {error}{where}") from error
 
 
 _NEVER = Limit(math.inf, 1.0, 1.0, math.inf)

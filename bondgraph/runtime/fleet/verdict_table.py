@@ -9,6 +9,7 @@ from typing import Any
 
 from bondgraph.runtime.fleet.watched_log import WatchedLog, from_json_record
 from bondgraph.runtime.log import LogError
+from bondgraph.text.printable import printable
 from bondgraph.text.whole_file import naming, whole
 
 #: What a row is called that says why a log is bad.
@@ -88,7 +89,8 @@ def write_verdicts(path: str, logs: Iterable[WatchedLog]) -> None:
         with open(temporary, "w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(columns)
-            writer.writerows(zip(*columns.values(), strict=True))
+            for row in zip(*columns.values(), strict=True):
+                writer.writerow([printable(v) if isinstance(v, str) else v for v in row])
 
 
 def read_verdicts(path: str) -> list[WatchedLog]:

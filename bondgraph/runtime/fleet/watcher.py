@@ -29,6 +29,7 @@ from bondgraph.runtime.monitoring.watch_settings import (
 )
 from bondgraph.text.diagnostic import CompileError, Trouble
 from bondgraph.text.numerals import plural
+from bondgraph.text.regular_file import check_regular
 from bondgraph.text.tuples import NamedTuple
 
 _RATES = 16  # and filters of which engines are kept
@@ -63,6 +64,7 @@ class LogFile(NamedTuple):
 
     def source(self, form: Form) -> Source:
         """See `Item`."""
+        check_regular(self.path)  # nobody waits for a pipe among many logs
         return file_source(self.path, form._replace(name=self.name))
 
     def key(self, digest: str) -> str:

@@ -1,28 +1,35 @@
-"""The page and its WebSocket, served on this machine.
-
-`Hub` has messages for all pages: the past for a new one, fewer frames for a slow one.
-"""
+"""The page and its WebSocket, served: who is let in, and how much of anything one may ask for."""
 
 from __future__ import annotations
 
 import asyncio
+import hmac
 import json
+import logging
+import os
+import secrets
 import signal
 import socket
-from collections import deque
+import time as clocks
 from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from threading import Thread
-from typing import Any
+from typing import Any, Protocol
 
 from aiohttp import WSMsgType, web
+from aiohttp.web_protocol import RequestHandler
 
+from bondgraph.runtime.live.gate import Gate
+from bondgraph.runtime.live.hub import Hub, Viewer, message_text
 from bondgraph.runtime.live.session import Session
+from bondgraph.text import limits
 from bondgraph.text.diagnostic import Trouble
 
-_LARGEST = 4096  # bytes of a wish
 _LOCAL = ("127.0.0.1", "localhost", "[::1]", "::1")
-_CLOSE = 1.0  # s that a page may take to say goodbye
+_CLOSE = 0.3  # s that all pages together may take to say goodbye
+_END = 0.4  # s that a watch has for its last words
+_PATIENCE = 10.0  # s that a page may take to read what it is sent
+_AT_ONCE = 10  # messages of a page that are read at once
 
 #: Nothing from elsewhere, no script or style in the page itself.
 POLICY = (
@@ -36,11 +43,31 @@ _HEADERS = {
     "Cache-Control": "no-store",
 }
 
+#: The pages that are open, by their connection.
+PAGES: web.AppKey[dict[RequestHandler | None, web.WebSocketResponse[Any]]] = web.AppKey(
+    "pages", dict
+)
+
 _Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
-_PAST = 400  # frames that a new page gets
-_VERDICTS = 500
-_WAITING = 40  # frames that a slow page may be behind
-_PATH = 1200  # points of each path
+
+
+class Asked(Protocol):
+    """What takes the wishes of pages; `refuse` is told why one cannot be done."""
+
+    def __call__(self, message: dict[str, Any], refuse: Callable[[str], None]) -> None:
+        """Somebody wishes something."""
+
+
+def _quiet() -> logging.Logger:
+    """A logger that says nothing, unless somebody looks for a bug.
+
+    What others send is wrong as they like: they are not to fill a log, nor to hold up the server
+    where nobody reads it.
+    """
+    if not os.environ.get("BONDGRAPH_TRACEBACK"):
+        for name in ("asyncio", "aiohttp"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    return logging.getLogger("aiohttp.server")
 
 
 class PortTaken(Trouble):
@@ -51,7 +78,7 @@ def listening(host: str, port: int) -> socket.socket:
     """A socket that listens; raises `PortTaken`."""
     try:
         family, kind, proto, _, at = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
-    except OSError as error:
+    except (OSError, UnicodeError) as error:
         raise PortTaken(f"there is no address {host}") from error
     made = socket.socket(family, kind, proto)
     try:
@@ -68,15 +95,20 @@ def listening(host: str, port: int) -> socket.socket:
     return made
 
 
+def token_for(made: socket.socket) -> str:
+    """What an address has to begin with where other computers can ask; "" where only this one."""
+    return "" if made.getsockname()[0] in _LOCAL else secrets.token_urlsafe(16)
+
+
 def application(
-    files: Mapping[str, tuple[str, str]], hub: Hub, ask: Callable[[dict[str, Any]], None]
+    files: Mapping[str, tuple[str, str]], hub: Hub, ask: Asked, token: str = ""
 ) -> web.Application:
     """The files by path, each (type, text), and `/ws`. Wishes of pages go to `ask`.
 
     Only requests that name this machine are answered, so that no page from elsewhere can reach it
-    under a name of its own (DNS rebinding).
+    under a name of its own (DNS rebinding). With a token all paths begin with it.
     """
-    sockets: set[web.WebSocketResponse] = set()
+    prefix = f"/{token}/" if token else "/"
 
     @web.middleware
     async def guarded(request: web.Request, handler: _Handler) -> web.StreamResponse:
@@ -87,49 +119,106 @@ def application(
             response.headers.update(_HEADERS)
         return response
 
-    async def file(request: web.Request) -> web.Response:
-        found = files.get(request.path)
-        if found is None:
-            raise web.HTTPNotFound(text="There is nothing here.", headers=_HEADERS)
-        return web.Response(text=found[1], content_type=found[0], charset="utf-8")
+    async def answer(request: web.Request) -> web.StreamResponse:
+        begin = request.path[: len(prefix)].encode(errors="replace")
+        if hmac.compare_digest(begin, prefix.encode()):
+            path = "/" + request.path[len(prefix) :]
+            if path == "/ws":
+                return await _talk(request, hub, ask)
+            if path in files:
+                kind, text = files[path]
+                return web.Response(text=text, content_type=kind, charset="utf-8")
+        raise web.HTTPNotFound(text="There is nothing here.", headers=_HEADERS)
 
-    async def talk(request: web.Request) -> web.WebSocketResponse:
-        page = web.WebSocketResponse(heartbeat=20.0, max_msg_size=_LARGEST, compress=False)
-        await page.prepare(request)
-        viewer = hub.join()
-        sockets.add(page)
-        writer = asyncio.create_task(_write(page, viewer))
-        try:
-            async for message in page:
-                if message.type is WSMsgType.TEXT:
-                    wish = _wish(message.data)
-                    if wish is not None:
-                        ask(wish)
-        finally:
-            writer.cancel()
-            with suppress(asyncio.CancelledError):
-                await writer
-            hub.leave(viewer)
-            sockets.discard(page)
-        return page
-
-    async def goodbye(_: web.Application) -> None:
-        for page in list(sockets):
-            with suppress(Exception):
-                await asyncio.wait_for(page.close(code=1001, message=b"the server ends"), _CLOSE)
+    async def goodbye(app: web.Application) -> None:
+        pages = app[PAGES].values()
+        said = [asyncio.create_task(p.close(code=1001, message=b"the server ends")) for p in pages]
+        if said:
+            _, late = await asyncio.wait(said, timeout=_CLOSE)
+            for task in late:
+                task.cancel()
+            await asyncio.gather(*said, return_exceptions=True)
+        for connection in app[PAGES]:
+            _cut(connection)
 
     app = web.Application(middlewares=[guarded])
-    app.router.add_get("/ws", talk)
-    app.router.add_get("/{path:.*}", file)
+    app[PAGES] = {}
+    app.router.add_get("/{path:.*}", answer)
     app.on_shutdown.append(goodbye)
     return app
 
 
-async def _write(page: web.WebSocketResponse, viewer: Viewer) -> None:
-    """Send what there is, as fast as the page takes it."""
-    with suppress(ConnectionError):
+async def _talk(request: web.Request, hub: Hub, ask: Asked) -> web.WebSocketResponse:
+    """One page, from its first message to its last."""
+    pages = request.app[PAGES]
+    if len(pages) >= limits.PAGES:
+        raise web.HTTPServiceUnavailable(text="Too many pages are open.", headers=_HEADERS)
+    page = web.WebSocketResponse(
+        timeout=_CLOSE,
+        autoping=False,
+        heartbeat=20.0,
+        max_msg_size=limits.WISH_BYTES,
+        compress=False,
+    )
+    pages[request.protocol] = page
+    viewer = hub.join()
+    try:
+        await page.prepare(request)
+        writer = asyncio.create_task(_write(page, viewer, request.protocol))
+        try:
+            await _read(page, viewer, ask, request.protocol)
+        finally:
+            writer.cancel()
+            with suppress(asyncio.CancelledError, ConnectionError):
+                await writer
+    finally:
+        hub.leave(viewer)
+        del pages[request.protocol]
+    return page
+
+
+async def _write(page: web.WebSocketResponse, viewer: Viewer, connection: RequestHandler) -> None:
+    """Send what there is, as fast as the page takes it; one that takes nothing is cut off."""
+    try:
         while not page.closed:
-            await page.send_str(await viewer.next())
+            text = await viewer.next()
+            async with asyncio.timeout(_PATIENCE):
+                await page.send_str(text)
+    except (ConnectionError, TimeoutError):
+        _cut(connection)
+
+
+async def _read(
+    page: web.WebSocketResponse, viewer: Viewer, ask: Asked, connection: RequestHandler
+) -> None:
+    """Hear what a page wishes, not more often than a person could; the rest waits at the page."""
+    loop = asyncio.get_running_loop()
+
+    def refuse(why: str) -> None:
+        text = message_text({"type": "refused", "message": why})
+        with suppress(RuntimeError):  # the loop has ended
+            loop.call_soon_threadsafe(viewer.put, "refused", text)
+
+    free = clocks.monotonic()  # when all that was read is paid for
+    async for message in page:
+        if message.type is WSMsgType.PING:
+            await page.pong(message.data)
+        elif message.type is WSMsgType.TEXT:
+            wish = _wish(message.data)
+            if wish is not None:
+                ask(wish, refuse)
+        free = max(free, clocks.monotonic()) + 1 / limits.WISHES_A_SECOND
+        wait = free - clocks.monotonic() - _AT_ONCE / limits.WISHES_A_SECOND
+        if wait > 0:
+            await asyncio.sleep(wait)
+        if connection.transport is None:  # the page has gone: nobody wishes the rest
+            return
+
+
+def _cut(connection: RequestHandler | None) -> None:
+    """End a connection without waiting for what was not read."""
+    if connection is not None and connection.transport is not None:
+        connection.transport.abort()
 
 
 def _wish(text: str) -> dict[str, Any] | None:
@@ -143,12 +232,13 @@ def _wish(text: str) -> dict[str, Any] | None:
 
 def _welcome(request: web.Request) -> bool:
     """Whether a request comes from a page of ours."""
-    host = request.host.rpartition(":")[0] if request.host[-1:].isdigit() else request.host
+    asked = request.headers.get("Host", "")
+    host = asked.rpartition(":")[0] if asked[-1:].isdigit() and ":" in asked else asked
     name = request.transport.get_extra_info("sockname") if request.transport else None
     own = {*_LOCAL, str(name[0])} if name else set(_LOCAL)
     alone = not name or name[0] in ("127.0.0.1", "::1")  # else other computers are served, too
     origin = request.headers.get("Origin")
-    same = origin is None or origin.partition("://")[2] == request.host
+    same = origin is None or origin.partition("://")[2] == asked
     return same and (host in own or not alone)
 
 
@@ -158,8 +248,12 @@ async def serve(
     hello: dict[str, Any],
     start: Callable[[Callable[[dict[str, Any]], None]], Session],
     ready: Callable[[], None],
+    token: str = "",
 ) -> None:
-    """Serve until SIGINT or SIGTERM. `start` makes the session for what it is to say to."""
+    """Serve until SIGINT or SIGTERM; a second one ends the program at once.
+
+    `start` makes the session for what it is to say to. All paths begin with the token.
+    """
     loop = asyncio.get_running_loop()
     over = asyncio.Event()
     hub = Hub(hello)
@@ -179,125 +273,34 @@ async def serve(
             with suppress(RuntimeError):
                 loop.call_soon_threadsafe(over.set)
 
-    runner = web.AppRunner(application(files, hub, session.ask), access_log=None)
+    def end() -> None:
+        over.set()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            loop.remove_signal_handler(number)
+
+    app = application(files, hub, session.ask, token)
+    runner = web.AppRunner(
+        app, access_log=None, logger=_quiet(), shutdown_timeout=_CLOSE, lingering_time=0.0
+    )
     await runner.setup()
-    await web.SockSite(runner, made, shutdown_timeout=_CLOSE).start()
+    assert runner.server is not None
+    pages = app[PAGES]
+    gate = Gate(runner.server, pages)
+    listener = await loop.create_server(gate, sock=made)
+    watch = asyncio.create_task(gate.watch())
     for number in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(number, over.set)
-    thread = Thread(target=run, name="session")
+        loop.add_signal_handler(number, end)
+    # Who is in the middle of something long is left behind at the end: nothing of it is kept.
+    thread = Thread(target=run, name="session", daemon=True)
     thread.start()
     try:
         ready()
         await over.wait()
     finally:
         session.stop("the server")
+        watch.cancel()
+        listener.close()
         await runner.cleanup()
-        await asyncio.to_thread(thread.join)
+        await asyncio.to_thread(thread.join, _END)
     if failed:
         raise failed[0]
-
-
-class Viewer:
-    """One page: frames wait in a short queue whose oldest are dropped, all else is kept."""
-
-    def __init__(self) -> None:
-        self._frames: deque[str] = deque(maxlen=_WAITING)
-        self._rest: deque[str] = deque()
-        self._changed = asyncio.Event()
-        self.dropped = 0
-
-    def put(self, text: str, frame: bool) -> None:
-        """Something to be told."""
-        if frame:
-            self.dropped += len(self._frames) == _WAITING
-            self._frames.append(text)
-        else:
-            if text.startswith('{"type": "reset"'):
-                self._frames.clear()
-            self._rest.append(text)
-        self._changed.set()
-
-    async def next(self) -> str:
-        """What is to be sent next: what must not be lost first."""
-        while not self._rest and not self._frames:
-            self._changed.clear()
-            await self._changed.wait()
-        return self._rest.popleft() if self._rest else self._frames.popleft()
-
-
-class Hub:
-    """Lives in the loop of the server; `hello` is what every page is told first."""
-
-    def __init__(self, hello: dict[str, Any]) -> None:
-        self._hello = hello
-        self._viewers: list[Viewer] = []
-        self._sent = 0
-        self._state: dict[str, Any] = {}
-        self._faults: list[str] = []
-        self._verdicts: deque[dict[str, Any]] = deque(maxlen=_VERDICTS)
-        self._clear()
-
-    def _clear(self) -> None:
-        self._frames: deque[dict[str, Any]] = deque(maxlen=_PAST)
-        self._paths: dict[str, list[list[float]]] = {"real": [], "virtual": [], "desired": []}
-        self._step = dict.fromkeys(self._paths, 1)
-        self._count = 0
-        self._verdicts.clear()
-
-    def join(self) -> Viewer:
-        """A new page, with all that it has to know."""
-        viewer = Viewer()
-        now = {
-            **self._hello,
-            "state": self._state,
-            "active": self._faults,
-            "verdicts": list(self._verdicts),
-            "paths": self._paths,
-            "frames": list(self._frames),
-        }
-        viewer.put(_text(now), False)
-        self._viewers.append(viewer)
-        return viewer
-
-    def leave(self, viewer: Viewer) -> None:
-        """A page has gone."""
-        self._viewers.remove(viewer)
-
-    def publish(self, message: dict[str, Any]) -> None:
-        """Tell all pages, and remember what a new one has to know."""
-        frame = message["type"] == "frame"
-        match message["type"]:
-            case "frame":
-                self._sent += 1
-                message = {**message, "n": self._sent}
-                self._frames.append(message)
-                self._walk(message)
-            case "reset":
-                self._clear()
-            case "state":
-                self._state = message
-            case "faults":
-                self._faults = message["active"]
-            case "verdict":
-                self._verdicts.append(message)
-            case _:
-                pass
-        text = _text(message)
-        for viewer in self._viewers:
-            viewer.put(text, frame)
-
-    def _walk(self, frame: dict[str, Any]) -> None:
-        """The paths, thinned to every second point when they get long."""
-        self._count += 1
-        for whose, path in self._paths.items():
-            pose = frame[whose]["p"]
-            if len(pose) < 2 or None in pose[:2] or self._count % self._step[whose]:
-                continue
-            path.append(pose[:2])
-            if len(path) > _PATH:
-                del path[1::2]
-                self._step[whose] *= 2
-
-
-def _text(message: dict[str, Any]) -> str:
-    return json.dumps(message, ensure_ascii=False, allow_nan=False)

@@ -22,6 +22,8 @@ from bondgraph.runtime.monitoring.verdict import Verdict
 from bondgraph.runtime.simulation.scenario import Fault, Scenario
 from bondgraph.text.tuples import NamedTuple
 
+_SIZE = 1e9  # of a fault that a page asks for, as a factor or in the unit of the target
+
 Hear = Callable[[Array, Batch, Array], None]
 
 
@@ -92,8 +94,8 @@ def wish(message: Mapping[str, object], setup: Setup, targets: Mapping[str, Targ
     if target is None:
         return "the model has no such parameter, input or sensor"
     change, value = message.get("change"), message.get("value", 0.0)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e300:
-        return f"{target.name}: the size is no number"
+    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= _SIZE:
+        return f"{target.name}: the size is no number up to {_SIZE:g}"
     if change == "stuck" and target.kind != "param":
         return Fault(target.name, "stuck", 0.0, 0.0, label=f"{target.name} stuck")
     if change == "missing" and target.kind == "sensor":

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import tomllib
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any
@@ -14,6 +13,9 @@ import numpy as np
 from bondgraph.ir.program import Known
 from bondgraph.library.units import parse_unit, scale, suggest_unit
 from bondgraph.runtime.log import LEFT_OUT, TIME, Array, Log, LogError, labelled
+from bondgraph.text.foreign_data import WrongData, toml_data
+from bondgraph.text.limits import MAP_BYTES
+from bondgraph.text.regular_file import check_regular
 from bondgraph.text.tuples import NamedTuple
 
 _KEYS = {"column", "scale", "offset", "unit"}
@@ -219,13 +221,13 @@ def read_time(path: str | os.PathLike[str]) -> Mapped | None:
 def _entries(name: str) -> Iterable[tuple[str, Any]]:
     """The entries of a map file; raises LogError for a file that is no TOML."""
     try:
-        with open(name, "rb") as file:
-            data = tomllib.load(file)
+        check_regular(name, MAP_BYTES)
+        with open(name, encoding="utf-8") as file:
+            data = toml_data(file.read())
     except OSError as error:
         raise LogError(name, None, f"cannot be read: {error.strerror or error}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        place = re.search(r"at line (\d+)", str(error))
-        line = int(place[1]) if place else None
+    except (WrongData, UnicodeDecodeError) as error:
+        line = error.line if isinstance(error, WrongData) else None
         help = 'a line is like "U0[1]" = "volt_left"'
         raise LogError(name, line, f"not TOML: {error}", help) from error
     return _flat(data)

@@ -7,6 +7,7 @@ import math
 from typing import Any
 
 from bondgraph.text.numerals import listed
+from bondgraph.text.printable import json_text
 from bondgraph.text.tuples import NamedTuple
 
 #: What a verdict can be about, in the order of a watch.
@@ -76,7 +77,7 @@ def to_json(verdict: Verdict, number: int) -> str:
         ],
         "pairs": [{**p._asdict(), "sizes": [_finite(x) for x in p.sizes]} for p in verdict.pairs],
     }
-    return json.dumps(line, ensure_ascii=False, allow_nan=False)
+    return json_text(line)
 
 
 def from_json(line: str) -> tuple[int, Verdict]:

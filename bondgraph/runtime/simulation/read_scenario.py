@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 import re
-import tomllib
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
@@ -27,10 +26,11 @@ from bondgraph.runtime.simulation.scenario import (
 )
 from bondgraph.runtime.simulation.toml_table import HERTZ, PURE, SECOND, Document, Table, places
 from bondgraph.text.diagnostic import Label, Report
+from bondgraph.text.foreign_data import WrongData, toml_data
+from bondgraph.text.limits import FAULT_TIMES, SCENARIO_BYTES, SCENARIO_CONTROLLERS, SCENARIO_FAULTS
 from bondgraph.text.source import Source, Span
 
 STARTS = ("initial", "steady")
-_TIMES = 20_000  # that a fault comes and goes; every time is a new start of integration
 METHODS = ("auto", "LSODA", "Radau", "BDF", "DOP853", "RK45", "RK23")
 
 
@@ -64,23 +64,27 @@ def read_numbers(
 
 def _content(source: Source, report: Report) -> dict[str, object] | None:
     """The tables of a TOML text; None, and an error in the report, where it is none."""
+    if len(source.text) > SCENARIO_BYTES:
+        report.error("scenario-syntax", f"The scenario has {len(source.text):,} characters;"
+                     f" {SCENARIO_BYTES:,} is the most.", Label(Span(source, 0, 0)),
+                     help="Put courses of many points into a log: `U = { file = \"run.csv\" }`."
+                     )  # fmt: skip
+        return None
     try:
-        return tomllib.loads(source.text)
-    except tomllib.TOMLDecodeError as error:
-        message = re.sub(r" \(at .*\)$", "", str(error))
-        report.error("scenario-syntax", f"This is no TOML: {message}.",
-                     Label(_where(source, str(error))),
+        return toml_data(source.text)
+    except WrongData as error:
+        report.error("scenario-syntax", f"This is no TOML: {error}.",
+                     Label(_where(source, error)),
                      help="A scenario is made of lines `name = value` and of [tables]; a text"
                      " stands in quotes.")  # fmt: skip
         return None
 
 
-def _where(source: Source, message: str) -> Span:
-    match = re.search(r"line (\d+), column (\d+)", message)
-    if match is None:
+def _where(source: Source, error: WrongData) -> Span:
+    if error.line is None:
         return Span(source, len(source.text), len(source.text))
-    lines = source.text.splitlines(keepends=True)
-    start = sum(map(len, lines[: int(match[1]) - 1])) + int(match[2]) - 1
+    lines = source.text.split("\n")
+    start = sum(len(line) + 1 for line in lines[: error.line - 1]) + error.column - 1
     start = min(start, len(source.text))
     return Span(source, start, min(start + 1, len(source.text)))
 
@@ -119,8 +123,10 @@ class _Reader:
         sampling = self._sampling(top.table("sampling"))
         duration = top.number("duration", SECOND, 10.0, 0.0, 1e7, above=True)
         inputs, modes = self._inputs(top.table("inputs"))
-        controllers = tuple(self._controller(t, sampling) for t in top.tables("controller"))
-        faults = tuple(f for t in top.tables("fault") for f in self._fault(t, duration))
+        tables = top.tables("controller", SCENARIO_CONTROLLERS)
+        controllers = tuple(self._controller(t, sampling) for t in tables)
+        tables = top.tables("fault", SCENARIO_FAULTS)
+        faults = tuple(f for t in tables for f in self._fault(t, duration))
         scenario = Scenario(
             name=name,
             doc=doc,
@@ -286,8 +292,8 @@ class _Reader:
         until = table.number("until", SECOND, math.inf, at, above=True)
         ramp = table.number("ramp", SECOND, 0.0, 0.0)
         period = table.number("period", SECOND, 0.0, 0.0)
-        if period and (min(until, duration) - at) / period > _TIMES:
-            table.wrong("period", f"The fault comes and goes more than {_TIMES} times.",
+        if period and (min(until, duration) - at) / period > FAULT_TIMES:
+            table.wrong("period", f"The fault comes and goes more than {FAULT_TIMES} times.",
                         "What changes that fast is seen as its mean: take that.")  # fmt: skip
         duty = table.number("duty", PURE, 0.5, 0.0, 1.0)
         op: Change = "+="

@@ -25,9 +25,9 @@ from bondgraph.runtime.simulation.parameters import drawn, units
 from bondgraph.runtime.simulation.scenario import Scenario
 from bondgraph.runtime.simulation.stepping import Mode, Stepper
 from bondgraph.runtime.simulation.storages import start
+from bondgraph.text.limits import RUN_VALUES
 from bondgraph.text.tuples import NamedTuple
 
-_MOST = 10**8  # samples, all of them in memory
 Progress = Callable[[float], None]
 _WINDOW = 2048  # samples, at least, for which is looked ahead
 _FLUSH = 0.02  # s of samples that are given together
@@ -100,8 +100,12 @@ class _Simulation(Stepper):
         """The instants of the samples, in s; jitter is there, lost samples too."""
         sampling = self.scenario.sampling
         count = math.floor(self.scenario.duration * sampling.rate + 1e-9) + 1
-        if count > _MOST:
-            raise SimulationError(f"a run of {count:.0e} samples is too long: take a lower rate")
+        signals = 1 + len(self.graph.inputs) + len(self.sensors)
+        if count * signals > RUN_VALUES:
+            raise SimulationError(
+                f"a run of {count:,} samples of {signals} signals is too long: {RUN_VALUES:,}"
+                " numbers are the most; take a lower rate or a shorter duration"
+            )
         times = np.arange(count) / sampling.rate
         if sampling.jitter:
             draw = np.random.default_rng([self.scenario.seed, 1])

@@ -303,14 +303,17 @@ class Table:
         value = self._taken(key, lambda v: isinstance(v, Mapping), "is a table.", help)
         return Table(self.document, (*self.path, key), value or {})
 
-    def tables(self, key: str) -> Iterator[Table]:
-        """The tables of an array of tables."""
+    def tables(self, key: str, most: int) -> Iterator[Table]:
+        """The tables of an array of so many tables at most."""
         value = self._taken(
             key,
             lambda v: isinstance(v, list) and all(isinstance(t, Mapping) for t in v),
             "is a table, once for each.",
             f"Write [[{key}]] above it.",
         )
+        if value is not None and len(value) > most:
+            self.wrong(key, f"There are {len(value)} of `[[{key}]]`.", f"{most} are the most.")
+            return
         for k, item in enumerate(value or ()):
             yield Table(self.document, (*self.path, key, k), item)
 

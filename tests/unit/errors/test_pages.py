@@ -16,7 +16,6 @@ import bondgraph
 from bondgraph import errors
 from bondgraph.cli.main import main
 from bondgraph.frontend.incidence import read_table
-from bondgraph.frontend.read import MAX_BYTES
 from bondgraph.passes.analysis.signatures import signatures
 from bondgraph.passes.elimination import chaining as chain
 from bondgraph.passes.elimination import shortfall
@@ -24,6 +23,7 @@ from bondgraph.passes.relation.form import relations
 from bondgraph.pipeline import Compilation
 from bondgraph.pipeline import compile as open_model
 from bondgraph.text.diagnostic import CompileError, Diagnostic, Report, Severity
+from bondgraph.text.limits import MODEL_BYTES
 from bondgraph.text.source import Source
 from tests.unit.passes.test_linear_block import grid
 
@@ -138,7 +138,7 @@ def _table(text: str) -> list[Diagnostic]:
 FILES: dict[str, Callable[[], bytes]] = {
     "machine.bg": (ROOT / "models" / "dc_motor.bg").read_bytes,
     "model.bg": (ROOT / "models" / "dc_motor.bg").read_bytes,
-    "measurements.bg": lambda: b"0.001,12.5,0.3\n" * (MAX_BYTES // 15 + 1),
+    "measurements.bg": lambda: b"0.001,12.5,0.3\n" * (MODEL_BYTES // 15 + 1),
     "model.fmu": lambda: b"PK\x03\x04\x14\x00\x00\x00\x08\x00",  # how packed files begin
 }
 _SEVERITY: dict[str, Severity] = {"error": "error", "warning": "warning", "note": "info"}

@@ -75,6 +75,6 @@ def test_forbidden(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "MAX_BYTES", 10)
+    monkeypatch.setattr(module, "MODEL_BYTES", 10)
     (tmp_path / "a.bg").write_text("bg 1\n# 12345")
     assert _code(tmp_path / "a.bg") == "file-too-large"

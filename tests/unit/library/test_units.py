@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import doctest
+import time
 from fractions import Fraction
 from math import isclose, pi, sqrt
 
@@ -201,3 +202,10 @@ def test_effort_times_flow_is_power(name: str) -> None:
 def test_any_domain_fixes_nothing() -> None:
     assert DOMAINS["any"].effort is None and DOMAINS["any"].flow is None
     assert over(NONE, NONE) == NONE
+
+
+def test_a_long_unit_that_is_none_is_answered_at_once() -> None:
+    start = time.perf_counter()
+    for text in ("s" * 50, "m" * 59, "Ns" * 29, "m/" + "s" * 40, "kgm" * 2000):
+        assert suggest_unit(text) is None or len(text) < 61
+    assert time.perf_counter() - start < 5.0

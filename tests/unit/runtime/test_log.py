@@ -190,7 +190,7 @@ def test_files_that_cannot_be_read_or_written(tmp_path: Path) -> None:
 def test_a_file_that_fails_half_way_leaves_the_old_one(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     path.write_text("old")
-    log = Log(np.zeros(1), {"a": np.ones(1)}, {"a": "\ud800"}, {})  # no UTF-8 for half a pair
+    log = Log(np.zeros(1), {"\ud800": np.ones(1)}, {}, {})  # no UTF-8 for half a pair
     with pytest.raises(UnicodeEncodeError):
         write_log(log, path)
     assert path.read_text() == "old" and [p.name for p in tmp_path.iterdir()] == ["a.csv"]

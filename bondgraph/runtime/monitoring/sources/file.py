@@ -22,6 +22,7 @@ from bondgraph.runtime.monitoring.sources.sample_source import (
     rate_of,
 )
 from bondgraph.runtime.monitoring.sources.streams import Pipe
+from bondgraph.text.regular_file import check_regular
 
 _BLOCK = 1 << 20  # bytes read at a time
 _ROWS = 20_000  # of a table, given at a time
@@ -159,6 +160,7 @@ class LinesFile(Source):
 
     def _open(self) -> IO[bytes]:
         try:
+            check_regular(self._path)
             return open(self._path, "rb")
         except OSError as error:
             raise LogError(self._path, None, f"cannot be read: {error.strerror}") from error

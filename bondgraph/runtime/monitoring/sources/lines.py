@@ -6,6 +6,7 @@ import csv
 import json
 import re
 from collections.abc import Iterator
+from itertools import islice
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from bondgraph.runtime.log_numbers import (
     separator_of,
 )
 from bondgraph.runtime.time_column import chosen, stamp
+from bondgraph.text.limits import COLUMNS, LINE_BYTES
 
 _CAUSES = 2  # of lines that are no samples: more than one is noise
 _JSON = re.compile(r"\s*(?:\{|\[\s*[{\]])")  # no row of units, `[s],[V]`
@@ -65,18 +67,19 @@ class Decoder(Reader):
             self._waste(0, lines[0], "the end of a line")
             self.lines += 1
             del lines[0]
-        while lines:
-            count = self._head(lines)
+        at, size = 0, len(lines)
+        while at < size:
+            count = self._head(lines, at)
             self.lines += count
-            lines = lines[count:]
-            count = next((k for k, s in enumerate(lines) if self._special(s)), len(lines))
-            found += self._csv(lines[:count])
-            self.lines += count
-            lines = lines[count:]
-            count = next((k for k, s in enumerate(lines) if not _JSON.match(s)), len(lines))
-            found += self._json(lines[:count])
-            self.lines += count
-            lines = lines[count:]
+            at += count
+            end = next((k for k in range(at, size) if self._special(lines[k])), size)
+            found += self._csv(lines[at:end])
+            self.lines += end - at
+            at = end
+            end = next((k for k in range(at, size) if not _JSON.match(lines[k])), size)
+            found += self._json(lines[at:end])
+            self.lines += end - at
+            at = end
         return found
 
     def check(self, most: int = 0) -> None:
@@ -100,9 +103,9 @@ class Decoder(Reader):
             return True
         return first not in _NUMERIC and self._header(line) is not None
 
-    def _head(self, lines: list[str]) -> int:
-        """Take comments, headers and empty lines; how many there are at the start."""
-        for k, line in enumerate(lines):
+    def _head(self, lines: list[str], at: int) -> int:
+        """Take comments, headers and empty lines; how many there are from one line on."""
+        for k, line in enumerate(islice(lines, at, None)):
             first = line.lstrip()[:1]
             if first == "#":
                 self._comment(line)
@@ -112,16 +115,18 @@ class Decoder(Reader):
                 if table is None:
                     return k
                 self._table = table
-        return len(lines)
+        return len(lines) - at
 
     def _comment(self, line: str) -> None:
         if line.startswith(f"# {MARK} "):
             self._own = True
-        elif found := _UNIT.fullmatch(line):
+        elif (found := _UNIT.fullmatch(line)) and len(self._units) < COLUMNS:
             self._units[re.sub(r"\\(.)", r"\1", found[1])] = found[2]
 
     def _header(self, line: str) -> Table | None:
         """A line as a header if it is one: names, none twice, one of them of time."""
+        if len(line) > LINE_BYTES:
+            return None
         separator = separator_of(line)
         try:
             names = [name.strip() for name in cells_of(line, separator)]
@@ -188,7 +193,8 @@ class Decoder(Reader):
                 stamped |= isinstance(found.get(time or ""), str)
         if not kept:
             return []
-        names = dict.fromkeys(name for _, row in kept for name in row)
+        every = dict.fromkeys(name for _, row in kept for name in row)
+        names = list(every)[:COLUMNS]
         columns = {
             name: np.array([row.get(name, np.nan) for _, row in kept], dtype=np.float64)
             for name in names

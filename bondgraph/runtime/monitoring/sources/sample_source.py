@@ -13,6 +13,7 @@ import numpy as np
 
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.monitoring.sources.lines import Decoder
+from bondgraph.text.limits import LINE_BYTES
 from bondgraph.text.tuples import NamedTuple
 
 #: How long a source that has nothing waits before it says so, in s.
@@ -25,7 +26,6 @@ _GAP = 3.5  # steps: what is longer is no few samples lost
 _LATE = 0.7  # steps that a sample may be late by before one before it counts as lost
 _FIRST = 1000  # samples whose rate is taken
 _FEW, _PAUSE = 20, 0.1  # blocks that wait so many s for more
-_LONGEST = 1 << 20  # bytes of a line that may be one
 
 
 class News(NamedTuple):
@@ -275,7 +275,7 @@ class Cutter:
         text = self._rest + piece
         lines, feed, self._rest = text.rpartition(b"\n")
         whole = self._whole
-        if len(self._rest) > _LONGEST:  # no line is that long: noise
+        if len(self._rest) > LINE_BYTES:  # no line is that long: noise
             self._rest, self._whole = b"", False
         elif feed:
             self._whole = True

@@ -20,8 +20,9 @@ from aiohttp.test_utils import TestClient, TestServer
 from bondgraph.cli import live as command
 from bondgraph.cli import usage
 from bondgraph.cli.main import main
+from bondgraph.runtime.live.hub import Hub
 from bondgraph.runtime.live.samples import Simulated
-from bondgraph.runtime.live.server import Hub, PortTaken, application, listening
+from bondgraph.runtime.live.server import PortTaken, application, listening
 from bondgraph.runtime.live.session import Session
 from bondgraph.runtime.live.setup import Setup, Target, wish
 from bondgraph.runtime.log_numbers import Form
@@ -48,14 +49,15 @@ def test_a_slow_page_loses_frames_but_no_verdict() -> None:
     async def run() -> None:
         hub = Hub({"type": "hello"})
         viewer = hub.join()
+        assert json.loads(await viewer.next())["type"] == "hello"
         for k in range(500):
             hub.publish(_frame(k))
             if k % 100 == 0:
                 hub.publish(_verdict(k))
-        seen = [json.loads(await viewer.next()) for _ in range(1 + 5 + 40)]
-        assert [m["type"] for m in seen] == ["hello"] + 5 * ["verdict"] + 40 * ["frame"]
-        assert [m["number"] for m in seen[1:6]] == [0, 100, 200, 300, 400]
-        assert [m["t"] for m in seen[6:]] == list(range(460, 500))
+        seen = [json.loads(await viewer.next()) for _ in range(5 + 40)]
+        assert [m["type"] for m in seen] == 5 * ["verdict"] + 40 * ["frame"]
+        assert [m["number"] for m in seen[:5]] == [0, 100, 200, 300, 400]
+        assert [m["t"] for m in seen[5:]] == list(range(460, 500))
         assert viewer.dropped == 460
 
     asyncio.run(run())
@@ -86,10 +88,12 @@ def test_a_page_that_comes_later_knows_what_was_before() -> None:
 # --------------------------------------------------------------------------- server
 
 
-def _served(test: Callable[[TestClient[Any, Any], Hub, list[dict[str, Any]]], Any]) -> None:
+def _served(
+    test: Callable[[TestClient[Any, Any], Hub, list[dict[str, Any]]], Any], token: str = ""
+) -> None:
     async def run() -> None:
         hub, wishes = Hub({"type": "hello"}), []
-        app = application(FILES, hub, wishes.append)
+        app = application(FILES, hub, lambda wish, _: wishes.append(wish), token)
         async with TestClient(TestServer(app, host="127.0.0.1")) as client:
             await test(client, hub, wishes)
 
