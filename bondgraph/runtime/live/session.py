@@ -16,8 +16,9 @@ from bondgraph.runtime.live.setup import Heard, Setup, Target, wish
 from bondgraph.runtime.live.twin import Twin
 from bondgraph.runtime.log import Array, LogError
 from bondgraph.runtime.monitoring.engine import Batch, Engine
-from bondgraph.runtime.monitoring.sample_pipeline import Monitor, Parts, Stop
+from bondgraph.runtime.monitoring.sample_pipeline import Monitor
 from bondgraph.runtime.monitoring.verdict import Verdict, described
+from bondgraph.runtime.monitoring.watch_parts import Parts, Stop
 from bondgraph.runtime.simulation.integrate import SimulationError
 from bondgraph.text.diagnostic import CompileError
 
