@@ -99,6 +99,7 @@ class Clock:
         known = tuple(signals)
         self.sample_time, self.most, self.wraps = sample_time, most, wraps
         self.thrown = dict.fromkeys(THROWN, 0)
+        self.thrown_since: float | None = None  # s, where the first one was; whoever tells forgets
         self.left_out = 0  # samples in which the machine was off
         self.used = 0
         self.still = 0  # samples since the last one that was used: of its time, with other values
@@ -163,7 +164,7 @@ class Clock:
             end, steps = self._stretch(times, at)
             fresh = steps > 4.0 * self._exact
             if self.still or not fresh.all():
-                count, stood = self._thrown(rows[at:end], steps, fresh)
+                count, stood = self._thrown(times[at:end], rows[at:end], steps, fresh)
                 if stood:
                     end, fresh = at + count, fresh[:count]
                     self._top = float(times[at:end][fresh].max(initial=top))
@@ -216,6 +217,7 @@ class Clock:
         if not (there & some).all():
             self.thrown["untimed"] += int((~there).sum())
             self.thrown["empty"] += int((there & ~some).sum())
+            self._throw(times[there & ~some])
             there &= some
         return times[there], rows[there]
 
@@ -224,12 +226,14 @@ class Clock:
         self._start, self._next = start, 0
         self._exact = max(_EXACT * self.sample_time, 2.0 * float(np.spacing(abs(start))))
         self._top = -np.inf
+        self.still = 0
         self._last[:] = np.nan
         self._times, self._rows = self._times[:0], self._rows[:0]
 
     def _break(self, time: float, still: int) -> None:
         """Start a new grid behind a gap."""
         assert self._top is not None
+        still = still or (self.still if self.stands else 0)  # it stood, and was set right
         self._gap = self._between(self._top, time)._replace(still=still)
         self._begin(time)
 
@@ -237,7 +241,12 @@ class Clock:
         lost = round((end - start) / self.sample_time) - 1
         return Gap(start, end, max(0, lost), off)
 
-    def _thrown(self, rows: Array, steps: Array, fresh: Mask) -> tuple[int, int]:
+    def _throw(self, times: Array) -> None:
+        """Put down where the first sample was thrown away."""
+        if len(times) and self.thrown_since is None:
+            self.thrown_since = float(times[0])
+
+    def _thrown(self, times: Array, rows: Array, steps: Array, fresh: Mask) -> tuple[int, int]:
         """Count samples that are thrown away, up to one behind which the clock stood for too long.
 
         How many there are up to it, and for how many samples it stood; all, and 0, where there is
@@ -255,6 +264,7 @@ class Clock:
             count, spell = int(at[first]), int(spells[first])
         self.thrown["late"] += int(late[:count].sum())
         self.thrown["twice"] += int((~late & ~fresh)[:count].sum())
+        self._throw(times[:count][~fresh[:count]])
         self.still = 0 if spell else int(stood[-1] - (stood[at[-1]] if len(at) else 0))
         return count, spell
 

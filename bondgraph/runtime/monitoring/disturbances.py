@@ -98,7 +98,9 @@ class Disturbances:
         parts = [f"{n} {_CAUSES[name]}" for name, n in self._causes.items() if n]
         count = sum(self._causes.values())
         verb = "is" if count == 1 else "are"
-        text = f"{plural(count, 'sample')} {verb} thrown away: {listed(parts, 'and')}"
+        since = "" if clock.thrown_since is None else f", from {clock.thrown_since:.6g} s on"
+        clock.thrown_since = None
+        text = f"{plural(count, 'sample')} {verb} thrown away{since}: {listed(parts, 'and')}"
         return text + (f"; the clock stands still at {time:.6g} s" if clock.stands else "")
 
     # --------------------------------------------------------------------------------- gaps
