@@ -6,7 +6,7 @@ changes, the account at the end, heartbeats and metrics.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +22,8 @@ ALARM, HEALTHY, BLIND, WARMING = "alarm", "healthy", "blind", "warming up"
 #: All that a residual can be.
 STATES = (HEALTHY, ALARM, WARMING, BLIND)
 _HEALTHY, _ALARM, _WARMING, _BLIND = range(4)
+_CODES = np.arange(len(STATES), dtype=np.int8)
+_TOLD = ("fault", "update", "cleared")  # what changes what is latched
 
 _SIGNAL = ""  # an alarm of no residual: a signal is unusual by itself
 _PATIENCE = 5.0  # warm-ups after which a residual without a value is not warming up any more
@@ -71,6 +73,7 @@ class ResidualStates:
         self.samples = np.zeros((count, len(STATES)), dtype=np.int64)
         self._fired: frozenset[str] = frozenset()
         self._class = ""
+        self._same: Told | None = None  # as many healthy samples as came last
         self._age = np.zeros(count, dtype=np.int64)  # samples without a value, for no signal's sake
         self._codes = np.full(count, _WARMING, dtype=np.int8)  # of the newest sample
         self._missing: Mask = np.zeros(len(self._signals), dtype=np.bool_)  # in the newest sample
@@ -87,15 +90,18 @@ class ResidualStates:
             self._hear(latched._replace(event="fault"))
 
     def add(
-        self, time: Array, samples: Array, decided: Batch, verdicts: Iterable[Verdict]
+        self, time: Array, samples: Array, decided: Batch, verdicts: Sequence[Verdict]
     ) -> tuple[Told, list[Change]]:
         """What further samples are, and where signals began or ceased to be missing.
 
         `time` (n,) in s, `samples` (n, signals), by what they were `decided` on, and what was said
         of them, in order.
         """
-        absent = ~np.isfinite(samples)
-        valid, known = decided.valid, np.isfinite(decided.bound)
+        valid, known, there = decided.valid, np.isfinite(decided.bound), np.isfinite(samples)
+        quiet = not self._fired and not any(v.event in _TOLD for v in verdicts)
+        if quiet and not self._missing.any() and there.all() and valid.all() and known.all():
+            return self._healthy(len(time)), []
+        absent = ~there
         if absent.any() or self._missing.any():
             lacking = (absent.astype(np.int8) @ self._reads.T.astype(np.int8)) > 0
             changes = self._changes(time, absent, lacking)
@@ -112,13 +118,27 @@ class ResidualStates:
         fired, named = self._latched(time, verdicts)
         codes[fired[:, :-1]] = _ALARM
         active: Mask = np.asarray(fired.any(axis=1), dtype=np.bool_)
-        any_of = [active, (valid & known).any(axis=1), valid.any(axis=1)]
-        whole = np.select(any_of, [_ALARM, _HEALTHY, _BLIND], _WARMING).astype(np.int8)
-        for code in range(len(STATES)):
-            self.samples[:, code] += np.count_nonzero(codes == code, axis=0)
+        whole = np.where(valid.any(axis=1), _BLIND, _WARMING)
+        whole[(valid & known).any(axis=1)] = _HEALTHY
+        whole[active] = _ALARM
+        self.samples += (codes[:, :, None] == _CODES).sum(axis=0)
         self._codes, self._valid = codes[-1].copy(), valid[-1].copy()
         self.begun |= valid.any(axis=0)
-        return Told(codes, whole, active, named), changes
+        return Told(codes, whole.astype(np.int8), active, named), changes
+
+    def _healthy(self, count: int) -> Told:
+        """So many samples of which there is nothing to say."""
+        self.samples[:, _HEALTHY] += count
+        self._age[:] = 0
+        self._codes[:], self._valid[:], self.begun[:] = _HEALTHY, True, True
+        if self._same is None or len(self._same.whole) != count:  # nobody changes it
+            self._same = Told(
+                np.full((count, len(self.residuals)), _HEALTHY, dtype=np.int8),
+                np.full(count, _HEALTHY, dtype=np.int8),
+                np.zeros(count, dtype=np.bool_),
+                np.full(count, "", dtype=object),
+            )
+        return self._same
 
     def now(self, waits: Mapping[str, str]) -> dict[str, tuple[str, str]]:
         """The state of each residual by name, and why where that is no matter of course.
