@@ -24,7 +24,7 @@ _CAUSES = {
     "empty": "without any number",
     "untimed": "without a time",
 }
-_NOTHING: Change = Change(0, 0.0, (), ())
+_NOTHING: Change = Change(0, 0.0, (), (), False)
 
 
 class Disturbances:
@@ -126,6 +126,7 @@ class Disturbances:
         ends = [c.at for c in changes] + [len(time)]
         self._returned(time, valid, 0, ends[0])
         for change, end in zip(changes, ends[1:], strict=True):
+            self._tell_values(change.time)
             if change.signals and set(change.signals) - set(self._now.signals):
                 self._values.add(1, self.progress)
             if not self._now.signals:
@@ -140,9 +141,10 @@ class Disturbances:
         now, told = self._now, self._blind
         if not set(now.signals) - set(told.signals):
             return
-        begun = any(self._states.begun[self._states.residuals.index(r)] for r in now.residuals)
-        if not begun and time - self._since < self._warm_up:
-            return  # a slow signal has not come yet
+        if now.first:
+            if time - self._since < self._warm_up:
+                return  # a slow signal has not come yet
+            time = self._since + self._warm_up
         if self._values.due(self.progress):
             verb = "has" if len(now.signals) == 1 else "have"
             text = f"{listed(now.signals, 'and')} {verb} no number (empty, null, NaN, infinite or"

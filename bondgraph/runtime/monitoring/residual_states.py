@@ -46,13 +46,14 @@ class Change(NamedTuple):
     """From a sample on these `signals` have no number, and so these `residuals` no value.
 
     Both are empty where all is there again. `at` is the number of the sample among those that were
-    added, `time` its time in s.
+    added, `time` its time in s. `first`: none of the residuals has had a value until then.
     """
 
     at: int
     time: float
     signals: tuple[str, ...]
     residuals: tuple[str, ...]
+    first: bool
 
 
 class ResidualStates:
@@ -104,7 +105,7 @@ class ResidualStates:
         absent = ~there
         if absent.any() or self._missing.any():
             lacking = (absent.astype(np.int8) @ self._reads.T.astype(np.int8)) > 0
-            changes = self._changes(time, absent, lacking)
+            changes = self._changes(time, absent, lacking, valid)
         else:
             lacking, changes = np.zeros_like(valid), []
         codes = np.full(valid.shape, _HEALTHY, dtype=np.int8)
@@ -181,7 +182,7 @@ class ResidualStates:
         self._age = age[-1].copy()
         return np.asarray(age, dtype=np.int64)
 
-    def _changes(self, time: Array, absent: Mask, lacking: Mask) -> list[Change]:
+    def _changes(self, time: Array, absent: Mask, lacking: Mask, valid: Mask) -> list[Change]:
         """Where the signals that are missing became others, as far as a residual reads them."""
         read = self._reads.any(axis=0)
         gone = absent & read
@@ -190,7 +191,8 @@ class ResidualStates:
         for k in np.flatnonzero((gone != before).any(axis=1)).tolist():
             signals = tuple(n for n, own in zip(self._signals, gone[k], strict=True) if own)
             blind = tuple(n for n, own in zip(self.residuals, lacking[k], strict=True) if own)
-            found.append(Change(k, float(time[k]), signals, blind))
+            begun = (self.begun | valid[:k].any(axis=0))[lacking[k]]
+            found.append(Change(k, float(time[k]), signals, blind, not begun.any()))
         self._missing = gone[-1].copy()
         return found
 
