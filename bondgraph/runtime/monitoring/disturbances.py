@@ -192,6 +192,7 @@ class Hearing:
     def __init__(self, silence: Silence, clock: Clock, say: Callable[[Verdict], None]) -> None:
         self._silence, self._clock, self._say = silence, clock, say
         self._taken = 0
+        self._fresh = False  # whether samples have come that are being computed
         self._seen = (0, 0)  # samples that were thrown away, lines that are none
 
     def look(self, time: float, garbage: int, now: float) -> None:
@@ -200,7 +201,7 @@ class Hearing:
         seen = self._clock.dropped, garbage
         if taken != self._taken:
             told, lasted = self._silence.told, self._silence.heard(now)
-            self._taken, self._seen = taken, seen
+            self._taken, self._seen, self._fresh = taken, seen, True
             if told:
                 text = f"samples come again, after {lasted:.1f} s on the clock of this computer"
                 self._say(Verdict("gap", time, message=text))
@@ -217,8 +218,10 @@ class Hearing:
         return f"no sample for {lasts:.1f} s{self._what((self._clock.dropped, garbage))}"
 
     def awake(self, now: float) -> None:
-        """See `Silence.awake`."""
-        self._silence.awake(now)
+        """What has come was computed until now; see `Silence.awake`."""
+        if self._fresh:
+            self._silence.awake(now)
+        self._fresh = False
 
     def _what(self, seen: tuple[int, int]) -> str:
         """What comes instead."""

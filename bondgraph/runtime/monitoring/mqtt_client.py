@@ -30,6 +30,8 @@ PRESENCE = "/monitor"
 #: What a broker says that will say the same next time, as codes of MQTT 5.
 _FOR_GOOD = frozenset({0x84, 0x85, 0x86, 0x87, 0x8A, 0x8C})  # version, name, password, rights, ban
 
+_CUT_OFF = ssl.SSLEOFError, ssl.SSLZeroReturnError, ConnectionResetError
+_CUT = 3  # times that a broker breaks TLS off until that is no broker that ends just now
 _ALIVE = 15  # s without a word after which a connection counts as lost
 _FIRST, _LONGEST = 1, 30  # s between attempts to connect
 
@@ -104,6 +106,7 @@ class Link:
         self.away = False  # and it was told
         self.refused: LogError | None = None
         self._at, self._say, self._joined, self._refuse = at, say, joined, refuse
+        self._cut = 0  # attempts in which the broker has broken off TLS
         self._why = ""  # the last attempt to connect has failed
         self.client = Client(
             CallbackAPIVersion.VERSION2, identity, protocol=MQTTv5, manual_ack=True
@@ -165,13 +168,14 @@ class Link:
         """Connect; keep why that fails."""
         try:
             return connect()
-        except ssl.SSLError as error:
-            self._why = f"TLS: {error.reason or error}"
-            if not isinstance(error, ssl.SSLEOFError | ssl.SSLZeroReturnError):
-                self._untrusted(str(getattr(error, "verify_message", "")) or self._why)
-            raise
         except OSError as error:
             self._why = error.strerror or str(error)
+            if isinstance(error, ssl.SSLError):
+                self._why = getattr(error, "verify_message", "") or f"{error.reason or error}"
+            cut = isinstance(error, _CUT_OFF)
+            self._cut += cut
+            if self._at.secure and (self._cut >= _CUT if cut else isinstance(error, ssl.SSLError)):
+                self._untrusted(self._why)
             raise
 
     def _logged(self, client: Client, data: object, level: object, text: str) -> None:
@@ -181,7 +185,8 @@ class Link:
 
     def _untrusted(self, why: str) -> None:
         if not self.connections:
-            remedy = "name the authority that has signed the certificate in SSL_CERT_FILE"
+            remedy = "see that the port is that of TLS, and name the authority that has signed its"
+            remedy += " certificate in SSL_CERT_FILE"
             self._give_up(f"no TLS with the broker: {why}", remedy)
 
     def _give_up(self, why: str, remedy: str) -> None:

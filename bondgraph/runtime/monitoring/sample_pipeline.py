@@ -306,10 +306,16 @@ class Monitor:
             parts.states.add(piece.time, decided, told)
         self._time = self._newest
 
+    @property
+    def _lines(self) -> int:
+        """Lines that are no samples."""
+        decoder = self._parts.source.decoder
+        return 0 if decoder is None else decoder.garbage
+
     def _listen(self, now: float) -> None:
         """See whether a live source is heard."""
         if self._hearing is not None:
-            self._hearing.look(self._time, self._garbage, now)
+            self._hearing.look(self._time, self._lines, now)
 
     def _remember(self, place: dict[str, Any], again: bool) -> None:
         """Places of the source, back to one from which the filters are warm by now."""
@@ -322,8 +328,7 @@ class Monitor:
 
     def _noise(self, again: bool) -> None:
         """Count lines that are no samples, and those that were dropped."""
-        source = self._parts.source
-        garbage = 0 if source.decoder is None else source.decoder.garbage
+        source, garbage = self._parts.source, self._lines
         more, dropped = garbage - self._garbage, source.dropped - self._overflow
         self._garbage, self._overflow = garbage, source.dropped
         if again:
@@ -389,7 +394,7 @@ class Monitor:
         """How the watch stands at a moment of the monotonic clock, in s."""
         parts = self._parts
         found = self.states.now(parts.decision.waits())
-        blind = "" if self._hearing is None else self._hearing.why(self._garbage, now)
+        blind = "" if self._hearing is None else self._hearing.why(self._lines, now)
         if not blind and parts.clock.off:
             blind = "the machine is off"
         if not blind and parts.clock.stands:
@@ -416,8 +421,8 @@ class Monitor:
         record = snapshot.to_record() | {"age": None if age is None else round(age, 3)}
         if parts.publisher is not None:
             parts.publisher.present(presence("watching", snapshot.words(now), record))
-        if beat:
-            self._beat = now
+        if beat and parts.heartbeat is not None:
+            self._beat = max(self._beat + parts.heartbeat, now - parts.heartbeat)
             message = snapshot.words(now)
             verdict = Verdict("heartbeat", self._time, message=message, account=record)
             for sink in parts.sinks:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 
-_PAUSES, _USUAL = 16, 2  # of the last pauses the second longest is a usual one
+_PAUSES, _FEW, _USUAL = 16, 4, 2  # of so many of the last pauses the second longest is a usual one
 _TIMES = 3.0  # so many usual pauses, or steps of the samples, are no silence
 _AGAIN = 10.0  # times as long, until it is told again
 
@@ -12,9 +12,9 @@ _AGAIN = 10.0  # times as long, until it is told again
 class Silence:
     """Says when a source has been silent for too long: `most` s, or three of its usual pauses.
 
-    Whoever sends a minute of samples together is silent between. So of the last sixteen pauses the
-    second longest is a usual one: a single long one is none. `step` is the time between two
-    samples; all times in s, on one monotonic clock.
+    Whoever sends a minute of samples together is silent between. So of the last sixteen pauses, and
+    four at least, the second longest is a usual one: a single long one is none. `step` is the time
+    between two samples; all times in s, on one monotonic clock.
     """
 
     def __init__(self, most: float, step: float, now: float) -> None:
@@ -27,7 +27,7 @@ class Silence:
     def limit(self) -> float:
         """For how long it may be silent."""
         longest = sorted(self._pauses)[-_USUAL:]
-        usual = longest[0] if len(longest) == _USUAL else 0.0
+        usual = longest[0] if len(self._pauses) >= _FEW else 0.0
         return max(self._most, _TIMES * usual)
 
     @property
