@@ -76,13 +76,19 @@ class Watch:
         self._output, self._error, self._status = (os.fdopen(p[0], "rb") for p in pipes[1:])
         self.said: list[dict[str, Any]] = []
         self.errors = ""
+        self.torn: list[str] = []  # lines that are not whole
         self._threads = [Thread(target=self._read), Thread(target=self._listen)]
         for thread in self._threads:
             thread.start()
 
     def _read(self) -> None:
         for line in self._output:
-            self.said.append(json.loads(line))
+            try:
+                if not line.endswith(b"\n"):
+                    raise ValueError
+                self.said.append(json.loads(line))
+            except ValueError:
+                self.torn.append(f"not a whole line: {line!r}")
 
     def _listen(self) -> None:
         self.errors = self._error.read().decode()
