@@ -29,6 +29,7 @@ class Feeder:
     """
 
     keeps = False
+    seconds = 9.0
     environment: dict[str, str] = {}  # noqa: RUF012 (never changed)
 
     def __init__(self, folder: Path, log: Log) -> None:
@@ -84,9 +85,10 @@ def _head(log: Log) -> str:
 
 
 class File(Feeder):
-    """A log that is there."""
+    """A log that is there; of several blocks, so that there are positions between."""
 
     keeps = True
+    seconds = 40.0
 
     def __init__(self, folder: Path, log: Log) -> None:
         super().__init__(folder, log)
@@ -145,7 +147,8 @@ class Serial(Feeder):
         self.words = ["--serial", str(self._device.name), "--columns", _head(log)]
 
     def send(self, data: bytes) -> None:
-        end = time.monotonic() + 0.02
+        # The last monitor is given all of it, however busy this computer is.
+        end = time.monotonic() + (10.0 if self._ending.is_set() else 0.02)
         while data and time.monotonic() < end:
             try:
                 data = data[os.write(self._device.far, data[:512]) :]
