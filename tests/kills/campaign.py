@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from bondgraph.cli.main import main
 from bondgraph.runtime.log_file import write_log
 from bondgraph.runtime.monitoring.journal_records import read_records
+from bondgraph.runtime.monitoring.verdict import Verdict
 from tests.kills.sources import FEEDERS, Feeder
 from tests.unit.runtime.monitoring import motor
 from tests.unit.runtime.monitoring.watch import MOTOR, Nursery, Watch
@@ -117,8 +118,8 @@ def _judged(
     rest = [e for e in events if e not in ("resumed", "gap", "late", "invalid", "heartbeat")]
     if events.count("fault") != 1 or "cleared" in events:
         wrong.append(f"not one fault: {events}")
-    named = [v.group for _, v in found.verdicts if v.event == "update"]
-    if not named or "f" not in named[-1]:
+    named = [v for _, v in found.verdicts if v.event == "update"]
+    if not any(_meant(v) for v in named):
         wrong.append(f"the fault is not named: {named}")
     account = kept[numbers[-1]].get("account") if numbers else None
     if account is None or sum(account["verdicts"].values()) != len(numbers):
@@ -135,6 +136,12 @@ def _judged(
             wrong.append(f"samples lost or counted twice: {account['samples']}")
     twice = 0 if files else _published(feeder, kept, wrong)
     return Episode(kills, len(numbers), len(kept) - len(printed), twice, tuple(wrong))
+
+
+def _meant(verdict: Verdict) -> bool:
+    """Whether it can be the friction, alone or with another fault."""
+    pairs = [fault for pair in verdict.pairs for fault in pair.faults]
+    return "f" in (*verdict.group, *(c.fault for c in verdict.candidates), *pairs)
 
 
 def _published(feeder: Any, kept: dict[int, Any], wrong: list[str]) -> int:
