@@ -120,7 +120,7 @@ def test_a_wish_to_stop_is_not_lost_while_numbers_are_read() -> None:
             while not over.wait(0.002):
                 os.kill(os.getpid(), signal.SIGTERM)
                 sent += 1
-                until(lambda: len(heard) == sent)
+                until(lambda wanted=sent: len(heard) == wanted)  # type: ignore[misc]
 
         thread = Thread(target=send)
         thread.start()
