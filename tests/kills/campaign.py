@@ -18,7 +18,8 @@ from tests.unit.runtime.monitoring.watch import MOTOR, Nursery, Watch
 
 _KILLS = 8  # in an episode
 _LONGEST = 0.4  # s that a monitor watches
-_EARLY = 0.25  # of the kills may come before it watches
+_EARLY = 0.01  # of the kills, each hundredth of a second until it says something
+_WAITED = 3.0  # s for what a monitor says first
 
 
 class Episode(NamedTuple):
@@ -74,20 +75,17 @@ def _episode(
         started.append(Watch(nursery, *given, environment=feeder.environment))
         return started[-1]
 
-    begun = 0.0  # s until the first one watched
     for k in range(kills):
-        launched = time.monotonic()
         one = start()
         if k == 0:
             one.heard("start")
-            begun = time.monotonic() - launched
             feeder.begin(one)
-            launched = time.monotonic() - begun
         else:
             feeder.attach(one)
-        first = 0.0 if draw.random() < _EARLY else begun
-        moment = launched + draw.uniform(first, begun + _LONGEST)
-        time.sleep(max(0.0, moment - time.monotonic()))
+        end = time.monotonic() + _WAITED
+        while draw.random() > _EARLY and not one.said and time.monotonic() < end:
+            time.sleep(0.01)
+        time.sleep(draw.uniform(0.0, _LONGEST))
         one.kill()
         said += one.said
         wrong += one.torn
