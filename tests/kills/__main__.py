@@ -24,7 +24,7 @@ from tests.kills.sources import KINDS
 from tests.measured import ROOT, write
 from tests.unit.runtime.monitoring.watch import Nursery
 
-COMMAND = "python -m tests.kills --write"
+COMMAND = "python -m tests.kills --times {} --write"
 _HEAD = "| source | kills | verdicts | put down, not printed | published twice |"
 
 
@@ -61,7 +61,7 @@ def main() -> int:
             print("\n".join([*of, f"{rows[-1]} {len(of)} wrong"]), flush=True)
     nursery.close()
     if args.write and not (wrong or skipped or args.of):
-        write(ROOT / "docs" / "trust.md", COMMAND, "\n".join([_HEAD, "|---" * 5 + "|", *rows]))
+        write(ROOT / "docs" / "trust.md", COMMAND.format(args.times), "\n".join([_HEAD, "|---" * 5 + "|", *rows]))
     return 1 if wrong else 0
 
 
