@@ -61,7 +61,8 @@ def main() -> int:
             print("\n".join([*of, f"{rows[-1]} {len(of)} wrong"]), flush=True)
     nursery.close()
     if args.write and not (wrong or skipped or args.of):
-        write(ROOT / "docs" / "trust.md", COMMAND.format(args.times), "\n".join([_HEAD, "|---" * 5 + "|", *rows]))
+        table = "\n".join([_HEAD, "|---" * 5 + "|", *rows])
+        write(ROOT / "docs" / "trust.md", COMMAND.format(args.times), table)
     return 1 if wrong else 0
 
 
