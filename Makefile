@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 .DEFAULT_GOAL := help
-.PHONY: help run demo robots test check lint types imports docs wheel bench update fuzz random real mutants faults clean
+.PHONY: help run demo robots test check lint types imports docs wheel bench update fuzz random real mutants faults kills account clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
@@ -101,6 +101,12 @@ mutants: $(VENV)/dev.stamp ## 300 mutants of the compiler (or COUNT=...) through
 faults: $(VENV)/dev.stamp ## every writer, killed or failed at every operation on its files, then damage; half an hour
 	$(BIN)/python -m tests.file_faults
 	$(BIN)/python -m tests.file_faults --damage 10000
+
+kills: $(VENV)/dev.stamp ## monitors of every source, each killed 200 times at random moments; a quarter of an hour
+	$(BIN)/python -m tests.kills --times 200 $(if $(SEED),--seed $(SEED))
+
+account: $(VENV)/dev.stamp ## an hour at 1 kHz with a disturbance every minute: the account adds up; some minutes
+	$(BIN)/python -m tests.account $(if $(SEED),--seed $(SEED))
 
 clean: ## remove what this file made
 	rm -rf $(VENV) build dist .hypothesis .mypy_cache .ruff_cache .pytest_cache .import_linter_cache

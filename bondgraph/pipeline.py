@@ -317,7 +317,7 @@ class Compilation:
         True
         """
         from bondgraph.runtime.diagnosis.parameter_fit import fit, fittable
-        from bondgraph.runtime.monitoring.clock import stretches
+        from bondgraph.runtime.monitoring.whole_logs import stretches
         from bondgraph.runtime.simulation.parameters import units
 
         engine, model = self.engine(), self.diagnosis_model

@@ -55,6 +55,7 @@ def _python(program: Program, target: Target, about: Facts, none: Golden) -> str
 
 def _blocks(program: Program, spelling: Spelling) -> tuple[Together, ...]:
     residuals = {r.name: at for at, r in enumerate(program.residuals)}
+    place = {k.name: at for at, k in enumerate(program.knowns)}
     whole = {
         k.name: at
         for at, k in enumerate(program.knowns)
@@ -64,6 +65,7 @@ def _blocks(program: Program, spelling: Spelling) -> tuple[Together, ...]:
         Together(
             tuple(residuals[name] for name in block.residuals),
             tuple(whole[name] for name in block.knowns if name in whole),
+            tuple(place[name] for name in block.knowns if name in place),
         )
         for block in spelling.blocks
     )

@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from bondgraph.runtime.fleet.workers import Result
     from bondgraph.runtime.monitoring.watch_settings import WatchSettings
 
-_ALONE = ("follow", "serial", "mqtt", "journal", "publish", "states")
+_ALONE = ("follow", "serial", "mqtt", "journal", "publish", "states", "heartbeat", "metrics",
+          "silence")  # fmt: skip
 _SHORTEST = 9  # letters of a cell that is cut
 _HEAD = ("log", "from", "to s", "lasts s", "verdict", "class", "since s", "worst")
 

@@ -25,13 +25,15 @@ if TYPE_CHECKING:
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
     from bondgraph.runtime.monitoring.mqtt_client import Address, Publisher
-    from bondgraph.runtime.monitoring.sample_pipeline import Stop
+    from bondgraph.runtime.monitoring.snapshot import Snapshot
     from bondgraph.runtime.monitoring.sources.sample_source import Source
     from bondgraph.runtime.monitoring.verdict import Verdict
+    from bondgraph.runtime.monitoring.watch_parts import Stop
 
 FAULT = 3  # the exit status of --fail-on-fault
 
-_COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "invalid": "33", "gap": "33"}
+_COLOURS = {"fault": "1;31", "update": "31", "cleared": "32", "invalid": "33", "late": "33",
+            "gap": "33"}  # fmt: skip
 
 
 def arguments(parser: ArgumentParser) -> None:
@@ -52,12 +54,29 @@ def arguments(parser: ArgumentParser) -> None:
     add("--states", metavar="FILE",
         help="a row for each sample: residuals, thresholds, states, class (.csv or"
         " .parquet)")  # fmt: skip
+    add("--heartbeat", metavar="S", type=positive,
+        help="tell the state of each residual every S seconds")  # fmt: skip
+    add("--metrics", metavar="[HOST:]PORT", type=listening,
+        help="serve metrics for Prometheus (default HOST: 127.0.0.1)")  # fmt: skip
+    add("--silence", metavar="S", type=positive,
+        help="a live source without a sample for S seconds is told (default: 2)")  # fmt: skip
     add("--fail-on-fault", action="store_true", help="exit status 3 if there was an alarm")
     add("-o", "--output", metavar="FILE", help="of a fleet: write a row for each verdict (.csv or"
         " .parquet), and watch only what is not in it")  # fmt: skip
     add("--jobs", metavar="N", type=count, help="of a fleet: so many processes (default: 1)")
     add("--scheduler", metavar="ADDRESS",
         help="of a fleet: the workers of this Dask scheduler watch")  # fmt: skip
+
+
+def listening(text: str) -> tuple[str, int]:
+    """A host, by default this computer alone, and a port; raises ValueError for any other text."""
+    host, _, port = text.rpartition(":")
+    if not port.isdigit() or int(port) > 65535:
+        raise ValueError
+    return host.strip("[]") or "127.0.0.1", int(port)
+
+
+listening.__name__ = "[HOST:]PORT"
 
 
 def sampled(add: Callable[..., object]) -> None:
@@ -131,6 +150,7 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     from bondgraph.runtime.monitoring.journal import known_rate
     from bondgraph.runtime.monitoring.sample_pipeline import Monitor
     from bondgraph.runtime.monitoring.states import states_file
+    from bondgraph.runtime.monitoring.watch_parts import SILENCE
     from bondgraph.runtime.monitoring.watch_settings import (
         WatchSettings,
         sample_rate,
@@ -151,16 +171,19 @@ def _watch(args: Namespace, source: Source, verdicts: Address | None) -> int:
     form = form_of(args, source.name)
     settings = WatchSettings(compilation, tuning, form, mapping, args.operating)
     alarms = Alarms()
+    watched = what_is_watched(compilation, engine)
     parts = settings.parts(source, engine, decided(engine))._replace(
         sinks=[_printer(args.lines), alarms],
-        publisher=_publisher(verdicts, args.journal, journal),
         journal=journal,
         note=note,
+        heartbeat=args.heartbeat,
+        silence=args.silence or SILENCE,
     )
     kept = states_file(args.states, engine.residuals) if args.states else nullcontext()
-    with kept as states, _stop() as stop:
-        monitor = Monitor(parts._replace(states=states), what_is_watched(compilation, engine))
-        untaken = monitor.run(stop)
+    with kept as states, _metrics(args.metrics) as observe, _stop() as stop:
+        publisher = _publisher(verdicts, args.journal, journal, watched)
+        parts = parts._replace(states=states, observe=observe, publisher=publisher)
+        untaken = Monitor(parts, watched).run(stop)
     if untaken:
         how = "they are sent after the next start" if args.journal else "--journal would keep them"
         what = plural(untaken, "verdict")
@@ -221,13 +244,30 @@ def _journal(
     return Journal(path, compilation.graph.name, digest, source.name, compilation.program.rate)
 
 
-def _publisher(at: Address | None, journal: str | None, known: Journal | None) -> Publisher | None:
+def _publisher(
+    at: Address | None, journal: str | None, known: Journal | None, watched: str
+) -> Publisher | None:
     from bondgraph.runtime.monitoring.mqtt_client import Publisher
+    from bondgraph.runtime.monitoring.snapshot import presence
 
     if at is None:
         return None
     sent = known.past.sent if known is not None and known.past is not None else 0
-    return Publisher(at, _identity(journal, "verdicts") if journal else "", sent)
+    gone = presence("gone", f"the monitor has ended without a word, or is cut off: {watched}")
+    return Publisher(at, _identity(journal, "verdicts") if journal else "", sent, gone)
+
+
+@contextmanager
+def _metrics(at: tuple[str, int] | None) -> Iterator[Callable[[Snapshot], None] | None]:
+    """What takes how the watch stands, to serve it; None where nobody asked for that."""
+    if at is None:
+        yield None
+        return
+    from bondgraph.runtime.monitoring.metrics import MetricsServer
+
+    with closing(MetricsServer(*at)) as server:
+        note(f"metrics at {server.url}")
+        yield server.observe
 
 
 def _identity(journal: str, role: str) -> str:
@@ -265,7 +305,7 @@ def _printer(lines: bool) -> Callable[[int, Verdict], None]:
 @contextmanager
 def _stop() -> Iterator[Stop]:
     """What SIGINT and SIGTERM set; a second one ends the program at once."""
-    from bondgraph.runtime.monitoring.sample_pipeline import Stop
+    from bondgraph.runtime.monitoring.watch_parts import Stop
 
     stop = Stop()
 

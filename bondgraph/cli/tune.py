@@ -114,9 +114,9 @@ def _part(progress: Callable[[float], None], k: int, parts: int) -> Callable[[fl
 
 def _logs(args: Namespace) -> tuple[Compilation, Engine, list[Array], dict[str, str]]:
     """The model, an engine of it, what it reads from each log, on its grid, and by what time."""
-    from bondgraph.runtime.monitoring.clock import stretches
     from bondgraph.runtime.monitoring.columns import read_map
     from bondgraph.runtime.monitoring.sources.sample_source import rate_of
+    from bondgraph.runtime.monitoring.whole_logs import stretches
 
     read = []
     if args.simulate:

@@ -8,7 +8,7 @@ from bondgraph.text.tuples import NamedTuple
 
 
 class Together(NamedTuple):
-    """Residuals that start anew together, and the signals among what they read that are whole.
+    """Residuals that start anew together, all that they read, and what of it is whole.
 
     By their numbers in the program. An encoder or a mode that has no value cannot say so in its
     own type, so whoever runs the code has to restart the block that reads it.
@@ -16,6 +16,7 @@ class Together(NamedTuple):
 
     residuals: tuple[int, ...]
     whole: tuple[int, ...]
+    reads: tuple[int, ...]
 
 
 class Runnable(NamedTuple):

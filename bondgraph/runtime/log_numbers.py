@@ -378,6 +378,8 @@ def _by_arrow(text: str, separator: str, columns: int) -> Array | None:
     import pyarrow
     import pyarrow.csv
 
+    # It would take SIGTERM and SIGINT for its own while it reads, and a wish to stop would be lost.
+    pyarrow.enable_signal_handlers(False)
     data = text.encode("utf-8", "surrogatepass")
     names = [str(k) for k in range(columns)]
     try:

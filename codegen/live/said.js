@@ -54,6 +54,8 @@ export class Diagnosis {
       this.changed(v.whose);
     } else if (v.event === "warm-up" && this.state[v.whose] !== "fault") this.now(v.whose, "well", "no fault seen");
     else if (v.event === "invalid" && v.message.includes("stands still")) this.now(v.whose, "still", v.message);
+    else if (/(is|are) blind\b/.test(v.message) && this.state[v.whose] !== "fault") this.now(v.whose, "still", v.message);
+    else if (v.message.startsWith("samples come again") && this.state[v.whose] === "still") this.now(v.whose, "well", "no fault seen");
   }
 
   now(whose, state, text, candidates = []) {

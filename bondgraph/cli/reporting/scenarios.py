@@ -19,8 +19,8 @@ from bondgraph.backends.report.episode import (
     Trace,
 )
 from bondgraph.cli.residual_units import residual_units
-from bondgraph.runtime.monitoring.clock import on_grid
 from bondgraph.runtime.monitoring.verdict import Verdict, described
+from bondgraph.runtime.monitoring.whole_logs import on_grid
 from bondgraph.runtime.simulation.dead_reckoning import Desired, Reckoning
 from bondgraph.runtime.simulation.integrate import SimulationError
 from bondgraph.runtime.simulation.parameters import Values

@@ -212,7 +212,7 @@ def observed(
 
     As if there were none where their samples are too few or too far apart.
     """
-    from bondgraph.runtime.monitoring.clock import on_grid
+    from bondgraph.runtime.monitoring.whole_logs import on_grid
 
     engine = compilation.engine()
     samples, stretches = [], []

@@ -94,6 +94,10 @@ class Diagnosis:
         """See `Decision`."""
         return together(self._last, len(self._engine.residuals))
 
+    def waits(self) -> dict[str, str]:
+        """See `Decision`."""
+        return self._status.waits(self._origins, self._limits[:, 0])
+
     # -------------------------------------------------------------------- samples
 
     def update(self, time: Array, batch: Batch, samples: Array) -> list[Verdict]:

@@ -99,6 +99,19 @@ class WatchStatus:
             out.append(Verdict("warm-up", time, message=message))
         self._waits = (self._waits & waiting) | lost
 
+    def waits(self, origins: Origins, noise: Array) -> dict[str, str]:
+        """Why residuals are not watched, by name: what nobody knows of them yet, or never will."""
+        found = {}
+        for k, name in enumerate(self._engine.residuals):
+            own = np.arange(len(self._used)) == k
+            if (origins.waiting & self._used)[k]:
+                found[name] = f"it {self._waiting(own, origins).removeprefix(name + ' ')}"
+            elif self._hopeless[k]:
+                found[name] = "it is an approximation that is far off"
+            elif self._used[k] and not math.isfinite(noise[k]):
+                found[name] = "its noise is not known yet"
+        return found
+
     def learned(self, time: float, fresh: Mask, found: Learning, out: list[Verdict]) -> None:
         """At the end of a row: the noise of `fresh` residuals is known now, or is no noise."""
         if fresh.any():

@@ -10,6 +10,7 @@ import numpy as np
 
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Batch
+from bondgraph.runtime.monitoring.residual_states import Told
 from bondgraph.runtime.monitoring.verdict import Verdict, from_record, to_json
 from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
@@ -103,7 +104,7 @@ class Extent:
         self.start: float | None = None
         self.end: float | None = None
 
-    def add(self, time: Array, decided: Batch, verdicts: Iterable[Verdict]) -> None:
+    def add(self, time: Array, decided: Batch, told: Told) -> None:
         """Further samples."""
         known = decided.valid & np.isfinite(decided.bound)
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -17,10 +17,11 @@ from bondgraph.runtime.fleet.watched_log import Extent, WatchedLog
 from bondgraph.runtime.log import Log, LogError
 from bondgraph.runtime.log_numbers import Form
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.monitoring.sample_pipeline import Decision, Monitor, Parts, Stop
+from bondgraph.runtime.monitoring.sample_pipeline import Monitor
 from bondgraph.runtime.monitoring.sources.file import LoadedLog, file_source
 from bondgraph.runtime.monitoring.sources.sample_source import Source
 from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.runtime.monitoring.watch_parts import Decision, Parts, Stop
 from bondgraph.runtime.monitoring.watch_settings import (
     WatchSettings,
     sample_rate,
@@ -240,14 +241,14 @@ def _without_place(error: Exception, item: Item) -> str:
 
 def _notes(parts: Parts, monitor: Monitor, extent: Extent) -> tuple[str, ...]:
     """What is missing, in a few words each."""
-    decoder, clock = parts.source.decoder, parts.clock
+    samples, lines, clock = monitor.account.samples, monitor.account.lines, parts.clock
     notes = []
-    if monitor.gaps:
-        notes.append(plural(monitor.gaps, "gap"))
-    if decoder is not None and decoder.garbage:
-        notes.append(f"{plural(decoder.garbage, 'line')} left out")
-    if monitor.left_out:
-        notes.append(f"{plural(monitor.left_out, 'sample')} without all columns")
+    if lines["gaps"]:
+        notes.append(plural(lines["gaps"], "gap"))
+    if lines["garbage"]:
+        notes.append(f"{plural(lines['garbage'], 'line')} left out")
+    if samples["unmatched"]:
+        notes.append(f"{plural(samples['unmatched'], 'sample')} without all columns")
     if clock.dropped:
         notes.append(f"{plural(clock.dropped, 'sample')} late, twice or empty")
     if clock.left_out:

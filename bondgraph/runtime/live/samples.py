@@ -36,7 +36,7 @@ class Paced(Source):
     ) -> None:
         self._inner = inner
         self.name, self.replays = inner.name, inner.replays
-        self.decoder = inner.decoder
+        self.decoder, self.live = inner.decoder, inner.live
         self._portion, self._speed, self._between = portion, speed, between
         self.paused = False
         self._anchor: tuple[float, float] | None = None  # on the wall, of the samples
@@ -101,6 +101,11 @@ class Paced(Source):
         start = self._marks[0] if self._marks else end
         wall = end[0] - start[0]
         return (end[1] - start[1]) / wall if wall > _OVER / 4 else None
+
+    @property
+    def dropped(self) -> int:
+        """See `Source`."""
+        return self._inner.dropped
 
     def go(self, position: dict[str, Any]) -> str:
         """See `Source`."""

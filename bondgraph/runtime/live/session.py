@@ -15,7 +15,8 @@ from bondgraph.runtime.live.samples import Paced
 from bondgraph.runtime.live.setup import Heard, Setup, Target
 from bondgraph.runtime.log import Array, LogError
 from bondgraph.runtime.monitoring.engine import Batch
-from bondgraph.runtime.monitoring.sample_pipeline import Monitor, Parts, Stop
+from bondgraph.runtime.monitoring.sample_pipeline import Monitor
+from bondgraph.runtime.monitoring.watch_parts import Parts, Stop
 
 _NOTHING = np.empty(0)
 

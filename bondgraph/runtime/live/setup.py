@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
+import numpy as np
+
 from bondgraph.ir.causal import CausalGraph
 from bondgraph.ir.equation_system import EquationSystem
 from bondgraph.ir.graph import BondGraph
@@ -16,9 +18,9 @@ from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.monitoring.clock import Clock
 from bondgraph.runtime.monitoring.engine import Batch, Engine
 from bondgraph.runtime.monitoring.operating import Operating
-from bondgraph.runtime.monitoring.sample_pipeline import Decision
 from bondgraph.runtime.monitoring.sources.sample_source import Source
 from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.runtime.monitoring.watch_parts import Decision
 from bondgraph.runtime.simulation.scenario import Fault, Scenario
 from bondgraph.text.tuples import NamedTuple
 
@@ -123,6 +125,7 @@ class Wide:
         self.sample_time, self.bandwidth = engine.sample_time, engine.bandwidth
         self.warm_up, self.parameters = engine.warm_up, engine.parameters
         self.lags = engine.lags
+        self.reads = np.pad(engine.reads, ((0, 0), (0, len(more))))  # of the others none
 
     def run(self, samples: Array, received: Array | None = None) -> Batch:
         """See `Engine`."""
@@ -195,6 +198,10 @@ class Heard:
     def decided(self) -> Batch:
         """See `Decision`."""
         return self._inner.decided()
+
+    def waits(self) -> dict[str, str]:
+        """See `Decision`."""
+        return self._inner.waits()
 
     def restart(self) -> None:
         """See `Decision`."""

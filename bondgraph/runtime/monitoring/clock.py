@@ -8,21 +8,19 @@ has done, and the filters start anew.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bondgraph.ir.program import Known
-from bondgraph.runtime.log import Array, Log, LogError, Mask
-from bondgraph.runtime.monitoring.columns import Columns, Mapped
+from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine
-from bondgraph.runtime.time_column import Pace
 from bondgraph.text.tuples import NamedTuple
 
-if TYPE_CHECKING:
-    from bondgraph.runtime.monitoring.operating import Operating
+#: Why a sample is thrown away: its time is before that of another one, or the same; it has no
+#: value at all, or no time.
+THROWN = ("late", "twice", "empty", "untimed")
 
 #: The period of a clock that counts microseconds in 32 bits, in s.
 WRAP_32 = 2.0**32 / 1e6
@@ -39,13 +37,15 @@ class Gap(NamedTuple):
     """Why the filters start anew: `start` and `end` are the times of the samples before and after.
 
     `lost` is how many samples of the grid are missing between them; 0 where the clock went back.
-    They may be missing because the machine was `off`.
+    They may be missing because the machine was `off`. The clock may have stood still meanwhile, for
+    so many samples (`still`).
     """
 
     start: float
     end: float
     lost: int
     off: bool = False
+    still: int = 0
 
     @property
     def text(self) -> str:
@@ -55,6 +55,8 @@ class Gap(NamedTuple):
             return f"the clock went back by {back:.6g} s at {self.start:.6g} s"
         if self.off:
             return f"the machine was off from {self.start:.6g} s to {self.end:.6g} s"
+        if self.still:
+            return f"the clock stood still at {self.start:.6g} s for {self.still} samples"
         missing = f"{self.lost} sample{'s' if self.lost != 1 else ''}"
         return f"{missing} lost from {self.start:.6g} s to {self.end:.6g} s"
 
@@ -79,7 +81,10 @@ class Clock:
     (a counter of 32 bits may run over), modes as they were. A value that is not finite counts as
     missing, in its own signal only; over a longer time it is NaN. A longer gap of all signals, and
     a clock that goes back by more than `most`, make a new piece. A sample that comes twice or late
-    is dropped. `wraps` is the period of a clock that runs over, in s.
+    is dropped, and `thrown` says how many for which of the causes of `THROWN`. Other samples for
+    longer than `most`, all of the same time, make a new piece too: the clock stood still. `used`
+    counts those that are neither dropped nor `left_out`. `wraps` is the period of a clock that runs
+    over, in s.
     """
 
     def __init__(
@@ -87,8 +92,12 @@ class Clock:
     ) -> None:
         known = tuple(signals)
         self.sample_time, self.most, self.wraps = sample_time, most, wraps
-        self.dropped = 0  # samples that came twice, late, without time or without any value
+        self.thrown = dict.fromkeys(THROWN, 0)
+        self.thrown_since: float | None = None  # s, where the first one was; whoever tells forgets
         self.left_out = 0  # samples in which the machine was off
+        self.used = 0
+        self.still = 0  # samples since the last one that was used: of its time, with other values
+        self._latest: Array = np.full(len(known), np.nan)  # the values that came last
         self._since: float | None = None  # the newest time before it was
         self._modes: Mask = np.array([k.kind == "mode" for k in known], dtype=np.bool_)
         self._counts = [at for at, k in enumerate(known) if k.counts is not None]
@@ -125,8 +134,9 @@ class Clock:
 
     def _off(self, time: Array | None, samples: Array) -> list[Piece]:
         """Leave out samples, and end the stretch before them."""
-        self._stamped(time, samples)
-        self.left_out += len(samples)
+        times, _ = self._stamped(time, samples)
+        self.left_out += len(times)
+        self.still = 0
         pieces = self.finish()
         self._since = self._since if self._top is None else self._top
         self._top = None
@@ -143,14 +153,37 @@ class Clock:
                     self._gap = self._between(self._since, float(times[at]), True)
                     self._since = None
                 self._begin(float(times[at]))
-            end, fresh = self._stretch(times, at)
+            assert self._top is not None
+            top, stood = self._top, 0
+            end, steps = self._stretch(times, at)
+            fresh = steps > 4.0 * self._exact
+            if self.still or not fresh.all():
+                count, stood = self._thrown(times[at:end], rows[at:end], steps, fresh)
+                if stood:
+                    end, fresh = at + count, fresh[:count]
+                    self._top = float(times[at:end][fresh].max(initial=top))
             self._extend(times[at:end][fresh], rows[at:end][fresh])
-            self.dropped += int(len(fresh) - fresh.sum())
+            self._latest = rows[max(end, 1) - 1].copy()
             pieces += self._emit(end < len(times))
             if end < len(times):
-                self._break(float(times[end]))
+                self._break(float(times[end]), stood)
             at = end
         return pieces
+
+    @property
+    def dropped(self) -> int:
+        """Samples that were thrown away, for whatever cause."""
+        return sum(self.thrown.values())
+
+    @property
+    def off(self) -> bool:
+        """Whether the machine is."""
+        return self._since is not None
+
+    @property
+    def stands(self) -> bool:
+        """Whether the clock has stood still for too long: what comes next makes a new piece."""
+        return self.still * self.sample_time > self.most
 
     def finish(self) -> list[Piece]:
         """What is left at the end of the samples."""
@@ -174,8 +207,12 @@ class Clock:
             self._raw, self._laps = float(raw[-1]), int(laps[-1])
             times = times.copy()
             times[there] = raw + laps * self.wraps
-        there &= np.isfinite(rows).any(axis=1)
-        self.dropped += int(len(there) - there.sum())
+        some = np.isfinite(rows).any(axis=1)
+        if not (there & some).all():
+            self.thrown["untimed"] += int((~there).sum())
+            self.thrown["empty"] += int((there & ~some).sum())
+            self._throw(times[there & ~some])
+            there &= some
         return times[there], rows[there]
 
     def _begin(self, start: float) -> None:
@@ -183,39 +220,67 @@ class Clock:
         self._start, self._next = start, 0
         self._exact = max(_EXACT * self.sample_time, 2.0 * float(np.spacing(abs(start))))
         self._top = -np.inf
+        self.still = 0
         self._last[:] = np.nan
         self._times, self._rows = self._times[:0], self._rows[:0]
 
-    def _break(self, time: float) -> None:
+    def _break(self, time: float, still: int) -> None:
         """Start a new grid behind a gap."""
         assert self._top is not None
-        self._gap = self._between(self._top, time)
+        still = still or (self.still if self.stands else 0)  # it stood, and was set right
+        self._gap = self._between(self._top, time)._replace(still=still)
         self._begin(time)
 
     def _between(self, start: float, end: float, off: bool = False) -> Gap:
         lost = round((end - start) / self.sample_time) - 1
         return Gap(start, end, max(0, lost), off)
 
-    def _stretch(self, times: Array, at: int) -> tuple[int, Mask]:
-        """Up to where the times from `at` on belong together, and which of them are new."""
+    def _throw(self, times: Array) -> None:
+        """Put down where the first sample was thrown away."""
+        if len(times) and self.thrown_since is None:
+            self.thrown_since = float(times[0])
+
+    def _thrown(self, times: Array, rows: Array, steps: Array, fresh: Mask) -> tuple[int, int]:
+        """Count samples that are thrown away, up to one behind which the clock stood for too long.
+
+        How many there are up to it, and for how many samples it stood; all, and 0, where there is
+        none.
+        """
+        late = steps < -4.0 * self._exact
+        before = np.vstack([self._latest, rows[:-1]])
+        other = ((rows != before) & ~(np.isnan(rows) & np.isnan(before))).any(axis=1)
+        stood = self.still + np.cumsum(other & ~late & ~fresh)
+        at = np.flatnonzero(fresh)
+        spells = np.diff(stood[at], prepend=0)
+        count, spell = len(rows), 0
+        if (long := spells * self.sample_time > self.most).any():
+            first = int(np.argmax(long))
+            count, spell = int(at[first]), int(spells[first])
+        self.thrown["late"] += int(late[:count].sum())
+        self.thrown["twice"] += int((~late & ~fresh)[:count].sum())
+        self._throw(times[:count][~fresh[:count]])
+        self.still = 0 if spell else int(stood[-1] - (stood[at[-1]] if len(at) else 0))
+        return count, spell
+
+    def _stretch(self, times: Array, at: int) -> tuple[int, Array]:
+        """Up to where the times from `at` on belong together, and their steps to the newest one."""
         assert self._top is not None
-        fresh: list[Mask] = []
+        found: list[Array] = []
         width, start = _WINDOW, at
         while start < len(times):
             part = times[start : start + width]
             before = np.maximum.accumulate(np.concatenate([[self._top], part[:-1]]))
             steps = part - before
             apart = (np.abs(steps) > self.most + self._exact) & np.isfinite(steps)
-            new = steps > 4.0 * self._exact
             if apart.any():
                 cut = int(np.argmax(apart))
-                fresh.append(new[:cut])
+                found.append(steps[:cut])
                 self._top = float(before[cut])
-                return start + cut, np.concatenate(fresh)
-            fresh.append(new)
+                return start + cut, np.concatenate(found)
+            found.append(steps)
             self._top = max(float(before[-1]), float(part[-1]))
             start, width = start + len(part), 2 * width
-        return len(times), np.concatenate(fresh)
+        return len(times), np.concatenate(found)
 
     # ------------------------------------------------------------------- samples as they come
 
@@ -224,6 +289,7 @@ class Clock:
         rows = np.where(np.isfinite(rows), rows, np.nan)
         for at in self._counts:
             self._count(rows[:, at], at)
+        self.used += len(times)
         self._times = np.concatenate([self._times, times])
         self._rows = np.concatenate([self._rows, rows])
 
@@ -322,49 +388,3 @@ def clock_of(engine: Engine, most: float | None = None, wraps: float | None = No
     """
     bridged = max(1.0 / engine.bandwidth, _MISSED * engine.sample_time) if most is None else most
     return Clock(engine.signals, engine.sample_time, bridged, wraps)
-
-
-def stretches(
-    engine: Engine,
-    logs: Iterable[tuple[str, Log]],
-    mapping: Mapping[str, Mapped] | None = None,
-    operating: str | None = None,
-    asked: bool = False,
-) -> list[tuple[str, Piece]]:
-    """What an engine reads from logs, by their names, in pieces without a gap; see `on_grid`.
-
-    `operating` is an expression that holds while the machine is on. Raises LogError where it holds
-    for no sample, CompileError for a text that is no expression.
-    """
-    from bondgraph.runtime.monitoring.operating import Operating
-
-    named = list(logs)
-    found = []
-    for name, log in named:
-        on = None if operating is None else Operating(operating, mapping, name)
-        pieces = on_grid(engine, log, mapping, name, on, asked)
-        found += [(name, piece) for piece in pieces if len(piece.samples)]
-    if operating is not None and not found:
-        names = ", ".join(name for name, _ in named)
-        raise LogError(names, None, f"`{operating}` (--while) holds for no sample of {names}")
-    return found
-
-
-def on_grid(
-    engine: Engine,
-    log: Log,
-    mapping: Mapping[str, Mapped] | None = None,
-    name: str = "log",
-    operating: Operating | None = None,
-    asked: bool = False,
-) -> list[Piece]:
-    """The signals of an engine in a whole log while it is `operating`, on its grid; see `Columns`.
-
-    Raises LogError where the steps of the log are no steps of this grid, whose rate somebody has
-    `asked` for.
-    """
-    clock = clock_of(engine)
-    Pace(engine.sample_time, name, asked).look(log)
-    on = None if operating is None else operating(log)
-    samples = Columns(engine.signals, mapping, name)(log)
-    return clock.feed(log.time, samples, on) + clock.finish()

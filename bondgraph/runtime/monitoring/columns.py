@@ -75,7 +75,8 @@ class Columns:
         """The samples, (n, signals); NaN for signals that no step reads and the log does not have.
 
         Encoders come as whole counts, modes as 0 and 1. Raises LogError with the names of all
-        signals that are missing, or for a unit that is not one of the signal.
+        signals that are missing, or for a unit that is not one of the signal. Once all were there
+        in a log, those that are missing in a later one are NaN, if it has any.
         """
         names = tuple(log.columns)
         if self._found is None or self._found[:2] != (names, log.units):
@@ -96,10 +97,13 @@ class Columns:
 
     def _match(self, log: Log) -> list[_Taken]:
         sources = [self._source(known, log) for known in self._signals]
+        some = self._found is not None and any(
+            s is not None for s, k in zip(sources, self._signals, strict=True) if k.sampled
+        )
         missing = [
             known
             for known, source in zip(self._signals, sources, strict=True)
-            if source is None and known.sampled
+            if source is None and known.sampled and not some
         ]
         if missing:
             raise self._missing(missing, log)

@@ -65,6 +65,10 @@ class Engine(Protocol):
         """The value of every parameter that the code reads, in SI units, by path."""
 
     @property
+    def reads(self) -> Mask:
+        """Which residuals have no value without which signals, (residuals, signals)."""
+
+    @property
     def readings(self) -> tuple[int, ...]:
         """The columns of the sensors whose readings laws use, as controllers do."""
 
@@ -151,6 +155,16 @@ class Setting(NamedTuple):
         behind = {at: len(place) + k for k, at in enumerate(self.readings)}
         columns = [(k.kind == "reading", place[k.path]) for k in runnable.program.knowns]
         return [behind[at] if reading else at for reading, at in columns]
+
+    def reads(self) -> Mask:
+        """See `Engine`."""
+        found = np.zeros((len(self.residuals.program.residuals), len(self.signals)), dtype=np.bool_)
+        for runnable in self.programs:
+            columns = self.columns(runnable)
+            for block in runnable.blocks:
+                own = [columns[k] for k in block.reads if columns[k] < len(self.signals)]
+                found[np.ix_(block.residuals, own)] = True
+        return found
 
     def table(self, samples: Array, received: Array | None) -> Array:
         """Samples as the programs take them, with what laws received behind the signals.
@@ -247,6 +261,11 @@ class OfSetting:
         past = setting.residuals.program.delayed
         self.lags = tuple(sorted({0.0, *[d.seconds for d in past]}))
         self.parameters: Mapping[str, float] = setting.parameters
+
+    @property
+    def reads(self) -> Mask:
+        """See `Engine`."""
+        return self._setting.reads()
 
 
 class PythonEngine(OfSetting):

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import ssl
 import time
 from collections import deque
 from collections.abc import Callable
+from functools import partial
 from threading import Lock
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
@@ -22,6 +24,14 @@ PASSWORD = "BONDGRAPH_MQTT_PASSWORD"
 #: For how long a broker keeps what comes while the monitor is away, in s.
 SESSION = 7 * 24 * 3600
 
+#: Below the topic of the verdicts: whether the monitor watches, has ended, or is gone.
+PRESENCE = "/monitor"
+
+#: What a broker says that will say the same next time, as codes of MQTT 5.
+_FOR_GOOD = frozenset({0x84, 0x85, 0x86, 0x87, 0x8A, 0x8C})  # version, name, password, rights, ban
+
+_CUT_OFF = ssl.SSLEOFError, ssl.SSLZeroReturnError, ConnectionResetError
+_CUT = 3  # times that a broker breaks TLS off until that is no broker that ends just now
 _ALIVE = 15  # s without a word after which a connection counts as lost
 _FIRST, _LONGEST = 1, 30  # s between attempts to connect
 
@@ -63,6 +73,10 @@ def address(text: str) -> Address:
 class Link:
     """A client that connects again whenever the broker is back; `say` hears of it.
 
+    Where the broker refuses the monitor before the first connection, for a password, for rights or
+    in TLS, `refused` is why, and `refuse` gets it: that is no matter of time. `will` is a topic and
+    what the broker keeps there once the client is gone without a goodbye.
+
     `keep` is for how many s the broker keeps the session while nobody is connected; without it
     every connection starts anew. `joined` is called after each connection.
     """
@@ -75,6 +89,9 @@ class Link:
         joined: Callable[[Client], None] | None = None,
         keep: int = 0,
         at_once: int = 0,
+        *,
+        refuse: Callable[[LogError], None] = lambda error: None,
+        will: tuple[str, str] | None = None,
     ) -> None:
         try:
             from paho.mqtt.client import Client, MQTTv5
@@ -87,7 +104,10 @@ class Link:
         self.connections = 0
         self.connected = False
         self.away = False  # and it was told
-        self._at, self._say, self._joined = at, say, joined
+        self.refused: LogError | None = None
+        self._at, self._say, self._joined, self._refuse = at, say, joined, refuse
+        self._cut = 0  # attempts in which the broker has broken off TLS
+        self._why = ""  # the last attempt to connect has failed
         self.client = Client(
             CallbackAPIVersion.VERSION2, identity, protocol=MQTTv5, manual_ack=True
         )
@@ -95,6 +115,11 @@ class Link:
             self.client.username_pw_set(at.user, os.environ.get(PASSWORD))
         if at.secure:
             self.client.tls_set()
+        if will is not None:
+            self.client.will_set(will[0], will[1], qos=1, retain=True)
+        # The reason is in the error only, which the client keeps to itself.
+        setattr(self.client, "reconnect", partial(self._attempt, self.client.reconnect))  # noqa: B010
+        self.client.on_log = self._logged
         self.client.reconnect_delay_set(_FIRST, _LONGEST)
         self.client.on_connect = self._connected
         self.client.on_connect_fail = self._failed
@@ -125,7 +150,11 @@ class Link:
         self, client: Client, data: object, flags: object, code: object, properties: object
     ) -> None:
         if getattr(code, "is_failure", False):
-            self._tell(f"the broker {self._at.name} refuses the monitor ({code})")
+            why = f"the broker refuses the monitor: {code}"
+            if not self.connections and getattr(code, "value", 0) in _FOR_GOOD:
+                self._give_up(why, f"give USER@ before the host and the password in {PASSWORD}")
+            else:
+                self._tell(f"the broker {self._at.name}: {why}")
             return
         self.connections += 1
         if self.away:
@@ -135,8 +164,38 @@ class Link:
             self._joined(client)
         self.connected = True
 
+    def _attempt(self, connect: Callable[[], object]) -> object:
+        """Connect; keep why that fails."""
+        try:
+            return connect()
+        except OSError as error:
+            self._why = error.strerror or str(error)
+            if isinstance(error, ssl.SSLError):
+                self._why = getattr(error, "verify_message", "") or f"{error.reason or error}"
+            cut = isinstance(error, _CUT_OFF)
+            self._cut += cut
+            if self._at.secure and (self._cut >= _CUT if cut else isinstance(error, ssl.SSLError)):
+                self._untrusted(self._why)
+            raise
+
+    def _logged(self, client: Client, data: object, level: object, text: str) -> None:
+        """See what else TLS says: that the broker wants a certificate comes after the handshake."""
+        if "ALERT" in text and "SSL" in text:
+            self._untrusted(text.partition("SSL: ")[2].partition("]")[0] or text)
+
+    def _untrusted(self, why: str) -> None:
+        if not self.connections:
+            remedy = "see that the port is that of TLS, and name the authority that has signed its"
+            remedy += " certificate in SSL_CERT_FILE"
+            self._give_up(f"no TLS with the broker: {why}", remedy)
+
+    def _give_up(self, why: str, remedy: str) -> None:
+        self.refused = LogError(self._at.name, None, why, remedy)
+        self._refuse(self.refused)
+
     def _failed(self, client: Client, data: object) -> None:
-        self._tell(f"the broker {self._at.name} cannot be reached")
+        why = f" ({self._why})" if self._why else ""
+        self._tell(f"the broker {self._at.name} cannot be reached{why}")
 
     def _lost(
         self, client: Client, data: object, flags: object, code: object, properties: object
@@ -147,7 +206,7 @@ class Link:
 
     def _tell(self, what: str) -> None:
         """Say that the broker is away, once for each time."""
-        if not self.away:
+        if not self.away and self.refused is None:
             self._say(f"{what}; it is tried again")
         self.away = True
 
@@ -156,10 +215,11 @@ class Publisher:
     """Publishes lines in their order with quality of service 1; the last one is retained.
 
     Lines that the broker has not taken are sent again when it is back. `taken` is the number up
-    to which it has all.
+    to which it has all. Beside them is what is `present`; `gone` is what the broker says there
+    when the monitor is gone without a goodbye.
     """
 
-    def __init__(self, at: Address, identity: str, taken: int = 0) -> None:
+    def __init__(self, at: Address, identity: str, taken: int = 0, gone: str = "") -> None:
         self.taken = taken
         self._topic = at.topic
         self._news: deque[str] = deque()
@@ -168,7 +228,10 @@ class Publisher:
         self._early: set[int] = set()  # messages taken before their number was known here
         self._newest = taken
         self._lock = Lock()
-        self._link = Link(at, identity, self._news.append)
+        self._present = ""  # what is retained beside the verdicts
+        self._presented: set[int] = set()  # messages of it on the way
+        will = (at.topic + PRESENCE, gone) if gone else None
+        self._link = Link(at, identity, self._news.append, self._joined, will=will)
         self._link.client.on_publish = self._published
         self._link.start()
 
@@ -177,8 +240,23 @@ class Publisher:
         self._queue.append((number, line))
         self._send()
 
+    def present(self, line: str) -> None:
+        """Say how the monitor is, now and after each connection; only the last word is kept."""
+        self._present = line
+        if self._link.connected:
+            self._show()
+
+    def check(self) -> None:
+        """Raise the LogError that says why the broker refuses the monitor, if it does."""
+        if self._link.refused is not None:
+            raise self._link.refused
+
     def news(self) -> list[str]:
-        """What there is to tell of the broker since the last call; to be called now and then."""
+        """What there is to tell of the broker since the last call; to be called now and then.
+
+        Raises LogError where it refuses the monitor.
+        """
+        self.check()
         self._send()
         found = []
         while self._news:
@@ -191,11 +269,25 @@ class Publisher:
         A broker that is known to be away is not waited for.
         """
         end = time.monotonic() + (0.0 if self._link.away else patience)
-        while (self._queue or self._sent) and time.monotonic() < end:
+        while (self._queue or self._sent or self._presented) and time.monotonic() < end:
+            if self._link.refused is not None:
+                break
             self._send()
             time.sleep(0.005)
         self._link.stop()
         return len(self._queue) + len(self._sent)
+
+    def _joined(self, client: Client) -> None:
+        if self._present:  # meanwhile the broker may have said that the monitor is gone
+            self._show()
+
+    def _show(self) -> None:
+        found = self._link.client.publish(self._topic + PRESENCE, self._present, qos=1, retain=True)
+        with self._lock:
+            if found.mid in self._early:
+                self._early.remove(found.mid)
+            else:
+                self._presented.add(found.mid)
 
     def _send(self) -> None:
         """Hand on what waits, once all before it is taken: so the order stays as it is, also
@@ -217,6 +309,8 @@ class Publisher:
         with self._lock:
             if mid in self._sent:
                 self._take(mid)
+            elif mid in self._presented:
+                self._presented.remove(mid)
             else:
                 self._early.add(mid)
         if getattr(code, "is_failure", False):

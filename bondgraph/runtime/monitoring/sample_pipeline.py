@@ -4,103 +4,32 @@ from __future__ import annotations
 
 import time as clocks
 from collections import deque
-from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing
-from threading import Event
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any
 
-from bondgraph.runtime.log import TIME, TIME_UNIT, Array, Log, LogError
-from bondgraph.runtime.monitoring.clock import Clock, Piece
-from bondgraph.runtime.monitoring.engine import Batch, Engine
-from bondgraph.runtime.monitoring.journal import Journal, JournalError, Past
-from bondgraph.runtime.monitoring.mqtt_client import Publisher
-from bondgraph.runtime.monitoring.sources.sample_source import Chunk, Source
+from bondgraph.runtime.log import TIME, TIME_UNIT, Log, LogError
+from bondgraph.runtime.monitoring.account import Account, numbers
+from bondgraph.runtime.monitoring.clock import Piece
+from bondgraph.runtime.monitoring.disturbances import Disturbances, Hearing
+from bondgraph.runtime.monitoring.journal import JournalError, Past
+from bondgraph.runtime.monitoring.residual_states import ALARM, BLIND, ResidualStates
+from bondgraph.runtime.monitoring.silence import Silence
+from bondgraph.runtime.monitoring.snapshot import Snapshot, presence
+from bondgraph.runtime.monitoring.sources.sample_source import Chunk
 from bondgraph.runtime.monitoring.verdict import Verdict, described, to_json
+from bondgraph.runtime.monitoring.watch_parts import Parts, Stop
 from bondgraph.runtime.time_column import Pace
 from bondgraph.text.numerals import listed
-from bondgraph.text.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    from bondgraph.runtime.monitoring.operating import Operating
 
 _EVERY = 1.0  # s between two positions in the journal
 _DIGITS = 9  # of a time in s
 _BACK = 3.0  # warm-ups to go back: what the filters began with is forgotten to 12 digits then
 
 
-class Stop(Event):
-    """A wish to stop, with what wished so."""
-
-    reason = ""
-
-    def ask(self, reason: str) -> None:
-        """Wish so."""
-        self.reason = reason
-        self.set()
-
-
-class Decision(Protocol):
-    """What says verdicts; a monitor owns one."""
-
-    def update(self, time: Array, batch: Batch, samples: Array) -> list[Verdict]:
-        """What there is to say after further samples, in order. Times in s."""
-
-    def look(self, time: Array, batch: Batch, samples: Array) -> None:
-        """Samples that were decided on before a restart, to warm up by."""
-
-    def decided(self) -> Batch:
-        """By what the samples of the last `update` were decided on.
-
-        Values may be others than those that came in, where it knows better, and so may be which of
-        them are valid. The bound is the whole threshold: adaptive, for what nobody knows of the
-        machine, and for noise; NaN while that is learned. Further out for long enough is an alarm.
-        """
-
-    def restart(self) -> None:
-        """The residuals begin anew, after a gap; what was said is still said."""
-
-    def state(self) -> dict[str, Any]:
-        """All that `resume` needs, as plain JSON."""
-
-    def resume(self, state: dict[str, Any]) -> None:
-        """Go on from a state; raises KeyError, TypeError or ValueError for one of another kind."""
-
-
-class Listener(Protocol):
-    """What gets every sample with what it was decided on."""
-
-    def add(self, time: Array, decided: Batch, verdicts: Iterable[Verdict]) -> None:
-        """Further samples, see `Decision.decided`, and what was said of them, in order."""
-
-
-class Parts(NamedTuple):
-    """What a monitor is made of.
-
-    `columns` picks the signals of the engine out of a log, (n, signals); raises LogError where
-    some are missing. `sinks` hear every verdict with its number, `states` gets every sample with
-    what it was decided on. Only while the machine is `operating` its samples count. `note` is told
-    which column was taken for the time. The rate may be one that was `asked` for.
-    """
-
-    source: Source
-    columns: Callable[[Log], Array]
-    clock: Clock
-    engine: Engine
-    decision: Decision
-    sinks: Sequence[Callable[[int, Verdict], None]] = ()
-    publisher: Publisher | None = None
-    journal: Journal | None = None
-    operating: Operating | None = None
-    note: Callable[[str], None] = lambda text: None
-    asked: bool = False
-    states: Listener | None = None
-
-
 class Monitor:
     """Watches one machine from its first sample, or from where a journal ends, to the last.
 
-    `gaps` counts how often the filters began anew, `left_out` the samples that did not have the
-    columns that are needed.
+    `account` counts what became of all samples, `states` has those of the residuals.
     """
 
     def __init__(self, parts: Parts, what: str) -> None:
@@ -108,18 +37,24 @@ class Monitor:
         self._what = what  # for the first verdict
         self._time = 0.0  # s, of the newest sample that was decided on
         self._newest = 0.0  # s, of the newest one that was computed
-        self._samples = 0
         self._number = 0
         self._pending: list[tuple[int, Verdict]] = []
+        self.states = ResidualStates(parts.engine)
+        self.account = Account(self.states, parts.engine.sample_time)
+        self._disturbances = Disturbances(
+            self.account, self.states, parts.engine.warm_up, self._say
+        )
+        self._hearing: Hearing | None = None
+        self._heard: float | None = None  # on the monotonic clock, when samples came
+        self._turn = self._beat = clocks.monotonic()
+        self._idle = 0.0  # s without samples
+        self._overflow = 0  # lines that were dropped until now
+        self._ending = ""  # how the watch ended
         self._latched: Verdict | None = None
         self._places: deque[tuple[float, dict[str, Any] | None]] = deque([(float("-inf"), None)])
         self._place: dict[str, Any] | None = None
         self._past: Past | None = None  # until it is told what was missed since
-        self._garbage = 0
-        self.gaps = self.left_out = 0
-        self._left_told = 0
-        self._gaps = 0  # one after the other, without residuals between them
-        self._anew = float("-inf")  # s, when the filters began
+        self._garbage = 0  # lines that are no samples until now
         self._matched = False
         self._pace = Pace(parts.engine.sample_time, parts.source.name, parts.asked)
         self._written = clocks.monotonic()  # when the position was put down
@@ -135,13 +70,23 @@ class Monitor:
             for chunk in self._parts.source.chunks(stop):
                 self._take(chunk)
             self._end(stop)
+        except BaseException as error:
+            self._ending = str(error) or type(error).__name__
+            raise
         finally:
             untaken = self._close()
+        if self._parts.publisher is not None:
+            self._parts.publisher.check()
         if not self._samples and not stop.is_set():
             if self._parts.source.decoder is not None:
                 self._parts.source.decoder.check()
             raise LogError(self._parts.source.name, None, "no samples came")
         return untaken
+
+    @property
+    def _samples(self) -> int:
+        """Samples that could be looked at."""
+        return self.account.samples["read"] - self.account.samples["unmatched"]
 
     # ---------------------------------------------------------------- beginning and end
 
@@ -154,18 +99,23 @@ class Monitor:
             self._say(Verdict("start", 0.0, message=what))
         else:
             self._resume(past)
+        if source.live:
+            now = clocks.monotonic()
+            silence = Silence(self._parts.silence, self._parts.engine.sample_time, now)
+            self._hearing = Hearing(silence, self._parts.clock, self._say)
         self._commit()
+        self._tell(True)
 
     def _resume(self, past: Past) -> None:
         """Take up what a journal knows."""
         publisher, source = self._parts.publisher, self._parts.source
         for number, verdict in past.verdicts:
             self._number = max(self._number, number)
+            self.account.verdicts[verdict.event] += 1
             self._keep(verdict)
             if publisher is not None and number > past.sent:
                 publisher.publish(number, to_json(verdict, number))
         self._time = float(past.position.get("time", 0.0))
-        self._samples = int(past.position.get("samples", 0))
         self._number = max(self._number, past.number)
         if past.damage:
             self._parts.note(past.damage)
@@ -173,6 +123,8 @@ class Monitor:
         try:
             if past.state is not None:
                 self._parts.decision.resume(past.state)
+                self.account.resume(past.position["account"])
+            self.states.resume(self._latched)
             why = source.go(past.position) if same else f"the source was {past.source}"
         except (AttributeError, LookupError, OverflowError, TypeError, ValueError) as error:
             message = "the journal is of another version of bondgraph; move it away to begin anew"
@@ -184,7 +136,6 @@ class Monitor:
             return
         if why:
             self._resumed(past, f"from the start of {source.name}: {why}")
-            self._samples = 0
         else:
             back = past.position.get("back")
             self._places = deque([(float("-inf"), back)])
@@ -230,10 +181,12 @@ class Monitor:
                     self._step(rest, False)
         why = f"stopped by {stop.reason}" if stop.is_set() else "the samples end"
         message = f"{why}, after {self._samples} samples"
-        if self._parts.clock.dropped:
-            message += f", {self._parts.clock.dropped} of them too late, twice or empty"
-        if self._parts.clock.left_out:
-            message += f", {self._parts.clock.left_out} of them while the machine was off"
+        if self.account.thrown:
+            message += f", {self.account.thrown} of them too late, twice, empty or without a column"
+        if self.account.samples["off"]:
+            message += f", {self.account.samples['off']} of them while the machine was off"
+        if words := self.account.words():
+            message += f"; {words}"
         lines = self._parts.decision.decided().bound[-1:]
         blind = [
             n for k, n in enumerate(self._parts.engine.residuals) if (lines != lines)[:, k].any()
@@ -241,12 +194,18 @@ class Monitor:
         if blind:
             verb = "is" if len(blind) == 1 else "are"
             message += f"; {listed(blind, 'and')} {verb} not watched: the noise is not known"
-        self._say(Verdict("stop", self._time, message=message))
+        self._ending = message
+        self.account.verdicts["stop"] += 1  # it is in its own account
+        snapshot = self.snapshot(clocks.monotonic()).to_record()
+        self.account.verdicts["stop"] -= 1
+        self._say(Verdict("stop", self._time, message=message, account=snapshot))
         self._commit()
 
     def _close(self) -> int:
         parts = self._parts
         parts.source.close()
+        if parts.publisher is not None:
+            parts.publisher.present(presence("ended", self._ending))
         untaken = 0 if parts.publisher is None else parts.publisher.close()
         if parts.journal is not None:
             with closing(parts.journal):
@@ -257,34 +216,49 @@ class Monitor:
     # -------------------------------------------------------------------------- samples
 
     def _take(self, chunk: Chunk) -> None:
+        now = clocks.monotonic()
         for news in chunk.news:
             self._say(Verdict(news.event, self._time, message=news.message))
         if chunk.log is not None and chunk.log.rows:
             if not chunk.again:
                 self._missed(float(chunk.log.time[0]))
-            self._compute(chunk.log, chunk.again)
+            self._compute(chunk.log, chunk.again, now)
+        else:
+            self._idle += now - self._turn
+            self._listen(now)
         if chunk.place is not None:
             self._remember(chunk.place, chunk.again)
+        self._noise(chunk.again)
         if not chunk.again:
-            self._noise()
             self._news()
-            self._commit()
+            self._disturbances.told(self._time, self._parts.source.decoder, self._parts.clock)
+            # Of a source that can go back, samples without a place are computed again.
+            if chunk.log is None or chunk.place is not None or not self._parts.source.replays:
+                self._commit()
         if chunk.done is not None:
             chunk.done()
+        self._turn = clocks.monotonic()
+        if chunk.log is not None and self._hearing is not None:
+            self._hearing.awake(self._turn)
+        self._tell(False)
 
-    def _compute(self, log: Log, again: bool) -> None:
+    def _compute(self, log: Log, again: bool, now: float) -> None:
         """The residuals of some samples, and what follows; nothing of those computed `again`."""
         parts = self._parts
+        if not again:
+            self.account.samples["read"] += log.rows
+            self._disturbances.progress = (
+                self.account.samples["read"] * parts.engine.sample_time + self._idle
+            )
         try:
             samples = parts.columns(log)
         except LogError as error:
             if not self._matched:
                 raise
-            self.left_out += log.rows
-            if self.left_out >= 2 * self._left_told:
-                self._left_told = self.left_out
-                message = f"{self.left_out} samples are left out: {error}"
-                self._say(Verdict("invalid", self._time, message=message))
+            if not again:
+                self.account.samples["unmatched"] += log.rows
+                self._disturbances.unmatched(log.rows, str(error))
+            self._listen(now)
             return
         self._pace.look(log)
         on = None if parts.operating is None else parts.operating(log)
@@ -293,9 +267,16 @@ class Monitor:
             parts.clock.wraps = _wraps(log)
             if TIME in log.meta and (parts.journal is None or parts.journal.past is None):
                 parts.note(f"{parts.source.name}: time is {log.meta[TIME]}")
+        before = numbers(parts.clock)
+        pieces = parts.clock.feed(log.time, samples, on)
         if not again:
-            self._samples += log.rows
-        for piece in parts.clock.feed(log.time, samples, on):
+            self.account.take(parts.clock, before)
+            self._disturbances.thrown(before, parts.clock)
+            after = numbers(parts.clock)
+            if any(after[n] != before[n] for n in ("used", "off")):
+                self._heard = now
+            self._listen(now)
+        for piece in pieces:
             self._step(piece, again)
 
     def _step(self, piece: Piece, again: bool) -> None:
@@ -312,27 +293,29 @@ class Monitor:
             return
         if piece.anew:
             parts.decision.restart()
-            self._gap(piece)
+            self.states.restart()
+            self.account.gap(piece)
+            self._disturbances.gap(piece)
         said = parts.decision.update(piece.time, batch, piece.samples)
+        decided = parts.decision.decided()
+        told, changes = self.states.add(piece.time, piece.samples, decided, said)
         for verdict in said:
             self._say(verdict)
+        self._disturbances.values(piece.time, decided.valid, changes)
         if parts.states is not None:
-            parts.states.add(piece.time, parts.decision.decided(), said)
+            parts.states.add(piece.time, decided, told)
         self._time = self._newest
 
-    def _gap(self, piece: Piece) -> None:
-        """Tell why the filters start anew; of many gaps in a row the first, second, fourth ..."""
-        self.gaps += 1
-        start = float(piece.time[0])
-        near = 0.0 <= self._time - self._anew < self._parts.engine.warm_up
-        self._gaps = self._gaps + 1 if near else 1
-        self._anew = start
-        if self._gaps & (self._gaps - 1):
-            return
-        message = f"{piece.anew}; the residuals warm up"
-        if self._gaps > 2:
-            message += f" ({self._gaps} gaps in a row: tell the rate of the samples by --rate)"
-        self._say(Verdict("gap", start, message=message))
+    @property
+    def _lines(self) -> int:
+        """Lines that are no samples."""
+        decoder = self._parts.source.decoder
+        return 0 if decoder is None else decoder.garbage
+
+    def _listen(self, now: float) -> None:
+        """See whether a live source is heard."""
+        if self._hearing is not None:
+            self._hearing.look(self._time, self._lines, now)
 
     def _remember(self, place: dict[str, Any], again: bool) -> None:
         """Places of the source, back to one from which the filters are warm by now."""
@@ -343,22 +326,19 @@ class Monitor:
         if not again:
             self._place = place
 
-    def _noise(self) -> None:
-        """Tell of lines that are no samples: the first, and whenever they have doubled."""
-        decoder = self._parts.source.decoder
-        if decoder is None or decoder.garbage < max(1, 2 * self._garbage):
+    def _noise(self, again: bool) -> None:
+        """Count lines that are no samples, and those that were dropped."""
+        source, garbage = self._parts.source, self._lines
+        more, dropped = garbage - self._garbage, source.dropped - self._overflow
+        self._garbage, self._overflow = garbage, source.dropped
+        if again:
             return
-        self._garbage = decoder.garbage
-        lines = (
-            "1 line is no sample" if self._garbage == 1 else f"{self._garbage} lines are no samples"
-        )
-        self._say(
-            Verdict(
-                "invalid",
-                self._time,
-                message=f"{lines}, the last is `{decoder.example}` ({decoder.why})",
-            )
-        )
+        self.account.lines["garbage"] += more
+        self.account.lines["overflow"] += dropped
+        if more > 0:
+            self._disturbances.garbage(more)
+        if dropped:
+            self._disturbances.overflow(dropped)
 
     def _news(self) -> None:
         """Tell what the publisher has to tell, and put down what it has published."""
@@ -376,6 +356,7 @@ class Monitor:
         since = None if verdict.since is None else round(verdict.since, _DIGITS)
         verdict = verdict._replace(time=round(verdict.time, _DIGITS), since=since)
         self._number += 1
+        self.account.verdicts[verdict.event] += 1
         self._keep(verdict)
         self._pending.append((self._number, verdict))
 
@@ -396,6 +377,7 @@ class Monitor:
                 "samples": self._samples,
                 "place": self._place,
                 "back": self._places[0][1],
+                "account": self.account.to_record(),
             }
             journal.write(position, self._parts.decision.state(), self._pending)
             self._written, self._put_down = now, self._samples
@@ -405,6 +387,46 @@ class Monitor:
                 sink(number, verdict)
             if self._parts.publisher is not None:
                 self._parts.publisher.publish(number, to_json(verdict, number))
+
+    # --------------------------------------------------------------------------- how it stands
+
+    def snapshot(self, now: float) -> Snapshot:
+        """How the watch stands at a moment of the monotonic clock, in s."""
+        parts = self._parts
+        found = self.states.now(parts.decision.waits())
+        blind = "" if self._hearing is None else self._hearing.why(self._lines, now)
+        if not blind and parts.clock.off:
+            blind = "the machine is off"
+        if not blind and parts.clock.stands:
+            blind = "the clock of the samples stands still"
+        if blind:
+            found = {n: (s if s == ALARM else BLIND, blind) for n, (s, _) in found.items()}
+        return Snapshot(
+            self._what, parts.source.name, self._time, self._heard, found, self.states.latched,
+            self.account.to_record(),
+        )  # fmt: skip
+
+    def _tell(self, first: bool) -> None:
+        """Let those know how the watch stands who want to: observers, and each heartbeat."""
+        parts, now = self._parts, self._turn
+        beat = parts.heartbeat is not None and now - self._beat >= parts.heartbeat
+        if parts.observe is None and not beat and not (first and parts.publisher):
+            return
+        snapshot = self.snapshot(now)
+        if parts.observe is not None:
+            parts.observe(snapshot)
+        if not beat and not first:
+            return
+        age = snapshot.age(now)
+        record = snapshot.to_record() | {"age": None if age is None else round(age, 3)}
+        if parts.publisher is not None:
+            parts.publisher.present(presence("watching", snapshot.words(now), record))
+        if beat and parts.heartbeat is not None:
+            self._beat = max(self._beat + parts.heartbeat, now - parts.heartbeat)
+            message = snapshot.words(now)
+            verdict = Verdict("heartbeat", self._time, message=message, account=record)
+            for sink in parts.sinks:
+                sink(self._number, verdict)
 
 
 def _wraps(log: Log) -> float | None:

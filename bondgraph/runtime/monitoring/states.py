@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Protocol
@@ -12,13 +12,8 @@ import numpy as np
 
 from bondgraph.runtime.log import Array, LogError
 from bondgraph.runtime.monitoring.engine import Batch
-from bondgraph.runtime.monitoring.verdict import Verdict
+from bondgraph.runtime.monitoring.residual_states import STATES, Told
 from bondgraph.text.whole_file import naming, whole
-
-ALARM, HEALTHY, BLIND, WARMING = "alarm", "healthy", "blind", "warming up"
-
-
-_SIGNAL = ""  # an alarm of no residual: a signal is unusual by itself
 
 
 class _Table(Protocol):
@@ -30,54 +25,30 @@ class _Table(Protocol):
 
 
 class States:
-    """Writes the rows; what is latched is kept from one call to the next.
+    """Writes the rows.
 
     Columns: `time` (s); for each residual its value, `_threshold` (NaN where none is known yet) and
     `_state`; `active` (1 while a fault is latched), `state` and `class`, the faults of the class
-    that is named. A residual is `warming up` while its filter is, `blind` while its noise is not
-    known, in `alarm` from when it has fired until that is cleared, else `healthy`. The whole is in
-    alarm where any is, and healthy where any is watched.
+    that is named; see `ResidualStates`. The whole is in alarm where any is, and healthy where any
+    is watched.
     """
 
     def __init__(self, table: _Table, residuals: Sequence[str]) -> None:
         self._table, self._residuals = table, tuple(residuals)
-        self._fired: frozenset[str] = frozenset()
-        self._class = ""
 
-    def add(self, time: Array, decided: Batch, verdicts: Iterable[Verdict]) -> None:
-        """Further samples, by what they were decided on, and what was said of them, in order."""
-        count = len(time)
-        fired = np.zeros((count, len(self._residuals) + 1), dtype=bool)  # the last: a signal
-        named = np.full(count, "", dtype=object)
-        self._mark(fired, named, 0)
-        for verdict in verdicts:
-            if verdict.event in ("fault", "update"):
-                self._fired = self._fired | frozenset(verdict.residuals or [_SIGNAL])
-                self._class = " or ".join(verdict.group) or self._class
-            elif verdict.event == "cleared":
-                self._fired, self._class = frozenset(), ""
-            else:
-                continue
-            self._mark(fired, named, int(np.searchsorted(time, verdict.time - 1e-9)))
+    def add(self, time: Array, decided: Batch, told: Told) -> None:
+        """Further samples, by what they were decided on, and what they are."""
+        names = np.array(STATES, dtype=object)
         watched = decided.valid & np.isfinite(decided.bound)
-        every = [fired[:, :-1], watched, decided.valid]
-        states = np.select(every, [ALARM, HEALTHY, BLIND], WARMING)
         columns: dict[str, Any] = {"time": time}
         for k, name in enumerate(self._residuals):
             columns[name] = np.where(decided.valid[:, k], decided.value[:, k], np.nan)
             columns[f"{name}_threshold"] = np.where(watched[:, k], decided.bound[:, k], np.nan)
-            columns[f"{name}_state"] = states[:, k]
-        active = fired.any(axis=1)
-        any_of = [active, watched.any(axis=1), decided.valid.any(axis=1)]
-        columns["active"] = active.astype(int)
-        columns["state"] = np.select(any_of, [ALARM, HEALTHY, BLIND], WARMING)
-        columns["class"] = named
+            columns[f"{name}_state"] = names[told.codes[:, k]]
+        columns["active"] = told.fired.astype(int)
+        columns["state"] = names[told.whole]
+        columns["class"] = told.named
         self._table.add(columns)
-
-    def _mark(self, fired: Any, named: Any, start: int) -> None:
-        """What is latched from a sample on."""
-        fired[start:] = [name in self._fired for name in (*self._residuals, _SIGNAL)]
-        named[start:] = self._class
 
 
 @contextmanager

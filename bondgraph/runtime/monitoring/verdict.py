@@ -11,7 +11,10 @@ from bondgraph.text.printable import json_text
 from bondgraph.text.tuples import NamedTuple
 
 #: What a verdict can be about, in the order of a watch.
-EVENTS = ("start", "resumed", "warm-up", "fault", "update", "cleared", "invalid", "gap", "stop")
+EVENTS = (
+    "start", "resumed", "warm-up", "fault", "update", "cleared", "invalid", "late", "gap",
+    "heartbeat", "stop",
+)  # fmt: skip
 
 
 class Candidate(NamedTuple):
@@ -44,6 +47,7 @@ class Verdict(NamedTuple):
     `group` are the faults of the class that is named, which the structure does not tell apart;
     `candidates` has the most probable one first; `message` is one sentence for people. Where no
     single fault explains the residuals, `pairs` are those that do, the most probable one first.
+    A heartbeat and the last verdict have the `account` of the watch, as plain JSON.
     """
 
     event: str
@@ -54,6 +58,7 @@ class Verdict(NamedTuple):
     candidates: tuple[Candidate, ...] = ()
     message: str = ""
     pairs: tuple[Pair, ...] = ()
+    account: dict[str, Any] | None = None
 
 
 def to_json(verdict: Verdict, number: int) -> str:
@@ -77,6 +82,8 @@ def to_json(verdict: Verdict, number: int) -> str:
         ],
         "pairs": [{**p._asdict(), "sizes": [_finite(x) for x in p.sizes]} for p in verdict.pairs],
     }
+    if verdict.account is None:
+        del line["account"]
     return json_text(line)
 
 
@@ -111,6 +118,7 @@ def from_record(record: dict[str, Any]) -> tuple[int, Verdict]:
             for p in record.get("pairs", ())
             for (a, b), (x, y), (u, v) in [(p["faults"], p["sizes"], p["units"])]
         ),
+        _account(record.get("account")),
     )
     return int(record["number"]), verdict
 
@@ -123,6 +131,12 @@ def to_text(verdict: Verdict) -> str:
     """
     message = verdict.message or described(verdict)
     return f"{verdict.time:>12.3f} s  {verdict.event:<7}  {message}"
+
+
+def _account(record: Any) -> dict[str, Any] | None:
+    if record is None or isinstance(record, dict):
+        return record
+    raise TypeError("an account that is none")
 
 
 def _number(value: float | None) -> float:

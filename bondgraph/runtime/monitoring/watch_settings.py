@@ -10,7 +10,7 @@ from bondgraph.runtime.monitoring.clock import clock_of
 from bondgraph.runtime.monitoring.columns import Columns, Mapped
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.operating import Operating
-from bondgraph.runtime.monitoring.sample_pipeline import Decision, Parts
+from bondgraph.runtime.monitoring.watch_parts import Decision, Parts
 from bondgraph.text.diagnostic import Trouble
 from bondgraph.text.numerals import plural
 from bondgraph.text.tuples import NamedTuple

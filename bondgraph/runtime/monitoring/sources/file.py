@@ -86,6 +86,7 @@ class LinesFile(Source):
         self.name = os.path.abspath(path)
         self.decoder = Decoder(form)
         self._path, self._follow = path, follow
+        self.live = follow
         self._file = self._open()
         self._cutter = Cutter()
         self._offset = 0  # of the first byte behind the lines that were taken

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from bondgraph.runtime.log import Array, Log
+from bondgraph.runtime.log import Array, Log, LogError
 from bondgraph.runtime.monitoring.sources.lines import Decoder
 from bondgraph.text.limits import LINE_BYTES
 from bondgraph.text.tuples import NamedTuple
@@ -54,11 +54,13 @@ class Source(ABC):
     """Where samples come from.
 
     `name` is told to people and kept in the journal. `replays` says that it can go back, so that
-    nothing is missed while nobody watches.
+    nothing is missed while nobody watches. One that is `live` gives samples as they are taken, so
+    that one that gives none is silent; then it gives empty chunks.
     """
 
     name: str
     replays: bool = False
+    live: bool = False
     decoder: Decoder | None = None
 
     @abstractmethod
@@ -87,6 +89,11 @@ class Source(ABC):
     def time(self) -> str:
         """What is taken for the time, where that is known before the first sample; else ""."""
         return ""
+
+    @property
+    def dropped(self) -> int:
+        """Lines that nobody read in time, and that were dropped."""
+        return 0
 
     def close(self) -> None:  # noqa: B027 (there may be nothing to let go of)
         """Let go of the line."""
@@ -146,15 +153,16 @@ class Block(NamedTuple):
 class Intake:
     """Blocks between the thread that receives and the one that computes, at most so many bytes.
 
-    What is too much waits (`waits`: the sender can be held up), or else the oldest is dropped,
-    and the next news says how much.
+    What is too much waits (`waits`: the sender can be held up), or else the oldest is dropped, and
+    `dropped` counts its lines.
     """
 
     def __init__(self, most: int = 1 << 22, waits: bool = False) -> None:
         self._most, self._waits = most, waits
         self._items: deque[Block | News] = deque()
-        self._size = self._dropped = 0
+        self._size = self.dropped = 0
         self._ended = False
+        self._failed: LogError | None = None
         self._changed = Condition()
 
     def put(self, block: Block) -> None:
@@ -174,6 +182,12 @@ class Intake:
             self._items.append(News(event, message))
             self._changed.notify_all()
 
+    def fail(self, error: LogError) -> None:
+        """Say that nothing can come, and why; whoever takes gets the error."""
+        with self._changed:
+            self._failed = error
+            self._changed.notify_all()
+
     def end(self) -> None:
         """Say that nothing more comes, or that nobody takes it any more."""
         with self._changed:
@@ -183,17 +197,15 @@ class Intake:
     def take(self, patience: float = IDLE) -> list[Block | News] | None:
         """All that has come, perhaps nothing after `patience` s; None at the end."""
         with self._changed:
-            if not self._items and not self._ended:
+            if not self._items and not self._ended and self._failed is None:
                 self._changed.wait(patience)
+            if self._failed is not None:
+                raise self._failed
             if not self._items:
                 return None if self._ended else []
             items = list(self._items)
-            if self._dropped:
-                lines = "1 line was" if self._dropped == 1 else f"{self._dropped} lines were"
-                message = f"samples come faster than they are computed: {lines} dropped"
-                items.insert(0, News("gap", message))
             self._items.clear()
-            self._size = self._dropped = 0
+            self._size = 0
             self._changed.notify_all()
             return items
 
@@ -202,7 +214,7 @@ class Intake:
         k = next(k for k, item in enumerate(self._items) if isinstance(item, Block))
         item = self._items[k]
         assert isinstance(item, Block)
-        self._dropped += item.lines.count(b"\n")
+        self.dropped += item.lines.count(b"\n")
         self._size -= len(item.lines)
         del self._items[k]
 
@@ -226,6 +238,8 @@ def decoded(
                 yield Chunk(news=(item,))
                 continue
             logs = decoder.feed(item.lines, item.whole)
+            if not logs:
+                yield Chunk()  # lines that are no samples are to be told
             for log in logs:
                 new = log.part(int(np.argmax(log.time > last))) if item.again else log
                 if not item.again or log.time.max() > last:

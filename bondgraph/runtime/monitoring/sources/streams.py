@@ -35,11 +35,17 @@ class Stream(Source):
     """Lines as they come, between the thread that hears them and the one that computes."""
 
     decoder: Decoder
+    live = True
 
     def __init__(self, name: str, form: Form, intake: Intake) -> None:
         self.name = name
         self.decoder = Decoder(form)
         self._intake = intake
+
+    @property
+    def dropped(self) -> int:
+        """See `Source`."""
+        return self._intake.dropped
 
 
 class Pipe(Stream):
@@ -186,7 +192,9 @@ class Topic(Stream):
         self._topic = at.topic
         self._last = float("-inf")
         keep = SESSION if identity else 0
-        self._link = Link(at, identity or "", self._say, self._joined, keep, _AT_ONCE)
+        self._link = Link(
+            at, identity or "", self._say, self._joined, keep, _AT_ONCE, refuse=self._intake.fail
+        )
         self._link.client.on_message = self._received
         self._link.client.on_subscribe = self._subscribed
 
@@ -218,7 +226,9 @@ class Topic(Stream):
     ) -> None:
         for code in codes:
             if code.is_failure:
-                self._say(f"the broker does not let the monitor read {self._topic} ({code})")
+                why = f"the broker does not let the monitor read {self._topic}: {code}"
+                remedy = "give the user that is named in its address the right to"
+                self._intake.fail(LogError(self.name, None, why, remedy))
 
     def _received(self, client: Client, data: object, message: MQTTMessage) -> None:
         payload = bytes(message.payload).strip()

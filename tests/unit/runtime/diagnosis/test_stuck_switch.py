@@ -13,7 +13,6 @@ from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Stuck
 from bondgraph.runtime.diagnosis.isolation import History, Rows, explain
 from bondgraph.runtime.log import Log
-from bondgraph.runtime.monitoring.clock import on_grid
 from bondgraph.runtime.monitoring.verdict import (
     Verdict,
     described,
@@ -21,6 +20,7 @@ from bondgraph.runtime.monitoring.verdict import (
     to_json,
     to_text,
 )
+from bondgraph.runtime.monitoring.whole_logs import on_grid
 from bondgraph.runtime.simulation.read_scenario import read_scenario
 from bondgraph.text.diagnostic import Report
 from bondgraph.text.source import Source

@@ -62,7 +62,8 @@ def test_names_are_those_that_are_given(model: Compilation, motors: Path) -> Non
 
 def test_dates_and_words_in_columns(model: Compilation) -> None:
     log = motor.log()
-    dates = np.datetime64("2026-03-01T12:00:00", "ms") + (log.time * 1000).astype("timedelta64[ms]")
+    steps = np.rint(log.time * 1000).astype("timedelta64[ms]")
+    dates = np.datetime64("2026-03-01T12:00:00", "ms") + steps
     words = np.array(["x"] * log.rows)
     table = {"time": dates, "comment": words, **log.columns}
     told: list[str] = []

@@ -26,8 +26,8 @@ def watch(nursery: Nursery) -> Iterator[Callable[..., Watch]]:
     """Starts monitors; kills those that are left."""
     started: list[Watch] = []
 
-    def start(*words: str) -> Watch:
-        started.append(Watch(nursery, *words))
+    def start(*words: str, environment: dict[str, str] | None = None) -> Watch:
+        started.append(Watch(nursery, *words, environment=environment))
         return started[-1]
 
     yield start
@@ -36,12 +36,12 @@ def watch(nursery: Nursery) -> Iterator[Callable[..., Watch]]:
 
 
 @pytest.fixture
-def broker(tmp_path: Path) -> Iterator[Callable[[bool], Broker]]:
+def broker(tmp_path: Path) -> Iterator[Callable[..., Broker]]:
     """Starts brokers; ends them."""
     started: list[Broker] = []
 
-    def start(lasting: bool) -> Broker:
-        started.append(Broker(tmp_path, lasting))
+    def start(lasting: bool = False, secure: bool = False) -> Broker:
+        started.append(Broker(tmp_path, lasting, secure))
         return started[-1]
 
     yield start

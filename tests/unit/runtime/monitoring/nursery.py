@@ -30,7 +30,9 @@ def serve(asking: socket.socket) -> None:
         child = os.fork()
         if child == 0:
             asking.close()
-            run(json.loads(request), descriptors)
+            asked = json.loads(request)
+            os.environ.update(asked["environment"])
+            run(asked["words"], descriptors)
         for descriptor in descriptors:
             os.close(descriptor)
         asking.sendall(b"%d\n" % child)

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 from pathlib import Path
+from threading import Event, Thread
 
 import numpy as np
 import pytest
@@ -12,8 +15,9 @@ from hypothesis import strategies as st
 
 from bondgraph.runtime.log import Log, LogError, joined
 from bondgraph.runtime.log_file import read_log, write_log
-from bondgraph.runtime.log_numbers import Form
+from bondgraph.runtime.log_numbers import Form, by_c
 from bondgraph.runtime.monitoring.sources.lines import Decoder
+from tests.unit.runtime.monitoring.watch import until
 
 
 def decoder(**form: object) -> Decoder:
@@ -101,6 +105,32 @@ def test_a_header_may_come_again_and_differ() -> None:
     logs = decoder().feed(b"t,a,b\n1,2,3\nt,b,a\n0,5,4\n")
     assert [log.columns["a"].tolist() for log in logs] == [[2], [4]]
     assert [log.columns["b"].tolist() for log in logs] == [[3], [5]]
+
+
+def test_a_wish_to_stop_is_not_lost_while_numbers_are_read() -> None:
+    heard: list[int] = []
+    before = signal.signal(signal.SIGTERM, lambda number, frame: heard.append(number))
+    lines = [f"{k},{k},{k}\n" for k in range(20_000)]
+    sent = 0
+    try:
+        over = Event()
+
+        def send() -> None:
+            nonlocal sent
+            while not over.wait(0.002):
+                os.kill(os.getpid(), signal.SIGTERM)
+                sent += 1
+                until(lambda wanted=sent: len(heard) == wanted)  # type: ignore[misc]
+
+        thread = Thread(target=send)
+        thread.start()
+        for _ in range(60):
+            assert by_c(lines, ",", 3) is not None
+        over.set()
+        thread.join()
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert len(heard) == sent > 3
 
 
 def test_what_begins_in_the_middle_of_a_line_is_left_out() -> None:

@@ -51,7 +51,7 @@ def words(broker: Broker, tmp_path: Path) -> list[str]:
 
 
 def test_a_killed_monitor_misses_nothing_that_the_broker_kept(
-    broker: Callable[[bool], Broker], tmp_path: Path, watch: Start
+    broker: Callable[..., Broker], tmp_path: Path, watch: Start
 ) -> None:
     at = broker(False)
     with machine(at) as one:
@@ -84,7 +84,7 @@ def test_a_killed_monitor_misses_nothing_that_the_broker_kept(
 
 @pytest.mark.parametrize("lasting", [True, False])
 def test_a_killed_broker_loses_no_verdict(
-    lasting: bool, broker: Callable[[bool], Broker], tmp_path: Path, watch: Start
+    lasting: bool, broker: Callable[..., Broker], tmp_path: Path, watch: Start
 ) -> None:
     at = broker(lasting)
     with machine(at) as one:
@@ -117,7 +117,7 @@ def test_a_killed_broker_loses_no_verdict(
 
 
 def test_verdicts_that_no_broker_took_are_sent_after_the_next_start(
-    broker: Callable[[bool], Broker], tmp_path: Path, watch: Start
+    broker: Callable[..., Broker], tmp_path: Path, watch: Start
 ) -> None:
     at = broker(False)
     at.kill()
@@ -136,7 +136,7 @@ def test_verdicts_that_no_broker_took_are_sent_after_the_next_start(
 
 
 def test_all_forms_of_messages_are_read_and_old_ones_are_not(
-    broker: Callable[[bool], Broker], watch: Start
+    broker: Callable[..., Broker], watch: Start
 ) -> None:
     at = broker(False)
     log = motor.log()

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from bondgraph.runtime.log import LogError
 from bondgraph.runtime.monitoring import mqtt_client
 from bondgraph.runtime.monitoring.mqtt_client import Address, Link, Publisher, address
 
@@ -23,7 +24,7 @@ class _Client:
         self.lines: list[str] = []
 
     def publish(self, topic: str, line: str, qos: int, retain: bool) -> Any:
-        assert (topic, qos, retain) == ("robot/verdicts", 1, True)
+        assert (qos, retain) == (1, True)
         self.lines.append(line)
         return SimpleNamespace(mid=len(self.lines))
 
@@ -32,8 +33,11 @@ class _Client:
 
 
 class _Link:
-    def __init__(self, at: Address, identity: str, say: Callable[[str], None]) -> None:
+    def __init__(
+        self, at: Address, identity: str, say: Callable[[str], None], joined: object, will: object
+    ) -> None:
         self.client = _Client()
+        self.refused: LogError | None = None
         self.connected, self.away, self.stopped = True, False, False
 
     def start(self) -> None: ...
@@ -46,8 +50,8 @@ class _Link:
 def made(monkeypatch: pytest.MonkeyPatch) -> tuple[Publisher, _Link]:
     links: list[_Link] = []
 
-    def link(*given: Any) -> _Link:
-        links.append(_Link(*given))
+    def link(*given: Any, **named: Any) -> _Link:
+        links.append(_Link(*given, **named))
         return links[0]
 
     monkeypatch.setattr(mqtt_client, "Link", link)

@@ -20,19 +20,19 @@ class Device:
         self.plug()
 
     def plug(self) -> None:
-        self._far, near = os.openpty()
+        self.far, near = os.openpty()
         tty.setraw(near)
         self.name.symlink_to(os.ttyname(near))
         self._near = near  # kept open, so that nothing is lost before the monitor opens it
 
     def send(self, data: bytes) -> None:
         while data:
-            data = data[os.write(self._far, data[:512]) :]
+            data = data[os.write(self.far, data[:512]) :]
 
     def unplug(self) -> None:
         self.name.unlink()
         os.close(self._near)
-        os.close(self._far)
+        os.close(self.far)
 
 
 def test_a_device_is_watched_through_noise_and_unplugging(

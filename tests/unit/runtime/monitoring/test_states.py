@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from bondgraph.cli.main import main
-from bondgraph.runtime.log import LogError
+from bondgraph.runtime.log import Array, LogError
 from bondgraph.runtime.monitoring.engine import Batch
-from bondgraph.runtime.monitoring.states import states_file
+from bondgraph.runtime.monitoring.residual_states import ResidualStates
+from bondgraph.runtime.monitoring.states import States, states_file
 from bondgraph.runtime.monitoring.verdict import Verdict
 
 _NAMES = ("r1", "r2")
@@ -25,6 +27,25 @@ def _batch(count: int, valid: int, known: int) -> Batch:
     return Batch(value, np.tile(at >= valid, (1, 2)), bound)
 
 
+class _Told:
+    """Two residuals of one signal that is always there."""
+
+    def __init__(self) -> None:
+        engine = SimpleNamespace(
+            residuals=_NAMES,
+            signals=[SimpleNamespace(path="u")],
+            reads=np.ones((2, 1), dtype=bool),
+            warm_up=1.0,
+            sample_time=0.1,
+        )
+        self.states = ResidualStates(engine)  # type: ignore[arg-type]
+
+    def add(self, table: States, time: Array, batch: Batch, said: list[Verdict]) -> None:
+        told, changes = self.states.add(time, np.zeros((len(time), 1)), batch, said)
+        assert changes == []
+        table.add(time, batch, told)
+
+
 def _rows(path: Path) -> list[dict[str, str]]:
     with path.open(encoding="utf-8") as file:
         return list(csv.DictReader(file))
@@ -34,10 +55,11 @@ def test_states_follow_each_other_sample_by_sample(tmp_path: Path) -> None:
     path = tmp_path / "states.csv"
     time = np.arange(10) / 10
     with states_file(str(path), _NAMES) as states:
+        now = _Told()
         fault = Verdict("fault", 0.6, 0.5, {"r2": 1.2})
-        states.add(time, _batch(10, 2, 4), [fault, Verdict("gap", 0.6)])
+        now.add(states, time, _batch(10, 2, 4), [fault, Verdict("gap", 0.6)])
         named = Verdict("update", 1.2, 0.5, {"r2": 1.2, "r1": 1.1}, ("a", "b"))
-        states.add(time + 1.0, _batch(10, 0, 0), [named, Verdict("cleared", 1.7)])
+        now.add(states, time + 1.0, _batch(10, 0, 0), [named, Verdict("cleared", 1.7)])
         assert not path.exists()
     rows = _rows(path)
     assert [r["state"] for r in rows] == [
@@ -54,7 +76,7 @@ def test_states_follow_each_other_sample_by_sample(tmp_path: Path) -> None:
 
 def test_nothing_is_left_of_a_watch_that_breaks(tmp_path: Path) -> None:
     with pytest.raises(RuntimeError), states_file(str(tmp_path / "s.csv"), _NAMES) as states:
-        states.add(np.zeros(1), _batch(1, 0, 0), [])
+        _Told().add(states, np.zeros(1), _batch(1, 0, 0), [])
         raise RuntimeError
     with pytest.raises(LogError, match=r"\.csv or \.parquet"):
         states_file(str(tmp_path / "s.txt"), _NAMES).__enter__()

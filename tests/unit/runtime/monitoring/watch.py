@@ -46,9 +46,12 @@ class Nursery:
         )
         theirs.close()
 
-    def start(self, words: list[str], descriptors: list[int]) -> int:
-        """Start a monitor with these descriptors; its process."""
-        socket.send_fds(self._asking, [json.dumps(words).encode()], descriptors)
+    def start(
+        self, words: list[str], descriptors: list[int], environment: dict[str, str]
+    ) -> int:
+        """Start a monitor with these descriptors, and more in its environment; its process."""
+        asked = {"words": words, "environment": environment}
+        socket.send_fds(self._asking, [json.dumps(asked).encode()], descriptors)
         return int(self._asking.recv(64))
 
     def close(self) -> None:
@@ -60,23 +63,32 @@ class Nursery:
 class Watch:
     """`bondgraph monitor dc_motor.bg ... --json`, and all that it says, as it says it."""
 
-    def __init__(self, nursery: Nursery, *words: str) -> None:
+    def __init__(
+        self, nursery: Nursery, *words: str, environment: dict[str, str] | None = None
+    ) -> None:
         pipes = [os.pipe() for _ in range(4)]
         theirs = [pipes[0][0], *(writing for _, writing in pipes[1:])]
-        self.process = nursery.start(["monitor", MOTOR, "--json", *words], theirs)
+        words = ("monitor", MOTOR, "--json", *words)
+        self.process = nursery.start(list(words), theirs, environment or {})
         for descriptor in theirs:
             os.close(descriptor)
         self._input = os.fdopen(pipes[0][1], "wb", buffering=0)
         self._output, self._error, self._status = (os.fdopen(p[0], "rb") for p in pipes[1:])
         self.said: list[dict[str, Any]] = []
         self.errors = ""
+        self.torn: list[str] = []  # lines that are not whole
         self._threads = [Thread(target=self._read), Thread(target=self._listen)]
         for thread in self._threads:
             thread.start()
 
     def _read(self) -> None:
         for line in self._output:
-            self.said.append(json.loads(line))
+            try:
+                if not line.endswith(b"\n"):
+                    raise ValueError
+                self.said.append(json.loads(line))
+            except ValueError:
+                self.torn.append(f"not a whole line: {line!r}")
 
     def _listen(self) -> None:
         self.errors = self._error.read().decode()
