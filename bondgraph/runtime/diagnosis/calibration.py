@@ -11,6 +11,7 @@ import numpy as np
 from bondgraph.runtime.diagnosis.cusum import Cusum
 from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, centred, slack, tolerated
+from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import (
     Bank,
     Hypothesis,
@@ -19,7 +20,6 @@ from bondgraph.runtime.diagnosis.hypotheses import (
     rows_apart,
     sized,
 )
-from bondgraph.runtime.diagnosis.isolation import HEALTHY, History
 from bondgraph.runtime.diagnosis.noise import noise, uncovered
 from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.diagnosis.tuning import Limit, Tuning, height, kappa, limits

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, History
+from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.diagnosis.since_onset import BENT, MOST, SinceOnset
 from bondgraph.runtime.log import Array, Mask

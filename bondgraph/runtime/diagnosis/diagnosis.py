@@ -12,8 +12,9 @@ import numpy as np
 from bondgraph.runtime.diagnosis.detection import Detection
 from bondgraph.runtime.diagnosis.doubt import Doubt
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel, slack, tolerated
+from bondgraph.runtime.diagnosis.history import HEALTHY, History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses, rows_apart
-from bondgraph.runtime.diagnosis.isolation import HEALTHY, History, inverse
+from bondgraph.runtime.diagnosis.isolation import inverse
 from bondgraph.runtime.diagnosis.judge import Judge
 from bondgraph.runtime.diagnosis.learning import Learning
 from bondgraph.runtime.diagnosis.naming import Latched

@@ -18,10 +18,9 @@ from types import MappingProxyType
 import numpy as np
 import numpy.typing as npt
 
+from bondgraph.runtime.diagnosis.history import History, triangle
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
-from bondgraph.runtime.diagnosis.noise import COVERED
-from bondgraph.runtime.diagnosis.rows import Row
-from bondgraph.runtime.log import Array, Mask
+from bondgraph.runtime.log import Array
 from bondgraph.text.tuples import NamedTuple
 
 #: Of the usual change: how large a fault is, nobody knows. Close together, so that no fault is
@@ -32,10 +31,6 @@ _CHUNK = 4  # rows in which the change is taken as constant, at least
 _PARTS = 15  # chunks at most
 _LEADS = 8  # faults of which pairs with every other one are looked at
 _AT_ONCE = 2**20  # numbers that sets of hypotheses take side by side
-HEALTHY = 5  # rows that have to be as usual behind one before it counts as healthy
-_KEPT = 1.0 - 1.0 / 1000.0  # of what is known, with each further row
-_UNKNOWN = 2.0  # deviations of what is not known of healthy parameters
-_SMALL = 8192  # numbers in a matrix that BLAS does not share out among threads
 
 
 class Explained(NamedTuple):
@@ -83,104 +78,6 @@ class Rows(NamedTuple):
     def part(self, start: int, stop: int | None = None) -> Rows:
         """Some of the rows."""
         return Rows(*[x[start:stop] for x in self])
-
-
-class History:
-    """What healthy operation has told of parameters that are off within their tolerances.
-
-    `prior` are the standard deviations of the parameters. What is known is kept as a triangle and
-    what it should give, `root` = (R, q), for parameters z in deviations: the misfit of all rows
-    that were added is |R z - q|^2, forgotten slowly. Sums of squares would lose half of the digits,
-    and encoders beside tolerances of a millionth need all of them (Bierman, 1977).
-    """
-
-    def __init__(self, prior: Array) -> None:
-        self.prior = prior
-        self.root = np.zeros((len(prior), len(prior) + 1))
-
-    def add(self, value: Array, weight: Array, slopes: Array, keep: float = _KEPT) -> None:
-        """One row: residuals, their weights, slopes of the shape (parameters, residuals)."""
-        root = np.sqrt(weight)
-        row = np.column_stack([(slopes * root).T * self.prior, root * value])
-        self.root = _triangle(np.vstack([math.sqrt(keep) * self.root, row]))[: len(self.root)]
-
-    def anew(self, gone: Sequence[int], keep: Sequence[int], more: Sequence[float]) -> History:
-        """The same once the parameters `gone` have another value, unknown within their prior.
-
-        What the others owe them is integrated out. Then only the parameters `keep` are kept, and
-        such with the deviations `more` come behind them.
-        """
-        own, kept = list(gone), list(keep)
-        rest = [k for k in range(len(self.prior)) if k not in own]
-        order = [*own, *rest, -1]
-        owed = np.vstack([self.root[:, order], np.eye(len(own), len(order))])
-        left = _triangle(owed)[len(own) : len(self.prior), len(own) :]
-        found = History(np.concatenate([self.prior[kept], np.array(more, dtype=float)]))
-        for at, k in enumerate(kept):
-            if k in rest:
-                found.root[: len(left), at] = left[:, rest.index(k)]
-        found.root[: len(left), -1] = left[:, -1]
-        return found
-
-    def narrow(self, deviations: Array) -> None:
-        """Take the last parameters for known so well before, around what they are taken for."""
-        start = len(self.prior) - len(deviations)
-        scale = np.append(np.ones(start), deviations / self.prior[start:])
-        self.prior = self.prior * scale
-        self.root = self.root * np.append(scale, 1.0)
-
-    def last(self, count: int) -> tuple[Array, Array]:
-        """By how much the last parameters are off, most probably, and the covariance of that."""
-        start = len(self.prior) - count
-        known = self.known()[start:, start:]
-        moved = self.prior[start:, None] * np.linalg.inv(known[:, :-1])
-        return moved @ known[:, -1], moved @ moved.T
-
-    def known(self) -> Array:
-        """Prior and history together, in the form of `root`."""
-        count = len(self.root)
-        return _triangle(np.vstack([np.eye(count, count + 1), self.root]))[:count]
-
-    def fit(self) -> Array:
-        """By how much the parameters are off, most probably."""
-        known = self.known()
-        return np.asarray(self.prior * np.linalg.solve(known[:, :-1], known[:, -1]))
-
-    def expected(self, slopes: Array) -> tuple[Array, Array]:
-        """The residuals of the healthy machine as far as it is known, and their variances."""
-        known = self.known()
-        moved = np.linalg.solve(known[:, :-1].T, slopes * self.prior[:, None])
-        return moved.T @ known[:, -1], np.square(moved).sum(axis=0)
-
-    def innovation(self, row: Row, sure: Mask) -> Row:
-        """A row less what is expected; its bound is how far off a healthy machine may be from that.
-
-        That is what is not known of its parameters yet, what they may drift by, and what no
-        parameter does. A residual that is not `sure` may be anywhere within its tolerances.
-        """
-        expected, variance = self.expected(row.slopes)
-        sure = sure & np.isfinite(expected) & np.isfinite(variance)
-        unknown = _UNKNOWN * np.sqrt(np.where(sure, variance, 0.0))
-        bound = COVERED * (row.bound - row.doubt) + row.doubt + unknown
-        return row._replace(
-            value=np.where(sure, row.value - expected, row.value),
-            bound=np.where(sure, bound, row.bound),
-        )
-
-
-def _triangle(rows: Array) -> Array:
-    """A triangle of the same sums of squares and products as these rows; of each of a stack.
-
-    Of many rows in pieces (Demmel et al., 2012): small ones are not shared out among threads, which
-    would wait for each other longer than they work.
-    """
-    *stack, count, columns = rows.shape
-    piece = max(2 * columns, _SMALL // columns)
-    if count > piece:
-        more = np.zeros((*stack, -count % piece, columns))
-        pieces = np.concatenate([rows, more], axis=-2).reshape(*stack, -1, piece, columns)
-        return _triangle(_triangle(pieces).reshape(*stack, -1, columns))
-    return np.asarray(np.linalg.qr(rows, mode="r"))
 
 
 def inverse(weight: Array) -> Array:
@@ -366,7 +263,7 @@ class _Unexplained:
                 left = self._left(np.array(some))
                 moving = _scaled(left, np.kron(np.eye(size), self._spread[-1:]))
                 every = left[:, :, :-1] @ np.kron(np.eye(size), self._steady)
-                steady = _triangle(np.concatenate([every, left[:, :, -1:]], axis=2))
+                steady = triangle(np.concatenate([every, left[:, :, -1:]], axis=2))
                 both = zip(moving, _scaled(steady, np.eye(size)), strict=True)
                 found |= zip(some, [_Fits.joined(*one) for one in both], strict=True)
         return found
@@ -387,7 +284,7 @@ class _Unexplained:
         table[:, rows:-1, :-1] = own.reshape(count, chunks * size, size * chunks)
         table[:, rows:-1, -1] = within[:, :, :size, size].reshape(count, chunks * size)
         table[:, -1, -1] = np.linalg.norm(within[:, :, size, size], axis=1)
-        return _triangle(table)
+        return triangle(table)
 
 
 def _orthogonal(rows: Array) -> Array:
@@ -413,7 +310,7 @@ def _instead(hypothesis: Hypothesis, known: Array, told: Array, other: Array) ->
     """
     rest = len(known)
     before, after = (
-        _triangle(np.vstack([known, table.reshape(-1, rest + 1)]))
+        triangle(np.vstack([known, table.reshape(-1, rest + 1)]))
         for table in (told[:, :, [*range(rest), -1]], other)
     )
     misfit, left = (float(np.square(root[rest:, rest]).sum()) for root in (before, after))

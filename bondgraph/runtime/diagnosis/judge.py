@@ -9,8 +9,9 @@ import numpy as np
 
 from bondgraph.runtime.diagnosis.comparison import Comparison
 from bondgraph.runtime.diagnosis.healthy import DiagnosisModel
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Sizes, hypotheses, sized
-from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair, History
+from bondgraph.runtime.diagnosis.isolation import Explained, ExplainedPair
 from bondgraph.runtime.diagnosis.naming import (
     LONGEST,
     Judgement,

@@ -8,8 +8,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from bondgraph.runtime.diagnosis.healthy import slack
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis
-from bondgraph.runtime.diagnosis.isolation import History, inverse
+from bondgraph.runtime.diagnosis.isolation import inverse
 from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array
 from bondgraph.runtime.monitoring.engine import Engine, copied

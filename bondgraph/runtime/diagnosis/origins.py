@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from bondgraph.runtime.diagnosis.healthy import slack
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import COUNT, Bank, Hypothesis
-from bondgraph.runtime.diagnosis.isolation import History
 from bondgraph.runtime.diagnosis.origin_fit import Case, Fit, fitted, replayed
 from bondgraph.runtime.diagnosis.remembered import Memory
 from bondgraph.runtime.diagnosis.rows import Row, weight

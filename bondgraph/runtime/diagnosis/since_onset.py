@@ -7,11 +7,11 @@ from itertools import accumulate
 
 import numpy as np
 
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, Hypothesis, Instead
 from bondgraph.runtime.diagnosis.isolation import (
     Explained,
     ExplainedPair,
-    History,
     Rows,
     explain,
     explain_pairs,

@@ -11,8 +11,9 @@ import pytest
 import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.comparison import Comparison
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Bank, hypotheses
-from bondgraph.runtime.diagnosis.isolation import Explained, History
+from bondgraph.runtime.diagnosis.isolation import Explained
 from bondgraph.runtime.diagnosis.rows import Row
 from bondgraph.runtime.monitoring.engine import Engine
 from bondgraph.runtime.monitoring.verdict import Verdict

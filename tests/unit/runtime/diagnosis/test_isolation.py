@@ -12,10 +12,10 @@ import pytest
 from mpmath import mpf
 from scipy.stats import multivariate_normal
 
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis
 from bondgraph.runtime.diagnosis.isolation import (
     Explained,
-    History,
     Rows,
     explain,
     explain_pairs,

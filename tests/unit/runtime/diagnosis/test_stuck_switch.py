@@ -10,8 +10,9 @@ import pytest
 
 import bondgraph
 from bondgraph.pipeline import Compilation
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.hypotheses import Hypothesis, Stuck
-from bondgraph.runtime.diagnosis.isolation import History, Rows, explain
+from bondgraph.runtime.diagnosis.isolation import Rows, explain
 from bondgraph.runtime.log import Log
 from bondgraph.runtime.monitoring.verdict import (
     Verdict,

@@ -15,7 +15,7 @@ import pytest
 import bondgraph
 from bondgraph.pipeline import Compilation
 from bondgraph.runtime.diagnosis.diagnosis import Diagnosis
-from bondgraph.runtime.diagnosis.isolation import History
+from bondgraph.runtime.diagnosis.history import History
 from bondgraph.runtime.diagnosis.origins import Readings
 from bondgraph.runtime.log import Array, Log
 from bondgraph.runtime.monitoring.clock import clock_of
