@@ -181,12 +181,16 @@ def _created(path: Path, mode: int) -> int:
 
 
 def _made(path: Path) -> int | None:
-    path.mkdir(0o700)
-    try:
-        return opened_folder(path)
-    except OSError:
-        path.rmdir()
-        raise
+    while True:
+        path.mkdir(0o700)
+        try:
+            return opened_folder(path)
+        except FileNotFoundError:
+            continue  # another process has taken it for something left
+        except OSError:
+            with suppress(OSError):
+                path.rmdir()
+            raise
 
 
 def _remove_left(path: Path) -> None:

@@ -12,6 +12,7 @@ import traceback
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import bondgraph
 from bondgraph.cli.main import main
@@ -53,9 +54,8 @@ def _written(model: Model) -> Iterator[Path]:
 
 def answer(model: Model, seconds: int = 30) -> dict[str, Any]:
     """The object that `compile --json` prints; an exception gives a status and a traceback."""
-    os.environ["BONDGRAPH_TRACEBACK"] = "1"
     out = io.StringIO()
-    with _written(model) as path:
+    with patch.dict(os.environ, BONDGRAPH_TRACEBACK="1"), _written(model) as path:
         words = ["compile", str(path), "--json", "--target", "python", "-o", f"{path.parent}/out"]
         try:
             with limited(seconds), contextlib.redirect_stdout(out):

@@ -56,6 +56,26 @@ def test_a_folder_that_was_begun_goes_with_what_is_in_it(tmp_path: Path) -> None
     assert [p.name for p in tmp_path.iterdir()] == ["a"]
 
 
+def test_a_folder_that_another_process_takes_for_something_left_is_made_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plain, taken = os.open, []
+
+    def taking(path: str | Path, flags: int, mode: int = 0o777, **more: int) -> int:
+        if not taken and Path(path).suffix == ".tmp":
+            taken.append(Path(path))
+            Path(path).rmdir()  # between mkdir and the lock
+        return plain(path, flags, mode, **more)
+
+    monkeypatch.setattr(os, "open", taking)
+    with folder_aside(tmp_path) as folder:
+        assert folder.is_dir()
+    assert len(taken) == 1
+    assert list(tmp_path.iterdir()) == []
+    with pytest.raises(FileNotFoundError), folder_aside(tmp_path / "missing"):
+        pass
+
+
 def test_a_duplicate_keeps_the_lock(tmp_path: Path) -> None:
     with aside(tmp_path / "a") as (_, file):
         own = os.dup(file)
