@@ -239,6 +239,11 @@ class DoubleFaults(NamedTuple):
         others = [(tuple(k for k in every if k != own),) for own in every]
         return len(self.groups) > 2 and list(self.alike) == others
 
+    def looks_like_two(self, fault: str) -> bool:
+        """Whether two faults of other groups could look like this one alone, as far as is known."""
+        known = bool(self.alike) and any(fault in group for group in self.groups)
+        return known and bool(self.like(fault))
+
     def like(self, fault: str) -> tuple[tuple[tuple[str, ...], ...], ...]:
         """Sets of groups: two faults of different groups in a set could look like this one alone.
 

@@ -1,9 +1,11 @@
 """Two faults at once: what the watch says of those that cannot be taken for a single one.
 
-Which these are is found without the diagnosis. The virtual machine runs with both faults, with each
-fault of the model alone, and healthy, all with the same seed, so that noise is the same; of the
-residuals, that of the healthy run taken off, the part is taken that no size of a single fault
-explains, in deviations of the noise: a pair is told apart where that is FAR of them for each.
+Which these are is found without the diagnosis, in two ways that both have to say so. The virtual
+machine runs with both faults, with each fault of the model alone, and healthy, all with the same
+seed, so that noise is the same; of the residuals, that of the healthy run taken off, the part is
+taken that no size of a single fault explains, in deviations of the noise: it has to be FAR of them
+for each. And a pair is told from a single fault of any course in time by rank, or it is not: then
+the verdict has to name that it may be two.
 """
 
 from __future__ import annotations
@@ -30,10 +32,14 @@ _SEED = 1  # of the run that tells pairs from single faults
 
 
 class Named(NamedTuple):
-    """What the last verdict about two faults names: `single`, `pair`, `none`, or nothing at all."""
+    """What the last verdict about two faults names: `single`, `pair`, `none`, or nothing at all.
+
+    Of a `single` fault that may be two, `also` says so.
+    """
 
     what: str
     right: bool  # whether one of both is in the class, or both are in the first pair
+    also: bool = False
 
 
 def _machine(name: str) -> Machine:
@@ -67,9 +73,19 @@ def apart(machine: Machine, pair: tuple[Kind, Kind]) -> float:
     return nearest
 
 
-def chosen(machine: Machine) -> list[tuple[Kind, Kind]]:
-    """Pairs that are told from single faults, evenly among all."""
-    found = [p for p in combinations(kinds(machine), 2) if apart(machine, p) >= FAR]
+def told_by_rank(machine: Machine, pair: tuple[Kind, Kind]) -> bool:
+    """Whether two faults, each of any course, look like no single one of any course."""
+    doubles = compiled(machine).diagnosis_model.doubles()
+    place = {f: k for k, group in enumerate(doubles.groups) for f in group}
+    own = {place[k.of] for k in pair if k.of in place}
+    several = [set(s) for alike in doubles.alike for s in alike]
+    return len(own) == 2 and bool(doubles.alike) and not any(own <= s for s in several)
+
+
+def chosen(machine: Machine, by_rank: bool) -> list[tuple[Kind, Kind]]:
+    """Pairs that noise lets tell from single faults, by rank or not, evenly among all."""
+    every = [p for p in combinations(kinds(machine), 2) if told_by_rank(machine, p) == by_rank]
+    found = [p for p in every if apart(machine, p) >= FAR]
     places = np.unique(np.linspace(0, len(found) - 1, min(PAIRS, len(found))).round().astype(int))
     return [found[k] for k in places.tolist()]
 
@@ -92,30 +108,38 @@ def _run(task: tuple[str, int, tuple[Kind, Kind]]) -> Named:
         right = all(any(f in g for g in first) for f in own)
         return Named("pair", right)
     if last.group:
-        return Named("single", not own.isdisjoint(last.group))
+        also = "two others at once" in last.message
+        return Named("single", not own.isdisjoint(last.group), also)
     return Named("none", False)
 
 
 def double(machines: Sequence[Machine], seeds: int, start: int, jobs: int) -> str:
     """A table of what was said of pairs."""
     lines = [
-        "| machine | pairs told from single faults | runs | two at once | the right two first |"
-        " no single fault | a single one | of these one of both | nothing |",
-        "|---" * 9 + "|",
+        "| machine | pairs | told by rank | runs | two at once | the right two first | no single"
+        " fault | a single one | and says that it may be two | one of both | nothing |",
+        "|---" * 11 + "|",
     ]
     for machine in machines:
-        pairs = chosen(machine)
-        tasks = [(machine.name, start + k, p) for p in pairs for k in range(seeds)]
-        if jobs == 1:
-            found = [_run(t) for t in tasks]
-        else:
-            with ProcessPoolExecutor(jobs) as pool:
-                found = list(pool.map(_run, tasks))
-        count = {w: sum(n.what == w for n in found) for w in ("pair", "none", "single", "nothing")}
-        right = {w: sum(n.what == w and n.right for n in found) for w in ("pair", "single")}
-        lines.append(
-            f"| {machine.name} | {len(pairs)} | {len(found)} | {count['pair']} | {right['pair']} |"
-            f" {count['none']} | {count['single']} | {right['single']} | {count['nothing']} |"
-        )
-        print(lines[-1], flush=True)
+        for by_rank in (True, False):
+            pairs = chosen(machine, by_rank)
+            tasks = [(machine.name, start + k, p) for p in pairs for k in range(seeds)]
+            if jobs == 1:
+                found = [_run(t) for t in tasks]
+            else:
+                with ProcessPoolExecutor(jobs) as pool:
+                    found = list(pool.map(_run, tasks))
+            if not found:
+                continue
+            count = {
+                w: sum(n.what == w for n in found) for w in ("pair", "none", "single", "nothing")
+            }
+            right = {w: sum(n.what == w and n.right for n in found) for w in ("pair", "single")}
+            also, rank = sum(n.also for n in found), "yes" if by_rank else "no"
+            lines.append(
+                f"| {machine.name} | {len(pairs)} | {rank} | {len(found)} | {count['pair']} |"
+                f" {right['pair']} | {count['none']} | {count['single']} | {also} |"
+                f" {right['single']} | {count['nothing']} |"
+            )
+            print(lines[-1], flush=True)
     return "\n".join(lines)

@@ -92,6 +92,8 @@ class Comparison:
         """See `SinceOnset`."""
         return None if self._beside is None else self._beside.shows(fault)
 
-    def pairs(self, history: History, singles: Sequence[Explained]) -> list[ExplainedPair]:
-        """How well two of the `singles` at once explain the rows, with the onsets of these."""
-        return [] if self._beside is None else self._beside.pairs(history, singles)
+    def pairs(
+        self, history: History, singles: Sequence[Explained]
+    ) -> tuple[list[Explained], list[ExplainedPair]]:
+        """See `SinceOnset`."""
+        return ([], []) if self._beside is None else self._beside.pairs(history, singles)

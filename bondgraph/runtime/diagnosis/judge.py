@@ -56,8 +56,9 @@ class Judge:
         """The residuals begin anew; the alarm stays."""
         self._compared: Comparison | None = None
         self._after = self._told = 0  # rows since the alarm, and until the last update
-        self._pairs: Sequence[ExplainedPair] = ()
-        self._due = 0  # rows since the alarm when pairs are looked for again
+        self._alone = True  # whether one fault is enough to explain what was seen
+        self._pairs: Sequence[ExplainedPair] = ()  # if it is not, two that do
+        self._due = 0  # rows since the alarm when that is asked again
         self._next = _JUDGE  # and when faults are judged again
         self._fired: frozenset[str] = frozenset()  # that the last judgement was of
         self._best: Explained | None = None  # the fault that explains all, if any
@@ -108,7 +109,7 @@ class Judge:
         self._after = self._told = self._due = 0
         self._next = _JUDGE
         self._best = None
-        self._pairs, sizes = (), self._sizes.found()
+        self._alone, self._pairs, sizes = True, (), self._sizes.found()
         found = hypotheses(self._engine, model.faults, model.units, sizes, model.switches)
         samples = np.concatenate([healthy, *[row.samples for row in rows]])
         found = sized(engine, found, model.deliveries, model.nominal, samples)
@@ -165,18 +166,19 @@ class Judge:
         sure, self._leads = group if leads == self._leads else (), leads
         if group and not sure and self.latched.said is None and self._after == _JUDGE:
             return None  # the next row may confirm it
-        pairs: Sequence[ExplainedPair] = ()
         most = max(found, key=lambda e: e.evidence, default=None)
         if most is not None and explains(found):
             self._best = most
             self._compared.follow(most)
         elif self._after < _UNEXPLAINED:
             return None
+        alone = True
+        pairs: Sequence[ExplainedPair] = ()
         if most is not None and not fits(most) and self._after >= _UNEXPLAINED:
-            pairs = self._two_at_once(history, levels)
-            sure = () if pairs else sure
-        doubles = model.doubles() if pairs else None
-        verdict = update(time, self.latched.since, levels, sure, found, pairs, doubles)
+            alone, pairs = self._alone_or_two(history, levels)
+            sure = sure if alone else ()
+        doubles = model.doubles() if pairs or sure else None
+        verdict = update(time, self.latched.since, levels, sure, found, pairs, doubles, alone)
         best = verdict.candidates[0] if verdict.candidates and not verdict.pairs else None
         two = verdict.pairs[0].faults if verdict.pairs else ()
         wanted = Judgement(sure, best and best.fault, two, best and best.size)
@@ -207,16 +209,20 @@ class Judge:
         found = self._compared.explained(history, faults)
         return candidates(found, self._model.faults, self._model.sees, fired)
 
-    def _two_at_once(
+    def _alone_or_two(
         self, history: History, fired: Mapping[str, float]
-    ) -> Sequence[ExplainedPair]:
-        """The pairs that explain what no single fault does, looked for ever more rarely."""
+    ) -> tuple[bool, Sequence[ExplainedPair]]:
+        """Whether one fault is enough, and else the pairs that explain more; asked ever less."""
         if self._compared is not None and self._after >= self._due:
-            self._due = 2 * self._after
+            self._due, model = 2 * self._after, self._model
             try:
                 found = self._explained(history, fired, self._all)
-                pairs = self._compared.pairs(history, found)
+                alone, pairs = self._compared.pairs(history, found)
             except np.linalg.LinAlgError:
-                pairs = []
-            self._pairs = pairs_left(pairs, self._model.faults, self._model.sees, fired)
-        return self._pairs
+                return self._alone, self._pairs
+            alone = candidates(alone, model.faults, model.sees, fired)
+            self._alone = any(fits(e) for e in alone)
+            self._pairs = pairs_left(pairs, alone, model.faults, model.sees, fired)
+            if self._alone:
+                self._pairs = ()
+        return self._alone, self._pairs

@@ -16,6 +16,7 @@ from bondgraph.runtime.monitoring.verdict import (
     Verdict,
     described,
     described_pairs,
+    described_unexplained,
 )
 from bondgraph.text.numerals import listed
 from bondgraph.text.tuples import NamedTuple
@@ -26,7 +27,8 @@ _SHOWN = 0.02  # probability from which on a candidate is worth telling
 _EXPLAINS = 3.0  # logarithm of how much more probable a fault has to make what was seen
 _MOST = 0.7  # share of the misfit that a fault has to take away where nothing fits
 _LEVEL = 1e-3  # probability of what noise may leave over
-_LARGER = 2.0  # times the deviation that noise is taken for, that it may have
+_LARGER = 2.0  # times the variance that noise is taken for, that it may have
+_RARER = math.log(1000.0)  # how much rarer two faults at once are than one of them
 _GROWN = 1.5  # times its size that a fault has to have to be told again
 _AGAIN = 5  # rows between an update and the next, twice as many each time
 LONGEST = 320  # rows that anything said again has to wait
@@ -190,22 +192,25 @@ def named(
 
 def pairs_left(
     found: Sequence[ExplainedPair],
+    alone: Sequence[Explained],
     faults: Mapping[str, float | None],
     sees: Mapping[str, Sequence[str]],
     fired: Iterable[str],
 ) -> list[ExplainedPair]:
-    """The pairs that explain as much as is asked of a single fault, without what cannot be.
+    """The pairs that explain as much as is asked of a single fault, and more than any does `alone`.
 
-    As `candidates`: what has fired has to be seen by one of both.
+    Without what cannot be, as `candidates`: what has fired has to be seen by one of both.
     """
     seen = [set(sees.get(name, ())) for name in fired]
+    least = max((e.evidence for e in alone), default=-math.inf) + _RARER
     left = []
     for pair in found:
         own = {h.fault for h in pair.hypotheses}
         each = [Explained(h.fault, 0.0, h, change, 0.0)
                 for h, change in zip(pair.hypotheses, pair.changes, strict=True)]  # fmt: skip
         can = all(possible(e, faults.get(e.fault)).evidence == 0.0 for e in each)
-        if can and fits(pair) and not any(own.isdisjoint(s) for s in seen):
+        more = pair.evidence >= least and fits(pair)
+        if can and more and not any(own.isdisjoint(s) for s in seen):
             left.append(pair)
     return left
 
@@ -218,14 +223,14 @@ def explains(found: Sequence[Explained]) -> bool:
 def fits(one: Explained | ExplainedPair) -> bool:
     """Whether what is left over may be noise: a test of fit over all residuals (Pearson, 1900).
 
-    Noise may be twice as large as it is taken for, and such that it is exceeded once in a thousand;
-    neighbouring values share some of it. What is hardly more probable than a healthy machine
-    explains nothing.
+    Noise may have twice the variance that it is taken for, and be such that it is exceeded once in
+    a thousand; neighbouring values share some of it. What is hardly more probable than a healthy
+    machine explains nothing.
     """
     from scipy.special import chdtri
 
     independent = max(one.values / CORRELATED, 1.0)
-    most = _LARGER**2 / CORRELATED * float(chdtri(independent, _LEVEL)) / independent
+    most = _LARGER / CORRELATED * float(chdtri(independent, _LEVEL)) / independent
     return one.evidence >= _EXPLAINS and one.left <= most
 
 
@@ -237,28 +242,26 @@ def update(
     found: Sequence[Explained],
     pairs: Sequence[ExplainedPair] = (),
     doubles: DoubleFaults | None = None,
+    alone: bool = True,
 ) -> Verdict:
     """What there is to say: the class that is named, if any, and what else it could be.
 
-    `pairs` are those that explain what no single fault does, the best one first; `doubles` tells
-    which of them nothing tells apart.
+    `alone` says whether one fault is enough to explain what was seen. `pairs` are those that
+    explain what no single fault does, the best one first; `doubles` tells which of them nothing
+    tells apart, and whether what is named could be two others.
     """
     chance = probabilities(found)
     shown = sorted((e for e in found if chance[e.fault] >= _SHOWN),
                    key=lambda e: (-chance[e.fault], e.fault))  # fmt: skip
     candidates = tuple(_candidate(e, chance[e.fault]) for e in shown)
     verdict = Verdict("update", time, since, dict(levels), group, candidates)
-    if explains(found) and candidates and not pairs:
+    if explains(found) and candidates and alone and not pairs:
         message = described(verdict)
-        if not fits(_best(found)):
-            message += "; it leaves more than noise: it may not be the only one"
+        if group and doubles is not None and doubles.looks_like_two(group[0]):
+            message += "; or two others at once"
         return verdict._replace(message=message)
     if not pairs:
-        message = (
-            "no single fault explains this: several at once, or one that is not modelled;"
-            f" {described(verdict)}"
-        )
-        return verdict._replace(message=message)
+        return verdict._replace(message=described_unexplained(verdict))
     verdict = verdict._replace(pairs=_shown(pairs))
     alike = [] if doubles is None else _alike(pairs[0], doubles)
     message = f"no single fault explains this; {described_pairs(verdict)}"

@@ -17,7 +17,6 @@ from bondgraph.runtime.diagnosis.isolation import (
     explain_pairs,
     inverse,
 )
-from bondgraph.runtime.diagnosis.naming import fits
 from bondgraph.runtime.diagnosis.rows import Row, weight
 from bondgraph.runtime.log import Array, Mask
 from bondgraph.runtime.monitoring.engine import Engine, copied
@@ -34,7 +33,7 @@ _LEFT, _LARGEST = 0.05, 20.0  # of a parameter: values between which a secant is
 _SAME = 0.01  # share by which changes of two rounds may differ
 _STILL = 1e-3  # less than that, and the secant is the same as before
 _STEEP = 0.8  # of how one change makes the next: steeper, a step is not made longer
-_NEARLY = 0.05  # of the residual: what slopes are off by beside other faults
+_NEARLY = 0.05  # of the residual: what slopes are off by
 _ERROR = 0.1  # of the residual, in the first row: a filter shows late when the fault began
 _FADES = 0.4  # what is left of that in every row after
 _SHOWS = 0.3  # of what a fault usually does: where it does less it may be there unseen
@@ -140,18 +139,21 @@ class SinceOnset:
             found, before = self._found(history), tried
         return found
 
-    def pairs(self, history: History, singles: Sequence[Explained]) -> list[ExplainedPair]:
-        """How well two of the `singles` at once explain the rows, with the onsets of these.
+    def pairs(
+        self, history: History, singles: Sequence[Explained]
+    ) -> tuple[list[Explained], list[ExplainedPair]]:
+        """How well each fault explains the rows and how well two at once do, to be compared.
 
-        There are none where one fault nearly does: what a fault does is known for its own size and
-        if it stays; beside another, or where it grows, less well.
+        Two of the `singles`, each with its onset and size. What a fault does is known less well
+        than noise: for its own size and if it stays, and not how it set in. Whether one is enough
+        does not hang on that.
         """
         rows, others = self._tables()
         for one in (rows, *others.values()):
-            one.weight[:] = 1.0 / (inverse(one.weight) + (_NEARLY * one.value) ** 2)
-        if any(fits(one) for one in explain(rows, self._all, history, others)):
-            return []
-        return explain_pairs(rows, self._all, history, singles)
+            doubt = np.square(_NEARLY * one.value) + _early(one.value, 1.0)
+            one.weight[:] = 1.0 / (inverse(one.weight) + doubt)
+        alone = explain(rows, self._all, history, others)
+        return alone, explain_pairs(rows, self._all, history, singles)
 
     def _found(self, history: History) -> list[Explained]:
         """How well each fault explains the rows as they are known now."""
@@ -164,7 +166,7 @@ class SinceOnset:
         others = {k: _stacked(own) for k, own in self._others.items()}
         for other in others.values():
             self._unsaid |= np.isnan(other.weight[:_GROWS])
-        early = _early(rows.value)
+        early = _early(rows.value, _ERROR)
         for one in (rows, *others.values()):  # all are compared by the same rows, at any onset
             one.weight[:_GROWS][self._unsaid] = 0.0
             one.weight[:] = 1.0 / (inverse(one.weight) + early)
@@ -341,7 +343,7 @@ def _alike(left: Mapping[int, float], right: Mapping[int, float]) -> bool:
     )
 
 
-def _early(values: Array) -> Array:
+def _early(values: Array, error: float) -> Array:
     """Variances for not knowing the onset to the sample, of residuals (rows, residuals) since."""
     size = np.abs(values[:_GROWS]).max(axis=0, initial=0.0)
-    return np.asarray((np.outer(_ERROR * _FADES ** np.arange(len(values)), size)) ** 2)
+    return np.asarray((np.outer(error * _FADES ** np.arange(len(values)), size)) ** 2)

@@ -181,6 +181,22 @@ threshold
     return f"two at once do{_since(verdict)}: {listed(parts, 'or', 3)}{_levels(verdict)}"
 
 
+def described_unexplained(verdict: Verdict) -> str:
+    """That no single fault explains what is seen, and which come nearest to it.
+
+    >>> print(described_unexplained(Verdict("update", 5.2, 5.03, {"r2": 3.14}, candidates=(
+    ...     Candidate("R", 2.0, "Ohm", 0.9),))))
+    no single fault explains this since 5.030 s: several at once, or one that is not modelled; \
+nearest comes R (90 %, +2 Ohm); r2 at 3.1 times its threshold
+    """
+    text = f"no single fault explains this{_since(verdict)}"
+    text += ": several at once, or one that is not modelled"
+    if verdict.candidates:
+        nearest = listed([_candidate(c) for c in verdict.candidates], "or", 5)
+        text += f"; nearest comes {nearest}"
+    return text + _levels(verdict)
+
+
 def _since(verdict: Verdict) -> str:
     return "" if verdict.since is None else f" since {verdict.since:.3f} s"
 

@@ -41,9 +41,9 @@ def test_no_parameter_becomes_its_opposite() -> None:
 
 
 def test_what_is_left_over_has_to_be_noise() -> None:
-    # forty values of which neighbours share half: twenty times 0.5, or four times that at most
-    # where noise is twice as large; chi-square of 20 exceeds 45.3 once in a thousand (tables)
-    most = 4.0 * 0.5 * 45.31 / 20.0
+    # forty values of which neighbours share half: twenty times 0.5, or twice that at most
+    # where noise has twice the variance; chi-square of 20 exceeds 45.3 once in a thousand (tables)
+    most = 2.0 * 0.5 * 45.31 / 20.0
     one = _explained("R", 9.0)
     assert fits(one._replace(left=0.99 * most)) and not fits(one._replace(left=1.01 * most))
     assert not fits(one._replace(evidence=1.0)), "a healthy machine is about as probable"
@@ -58,9 +58,16 @@ def test_two_at_once_have_to_cover_what_has_fired_and_keep_their_signs() -> None
     known = {"R": 1.0, "f": 1.0, "k": 1.0}
     good = _pair("R", "f", 0.6, -0.5, -0.2)
     found = [good, _pair("R", "k", 9.0, 0.1, 0.1), _pair("f", "k", 0.6, 1.5, 0.1)]
-    assert pairs_left(found, known, _SEES, ["r1", "r2"]) == [good]
+    assert pairs_left(found, [], known, _SEES, ["r1", "r2"]) == [good]
     blind = {"r1": ("R", "k"), "r2": ("k",)}
-    assert pairs_left([good], known, blind, ["r1", "r2"]) == []
+    assert pairs_left([good], [], known, blind, ["r1", "r2"]) == []
+
+
+def test_two_at_once_are_a_thousand_times_as_rare_as_one() -> None:
+    known = {"R": 1.0, "f": 1.0, "k": 1.0}
+    pair = _pair("R", "f", 0.6, -0.5, -0.2)
+    for evidence, left in ((pair.evidence - 6.8, []), (pair.evidence - 7.0, [pair])):
+        assert pairs_left([pair], [_explained("k", evidence)], known, _SEES, ["r1", "r2"]) == left
 
 
 def test_what_looks_like_two_at_once_is_told_by_rank() -> None:
@@ -78,3 +85,15 @@ def test_what_looks_like_two_at_once_is_told_by_rank() -> None:
     assert update(5.0, 4.0, {}, (), single, pairs, every).message.endswith(
         "any two faults could look like that"
     )
+
+
+def test_a_class_says_whether_it_may_be_two_others() -> None:
+    doubles = DoubleFaults((("R", "U"), ("f",), ("k",)), ((), (), ((0, 1),)), "")
+    said = {
+        fault: update(5.0, 4.0, {"r1": 2.0}, group, [_explained(fault, 90.0)], (), doubles).message
+        for fault, group in (("k", ("k",)), ("U", ("R", "U")), ("x", ("x",)))
+    }
+    ends = {fault: text.endswith("; or two others at once") for fault, text in said.items()}
+    assert ends == {"k": True, "U": False, "x": False}
+    more = update(5.0, 4.0, {"r1": 2.0}, (), [_explained("k", 90.0)], (), doubles, False)
+    assert more.message.startswith("no single fault explains this since 4.000 s: several at once")
