@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from bondgraph.exact.plant import Plant
     from bondgraph.exact.verification import Verification
-    from bondgraph.ir.artifact import Artifact
+    from bondgraph.ir.artifact import Artifact, BinaryArtifact
     from bondgraph.ir.causal import CausalGraph, Conflict
     from bondgraph.ir.equation_system import EquationSystem
     from bondgraph.ir.graph import BondGraph
@@ -587,8 +587,18 @@ class Compilation:
         return thresholds(*own, observers=self._followed)
 
     @cached_property
-    def artifacts(self) -> tuple[Artifact, ...]:
-        """The files, as text; raises ValueError for a target that is not there."""
+    def residual_units(self) -> dict[str, str]:
+        """The SI unit of each residual, "" where that is not known."""
+        from bondgraph.passes.relation.residual_units import residual_units
+
+        return residual_units(self.graph, [r.residual for r in self.residuals])
+
+    @cached_property
+    def artifacts(self) -> tuple[Artifact | BinaryArtifact, ...]:
+        """The files; raises ValueError for a target that is not there.
+
+        All are text but those of the target `fmu`, which need a C compiler (`NativeError`).
+        """
         return self._emitted(self.options.targets)
 
     def write(
@@ -746,10 +756,26 @@ class Compilation:
         rate, bandwidth, resolution = self.options[:3]
         return LowerOptions(rate, bandwidth, resolution=resolution)
 
-    def _emitted(self, targets: Sequence[str]) -> tuple[Artifact, ...]:
+    def _emitted(self, targets: Sequence[str]) -> tuple[Artifact | BinaryArtifact, ...]:
         from bondgraph.backends.emit import emit
 
-        return emit(self.program, tuple(targets), self._bounds)
+        languages = tuple(name for name in targets if name != "fmu")
+        found = emit(self.program, languages, self._bounds) if languages else ()
+        return (*found, *self._fmus) if "fmu" in targets else found
+
+    @cached_property
+    def _fmus(self) -> tuple[BinaryArtifact, ...]:
+        """The monitor, and the machine where there can be one, for each version of FMI."""
+        from bondgraph.backends.fmu.monitor_core import monitor_core
+        from bondgraph.backends.fmu.package import VERSIONS, fmu, packed
+        from bondgraph.runtime.c_library import built
+
+        cores = [monitor_core(self.program, self._bounds, self.residual_units)]
+        wanted = [fmu(core, version) for version in VERSIONS for core in cores]
+        return tuple(
+            packed(one, built(one.sources, one.compiled, f"the FMU {one.identifier}"))
+            for one in wanted
+        )
 
     @property
     def _bounds(self) -> Program | None:
