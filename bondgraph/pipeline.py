@@ -7,7 +7,7 @@ from functools import cached_property
 from importlib import import_module
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from bondgraph.text.diagnostic import CompileError, Report
+from bondgraph.text.diagnostic import CompileError, Report, Trouble
 from bondgraph.text.numerals import plural
 from bondgraph.text.renamed import by_new_name
 from bondgraph.text.source import Source, Span
@@ -597,7 +597,7 @@ class Compilation:
     def artifacts(self) -> tuple[Artifact | BinaryArtifact, ...]:
         """The files; raises ValueError for a target that is not there.
 
-        All are text but those of the target `fmu`, which need a C compiler (`NativeError`).
+        All are text but those of the target `fmu`. Raises `Trouble` where these cannot be compiled.
         """
         return self._emitted(self.options.targets)
 
@@ -766,16 +766,29 @@ class Compilation:
     @cached_property
     def _fmus(self) -> tuple[BinaryArtifact, ...]:
         """The monitor, and the machine where there can be one, for each version of FMI."""
+        from bondgraph.backends.fmu.machine_core import machine_core
         from bondgraph.backends.fmu.monitor_core import monitor_core
         from bondgraph.backends.fmu.package import VERSIONS, fmu, packed
-        from bondgraph.runtime.c_library import built
+        from bondgraph.backends.rates import rate_language
+        from bondgraph.runtime.c_library import NativeError, built
+        from bondgraph.runtime.simulation.algebraic_loops import SINGULAR
+        from bondgraph.runtime.simulation.native_machine import BEYOND
+        from bondgraph.runtime.simulation.open_machine import open_machine
 
         cores = [monitor_core(self.program, self._bounds, self.residual_units)]
+        machine = open_machine(self.equations, self.integral, rate_language(), self.report)
+        if machine is not None:
+            cores.append(machine_core(self.program.name, machine, BEYOND, SINGULAR))
         wanted = [fmu(core, version) for version in VERSIONS for core in cores]
-        return tuple(
-            packed(one, built(one.sources, one.compiled, f"the FMU {one.identifier}"))
-            for one in wanted
-        )
+        try:
+            return tuple(
+                packed(one, built(one.sources, one.compiled, f"the FMU {one.identifier}"))
+                for one in wanted
+            )
+        except NativeError as error:
+            raise Trouble(
+                f"{error}; an FMU holds compiled code: install a C compiler, or name one in CC"
+            ) from error
 
     @property
     def _bounds(self) -> Program | None:

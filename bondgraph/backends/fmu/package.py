@@ -77,7 +77,7 @@ def fmu(core: Core, version: str) -> Fmu:
         "description": core.description,
         "about": [f" * {line}" for line in textwrap.wrap(about, 97)],
         "variables": core.variables,
-        "outputs": [k for k, v in enumerate(core.variables) if v.role == "output"],
+        "unknowns": [k for k, v in enumerate(core.variables) if v.role == "output"],
         "units": units(core.variables),
         "compiled": compiled,
         "tolerance": TOLERANCE,
