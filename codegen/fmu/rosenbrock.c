@@ -64,10 +64,14 @@ static bool differentiate(component *c)
     return true;
 }
 
-/* I/(gamma h) - slopes, as triangular factors with row pivots. */
+/*
+ * I/(gamma h) - slopes, as triangular factors with row pivots. A determinant that is not positive
+ * tells of a motion that grows within less than a step, which the method would damp: false too.
+ */
 static bool factorise(workspace *w, double diagonal)
 {
     double *a = w->system;
+    bool positive = true;
     int i, j, k;
 
     for (k = 0; k < STATES * STATES; ++k) {
@@ -86,6 +90,7 @@ static bool factorise(workspace *w, double diagonal)
         if (!(fabs(a[pivot * STATES + k]) > 0.0)) {
             return false;
         }
+        positive ^= (pivot != k) ^ (a[pivot * STATES + k] < 0.0);
         for (j = 0; j < STATES; ++j) {
             const double other = a[k * STATES + j];
             a[k * STATES + j] = a[pivot * STATES + j];
@@ -99,7 +104,7 @@ static bool factorise(workspace *w, double diagonal)
             }
         }
     }
-    return true;
+    return positive;
 }
 
 /* The right side becomes the solution. */

@@ -21,12 +21,11 @@ BANDWIDTH = 300.0  # rad/s: filters that settle within some forty samples
 
 
 class Folder:
-    """The FMUs of a model, unpacked."""
+    """The FMUs of a model, by the name of its file or its text, unpacked."""
 
     def __init__(self, home: Path, model: str) -> None:
-        self.compilation = bondgraph.compile(
-            MODELS / f"{model}.bg", targets=["fmu"], bandwidth=BANDWIDTH
-        )
+        named = {"text": model} if "\n" in model else {"path": MODELS / f"{model}.bg"}
+        self.compilation = bondgraph.compile(**named, targets=["fmu"], bandwidth=BANDWIDTH)
         self.home = home
         self.paths = [Path(path) for path in self.compilation.write(home)]
 
