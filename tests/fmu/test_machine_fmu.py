@@ -290,6 +290,90 @@ REFUSED = {
 }  # fmt: skip
 
 
+SHAFT = """bg 1
+model Shaft {
+    param J1 = 1 kg.m^2
+    param J2 = 3 kg.m^2
+    param nothing = 0 kg.m^2
+    param d = 1 N.m.s/rad
+    param leak = 0 N.m.s/rad
+    Se:M -> 1:w
+    w -> I:J1
+    w -> I:J2
+    w -> I:nothing
+    w -> R:d
+    w -> R:leak
+    w -> Df:y
+    sensor z = J1.f
+}
+"""
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_parameters_of_inertias_that_turn_together_are_fixed(folder: Of, version: str) -> None:
+    one = Instance(folder(SHAFT), "machine", version)
+    kinds = {v.name: v.variability for v in one.variables.values() if v.causality == "parameter"}
+    assert kinds == {"J1": "fixed", "J2": "fixed", "d": "tunable", "leak": "tunable",
+                     "nothing": "fixed", "start.J1.p": "fixed"}  # fmt: skip
+    one.start(M=1.0, J2=7.0)
+    for k in range(100):
+        one.step(k * 0.04, 0.04)
+    assert one.get("y")[0] == pytest.approx(1 - math.exp(-4 / 8), rel=NEAR)
+    one.set(leak=1.0)
+    for k in range(100, 1100):
+        one.step(k * 0.04, 0.04)
+    assert one.get("y", "z") == pytest.approx([0.5, 0.5], rel=1e-4)
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        one.set(J1=2.0)
+    assert one.said[-1] == "`J1` can only be set before the end of initialization"
+    one.close()
+
+
+COIL = """bg 1
+model Coil {
+    param R = 2 Ohm
+    param double = 2*R
+    param L = 0 H
+    param more = 0 Ohm
+    Se:U -> 1:i
+    i -> R:R
+    i -> R:double
+    i -> R:more
+    i -> I:L
+    i -> Df:y
+}
+"""
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_what_is_zero_may_become_more_where_there_is_motion_with_it(
+    folder: Of, version: str
+) -> None:
+    """A coil of nothing would be a state that follows at once, and is left out."""
+    one = Instance(folder(COIL), "machine", version)
+    assert one.names("parameter") == ["R", "double", "more"]
+    one.start(U=6.0)
+    assert one.get("double", "y") == [4.0, 1.0]
+    one.set(more=6.0)
+    assert one.get("y") == [0.5]
+    one.close()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_parameter_without_a_value_is_asked_for(folder: Of, version: str) -> None:
+    of = folder(RESISTOR.replace("R = 2 Ohm", "R : Ohm"))
+    told = [d.message for d in of.compilation.report.diagnostics]
+    assert told == ["There is no FMU of this machine: `R` has no value."]
+    assert validate_fmu(str(of.path("monitor", version))) == []
+    one = Instance(of, "monitor", version)
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        one.start()
+    assert one.said == ["the parameter `R` has no value: set it first"]
+    one.set(R=2.0)
+    one.fmu.exitInitializationMode()
+    one.close()
+
+
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_has_no_machine_fmu_is_told_with_its_place(name: str) -> None:
     text, why = REFUSED[name]

@@ -35,7 +35,7 @@ def open_machine(
 ) -> OpenMachine | None:
     """The machine behind `system`; None, with a warning in the report, where there can be none."""
     try:
-        return _Opened(system, integral).written(language)
+        return _opened(system, integral, language)
     except Unsuitable as error:
         report.warning(
             "no-machine-fmu",
@@ -44,6 +44,16 @@ def open_machine(
             help="`simulate` runs it; its monitor FMU takes samples from there or from elsewhere.",
         )
         return None
+
+
+def _opened(system: EquationSystem, integral: CausalGraph, language: Language) -> OpenMachine:
+    try:
+        return _Opened(system, integral).written(language)
+    except KeyError as error:  # of a parameter without a value
+        origins = [v.origin for v in system.graph.values if v.name == error.args[0]]
+        if not origins:
+            raise
+        raise Unsuitable(f"`{error.args[0]}` has no value", origins) from error
 
 
 class _OpenValues(Values):
@@ -144,22 +154,36 @@ class _Opened:
     def _equations(self) -> tuple[StateEquations, Machine]:
         """The state equations, and the machine at the numbers of the model.
 
-        A parameter that is zero stays in them where the machine has rates with it.
+        A parameter that is zero (a leak) stays in them where the machine has rates with it; an
+        inertia of nothing does not.
         """
-        names = [v.name for v in self.graph.values]
-        for kept in (frozenset(names), frozenset[str]()):
-            own = Report()
-            found = state_equations(self.system, self.integral, Wanted({}, open=kept), own)
-            if found is None:
-                if kept:
-                    continue
-                first = own.diagnostics[0]
-                why = first.message.rstrip(".")
-                raise Unsuitable(f"{why[:1].lower()}{why[1:]}", [s for s, _ in first.labels])
+        values = Values(self.graph)
+        zero = [v.name for v in self.graph.values if values.constant(v.symbol) == 0]
+        found = self._with(zero)
+        if found is None:
+            kept = [name for name in zero if self._with([name]) is not None]
+            found = self._with(kept) or self._with([])
+        assert found is not None, "without any there is a machine, or a reason why not"
+        return found
+
+    def _with(self, kept: Sequence[str]) -> tuple[StateEquations, Machine] | None:
+        """The same with some parameters that are zero; None where it has no rates at its start.
+
+        Without any, raises `Unsuitable` where there are no state equations.
+        """
+        own = Report()
+        found = state_equations(
+            self.system, self.integral, Wanted({}, open=frozenset(kept)), own
+        )
+        if found is not None:
             machine = self._at_nominal(found)
-            if not kept or self._runs(machine):
-                return found, machine
-        raise AssertionError("the last one is returned")
+            runs = self._runs(machine)
+            return (found, machine) if runs or not kept else None
+        if kept:
+            return None
+        first = own.diagnostics[0]
+        why = first.message.rstrip(".")
+        raise Unsuitable(f"{why[:1].lower()}{why[1:]}", [s for s, _ in first.labels])
 
     def _at_nominal(self, equations: StateEquations) -> Machine:
         view = observed(self.system, equations, ())
@@ -168,13 +192,7 @@ class _Opened:
             if sensor.name not in seen:
                 why = f"its equations do not tell what `{sensor.name}` reads"
                 raise Unsuitable(why, [sensor.origin])
-        values = Values(self.graph)
-        try:
-            return Machine(equations, values, [seen[s.name] for s in self.sensors])
-        except KeyError as error:
-            name = error.args[0]
-            origins = [v.origin for v in self.graph.values if v.name == name]
-            raise Unsuitable(f"`{name}` has no value", origins) from error
+        return Machine(equations, Values(self.graph), [seen[s.name] for s in self.sensors])
 
     def _runs(self, machine: Machine) -> bool:
         u = [0.0] * len(machine.signals)
