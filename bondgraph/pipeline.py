@@ -79,6 +79,7 @@ class Options(NamedTuple):
     `parameters` are numbers in SI, by name, that take the place of those in the model: a dict, or
     pairs of names and numbers. `offsets` are by how much samples of sensors and inputs are too
     large, by name, in their units: what reads a log takes them off, `simulate` puts them on.
+    `tuning` has the limits that the code is to have for its `diagnose`; see `Compilation.tuned`.
     """
 
     rate: float = 1000.0
@@ -92,6 +93,7 @@ class Options(NamedTuple):
     open_ports: bool = False
     parameters: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
     offsets: Mapping[str, float] | tuple[tuple[str, float], ...] = ()
+    tuning: Tuning | None = None
 
 
 if TYPE_CHECKING:
@@ -110,6 +112,7 @@ if TYPE_CHECKING:
         open_ports: bool
         parameters: Mapping[str, float] | tuple[tuple[str, float], ...]
         offsets: Mapping[str, float] | tuple[tuple[str, float], ...]
+        tuning: Tuning | None
 
 
 class Compilation:
@@ -749,7 +752,24 @@ class Compilation:
     def _emitted(self, targets: Sequence[str]) -> tuple[Artifact, ...]:
         from bondgraph.backends.emit import emit
 
-        return emit(self.program, tuple(targets), self._bounds)
+        if self.options.tuning is None:
+            return emit(self.program, tuple(targets), self._bounds)
+        from bondgraph.backends.decision import Tuned
+        from bondgraph.runtime.diagnosis.cusum import on_board
+
+        own = self.options.tuning
+        limits = {n: on_board(limit, own.bounds.get(n, 0.0)) for n, limit in own.limits.items()}
+        words = f"{own.seconds:g} s of a healthy machine, {own.false_alarms:g} false alarms an hour"
+        return emit(self.program, tuple(targets), self._bounds, Tuned(limits, words))
+
+    def tuned(self, tuning: Tuning) -> Compilation:
+        """The same for the filter of a tuning, with its limits in the code.
+
+        Raises ValueError for a tuning of another model, of other options or another rate.
+        """
+        if tuning.model != self.program.digest:
+            raise ValueError("it is of another model, or of other options")
+        return self.with_options(bandwidth=tuning.bandwidth, tuning=tuning)
 
     @property
     def _bounds(self) -> Program | None:

@@ -10,18 +10,14 @@ from typing import TYPE_CHECKING
 from bondgraph import Options
 from bondgraph.cli import console, fleet
 from bondgraph.cli.log_options import form_of, logged, note
-from bondgraph.cli.options import count, isolating, positive, realised, realising
-from bondgraph.text.diagnostic import Trouble
-from bondgraph.text.limits import TUNING_BYTES
+from bondgraph.cli.options import count, isolating, positive, read_tuning, realised, realising
 from bondgraph.text.numerals import plural
-from bondgraph.text.regular_file import check_regular
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable, Iterator
 
     from bondgraph.pipeline import Compilation
-    from bondgraph.runtime.diagnosis.tuning import Tuning
     from bondgraph.runtime.monitoring.engine import Engine
     from bondgraph.runtime.monitoring.journal import Journal
     from bondgraph.runtime.monitoring.mqtt_client import Address, Publisher
@@ -216,18 +212,6 @@ def source(args: Namespace, samples: Address | None) -> Source:
     if args.serial:
         return SerialPort(args.serial, args.baud, form)
     return Pipe(form) if name == "-" else file_source(name, form, args.follow)
-
-
-def read_tuning(path: str) -> Tuning:
-    """The limits that `bondgraph tune` wrote."""
-    from bondgraph.runtime.diagnosis.tuning import Tuning
-
-    try:
-        check_regular(path, TUNING_BYTES)
-        with open(path, encoding="utf-8") as file:
-            return Tuning.from_json(file.read())
-    except (ValueError, UnicodeDecodeError) as error:
-        raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error
 
 
 def _journal(

@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING, TypeVar
 
 from bondgraph import Compilation, Options, compile
 from bondgraph.cli import console
+from bondgraph.text.diagnostic import Trouble
+from bondgraph.text.limits import TUNING_BYTES
+from bondgraph.text.regular_file import check_regular
 
 if TYPE_CHECKING:
     from typing import Unpack
 
     from bondgraph.pipeline import Form, OptionValues
+    from bondgraph.runtime.diagnosis.tuning import Tuning
 
 T = TypeVar("T", float, int)
 
@@ -216,3 +220,15 @@ def opened(args: Namespace, targets: tuple[str, ...] = Options().targets) -> Com
         if fault not in compilation.graph.faults:
             raise console.Unknown(fault, "no fault of the model", compilation.graph.faults)
     return compilation
+
+
+def read_tuning(path: str) -> Tuning:
+    """The limits that `bondgraph tune` wrote."""
+    from bondgraph.runtime.diagnosis.tuning import Tuning
+
+    try:
+        check_regular(path, TUNING_BYTES)
+        with open(path, encoding="utf-8") as file:
+            return Tuning.from_json(file.read())
+    except (ValueError, UnicodeDecodeError) as error:
+        raise Trouble(f"{path}: {error}; make it anew with `bondgraph tune`") from error

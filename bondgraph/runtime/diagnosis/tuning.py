@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from bondgraph.text.foreign_data import WrongData, json_data
@@ -37,6 +38,7 @@ class Tuning(NamedTuple):
 
     `false_alarms` are those wanted per hour, of all residuals and tests together; `model` is
     the digest of the residuals that it belongs to, `seconds` how much healthy data it is from.
+    `bounds` are the largest adaptive thresholds a in that data, by residual.
 
     >>> limits = {"r1": Limit(sigma=0.2, crossings=10.0, kappa=4.7, height=9.3)}
     >>> tuning = Tuning("7888fd5a1d32470a", 1000.0, 20.0, 1.0, 60.0, limits)
@@ -50,6 +52,7 @@ class Tuning(NamedTuple):
     false_alarms: float
     seconds: float
     limits: Mapping[str, Limit]
+    bounds: Mapping[str, float] = MappingProxyType({})
 
     def to_json(self) -> str:
         """A text for people and programs, as `bondgraph tune` writes it."""
@@ -57,6 +60,7 @@ class Tuning(NamedTuple):
             "bondgraph tuning": EDITION,
             **self._asdict(),
             "limits": {name: limit._asdict() for name, limit in self.limits.items()},
+            "bounds": dict(self.bounds),
         }
         return json.dumps(record, indent=2) + "\n"
 
@@ -81,6 +85,7 @@ class Tuning(NamedTuple):
                 float(record["false_alarms"]),
                 float(record["seconds"]),
                 limits,
+                {str(name): float(x) for name, x in record.get("bounds", {}).items()},
             )
         except (KeyError, TypeError, AttributeError, OverflowError) as error:
             raise ValueError(f"this is no tuning: {error}") from error
