@@ -9,11 +9,10 @@ from bondgraph.backends import listing
 from bondgraph.backends.identifiers import snake
 from bondgraph.backends.target import Target
 from bondgraph.ir.program import Program, ResidualInfo
-from bondgraph.ir.residual_limit import NEVER, OVERSHOOT, SHARE, ResidualLimit
+from bondgraph.ir.residual_limit import NEVER, OVERSHOOT, ROW, SHARE, ResidualLimit
 from bondgraph.notation.dialect import digits
 from bondgraph.text.tuples import NamedTuple
 
-_APART = 3.0  # time constants of the filter between two rows, as the monitor has it
 #: Rows that all residuals have to be quiet for, and that a class waits for after the last alarm.
 HOLD, SETTLED = 10, 2
 
@@ -63,7 +62,7 @@ def fault_classes(program: Program) -> tuple[FaultClass, ...]:
 
 def samples_a_row(program: Program) -> int:
     """Samples between two rows, at the rate and the bandwidth that the code is made for."""
-    return max(1, ceil(_APART / program.bandwidth * program.rate))
+    return max(1, ceil(ROW / program.bandwidth * program.rate))
 
 
 def c_holes(program: Program, tuned: Tuned, target: Target) -> dict[str, object]:

@@ -26,5 +26,6 @@ class ResidualLimit(NamedTuple):
 
 #: That of a residual of which nothing is known: nothing is too far.
 NEVER = ResidualLimit(0.0, 1e30, 0.0, 0.0, 0.5, 1e30, 0.0)
+ROW = 3.0  # time constants of the filter: so far apart are rows of samples
 OVERSHOOT = 1.166  # of the mean of sums over their height, to either side (Siegmund, 1985)
 SHARE = 1.0 / 3.0  # of the height, that a single row adds at most to how loud it is

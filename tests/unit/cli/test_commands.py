@@ -241,7 +241,8 @@ def test_draw_writes_a_figure(bondgraph: Command, tmp_path: Path) -> None:
 def test_code_takes_limits_of_its_own_tuning_only(bondgraph: Command, tmp_path: Path) -> None:
     found, out = tmp_path / "tuning.json", tmp_path / "out"
     learned = ("tune", MOTOR, "--simulate", tmp_path / "run.toml", "--runs", "1", "-o", found)
-    (tmp_path / "run.toml").write_text('duration = "8 s"\n[inputs]\nU = "6*(1 + 0.3*sin(t))"\nload = 0\n'
+    (tmp_path / "run.toml").write_text('duration = "8 s"\n'
+                                       '[inputs]\nU = "6*(1 + 0.3*sin(t))"\nload = 0\n'
                                        "[sensors.current]\nnoise = 0.001\n"
                                        "[sensors.speed]\nnoise = 0.5\n")  # fmt: skip
     assert bondgraph(*learned).status == 0
