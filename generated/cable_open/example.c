@@ -69,31 +69,49 @@ static bool read_log(FILE *log, const char *names, cable_open_samples *samples)
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const cable_open_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < CABLE_OPEN_RESIDUALS; ++k) {
+        if (found->state[k] == CABLE_OPEN_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const cable_open_diagnosis *found, cable_open_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < CABLE_OPEN_FAULTS; ++k) {
+        if (found->candidate[cable_open_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, cable_open_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const cable_open_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != CABLE_OPEN_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < CABLE_OPEN_RESIDUALS; ++k) {
         if (found->state[k] == CABLE_OPEN_ALARM) {
-            printf("%s %s", between, cable_open_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, cable_open_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < CABLE_OPEN_FAULTS; ++k) {
-        const int own = cable_open_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != CABLE_OPEN_RULED_OUT) {
-            printf("%s %s", between, cable_open_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, CABLE_OPEN_LIKELY, found->fault_class == CABLE_OPEN_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, CABLE_OPEN_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -136,7 +154,7 @@ int main(int count, char **words)
         }
         cable_open_step(&monitor, &samples, &residuals);
         alarm = cable_open_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

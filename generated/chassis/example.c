@@ -73,31 +73,49 @@ static bool read_log(FILE *log, const char *names, chassis_bench_samples *sample
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const chassis_bench_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < CHASSIS_BENCH_RESIDUALS; ++k) {
+        if (found->state[k] == CHASSIS_BENCH_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const chassis_bench_diagnosis *found, chassis_bench_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < CHASSIS_BENCH_FAULTS; ++k) {
+        if (found->candidate[chassis_bench_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, chassis_bench_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const chassis_bench_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != CHASSIS_BENCH_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < CHASSIS_BENCH_RESIDUALS; ++k) {
         if (found->state[k] == CHASSIS_BENCH_ALARM) {
-            printf("%s %s", between, chassis_bench_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, chassis_bench_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < CHASSIS_BENCH_FAULTS; ++k) {
-        const int own = chassis_bench_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != CHASSIS_BENCH_RULED_OUT) {
-            printf("%s %s", between, chassis_bench_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, CHASSIS_BENCH_LIKELY, found->fault_class == CHASSIS_BENCH_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, CHASSIS_BENCH_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -140,7 +158,7 @@ int main(int count, char **words)
         }
         chassis_bench_step(&monitor, &samples, &residuals);
         alarm = chassis_bench_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

@@ -73,31 +73,49 @@ static bool read_log(FILE *log, const char *names, drive_as_drawn_samples *sampl
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const drive_as_drawn_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS; ++k) {
+        if (found->state[k] == DRIVE_AS_DRAWN_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const drive_as_drawn_diagnosis *found, drive_as_drawn_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < DRIVE_AS_DRAWN_FAULTS; ++k) {
+        if (found->candidate[drive_as_drawn_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, drive_as_drawn_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const drive_as_drawn_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != DRIVE_AS_DRAWN_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < DRIVE_AS_DRAWN_RESIDUALS; ++k) {
         if (found->state[k] == DRIVE_AS_DRAWN_ALARM) {
-            printf("%s %s", between, drive_as_drawn_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, drive_as_drawn_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < DRIVE_AS_DRAWN_FAULTS; ++k) {
-        const int own = drive_as_drawn_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != DRIVE_AS_DRAWN_RULED_OUT) {
-            printf("%s %s", between, drive_as_drawn_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, DRIVE_AS_DRAWN_LIKELY, found->fault_class == DRIVE_AS_DRAWN_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, DRIVE_AS_DRAWN_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -140,7 +158,7 @@ int main(int count, char **words)
         }
         drive_as_drawn_step(&monitor, &samples, &residuals);
         alarm = drive_as_drawn_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

@@ -75,31 +75,49 @@ static bool read_log(FILE *log, const char *names, hydraulic_actuator_samples *s
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const hydraulic_actuator_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < HYDRAULIC_ACTUATOR_RESIDUALS; ++k) {
+        if (found->state[k] == HYDRAULIC_ACTUATOR_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const hydraulic_actuator_diagnosis *found, hydraulic_actuator_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < HYDRAULIC_ACTUATOR_FAULTS; ++k) {
+        if (found->candidate[hydraulic_actuator_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, hydraulic_actuator_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const hydraulic_actuator_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != HYDRAULIC_ACTUATOR_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < HYDRAULIC_ACTUATOR_RESIDUALS; ++k) {
         if (found->state[k] == HYDRAULIC_ACTUATOR_ALARM) {
-            printf("%s %s", between, hydraulic_actuator_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, hydraulic_actuator_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < HYDRAULIC_ACTUATOR_FAULTS; ++k) {
-        const int own = hydraulic_actuator_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != HYDRAULIC_ACTUATOR_RULED_OUT) {
-            printf("%s %s", between, hydraulic_actuator_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, HYDRAULIC_ACTUATOR_LIKELY, found->fault_class == HYDRAULIC_ACTUATOR_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, HYDRAULIC_ACTUATOR_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -142,7 +160,7 @@ int main(int count, char **words)
         }
         hydraulic_actuator_step(&monitor, &samples, &residuals);
         alarm = hydraulic_actuator_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

@@ -87,31 +87,49 @@ static bool read_log(FILE *log, const char *names, khepera_samples *samples)
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const khepera_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
+        if (found->state[k] == KHEPERA_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const khepera_diagnosis *found, khepera_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < KHEPERA_FAULTS; ++k) {
+        if (found->candidate[khepera_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, khepera_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const khepera_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != KHEPERA_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < KHEPERA_RESIDUALS; ++k) {
         if (found->state[k] == KHEPERA_ALARM) {
-            printf("%s %s", between, khepera_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, khepera_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < KHEPERA_FAULTS; ++k) {
-        const int own = khepera_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != KHEPERA_RULED_OUT) {
-            printf("%s %s", between, khepera_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, KHEPERA_LIKELY, found->fault_class == KHEPERA_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, KHEPERA_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -154,7 +172,7 @@ int main(int count, char **words)
         }
         khepera_step(&monitor, &samples, &residuals);
         alarm = khepera_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

@@ -75,31 +75,49 @@ static bool read_log(FILE *log, const char *names, oven_samples *samples)
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const oven_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < OVEN_RESIDUALS; ++k) {
+        if (found->state[k] == OVEN_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const oven_diagnosis *found, oven_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < OVEN_FAULTS; ++k) {
+        if (found->candidate[oven_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, oven_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const oven_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != OVEN_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < OVEN_RESIDUALS; ++k) {
         if (found->state[k] == OVEN_ALARM) {
-            printf("%s %s", between, oven_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, oven_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < OVEN_FAULTS; ++k) {
-        const int own = oven_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != OVEN_RULED_OUT) {
-            printf("%s %s", between, oven_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, OVEN_LIKELY, found->fault_class == OVEN_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, OVEN_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -142,7 +160,7 @@ int main(int count, char **words)
         }
         oven_step(&monitor, &samples, &residuals);
         alarm = oven_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

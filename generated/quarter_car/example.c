@@ -71,31 +71,49 @@ static bool read_log(FILE *log, const char *names, quarter_car_samples *samples)
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const quarter_car_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
+        if (found->state[k] == QUARTER_CAR_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const quarter_car_diagnosis *found, quarter_car_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < QUARTER_CAR_FAULTS; ++k) {
+        if (found->candidate[quarter_car_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, quarter_car_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const quarter_car_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != QUARTER_CAR_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < QUARTER_CAR_RESIDUALS; ++k) {
         if (found->state[k] == QUARTER_CAR_ALARM) {
-            printf("%s %s", between, quarter_car_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, quarter_car_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < QUARTER_CAR_FAULTS; ++k) {
-        const int own = quarter_car_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != QUARTER_CAR_RULED_OUT) {
-            printf("%s %s", between, quarter_car_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, QUARTER_CAR_LIKELY, found->fault_class == QUARTER_CAR_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, QUARTER_CAR_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -138,7 +156,7 @@ int main(int count, char **words)
         }
         quarter_car_step(&monitor, &samples, &residuals);
         alarm = quarter_car_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

@@ -71,31 +71,49 @@ static bool read_log(FILE *log, const char *names, rc_loop_samples *samples)
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const rc_loop_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
+        if (found->state[k] == RC_LOOP_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const rc_loop_diagnosis *found, rc_loop_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < RC_LOOP_FAULTS; ++k) {
+        if (found->candidate[rc_loop_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, rc_loop_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const rc_loop_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != RC_LOOP_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < RC_LOOP_RESIDUALS; ++k) {
         if (found->state[k] == RC_LOOP_ALARM) {
-            printf("%s %s", between, rc_loop_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, rc_loop_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < RC_LOOP_FAULTS; ++k) {
-        const int own = rc_loop_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != RC_LOOP_RULED_OUT) {
-            printf("%s %s", between, rc_loop_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, RC_LOOP_LIKELY, found->fault_class == RC_LOOP_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, RC_LOOP_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -138,7 +156,7 @@ int main(int count, char **words)
         }
         rc_loop_step(&monitor, &samples, &residuals);
         alarm = rc_loop_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

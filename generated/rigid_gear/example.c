@@ -71,31 +71,49 @@ static bool read_log(FILE *log, const char *names, rigid_gear_samples *samples)
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const rigid_gear_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
+        if (found->state[k] == RIGID_GEAR_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const rigid_gear_diagnosis *found, rigid_gear_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < RIGID_GEAR_FAULTS; ++k) {
+        if (found->candidate[rigid_gear_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, rigid_gear_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const rigid_gear_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != RIGID_GEAR_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < RIGID_GEAR_RESIDUALS; ++k) {
         if (found->state[k] == RIGID_GEAR_ALARM) {
-            printf("%s %s", between, rigid_gear_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, rigid_gear_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < RIGID_GEAR_FAULTS; ++k) {
-        const int own = rigid_gear_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != RIGID_GEAR_RULED_OUT) {
-            printf("%s %s", between, rigid_gear_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, RIGID_GEAR_LIKELY, found->fault_class == RIGID_GEAR_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, RIGID_GEAR_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -138,7 +156,7 @@ int main(int count, char **words)
         }
         rigid_gear_step(&monitor, &samples, &residuals);
         alarm = rigid_gear_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

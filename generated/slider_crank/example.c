@@ -71,31 +71,49 @@ static bool read_log(FILE *log, const char *names, slider_crank_samples *samples
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const slider_crank_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < SLIDER_CRANK_RESIDUALS; ++k) {
+        if (found->state[k] == SLIDER_CRANK_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const slider_crank_diagnosis *found, slider_crank_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < SLIDER_CRANK_FAULTS; ++k) {
+        if (found->candidate[slider_crank_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, slider_crank_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const slider_crank_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != SLIDER_CRANK_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < SLIDER_CRANK_RESIDUALS; ++k) {
         if (found->state[k] == SLIDER_CRANK_ALARM) {
-            printf("%s %s", between, slider_crank_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, slider_crank_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < SLIDER_CRANK_FAULTS; ++k) {
-        const int own = slider_crank_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != SLIDER_CRANK_RULED_OUT) {
-            printf("%s %s", between, slider_crank_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, SLIDER_CRANK_LIKELY, found->fault_class == SLIDER_CRANK_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, SLIDER_CRANK_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -138,7 +156,7 @@ int main(int count, char **words)
         }
         slider_crank_step(&monitor, &samples, &residuals);
         alarm = slider_crank_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

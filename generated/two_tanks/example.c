@@ -71,31 +71,49 @@ static bool read_log(FILE *log, const char *names, two_tanks_samples *samples)
     return true;
 }
 
+/* Whether a residual went into alarm with this sample. */
+static bool is_news(const two_tanks_diagnosis *found)
+{
+    int k;
+
+    for (k = 0; k < TWO_TANKS_RESIDUALS; ++k) {
+        if (found->state[k] == TWO_TANKS_ALARM && found->since[k] == 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of all faults of which that is left. */
+static void list(const two_tanks_diagnosis *found, two_tanks_candidate left, const char *between)
+{
+    int k;
+
+    for (k = 0; k < TWO_TANKS_FAULTS; ++k) {
+        if (found->candidate[two_tanks_fault_class[k]] == (uint8_t)left) {
+            printf("%s%s", between, two_tanks_fault_name[k]);
+            between = ", ";
+        }
+    }
+}
+
 /* What is wrong now, in words. */
 static void tell(const two_tanks_diagnosis *found, long tick)
 {
-    const bool sure = found->fault_class != TWO_TANKS_UNKNOWN;
-    const char *between = ":";
+    const char *between = ": ";
     int k;
 
     printf("sample %ld", tick);
     for (k = 0; k < TWO_TANKS_RESIDUALS; ++k) {
         if (found->state[k] == TWO_TANKS_ALARM) {
-            printf("%s %s", between, two_tanks_residual_name[k]);
-            between = ",";
+            printf("%s%s", between, two_tanks_residual_name[k]);
+            between = ", ";
         }
     }
     printf(" in alarm");
-    between = ";";
-    for (k = 0; k < TWO_TANKS_FAULTS; ++k) {
-        const int own = two_tanks_fault_class[k];
-
-        if (sure ? found->fault_class == own : found->candidate[own] != TWO_TANKS_RULED_OUT) {
-            printf("%s %s", between, two_tanks_fault_name[k]);
-            between = ",";
-        }
-    }
-    printf("%s\n", sure ? ": one of these is wrong" : " may be wrong");
+    list(found, TWO_TANKS_LIKELY, found->fault_class == TWO_TANKS_UNKNOWN ? "; perhaps " : "; one of ");
+    list(found, TWO_TANKS_SMALL, "; or, if it is small, ");
+    printf("\n");
 }
 
 int main(int count, char **words)
@@ -138,7 +156,7 @@ int main(int count, char **words)
         }
         two_tanks_step(&monitor, &samples, &residuals);
         alarm = two_tanks_diagnose(&found, limits, NULL, &residuals);
-        if (alarm && (!alarmed || found.fault_class != told)) {
+        if (alarm && (is_news(&found) || found.fault_class != told)) {
             tell(&found, tick);
             alarms += alarmed ? 0 : 1;
             told = found.fault_class;

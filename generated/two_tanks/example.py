@@ -40,13 +40,13 @@ def read_log(path: str) -> Iterator[m.Samples]:
 def tell(found: m.Diagnosis, tick: int) -> None:
     """What is wrong now, in words."""
     fired = [n for n, state in zip(m.RESIDUALS, found.state, strict=True) if state == m.ALARM]
-    if found.fault_class is not None:
-        text = f"{', '.join(m.CLASSES[found.fault_class])}: one of these is wrong"
-    else:
-        own = zip(m.CLASSES, found.candidate, strict=True)
-        left = [f for faults, what in own if what != m.RULED_OUT for f in faults]
-        text = f"{', '.join(left)} may be wrong"
-    print(f"sample {tick}: {', '.join(fired)} in alarm; {text}")
+    text = f"sample {tick}: {', '.join(fired)} in alarm"
+    likely = "perhaps" if found.fault_class is None else "one of"
+    for left, words in ((m.LIKELY, likely), (m.SMALL, "or, if it is small,")):
+        own = [f for c, what in zip(m.CLASSES, found.candidate, strict=True) if what == left
+               for f in c]  # fmt: skip
+        text += f"; {words} {', '.join(own)}" if own else ""
+    print(text)
 
 
 def main() -> None:
@@ -57,7 +57,8 @@ def main() -> None:
     alarmed, told, alarms, tick = False, None, 0, -1
     for tick, samples in enumerate(log):  # every SAMPLE_TIME, from a timer
         alarm = found.update(monitor.step(samples))
-        if alarm and (not alarmed or found.fault_class != told):
+        news = (m.ALARM, 0) in zip(found.state, found.since, strict=True)
+        if alarm and (news or found.fault_class != told):
             tell(found, tick)
             alarms += not alarmed
             told = found.fault_class

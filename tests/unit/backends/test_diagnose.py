@@ -313,7 +313,7 @@ def test_a_healthy_log_gives_no_alarm_and_a_stuck_sensor_its_class(tuned: Path) 
     for command in (("./example",), (sys.executable, "example.py")):
         assert run(*command, "healthy.csv", cwd=tuned).endswith(", 0 alarms\n")
         *_, last, count = run(*command, "stuck.csv", cwd=tuned).splitlines()
-        assert last.endswith("k, current, speed: one of these is wrong")
+        assert last.endswith("r1, r2 in alarm; one of k, current, speed")
         assert count.endswith(", 1 alarms")
 
 
